@@ -1,0 +1,49 @@
+#include "mesher/base/control.h"
+
+namespace delmesher {
+namespace {
+
+double seconds_between(std::chrono::steady_clock::time_point a,
+                       std::chrono::steady_clock::time_point b) {
+  return std::chrono::duration<double>(b - a).count();
+}
+
+}  // namespace
+
+Control::Control(const Options& options)
+    : options_(options), start_(Clock::now()), phase_start_(start_) {}
+
+void Control::enter(Phase phase) {
+  finish();
+  phase_ = phase;
+  phase_start_ = Clock::now();
+  in_phase_ = true;
+  poll_now(0, 0);
+}
+
+void Control::finish() {
+  if (!in_phase_) return;
+  seconds_[static_cast<std::size_t>(phase_)] += seconds_between(phase_start_, Clock::now());
+  in_phase_ = false;
+}
+
+void Control::poll(std::uint64_t vertices, double done) {
+  if ((++calls_ & 0x3fU) == 0) poll_now(vertices, done);
+}
+
+void Control::poll_now(std::uint64_t vertices, double done) {
+  if (options_.max_vertices != 0 && vertices > options_.max_vertices) {
+    throw Stopped{{StatusCode::limit_reached, "vertex limit reached (" +
+                                                  std::to_string(options_.max_vertices) +
+                                                  "), see --max-vertices"}};
+  }
+  if (options_.time_limit_seconds > 0 &&
+      seconds_between(start_, Clock::now()) > options_.time_limit_seconds) {
+    throw Stopped{{StatusCode::limit_reached, "time limit reached, see --time-limit"}};
+  }
+  if (options_.progress && !options_.progress(Progress{phase_, done, vertices})) {
+    throw Stopped{{StatusCode::interrupted, "interrupted"}};
+  }
+}
+
+}  // namespace delmesher

@@ -1,0 +1,49 @@
+// Limits, cancellation and progress: the one object that long loops consult.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#include "mesher/delmesher.h"
+
+namespace delmesher {
+
+// Thrown out of a stage when the caller cancelled or a limit was reached; caught by the public API.
+struct Stopped {
+  Status status;
+};
+
+// Not thread-safe: one Control belongs to one call of the public API.
+class Control {
+ public:
+  explicit Control(const Options& options);
+
+  // Starts a phase and reports it; closes the previous one (its time is kept in phase_seconds()).
+  void enter(Phase phase);
+
+  // To be called in every long loop, at least a few times per millisecond; costs a counter
+  // increment most of the time. Throws Stopped when the run has to end. `vertices` is the present
+  // number of mesh vertices, checked against Options::max_vertices; `done` in [0, 1] is the
+  // fraction of the phase, or negative if unknown.
+  void poll(std::uint64_t vertices = 0, double done = -1);
+
+  // Consults clock and callback now, whatever the counter says.
+  void poll_now(std::uint64_t vertices, double done);
+
+  // Seconds spent in each phase so far, indexed by Phase.
+  const std::array<double, kPhaseCount>& phase_seconds() const { return seconds_; }
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const Options& options_;
+  Clock::time_point start_;
+  Clock::time_point phase_start_;
+  Phase phase_ = Phase::check;
+  bool in_phase_ = false;
+  std::uint32_t calls_ = 0;
+  std::array<double, kPhaseCount> seconds_{};
+};
+
+}  // namespace delmesher

@@ -1,0 +1,49 @@
+// Constrained Delaunay tetrahedrization of a valid surface, possibly enriched with further points
+// on and off it (section 6; Diazzi et al. 2023; Si and Gaertner 2011; Shewchuk 2000).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/delaunay/tetrahedrization.h"
+#include "mesher/predicates/predicates.h"
+#include "mesher/surface/topology.h"
+
+namespace delmesher {
+
+// What to tetrahedrize: points of a store and where each lies on the input.
+struct CdtInput {
+  const SurfaceTopology* topology = nullptr;
+  // Every point that becomes a vertex: all used input vertices and the enriching points.
+  std::vector<VertexId> vertices;
+  // Per undirected input edge: enriching points strictly inside it, in order from the smaller end
+  // vertex. Empty vector: none.
+  std::vector<std::vector<VertexId>> on_edge;
+  // Per facet: enriching points strictly inside it (not on its constrained edges).
+  std::vector<std::vector<VertexId>> on_facet;
+};
+
+// A face of the tetrahedrization lying on the surface.
+struct SurfaceFace {
+  std::array<VertexId, 3> vertices;  // counter-clockwise seen from outside the solid
+  FacetId facet;
+};
+
+struct CdtResult {
+  // Finite tetrahedra (orient3d > 0) of the convex hull of the vertices, with inside flags.
+  std::vector<std::array<VertexId, 4>> tetrahedra;
+  std::vector<std::uint8_t> inside;
+  std::vector<SurfaceFace> boundary;  // tiles every facet exactly
+  std::vector<VertexId> steiner;      // points added on segments, appended to the store
+  std::vector<std::vector<VertexId>>
+      chain;  // per undirected non-flat input edge: its vertices end to end
+};
+
+// Never fails on a valid surface; throws Stopped when the control says so.
+CdtResult constrained_delaunay_tetrahedrization(const CdtInput& input, PointStore& points,
+                                                Predicates& predicates, Control& control);
+
+}  // namespace delmesher

@@ -1,0 +1,43 @@
+// Orthogonal chamfering of acute vertices and edges (sections 4.2 and 4.4), decided by facets.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/predicates/predicates.h"
+#include "mesher/surface/plc.h"
+#include "mesher/surface/topology.h"
+
+namespace delmesher {
+
+struct ChamferOptions {
+  double cosine_squared = 0.25;  // corners with a smaller angle are acute (0.25: 60 degrees)
+  // Per input vertex, overriding cosine_squared; empty: none. The runaway guard sets 0 (90 degrees)
+  // here.
+  std::vector<double> vertex_cosine_squared;
+  double max_radius = 0;  // largest chamfer distance; 0: no bound
+  bool simplify_bridges = true;
+  // Per facet: 1 if kept, 0 if dropped by the filter; empty: all kept. Edges between two dropped
+  // facets disappear; an edge of one kept facet stays as its boundary.
+  std::vector<std::uint8_t> facet_kept;
+};
+
+struct ChamferResult {
+  Plc plc;  // without the outer box; facet f of the input is plc.facets[plc_facet[f]]
+  std::vector<std::uint32_t> plc_facet;       // input facet -> index in plc.facets, or kNone
+  std::vector<std::uint8_t> vertex_is_acute;  // per input vertex
+  std::vector<std::uint8_t> edge_is_acute;    // per undirected input edge
+  std::vector<double> vertex_radius;          // chamfer distance along the edges; 0: not chamfered
+  std::vector<double> edge_radius;            // largest strip width along the edge; 0: none
+  std::uint64_t acute_vertices = 0, acute_edges = 0;
+};
+
+// Appends the new points (on-segment and on-triangle, with supports) to the store. The result
+// satisfies the projection condition for the threshold in force, up to the rounding of on-triangle
+// points.
+ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
+                      const ChamferOptions& options, Control& control);
+
+}  // namespace delmesher

@@ -1,0 +1,27 @@
+// Input filtering (section 7): drops whole facets responsible for a local feature size below a
+// tolerance.
+#pragma once
+
+#include "mesher/chamfer/chamfer.h"
+
+namespace delmesher {
+
+struct FilterResult {
+  std::vector<std::uint8_t> facet_kept;  // per facet
+  std::uint64_t dropped_triangles = 0;
+  std::uint64_t rounds = 0;
+};
+
+// First step: no two non-incident kept facets, edges or vertices closer than `tolerance` (absolute
+// distance). Worst pairs first, as a worklist: dropping a facet re-examines only what it touched.
+FilterResult filter_input(const SurfaceTopology& topology, const PointStore& points,
+                          double tolerance, Control& control);
+
+// Both steps: filters the input, then alternates chamfering and dropping the facets responsible for
+// chamfered edges shorter than `tolerance` (or chamfered elements closer than it), until none
+// remain. Returns the last chamfering; the points of rejected rounds are removed from the store.
+ChamferResult filter_and_chamfer(const SurfaceTopology& topology, PointStore& points,
+                                 Predicates& predicates, ChamferOptions options, double tolerance,
+                                 Control& control, FilterResult& filter);
+
+}  // namespace delmesher

@@ -1,0 +1,91 @@
+// Delaunay tetrahedrization of points of a PointStore, on flat arrays, with exact predicates and
+// the perturbed insphere, so that it is unique for given points and ids.
+//
+// Convention: tetrahedron t has vertices v0..v3 with orient3d > 0; face i is opposite vertex i; its
+// neighbour is stored as 4 * tet + (the face's index over there). The hull is closed by ghost
+// tetrahedra with one vertex kInfinite. Face i of a positive tetrahedron, listed as in kFace[i], is
+// counter-clockwise seen from outside (its normal points away from vertex i).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/base/ids.h"
+#include "mesher/predicates/predicates.h"
+
+namespace delmesher {
+
+inline constexpr VertexId kInfinite = kNone - 1;
+
+// Vertices of face i, counter-clockwise seen from outside.
+inline constexpr int kFace[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+// The six edges, and the faces (opposite vertices) that share each.
+inline constexpr int kEdge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+
+class Tetrahedrization {
+ public:
+  explicit Tetrahedrization(Predicates& predicates);
+
+  // Builds the tetrahedrization of the given points (at least four not coplanar; distinct),
+  // inserted in a spatial order. Must be empty before.
+  void build(std::span<const VertexId> vertices, Control& control);
+
+  // --- queries
+  std::size_t capacity() const { return dead_.size(); }  // tet ids are below this
+  bool alive(TetId t) const { return dead_[t] == 0; }
+  std::size_t tetrahedra() const;  // alive and finite
+  bool is_ghost(TetId t) const;
+  const VertexId* vertices(TetId t) const { return &vertex_[4 * std::size_t{t}]; }
+  VertexId vertex(TetId t, int i) const { return vertex_[4 * std::size_t{t} + i]; }
+  // Neighbour across face i, and the same face's index over there.
+  TetId neighbor(TetId t, int i) const { return neighbor_[4 * std::size_t{t} + i] >> 2; }
+  int mirror(TetId t, int i) const { return neighbor_[4 * std::size_t{t} + i] & 3; }
+  // Some tetrahedron (never a ghost if avoidable) with vertex v; kNone if v is not a vertex.
+  TetId incident(VertexId v) const { return v < incident_.size() ? incident_[v] : kNone; }
+  // Index of vertex v in tetrahedron t, -1 if absent.
+  int index_of(TetId t, VertexId v) const;
+  // Tetrahedra (ghosts included) around a vertex, in a deterministic order; valid until the next
+  // call.
+  std::span<const TetId> star(VertexId v);
+  // A tetrahedron having edge ab, or kNone.
+  TetId find_edge(VertexId a, VertexId b);
+  // A tetrahedron having face abc (not a ghost if possible), as 4 * tet + face, or kNone.
+  std::uint32_t find_face(VertexId a, VertexId b, VertexId c);
+  // Tetrahedra (ghosts included) around edge ab, in rotation order starting at `t`, which has the
+  // edge.
+  void edge_ring(TetId t, VertexId a, VertexId b, std::vector<TetId>& ring) const;
+
+  // --- insertion in three steps, so that a caller can look before it commits
+  // A tetrahedron containing point v, walking from `hint`; a ghost if v is outside the hull. v need
+  // not be a vertex. If v coincides with a vertex, that vertex's id is stored in *duplicate (else
+  // kNone).
+  TetId locate(VertexId v, TetId hint, VertexId* duplicate = nullptr);
+  // Finds all tetrahedra whose (perturbed) circumsphere contains v, starting at one that does.
+  void find_cavity(VertexId v, TetId start);
+  std::span<const TetId> cavity() const { return cavity_; }
+  bool in_cavity(TetId t) const { return mark_[t] == epoch_; }
+  // Replaces the cavity by the star of v. The cavity's tetrahedra are dead afterwards but their
+  // vertices stay readable until the next insertion; `created()` lists the new ones.
+  void fill_cavity(VertexId v);
+  std::span<const TetId> created() const { return created_; }
+  // All three steps. Returns false and does nothing if v coincides with a vertex.
+  bool insert(VertexId v, TetId hint);
+
+  // --- raw editing, for constrained tetrahedrizations: the caller keeps the structure consistent
+  TetId create(VertexId a, VertexId b, VertexId c, VertexId d);
+  void destroy(TetId t);
+  void glue(TetId t, int i, TetId u, int j);
+  void set_incident(VertexId v, TetId t) { incident_[v] = t; }
+
+  // Walks the whole structure on raw indices: neighbour symmetry, shared vertices, orientation,
+  // incident(). Throws InternalError at the first defect. With `delaunay`, also every face locally
+  // Delaunay.
+  void validate(bool delaunay);
+
+  Predicates& predicates() { return predicates_; }
+};
+
+}  // namespace delmesher

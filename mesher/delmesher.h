@@ -1,0 +1,241 @@
+// delmesher: graded tetrahedral meshes of closed triangulated surfaces, exactly conforming.
+//
+// The sole public header. An implementation of "Surface chamfering for robust tetrahedral meshing";
+// section numbers in comments are the paper's. The library is reentrant: it has no globals, reports
+// errors as values and may run in any number of threads on different inputs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace delmesher {
+
+// ---------------------------------------------------------------------------------------- input
+
+// A triangulated surface. Coordinates are taken as exact numbers.
+struct Surface {
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+  std::vector<std::int32_t> labels;  // one per triangle; empty means that all are 0
+};
+
+// Which tetrahedra are guaranteed good and written.
+enum class Region : std::uint8_t {
+  interior,  // those contained in the solid; a bad tetrahedron disjoint from it is left alone
+  hull       // everything down to the outer box
+};
+
+// The stages of a run, in the order of the statistics.
+enum class Phase : std::uint8_t {
+  read,
+  check,
+  filter,
+  chamfer,
+  delaunay,
+  segments,
+  facets,
+  refine,
+  enrich,
+  classify,
+  round,
+  write
+};
+inline constexpr std::size_t kPhaseCount = 12;
+
+// Name of a phase as used by the statistics ("read", "check", ...).
+const char* phase_name(Phase phase);
+
+struct Progress {
+  Phase phase;
+  double done;             // fraction of the phase in [0, 1]; negative if unknown
+  std::uint64_t vertices;  // present number of mesh vertices, 0 if not meaningful
+};
+
+struct Options {
+  // Every face angle of the refined mesh is at least this (degrees, section 5.4). 14.47 is a
+  // radius-edge ratio of 2; above it the bound is best effort and insertions are capped.
+  double delta = 14.47;
+  // Input filter (section 7): facets closer than this fraction of the bounding-box diagonal are
+  // left to the final step. 0 turns the filter off.
+  double tau = 1e-4;
+  // Corners with an angle below this (degrees) are chamfered; 90 is the paper's, with its proof.
+  double acute = 60;
+  bool slivers = true;           // treat slivers (section 5.7)
+  bool approximate = false;      // stop before the enriched CDT (section 6)
+  bool simplify_bridges = true;  // section 4.4
+  double chamfer_radius = 0;     // largest chamfer distance, in input units; 0: no bound
+  double max_edge = 0;           // largest edge wanted inside, in input units; 0: no bound
+  Region region = Region::interior;
+  std::uint64_t max_vertices = 0;  // 0: no limit
+  double time_limit_seconds = 0;   // 0: no limit
+  bool want_exact = false;         // fill Result::exact
+  bool want_chamfered = false;     // fill Result::chamfered
+  // Called several times a second from the calling thread; returning false cancels the run.
+  std::function<bool(const Progress&)> progress;
+};
+
+// --------------------------------------------------------------------------------------- result
+
+enum class StatusCode : std::uint8_t {
+  ok,
+  invalid_options,  // the message names the option
+  invalid_surface,  // the message names the vertices, edges or triangles
+  limit_reached,    // vertices, time or memory
+  interrupted,      // the progress callback returned false
+  internal_error    // a bug; the message says where
+};
+
+struct Status {
+  StatusCode code = StatusCode::ok;
+  std::string message;
+  bool ok() const { return code == StatusCode::ok; }
+};
+
+// A tetrahedral mesh; every tetrahedron (a, b, c, d) has det(b-a, c-a, d-a) > 0 unless
+// Statistics::rounding says otherwise.
+struct TetMesh {
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+  std::vector<std::uint8_t> inside;  // per tetrahedron: 1 if contained in the solid
+  // Triangles tiling the input surface, counter-clockwise seen from outside the solid, with the
+  // label of the input and the id of the facet they tile (its smallest input triangle index).
+  std::vector<std::array<std::uint32_t, 3>> boundary;
+  std::vector<std::int32_t> boundary_labels;
+  std::vector<std::uint32_t> boundary_facets;
+};
+
+// How a point is given exactly; i, j, k are indices of explicit points of the same list.
+struct ExactPoint {
+  enum class Kind : std::uint8_t {
+    explicit_point,  // (x, y, z)
+    on_segment,      // t p_i + (1 - t) p_j, t = x
+    on_triangle      // u p_i + v p_j + (1 - u - v) p_k, u = x, v = y
+  };
+  Kind kind = Kind::explicit_point;
+  std::uint32_t i = 0, j = 0, k = 0;
+  double x = 0, y = 0, z = 0;
+};
+
+// The exact form of a run (command-line option --exact): everything an independent program needs
+// to decide every claim without rounding. Point indices are into `points`.
+struct ExactRecord {
+  std::vector<ExactPoint> points;  // the input vertices first, in input order
+  struct Facet {
+    std::uint32_t id;  // smallest input triangle index
+    std::int32_t label;
+    bool filtered;                         // dropped by the filter
+    std::vector<std::uint32_t> triangles;  // input triangles
+  };
+  std::vector<Facet> facets;
+  struct Chain {                          // a straight (input) or nearly straight edge
+    bool artificial;                      // created by the chamfering
+    std::uint32_t facet;                  // for artificial ones: the facet's id
+    std::vector<std::uint32_t> vertices;  // from end to end, in the refined mesh
+  };
+  std::vector<Chain> segments;
+  struct Corner {  // a chamfered input vertex
+    std::uint32_t vertex;
+    double threshold;  // degrees: 60, or 90 where the guard fell back
+    double radius;     // chamfer distance along its edges, rounded to nearest
+  };
+  std::vector<Corner> corners;
+  struct Tet {
+    std::array<std::uint32_t, 4> vertices;
+    bool inside;
+  };
+  std::vector<Tet> refined;  // every tetrahedron down to the outer box
+  std::vector<std::array<std::uint32_t, 4>> refined_facets;  // a, b, c, facet id
+  std::vector<Tet> final;
+  std::vector<std::array<std::uint32_t, 4>> final_facets;  // a, b, c, facet id
+  // Indices into `points` of the vertices of TetMesh, in its order.
+  std::vector<std::uint32_t> mesh_vertices;
+};
+
+// Size and angles of a mesh, in degrees; angles over the tetrahedra that Options::region covers.
+struct MeshStatistics {
+  std::uint64_t vertices = 0, tetrahedra = 0, interior_tetrahedra = 0;
+  double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
+  double mean_min_face_angle = 0, mean_max_face_angle = 0;  // per face
+  double mean_min_dihedral = 0, mean_max_dihedral = 0;      // per tetrahedron
+  std::array<std::uint64_t, 12> face_angle_histogram{};     // 15-degree bins
+  std::array<std::uint64_t, 12> dihedral_histogram{};
+};
+
+struct Statistics {
+  std::array<double, kPhaseCount> phase_seconds{};
+  double bbox_diagonal = 0;
+  MeshStatistics refined, final;
+  std::uint64_t dropped_triangles = 0, filter_rounds = 0;
+  std::uint64_t acute_vertices = 0, acute_edges = 0;
+  double guaranteed_acute = 0;         // threshold in force away from the fallback corners
+  std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
+  std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;
+  std::uint64_t rounding_inverted = 0, rounding_flat = 0, rounding_repaired = 0;
+  double max_surface_deviation = 0;  // input units
+  std::uint64_t predicate_filter = 0, predicate_extended = 0, predicate_exact = 0;
+  std::uint64_t predicate_symbolic = 0, predicate_by_support = 0;
+};
+
+struct Result {
+  Status status;
+  std::vector<std::string> warnings;  // e.g. "the surface was inside out and has been flipped"
+  TetMesh mesh;                       // empty unless status.ok()
+  Surface chamfered;                  // if Options::want_chamfered: rounded, for display
+  ExactRecord exact;                  // if Options::want_exact
+  Statistics statistics;
+};
+
+// ---------------------------------------------------------------------------------------- tasks
+
+// Meshes a closed, manifold, oriented, non-self-intersecting surface (algorithm 2).
+Result tetrahedralize(const Surface& surface, const Options& options = {});
+
+// Constrained Delaunay tetrahedrization of the convex hull of a valid surface, no quality
+// (Diazzi et al. 2023; Si and Gaertner 2011). Uses region, limits, progress, want_exact.
+Result constrained_delaunay(const Surface& surface, const Options& options = {});
+
+// What is wrong with a surface, and what it is like.
+struct Defect {
+  enum class Kind : std::uint8_t {
+    non_finite,                // vertex
+    index_out_of_range,        // triangle
+    empty,                     // no triangles
+    degenerate_triangle,       // triangle: repeated vertex or collinear corners
+    open_edge,                 // edge of one triangle
+    non_manifold_edge,         // edge of more than two triangles
+    non_manifold_vertex,       // triangles around the vertex do not form one fan
+    inconsistent_orientation,  // edge traversed twice in the same direction
+    duplicate_triangle,        // two triangles with the same corners
+    self_intersection          // two triangles meeting outside a shared vertex or edge
+  };
+  Kind kind;
+  std::vector<std::uint32_t> vertices, triangles;  // the offending elements
+  std::string message;  // one line naming them, e.g. "triangles 12 and 840 intersect"
+};
+
+struct SurfaceReport {
+  Status status;                // ok, invalid_surface, interrupted ...
+  std::vector<Defect> defects;  // at most a few of each kind; counts below are complete
+  std::array<std::uint64_t, 10> defect_counts{};  // indexed by Defect::Kind
+  std::vector<std::string> warnings;
+  bool flipped = false;  // the surface was inside out
+  std::uint64_t vertices = 0, triangles = 0, components = 0, unused_vertices = 0;
+  std::int64_t euler_characteristic = 0;
+  double bbox_diagonal = 0, volume = 0;  // volume of the solid, rounded
+  std::uint64_t facets = 0, acute_vertices = 0, acute_edges = 0;
+  double smallest_local_feature_size = 0;  // distance of the closest non-incident elements
+};
+
+// Decides exactly whether a surface is valid input. Angles are judged with options.acute.
+SurfaceReport check_surface(const Surface& surface, const Options& options = {});
+
+// Name of a kind of defect: "open edge", "self-intersection", ...
+const char* defect_name(Defect::Kind kind);
+
+// Version of the library, "MAJOR.MINOR.PATCH".
+const char* version();
+
+}  // namespace delmesher

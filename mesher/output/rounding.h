@@ -1,0 +1,47 @@
+// Rounding exact vertices to the doubles that are written, certified by the exact sign of every
+// tetrahedron (design: two certificates, exact conformity on exact coordinates and validity of the
+// file as written).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/delmesher.h"
+#include "mesher/predicates/points.h"
+
+namespace delmesher {
+
+// What rounding works on: tetrahedra of positive orientation on exact points. Repairs may move
+// non-explicit vertices to nearby doubles, move volume vertices, and change the tetrahedra by local
+// operations that keep the boundary faces.
+struct RoundingInput {
+  const PointStore* points;
+  std::vector<std::array<VertexId, 4>> tetrahedra;
+  std::vector<std::uint8_t> inside;  // per tetrahedron
+  // Vertices that must keep their exact position (input vertices).
+  std::vector<std::uint8_t> fixed;  // per point of the store
+  // Vertices on the surface (may move by a few ulps only); others are free to move inside their
+  // star.
+  std::vector<std::uint8_t> on_surface;           // per point of the store
+  std::vector<std::array<VertexId, 3>> boundary;  // surface faces, to be kept
+};
+
+struct RoundingResult {
+  std::vector<VertexId> vertices;  // output vertex -> point of the store
+  std::vector<std::array<double, 3>> coordinates;
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;  // indices into vertices
+  std::vector<std::uint8_t> inside;
+  std::vector<std::array<std::uint32_t, 3>> boundary;
+  std::uint64_t inverted = 0, flat = 0;  // left in the result, by exact sign
+  std::uint64_t repaired = 0;            // were not positive after plain rounding, and are now
+  // Largest distance of a written surface vertex from its exact position (an upper bound, rounded
+  // up).
+  double max_surface_deviation = 0;
+};
+
+RoundingResult round_mesh(const RoundingInput& input, Control& control);
+
+}  // namespace delmesher

@@ -1,0 +1,19 @@
+// Angles and counts of a mesh in doubles, as robustly as floating point allows (Shewchuk 2013).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "mesher/delmesher.h"
+
+namespace delmesher {
+
+// Statistics over the tetrahedra given; `interior` is only reported, `vertices` likewise. A face
+// shared by two of the tetrahedra counts once in the face angles' means and histogram. Flat
+// tetrahedra count with dihedral angles 0 and 180.
+MeshStatistics mesh_statistics(std::span<const std::array<double, 3>> coordinates,
+                               std::span<const std::array<std::uint32_t, 4>> tetrahedra,
+                               std::uint64_t vertices, std::uint64_t interior);
+
+}  // namespace delmesher

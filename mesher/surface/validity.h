@@ -1,0 +1,25 @@
+// Exact validity of a surface: closed, 2-manifold, consistently oriented, no degenerate triangle,
+// no self-intersection.
+#pragma once
+
+#include "mesher/base/control.h"
+#include "mesher/delmesher.h"
+
+namespace delmesher {
+
+// Everything check_surface() reports except facets, acute corners and local feature size. With
+// `stop_at_first`, ends at the first kind of defect found (what tetrahedralize() needs to refuse);
+// an inside-out surface is no defect but sets `flipped`. Components oriented otherwise than parity
+// asks for are reported in warnings, with `component_flip` telling, per triangle, whether it has to
+// be reversed.
+struct ValidityResult {
+  SurfaceReport report;
+  std::vector<std::uint8_t> reverse_triangle;
+};
+
+ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control);
+
+// The surface with the triangles marked by check_validity reversed: outwards by parity.
+Surface oriented_outwards(const Surface& surface, const ValidityResult& validity);
+
+}  // namespace delmesher
