@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+"""Checks of the source tree that no compiler makes: include directions, machine paths, licence notes.
+
+Usage: check_tree.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
+"""
+import os
+import re
+import subprocess
+import sys
+
+SOURCE = (".h", ".cpp")
+TOP = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports", "ci")
+
+STANDARD = set("""algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv chrono
+cinttypes climits clocale cmath codecvt compare complex concepts condition_variable coroutine csetjmp csignal cstdarg
+cstddef cstdint cstdio cstdlib cstring ctime cuchar cwchar cwctype deque exception execution filesystem
+forward_list fstream functional future initializer_list iomanip ios iosfwd iostream istream iterator latch limits
+list locale map memory memory_resource mutex new numbers numeric optional ostream queue random ranges ratio regex
+scoped_allocator semaphore set shared_mutex source_location span sstream stack stdexcept stop_token streambuf string
+string_view syncstream system_error thread tuple type_traits typeindex typeinfo unordered_map unordered_set utility
+valarray variant vector version""".split())
+
+# Layers of the mesher: which layers a folder may include besides itself and mesher/delmesher.h. The stages
+# never include each other; only pipeline.cpp knows them all.
+FOUNDATION = ("base", "arithmetic", "predicates", "surface", "delaunay")
+LAYERS = {
+    "base": (),
+    "arithmetic": ("base",),
+    "predicates": ("base", "arithmetic"),
+    "surface": ("base", "arithmetic", "predicates"),
+    "delaunay": ("base", "arithmetic", "predicates"),
+    "chamfer": FOUNDATION,
+    "refine": FOUNDATION,
+    "cdt": FOUNDATION,
+    "plane": FOUNDATION,
+    "output": FOUNDATION,
+    "io": ("base",),
+    "cli": ("base", "io"),
+}
+PIPELINE = tuple(layer for layer in LAYERS if layer not in ("io", "cli"))
+
+# Top-level folders: which others each may include. None of these but mesher itself sees more of the mesher
+# than the public header, except the property tests and the fuzz targets.
+PUBLIC_HEADER = "mesher/delmesher.h"
+FOLDERS = {
+    "oracles": (),
+    "corpus": ("oracles", "reports"),
+    "reports": ("oracles",),
+    "property_tests": ("oracles", "mesher"),
+    "fuzz": ("property_tests", "oracles", "mesher"),
+    "ci": (),
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+# Assembled so that this file does not trip over itself.
+MACHINE_PATH = re.compile(r"(?<![\w.$})/-])/(?:" + "|".join(["work", "tmp", "home", "root", "Users"]) + r")/\w")
+
+
+def tracked_files(root):
+    """Files under version control or about to be; everything outside build trees when there is no git."""
+    listing = subprocess.run(["git", "-C", root, "ls-files", "-co", "--exclude-standard"],
+                             capture_output=True, text=True)
+    if listing.returncode == 0 and listing.stdout:
+        return sorted(f for f in listing.stdout.split("\n") if f and os.path.isfile(os.path.join(root, f)))
+    found = []
+    for folder, folders, names in os.walk(root):
+        folders[:] = [f for f in folders if not f.startswith("build") and f != ".git"]
+        found += [os.path.relpath(os.path.join(folder, n), root) for n in names]
+    return sorted(found)
+
+
+def mesher_angle(layer, is_test, header):
+    if header in STANDARD or header == "gmp.h":
+        return None
+    if is_test and (header.startswith("gtest/") or header == "gmpxx.h"):
+        return None
+    if layer in ("io", "cli") and re.match(r"^(unistd|fcntl|sys/\w+)\.h$", header):
+        return None
+    if layer == "cli" and header.startswith(("CLI/", "nlohmann/")):
+        return None
+    return "the mesher may use the standard library and GMP only, not <%s>" % header
+
+
+def mesher_quoted(layer, is_test, header):
+    parts = header.split("/")
+    if header == PUBLIC_HEADER:
+        return None
+    if parts[0] != "mesher" or len(parts) < 3:
+        return "mesher files include only mesher headers, not \"%s\"" % header
+    target = parts[1]
+    if target == layer or is_test and target in LAYERS:
+        return None  # tests may look into every stage
+    allowed = PIPELINE if layer is None else LAYERS.get(layer, ())
+    if target in allowed:
+        return None
+    return "mesher/%s must not include mesher/%s" % (layer or "pipeline", target)
+
+
+def check_include(path, kind, header, root):
+    """Reason why `path` must not include `header`, or None."""
+    parts = path.split("/")
+    is_test = path.endswith("_test.cpp") or "/test_" in path
+    layer = parts[1] if len(parts) > 2 else None
+    if parts[0] == "mesher":
+        if path == PUBLIC_HEADER and (kind == '"' or header not in STANDARD):
+            return "the public header includes the standard library only, not %s" % header
+        rule = mesher_angle if kind == "<" else mesher_quoted
+        reason = rule(layer, is_test, header)
+    elif parts[0] == "ci" or kind == "<":
+        reason = "other projects' view of the mesher is \"%s\"" % PUBLIC_HEADER if header.startswith("mesher/") else None
+    else:
+        target = header.split("/")[0]
+        if target == parts[0] or header == PUBLIC_HEADER or target in FOLDERS.get(parts[0], ()):
+            reason = None
+        elif target == "mesher":
+            reason = "%s may include %s only, no stage of the mesher" % (parts[0], PUBLIC_HEADER)
+        else:
+            reason = "%s must not include %s" % (parts[0], header)
+    if reason is None and kind == '"' and parts[0] != "ci" and not os.path.isfile(os.path.join(root, header)):
+        reason = "no such file from the root: \"%s\"" % header
+    return reason
+
+
+def check_source(path, lines, root):
+    for number, line in enumerate(lines, 1):
+        match = INCLUDE.match(line)
+        if match:
+            reason = check_include(path, match.group(1), match.group(2), root)
+            if reason:
+                yield number, reason
+    if path.endswith(".h") and not any(l.startswith("#pragma once") for l in lines):
+        yield 1, "header without #pragma once"
+
+
+def licences_used(path, text):
+    """Copyleft code that a file builds on, by what it includes or links."""
+    used = set()
+    if path.endswith(SOURCE) and re.search(r"#\s*include\s*<CGAL/", text):
+        used.add("GPL")
+    if path.endswith(SOURCE) and re.search(r'#\s*include\s*[<"]tetgen\.h', text):
+        used.add("AGPL")
+    if path.endswith("CMakeLists.txt") and re.search(r"\bCGAL::", text):
+        used.add("GPL")
+    return used
+
+
+def check_licences(files, texts, root):
+    if "MIT License" not in texts.get("LICENSE", ""):
+        yield "LICENSE", 1, "the licence of the project (MIT) must stand here"
+    for path in files:
+        for licence in sorted(licences_used(path, texts.get(path, ""))):
+            folder = os.path.dirname(path)
+            notes = [f for f in files if os.path.dirname(f) in (folder, os.path.dirname(folder))
+                     and os.path.dirname(f) and re.match(r"LICEN[CS]E|README", os.path.basename(f))]
+            if path.startswith("mesher/"):
+                yield path, 1, "the mesher must not build on %s code" % licence
+            elif not any(re.search(r"\b%s" % licence, texts.get(n, "")) for n in notes):
+                yield path, 1, "uses %s code, but no LICENSE or README in its folder says so" % licence
+
+
+def check_tree(root):
+    files = tracked_files(root)
+    texts = {}
+    for path in files:
+        try:
+            with open(os.path.join(root, path), encoding="utf-8") as stream:
+                texts[path] = stream.read()
+        except (UnicodeDecodeError, OSError):
+            continue  # binary test data
+    for path, text in texts.items():
+        lines = text.split("\n")
+        for number, line in enumerate(lines, 1):
+            if MACHINE_PATH.search(line):
+                yield path, number, "path of one machine: " + line.strip()[:80]
+        if path.endswith(SOURCE) and path.split("/")[0] in TOP:
+            for number, reason in check_source(path, lines, root):
+                yield path, number, reason
+    yield from check_licences(files, texts, root)
+
+
+def main():
+    root = os.path.abspath(sys.argv[1] if len(sys.argv) > 1 else os.path.join(os.path.dirname(__file__), ".."))
+    violations = list(check_tree(root))
+    for path, number, reason in violations:
+        print("%s:%d: %s" % (path, number, reason))
+    return 1 if violations else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

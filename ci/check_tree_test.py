@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""Every rule of check_tree.py must catch a tree that breaks it, and pass one that does not."""
+import os
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import check_tree  # noqa: E402
+
+GOOD = {
+    "LICENSE": "MIT License",
+    "mesher/delmesher.h": "#pragma once\n#include <vector>\n",
+    "mesher/base/ids.h": "#pragma once\n#include <cstdint>\n",
+    "mesher/refine/refine.h": "#pragma once\n#include <gmp.h>\n#include \"mesher/base/ids.h\"\n",
+    "mesher/refine/refine_test.cpp": "#include <gtest/gtest.h>\n#include \"mesher/cdt/cdt.h\"\n",
+    "mesher/cdt/cdt.h": "#pragma once\n#include \"mesher/delmesher.h\"\n",
+    "mesher/pipeline.cpp": "#include \"mesher/refine/refine.h\"\n#include \"mesher/cdt/cdt.h\"\n",
+    "mesher/cli/main.cpp": "#include <CLI/CLI.hpp>\n",
+    "oracles/report.h": "#pragma once\n#include <gmpxx.h>\n#include \"mesher/delmesher.h\"\n",
+    "property_tests/laws_test.cpp": "#include \"oracles/report.h\"\n#include \"mesher/refine/refine.h\"\n",
+    "corpus/tetgen_adapter/adapter.cpp": "#include <tetgen.h>\n",
+    "corpus/tetgen_adapter/LICENSE.md": "Links TetGen, which is under the AGPL.\n",
+}
+
+# What is changed, and what the complaint must contain.
+BAD = {
+    "stage includes stage": ({"mesher/refine/a.cpp": '#include "mesher/cdt/cdt.h"\n'}, "mesher/refine must not"),
+    "base includes stage": ({"mesher/base/a.cpp": '#include "mesher/cdt/cdt.h"\n'}, "mesher/base must not"),
+    "mesher uses boost": ({"mesher/cdt/a.cpp": "#include <boost/any.hpp>\n"}, "standard library and GMP"),
+    "mesher uses json outside cli": ({"mesher/io/a.cpp": "#include <nlohmann/json.hpp>\n"}, "standard library"),
+    "mesher includes oracle": ({"mesher/cdt/a.cpp": '#include "oracles/report.h"\n'}, "only mesher headers"),
+    "mesher uses CGAL": ({"mesher/cdt/a_test.cpp": "#include <CGAL/Epeck.h>\n"}, "must not build on GPL"),
+    "public header uses gmp": ({"mesher/delmesher.h": "#pragma once\n#include <gmp.h>\n"}, "public header"),
+    "oracle includes stage": ({"oracles/a.cpp": '#include "mesher/base/ids.h"\n'}, "no stage of the mesher"),
+    "oracle includes corpus": ({"oracles/a.cpp": '#include "corpus/x.h"\n', "corpus/x.h": "#pragma once\n"},
+                               "oracles must not"),
+    "oracle sneaks in with angles": ({"oracles/a.cpp": "#include <mesher/base/ids.h>\n"}, "view of the mesher"),
+    "relative include": ({"oracles/a.cpp": '#include "report.h"\n'}, "oracles must not"),
+    "missing file": ({"oracles/a.cpp": '#include "oracles/none.h"\n'}, "no such file"),
+    "no pragma once": ({"oracles/b.h": "int x;\n"}, "pragma once"),
+    "machine path": ({"ci/x.sh": "cd /" + "home/someone\n"}, "path of one machine"),
+    "licence missing": ({"LICENSE": ""}, "licence of the project"),
+    "AGPL unsaid": ({"corpus/tetgen_adapter/LICENSE.md": "free\n"}, "uses AGPL code"),
+    "GPL unsaid": ({"oracles/c.cpp": "#include <CGAL/Epeck.h>\n"}, "uses GPL code"),
+}
+
+
+def violations(files):
+    with tempfile.TemporaryDirectory() as root:
+        for path, text in files.items():
+            os.makedirs(os.path.dirname(os.path.join(root, path)) or root, exist_ok=True)
+            with open(os.path.join(root, path), "w", encoding="utf-8") as stream:
+                stream.write(text)
+        return ["%s:%d: %s" % v for v in check_tree.check_tree(root)]
+
+
+class CheckTreeTest(unittest.TestCase):
+    def test_good_tree_passes(self):
+        self.assertEqual(violations(GOOD), [])
+
+    def test_every_damage_is_caught_alone(self):
+        for name, (change, expected) in BAD.items():
+            with self.subTest(name):
+                found = violations({**GOOD, **change})
+                self.assertTrue(found)
+                self.assertIn(expected, "\n".join(found))
+
+
+if __name__ == "__main__":
+    unittest.main()

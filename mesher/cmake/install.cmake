@@ -1,0 +1,18 @@
+# `cmake --install`: library, header, command line and a package for find_package(delmesher).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/delmesher)
+
+install(TARGETS delmesher EXPORT delmesherTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES delmesher.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT delmesherTargets NAMESPACE delmesher:: DESTINATION ${package_dir})
+configure_package_config_file(cmake/delmesherConfig.cmake.in delmesherConfig.cmake
+                              INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(delmesherConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/delmesherConfig.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/delmesherConfigVersion.cmake cmake/FindGMP.cmake
+        DESTINATION ${package_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(TARGET delmesher_cli)
+  install(TARGETS delmesher_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
