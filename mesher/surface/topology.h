@@ -33,6 +33,8 @@ struct SurfaceTopology {
   std::vector<int> facet_axis_sign;  // exact sign of that component (of the outward normal)
   // Constrained (non-flat) edges: between different facets.
   std::vector<std::uint8_t> edge_is_flat;  // per undirected edge
+  // Non-flat edges on exactly one line share it: the smallest such edge, or kNone for a flat edge.
+  std::vector<std::uint32_t> edge_line;
 
   std::size_t edge_count() const { return edge_half_edge.size(); }
   static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -52,7 +54,8 @@ struct SurfaceTopology {
 
 // Adds the surface's vertices to an empty store, builds the adjacency and the facets (exactly), and
 // records as supports of every vertex the planes of its facets and the lines of its non-flat edges
-// (line id = edge id). The surface must have passed check_surface and be oriented outwards.
+// (both the edge itself and edge_line of it are ids of the line that contains an edge). The surface
+// must have passed check_surface and be oriented outwards.
 SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates);
 
 }  // namespace delmesher

@@ -1,0 +1,248 @@
+#include "mesher/surface/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+
+#include "mesher/base/check.h"
+#include "mesher/surface/carrier_key.h"
+#include "mesher/surface/half_edges.h"
+
+namespace delmesher {
+namespace {
+
+// Absolute components of the normal of triangle abc up to a common factor, in doubles. Differences
+// are first scaled by a power of two so that products neither overflow nor underflow, which also
+// makes the result independent of the scale of the input.
+Vec3 approximate_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+  Vec3 u, v;
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = b[i] * 0.5 - a[i] * 0.5;  // halved: the difference of huge coordinates may overflow
+    v[i] = c[i] * 0.5 - a[i] * 0.5;
+    largest = std::max({largest, std::fabs(u[i]), std::fabs(v[i])});
+  }
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = std::ldexp(u[i], -exponent);
+    v[i] = std::ldexp(v[i], -exponent);
+  }
+  Vec3 normal;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    normal[i] = std::fabs(u[j] * v[k] - u[k] * v[j]);
+  }
+  return normal;
+}
+
+// Groups equal keys: class_of[i] is the smallest j whose carrier is verified to be the same as
+// i's. A key collision between different carriers only loses an identification.
+std::vector<std::uint32_t> classes_of(
+    const std::vector<CarrierKey>& keys,
+    const std::function<bool(std::uint32_t, std::uint32_t)>& same) {
+  std::vector<std::uint32_t> order(keys.size()), class_of(keys.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const auto c = keys[i] <=> keys[j];
+    return c != 0 ? c < 0 : i < j;
+  });
+  std::uint32_t first = kNone;
+  for (const std::uint32_t i : order) {
+    if (first == kNone || keys[first] != keys[i]) first = i;
+    class_of[i] = i == first || same(first, i) ? first : i;
+  }
+  return class_of;
+}
+
+class Builder {
+ public:
+  Builder(const Surface& surface, PointStore& points, Predicates& predicates)
+      : surface_(surface), points_(points), predicates_(predicates) {}
+
+  SurfaceTopology build() {
+    add_points();
+    match_half_edges();
+    group_facets();
+    classify_planes();
+    orient_facets();
+    classify_lines();
+    record_supports();
+    return std::move(topology_);
+  }
+
+ private:
+  void add_points() {
+    DELMESHER_CHECK(points_.size() == 0, "the store must be empty");
+    points_.reserve(surface_.vertices.size());
+    for (const auto& v : surface_.vertices) points_.add_explicit(v[0], v[1], v[2]);
+    topology_.triangles = surface_.triangles;
+    topology_.labels = surface_.labels;
+    topology_.labels.resize(surface_.triangles.size(), 0);
+  }
+
+  void match_half_edges() {
+    SurfaceTopology& s = topology_;
+    const HalfEdgeGroups groups(s.triangles, surface_.vertices.size());
+    s.opposite.assign(3 * s.triangles.size(), kNone);
+    s.edge_of.assign(3 * s.triangles.size(), kNone);
+    s.edge_half_edge.reserve(groups.size());
+    for (std::size_t e = 0; e < groups.size(); ++e) {
+      const auto group = groups[e];
+      DELMESHER_CHECK(group.size() == 2 && s.from(group[0]) == s.to(group[1]),
+                      "the surface must be a closed oriented manifold");
+      s.opposite[group[0]] = group[1];
+      s.opposite[group[1]] = group[0];
+      s.edge_of[group[0]] = s.edge_of[group[1]] = static_cast<std::uint32_t>(e);
+      s.edge_half_edge.push_back(s.from(group[0]) < s.to(group[0]) ? group[0] : group[1]);
+    }
+    s.vertex_half_edge.assign(surface_.vertices.size(), kNone);
+    for (std::uint32_t h = 0; h < s.opposite.size(); ++h) {
+      DELMESHER_CHECK(s.opposite[h] != kNone, "a triangle repeats a vertex");
+      if (s.vertex_half_edge[s.from(h)] == kNone) s.vertex_half_edge[s.from(h)] = h;
+    }
+  }
+
+  // Being exactly coplanar is transitive along edges because no triangle is degenerate, so one
+  // exact test per edge is enough.
+  void group_facets() {
+    SurfaceTopology& s = topology_;
+    s.edge_is_flat.assign(s.edge_count(), 0);
+    DisjointSets sets(s.triangles.size());
+    for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
+      const auto [h, g] = s.edge_half_edges(e);
+      if (s.labels[h / 3] != s.labels[g / 3]) continue;
+      const VertexId c = s.to(SurfaceTopology::next(h)), d = s.to(SurfaceTopology::next(g));
+      if (predicates_.orient3d(s.from(h), s.to(h), c, d) != 0) continue;
+      s.edge_is_flat[e] = 1;
+      sets.unite(h / 3, g / 3);
+    }
+    s.facet_of.resize(s.triangles.size());
+    for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+      const std::uint32_t root = sets.find(t);  // the smallest, hence already numbered
+      if (root == t) {
+        s.facet_of[t] = static_cast<FacetId>(s.facet_triangles.size());
+        s.facet_triangles.emplace_back();
+      } else {
+        s.facet_of[t] = s.facet_of[root];
+      }
+      s.facet_triangles[s.facet_of[t]].push_back(t);
+    }
+  }
+
+  void classify_planes() {
+    SurfaceTopology& s = topology_;
+    std::vector<CarrierKey> keys;
+    keys.reserve(s.facet_triangles.size());
+    for (const auto& triangles : s.facet_triangles) {
+      const auto& t = s.triangles[triangles[0]];
+      keys.push_back(
+          plane_key(points_.nearest(t[0]), points_.nearest(t[1]), points_.nearest(t[2])));
+    }
+    const auto class_of = classes_of(keys, [&](std::uint32_t f, std::uint32_t g) {
+      const auto& t = s.triangles[s.facet_triangles[f][0]];
+      const auto& u = s.triangles[s.facet_triangles[g][0]];
+      return std::all_of(u.begin(), u.end(), [&](VertexId v) {
+        return predicates_.orient3d(t[0], t[1], t[2], v) == 0;
+      });
+    });
+    s.facet_plane.resize(keys.size());
+    for (FacetId f = 0; f < keys.size(); ++f) {
+      s.facet_plane[f] =
+          class_of[f] == f ? static_cast<PlaneId>(s.plane_count++) : s.facet_plane[class_of[f]];
+    }
+  }
+
+  // The axis is chosen in doubles on the facet's first triangle (a nearly arbitrary choice among
+  // the larger components), but it is certain that the sign along it is exact and not zero.
+  void orient_facets() {
+    SurfaceTopology& s = topology_;
+    for (const auto& triangles : s.facet_triangles) {
+      const auto& t = s.triangles[triangles[0]];
+      const Vec3 n =
+          approximate_normal(points_.nearest(t[0]), points_.nearest(t[1]), points_.nearest(t[2]));
+      std::array<int, 3> axes{0, 1, 2};
+      std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
+        return n[static_cast<std::size_t>(i)] > n[static_cast<std::size_t>(j)];
+      });
+      int sign = 0, axis = 0;
+      for (std::size_t i = 0; i < 3 && sign == 0; ++i) {
+        axis = axes[i];
+        sign = predicates_.orient2d(axis, t[0], t[1], t[2]);
+      }
+      DELMESHER_CHECK(sign != 0, "a triangle is degenerate");
+      s.facet_axis.push_back(axis);
+      s.facet_axis_sign.push_back(sign);
+    }
+  }
+
+  bool collinear(VertexId a, VertexId b, VertexId c) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (predicates_.orient2d(axis, a, b, c) != 0) return false;
+    }
+    return true;
+  }
+
+  void classify_lines() {
+    SurfaceTopology& s = topology_;
+    std::vector<std::uint32_t> edges;
+    std::vector<CarrierKey> keys;
+    for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
+      if (s.edge_is_flat[e] != 0) continue;
+      const auto [a, b] = s.edge_vertices(e);
+      edges.push_back(e);
+      keys.push_back(line_key(points_.nearest(a), points_.nearest(b)));
+    }
+    const auto class_of = classes_of(keys, [&](std::uint32_t i, std::uint32_t j) {
+      const auto [a, b] = s.edge_vertices(edges[i]);
+      const auto [c, d] = s.edge_vertices(edges[j]);
+      return collinear(a, b, c) && collinear(a, b, d);
+    });
+    s.edge_line.assign(s.edge_count(), kNone);
+    for (std::size_t i = 0; i < edges.size(); ++i) s.edge_line[edges[i]] = edges[class_of[i]];
+  }
+
+  void record_supports() {
+    const SurfaceTopology& s = topology_;
+    std::vector<PlaneId> planes;
+    std::vector<std::uint32_t> lines;
+    const auto sort_unique = [](std::vector<std::uint32_t>& ids) {
+      std::sort(ids.begin(), ids.end());
+      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    };
+    for (VertexId v = 0; v < s.vertex_half_edge.size(); ++v) {
+      const std::uint32_t first = s.vertex_half_edge[v];
+      if (first == kNone) continue;
+      planes.clear();
+      lines.clear();
+      std::uint32_t h = first;
+      do {
+        planes.push_back(s.facet_plane[s.facet_of_half_edge(h)]);
+        const std::uint32_t e = s.edge_of[h];
+        if (s.edge_is_flat[e] == 0) {
+          lines.push_back(e);
+          lines.push_back(s.edge_line[e]);
+        }
+        h = s.opposite[SurfaceTopology::previous(h)];
+      } while (h != first);
+      sort_unique(planes);
+      sort_unique(lines);
+      points_.set_supports(v, planes, lines);
+    }
+  }
+
+  const Surface& surface_;
+  PointStore& points_;
+  Predicates& predicates_;
+  SurfaceTopology topology_;
+};
+
+}  // namespace
+
+SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates) {
+  return Builder(surface, points, predicates).build();
+}
+
+}  // namespace delmesher
