@@ -1,0 +1,95 @@
+// Small surfaces for the tests of this folder.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/delmesher.h"
+
+namespace delmesher::test_surfaces {
+
+using Point = std::array<double, 3>;
+
+// An axis-parallel box, every face a grid of n x n squares cut in two; outward oriented.
+inline Surface box(const Point& lo, const Point& hi, std::uint32_t n = 1) {
+  Surface s;
+  std::vector<std::uint32_t> ids((n + 1) * (n + 1) * (n + 1), 0xffffffffU);
+  const auto vertex = [&](const std::array<std::uint32_t, 3>& g) {
+    std::uint32_t& id = ids[(g[0] * (n + 1) + g[1]) * (n + 1) + g[2]];
+    if (id == 0xffffffffU) {
+      id = static_cast<std::uint32_t>(s.vertices.size());
+      Point p;
+      for (std::size_t i = 0; i < 3; ++i) {
+        p[i] = g[i] == n ? hi[i] : lo[i] + (hi[i] - lo[i]) * g[i] / n;
+      }
+      s.vertices.push_back(p);
+    }
+    return id;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool upper : {false, true}) {
+      for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+          const auto at = [&](std::uint32_t di, std::uint32_t dj) {
+            std::array<std::uint32_t, 3> g;
+            g[axis] = upper ? n : 0;
+            g[(axis + 1) % 3] = i + di;
+            g[(axis + 2) % 3] = j + dj;
+            return vertex(g);
+          };
+          std::uint32_t a = at(0, 0), b = at(1, 0), c = at(1, 1), d = at(0, 1);
+          if (!upper) std::swap(b, d);
+          s.triangles.push_back({a, b, c});
+          s.triangles.push_back({a, c, d});
+        }
+      }
+    }
+  }
+  return s;
+}
+
+inline Surface tetrahedron(const Point& a, const Point& b, const Point& c, const Point& d) {
+  Surface s;
+  s.vertices = {a, b, c, d};
+  s.triangles = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  return s;
+}
+
+inline Surface reversed(Surface s) {
+  for (auto& t : s.triangles) std::swap(t[1], t[2]);
+  return s;
+}
+
+// Both surfaces side by side, vertices not merged.
+inline Surface joined(Surface s, const Surface& t) {
+  const auto offset = static_cast<std::uint32_t>(s.vertices.size());
+  s.vertices.insert(s.vertices.end(), t.vertices.begin(), t.vertices.end());
+  for (const auto& x : t.triangles) {
+    s.triangles.push_back({x[0] + offset, x[1] + offset, x[2] + offset});
+  }
+  return s;
+}
+
+// Merges vertices with equal coordinates, keeping the first.
+inline Surface welded(const Surface& s) {
+  Surface result;
+  std::vector<std::uint32_t> id(s.vertices.size());
+  for (std::size_t i = 0; i < s.vertices.size(); ++i) {
+    std::size_t j = 0;
+    while (j < result.vertices.size() && result.vertices[j] != s.vertices[i]) ++j;
+    if (j == result.vertices.size()) result.vertices.push_back(s.vertices[i]);
+    id[i] = static_cast<std::uint32_t>(j);
+  }
+  for (const auto& t : s.triangles) result.triangles.push_back({id[t[0]], id[t[1]], id[t[2]]});
+  return result;
+}
+
+inline Surface scaled(Surface s, double factor) {
+  for (auto& v : s.vertices) {
+    for (double& x : v) x *= factor;
+  }
+  return s;
+}
+
+}  // namespace delmesher::test_surfaces
