@@ -1,0 +1,291 @@
+#include "mesher/output/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace delmesher {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+using Tet = std::array<std::uint32_t, 4>;
+using Face = std::array<std::uint32_t, 3>;
+
+constexpr double kDegrees = 57.29577951308232;  // per radian
+constexpr int kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+// Beyond this ratio of longest to shortest edge, products of four lengths could underflow.
+constexpr int kComparableExponents = 200;
+
+Vec3 cross(const Vec3& u, const Vec3& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+double dot(const Vec3& u, const Vec3& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+double length(const Vec3& u) {
+  return std::sqrt(dot(u, u));
+}
+
+Vec3 minus(const Vec3& u) {
+  return {-u[0], -u[1], -u[2]};
+}
+
+// b - a, halved: the difference of two finite doubles may overflow, half of it does not. Halving
+// loses at most the last bit of denormals.
+Vec3 half_difference(const Vec3& a, const Vec3& b) {
+  return {0.5 * b[0] - 0.5 * a[0], 0.5 * b[1] - 0.5 * a[1], 0.5 * b[2] - 0.5 * a[2]};
+}
+
+double largest_component(const Vec3& u) {
+  return std::max({std::fabs(u[0]), std::fabs(u[1]), std::fabs(u[2])});
+}
+
+Vec3 scaled(const Vec3& u, int exponent) {
+  return {std::ldexp(u[0], exponent), std::ldexp(u[1], exponent), std::ldexp(u[2], exponent)};
+}
+
+// The vector times a power of two that brings its largest component into [1/2, 1); 0 stays 0.
+Vec3 normalized(const Vec3& u) {
+  int exponent = 0;
+  std::frexp(largest_component(u), &exponent);
+  return scaled(u, -exponent);
+}
+
+// In [0, 180]; 0 if both arguments are 0.
+double angle(double sine, double cosine) {
+  return std::min(180.0, std::atan2(sine, cosine) * kDegrees);
+}
+
+std::size_t bin(double degrees) {
+  return std::min<std::size_t>(11, static_cast<std::size_t>(degrees / 15));
+}
+
+struct Shape {
+  std::array<Vec3, 6> edge;  // in the order of kEdges, from the first to the second vertex
+  std::array<double, 6> squared_length;
+  bool comparable;  // common scale, and products of four lengths are in range
+};
+
+// Edge vectors at a common power-of-two scale, the longest around 1; or, if their lengths are not
+// comparable, each at its own.
+Shape make_shape(std::span<const Vec3> coordinates, const Tet& tet) {
+  Shape shape;
+  double longest = 0, shortest = INFINITY;
+  for (int e = 0; e < 6; ++e) {
+    shape.edge[e] = half_difference(coordinates[tet[kEdges[e][0]]], coordinates[tet[kEdges[e][1]]]);
+    const double size = largest_component(shape.edge[e]);
+    longest = std::max(longest, size);
+    if (size > 0) shortest = std::min(shortest, size);
+  }
+  int high = 0, low = 0;
+  std::frexp(longest, &high);
+  if (longest > 0) std::frexp(shortest, &low);
+  shape.comparable = longest == 0 || high - low < kComparableExponents;
+  const bool in_range = longest == 0 || (high > -100 && high < 100);
+  for (int e = 0; e < 6; ++e) {
+    if (!shape.comparable) {
+      shape.edge[e] = normalized(shape.edge[e]);
+    } else if (!in_range) {
+      shape.edge[e] = scaled(shape.edge[e], -high);
+    }
+    shape.squared_length[e] = dot(shape.edge[e], shape.edge[e]);
+  }
+  return shape;
+}
+
+// Index in kEdges of the edge between two vertices of a tetrahedron.
+int edge_index(int i, int j) {
+  static constexpr int kIndex[4][4] = {{-1, 0, 1, 2}, {0, -1, 3, 4}, {1, 3, -1, 5}, {2, 4, 5, -1}};
+  return kIndex[i][j];
+}
+
+// The vector from vertex i to vertex j.
+Vec3 edge_vector(const Shape& shape, int i, int j) {
+  const Vec3& e = shape.edge[edge_index(i, j)];
+  return i < j ? e : minus(e);
+}
+
+// Twice the area vector of face f, from the two shorter edges: the cross product of two long,
+// nearly parallel edges of a needle would lose digits (Shewchuk 2013).
+Vec3 face_normal(const Shape& shape, int f) {
+  const auto [a, b, c] = kFaces[f];
+  const double ab = shape.squared_length[edge_index(a, b)];
+  const double bc = shape.squared_length[edge_index(b, c)];
+  const double ca = shape.squared_length[edge_index(c, a)];
+  if (ab >= bc && ab >= ca) return cross(edge_vector(shape, b, c), edge_vector(shape, c, a));
+  if (bc >= ca) return cross(edge_vector(shape, c, a), edge_vector(shape, a, b));
+  return cross(edge_vector(shape, a, b), edge_vector(shape, b, c));
+}
+
+// Six times the unsigned volume, from the vertex with the shortest edges, for the same reason.
+double volume_term(const Shape& shape) {
+  int base = 0;
+  double best = INFINITY;
+  for (int i = 0; i < 4; ++i) {
+    double sum = 0;
+    for (int j = 0; j < 4; ++j) {
+      if (j != i) sum += shape.squared_length[edge_index(i, j)];
+    }
+    if (sum < best) {
+      best = sum;
+      base = i;
+    }
+  }
+  const auto [a, b, c] = kFaces[base];
+  return std::fabs(dot(cross(edge_vector(shape, base, a), edge_vector(shape, base, b)),
+                       edge_vector(shape, base, c)));
+}
+
+std::array<double, 3> face_angles(const Shape& shape, int f) {
+  std::array<double, 3> result;
+  const double area = shape.comparable ? length(face_normal(shape, f)) : 0;
+  for (int i = 0; i < 3; ++i) {
+    const int p = kFaces[f][i];
+    const Vec3 u = edge_vector(shape, p, kFaces[f][(i + 1) % 3]);
+    const Vec3 v = edge_vector(shape, p, kFaces[f][(i + 2) % 3]);
+    // Edges at different scales do not share one area, but their directions are right.
+    result[i] = angle(shape.comparable ? area : length(cross(u, v)), dot(u, v));
+  }
+  return result;
+}
+
+// With a common scale, all six share the volume and the normals:
+// |n_f| |n_g| sin = 6 V |edge|, |n_f| |n_g| cos = -n_f . n_g for outward normals.
+std::array<double, 6> comparable_dihedrals(const Shape& shape, double volume) {
+  std::array<Vec3, 4> normal;
+  for (int f = 0; f < 4; ++f) normal[f] = face_normal(shape, f);
+  std::array<double, 6> result;
+  for (int e = 0; e < 6; ++e) {
+    // The faces at edge ij are those opposite the two other vertices: those of edge 5 - e.
+    const double cosine = -dot(normal[kEdges[5 - e][0]], normal[kEdges[5 - e][1]]);
+    result[e] = angle(volume * std::sqrt(shape.squared_length[e]), cosine);
+  }
+  return result;
+}
+
+// The dihedral angle at an edge does not change if each edge from one of its ends is scaled alone.
+std::array<double, 6> incomparable_dihedrals(const Shape& shape) {
+  std::array<double, 6> result;
+  for (int e = 0; e < 6; ++e) {
+    const auto [d, c] = kEdges[e];
+    const auto [a, b] = kEdges[5 - e];
+    const Vec3 along = edge_vector(shape, d, c);
+    const Vec3 na = cross(edge_vector(shape, d, a), along);
+    const Vec3 nb = cross(edge_vector(shape, d, b), along);
+    const double volume = std::fabs(dot(edge_vector(shape, d, a), nb));
+    result[e] = angle(volume * length(along), dot(na, nb));
+  }
+  return result;
+}
+
+// For each tetrahedron, which of its faces are to be counted with it (bit i: face i): every face
+// once, in the first tetrahedron that has it. Faces are bucketed by smallest vertex, so that this
+// takes 16 bytes per tetrahedron and time linear but for sorting the small buckets.
+std::vector<std::uint8_t> owned_faces(std::span<const Tet> tetrahedra, std::size_t vertices) {
+  const auto face = [&](std::uint32_t id) {
+    const Tet& t = tetrahedra[id / 4];
+    const auto& f = kFaces[id % 4];
+    Face key{t[f[0]], t[f[1]], t[f[2]]};
+    if (key[0] > key[1]) std::swap(key[0], key[1]);
+    if (key[1] > key[2]) std::swap(key[1], key[2]);
+    if (key[0] > key[1]) std::swap(key[0], key[1]);
+    return key;
+  };
+  const auto count = static_cast<std::uint32_t>(4 * tetrahedra.size());
+  std::vector<std::uint32_t> end(vertices + 1, 0);
+  for (std::uint32_t id = 0; id < count; ++id) ++end[face(id)[0] + 1];
+  for (std::size_t v = 0; v < vertices; ++v) end[v + 1] += end[v];
+  std::vector<std::uint32_t> order(count);
+  for (std::uint32_t id = 0; id < count; ++id) order[end[face(id)[0]]++] = id;
+
+  std::vector<std::uint8_t> owned(tetrahedra.size(), 0);
+  std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> bucket;
+  std::uint32_t begin = 0;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    bucket.clear();
+    for (std::uint32_t i = begin; i < end[v]; ++i) {
+      const Face key = face(order[i]);
+      bucket.push_back({{key[1], key[2]}, order[i]});
+    }
+    begin = end[v];
+    std::sort(bucket.begin(), bucket.end());
+    for (std::size_t i = 0; i < bucket.size(); ++i) {
+      if (i > 0 && bucket[i].first == bucket[i - 1].first) continue;
+      owned[bucket[i].second / 4] |= static_cast<std::uint8_t>(1U << (bucket[i].second % 4));
+    }
+  }
+  return owned;
+}
+
+class Accumulator {
+ public:
+  explicit Accumulator(MeshStatistics& statistics) : s_(statistics) {
+    s_.min_face_angle = s_.min_dihedral = 180;
+  }
+
+  void add_face(const std::array<double, 3>& angles) {
+    const auto [low, high] = std::minmax({angles[0], angles[1], angles[2]});
+    s_.min_face_angle = std::min(s_.min_face_angle, low);
+    s_.max_face_angle = std::max(s_.max_face_angle, high);
+    s_.mean_min_face_angle += low;
+    s_.mean_max_face_angle += high;
+    for (const double a : angles) ++s_.face_angle_histogram[bin(a)];
+    ++faces_;
+  }
+
+  void add_dihedrals(const std::array<double, 6>& angles, bool flat) {
+    // A flat tetrahedron with a degenerate face has edges without a dihedral angle.
+    const double low = flat ? 0 : *std::min_element(angles.begin(), angles.end());
+    const double high = flat ? 180 : *std::max_element(angles.begin(), angles.end());
+    s_.min_dihedral = std::min(s_.min_dihedral, low);
+    s_.max_dihedral = std::max(s_.max_dihedral, high);
+    s_.mean_min_dihedral += low;
+    s_.mean_max_dihedral += high;
+    for (const double a : angles) ++s_.dihedral_histogram[bin(a)];
+  }
+
+  void finish() {
+    if (faces_ == 0) {
+      s_.min_face_angle = s_.min_dihedral = 0;
+      return;
+    }
+    s_.mean_min_face_angle /= static_cast<double>(faces_);
+    s_.mean_max_face_angle /= static_cast<double>(faces_);
+    s_.mean_min_dihedral /= static_cast<double>(s_.tetrahedra);
+    s_.mean_max_dihedral /= static_cast<double>(s_.tetrahedra);
+  }
+
+ private:
+  MeshStatistics& s_;
+  std::uint64_t faces_ = 0;
+};
+
+}  // namespace
+
+MeshStatistics mesh_statistics(std::span<const Vec3> coordinates, std::span<const Tet> tetrahedra,
+                               std::uint64_t vertices, std::uint64_t interior) {
+  MeshStatistics statistics;
+  statistics.vertices = vertices;
+  statistics.tetrahedra = tetrahedra.size();
+  statistics.interior_tetrahedra = interior;
+  const std::vector<std::uint8_t> owned = owned_faces(tetrahedra, coordinates.size());
+  Accumulator accumulator(statistics);
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    const Shape shape = make_shape(coordinates, tetrahedra[t]);
+    for (int f = 0; f < 4; ++f) {
+      if ((owned[t] >> f & 1) != 0) accumulator.add_face(face_angles(shape, f));
+    }
+    const double volume = volume_term(shape);
+    accumulator.add_dihedrals(
+        shape.comparable ? comparable_dihedrals(shape, volume) : incomparable_dihedrals(shape),
+        shape.comparable && volume == 0);
+  }
+  accumulator.finish();
+  return statistics;
+}
+
+}  // namespace delmesher

@@ -1,0 +1,204 @@
+#include "mesher/output/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace delmesher {
+namespace {
+
+using Points = std::vector<std::array<double, 3>>;
+using Tets = std::vector<std::array<std::uint32_t, 4>>;
+
+MeshStatistics of(const Points& points, const Tets& tets = {{0, 1, 2, 3}}) {
+  return mesh_statistics(points, tets, points.size(), tets.size());
+}
+
+std::uint64_t total(const std::array<std::uint64_t, 12>& histogram) {
+  return std::accumulate(histogram.begin(), histogram.end(), std::uint64_t{0});
+}
+
+Points scaled(Points points, double factor) {
+  for (auto& p : points) {
+    for (double& x : p) x *= factor;
+  }
+  return points;
+}
+
+void expect_finite(const MeshStatistics& s) {
+  for (const double a :
+       {s.min_face_angle, s.max_face_angle, s.min_dihedral, s.max_dihedral, s.mean_min_face_angle,
+        s.mean_max_face_angle, s.mean_min_dihedral, s.mean_max_dihedral}) {
+    EXPECT_GE(a, 0);  // false for NaN
+    EXPECT_LE(a, 180);
+  }
+}
+
+const Points kRegular = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+const Points kCorner = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+const double kRegularDihedral = std::acos(1.0 / 3) * 180 / M_PI;
+
+TEST(Statistics, RegularTetrahedron) {
+  const MeshStatistics s = of(kRegular);
+  EXPECT_NEAR(s.min_face_angle, 60, 1e-12);
+  EXPECT_NEAR(s.max_face_angle, 60, 1e-12);
+  EXPECT_NEAR(s.min_dihedral, kRegularDihedral, 1e-12);
+  EXPECT_NEAR(s.max_dihedral, kRegularDihedral, 1e-12);
+  EXPECT_NEAR(s.mean_min_dihedral, kRegularDihedral, 1e-12);
+  EXPECT_NEAR(s.mean_max_face_angle, 60, 1e-12);
+  EXPECT_EQ(s.dihedral_histogram[4], 6U);
+  EXPECT_EQ(total(s.dihedral_histogram), 6U);
+  EXPECT_EQ(total(s.face_angle_histogram), 12U);
+  EXPECT_EQ(s.tetrahedra, 1U);
+  EXPECT_EQ(s.vertices, 4U);
+}
+
+TEST(Statistics, OrthogonalCorner) {
+  const MeshStatistics s = of(kCorner);
+  EXPECT_NEAR(s.min_face_angle, 45, 1e-12);
+  EXPECT_EQ(s.max_face_angle, 90);
+  EXPECT_EQ(s.max_dihedral, 90);
+  EXPECT_NEAR(s.min_dihedral, std::atan(std::sqrt(2.0)) * 180 / M_PI, 1e-12);
+  EXPECT_NEAR(s.mean_min_face_angle, (3 * 45 + 60) / 4.0, 1e-12);
+  EXPECT_NEAR(s.mean_max_face_angle, (3 * 90 + 60) / 4.0, 1e-12);
+  EXPECT_EQ(s.dihedral_histogram[6], 3U);  // 90 opens the seventh bin
+  EXPECT_EQ(s.dihedral_histogram[3], 3U);
+}
+
+TEST(Statistics, SharedFacesCountOnce) {
+  // Two corners glued along the face x = 0: three orthogonal faces of the second are new.
+  Points points = kCorner;
+  points.push_back({-1, 0, 0});
+  const MeshStatistics s = of(points, {{0, 1, 2, 3}, {0, 4, 3, 2}});
+  EXPECT_EQ(total(s.face_angle_histogram), 3U * 7U);
+  EXPECT_EQ(total(s.dihedral_histogram), 12U);
+  EXPECT_NEAR(s.mean_min_face_angle, (5 * 45 + 2 * 60) / 7.0, 1e-12);
+}
+
+TEST(Statistics, FaceCountOfAGrid) {
+  // Kuhn subdivision of n^3 cubes: 12 n^3 + 6 n^2 faces.
+  const int n = 5;
+  Points points;
+  Tets tets;
+  const auto id = [&](int x, int y, int z) {
+    return static_cast<std::uint32_t>((x * (n + 1) + y) * (n + 1) + z);
+  };
+  for (int x = 0; x <= n; ++x) {
+    for (int y = 0; y <= n; ++y) {
+      for (int z = 0; z <= n; ++z) points.push_back({double(x), double(y), double(z)});
+    }
+  }
+  const int order[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  for (int cube = 0; cube < n * n * n; ++cube) {
+    for (const auto& o : order) {
+      int at[3] = {cube / (n * n), cube / n % n, cube % n};
+      std::array<std::uint32_t, 4> tet{id(at[0], at[1], at[2])};
+      for (int i = 0; i < 3; ++i) {
+        ++at[o[i]];
+        tet[i + 1] = id(at[0], at[1], at[2]);
+      }
+      tets.push_back(tet);
+    }
+  }
+  const MeshStatistics s = of(points, tets);
+  EXPECT_EQ(total(s.face_angle_histogram), 3U * (12 * n * n * n + 6 * n * n));
+  EXPECT_NEAR(s.min_dihedral, 45, 1e-12);
+  EXPECT_EQ(s.max_dihedral, 90);
+}
+
+TEST(Statistics, ScaleDoesNotMatter) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int round = 0; round < 200; ++round) {
+    Points points(4);
+    for (auto& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
+    const MeshStatistics s = of(points);
+    for (const int exponent : {-1000, -660, -300, 300, 660, 1020}) {
+      const MeshStatistics t = of(scaled(points, std::ldexp(1.0, exponent)));
+      EXPECT_NEAR(s.min_face_angle, t.min_face_angle, 1e-9);
+      EXPECT_NEAR(s.min_dihedral, t.min_dihedral, 1e-9);
+      EXPECT_NEAR(s.max_dihedral, t.max_dihedral, 1e-9);
+    }
+  }
+  for (const double factor : {1e-200, 1e200, 1e-307, 1.7e308}) {
+    const MeshStatistics s = of(scaled(kRegular, factor));
+    EXPECT_NEAR(s.min_face_angle, 60, 1e-12);
+    EXPECT_NEAR(s.max_dihedral, kRegularDihedral, 1e-12);
+  }
+}
+
+TEST(Statistics, Needle) {
+  for (const double height : {1e3, 1e8, 1e40, 1e100, 1e290}) {
+    // An equilateral base and an apex far above its centre.
+    const double r = std::sqrt(3.0);
+    const MeshStatistics s =
+        of({{2, 0, 0}, {-1, r, 0}, {-1, -r, 0}, {0, 0, height}}, {{0, 1, 2, 3}});
+    const double slope = std::atan2(height, 1.0) * 180 / M_PI;
+    EXPECT_NEAR(s.max_dihedral, slope, 1e-9) << height;
+    EXPECT_NEAR(s.min_dihedral, 60, 200 / height + 1e-9) << height;
+    const double apex = 2 * std::atan(r / std::hypot(height, 1.0)) * 180 / M_PI;
+    // Relative accuracy, unless the edges are too different to share a scale.
+    const double tolerance = height < 1e50 ? 1e-9 * apex : 1e-12;
+    EXPECT_NEAR(s.min_face_angle, apex, tolerance) << height;
+  }
+}
+
+TEST(Statistics, TinyEdgeKeepsItsAngles) {
+  // An edge of 1e-250 in a tetrahedron of size 1, perpendicular to the others there.
+  const MeshStatistics s = of({{0, 0, 0}, {0, 0, 1e-250}, {1, 0, 0}, {0, 1, 0}});
+  EXPECT_EQ(s.max_face_angle, 90);
+  EXPECT_EQ(s.max_dihedral, 90);
+  EXPECT_LT(s.min_face_angle, 1e-200);
+  EXPECT_GE(s.min_face_angle, 0);
+}
+
+TEST(Statistics, Sliver) {
+  for (const double h : {1e-3, 1e-8, 1e-14}) {
+    // The square's diagonals, one of them lifted by h.
+    const MeshStatistics s = of({{1, 0, 0}, {-1, 0, 0}, {0, 1, h}, {0, -1, h}});
+    // At the diagonals 180 - 2 atan(h); at the sides the planes z = h y and z = h (1 - x) meet.
+    EXPECT_NEAR(s.max_dihedral, 180 - 2 * std::atan(h) * 180 / M_PI, 1e-12);
+    EXPECT_NEAR(s.min_dihedral / (std::sqrt(2.0) * h * 180 / M_PI), 1, 1e-5);
+    EXPECT_NEAR(s.min_face_angle, 45, 1e-2);
+  }
+}
+
+TEST(Statistics, FlatTetrahedra) {
+  const MeshStatistics quad = of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  EXPECT_EQ(quad.min_dihedral, 0);
+  EXPECT_EQ(quad.max_dihedral, 180);
+  EXPECT_EQ(quad.dihedral_histogram[11], 2U);
+  EXPECT_EQ(quad.dihedral_histogram[0], 4U);
+  const MeshStatistics centre = of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}});
+  EXPECT_EQ(centre.dihedral_histogram[11], 3U);
+  EXPECT_EQ(centre.dihedral_histogram[0], 3U);
+}
+
+TEST(Statistics, DegenerateButNoNaN) {
+  for (const Points& points :
+       {Points{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+        Points{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}},
+        Points{{1, 2, 3}, {1, 2, 3}, {0, 1, 0}, {5, 5, 1}},
+        Points{{0, 0, 0}, {5e-324, 0, 0}, {0, 5e-324, 0}, {0, 0, 5e-324}},
+        Points{{-1.7e308, 0, 0}, {1.7e308, 0, 0}, {0, 1.7e308, 0}, {0, 0, -1.7e308}},
+        Points{{0, 0, 0}, {1e-300, 0, 0}, {1e300, 1, 0}, {0, 0, 1e-20}}}) {
+    const MeshStatistics s = of(points);
+    expect_finite(s);
+    EXPECT_EQ(total(s.dihedral_histogram), 6U);
+    EXPECT_EQ(total(s.face_angle_histogram), 12U);
+  }
+  EXPECT_EQ(of({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}).max_dihedral, 180);
+}
+
+TEST(Statistics, EmptyMesh) {
+  const MeshStatistics s = mesh_statistics({}, {}, 0, 0);
+  EXPECT_EQ(s.tetrahedra, 0U);
+  expect_finite(s);
+  EXPECT_EQ(s.max_face_angle, 0);
+}
+
+}  // namespace
+}  // namespace delmesher
