@@ -7,6 +7,8 @@
 // parameters outside [0, 1] still lies exactly on the line or plane.
 #pragma once
 
+#include <gmp.h>
+
 #include <array>
 #include <cstdint>
 #include <span>
@@ -32,8 +34,24 @@ struct PointDefinition {
   double u, v;                     // t = u on a segment
 };
 
-// The exact value of one coordinate, cached: see points.cpp for the representation.
-struct ExactCoordinates;
+// An exact coordinate: (odd integer of |size| 64-bit limbs, least significant first, negative if
+// size is) times 2^exponent; size 0 is zero. Points into the store or into `own`.
+struct ExactCoordinate {
+  const mp_limb_t* limbs = nullptr;
+  std::int32_t size = 0;
+  std::int32_t exponent = 0;
+};
+
+// The exact coordinates of one point. Valid until the store changes; not to be copied or moved (the
+// coordinates of explicit points lie inside).
+struct ExactPoint {
+  ExactPoint() = default;
+  ExactPoint(const ExactPoint&) = delete;
+  ExactPoint& operator=(const ExactPoint&) = delete;
+
+  std::array<ExactCoordinate, 3> coordinate;
+  std::array<mp_limb_t, 3> own;
+};
 
 // Append-only list of points with cached exact and approximate coordinates and "supports": ids of
 // planes and lines known to contain the point. A support shared by all arguments of a predicate
@@ -44,6 +62,7 @@ class PointStore {
   // p, q, r must be explicit points of this store.
   VertexId add_on_segment(VertexId p, VertexId q, double t);
   VertexId add_on_triangle(VertexId p, VertexId q, VertexId r, double u, double v);
+  VertexId add(const PointDefinition& implicit_point);
   // Removes the last point.
   void pop_back();
 
@@ -60,8 +79,41 @@ class PointStore {
     const Approximation& a = approximations_[v];
     return {a.x, a.y, a.z};
   }
-  const PointDefinition& definition(VertexId v) const { return definitions_[v]; }
-  bool is_explicit(VertexId v) const { return definitions_[v].kind == PointKind::explicit_point; }
+  PointDefinition definition(VertexId v) const;
+  bool is_explicit(VertexId v) const {
+    const std::uint32_t detail = detail_of_[v];
+    return detail == kNone || details_[detail].definition.kind == PointKind::explicit_point;
+  }
+
+  // The nearest doubles of what approximation() leaves over, with the error that remains: the sum
+  // of both is a double-double approximation. Zero for explicit points.
+  Approximation remainder(VertexId v) const;
+  void exact(VertexId v, ExactPoint& out) const;
+
+ private:
+  // What plain volume points do not have: a definition, exact coordinates, supports. Kept apart, so
+  // that a point in the volume costs 36 bytes.
+  struct Detail {
+    PointDefinition definition{PointKind::explicit_point, {kNone, kNone, kNone}, 0, 0};
+    Approximation remainder{0, 0, 0, 0};
+    std::size_t first_limb = 0;
+    std::size_t first_support = 0;
+    std::array<std::int32_t, 3> size{};  // of the three mantissas, in limbs, signed
+    std::array<std::int32_t, 3> exponent{};
+    std::uint32_t planes = 0;
+    std::uint32_t lines = 0;
+  };
+
+  Detail& detail(VertexId v);
+  VertexId add_implicit(const PointDefinition& definition);
+  // The limbs of details are stored in the order of the points, x before y before z.
+  static std::size_t limb_count(const Detail& d);
+
+  std::vector<Approximation> approximations_;
+  std::vector<std::uint32_t> detail_of_;  // index into details_, or kNone
+  std::vector<Detail> details_;
+  std::vector<mp_limb_t> limbs_;
+  std::vector<std::uint32_t> supports_;  // per detail: planes, then lines
 };
 
 }  // namespace delmesher

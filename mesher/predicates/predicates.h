@@ -26,7 +26,7 @@ struct PredicateCounters {
 // may be added to the store at any time.
 class Predicates {
  public:
-  explicit Predicates(const PointStore& points);
+  explicit Predicates(const PointStore& points) : points_(points) {}
 
   const PointStore& points() const { return points_; }
 
@@ -77,6 +77,19 @@ class Predicates {
                               double cosine_squared);
 
   PredicateCounters counters;
+
+ private:
+  // Filter, extended and exact stage of a polynomial of predicates/polynomials.h.
+  template <class Polynomial>
+  int sign(const Polynomial& polynomial, const VertexId* ids);
+  template <class Polynomial>
+  int sign_unfiltered(const Polynomial& polynomial, const VertexId* ids);
+
+  int perturbed_sign(VertexId a, VertexId b, VertexId c, VertexId d, VertexId e);
+  int orient3d_unfiltered(VertexId a, VertexId b, VertexId c, VertexId d);
+  int insphere_unfiltered(VertexId a, VertexId b, VertexId c, VertexId d, VertexId e);
+
+  const PointStore& points_;
 };
 
 // Squared cosine of an angle given in degrees, in [0, 90], by a fixed sequence of IEEE operations:

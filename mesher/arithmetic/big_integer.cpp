@@ -1,0 +1,159 @@
+#include "mesher/arithmetic/big_integer.h"
+
+#include <bit>
+
+namespace delmesher {
+
+BigInteger::BigInteger(std::int64_t value) {
+  if (value == 0) return;
+  const auto bits = static_cast<std::uint64_t>(value);
+  inline_[0] = value < 0 ? ~bits + 1 : bits;
+  size_ = value < 0 ? -1 : 1;
+}
+
+BigInteger::BigInteger(const Limb* limbs, std::size_t n, bool negative, std::size_t shift) {
+  const std::size_t words = shift / 64;
+  const unsigned bits = shift % 64;
+  Limb* out = reset(n + words + 1);
+  for (std::size_t i = 0; i < words; ++i) out[i] = 0;
+  if (n == 0) return;
+  if (bits != 0) {
+    out[words + n] = mpn_lshift(out + words, limbs, static_cast<mp_size_t>(n), bits);
+  } else {
+    std::memcpy(out + words, limbs, n * sizeof(Limb));
+    out[words + n] = 0;
+  }
+  normalise(n + words + 1, negative);
+}
+
+BigInteger& BigInteger::operator=(const BigInteger& other) {
+  if (this != &other) {
+    assign(other.data(), other.used());
+    size_ = other.size_;
+  }
+  return *this;
+}
+
+BigInteger& BigInteger::operator=(BigInteger&& other) noexcept {
+  if (this != &other) take(other);
+  return *this;
+}
+
+BigInteger::Limb* BigInteger::reset(std::size_t n) {
+  size_ = 0;
+  if (n <= kInlineLimbs) {
+    heap_.reset();
+    return inline_;
+  }
+  heap_.reset(new Limb[n]);
+  return heap_.get();
+}
+
+void BigInteger::assign(const Limb* limbs, std::size_t n) {
+  Limb* out = reset(n);
+  for (std::size_t i = 0; i < n; ++i) out[i] = limbs[i];
+}
+
+void BigInteger::take(BigInteger& other) noexcept {
+  heap_ = std::move(other.heap_);
+  size_ = other.size_;
+  if (!heap_) {
+    for (std::size_t i = 0; i < used(); ++i) inline_[i] = other.inline_[i];
+  }
+  other.size_ = 0;
+}
+
+void BigInteger::normalise(std::size_t n, bool negative) {
+  const Limb* limbs = data();
+  while (n > 0 && limbs[n - 1] == 0) --n;
+  size_ = negative ? -static_cast<std::int32_t>(n) : static_cast<std::int32_t>(n);
+}
+
+std::size_t BigInteger::bit_length() const {
+  const std::size_t n = used();
+  return n == 0 ? 0 : 64 * n - static_cast<std::size_t>(std::countl_zero(data()[n - 1]));
+}
+
+std::size_t BigInteger::trailing_zeros() const {
+  const std::size_t n = used();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (data()[i] != 0) return 64 * i + static_cast<std::size_t>(std::countr_zero(data()[i]));
+  }
+  return 0;
+}
+
+BigInteger BigInteger::operator-() const {
+  BigInteger result = *this;
+  result.size_ = -result.size_;
+  return result;
+}
+
+BigInteger BigInteger::operator<<(std::size_t shift) const {
+  return BigInteger(data(), used(), size_ < 0, shift);
+}
+
+BigInteger BigInteger::operator>>(std::size_t shift) const {
+  const std::size_t words = shift / 64;
+  const unsigned bits = shift % 64;
+  BigInteger result;
+  if (words >= used()) return result;
+  const std::size_t n = used() - words;
+  Limb* out = result.reset(n);
+  if (bits != 0) {
+    mpn_rshift(out, data() + words, static_cast<mp_size_t>(n), bits);
+  } else {
+    std::memcpy(out, data() + words, n * sizeof(Limb));
+  }
+  result.normalise(n, size_ < 0);
+  return result;
+}
+
+BigInteger BigInteger::add(const BigInteger& a, const BigInteger& b, std::int32_t b_size) {
+  const Limb* x = a.data();
+  const Limb* y = b.data();
+  auto m = static_cast<mp_size_t>(a.used());
+  auto n = static_cast<mp_size_t>(b.used());
+  bool x_negative = a.size_ < 0;
+  bool y_negative = b_size < 0;
+  if (m < n) {
+    std::swap(x, y);
+    std::swap(m, n);
+    std::swap(x_negative, y_negative);
+  }
+  BigInteger result;
+  if (n == 0) {
+    result.assign(x, static_cast<std::size_t>(m));
+    result.size_ = static_cast<std::int32_t>(x_negative ? -m : m);
+    return result;
+  }
+  Limb* out = result.reset(static_cast<std::size_t>(m) + 1);
+  if (x_negative == y_negative) {
+    out[m] = mpn_add(out, x, m, y, n);
+    result.normalise(static_cast<std::size_t>(m) + 1, x_negative);
+    return result;
+  }
+  if (m == n && mpn_cmp(x, y, n) < 0) {
+    std::swap(x, y);
+    std::swap(x_negative, y_negative);
+  }
+  mpn_sub(out, x, m, y, n);
+  result.normalise(static_cast<std::size_t>(m), x_negative);
+  return result;
+}
+
+BigInteger operator*(const BigInteger& a, const BigInteger& b) {
+  BigInteger result;
+  if (a.size_ == 0 || b.size_ == 0) return result;
+  const std::size_t m = a.used();
+  const std::size_t n = b.used();
+  BigInteger::Limb* out = result.reset(m + n);
+  if (m >= n) {
+    mpn_mul(out, a.data(), static_cast<mp_size_t>(m), b.data(), static_cast<mp_size_t>(n));
+  } else {
+    mpn_mul(out, b.data(), static_cast<mp_size_t>(n), a.data(), static_cast<mp_size_t>(m));
+  }
+  result.normalise(m + n, (a.size_ < 0) != (b.size_ < 0));
+  return result;
+}
+
+}  // namespace delmesher

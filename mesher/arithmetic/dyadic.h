@@ -1,0 +1,40 @@
+// Exact dyadic numbers: integer times power of two. Every finite double is one.
+#pragma once
+
+#include <cstdint>
+
+#include "mesher/arithmetic/big_integer.h"
+
+namespace delmesher {
+
+// mantissa * 2^exponent with an odd mantissa, or zero with exponent 0.
+struct Dyadic {
+  BigInteger mantissa;
+  std::int32_t exponent = 0;
+
+  static Dyadic from_double(double value);
+  int sign() const { return mantissa.sign(); }
+};
+
+Dyadic operator+(const Dyadic& a, const Dyadic& b);
+Dyadic operator-(const Dyadic& a, const Dyadic& b);
+Dyadic operator*(const Dyadic& a, const Dyadic& b);
+
+// A double and a bound on its distance from the number it stands for (0 if exact).
+struct Rounded {
+  double value;
+  double error;
+};
+
+// The nearest double, ties to even; infinite with infinite error beyond the range of doubles.
+Rounded round_to_double(const Dyadic& number);
+
+// A finite nonzero double as (odd integer) * 2^exponent with sign; magnitude 0 for zero.
+struct DoubleParts {
+  std::uint64_t magnitude;
+  std::int32_t exponent;
+  bool negative;
+};
+DoubleParts decompose(double value);
+
+}  // namespace delmesher

@@ -1,0 +1,173 @@
+#include "mesher/predicates/placement.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "mesher/arithmetic/bounded.h"
+#include "mesher/arithmetic/dyadic.h"
+#include "mesher/base/check.h"
+
+namespace delmesher {
+namespace {
+
+// The smallest number with at most `bits` significant bits that is not below x > 0.
+double round_up(double x, int bits) {
+  const DoubleParts parts = decompose(x);
+  const int length = 64 - std::countl_zero(parts.magnitude);
+  if (length <= bits) return x;
+  const int drop = length - bits;
+  const std::uint64_t mantissa = (parts.magnitude >> drop) + 1;  // odd magnitude: never exact
+  return std::ldexp(static_cast<double>(mantissa), parts.exponent + drop);
+}
+
+double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vec3 difference(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double largest(const Vec3& a) {
+  return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+}
+
+// Exact unless tiny numbers underflow.
+Vec3 scaled(const Vec3& a, int exponent) {
+  return {std::ldexp(a[0], exponent), std::ldexp(a[1], exponent), std::ldexp(a[2], exponent)};
+}
+
+// Corners and target relative to the anchor (the last corner), scaled by a power of two so that no
+// product overflows and none that matters underflows.
+template <std::size_t N>
+void localise(std::array<Vec3, N>& vectors, const Vec3& anchor, double& tolerance) {
+  double size = largest(anchor);
+  for (const Vec3& v : vectors) size = std::max(size, largest(v));
+  // Twice: differences of the largest doubles would overflow, and may be much smaller.
+  int shift = size > 0 ? -std::ilogb(size) - 2 : 0;
+  const Vec3 origin = scaled(anchor, shift);
+  double extent = 0;
+  for (Vec3& v : vectors) {
+    v = difference(scaled(v, shift), origin);
+    extent = std::max(extent, largest(v));
+  }
+  tolerance = std::ldexp(tolerance, shift);
+  shift = extent > 0 ? -std::ilogb(extent) : 0;
+  for (Vec3& v : vectors) v = scaled(v, shift);
+  tolerance = std::ldexp(tolerance, shift);
+}
+
+// Numerators and denominator of the coordinates (u, v) of w in the basis e, f of a plane:
+// u = (w x f) . n / |n|^2, v = (e x w) . n / |n|^2, n = e x f. In double-doubles, because n suffers
+// from cancellation when the triangle is a needle.
+struct PlaneCoordinates {
+  double u, v;
+};
+
+BoundedPair pair_of(double x) {
+  return {x, 0, 0};
+}
+
+using PairVector = std::array<BoundedPair, 3>;
+
+PairVector pairs(const Vec3& a) {
+  return {pair_of(a[0]), pair_of(a[1]), pair_of(a[2])};
+}
+
+PairVector cross(const PairVector& a, const PairVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const PairVector& a, const PairVector& b) {
+  const BoundedPair sum = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  return sum.high;
+}
+
+PlaneCoordinates solve(const Vec3& e, const Vec3& f, const Vec3& w) {
+  const PairVector n = cross(pairs(e), pairs(f));
+  const double nn = dot(n, n);
+  if (!(nn > 0)) return {0, 0};
+  return {dot(cross(pairs(w), pairs(f)), n) / nn, dot(cross(pairs(e), pairs(w)), n) / nn};
+}
+
+}  // namespace
+
+double shortest_dyadic(double lo, double hi) {
+  DELMESHER_CHECK(lo <= hi, "empty interval");
+  if (lo <= 0 && hi >= 0) return 0;
+  if (hi < 0) return -shortest_dyadic(-hi, -lo);
+  for (int bits = 1; bits <= 53; ++bits) {
+    const double candidate = round_up(lo, bits);
+    if (candidate <= hi) return candidate;
+  }
+  return lo;
+}
+
+PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId q,
+                                 const Vec3& target, double tolerance, bool inside) {
+  Vec3 far = points.nearest(p);
+  Vec3 near = points.nearest(q);
+  // Compare at a scale where squares neither overflow nor vanish.
+  std::array<Vec3, 2> ends = {far, near};
+  double unused = 0;
+  localise(ends, target, unused);
+  if (dot(ends[0], ends[0]) < dot(ends[1], ends[1])) {
+    std::swap(p, q);
+    std::swap(far, near);
+  }
+  std::array<Vec3, 2> local = {far, target};
+  localise(local, near, tolerance);
+  const Vec3& edge = local[0];
+  const double length = std::sqrt(dot(edge, edge));
+  DELMESHER_CHECK(length > 0, "segment of no length");
+  const double t = dot(local[1], edge) / length / length;
+  const double slack = tolerance / length;
+  double lo = t - slack;
+  double hi = t + slack;
+  if (inside) {
+    // Never more than halfway from the target to an end, however large the tolerance; and if the
+    // target lies beyond the anchor, as near to it as the tolerance resolves.
+    const double aim = std::clamp(t, std::clamp(slack, 0x1p-52, 0.25), 0.75);
+    lo = std::max(lo, aim / 2);
+    hi = std::min(std::max(hi, aim), (1 + aim) / 2);
+    lo = std::min(lo, hi);
+  }
+  return {PointKind::on_segment, {p, q, kNone}, shortest_dyadic(lo, hi), 0};
+}
+
+PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId q, VertexId r,
+                                  const Vec3& target, double tolerance) {
+  std::array<VertexId, 3> corner = {p, q, r};
+  std::array<Vec3, 3> ends = {points.nearest(p), points.nearest(q), points.nearest(r)};
+  double unused = 0;
+  localise(ends, target, unused);
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (dot(ends[i], ends[i]) < dot(ends[nearest], ends[nearest])) nearest = i;
+  }
+  std::rotate(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>((nearest + 1) % 3),
+              corner.end());
+  std::array<Vec3, 3> local = {points.nearest(corner[0]), points.nearest(corner[1]), target};
+  localise(local, points.nearest(corner[2]), tolerance);
+  const auto [u, v] = solve(local[0], local[1], local[2]);
+  const auto shortest = [&](double x, const Vec3& edge) {
+    const double slack = tolerance / 2 / std::sqrt(dot(edge, edge));
+    return shortest_dyadic(x - slack, x + slack);
+  };
+  return {PointKind::on_triangle, corner, shortest(u, local[0]), shortest(v, local[1])};
+}
+
+Vec3 snap_to_grid(const Vec3& point, double tolerance) {
+  if (!(tolerance > 0) || std::isinf(tolerance)) return point;
+  const double spacing = std::ldexp(1.0, std::ilogb(tolerance));
+  Vec3 result = point;
+  for (double& x : result) {
+    // From 2^52 spacings on, doubles are multiples of the spacing anyway.
+    if (std::fabs(x) < spacing * 0x1p52) x = std::round(x / spacing) * spacing;
+  }
+  return result;
+}
+
+}  // namespace delmesher

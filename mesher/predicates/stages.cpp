@@ -1,0 +1,27 @@
+#include "mesher/predicates/stages.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace delmesher::stages {
+
+ExactArguments::ExactArguments(const PointStore& points, const VertexId* ids, int n) : count(n) {
+  std::int32_t low = std::numeric_limits<std::int32_t>::max();
+  std::int32_t high = std::numeric_limits<std::int32_t>::min();
+  for (int i = 0; i < n; ++i) {
+    points.exact(ids[i], point[i]);
+    for (const ExactCoordinate& x : point[i].coordinate) {
+      const std::int32_t limbs = x.size < 0 ? -x.size : x.size;
+      if (limbs == 0) continue;
+      low = std::min(low, x.exponent);
+      high = std::max(
+          high, x.exponent + 64 * limbs - std::countl_zero(std::uint64_t{x.limbs[limbs - 1]}));
+    }
+  }
+  if (low > high) return;  // all zero
+  exponent = low;
+  bits = high - low;
+}
+
+}  // namespace delmesher::stages
