@@ -160,7 +160,7 @@ Approximation PointStore::remainder(VertexId v) const {
   return details_[detail_of_[v]].remainder;
 }
 
-void PointStore::exact(VertexId v, ExactPoint& out) const {
+void PointStore::exact(VertexId v, ExactPosition& out) const {
   if (is_explicit(v)) {
     const Vec3 x = nearest(v);
     for (std::size_t axis = 0; axis < 3; ++axis) {

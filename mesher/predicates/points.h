@@ -44,10 +44,10 @@ struct ExactCoordinate {
 
 // The exact coordinates of one point. Valid until the store changes; not to be copied or moved (the
 // coordinates of explicit points lie inside).
-struct ExactPoint {
-  ExactPoint() = default;
-  ExactPoint(const ExactPoint&) = delete;
-  ExactPoint& operator=(const ExactPoint&) = delete;
+struct ExactPosition {
+  ExactPosition() = default;
+  ExactPosition(const ExactPosition&) = delete;
+  ExactPosition& operator=(const ExactPosition&) = delete;
 
   std::array<ExactCoordinate, 3> coordinate;
   std::array<mp_limb_t, 3> own;
@@ -88,7 +88,7 @@ class PointStore {
   // The nearest doubles of what approximation() leaves over, with the error that remains: the sum
   // of both is a double-double approximation. Zero for explicit points.
   Approximation remainder(VertexId v) const;
-  void exact(VertexId v, ExactPoint& out) const;
+  void exact(VertexId v, ExactPosition& out) const;
 
  private:
   // What plain volume points do not have: a definition, exact coordinates, supports. Kept apart, so

@@ -60,7 +60,7 @@ int extended(const PointStore& points, const Polynomial& polynomial, const Verte
 
 // The exact coordinates of up to five points and what they have in common.
 struct ExactArguments {
-  ExactPoint point[5];
+  ExactPosition point[5];
   int count = 0;
   std::int32_t exponent = 0;  // every coordinate is a multiple of 2^exponent
   std::int32_t bits = 0;      // and below 2^(exponent + bits)
