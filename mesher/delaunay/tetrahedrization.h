@@ -27,6 +27,11 @@ inline constexpr int kEdge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 
 
 class Tetrahedrization {
  public:
+  struct BoundaryFace {
+    TetId inner;  // in the cavity
+    int face;     // of `inner`
+  };
+
   explicit Tetrahedrization(Predicates& predicates);
 
   // Builds the tetrahedrization of the given points (at least four not coplanar; distinct),
@@ -58,7 +63,8 @@ class Tetrahedrization {
   // edge.
   void edge_ring(TetId t, VertexId a, VertexId b, std::vector<TetId>& ring) const;
 
-  // --- insertion in three steps, so that a caller can look before it commits
+  // --- insertion in three steps, so that a caller can look before it
+  // commits
   // A tetrahedron containing point v, walking from `hint`; a ghost if v is outside the hull. v need
   // not be a vertex. If v coincides with a vertex, that vertex's id is stored in *duplicate (else
   // kNone).
@@ -71,6 +77,9 @@ class Tetrahedrization {
   // vertices stay readable until the next insertion; `created()` lists the new ones.
   void fill_cavity(VertexId v);
   std::span<const TetId> created() const { return created_; }
+  // The faces bounding the last cavity: created()[n] is `inner` with the vertex at slot `face`
+  // replaced by v.
+  std::span<const BoundaryFace> cavity_boundary() const { return boundary_; }
   // All three steps. Returns false and does nothing if v coincides with a vertex.
   bool insert(VertexId v, TetId hint);
 
@@ -86,6 +95,31 @@ class Tetrahedrization {
   void validate(bool delaunay);
 
   Predicates& predicates() { return predicates_; }
+
+ private:
+  TetId allocate();
+  void first_tetrahedron(std::span<VertexId> order);
+  bool conflicts(TetId t, VertexId v);
+  void collect_star(VertexId v);
+  // Creates the tetrahedron of v over one cavity boundary face.
+  TetId cone(const BoundaryFace& boundary, VertexId v);
+  void glue_around(TetId created, const BoundaryFace& boundary);
+  std::uint32_t next_random() { return random_ = random_ * 1664525U + 1013904223U; }
+
+  Predicates& predicates_;
+  std::vector<VertexId> vertex_;         // 4 per tetrahedron
+  std::vector<std::uint32_t> neighbor_;  // 4 per tetrahedron: 4 * tet + face over there
+  std::vector<std::uint8_t> dead_;
+  std::vector<std::uint32_t> mark_;  // epoch_: in the cavity; epoch_ + 1: visited, not in it
+  std::vector<TetId> free_;
+  std::vector<TetId> incident_;  // per point of the store
+  std::uint32_t epoch_ = 0;
+  std::uint32_t random_ = 1;
+  std::vector<TetId> cavity_, created_;
+  std::vector<BoundaryFace> boundary_;
+  std::vector<TetId> star_;
+  std::vector<std::uint32_t> star_mark_;
+  std::uint32_t star_epoch_ = 0;
 };
 
 }  // namespace delmesher

@@ -1,0 +1,390 @@
+// Incremental Delaunay tetrahedrization by cavities (Bowyer 1981, Watson 1981) with ghost
+// tetrahedra, visibility walk and spatially sorted bulk insertion. Cavities are star-shaped without
+// repair because the perturbation acts on lifted heights: a point coplanar with a face is judged
+// alike by the face's two tetrahedra.
+#include "mesher/delaunay/tetrahedrization.h"
+
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/base/spatial_sort.h"
+
+namespace delmesher {
+
+Tetrahedrization::Tetrahedrization(Predicates& predicates) : predicates_(predicates) {}
+
+// ------------------------------------------------------------------------------------- building
+
+void Tetrahedrization::build(std::span<const VertexId> vertices, Control& control) {
+  DELMESHER_CHECK(vertex_.empty(), "tetrahedrization built twice");
+  const PointStore& points = predicates_.points();
+  std::vector<VertexId> order(vertices.begin(), vertices.end());
+  {
+    std::vector<std::array<double, 3>> coordinates(vertices.size());
+    std::vector<std::uint32_t> position(vertices.size());
+    for (std::uint32_t n = 0; n < vertices.size(); ++n) {
+      coordinates[n] = points.nearest(vertices[n]);
+      position[n] = n;
+    }
+    spatial_sort(position, coordinates);
+    for (std::size_t n = 0; n < order.size(); ++n) order[n] = vertices[position[n]];
+  }
+  vertex_.reserve(order.size() * 28);
+  neighbor_.reserve(order.size() * 28);
+  first_tetrahedron(order);
+  TetId hint = 0;
+  for (std::size_t n = 4; n < order.size(); ++n) {
+    control.poll(order.size(), static_cast<double>(n) / static_cast<double>(order.size()));
+    DELMESHER_CHECK(insert(order[n], hint), "coincident vertices in a tetrahedrization");
+    hint = incident_[order[n]];
+  }
+}
+
+// Moves four points that are not coplanar to the front and makes the first tetrahedron of them.
+void Tetrahedrization::first_tetrahedron(std::span<VertexId> order) {
+  const auto bring = [&](std::size_t slot, auto&& suits) {
+    for (std::size_t n = slot; n < order.size(); ++n) {
+      if (suits(order[n])) {
+        // Rotated, not swapped, so that the rest stays in spatial order.
+        std::rotate(order.begin() + static_cast<std::ptrdiff_t>(slot),
+                    order.begin() + static_cast<std::ptrdiff_t>(n),
+                    order.begin() + static_cast<std::ptrdiff_t>(n) + 1);
+        return true;
+      }
+    }
+    return false;
+  };
+  const bool found =
+      order.size() >= 4 &&
+      bring(1, [&](VertexId v) { return predicates_.compare_xyz(order[0], v) != 0; }) &&
+      bring(2,
+            [&](VertexId v) {
+              for (int axis = 0; axis < 3; ++axis) {
+                if (predicates_.orient2d(axis, order[0], order[1], v) != 0) return true;
+              }
+              return false;
+            }) &&
+      bring(3,
+            [&](VertexId v) { return predicates_.orient3d(order[0], order[1], order[2], v) != 0; });
+  DELMESHER_CHECK(found, "fewer than four vertices that are not coplanar");
+  VertexId a = order[0];
+  VertexId b = order[1];
+  if (predicates_.orient3d(a, b, order[2], order[3]) < 0) std::swap(a, b);
+  const TetId t = create(a, b, order[2], order[3]);
+  TetId ghost[4];
+  for (int i = 0; i < 4; ++i) {
+    // The infinite vertex takes the place of vertex i on the other side of face i: two other
+    // vertices change places to keep the orientation positive.
+    std::array<VertexId, 4> w = {vertex(t, 0), vertex(t, 1), vertex(t, 2), vertex(t, 3)};
+    w[i] = kInfinite;
+    std::swap(w[(i + 1) & 3], w[(i + 2) & 3]);
+    ghost[i] = create(w[0], w[1], w[2], w[3]);
+    glue(t, i, ghost[i], i);
+  }
+  for (int i = 0; i < 4; ++i) {
+    for (int j = i + 1; j < 4; ++j) {
+      // Ghosts i and j share the two vertices other than i and j; each is glued by its face
+      // opposite the vertex that the other lacks.
+      glue(ghost[i], index_of(ghost[i], vertex(t, j)), ghost[j], index_of(ghost[j], vertex(t, i)));
+    }
+  }
+  for (int i = 0; i < 4; ++i) incident_[vertex(t, i)] = t;
+}
+
+TetId Tetrahedrization::allocate() {
+  if (!free_.empty()) {
+    const TetId t = free_.back();
+    free_.pop_back();
+    dead_[t] = 0;
+    mark_[t] = 0;
+    return t;
+  }
+  const auto t = static_cast<TetId>(dead_.size());
+  DELMESHER_CHECK(t < (1U << 30), "too many tetrahedra for 32-bit adjacency");
+  dead_.push_back(0);
+  mark_.push_back(0);
+  star_mark_.push_back(0);
+  vertex_.resize(vertex_.size() + 4);
+  neighbor_.resize(neighbor_.size() + 4, kNone);
+  return t;
+}
+
+TetId Tetrahedrization::create(VertexId a, VertexId b, VertexId c, VertexId d) {
+  const TetId t = allocate();
+  VertexId* v = &vertex_[4 * std::size_t{t}];
+  v[0] = a;
+  v[1] = b;
+  v[2] = c;
+  v[3] = d;
+  for (const VertexId w : {a, b, c, d}) {
+    if (w != kInfinite && w >= incident_.size()) incident_.resize(std::size_t{w} + 1, kNone);
+  }
+  return t;
+}
+
+void Tetrahedrization::destroy(TetId t) {
+  dead_[t] = 1;
+  free_.push_back(t);
+}
+
+void Tetrahedrization::glue(TetId t, int i, TetId u, int j) {
+  neighbor_[4 * std::size_t{t} + i] = 4 * u + static_cast<std::uint32_t>(j);
+  neighbor_[4 * std::size_t{u} + j] = 4 * t + static_cast<std::uint32_t>(i);
+}
+
+// -------------------------------------------------------------------------------------- queries
+
+std::size_t Tetrahedrization::tetrahedra() const {
+  std::size_t count = 0;
+  for (TetId t = 0; t < capacity(); ++t) count += (alive(t) && !is_ghost(t)) ? 1 : 0;
+  return count;
+}
+
+bool Tetrahedrization::is_ghost(TetId t) const {
+  return index_of(t, kInfinite) >= 0;
+}
+
+int Tetrahedrization::index_of(TetId t, VertexId v) const {
+  const VertexId* w = vertices(t);
+  for (int i = 0; i < 4; ++i) {
+    if (w[i] == v) return i;
+  }
+  return -1;
+}
+
+void Tetrahedrization::collect_star(VertexId v) {
+  star_.clear();
+  const TetId first = incident(v);
+  if (first == kNone) return;
+  ++star_epoch_;
+  star_mark_[first] = star_epoch_;
+  star_.push_back(first);
+  for (std::size_t n = 0; n < star_.size(); ++n) {
+    const TetId t = star_[n];
+    const int own = index_of(t, v);
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = neighbor(t, i);
+      if (i == own || star_mark_[u] == star_epoch_) continue;
+      star_mark_[u] = star_epoch_;
+      star_.push_back(u);
+    }
+  }
+}
+
+std::span<const TetId> Tetrahedrization::star(VertexId v) {
+  collect_star(v);
+  return star_;
+}
+
+TetId Tetrahedrization::find_edge(VertexId a, VertexId b) {
+  collect_star(a);
+  for (const TetId t : star_) {
+    if (index_of(t, b) >= 0) return t;
+  }
+  return kNone;
+}
+
+std::uint32_t Tetrahedrization::find_face(VertexId a, VertexId b, VertexId c) {
+  collect_star(a);
+  std::uint32_t found = kNone;
+  for (const TetId t : star_) {
+    if (index_of(t, b) < 0 || index_of(t, c) < 0) continue;
+    for (int i = 0; i < 4; ++i) {
+      const VertexId w = vertex(t, i);
+      if (w != a && w != b && w != c) found = 4 * t + static_cast<std::uint32_t>(i);
+    }
+    if (!is_ghost(t)) return found;
+  }
+  return found;
+}
+
+void Tetrahedrization::edge_ring(TetId t, VertexId a, VertexId b, std::vector<TetId>& ring) const {
+  ring.clear();
+  // Leave through the face opposite `out`, keeping the other vertex off the edge as the pivot.
+  int out = 0;
+  while (vertex(t, out) == a || vertex(t, out) == b) ++out;
+  TetId current = t;
+  do {
+    ring.push_back(current);
+    int stay = 0;
+    while (stay == out || vertex(current, stay) == a || vertex(current, stay) == b) ++stay;
+    const VertexId pivot = vertex(current, stay);
+    current = neighbor(current, out);
+    out = index_of(current, pivot);
+  } while (current != t);
+}
+
+// ------------------------------------------------------------------------------------ insertion
+
+TetId Tetrahedrization::locate(VertexId v, TetId hint, VertexId* duplicate) {
+  if (duplicate != nullptr) *duplicate = kNone;
+  TetId t = hint;
+  for (int i = 0; i < 4; ++i) {
+    if (vertex(t, i) == kInfinite) {
+      t = neighbor(t, i);
+      break;
+    }
+  }
+  int entered = -1;
+  for (;;) {
+    const VertexId* w = vertices(t);
+    const std::uint32_t first = next_random() >> 30;
+    int zeros = 0;
+    int leave = -1;
+    for (std::uint32_t n = 0; n < 4; ++n) {
+      const int i = static_cast<int>((first + n) & 3U);
+      if (i == entered) continue;
+      const int side = predicates_.orient3d(w[kFace[i][0]], w[kFace[i][1]], w[kFace[i][2]], v);
+      if (side > 0) {
+        leave = i;
+        break;
+      }
+      if (side == 0) ++zeros;
+    }
+    if (leave < 0) {
+      if (duplicate != nullptr && zeros == 3) {
+        for (int i = 0; i < 4; ++i) {
+          if (predicates_.compare_xyz(w[i], v) == 0) *duplicate = w[i];
+        }
+      }
+      return t;
+    }
+    entered = mirror(t, leave);
+    t = neighbor(t, leave);
+    if (vertex(t, entered) == kInfinite) return t;
+  }
+}
+
+bool Tetrahedrization::conflicts(TetId t, VertexId v) {
+  const VertexId* w = vertices(t);
+  for (int i = 0; i < 4; ++i) {
+    if (w[i] != kInfinite) continue;
+    VertexId x[4] = {w[0], w[1], w[2], w[3]};
+    x[i] = v;
+    const int side = predicates_.orient3d(x[0], x[1], x[2], x[3]);
+    if (side != 0) return side > 0;
+    w = vertices(neighbor(t, i));
+    break;
+  }
+  return predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], v) > 0;
+}
+
+void Tetrahedrization::find_cavity(VertexId v, TetId start) {
+  epoch_ += 2;
+  if (epoch_ >= 0xfffffff0U) {
+    std::fill(mark_.begin(), mark_.end(), 0U);
+    epoch_ = 2;
+  }
+  cavity_.clear();
+  boundary_.clear();
+  cavity_.push_back(start);
+  mark_[start] = epoch_;
+  for (std::size_t n = 0; n < cavity_.size(); ++n) {
+    const TetId t = cavity_[n];
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = neighbor(t, i);
+      if (mark_[u] == epoch_) continue;
+      if (mark_[u] != epoch_ + 1) {
+        if (conflicts(u, v)) {
+          mark_[u] = epoch_;
+          cavity_.push_back(u);
+          continue;
+        }
+        mark_[u] = epoch_ + 1;
+      }
+      boundary_.push_back({t, i});
+    }
+  }
+}
+
+TetId Tetrahedrization::cone(const BoundaryFace& boundary, VertexId v) {
+  const TetId t = allocate();
+  const std::size_t inner = 4 * std::size_t{boundary.inner};
+  VertexId* w = &vertex_[4 * std::size_t{t}];
+  bool ghost = false;
+  for (int i = 0; i < 4; ++i) {
+    w[i] = i == boundary.face ? v : vertex_[inner + i];
+    ghost = ghost || w[i] == kInfinite;
+  }
+  if (!ghost) {
+    for (int i = 0; i < 4; ++i) incident_[w[i]] = t;
+  }
+  const std::uint32_t outside = neighbor_[inner + boundary.face];
+  neighbor_[4 * std::size_t{t} + boundary.face] = outside;
+  neighbor_[outside] = 4 * t + static_cast<std::uint32_t>(boundary.face);
+  // The dead tetrahedron's slot now leads to the new one: glue_around looks it up there.
+  neighbor_[inner + boundary.face] = 4 * t + static_cast<std::uint32_t>(boundary.face);
+  return t;
+}
+
+void Tetrahedrization::glue_around(TetId created, const BoundaryFace& boundary) {
+  for (int j = 0; j < 4; ++j) {
+    if (j == boundary.face) continue;
+    // Rotate inside the cavity around the edge that face j of the new tetrahedron shares with the
+    // boundary face, until the boundary face on the other side.
+    TetId c = boundary.inner;
+    int cross = j;
+    int stay = boundary.face;
+    for (;;) {
+      const std::uint32_t next = neighbor_[4 * std::size_t{c} + cross];
+      const TetId u = next >> 2;
+      if (mark_[u] != epoch_) {
+        neighbor_[4 * std::size_t{created} + j] = 4 * u + static_cast<std::uint32_t>(stay);
+        break;
+      }
+      const VertexId pivot = vertex_[4 * std::size_t{c} + stay];
+      stay = static_cast<int>(next & 3U);
+      c = u;
+      cross = index_of(c, pivot);
+    }
+  }
+}
+
+void Tetrahedrization::fill_cavity(VertexId v) {
+  if (v >= incident_.size()) incident_.resize(std::size_t{v} + 1, kNone);
+  created_.clear();
+  for (const BoundaryFace& boundary : boundary_) created_.push_back(cone(boundary, v));
+  for (std::size_t n = 0; n < boundary_.size(); ++n) glue_around(created_[n], boundary_[n]);
+  for (const TetId t : cavity_) destroy(t);
+}
+
+bool Tetrahedrization::insert(VertexId v, TetId hint) {
+  VertexId duplicate = kNone;
+  const TetId t = locate(v, hint, &duplicate);
+  if (duplicate != kNone) return false;
+  find_cavity(v, t);
+  fill_cavity(v);
+  return true;
+}
+
+// ----------------------------------------------------------------------------------- validation
+
+void Tetrahedrization::validate(bool delaunay) {
+  for (TetId t = 0; t < capacity(); ++t) {
+    if (!alive(t)) continue;
+    const VertexId* w = vertices(t);
+    const bool ghost = is_ghost(t);
+    DELMESHER_CHECK(ghost || predicates_.orient3d(w[0], w[1], w[2], w[3]) > 0,
+                    "tetrahedron not positively oriented");
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = neighbor(t, i);
+      const int j = mirror(t, i);
+      DELMESHER_CHECK(u < capacity() && alive(u), "neighbour is dead");
+      DELMESHER_CHECK(neighbor(u, j) == t && mirror(u, j) == i, "adjacency not symmetric");
+      DELMESHER_CHECK(index_of(t, vertex(u, j)) < 0, "neighbours share all vertices");
+      for (int k = 0; k < 4; ++k) {
+        DELMESHER_CHECK(k == i || index_of(u, w[k]) >= 0, "neighbours do not share a face");
+      }
+      if (w[i] != kInfinite) {
+        const TetId s = incident(w[i]);
+        DELMESHER_CHECK(s != kNone && alive(s) && index_of(s, w[i]) >= 0, "incident() is stale");
+      }
+      if (delaunay && !ghost && !is_ghost(u)) {
+        DELMESHER_CHECK(predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], vertex(u, j)) < 0,
+                        "face not locally Delaunay");
+      }
+    }
+  }
+}
+
+}  // namespace delmesher

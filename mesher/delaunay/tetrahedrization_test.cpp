@@ -1,0 +1,188 @@
+// Laws of the Delaunay tetrahedrization: valid structure, locally Delaunay, unique, and independent
+// of insertion order.
+#include "mesher/delaunay/tetrahedrization.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "mesher/base/check.h"
+
+namespace delmesher {
+namespace {
+
+using TetSet = std::set<std::array<VertexId, 4>>;
+
+struct Fixture {
+  PointStore points;
+  Predicates predicates{points};
+  Options options;
+  Control control{options};
+
+  std::vector<VertexId> all() const {
+    std::vector<VertexId> ids(points.size());
+    for (VertexId v = 0; v < ids.size(); ++v) ids[v] = v;
+    return ids;
+  }
+};
+
+TetSet tets(const Tetrahedrization& dt) {
+  TetSet set;
+  for (TetId t = 0; t < dt.capacity(); ++t) {
+    if (!dt.alive(t) || dt.is_ghost(t)) continue;
+    std::array<VertexId, 4> v = {dt.vertex(t, 0), dt.vertex(t, 1), dt.vertex(t, 2),
+                                 dt.vertex(t, 3)};
+    std::sort(v.begin(), v.end());
+    set.insert(v);
+  }
+  return set;
+}
+
+void add_random(PointStore& points, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int n = 0; n < count; ++n) {
+    const double x = u(random);
+    const double y = u(random);
+    points.add_explicit(x, y, u(random));
+  }
+}
+
+// All 8 k^3 ties: every cell of an integer grid is cospherical, every plane coplanar.
+void add_grid(PointStore& points, int k) {
+  for (int x = 0; x < k; ++x) {
+    for (int y = 0; y < k; ++y) {
+      for (int z = 0; z < k; ++z) points.add_explicit(x, y, z);
+    }
+  }
+}
+
+TEST(Tetrahedrization, RandomPointsAreDelaunay) {
+  Fixture f;
+  add_random(f.points, 2000, 1);
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  dt.validate(true);
+  // Between the number of tetrahedra of a stacked polytope and Euler's usual 6.7 per random point.
+  EXPECT_GT(dt.tetrahedra(), 2000U * 5);
+  EXPECT_LT(dt.tetrahedra(), 2000U * 7);
+}
+
+TEST(Tetrahedrization, GridFillsItsCube) {
+  Fixture f;
+  add_grid(f.points, 9);
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  dt.validate(true);
+  double volume6 = 0;
+  for (const auto& t : tets(dt)) {
+    Vec3 p[4];
+    for (int i = 0; i < 4; ++i) p[i] = f.points.nearest(t[i]);
+    double d[3][3];
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) d[i][k] = p[i + 1][k] - p[0][k];
+    }
+    const double det = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
+                       d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
+                       d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+    EXPECT_NE(det, 0);
+    volume6 += std::abs(det);
+  }
+  EXPECT_EQ(volume6, 6.0 * 8 * 8 * 8);  // small integers: exact in doubles
+}
+
+TEST(Tetrahedrization, IndependentOfInsertionOrder) {
+  for (const bool grid : {false, true}) {
+    Fixture f;
+    if (grid) {
+      add_grid(f.points, 5);
+    } else {
+      add_random(f.points, 300, 2);
+    }
+    std::vector<VertexId> ids = f.all();
+    Tetrahedrization reference(f.predicates);
+    reference.build(ids, f.control);
+    const TetSet expected = tets(reference);
+    std::mt19937 random(3);
+    for (int round = 0; round < 5; ++round) {
+      std::shuffle(ids.begin(), ids.end(), random);
+      Tetrahedrization dt(f.predicates);
+      dt.build(ids, f.control);
+      dt.validate(true);
+      EXPECT_EQ(tets(dt), expected) << (grid ? "grid" : "random") << " round " << round;
+    }
+  }
+}
+
+TEST(Tetrahedrization, FindsVerticesEdgesAndFaces) {
+  Fixture f;
+  add_grid(f.points, 4);
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  std::size_t faces = 0;
+  for (const auto& t : tets(dt)) {
+    for (const auto& face : kFace) {
+      const std::uint32_t found = dt.find_face(t[face[0]], t[face[1]], t[face[2]]);
+      ASSERT_NE(found, kNone);
+      EXPECT_LT(dt.index_of(found >> 2, dt.vertex(found >> 2, static_cast<int>(found & 3U))), 4);
+      ++faces;
+    }
+    for (const auto& edge : kEdge) {
+      const TetId having = dt.find_edge(t[edge[0]], t[edge[1]]);
+      ASSERT_NE(having, kNone);
+      std::vector<TetId> ring;
+      dt.edge_ring(having, t[edge[0]], t[edge[1]], ring);
+      EXPECT_GE(ring.size(), 3U);
+      for (const TetId r : ring) {
+        EXPECT_GE(dt.index_of(r, t[edge[0]]), 0);
+        EXPECT_GE(dt.index_of(r, t[edge[1]]), 0);
+      }
+    }
+  }
+  EXPECT_GT(faces, 100U);
+  EXPECT_EQ(dt.find_edge(0, 63), kNone);  // opposite corners of the cube
+}
+
+TEST(Tetrahedrization, RefusesDuplicatesAndFlatInput) {
+  Fixture f;
+  add_grid(f.points, 3);
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  const VertexId twin = f.points.add_explicit(1, 1, 1);
+  const TetSet before = tets(dt);
+  EXPECT_FALSE(dt.insert(twin, 0));
+  EXPECT_EQ(tets(dt), before);
+
+  Fixture flat;
+  for (int n = 0; n < 20; ++n) flat.points.add_explicit(n % 5, n / 5, 0);
+  Tetrahedrization none(flat.predicates);
+  EXPECT_THROW(none.build(flat.all(), flat.control), InternalError);
+}
+
+TEST(Tetrahedrization, MixedPointsOnAnEdgeAndATriangle) {
+  Fixture f;
+  add_random(f.points, 50, 5);
+  for (int n = 1; n < 40; ++n) f.points.add_on_segment(0, 1, n / 40.0);
+  for (int n = 1; n < 20; ++n) {
+    for (int m = 1; n + m < 20; ++m) f.points.add_on_triangle(2, 3, 4, n / 20.0, m / 20.0);
+  }
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  dt.validate(true);
+}
+
+TEST(Tetrahedrization, ValidateCatchesDamage) {
+  Fixture f;
+  add_random(f.points, 50, 7);
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  TetId t = 0;
+  while (!dt.alive(t) || dt.is_ghost(t)) ++t;
+  dt.glue(t, 0, t, 1);
+  EXPECT_THROW(dt.validate(false), InternalError);
+}
+
+}  // namespace
+}  // namespace delmesher

@@ -1,0 +1,195 @@
+// Insertion into the tetrahedrization with its subsegments and subfacets.
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/refine/refiner.h"
+
+namespace delmesher {
+namespace {
+
+// Edges (bits of kEdge) that do not use vertex i.
+constexpr std::uint8_t kEdgesWithout[4] = {0b111000, 0b100110, 0b010101, 0b001011};
+
+}  // namespace
+
+Refiner::Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
+                 Predicates& predicates, const RefineOptions& options, Control& control)
+    : plc_(plc),
+      topology_(topology),
+      points_(points),
+      predicates_(predicates),
+      options_(options),
+      control_(control),
+      dt_(predicates),
+      solid_(topology, predicates),
+      locator_(topology, points),
+      max_cosine_squared_(cosine_squared(options.delta)) {
+  // An isosceles triangle with unit base and apex angle delta has height cot(delta / 2) / 2, and
+  // cot^2(delta / 2) = (1 + cos delta) / (1 - cos delta).
+  const double cosine = std::sqrt(max_cosine_squared_);
+  offcentre2_ = (1 + cosine) / (1 - cosine) / 4;
+}
+
+Vec3 Refiner::relative(VertexId v, const Vec3& origin) const {
+  const Approximation& p = points_.approximation(v);
+  return {p.x - origin[0], p.y - origin[1], p.z - origin[2]};
+}
+
+void Refiner::queue_subsegment(std::uint32_t s) {
+  if (subsegments_[s].queued || !subsegments_[s].alive) return;
+  subsegments_[s].queued = true;
+  subsegment_queue_.push_back(s);
+}
+
+void Refiner::queue_subfacet(std::uint32_t s) {
+  if (subfacets_[s].queued || !subfacets_[s].alive) return;
+  subfacets_[s].queued = true;
+  subfacet_queue_.push_back(s);
+}
+
+void Refiner::drain() {
+  while (!subsegment_queue_.empty() || !subfacet_queue_.empty()) {
+    control_.poll(points_.size());
+    if (!subsegment_queue_.empty()) {
+      const std::uint32_t s = subsegment_queue_.front();
+      subsegment_queue_.pop_front();
+      subsegments_[s].queued = false;
+      if (subsegments_[s].alive) split_subsegment(s);
+    } else {
+      const std::uint32_t s = subfacet_queue_.front();
+      subfacet_queue_.pop_front();
+      subfacets_[s].queued = false;
+      if (subfacets_[s].alive) split_subfacet(s);
+    }
+  }
+}
+
+// Lists the subsegments and subfacets in and on the cavity: the only ones that its new vertex can
+// encroach upon, because the diametral ball of an edge or face is covered by the circumballs of the
+// tetrahedra around it.
+void Refiner::collect_constraints() {
+  ++stamp_;
+  subfacet_stamp_.resize(subfacets_.size(), 0);
+  subsegment_stamp_.resize(subsegments_.size(), 0);
+  found_subfacets_.clear();
+  found_subsegments_.clear();
+  for (const TetId t : dt_.cavity()) {
+    if (t >= subfacet_.size()) continue;
+    for (const std::uint32_t s : subfacet_[t]) {
+      if (s == kNone || !subfacets_[s].alive) continue;
+      if (subfacet_stamp_[s] == stamp_) {
+        for (FoundSubfacet& found : found_subfacets_) found.internal |= found.id == s;
+        continue;
+      }
+      subfacet_stamp_[s] = stamp_;
+      found_subfacets_.push_back({s, false});
+    }
+    for (int e = 0; e < 6; ++e) {
+      if ((edge_bits_[t] >> e & 1) == 0) continue;
+      const std::uint32_t s =
+          find_subsegment(dt_.vertex(t, kEdge[e][0]), dt_.vertex(t, kEdge[e][1]));
+      if (s == kNone || subsegment_stamp_[s] == stamp_) continue;
+      subsegment_stamp_[s] = stamp_;
+      found_subsegments_.push_back(s);
+    }
+  }
+}
+
+bool Refiner::queue_encroached_subsegments(VertexId v) {
+  bool any = false;
+  for (const std::uint32_t s : found_subsegments_) {
+    if (predicates_.dot_sign(subsegments_[s].a, v, subsegments_[s].b) < 0) {
+      queue_subsegment(s);
+      any = true;
+    }
+  }
+  return any;
+}
+
+bool Refiner::queue_encroached_subfacets(VertexId v) {
+  bool any = false;
+  for (const FoundSubfacet& found : found_subfacets_) {
+    const auto& c = subfacets_[found.id].v;
+    if (predicates_.in_diametral_ball(c[0], c[1], c[2], v) > 0) {
+      queue_subfacet(found.id);
+      any = true;
+    }
+  }
+  return any;
+}
+
+// Fills the cavity and carries over what is known of its tetrahedra. collect_constraints() must
+// have been called.
+void Refiner::commit(VertexId v) {
+  std::uint8_t side = kUnknown;
+  bool first = true;
+  for (const TetId t : dt_.cavity()) {
+    if (dt_.is_ghost(t)) continue;
+    const std::uint8_t known = side_[t];
+    if (first) side = known;
+    if (known != side) side = kUnknown;
+    first = false;
+  }
+  if (side == kStraddling) side = kUnknown;
+  dt_.fill_cavity(v);
+  const std::size_t capacity = dt_.capacity();
+  if (capacity > subfacet_.size()) {
+    subfacet_.resize(capacity, {kNone, kNone, kNone, kNone});
+    edge_bits_.resize(capacity, 0);
+    side_.resize(capacity, kUnknown);
+  }
+  const auto created = dt_.created();
+  const auto boundary = dt_.cavity_boundary();
+  for (std::size_t n = 0; n < created.size(); ++n) {
+    const TetId t = created[n];
+    const int face = boundary[n].face;
+    subfacet_[t] = {kNone, kNone, kNone, kNone};
+    subfacet_[t][face] = subfacet_[boundary[n].inner][face];
+    edge_bits_[t] = edge_bits_[boundary[n].inner] & kEdgesWithout[face];
+    side_[t] = side;
+  }
+}
+
+// Queues the elements that the last commit() removed from the tetrahedrization although they are
+// alive.
+void Refiner::requeue_lost() {
+  for (const FoundSubfacet& found : found_subfacets_) {
+    if (found.internal) queue_subfacet(found.id);
+  }
+  ++stamp_;
+  for (const TetId t : dt_.created()) {
+    for (int e = 0; e < 6; ++e) {
+      if ((edge_bits_[t] >> e & 1) == 0) continue;
+      const std::uint32_t s =
+          find_subsegment(dt_.vertex(t, kEdge[e][0]), dt_.vertex(t, kEdge[e][1]));
+      if (s != kNone && s < subsegment_stamp_.size()) subsegment_stamp_[s] = stamp_;
+    }
+  }
+  for (const std::uint32_t s : found_subsegments_) {
+    if (subsegment_stamp_[s] != stamp_) queue_subsegment(s);
+  }
+}
+
+void Refiner::after_insertion() {
+  for (const std::uint32_t s : new_subfacets_) {
+    // Every new subfacet has the new vertex first, which all created tetrahedra have too.
+    const VertexId x = subfacets_[s].v[1];
+    const VertexId y = subfacets_[s].v[2];
+    std::uint32_t face = kNone;
+    for (const TetId t : dt_.created()) {
+      const int i = dt_.index_of(t, x);
+      if (i < 0) continue;
+      const int j = dt_.index_of(t, y);
+      if (j < 0) continue;
+      const int k = dt_.index_of(t, subfacets_[s].v[0]);
+      face = 4 * t + static_cast<std::uint32_t>(6 - i - j - k);
+      break;
+    }
+    check_subfacet(s, face);
+  }
+  requeue_lost();
+  if (!refining_) return;
+  for (const TetId t : dt_.created()) queue_if_bad(t);
+}
+
+}  // namespace delmesher

@@ -1,0 +1,73 @@
+// Algorithm 1 of the paper, in its order.
+#include "mesher/refine/refine.h"
+
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/refine/refiner.h"
+
+namespace delmesher {
+
+void Refiner::run() {
+  control_.enter(Phase::delaunay);
+  std::vector<VertexId> vertices = plc_.free_vertices;
+  for (const PlcSegment& segment : plc_.segments) {
+    vertices.insert(vertices.end(), segment.vertex.begin(), segment.vertex.end());
+  }
+  for (const PlcFacet& facet : plc_.facets) {
+    vertices.insert(vertices.end(), facet.isolated.begin(), facet.isolated.end());
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  dt_.build(vertices, control_);
+  subfacet_.assign(dt_.capacity(), {kNone, kNone, kNone, kNone});
+  edge_bits_.assign(dt_.capacity(), 0);
+  side_.assign(dt_.capacity(), kUnknown);
+
+  control_.enter(Phase::segments);
+  recover_segments();
+  control_.enter(Phase::facets);
+  build_facets();
+  recover_facets();
+  control_.enter(Phase::refine);
+  refine_tetrahedra();
+}
+
+RefineResult Refiner::result() {
+  RefineResult r;
+  for (TetId t = 0; t < dt_.capacity(); ++t) {
+    if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
+    control_.poll(points_.size());
+    const VertexId* v = dt_.vertices(t);
+    r.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
+    Side side = Side::straddling;
+    if (side_[t] == kInside) side = Side::inside;
+    if (side_[t] == kOutside) side = Side::outside;
+    if (side_[t] == kUnknown) side = solid_.classify({v[0], v[1], v[2], v[3]});
+    r.side.push_back(side);
+  }
+  for (const Subfacet& f : subfacets_) {
+    if (f.alive) r.faces.push_back({f.v, f.facet});
+  }
+  r.chain.resize(plc_.segments.size());
+  for (std::size_t n = 0; n < plc_.segments.size(); ++n) {
+    r.chain[n].push_back(plc_.segments[n].vertex[0]);
+    for (std::uint32_t s = first_subsegment_[n]; s != kNone; s = subsegments_[s].next) {
+      r.chain[n].push_back(subsegments_[s].b);
+    }
+  }
+  r.on_facet = std::move(on_facet_);
+  r.in_volume = std::move(in_volume_);
+  r.on_segments = on_segments_;
+  r.on_facets = on_facets_;
+  return r;
+}
+
+RefineResult refine(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
+                    Predicates& predicates, const RefineOptions& options, Control& control) {
+  Refiner refiner(plc, topology, points, predicates, options, control);
+  refiner.run();
+  return refiner.result();
+}
+
+}  // namespace delmesher

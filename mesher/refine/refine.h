@@ -1,0 +1,47 @@
+// Delaunay refinement of a piecewise linear complex (section 5, algorithm 1).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/predicates/predicates.h"
+#include "mesher/surface/plc.h"
+#include "mesher/surface/solid.h"
+#include "mesher/surface/topology.h"
+
+namespace delmesher {
+
+struct RefineOptions {
+  double delta = 14.47;  // degrees
+  bool slivers = true;
+  double max_edge = 0;               // 0: no bound
+  Region region = Region::interior;  // where bad tetrahedra are split
+};
+
+struct RefinedFace {
+  std::array<VertexId, 3> vertices;  // counter-clockwise seen from outside
+  std::uint32_t facet;               // of the complex
+};
+
+struct RefineResult {
+  std::vector<std::array<VertexId, 4>> tetrahedra;  // all of them down to the outer box
+  std::vector<Side> side;                           // per tetrahedron
+  std::vector<RefinedFace> faces;
+  std::vector<std::vector<VertexId>> chain;     // per segment of the complex, end to end
+  std::vector<std::vector<VertexId>> on_facet;  // per facet: points inserted inside it
+  std::vector<VertexId> in_volume;
+  std::uint64_t on_segments = 0, on_facets = 0;
+};
+
+// Appends the outer box (section 5.1) to the complex: six rectangles around all input points.
+void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc);
+
+// Refines the complex, which must include the outer box. Ends for complexes satisfying the
+// projection condition and delta below 14.48 degrees; the control's limits hold otherwise. Appends
+// Steiner points to the store.
+RefineResult refine(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
+                    Predicates& predicates, const RefineOptions& options, Control& control);
+
+}  // namespace delmesher

@@ -1,0 +1,166 @@
+// The state of a refinement: the Delaunay tetrahedrization, the subsegments and subfacets in it,
+// and the queues. One object lives for one call of refine(); its parts are implemented in one
+// source file per step.
+//
+// Invariants between insertions, for elements that wait in no queue:
+//  - a live subsegment is an edge of the tetrahedrization and its open diametral ball is empty;
+//  every tetrahedron having that edge
+//    carries the edge's bit;
+//  - a live subfacet is a face with empty open diametral ball; both tetrahedra (a ghost on the
+//  hull) carry its id;
+//  - the live subfacets of a facet are the planar Delaunay triangulation of its vertices, bounded
+//  by its subsegments.
+#pragma once
+
+#include <cmath>
+#include <deque>
+#include <queue>
+#include <unordered_map>
+
+#include "mesher/delaunay/planar.h"
+#include "mesher/delaunay/tetrahedrization.h"
+#include "mesher/predicates/placement.h"
+#include "mesher/refine/facet_locator.h"
+#include "mesher/refine/refine.h"
+
+namespace delmesher {
+
+class Refiner {
+ public:
+  Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
+          Predicates& predicates, const RefineOptions& options, Control& control);
+
+  void run();
+  RefineResult result();
+
+ private:
+  struct Subsegment {
+    VertexId a, b;          // in the direction of the complex's segment
+    std::uint32_t segment;  // of the complex
+    std::uint32_t next;     // following subsegment of the same segment
+    std::uint32_t side[2];  // subfacets beyond it, as 3 * subfacet + edge, or kNone
+    bool alive = true;
+    bool queued = false;
+  };
+  struct Subfacet {
+    std::array<VertexId, 3> v;  // counter-clockwise seen from outside
+    std::array<std::uint32_t, 3>
+        neighbor;  // across the edge opposite v[i]: 3 * subfacet + edge, or kNone
+    std::array<std::uint32_t, 3> subsegment;  // on that edge, or kNone
+    std::uint32_t facet;                      // of the complex
+    bool alive = true;
+    bool queued = false;
+  };
+  struct BadTet {
+    double key;  // squared radius-edge ratio
+    TetId t;
+    std::array<VertexId, 4> v;
+    bool operator<(const BadTet& other) const {
+      return key != other.key ? key < other.key : t > other.t;
+    }
+  };
+
+  // segments.cpp
+  void collect_segment_facets();
+  void recover_segments();
+  void split_subsegment(std::uint32_t s);
+  VertexId place_on(const Subsegment& s);
+  bool subsegment_encroached(std::uint32_t s, TetId having_edge);
+  void check_subsegment(std::uint32_t s);
+  std::uint32_t find_subsegment(VertexId a, VertexId b) const;
+  std::uint32_t new_subsegment(VertexId a, VertexId b, std::uint32_t segment);
+  void mark_edge(std::uint32_t s, TetId having_edge);
+
+  // facets.cpp
+  void build_facets();
+  void build_facet(std::uint32_t f);
+  void recover_facets();
+  void split_subfacet(std::uint32_t s);
+  VertexId place_in(std::uint32_t facet, const Vec3& target, double tolerance);
+  // The subfacet of the facet that contains v, walking from `start`; if a subsegment is in the way,
+  // kNone and that subsegment.
+  std::uint32_t locate_subfacet(VertexId v, std::uint32_t start, std::uint32_t* blocked);
+  bool in_circle(const Subfacet& f, VertexId v);
+  int orient(std::uint32_t facet, VertexId a, VertexId b, VertexId c);
+  // Replaces the planar cavity of v, starting at subfacet `start`, by new subfacets. `split` is the
+  // edge (3 * subfacet + edge) of `start` on which v lies, or kNone.
+  void insert_in_facet(VertexId v, std::uint32_t start, std::uint32_t split, std::uint32_t half_a,
+                       std::uint32_t half_b);
+  std::uint32_t new_subfacet(const std::array<VertexId, 3>& v, std::uint32_t facet);
+  void check_subfacet(std::uint32_t s, std::uint32_t face);
+  void make_apex(std::uint32_t f);
+
+  // volume.cpp
+  void refine_tetrahedra();
+  void queue_if_bad(TetId t);
+  void split_tetrahedron(const BadTet& bad);
+  bool try_volume_point(const BadTet& bad, const Vec3& center, double grid);
+  bool left_alone(TetId t);
+
+  // insertion.cpp
+  void drain();  // splits queued subsegments, then subfacets, until none is left
+  void queue_subsegment(std::uint32_t s);
+  void queue_subfacet(std::uint32_t s);
+  void collect_constraints();
+  bool queue_encroached_subsegments(VertexId v);
+  bool queue_encroached_subfacets(VertexId v);
+  void commit(VertexId v);
+  void requeue_lost();
+  // Finds the new subfacets among the new tetrahedra, requeues what was lost, judges the new
+  // tetrahedra.
+  void after_insertion();
+  Vec3 relative(VertexId v, const Vec3& origin) const;
+
+  const Plc& plc_;
+  const SurfaceTopology& topology_;
+  PointStore& points_;
+  Predicates& predicates_;
+  const RefineOptions& options_;
+  Control& control_;
+  Tetrahedrization dt_;
+  Solid solid_;
+  FacetLocator locator_;
+
+  struct FacetUse {
+    std::uint32_t facet;
+    bool reversed;
+  };
+  std::vector<std::array<FacetUse, 2>> segment_facets_;  // per segment of the complex; kNone unused
+  std::vector<Subsegment> subsegments_;
+  std::vector<std::uint32_t> first_subsegment_;                // per segment of the complex
+  std::unordered_map<std::uint64_t, std::uint32_t> edge_map_;  // looked up only, never iterated
+  std::vector<Subfacet> subfacets_;
+  std::vector<std::uint32_t> free_subfacets_;
+  std::vector<FacetPlane> planes_;               // per facet
+  std::vector<std::vector<VertexId>> on_facet_;  // per facet: Steiner points inside it
+  std::vector<VertexId> in_volume_;
+  std::uint64_t on_segments_ = 0, on_facets_ = 0;
+
+  // Per tetrahedron.
+  std::vector<std::array<std::uint32_t, 4>> subfacet_;  // on each face, or kNone
+  std::vector<std::uint8_t> edge_bits_;                 // bit e: kEdge[e] is a subsegment
+  enum : std::uint8_t { kUnknown, kOutside, kInside, kStraddling };
+  std::vector<std::uint8_t> side_;
+
+  std::deque<std::uint32_t> subsegment_queue_, subfacet_queue_;
+  std::priority_queue<BadTet> bad_;
+  bool facets_built_ = false;
+  bool refining_ = false;
+  double max_cosine_squared_ = 0;  // a face angle is too small if its squared cosine exceeds this
+  double offcentre2_ =
+      0;  // squared height over its base, per squared base, of a triangle with apex angle delta
+
+  // Scratch of one insertion.
+  struct FoundSubfacet {
+    std::uint32_t id;
+    bool internal;  // both its tetrahedra are in the cavity
+  };
+  std::vector<FoundSubfacet> found_subfacets_;
+  std::vector<std::uint32_t> found_subsegments_;
+  std::vector<std::uint32_t> new_subfacets_;
+  std::vector<std::uint32_t> subfacet_stamp_, subsegment_stamp_;
+  std::uint32_t stamp_ = 0;
+  std::vector<TetId> ring_;
+};
+
+}  // namespace delmesher

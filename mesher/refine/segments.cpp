@@ -1,0 +1,168 @@
+// Segment recovery and splitting (section 5.2).
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/refine/refiner.h"
+
+namespace delmesher {
+namespace {
+
+// Split points keep within this fraction of the subsegment of its midpoint. On input lines a point
+// is exactly on the line wherever it is, so a coarse tolerance gives short parameters; a point of
+// an artificial edge bends it, so it is placed finely.
+constexpr double kLineTolerance = 1.0 / 256;
+constexpr double kBendTolerance = 1.0 / (1 << 20);
+
+std::uint64_t edge_key(VertexId a, VertexId b) {
+  return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
+}
+
+template <typename T>
+std::vector<T> intersection(std::span<const T> a, std::span<const T> b) {
+  std::vector<T> common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  return common;
+}
+
+}  // namespace
+
+void Refiner::collect_segment_facets() {
+  segment_facets_.assign(plc_.segments.size(),
+                         std::array<FacetUse, 2>{FacetUse{kNone, false}, FacetUse{kNone, false}});
+  for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
+    for (const PlcFacet::Side& side : plc_.facets[f].boundary) {
+      auto& uses = segment_facets_[side.segment];
+      FacetUse& use = uses[0].facet == kNone ? uses[0] : uses[1];
+      DELMESHER_CHECK(use.facet == kNone, "segment of three facets");
+      use = {f, side.reversed};
+    }
+  }
+}
+
+std::uint32_t Refiner::new_subsegment(VertexId a, VertexId b, std::uint32_t segment) {
+  const auto s = static_cast<std::uint32_t>(subsegments_.size());
+  subsegments_.push_back({a, b, segment, kNone, {kNone, kNone}});
+  edge_map_[edge_key(a, b)] = s;
+  return s;
+}
+
+std::uint32_t Refiner::find_subsegment(VertexId a, VertexId b) const {
+  const auto found = edge_map_.find(edge_key(a, b));
+  return found == edge_map_.end() ? kNone : found->second;
+}
+
+void Refiner::recover_segments() {
+  collect_segment_facets();
+  first_subsegment_.resize(plc_.segments.size());
+  for (std::uint32_t n = 0; n < plc_.segments.size(); ++n) {
+    first_subsegment_[n] =
+        new_subsegment(plc_.segments[n].vertex[0], plc_.segments[n].vertex[1], n);
+  }
+  for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) check_subsegment(s);
+  drain();
+}
+
+void Refiner::mark_edge(std::uint32_t s, TetId having_edge) {
+  const VertexId a = subsegments_[s].a;
+  const VertexId b = subsegments_[s].b;
+  dt_.edge_ring(having_edge, a, b, ring_);
+  for (const TetId t : ring_) {
+    for (int e = 0; e < 6; ++e) {
+      const VertexId x = dt_.vertex(t, kEdge[e][0]);
+      const VertexId y = dt_.vertex(t, kEdge[e][1]);
+      if ((x == a && y == b) || (x == b && y == a)) edge_bits_[t] |= std::uint8_t(1U << e);
+    }
+  }
+}
+
+// For an edge of a Delaunay tetrahedrization only the vertices around it (its link) can be in its
+// diametral ball without one of them being there.
+bool Refiner::subsegment_encroached(std::uint32_t s, TetId having_edge) {
+  const VertexId a = subsegments_[s].a;
+  const VertexId b = subsegments_[s].b;
+  dt_.edge_ring(having_edge, a, b, ring_);
+  for (const TetId t : ring_) {
+    for (int i = 0; i < 4; ++i) {
+      const VertexId v = dt_.vertex(t, i);
+      if (v == a || v == b || v == kInfinite) continue;
+      if (predicates_.dot_sign(a, v, b) < 0) return true;
+    }
+  }
+  return false;
+}
+
+// Marks the subsegment in the tetrahedrization; queues it if it is missing there or encroached.
+void Refiner::check_subsegment(std::uint32_t s) {
+  const TetId t = dt_.find_edge(subsegments_[s].a, subsegments_[s].b);
+  if (t == kNone) {
+    queue_subsegment(s);
+    return;
+  }
+  mark_edge(s, t);
+  if (subsegment_encroached(s, t)) queue_subsegment(s);
+}
+
+VertexId Refiner::place_on(const Subsegment& s) {
+  const PlcSegment& segment = plc_.segments[s.segment];
+  const Vec3 a = points_.nearest(s.a);
+  const Vec3 d = relative(s.b, a);
+  const Vec3 middle = {a[0] + d[0] / 2, a[1] + d[1] / 2, a[2] + d[2] / 2};
+  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const std::uint32_t facet = segment_facets_[s.segment][0].facet;
+  const bool box = segment.input_edge == kNone && plc_.facets[facet].input_facet == kNone;
+  if (segment.input_edge == kNone && !box) {
+    return place_in(facet, middle, length * kBendTolerance);
+  }
+  const std::array<VertexId, 2> line =
+      box ? segment.vertex : topology_.edge_vertices(segment.input_edge);
+  for (double tolerance = length * kLineTolerance; tolerance > 0; tolerance /= 1 << 12) {
+    const PointDefinition p = place_on_segment(points_, line[0], line[1], middle, tolerance, true);
+    const VertexId v = points_.add_on_segment(p.corner[0], p.corner[1], p.u);
+    if (predicates_.dot_difference_sign(s.a, v, s.a, s.b) > 0 &&
+        predicates_.dot_difference_sign(v, s.b, s.a, s.b) > 0) {
+      points_.set_supports(v, intersection(points_.planes(s.a), points_.planes(s.b)),
+                           intersection(points_.lines(s.a), points_.lines(s.b)));
+      return v;
+    }
+    points_.pop_back();
+    if (tolerance < length * 1e-12) break;
+  }
+  DELMESHER_CHECK(false, "subsegment too short for its midpoint to be placed");
+  return kNone;
+}
+
+void Refiner::split_subsegment(std::uint32_t s) {
+  const VertexId a = subsegments_[s].a;
+  const VertexId b = subsegments_[s].b;
+  const VertexId v = place_on(subsegments_[s]);
+  VertexId duplicate = kNone;
+  const TetId start = dt_.locate(v, dt_.incident(a), &duplicate);
+  DELMESHER_CHECK(duplicate == kNone, "split point of a subsegment coincides with a vertex");
+  ++on_segments_;
+  dt_.find_cavity(v, start);
+  collect_constraints();
+  edge_map_.erase(edge_key(a, b));
+  subsegments_[s].alive = false;
+  queue_encroached_subsegments(v);
+  queue_encroached_subfacets(v);
+  commit(v);
+
+  subsegments_[s].alive = true;
+  subsegments_[s].b = v;
+  edge_map_[edge_key(a, v)] = s;
+  const std::uint32_t half = new_subsegment(v, b, subsegments_[s].segment);
+  subsegments_[half].next = subsegments_[s].next;
+  subsegments_[s].next = half;
+  const std::uint32_t sides[2] = {subsegments_[s].side[0], subsegments_[s].side[1]};
+  new_subfacets_.clear();
+  for (int k = 0; k < 2; ++k) {
+    if (sides[k] == kNone) continue;
+    subsegments_[s].side[k] = kNone;
+    insert_in_facet(v, sides[k] / 3, sides[k], s, half);
+  }
+  after_insertion();
+  check_subsegment(s);
+  check_subsegment(half);
+}
+
+}  // namespace delmesher

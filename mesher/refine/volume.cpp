@@ -1,0 +1,227 @@
+// Refinement of tetrahedra by largest radius-edge ratio (section 5.4), with off-centres and sliver
+// treatment (5.7).
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/base/check.h"
+#include "mesher/refine/refiner.h"
+
+namespace delmesher {
+namespace {
+
+// Section 5.7: shortest edge over smallest distance of opposite edges.
+constexpr double kSliverRatio = 7.2;
+// Volume points are snapped to a grid of this fraction of the shortest edge, so that their
+// coordinates are short. Any point of the circumball may split a tetrahedron (section 5.6).
+constexpr double kGridFraction = 1.0 / 1024;
+// Relative slack that rounding may use up: a tetrahedron that close to the bound counts as bad.
+constexpr double kSlack = 1e-12;
+// Off-centres (Uengoer 2004) a little nearer than necessary, so that the new face passes with a
+// margin.
+constexpr double kOffcentreFactor = 0.95;
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+struct Shape {
+  std::array<Vec3, 4> p;          // relative to vertex 0
+  std::array<double, 6> length2;  // squared, by kEdge
+  int shortest = 0;
+  Vec3 center;     // circumcentre relative to vertex 0
+  double radius2;  // squared circumradius; infinite or NaN if flat
+  double volume6;  // six times the volume
+};
+
+Shape shape_of(const std::array<Vec3, 4>& p) {
+  Shape s;
+  s.p = p;
+  for (int e = 0; e < 6; ++e) {
+    const Vec3 d = minus(p[kEdge[e][1]], p[kEdge[e][0]]);
+    s.length2[e] = dot(d, d);
+    if (s.length2[e] < s.length2[s.shortest]) s.shortest = e;
+  }
+  const Vec3 bc = cross(p[2], p[3]);
+  const Vec3 ca = cross(p[3], p[1]);
+  const Vec3 ab = cross(p[1], p[2]);
+  s.volume6 = dot(p[1], bc);
+  const double scale = 0.5 / s.volume6;
+  for (int k = 0; k < 3; ++k) {
+    s.center[k] = scale * (s.length2[0] * bc[k] + s.length2[1] * ca[k] + s.length2[2] * ab[k]);
+  }
+  s.radius2 = dot(s.center, s.center);
+  return s;
+}
+
+// Largest squared cosine among the faces' smallest angles, each opposite its shortest edge.
+double worst_cosine_squared(const Shape& s) {
+  constexpr int kFaceEdges[4][3] = {{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}};
+  double worst = 0;
+  for (const auto& face : kFaceEdges) {
+    double a = s.length2[face[0]];
+    double b = s.length2[face[1]];
+    double c = s.length2[face[2]];
+    if (b < a) std::swap(a, b);
+    if (c < a) std::swap(a, c);
+    const double sum = b + c - a;
+    worst = std::max(worst, sum * sum / (4 * b * c));
+  }
+  return worst;
+}
+
+// Smallest squared distance between the lines of opposite edges.
+double opposite_edges_distance2(const Shape& s) {
+  double smallest = HUGE_VAL;
+  for (int e = 0; e < 3; ++e) {
+    const Vec3 u = minus(s.p[kEdge[e][1]], s.p[kEdge[e][0]]);
+    const Vec3 v = minus(s.p[kEdge[5 - e][1]], s.p[kEdge[5 - e][0]]);
+    const Vec3 n = cross(u, v);
+    smallest = std::min(smallest, s.volume6 * s.volume6 / dot(n, n));
+  }
+  return smallest;
+}
+
+}  // namespace
+
+// Judged in doubles; when in doubt a tetrahedron is bad, which costs at most a split.
+void Refiner::queue_if_bad(TetId t) {
+  if (dt_.is_ghost(t)) return;
+  if (options_.region == Region::interior && side_[t] == kOutside) return;
+  std::array<VertexId, 4> v;
+  std::array<Vec3, 4> p;
+  double error = 0;
+  const Vec3 origin = points_.nearest(dt_.vertex(t, 0));
+  for (int i = 0; i < 4; ++i) {
+    v[i] = dt_.vertex(t, i);
+    p[i] = relative(v[i], origin);
+    error = std::max(error, points_.approximation(v[i]).error);
+  }
+  const Shape s = shape_of(p);
+  const double shortest2 = s.length2[s.shortest];
+  const double slack = kSlack + 32 * error / std::sqrt(shortest2);
+  bool bad = !(worst_cosine_squared(s) < max_cosine_squared_ - slack);
+  if (!bad && options_.slivers) {
+    bad = shortest2 > kSliverRatio * kSliverRatio * opposite_edges_distance2(s);
+  }
+  if (!bad && options_.max_edge > 0) {
+    bad = *std::max_element(s.length2.begin(), s.length2.end()) >
+          options_.max_edge * options_.max_edge;
+  }
+  if (!bad) return;
+  double key = s.radius2 / shortest2;
+  if (!std::isfinite(key)) key = HUGE_VAL;
+  bad_.push({key, t, v});
+}
+
+bool Refiner::left_alone(TetId t) {
+  if (options_.region == Region::hull) return false;
+  if (side_[t] == kUnknown) {
+    const VertexId* v = dt_.vertices(t);
+    switch (solid_.classify({v[0], v[1], v[2], v[3]})) {
+      case Side::outside:
+        side_[t] = kOutside;
+        break;
+      case Side::inside:
+        side_[t] = kInside;
+        break;
+      case Side::straddling:
+        side_[t] = kStraddling;
+        break;
+    }
+  }
+  return side_[t] == kOutside;
+}
+
+void Refiner::refine_tetrahedra() {
+  refining_ = true;
+  for (TetId t = 0; t < dt_.capacity(); ++t) {
+    control_.poll(points_.size());
+    if (dt_.alive(t)) queue_if_bad(t);
+  }
+  while (!bad_.empty()) {
+    control_.poll(points_.size());
+    drain();
+    const BadTet bad = bad_.top();
+    bad_.pop();
+    if (!dt_.alive(bad.t) || !std::equal(bad.v.begin(), bad.v.end(), dt_.vertices(bad.t))) continue;
+    if (!left_alone(bad.t)) split_tetrahedron(bad);
+  }
+  drain();
+}
+
+void Refiner::split_tetrahedron(const BadTet& bad) {
+  const Vec3 origin = points_.nearest(bad.v[0]);
+  std::array<Vec3, 4> p;
+  for (int i = 0; i < 4; ++i) p[i] = relative(bad.v[i], origin);
+  const Shape s = shape_of(p);
+  const double grid = std::sqrt(s.length2[s.shortest]) * kGridFraction;
+  const auto absolute = [&](const Vec3& x) {
+    return Vec3{origin[0] + x[0], origin[1] + x[1], origin[2] + x[2]};
+  };
+  if (std::isfinite(s.radius2)) {
+    // From the midpoint of the shortest edge towards the circumcentre, not farther than where the
+    // new triangle on that edge just meets the angle bound.
+    const Vec3& a = s.p[kEdge[s.shortest][0]];
+    const Vec3& b = s.p[kEdge[s.shortest][1]];
+    const Vec3 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
+    const Vec3 d = minus(s.center, middle);
+    const double far2 = dot(d, d);
+    const double reach2 = kOffcentreFactor * kOffcentreFactor * offcentre2_ * s.length2[s.shortest];
+    if (reach2 < far2) {
+      const double f = std::sqrt(reach2 / far2);
+      const Vec3 off = {middle[0] + f * d[0], middle[1] + f * d[1], middle[2] + f * d[2]};
+      if (try_volume_point(bad, absolute(off), grid)) return;
+    }
+    if (try_volume_point(bad, absolute(s.center), grid)) return;
+  }
+  // Too flat for its circumcentre to be computed: its centroid is inside the circumball.
+  Vec3 centroid{};
+  for (const Vec3& q : s.p) {
+    for (int k = 0; k < 3; ++k) centroid[k] += q[k] / 4;
+  }
+  if (try_volume_point(bad, absolute(centroid), grid)) return;
+  DELMESHER_CHECK(false, "no point found in the circumball of a tetrahedron");
+}
+
+// Inserts the snapped point unless it encroaches, in which case what it encroaches upon is queued.
+// False if the point is not inside the circumball.
+bool Refiner::try_volume_point(const BadTet& bad, const Vec3& center, double grid) {
+  const Vec3 p = snap_to_grid(center, grid);
+  const VertexId v = points_.add_explicit(p[0], p[1], p[2]);
+  if (predicates_.insphere_perturbed(bad.v[0], bad.v[1], bad.v[2], bad.v[3], v) <= 0) {
+    points_.pop_back();
+    return false;
+  }
+  dt_.find_cavity(v, bad.t);
+  collect_constraints();
+  bool rejected = queue_encroached_subsegments(v) || queue_encroached_subfacets(v);
+  if (!rejected) {
+    for (const TetId t : dt_.cavity()) {
+      const int i = dt_.index_of(t, kInfinite);
+      // Outside the box, which only rounding can bring about: the box gives way.
+      if (i < 0 || subfacet_[t][i] == kNone) continue;
+      queue_subfacet(subfacet_[t][i]);
+      rejected = true;
+    }
+  }
+  if (rejected) {
+    points_.pop_back();
+    bad_.push(bad);
+    return true;
+  }
+  in_volume_.push_back(v);
+  commit(v);
+  new_subfacets_.clear();
+  after_insertion();
+  return true;
+}
+
+}  // namespace delmesher
