@@ -1,42 +1,16 @@
 #include "mesher/surface/topology.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 #include "mesher/base/check.h"
 #include "mesher/surface/carrier_key.h"
 #include "mesher/surface/half_edges.h"
+#include "mesher/surface/triangle_contact.h"
 
 namespace delmesher {
 namespace {
-
-// Absolute components of the normal of triangle abc up to a common factor, in doubles. Differences
-// are first scaled by a power of two so that products neither overflow nor underflow, which also
-// makes the result independent of the scale of the input.
-Vec3 approximate_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Vec3 u, v;
-  double largest = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = b[i] * 0.5 - a[i] * 0.5;  // halved: the difference of huge coordinates may overflow
-    v[i] = c[i] * 0.5 - a[i] * 0.5;
-    largest = std::max({largest, std::fabs(u[i]), std::fabs(v[i])});
-  }
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = std::ldexp(u[i], -exponent);
-    v[i] = std::ldexp(v[i], -exponent);
-  }
-  Vec3 normal;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    normal[i] = std::fabs(u[j] * v[k] - u[k] * v[j]);
-  }
-  return normal;
-}
 
 // Groups equal keys: class_of[i] is the smallest j whose carrier is verified to be the same as
 // i's. A key collision between different carriers only loses an identification.
@@ -155,26 +129,13 @@ class Builder {
     }
   }
 
-  // The axis is chosen in doubles on the facet's first triangle (a nearly arbitrary choice among
-  // the larger components), but it is certain that the sign along it is exact and not zero.
   void orient_facets() {
     SurfaceTopology& s = topology_;
     for (const auto& triangles : s.facet_triangles) {
-      const auto& t = s.triangles[triangles[0]];
-      const Vec3 n =
-          approximate_normal(points_.nearest(t[0]), points_.nearest(t[1]), points_.nearest(t[2]));
-      std::array<int, 3> axes{0, 1, 2};
-      std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
-        return n[static_cast<std::size_t>(i)] > n[static_cast<std::size_t>(j)];
-      });
-      int sign = 0, axis = 0;
-      for (std::size_t i = 0; i < 3 && sign == 0; ++i) {
-        axis = axes[i];
-        sign = predicates_.orient2d(axis, t[0], t[1], t[2]);
-      }
-      DELMESHER_CHECK(sign != 0, "a triangle is degenerate");
-      s.facet_axis.push_back(axis);
-      s.facet_axis_sign.push_back(sign);
+      const Projection projection = find_projection(predicates_, s.triangles[triangles[0]]);
+      DELMESHER_CHECK(projection.sign != 0, "a triangle is degenerate");
+      s.facet_axis.push_back(projection.axis);
+      s.facet_axis_sign.push_back(projection.sign);
     }
   }
 

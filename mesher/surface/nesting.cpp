@@ -1,0 +1,175 @@
+#include "mesher/surface/nesting.h"
+
+#include <gmp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesher/base/check.h"
+#include "mesher/surface/triangle_contact.h"
+
+namespace delmesher {
+namespace {
+
+// Owns an mpz_t.
+class Integer {
+ public:
+  Integer() { mpz_init(value_); }
+  ~Integer() { mpz_clear(value_); }
+  Integer(const Integer&) = delete;
+  Integer& operator=(const Integer&) = delete;
+  mpz_ptr get() { return value_; }
+
+ private:
+  mpz_t value_;
+};
+
+// Six times the volume of one component, first in doubles with a bound on the error.
+class VolumeSum {
+ public:
+  VolumeSum(const PointStore& points, const Triangles& triangles,
+            const std::vector<std::uint32_t>& members)
+      : points_(points), triangles_(triangles), members_(members) {
+    origin_ = points.nearest(triangles[members[0]][0]);
+    double extent = 0;
+    for (const std::uint32_t t : members) {
+      for (const VertexId v : triangles[t]) {
+        for (const double x : half_difference(v)) extent = std::max(extent, std::fabs(x));
+      }
+    }
+    std::frexp(extent, &exponent_);
+    sum();
+  }
+
+  ComponentNesting result() const {
+    ComponentNesting nesting;
+    // 32 covers the rounding of differences and products, the number of terms that of the sum;
+    // the last term covers underflow, coordinates being scaled to at most 1.
+    const double error =
+        permanent_ * (static_cast<double>(members_.size()) + 32) * 0x1p-52 + 0x1p-1000;
+    nesting.volume_sign = std::fabs(sum_) > error ? (sum_ > 0 ? 1 : -1) : exact_sign();
+    // Scaled back in steps: the halving of the differences (2^3) and the scaling.
+    nesting.volume = std::ldexp(std::fabs(sum_) / 6 * 8, 3 * exponent_);
+    return nesting;
+  }
+
+ private:
+  // Halved, because the difference of huge coordinates may overflow.
+  Vec3 half_difference(VertexId v) const {
+    const Vec3 p = points_.nearest(v);
+    return {p[0] * 0.5 - origin_[0] * 0.5, p[1] * 0.5 - origin_[1] * 0.5,
+            p[2] * 0.5 - origin_[2] * 0.5};
+  }
+
+  void sum() {
+    for (const std::uint32_t t : members_) {
+      std::array<Vec3, 3> p;
+      for (std::size_t k = 0; k < 3; ++k) {
+        p[k] = half_difference(triangles_[t][k]);
+        for (double& x : p[k]) x = std::ldexp(x, -exponent_);
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        const double left = p[1][j] * p[2][k], right = p[1][k] * p[2][j];
+        sum_ += p[0][i] * (left - right);
+        permanent_ += std::fabs(p[0][i]) * (std::fabs(left) + std::fabs(right));
+      }
+    }
+  }
+
+  // Exact: the sum of det(a, b, c) in integers at a common scale.
+  int exact_sign() const {
+    int lowest = std::numeric_limits<int>::max();
+    for (const std::uint32_t t : members_) {
+      for (const VertexId v : triangles_[t]) {
+        for (const double x : points_.nearest(v)) {
+          int exponent = 0;
+          if (x != 0) lowest = std::min((std::frexp(x, &exponent), exponent - 53), lowest);
+        }
+      }
+    }
+    std::array<std::array<Integer, 3>, 3> m;
+    Integer total, left, right;
+    for (const std::uint32_t t : members_) {
+      for (std::size_t row = 0; row < 3; ++row) {
+        const Vec3 p = points_.nearest(triangles_[t][row]);
+        for (std::size_t i = 0; i < 3; ++i) set_scaled(m[row][i].get(), p[i], lowest);
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        mpz_mul(left.get(), m[1][j].get(), m[2][k].get());
+        mpz_mul(right.get(), m[1][k].get(), m[2][j].get());
+        mpz_sub(left.get(), left.get(), right.get());
+        mpz_addmul(total.get(), m[0][i].get(), left.get());
+      }
+    }
+    return mpz_sgn(total.get());
+  }
+
+  static void set_scaled(mpz_ptr result, double x, int lowest) {
+    int exponent = 0;
+    const double fraction = std::frexp(x, &exponent);
+    mpz_set_d(result, std::ldexp(fraction, 53));
+    if (x != 0) mpz_mul_2exp(result, result, static_cast<mp_bitcnt_t>(exponent - 53 - lowest));
+  }
+
+  const PointStore& points_;
+  const Triangles& triangles_;
+  const std::vector<std::uint32_t>& members_;
+  Vec3 origin_;
+  int exponent_ = 0;
+  double sum_ = 0, permanent_ = 0;
+};
+
+// Number of other components around the component of triangle t: the parity of the crossings of a
+// ray with each of them.
+std::uint32_t nesting_depth(const Triangles& triangles,
+                            const std::vector<std::uint32_t>& component_of, std::uint32_t t,
+                            Predicates& predicates, const Bvh& bvh,
+                            std::vector<std::uint32_t>& crossed) {
+  const VertexId v = triangles[t][0];
+  const Vec3 p = predicates.points().nearest(v);
+  Box ray{p, p};
+  ray.hi[0] = std::numeric_limits<double>::infinity();
+  crossed.clear();
+  bvh.query(ray, [&](std::uint32_t u) {
+    if (component_of[u] != component_of[t] && ray_crosses(predicates, v, 0, 1, triangles[u])) {
+      crossed.push_back(component_of[u]);
+    }
+    return true;
+  });
+  std::sort(crossed.begin(), crossed.end());
+  std::uint32_t depth = 0;
+  for (std::size_t i = 0; i < crossed.size();) {
+    std::size_t j = i;
+    while (j < crossed.size() && crossed[j] == crossed[i]) ++j;
+    depth += (j - i) % 2;
+    i = j;
+  }
+  return depth;
+}
+
+}  // namespace
+
+std::vector<ComponentNesting> analyze_nesting(const Triangles& triangles,
+                                              const std::vector<std::uint32_t>& component_of,
+                                              std::size_t components, Predicates& predicates,
+                                              const Bvh& bvh, Control& control) {
+  std::vector<std::vector<std::uint32_t>> members(components);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) members[component_of[t]].push_back(t);
+  std::vector<ComponentNesting> result;
+  std::vector<std::uint32_t> crossed;
+  for (const auto& component : members) {
+    control.poll();
+    result.push_back(VolumeSum(predicates.points(), triangles, component).result());
+    DELMESHER_CHECK(result.back().volume_sign != 0, "a valid component has a volume");
+    if (components > 1) {
+      result.back().depth =
+          nesting_depth(triangles, component_of, component[0], predicates, bvh, crossed);
+    }
+  }
+  return result;
+}
+
+}  // namespace delmesher
