@@ -22,6 +22,9 @@ struct ChamferOptions {
   // Per facet: 1 if kept, 0 if dropped by the filter; empty: all kept. Edges between two dropped
   // facets disappear; an edge of one kept facet stays as its boundary.
   std::vector<std::uint8_t> facet_kept;
+  // Flat vertices (inside a kept facet) closer than this to the facet's boundary or to another one
+  // are left out of the Plc, like those near a chamfer. They come back in the enriched CDT.
+  double isolated_clearance = 0;
 };
 
 struct ChamferResult {
@@ -29,8 +32,10 @@ struct ChamferResult {
   std::vector<std::uint32_t> plc_facet;       // input facet -> index in plc.facets, or kNone
   std::vector<std::uint8_t> vertex_is_acute;  // per input vertex
   std::vector<std::uint8_t> edge_is_acute;    // per undirected input edge
-  std::vector<double> vertex_radius;          // chamfer distance along the edges; 0: not chamfered
-  std::vector<double> edge_radius;            // largest strip width along the edge; 0: none
+  std::vector<double> vertex_distance;        // chamfer distance along the edges; 0: not chamfered
+  // Balls around vertices and cylinders around edges that together contain everything cut off.
+  std::vector<double> vertex_radius;  // somewhat above vertex_distance; 0: not chamfered
+  std::vector<double> edge_radius;    // largest strip width beside the edge; 0: none
   std::uint64_t acute_vertices = 0, acute_edges = 0;
 };
 

@@ -1,0 +1,41 @@
+// Which vertices and edges are acute (section 4), decided exactly and by facets.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/chamfer/chamfer.h"
+#include "mesher/chamfer/kept_surface.h"
+
+namespace delmesher {
+
+// The threshold in force at every vertex; an edge obeys the stricter of its ends.
+class Thresholds {
+ public:
+  explicit Thresholds(const ChamferOptions& options) : options_(options) {}
+  double at_vertex(VertexId v) const {
+    return options_.vertex_cosine_squared.empty() ? options_.cosine_squared
+                                                  : options_.vertex_cosine_squared[v];
+  }
+  double at_edge(const SurfaceTopology& topology, std::uint32_t e) const {
+    const auto [v, w] = topology.edge_vertices(e);
+    return at_vertex(v) < at_vertex(w) ? at_vertex(v) : at_vertex(w);
+  }
+
+ private:
+  const ChamferOptions& options_;
+};
+
+struct Acuteness {
+  std::vector<std::uint8_t> vertex, edge;  // per input vertex, per undirected input edge
+};
+
+Acuteness find_acute(const KeptSurface& surface, Predicates& predicates,
+                     const Thresholds& thresholds, Control& control);
+
+// Does the ray from a towards q project into the wedge of triangle abc at a? The sides ab and ac
+// belong to the wedge if so asked.
+bool projects_into_wedge(Predicates& predicates, VertexId q, VertexId a, VertexId b, VertexId c,
+                         bool with_ab = false, bool with_ac = false);
+
+}  // namespace delmesher

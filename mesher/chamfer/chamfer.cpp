@@ -1,0 +1,89 @@
+#include "mesher/chamfer/chamfer.h"
+
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/chamfer/assemble.h"
+#include "mesher/chamfer/bridges.h"
+#include "mesher/chamfer/simplify.h"
+
+namespace delmesher {
+
+namespace {
+
+// Removes the points that simplification left unused, and renumbers.
+void drop_unused_points(Bridges& bridges, const PointStore& points, NewPoints& new_points,
+                        std::size_t input_vertices) {
+  std::vector<std::uint8_t> used(points.size());
+  std::fill(used.begin(), used.begin() + static_cast<std::ptrdiff_t>(input_vertices), 1);
+  for (VertexId v : bridges.edge_end) {
+    if (v != kNone) used[v] = 1;
+  }
+  for (const auto& chain : bridges.chain) {
+    for (VertexId v : chain) used[v] = 1;
+  }
+  const std::vector<VertexId> id = new_points.keep(used);
+  for (VertexId& v : bridges.edge_end) {
+    if (v != kNone) v = id[v];
+  }
+  for (auto& chain : bridges.chain) {
+    for (VertexId& v : chain) v = id[v];
+  }
+}
+
+void measure_radii(const KeptSurface& surface, const Cuts& cuts, const Bridges& bridges,
+                   const PointStore& points, ChamferResult& result) {
+  const SurfaceTopology& topology = surface.topology();
+  const double unscale = 1 / surface.scale();
+  result.vertex_distance = cuts.distance;
+  result.vertex_radius = cuts.distance;
+  for (std::uint32_t c = 0; c < bridges.chain.size(); ++c) {
+    const VertexId v = surface.corners()[c].vertex;
+    for (VertexId p : bridges.chain[c]) {
+      const Vec3 there = points.nearest(p);
+      const Vec3 scaled = {surface.scale() * there[0], surface.scale() * there[1],
+                           surface.scale() * there[2]};
+      result.vertex_radius[v] =
+          std::max(result.vertex_radius[v], distance(scaled, surface.position(v)));
+    }
+  }
+  for (double& d : result.vertex_distance) d *= unscale;
+  for (double& r : result.vertex_radius) r *= unscale;
+  result.edge_radius.assign(topology.edge_count(), 0);
+  for (std::uint32_t e = 0; e < topology.edge_count(); ++e) {
+    for (std::uint32_t h : topology.edge_half_edges(e)) {
+      result.edge_radius[e] = std::max(result.edge_radius[e], unscale * cuts.height[h]);
+    }
+  }
+}
+
+}  // namespace
+
+ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
+                      const ChamferOptions& options, Control& control) {
+  DELMESHER_CHECK(options.vertex_cosine_squared.empty() ||
+                      options.vertex_cosine_squared.size() == topology.vertex_half_edge.size(),
+                  "one threshold per vertex");
+  const KeptSurface surface(topology, points, options.facet_kept);
+  const Thresholds thresholds(options);
+  const Acuteness acute = find_acute(surface, predicates, thresholds, control);
+  const Cuts cuts =
+      find_cuts(surface, acute, predicates, options.max_radius * surface.scale(), control);
+  NewPoints new_points(topology, points);
+  Bridges bridges = build_bridges(surface, acute, cuts, thresholds, new_points, control);
+  if (options.simplify_bridges) {
+    simplify_bridges(surface, acute, cuts, thresholds, predicates, bridges, control);
+  }
+  drop_unused_points(bridges, points, new_points, topology.vertex_half_edge.size());
+
+  ChamferResult result;
+  measure_radii(surface, cuts, bridges, points, result);
+  assemble_plc(surface, acute, cuts, bridges, options.isolated_clearance, result);
+  result.vertex_is_acute = acute.vertex;
+  result.edge_is_acute = acute.edge;
+  for (std::uint8_t flag : acute.vertex) result.acute_vertices += flag;
+  for (std::uint8_t flag : acute.edge) result.acute_edges += flag;
+  return result;
+}
+
+}  // namespace delmesher

@@ -1,0 +1,47 @@
+// How far the surface is cut back: along the edges at acute vertices, and beside acute edges
+// (sections 4.1 and 4.2). All lengths in the scaled coordinates of KeptSurface.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesher/chamfer/acuteness.h"
+#include "mesher/chamfer/kept_surface.h"
+
+namespace delmesher {
+
+// The directions that divide a corner of an acute vertex into equal parts of at most 120 degrees,
+// each of which gets one bridge A-P-Q-B with |AP| = |PQ| = |QB| = step * distance.
+struct SplitCorner {
+  int parts = 0;  // 1, 2 or 4; 0: the vertex is not acute
+  std::array<Vec2, 5> direction;
+  double half_sine = 0;  // of half the angle of one part
+  double step = 0;
+};
+
+// From exact facts (the sign of the corner's sine) where doubles could err.
+SplitCorner split_corner(const KeptSurface& surface, const Corner& corner, Predicates& predicates);
+
+struct Cuts {
+  std::vector<SplitCorner> split;  // per corner of the surface
+  std::vector<double> distance;    // per vertex, along its edges; 0: not acute
+  // At index 2 e + k, for end k of edge e (0: its smaller vertex): the fraction of the edge cut
+  // off; 0: not cut.
+  std::vector<double> fraction;
+  // Per half-edge of an acute edge: height of the strip removed from its facet; else 0.
+  std::vector<double> height;
+
+  // Fraction of half-edge h cut off at its tail.
+  double fraction_at_tail(const SurfaceTopology& topology, std::uint32_t h) const {
+    return fraction[2 * topology.edge_of[h] + (topology.from(h) > topology.to(h))];
+  }
+};
+
+// max_radius in scaled coordinates; 0: no bound.
+Cuts find_cuts(const KeptSurface& surface, const Acuteness& acute, Predicates& predicates,
+               double max_radius, Control& control);
+
+// Positional accuracy wanted for the points of a bridge, in units of the chamfer distance.
+double bridge_accuracy(const SplitCorner& split);
+
+}  // namespace delmesher

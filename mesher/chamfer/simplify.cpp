@@ -1,0 +1,160 @@
+#include "mesher/chamfer/simplify.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace delmesher {
+
+namespace {
+
+class Simplifier {
+ public:
+  Simplifier(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
+             const Thresholds& thresholds, Predicates& predicates, Bridges& bridges)
+      : surface_(surface),
+        topology_(surface.topology()),
+        acute_(acute),
+        cuts_(cuts),
+        thresholds_(thresholds),
+        predicates_(predicates),
+        bridges_(bridges) {}
+
+  void run(Control& control) {
+    struct Entry {
+      double shortest;
+      std::uint32_t corner;
+    };
+    std::vector<Entry> order;
+    for (std::uint32_t c = 0; c < bridges_.chain.size(); ++c) {
+      const std::vector<VertexId>& chain = bridges_.chain[c];
+      if (chain.size() <= 2) continue;
+      double shortest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 1; i < chain.size(); ++i) {
+        shortest = std::min(shortest, length(chain[i - 1], chain[i]));
+      }
+      order.push_back({shortest, c});
+    }
+    std::sort(order.begin(), order.end(), [](const Entry& a, const Entry& b) {
+      return a.shortest != b.shortest ? a.shortest < b.shortest : a.corner < b.corner;
+    });
+    for (const Entry& entry : order) {
+      control.poll();
+      simplify(entry.corner);
+    }
+  }
+
+ private:
+  void simplify(std::uint32_t index) {
+    std::vector<VertexId>& chain = bridges_.chain[index];
+    if (can_join(index, 0, chain.size() - 1, true)) {
+      chain = {chain.front(), chain.back()};
+      return;
+    }
+    // Single points, those with the shortest edges first, until none can go.
+    for (bool changed = true; changed && chain.size() > 2;) {
+      changed = false;
+      std::vector<std::pair<double, std::size_t>> candidates;
+      for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
+        candidates.push_back(
+            {std::min(length(chain[i - 1], chain[i]), length(chain[i], chain[i + 1])), i});
+      }
+      std::sort(candidates.begin(), candidates.end());
+      for (const auto& [shortest, i] : candidates) {
+        if (!can_join(index, i - 1, i + 1, false)) continue;
+        chain.erase(chain.begin() + static_cast<std::ptrdiff_t>(i));
+        changed = true;
+        break;
+      }
+    }
+  }
+
+  // May chain[from] and chain[to] be joined by an edge?
+  bool can_join(std::uint32_t index, std::size_t from, std::size_t to, bool whole) {
+    const Corner& corner = surface_.corners()[index];
+    const std::vector<VertexId>& chain = bridges_.chain[index];
+    const VertexId x = chain[from], y = chain[to];
+    // The vertex stays on the side that is cut off.
+    const int side = predicates_.orient2d(topology_.facet_axis[corner.facet], x, y, corner.vertex) *
+                     topology_.facet_axis_sign[corner.facet];
+    if (side < 0 || (side == 0 && !whole)) return false;
+    // Around a wide corner every edge keeps its distance.
+    if (!whole && edge_distance(corner, x, y) < 0.5 * cuts_.distance[corner.vertex]) return false;
+    return allows(index, x, y, from, true) && allows(index, y, x, to, false);
+  }
+
+  // May the chain go on from x = chain[at] to y, in the direction of the chain or against it?
+  bool allows(std::uint32_t index, VertexId x, VertexId y, std::size_t at, bool forward) {
+    const std::vector<VertexId>& chain = bridges_.chain[index];
+    const Corner& corner = surface_.corners()[index];
+    const bool is_end = forward ? at == 0 : at + 1 == chain.size();
+    if (!is_end) {
+      return !predicates_.angle_below(chain[forward ? at - 1 : at + 1], x, y,
+                                      thresholds_.at_vertex(corner.vertex));
+    }
+    const std::uint32_t away = forward ? corner.outgoing : topology_.opposite[corner.incoming];
+    const std::uint32_t e = topology_.edge_of[away];
+    const double limit = thresholds_.at_edge(topology_, e);
+    if (acute_.edge[e]) {
+      const VertexId strip_end =
+          forward ? bridges_.chain[corner.next].back() : bridges_.chain[corner.previous].front();
+      return !predicates_.angle_below(strip_end, x, y, limit);
+    }
+    return allows_at_edge(away, x, y, across(corner, forward), limit);
+  }
+
+  // The neighbour of an edge's cut point in the chain of the facet beyond that edge, or kNone.
+  VertexId across(const Corner& corner, bool forward) const {
+    const std::uint32_t beyond =
+        forward ? surface_.corner_of_incoming(topology_.opposite[corner.outgoing])
+                : surface_.corner_of_outgoing(topology_.opposite[corner.incoming]);
+    if (beyond == kNone) return kNone;
+    const std::vector<VertexId>& chain = bridges_.chain[beyond];
+    return forward ? chain[chain.size() - 2] : chain[1];
+  }
+
+  // All angles at the cut point x of half-edge `away` between a new edge towards y and what is
+  // there: the rest of the edge, the other facet's bridge, and that facet.
+  bool allows_at_edge(std::uint32_t away, VertexId x, VertexId y, VertexId other, double limit) {
+    const VertexId rest = bridges_.edge_end_at_tail(topology_, topology_.opposite[away]);
+    if (predicates_.angle_below(rest, x, y, limit)) return false;
+    if (other == kNone) return true;
+    if (predicates_.angle_below(other, x, y, limit)) return false;
+    return !(projects_into_wedge(predicates_, y, x, rest, other) &&
+             predicates_.edge_plane_angle_below(y, x, rest, other, limit)) &&
+           !(projects_into_wedge(predicates_, other, x, rest, y) &&
+             predicates_.edge_plane_angle_below(other, x, rest, y, limit));
+  }
+
+  double edge_distance(const Corner& corner, VertexId x, VertexId y) const {
+    const Vec2 a = relative(corner, x), b = relative(corner, y);
+    const Vec2 edge = b - a;
+    const double along = -dot(a, edge) / dot(edge, edge);
+    return norm(a + std::clamp(along, 0.0, 1.0) * edge);
+  }
+  Vec2 relative(const Corner& corner, VertexId x) const {
+    return surface_.planar(corner.facet, subtract(scaled(x), surface_.position(corner.vertex)));
+  }
+  Vec3 scaled(VertexId v) const {
+    const Vec3 p = predicates_.points().nearest(v);
+    return {surface_.scale() * p[0], surface_.scale() * p[1], surface_.scale() * p[2]};
+  }
+  double length(VertexId a, VertexId b) const { return distance(scaled(a), scaled(b)); }
+
+  const KeptSurface& surface_;
+  const SurfaceTopology& topology_;
+  const Acuteness& acute_;
+  const Cuts& cuts_;
+  const Thresholds& thresholds_;
+  Predicates& predicates_;
+  Bridges& bridges_;
+};
+
+}  // namespace
+
+void simplify_bridges(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
+                      const Thresholds& thresholds, Predicates& predicates, Bridges& bridges,
+                      Control& control) {
+  Simplifier(surface, acute, cuts, thresholds, predicates, bridges).run(control);
+}
+
+}  // namespace delmesher
