@@ -30,6 +30,7 @@ auto cross(const Triple<T>& a, const Triple<T>& b) {
 // Degree 3, below 6 * 2^(3 B).
 struct Orient3d {
   static constexpr int kPoints = 4;
+  static constexpr bool kFixedSize = true;
   template <class T>
   auto operator()(const Triple<T>* p) const {
     return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
@@ -39,6 +40,7 @@ struct Orient3d {
 // Degree 2, below 2 * 2^(2 B).
 struct Orient2d {
   static constexpr int kPoints = 3;
+  static constexpr bool kFixedSize = true;
   int axis;
   template <class T>
   auto operator()(const Triple<T>* p) const {
@@ -62,6 +64,7 @@ struct Orient2d {
 // and their squared lengths, here expanded along the lengths.
 struct Insphere {
   static constexpr int kPoints = 5;
+  static constexpr bool kFixedSize = true;
   template <class T>
   auto operator()(const Triple<T>* p) const {
     const Triple<T> a = p[0] - p[4];
@@ -85,6 +88,7 @@ struct Insphere {
 // (p - q) . (r - q)
 struct Dot {
   static constexpr int kPoints = 3;
+  static constexpr bool kFixedSize = true;
   template <class T>
   auto operator()(const Triple<T>* p) const {
     return dot(p[0] - p[1], p[2] - p[1]);
@@ -94,6 +98,7 @@ struct Dot {
 // (b - a) . (d - c)
 struct DotDifference {
   static constexpr int kPoints = 4;
+  static constexpr bool kFixedSize = true;
   template <class T>
   auto operator()(const Triple<T>* p) const {
     return dot(p[1] - p[0], p[3] - p[2]);
@@ -103,6 +108,7 @@ struct DotDifference {
 // |a - b|^2 - |c - d|^2
 struct CompareDistance {
   static constexpr int kPoints = 4;
+  static constexpr bool kFixedSize = true;
   template <class T>
   auto operator()(const Triple<T>* p) const {
     const Triple<T> u = p[0] - p[1];
@@ -113,6 +119,7 @@ struct CompareDistance {
 
 struct CompareCoordinate {
   static constexpr int kPoints = 2;
+  static constexpr bool kFixedSize = true;
   int axis;
   template <class T>
   auto operator()(const Triple<T>* p) const {
@@ -129,6 +136,7 @@ struct CompareCoordinate {
 // degree 6; below 2 * (3 * 3 * 3 * 2^(6 B)) + 9 * 3 * 2^(6 B) < 2^(6 B + 7).
 struct InDiametralBall {
   static constexpr int kPoints = 4;
+  static constexpr bool kFixedSize = true;
   template <class T>
   auto operator()(const Triple<T>* p) const {
     const Triple<T> u = p[1] - p[0];
@@ -144,6 +152,7 @@ struct InDiametralBall {
 // [(b - d) x (c - d)] . [(a - d) x (c - d)], degree 4, below 3 * 4 * 2^(4 B).
 struct Dihedral {
   static constexpr int kPoints = 4;
+  static constexpr bool kFixedSize = true;
   template <class T>
   auto operator()(const Triple<T>* p) const {
     const Triple<T> edge = p[2] - p[3];
@@ -158,6 +167,7 @@ struct Dihedral {
 // Angle p q r; to be asked only if acute.
 struct AngleExcess {
   static constexpr int kPoints = 3;
+  static constexpr bool kFixedSize = false;
   double cosine_squared;
   template <class T>
   auto operator()(const Triple<T>* p) const {
@@ -171,6 +181,7 @@ struct AngleExcess {
 // Dihedral angle at cd; to be asked only if acute.
 struct DihedralExcess {
   static constexpr int kPoints = 4;
+  static constexpr bool kFixedSize = false;
   double cosine_squared;
   template <class T>
   auto operator()(const Triple<T>* p) const {
@@ -186,6 +197,7 @@ struct DihedralExcess {
 // |n|^2).
 struct EdgePlaneExcess {
   static constexpr int kPoints = 4;  // q, a, b, c
+  static constexpr bool kFixedSize = false;
   double cosine_squared;
   template <class T>
   auto operator()(const Triple<T>* p) const {

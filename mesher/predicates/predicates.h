@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "mesher/base/ids.h"
+#include "mesher/predicates/filter.h"
 #include "mesher/predicates/points.h"
 
 namespace delmesher {
@@ -32,7 +33,13 @@ class Predicates {
 
   // Sign of det(b - a, c - a, d - a): +1 if d lies on the side of plane abc to which the normal
   // (b - a) x (c - a) points. Laws: exchanging two arguments inverts the sign; 0 iff coplanar.
-  int orient3d(VertexId a, VertexId b, VertexId c, VertexId d);
+  int orient3d(VertexId a, VertexId b, VertexId c, VertexId d) {
+    const int s = filters::orient3d(points_.approximation(a), points_.approximation(b),
+                                    points_.approximation(c), points_.approximation(d));
+    if (s == 0) return orient3d_unfiltered(a, b, c, d);
+    ++counters.filter;
+    return s;
+  }
 
   // Sign of the area of triangle abc projected along coordinate axis 0, 1 or 2 (onto yz, zx, xy):
   // the component `axis` of (b - a) x (c - a).
@@ -40,17 +47,33 @@ class Predicates {
 
   // For orient3d(a, b, c, d) > 0: +1 if e is strictly inside the circumsphere of abcd, 0 on it. For
   // a negative tetrahedron the sign is inverted. Antisymmetric in all five arguments.
-  int insphere(VertexId a, VertexId b, VertexId c, VertexId d, VertexId e);
+  int insphere(VertexId a, VertexId b, VertexId c, VertexId d, VertexId e) {
+    const int s = filters::insphere(points_.approximation(a), points_.approximation(b),
+                                    points_.approximation(c), points_.approximation(d),
+                                    points_.approximation(e));
+    if (s == 0) return insphere_unfiltered(a, b, c, d, e);
+    ++counters.filter;
+    return s;
+  }
 
   // insphere with ties broken by perturbing the lifted heights |p|^2 + eps^(rank), where the point
   // with the smaller id has the dominant perturbation (raised, so it tends to be outside). Never 0
   // unless all five points are coplanar; then, too, consistent. Antisymmetric in all five
   // arguments.
-  int insphere_perturbed(VertexId a, VertexId b, VertexId c, VertexId d, VertexId e);
+  int insphere_perturbed(VertexId a, VertexId b, VertexId c, VertexId d, VertexId e) {
+    const int s = insphere(a, b, c, d, e);
+    return s != 0 ? s : perturbed_sign(a, b, c, d, e);
+  }
 
   // Sign of (p - q) . (r - q): +1 if the angle at q is acute. dot_sign(a, p, b) < 0 iff p is in the
   // open diametral ball of segment ab.
-  int dot_sign(VertexId p, VertexId q, VertexId r);
+  int dot_sign(VertexId p, VertexId q, VertexId r) {
+    const int s =
+        filters::dot(points_.approximation(p), points_.approximation(q), points_.approximation(r));
+    if (s == 0) return dot_sign_unfiltered(p, q, r);
+    ++counters.filter;
+    return s;
+  }
   // Sign of (b - a) . (d - c).
   int dot_difference_sign(VertexId a, VertexId b, VertexId c, VertexId d);
 
@@ -87,6 +110,7 @@ class Predicates {
 
   int perturbed_sign(VertexId a, VertexId b, VertexId c, VertexId d, VertexId e);
   int orient3d_unfiltered(VertexId a, VertexId b, VertexId c, VertexId d);
+  int dot_sign_unfiltered(VertexId p, VertexId q, VertexId r);
   int insphere_unfiltered(VertexId a, VertexId b, VertexId c, VertexId d, VertexId e);
 
   const PointStore& points_;

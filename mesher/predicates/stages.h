@@ -5,6 +5,7 @@
 #include "mesher/arithmetic/big_integer.h"
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/arithmetic/dyadic.h"
+#include "mesher/arithmetic/fixed_integer.h"
 #include "mesher/predicates/points.h"
 #include "mesher/predicates/polynomials.h"
 
@@ -87,10 +88,60 @@ int big_integers(const ExactArguments& arguments, const Polynomial& polynomial) 
   return polynomial(p).sign();
 }
 
+inline constexpr int kLargestFixed = 4;
+
+template <int N>
+FixedInteger<N> fixed_at_scale(const ExactCoordinate& x, std::int32_t exponent) {
+  const bool negative = x.size < 0;
+  return fixed_integer<N>(x.limbs, negative ? -x.size : x.size, negative, x.exponent - exponent);
+}
+
+// Integers of N limbs for differences of coordinates.
+template <int N, class Polynomial>
+int fixed_integers(const ExactArguments& arguments, const Polynomial& polynomial) {
+  Triple<FixedInteger<N>> p[Polynomial::kPoints];
+  for (int i = 0; i < Polynomial::kPoints; ++i) {
+    const auto& x = arguments.point[i].coordinate;
+    p[i] = {fixed_at_scale<N>(x[0], arguments.exponent),
+            fixed_at_scale<N>(x[1], arguments.exponent),
+            fixed_at_scale<N>(x[2], arguments.exponent)};
+  }
+  return polynomial(p).sign();
+}
+
+// Number of limbs that hold differences of the coordinates, with the room that
+// polynomials.h asks for: differences are below 2^(bits + 1) =: 2^B, and B <= 64 N - 2.
+inline int limbs_needed(const ExactArguments& arguments) {
+  return (arguments.bits + 3 + 63) / 64;
+}
+
+template <class Polynomial>
+bool exact_is_cheap(const ExactArguments& arguments) {
+  return Polynomial::kFixedSize && limbs_needed(arguments) <= 3;
+}
+
+template <class Polynomial>
+int exact(const ExactArguments& arguments, const Polynomial& polynomial) {
+  if constexpr (Polynomial::kFixedSize) {
+    switch (limbs_needed(arguments)) {
+      case 1:
+        return fixed_integers<1>(arguments, polynomial);
+      case 2:
+        return fixed_integers<2>(arguments, polynomial);
+      case 3:
+        return fixed_integers<3>(arguments, polynomial);
+      case kLargestFixed:
+        return fixed_integers<kLargestFixed>(arguments, polynomial);
+      default:
+        break;
+    }
+  }
+  return big_integers(arguments, polynomial);
+}
+
 template <class Polynomial>
 int exact(const PointStore& points, const Polynomial& polynomial, const VertexId* ids) {
-  const ExactArguments arguments(points, ids, Polynomial::kPoints);
-  return big_integers(arguments, polynomial);
+  return exact(ExactArguments(points, ids, Polynomial::kPoints), polynomial);
 }
 
 }  // namespace stages
