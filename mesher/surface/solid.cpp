@@ -1,0 +1,252 @@
+#include "mesher/surface/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesher/arithmetic/bounded.h"
+#include "mesher/arithmetic/dyadic.h"
+#include "mesher/surface/bvh.h"
+#include "mesher/surface/tetrahedron_contact.h"
+#include "mesher/surface/triangle_contact.h"
+
+namespace delmesher {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using Tetrahedron = std::array<VertexId, 4>;
+using DyadicPoint = std::array<Dyadic, 3>;
+
+// The faces of a positive tetrahedron, seen from inside counter-clockwise.
+constexpr int kInwardFaces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+
+double lower(double x, double error) {
+  return std::nextafter(x - error, -kInfinity);
+}
+double upper(double x, double error) {
+  return std::nextafter(x + error, kInfinity);
+}
+
+// The closed boxes of doubles that overlap this box are those that meet the interior of the
+// tetrahedron's bounding box (slightly more if its corners are rounded).
+Box interior_box(const PointStore& points, const Tetrahedron& tetrahedron) {
+  Box box = Box::empty();
+  bool rounded = false;
+  for (const VertexId v : tetrahedron) {
+    const Approximation& a = points.approximation(v);
+    if (a.error == 0) {
+      box.extend({{a.x, a.y, a.z}, {a.x, a.y, a.z}});
+    } else {
+      rounded = true;
+      box.extend({{lower(a.x, a.error), lower(a.y, a.error), lower(a.z, a.error)},
+                  {upper(a.x, a.error), upper(a.y, a.error), upper(a.z, a.error)}});
+    }
+  }
+  for (std::size_t i = 0; i < 3 && !rounded; ++i) {
+    box.lo[i] = std::nextafter(box.lo[i], kInfinity);
+    box.hi[i] = std::nextafter(box.hi[i], -kInfinity);
+  }
+  return box;
+}
+
+DyadicPoint dyadic(const Vec3& p) {
+  return {Dyadic::from_double(p[0]), Dyadic::from_double(p[1]), Dyadic::from_double(p[2])};
+}
+
+DyadicPoint operator-(const DyadicPoint& a, const DyadicPoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+DyadicPoint interpolate(const DyadicPoint& p, const DyadicPoint& q, double t) {
+  const Dyadic factor = Dyadic::from_double(t);
+  return {factor * (p[0] - q[0]), factor * (p[1] - q[1]), factor * (p[2] - q[2])};
+}
+
+// The exact coordinates of a point of the store, from its definition.
+DyadicPoint exact_point(const PointStore& points, VertexId v) {
+  if (points.is_explicit(v)) return dyadic(points.nearest(v));
+  const PointDefinition d = points.definition(v);
+  const bool on_segment = d.kind == PointKind::on_segment;
+  const DyadicPoint base = dyadic(points.nearest(d.corner[on_segment ? 1 : 2]));
+  DyadicPoint result = interpolate(dyadic(points.nearest(d.corner[0])), base, d.u);
+  if (!on_segment) {
+    const DyadicPoint second = interpolate(dyadic(points.nearest(d.corner[1])), base, d.v);
+    for (std::size_t i = 0; i < 3; ++i) result[i] = result[i] + second[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) result[i] = result[i] + base[i];
+  return result;
+}
+
+// ray_crosses() for a point that is no double: the same decisions in exact arithmetic.
+bool exact_ray_crosses(const DyadicPoint& p, std::size_t axis, int direction,
+                       const std::array<DyadicPoint, 3>& triangle) {
+  const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
+  const std::array<DyadicPoint, 3> r{triangle[0] - p, triangle[1] - p, triangle[2] - p};
+  const auto perturbed = [&](const DyadicPoint& a, const DyadicPoint& b) {
+    const int o = (a[i] * b[j] - a[j] * b[i]).sign();
+    if (o != 0) return o;
+    const int along_j = (a[j] - b[j]).sign();
+    return along_j != 0 ? along_j : (b[i] - a[i]).sign();
+  };
+  const int sign = perturbed(r[0], r[1]);
+  if (sign == 0 || perturbed(r[1], r[2]) != sign || perturbed(r[2], r[0]) != sign) return false;
+  // orient3d(a, b, c, p) = -det(a - p, b - p, c - p).
+  Dyadic determinant;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+    determinant = determinant + r[0][k] * (r[1][l] * r[2][m] - r[1][m] * r[2][l]);
+  }
+  return -determinant.sign() * sign * direction < 0;
+}
+
+// Is the double point certainly inside the tetrahedron? Running error bounds, no exact stage.
+bool certainly_inside(const PointStore& points, const Tetrahedron& tetrahedron, const Vec3& p) {
+  std::array<std::array<Bounded, 3>, 4> r;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Approximation& a = points.approximation(tetrahedron[k]);
+    const std::array<double, 3> x{a.x, a.y, a.z};
+    for (std::size_t i = 0; i < 3; ++i) r[k][i] = Bounded{x[i], a.error} - Bounded{p[i], 0};
+  }
+  for (const auto& face : kInwardFaces) {
+    const auto &a = r[static_cast<std::size_t>(face[0])], &b = r[static_cast<std::size_t>(face[1])],
+               &c = r[static_cast<std::size_t>(face[2])];
+    const Bounded determinant = a[0] * (b[1] * c[2] - b[2] * c[1]) +
+                                a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                                a[2] * (b[0] * c[1] - b[1] * c[0]);
+    if (determinant.sign() != -1) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+struct Solid::Impl {
+  Impl(const SurfaceTopology& surface, Predicates& mesh_predicates)
+      : topology(surface), predicates(mesh_predicates), bvh(boxes(surface, mesh_predicates)) {
+    const std::size_t n = surface.vertex_half_edge.size();
+    input.reserve(n + 1);
+    for (VertexId v = 0; v < n; ++v) {
+      const Vec3 p = predicates.points().nearest(v);
+      input.add_explicit(p[0], p[1], p[2]);
+    }
+  }
+
+  static std::vector<Box> boxes(const SurfaceTopology& surface, const Predicates& predicates) {
+    std::vector<Box> result;
+    result.reserve(surface.triangles.size());
+    for (const auto& t : surface.triangles) {
+      const PointStore& points = predicates.points();
+      const std::array<Vec3, 3> p{points.nearest(t[0]), points.nearest(t[1]), points.nearest(t[2])};
+      result.push_back(Box::around(p));
+    }
+    return result;
+  }
+
+  Side classify(const Tetrahedron& tetrahedron) {
+    const PointStore& points = predicates.points();
+    const Box box = interior_box(points, tetrahedron);
+    if (bvh.empty() || !bvh.node(0).box.overlaps(box)) return Side::outside;
+    const bool disjoint = bvh.query(box, [&](std::uint32_t t) {
+      return !meets_interior(predicates, tetrahedron, topology.triangles[t]);
+    });
+    if (!disjoint) return Side::straddling;
+    Vec3 center{0, 0, 0};
+    for (const VertexId v : tetrahedron) {
+      const Vec3 p = points.nearest(v);
+      for (std::size_t i = 0; i < 3; ++i) center[i] += 0.25 * p[i];
+    }
+    const bool inside = certainly_inside(points, tetrahedron, center)
+                            ? contains(center)
+                            : contains_centroid(tetrahedron);
+    return inside ? Side::inside : Side::outside;
+  }
+
+  struct Ray {
+    std::size_t axis = 0;
+    int direction = 1;
+    Box box;  // of the doubles that the ray may meet
+  };
+
+  // From a point within the box towards the nearest side of the solid's bounding box.
+  Ray shortest_ray(const Box& start) const {
+    const Box& all = bvh.node(0).box;
+    Ray ray;
+    double least = kInfinity;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const int direction : {1, -1}) {
+        const double length = direction > 0 ? all.hi[axis] * 0.5 - start.lo[axis] * 0.5
+                                            : start.hi[axis] * 0.5 - all.lo[axis] * 0.5;
+        if (length >= least) continue;
+        least = length;
+        ray.axis = axis;
+        ray.direction = direction;
+      }
+    }
+    ray.box = start;
+    (ray.direction > 0 ? ray.box.hi : ray.box.lo)[ray.axis] = ray.direction * kInfinity;
+    return ray;
+  }
+
+  // For a point off the surface.
+  bool contains(const Vec3& p) {
+    const Box start{p, p};
+    if (!bvh.node(0).box.overlaps(start)) return false;
+    const Ray ray = shortest_ray(start);
+    const VertexId id = input.add_explicit(p[0], p[1], p[2]);
+    bool inside = false;
+    bvh.query(ray.box, [&](std::uint32_t t) {
+      inside ^= ray_crosses(input_predicates, id, static_cast<int>(ray.axis), ray.direction,
+                            topology.triangles[t]);
+      return true;
+    });
+    input.pop_back();
+    return inside;
+  }
+
+  // For tetrahedra so thin that the rounded centroid is not certainly inside.
+  bool contains_centroid(const Tetrahedron& tetrahedron) {
+    const PointStore& points = predicates.points();
+    DyadicPoint center;
+    Box start;
+    for (const VertexId v : tetrahedron) {
+      const DyadicPoint p = exact_point(points, v);
+      for (std::size_t i = 0; i < 3; ++i) center[i] = center[i] + p[i];
+    }
+    const Dyadic quarter = Dyadic::from_double(0.25);
+    for (std::size_t i = 0; i < 3; ++i) {
+      center[i] = center[i] * quarter;
+      const Rounded nearest = round_to_double(center[i]);
+      start.lo[i] = std::nextafter(nearest.value, -kInfinity);
+      start.hi[i] = std::nextafter(nearest.value, kInfinity);
+    }
+    const Ray ray = shortest_ray(start);
+    bool inside = false;
+    bvh.query(ray.box, [&](std::uint32_t t) {
+      const auto& v = topology.triangles[t];
+      inside ^= exact_ray_crosses(center, ray.axis, ray.direction,
+                                  {dyadic(points.nearest(v[0])), dyadic(points.nearest(v[1])),
+                                   dyadic(points.nearest(v[2]))});
+      return true;
+    });
+    return inside;
+  }
+
+  const SurfaceTopology& topology;
+  Predicates& predicates;  // of the mesh's points
+  Bvh bvh;
+  // A copy of the input vertices, with room for the start of a ray.
+  PointStore input;
+  Predicates input_predicates{input};
+};
+
+Solid::Solid(const SurfaceTopology& topology, Predicates& predicates)
+    : impl_(std::make_unique<Impl>(topology, predicates)) {}
+
+Solid::~Solid() = default;
+
+Side Solid::classify(const std::array<VertexId, 4>& tetrahedron) {
+  return impl_->classify(tetrahedron);
+}
+
+}  // namespace delmesher
