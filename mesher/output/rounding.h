@@ -37,6 +37,7 @@ struct RoundingResult {
   std::vector<std::array<std::uint32_t, 3>> boundary;
   std::uint64_t inverted = 0, flat = 0;  // left in the result, by exact sign
   std::uint64_t repaired = 0;            // were not positive after plain rounding, and are now
+  std::uint64_t coincident = 0;          // vertices left with the coordinates of an earlier one
   // Largest distance of a written surface vertex from its exact position (an upper bound, rounded
   // up).
   double max_surface_deviation = 0;

@@ -1,0 +1,107 @@
+// The mesh on rounded coordinates while it is being repaired: positions, exact signs, stars.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "mesher/output/rounding.h"
+#include "mesher/predicates/predicates.h"
+
+namespace delmesher {
+
+using Tet = std::array<std::uint32_t, 4>;
+
+// Exact orientation of a tetrahedron whose vertices are doubles.
+class DoubleOrientation {
+ public:
+  DoubleOrientation() : predicates_(scratch_) {}
+  DoubleOrientation(const DoubleOrientation&) = delete;
+  DoubleOrientation& operator=(const DoubleOrientation&) = delete;
+  int operator()(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+ private:
+  PointStore scratch_;
+  Predicates predicates_;
+};
+
+// What is wrong with some tetrahedra: first how many are not positive, then how many of these are
+// inverted. Every repair decreases it, so repairing ends, and never makes more of them.
+using Badness = std::int64_t;
+inline constexpr Badness kOneBad = Badness{1} << 32;
+inline Badness badness(int sign) {
+  return sign > 0 ? 0 : kOneBad + (sign < 0 ? 1 : 0);
+}
+
+// Vertices are local indices, ascending with their ids in the store. Tetrahedra live in slots; a
+// slot freed by a local operation stays dead or is used again.
+class RoundedMesh {
+ public:
+  // Rounds to nearest and decides the sign of every tetrahedron. The input must outlive the mesh.
+  RoundedMesh(const RoundingInput& input, Control& control);
+
+  std::size_t vertices() const { return store_id_.size(); }
+  VertexId store_id(std::uint32_t v) const { return store_id_[v]; }
+  const Vec3& position(std::uint32_t v) const { return position_[v]; }
+  // Nearest doubles of the exact position, and the bound of their error.
+  Vec3 home(std::uint32_t v) const { return input_.points->nearest(store_id_[v]); }
+  double home_error(std::uint32_t v) const { return approximation(v).error; }
+  bool fixed(std::uint32_t v) const { return input_.fixed[store_id_[v]] != 0; }
+  bool on_surface(std::uint32_t v) const { return input_.on_surface[store_id_[v]] != 0; }
+
+  std::size_t slots() const { return tet_.size(); }
+  bool alive(std::uint32_t t) const { return tet_[t][0] != kNone; }
+  const Tet& tet(std::uint32_t t) const { return tet_[t]; }
+  bool inside(std::uint32_t t) const { return inside_[t] != 0; }
+  int sign(std::uint32_t t) const { return sign_[t]; }
+  // Slots of the tetrahedra that are not positive.
+  const std::set<std::uint32_t>& bad() const { return bad_; }
+  // Groups of vertices with equal coordinates, in the order of the vertices.
+  std::vector<std::vector<std::uint32_t>> coincident() const;
+
+  // Must be called before anything below. Costs memory, so a mesh with nothing to repair skips it.
+  void prepare_repairs();
+  // Ascending slots of the tetrahedra around a vertex; valid until the next replace().
+  std::span<const std::uint32_t> star(std::uint32_t v) const;
+  // Is v inside the union of its star? If not, it is on the hull of the tetrahedra given.
+  bool is_enclosed(std::uint32_t v) const;
+  bool is_boundary(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  // Is there a vertex at p?
+  bool occupied(const Vec3& p) const;
+  // The sign that t would have with its vertex v at p, and that of any four vertices.
+  int sign_at(std::uint32_t t, std::uint32_t v, const Vec3& p);
+  int sign_of(const Tet& vertices);
+  void move(std::uint32_t v, const Vec3& p);
+  // Replaces tetrahedra, all with the same inside flag, by others with the same outer faces.
+  void replace(std::span<const std::uint32_t> removed, std::span<const Tet> created);
+
+ private:
+  const Approximation& approximation(std::uint32_t v) const {
+    return input_.points->approximation(store_id_[v]);
+  }
+  void number_vertices();
+  void certify(Control& control);
+  void set_sign(std::uint32_t t, int sign);
+  std::vector<std::uint32_t>& editable_star(std::uint32_t v);
+
+  const RoundingInput& input_;
+  DoubleOrientation orientation_;
+  std::vector<VertexId> store_id_;
+  std::vector<Vec3> position_;
+  std::vector<Tet> tet_;
+  std::vector<std::uint8_t> inside_;
+  std::vector<std::int8_t> sign_;
+  std::set<std::uint32_t> bad_;
+
+  // Stars as built, and those changed since.
+  std::vector<std::uint32_t> star_begin_, star_tets_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> changed_stars_;
+  std::vector<std::array<std::uint32_t, 3>> boundary_;  // each sorted, sorted
+  std::vector<std::uint32_t> by_position_;              // vertices sorted by home
+  std::map<Vec3, std::uint32_t> moved_to_;              // how many moved vertices are there
+};
+
+}  // namespace delmesher

@@ -1,0 +1,126 @@
+#include "mesher/output/rounding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/output/local_operations.h"
+#include "mesher/output/rounded_mesh.h"
+#include "mesher/output/vertex_moves.h"
+
+namespace delmesher {
+namespace {
+
+// Repairs from mild to drastic; after each success, the mild ones get another chance.
+class Repair {
+ public:
+  Repair(RoundedMesh& mesh, const PointStore& points, Control& control)
+      : mesh_(mesh), control_(control), moves_(mesh), operations_(mesh, points) {}
+
+  void run() {
+    for (int effort = 0; effort < kEfforts;) effort = pass(effort) ? 0 : effort + 1;
+    for (const auto& group : mesh_.coincident()) separate(group);
+  }
+
+ private:
+  static constexpr int kEfforts = 4;
+
+  // Every tetrahedron bad at the beginning gets one attempt. Badness decreases with each success,
+  // so passes end.
+  bool pass(int effort) {
+    const std::vector<std::uint32_t> work(mesh_.bad().begin(), mesh_.bad().end());
+    bool success = false;
+    for (const std::uint32_t t : work) {
+      control_.poll();
+      if (mesh_.alive(t) && mesh_.sign(t) <= 0 && attempt(t, effort)) success = true;
+    }
+    return success;
+  }
+
+  bool attempt(std::uint32_t t, int effort) {
+    switch (effort) {
+      case 0:
+        return moves_.fix(t);
+      case 1:
+        return operations_.fix(t, true);
+      case 2:
+        return moves_.fix_by_chain(t);
+      default:
+        return operations_.fix(t, false);
+    }
+  }
+
+  // All but one vertex of a group must go; vertices of the volume go first.
+  void separate(const std::vector<std::uint32_t>& group) {
+    std::vector<std::uint32_t> order = group;
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::uint32_t v) { return !mesh_.on_surface(v); });
+    std::size_t left = order.size();
+    for (const std::uint32_t v : order) {
+      if (left > 1 && moves_.separate(v)) --left;
+    }
+  }
+
+  RoundedMesh& mesh_;
+  Control& control_;
+  VertexMoves moves_;
+  LocalOperations operations_;
+};
+
+// Upper bound of the distance of a vertex from its exact position. The sum of two roundings up of
+// three components each, so a few units in the last place of slack suffice.
+double deviation(const RoundedMesh& mesh, std::uint32_t v) {
+  const Vec3 p = mesh.position(v), home = mesh.home(v);
+  Vec3 d;
+  for (int i = 0; i < 3; ++i) d[i] = std::fabs(p[i] - home[i]) + mesh.home_error(v);
+  const double largest = std::max({d[0], d[1], d[2]});
+  if (largest == 0) return 0;
+  double sum = 0;
+  for (const double c : d) sum += (c / largest) * (c / largest);
+  return largest * std::sqrt(sum) * (1 + 0x1p-48);
+}
+
+void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingResult& result) {
+  std::vector<std::uint32_t> index(mesh.vertices(), kNone);
+  for (std::uint32_t t = 0; t < mesh.slots(); ++t) {
+    if (!mesh.alive(t)) continue;
+    result.tetrahedra.push_back(mesh.tet(t));
+    result.inside.push_back(mesh.inside(t) ? 1 : 0);
+    for (const std::uint32_t v : mesh.tet(t)) index[v] = 0;
+  }
+  std::vector<std::uint32_t> of_store(input.points->size(), kNone);
+  for (std::uint32_t v = 0; v < index.size(); ++v) {
+    if (index[v] == kNone) continue;
+    index[v] = static_cast<std::uint32_t>(result.vertices.size());
+    of_store[mesh.store_id(v)] = index[v];
+    result.vertices.push_back(mesh.store_id(v));
+    result.coordinates.push_back(mesh.position(v));
+    if (mesh.on_surface(v)) {
+      result.max_surface_deviation = std::max(result.max_surface_deviation, deviation(mesh, v));
+    }
+  }
+  for (Tet& t : result.tetrahedra) {
+    for (std::uint32_t& v : t) v = index[v];
+  }
+  for (const auto& [a, b, c] : input.boundary) {
+    result.boundary.push_back({of_store[a], of_store[b], of_store[c]});
+  }
+}
+
+}  // namespace
+
+RoundingResult round_mesh(const RoundingInput& input, Control& control) {
+  RoundedMesh mesh(input, control);
+  RoundingResult result;
+  const std::size_t bad_before = mesh.bad().size();
+  if (bad_before != 0 || !mesh.coincident().empty()) {
+    mesh.prepare_repairs();
+    Repair(mesh, *input.points, control).run();
+  }
+  for (const std::uint32_t t : mesh.bad()) ++(mesh.sign(t) < 0 ? result.inverted : result.flat);
+  result.repaired = bad_before - mesh.bad().size();
+  for (const auto& group : mesh.coincident()) result.coincident += group.size() - 1;
+  export_mesh(mesh, input, result);
+  return result;
+}
+
+}  // namespace delmesher

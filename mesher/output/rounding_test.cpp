@@ -1,0 +1,467 @@
+#include "mesher/output/rounding.h"
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "mesher/delaunay/tetrahedrization.h"
+#include "mesher/output/rounded_mesh.h"
+
+namespace delmesher {
+namespace {
+
+using Face = std::array<std::uint32_t, 3>;
+using ExactVec = std::array<mpq_class, 3>;
+
+// ------------------------------------------------------------------- independent, in rationals
+
+ExactVec rational(const Vec3& p) {
+  return {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])};
+}
+
+ExactVec exact_position(const PointStore& points, VertexId v) {
+  const PointDefinition& d = points.definition(v);
+  if (d.kind == PointKind::explicit_point) return rational(points.nearest(v));
+  const bool segment = d.kind == PointKind::on_segment;
+  const mpq_class weight[3] = {
+      d.u, segment ? mpq_class(1 - mpq_class(d.u)) : mpq_class(d.v),
+      segment ? mpq_class(0) : mpq_class(1 - mpq_class(d.u) - mpq_class(d.v))};
+  ExactVec sum;
+  for (int k = 0; k < (segment ? 2 : 3); ++k) {
+    const ExactVec corner = rational(points.nearest(d.corner[k]));
+    for (int i = 0; i < 3; ++i) sum[i] += weight[k] * corner[i];
+  }
+  return sum;
+}
+
+int orientation(const ExactVec& a, const ExactVec& b, const ExactVec& c, const ExactVec& d) {
+  mpq_class m[3][3];
+  const ExactVec* rows[3] = {&b, &c, &d};
+  for (int r = 0; r < 3; ++r) {
+    for (int i = 0; i < 3; ++i) m[r][i] = (*rows[r])[i] - a[i];
+  }
+  return sgn(mpq_class(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                       m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                       m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])));
+}
+
+int sign_of(const std::vector<Vec3>& x, const Tet& t) {
+  return orientation(rational(x[t[0]]), rational(x[t[1]]), rational(x[t[2]]), rational(x[t[3]]));
+}
+
+Face rotated(Face f) {
+  std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
+  return f;
+}
+
+// Outward faces, counting each, with the flag of the tetrahedron.
+std::map<Face, int> oriented_faces(const std::vector<Tet>& tets,
+                                   const std::vector<std::uint8_t>& inside) {
+  std::map<Face, int> faces;
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    for (const auto& f : kFace) {
+      const bool fresh =
+          faces.emplace(rotated({tets[t][f[0]], tets[t][f[1]], tets[t][f[2]]}), inside[t]).second;
+      EXPECT_TRUE(fresh) << "a face is twice on the same side";
+    }
+  }
+  return faces;
+}
+
+// Faces on one tetrahedron, or between tetrahedra of different flags.
+std::set<Face> outline(const std::vector<Tet>& tets, const std::vector<std::uint8_t>& inside) {
+  const auto faces = oriented_faces(tets, inside);
+  std::set<Face> result;
+  for (const auto& [f, flag] : faces) {
+    const auto twin = faces.find(rotated({f[0], f[2], f[1]}));
+    if (twin == faces.end() || twin->second != flag) result.insert(f);
+  }
+  return result;
+}
+
+// ------------------------------------------------------------------------------------ test meshes
+
+struct Scene {
+  PointStore points;
+  RoundingInput input;
+
+  void finish() {
+    input.points = &points;
+    input.fixed.resize(points.size(), 0);
+    input.on_surface.resize(points.size(), 0);
+    input.inside.resize(input.tetrahedra.size(), 1);
+    const std::set<Face> faces = outline(input.tetrahedra, input.inside);
+    input.boundary.assign(faces.begin(), faces.end());
+  }
+  std::size_t bad_when_rounded() const {
+    std::vector<Vec3> x;
+    for (VertexId v = 0; v < points.size(); ++v) x.push_back(points.nearest(v));
+    std::size_t bad = 0;
+    for (const Tet& t : input.tetrahedra) bad += sign_of(x, t) <= 0;
+    return bad;
+  }
+};
+
+RoundingResult run(const Scene& scene) {
+  const Options options;
+  Control control(options);
+  return round_mesh(scene.input, control);
+}
+
+// Everything that round_mesh promises, whatever it could or could not repair.
+void check(const Scene& scene, const RoundingResult& r) {
+  ASSERT_TRUE(std::is_sorted(r.vertices.begin(), r.vertices.end()));
+  ASSERT_EQ(r.vertices.size(), r.coordinates.size());
+  ASSERT_EQ(r.tetrahedra.size(), r.inside.size());
+  std::uint64_t inverted = 0, flat = 0;
+  std::vector<Tet> in_store;
+  std::set<std::uint32_t> used;
+  for (const Tet& t : r.tetrahedra) {
+    const int sign = sign_of(r.coordinates, t);
+    inverted += sign < 0;
+    flat += sign == 0;
+    in_store.push_back({r.vertices[t[0]], r.vertices[t[1]], r.vertices[t[2]], r.vertices[t[3]]});
+    used.insert(t.begin(), t.end());
+  }
+  EXPECT_EQ(inverted, r.inverted);
+  EXPECT_EQ(flat, r.flat);
+  EXPECT_EQ(scene.bad_when_rounded(), r.repaired + inverted + flat);
+  EXPECT_EQ(used.size(), r.vertices.size());
+  EXPECT_EQ(outline(in_store, r.inside), outline(scene.input.tetrahedra, scene.input.inside));
+  ASSERT_EQ(r.boundary.size(), scene.input.boundary.size());
+  for (std::size_t i = 0; i < r.boundary.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(r.vertices[r.boundary[i][k]], scene.input.boundary[i][k]);
+    }
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < r.vertices.size(); ++i) {
+    const VertexId v = r.vertices[i];
+    if (scene.input.fixed[v] == 0 && scene.input.on_surface[v] == 0) continue;
+    for (const double c : scene.points.nearest(v)) largest = std::max(largest, std::fabs(c));
+  }
+  const double ulp = std::nextafter(largest, INFINITY) - largest;
+  for (std::size_t i = 0; i < r.vertices.size(); ++i) {
+    const VertexId v = r.vertices[i];
+    if (scene.input.fixed[v] != 0) {
+      EXPECT_EQ(r.coordinates[i], scene.points.nearest(v));
+    }
+    if (scene.input.on_surface[v] == 0) continue;
+    const ExactVec exact = exact_position(scene.points, v), written = rational(r.coordinates[i]);
+    mpq_class squared = 0;
+    for (int k = 0; k < 3; ++k) squared += (written[k] - exact[k]) * (written[k] - exact[k]);
+    const mpq_class limit = 4 * mpq_class(ulp), claimed(r.max_surface_deviation);
+    EXPECT_TRUE(squared <= limit * limit) << v;
+    EXPECT_TRUE(squared <= claimed * claimed) << v;
+  }
+  const std::set<Vec3> distinct(r.coordinates.begin(), r.coordinates.end());
+  EXPECT_EQ(distinct.size() + r.coincident, r.coordinates.size());
+}
+
+void expect_same(const RoundingResult& a, const RoundingResult& b, double factor) {
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_EQ(a.tetrahedra, b.tetrahedra);
+  EXPECT_EQ(a.max_surface_deviation * factor, b.max_surface_deviation);
+  ASSERT_EQ(a.coordinates.size(), b.coordinates.size());
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(a.coordinates[i][k] * factor, b.coordinates[i][k]);
+  }
+}
+
+// Points of a grid on a triangle with no exactly representable plane, a tip for all, and, just
+// above each grid triangle, a point whose tetrahedron is positive but often vanishes when rounded.
+Scene make_grazing(std::uint64_t seed, double scale, bool tiny_tips_on_surface) {
+  std::mt19937_64 random(seed);
+  const int n = 8;
+  Scene s;
+  std::uniform_real_distribution<double> noise(-0.3, 0.3);
+  const auto corner = [&](double x, double y, double z) {
+    const VertexId v = s.points.add_explicit(
+        scale * (x + noise(random)), scale * (y + noise(random)), scale * (z + noise(random)));
+    s.input.fixed.resize(v + 1, 1);
+    s.input.on_surface.resize(v + 1, 1);
+    return v;
+  };
+  const VertexId p = corner(1, 0, 0), q = corner(0, 1, 0), r = corner(0, 0, 1),
+                 tip = corner(2, 2, 2);
+  std::map<std::pair<int, int>, VertexId> grid;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; i + j <= n; ++j) {
+      // Jittered, so that the sums do not happen to be exact.
+      const auto jitter = [&] { return std::ldexp(std::round(noise(random) * 0x1p20), -25); };
+      const VertexId v =
+          s.points.add_on_triangle(p, q, r, double(i) / n + jitter(), double(j) / n + jitter());
+      grid[{i, j}] = v;
+      s.input.on_surface.resize(v + 1, 1);
+      s.input.fixed.resize(v + 1, 0);
+    }
+  }
+  Predicates exact(s.points);
+  const auto add = [&](VertexId a, VertexId b, VertexId c) {
+    const Vec3 x = s.points.nearest(a), y = s.points.nearest(b), z = s.points.nearest(c);
+    Vec3 m;
+    for (int k = 0; k < 3; ++k) m[k] = 0.4 * x[k] + 0.3 * y[k] + 0.3 * z[k];
+    VertexId v = s.points.add_explicit(m[0], m[1], m[2]);
+    for (int i = 0; i < 12 && exact.orient3d(a, b, c, v) <= 0; ++i) {
+      s.points.pop_back();
+      m[i % 3] = std::nextafter(m[i % 3], INFINITY);
+      v = s.points.add_explicit(m[0], m[1], m[2]);
+    }
+    ASSERT_GT(exact.orient3d(a, b, c, v), 0);
+    s.input.on_surface.resize(v + 1, tiny_tips_on_surface ? 1 : 0);
+    s.input.fixed.resize(v + 1, 0);
+    for (const Tet& t :
+         {Tet{a, b, c, v}, Tet{a, b, v, tip}, Tet{b, c, v, tip}, Tet{c, a, v, tip}}) {
+      ASSERT_GT(exact.orient3d(t[0], t[1], t[2], t[3]), 0);
+      s.input.tetrahedra.push_back(t);
+    }
+  };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; i + j < n; ++j) {
+      add(grid[{i, j}], grid[{i + 1, j}], grid[{i, j + 1}]);
+      if (i + j + 2 <= n) add(grid[{i + 1, j}], grid[{i + 1, j + 1}], grid[{i, j + 1}]);
+    }
+  }
+  s.finish();
+  return s;
+}
+
+// Two large triangles at a dihedral angle of 180 degrees minus next to nothing, with the points of
+// a square grid on both, and a Delaunay tetrahedrization: the squares that straddle the ridge
+// become tetrahedra with next to no volume, their corners not quite coplanar. The corners of a box
+// around are fixed.
+Scene make_ridge(std::uint64_t seed, double scale, double angle, double shift = 0) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> noise(-1, 1);
+  Scene s;
+  const auto corner = [&](double x, double y, double z) {
+    const VertexId v =
+        s.points.add_explicit(scale * (x + shift), scale * (y - 2 * shift), scale * (z + shift));
+    s.input.fixed.resize(v + 1, 1);
+    s.input.on_surface.resize(v + 1, 1);
+    return v;
+  };
+  for (int i = 0; i < 8; ++i) {
+    corner((i & 1) != 0 ? 3 : -3, (i & 2) != 0 ? 3 : -3, (i & 4) != 0 ? 3 : -3);
+  }
+  const double tilt = 0.3 * noise(random), offset = 0.1 * noise(random), turn = noise(random);
+  const double cosine = 1 / std::sqrt(1 + tilt * tilt), sine = tilt * cosine;
+  const double reach = 2 / std::sqrt(1 + turn * turn);
+  // Along the ridge, across it, and up.
+  const auto on_plane = [&](double along, double across, double lift) {
+    const double x = reach * (along - turn * across), y = reach * (turn * along + across);
+    return corner(x, cosine * y, sine * y + offset + lift);
+  };
+  const VertexId a = on_plane(-1, 0, 0), b = on_plane(1, 0, 0);
+  const VertexId c = on_plane(0, 1, 0), d = on_plane(0, -1, angle);
+  std::vector<VertexId> all{0, 1, 2, 3, 4, 5, 6, 7, a, b, c, d};
+  for (int i = -4; i <= 4; ++i) {
+    for (int j = -4; j <= 4; ++j) {
+      const double x = 0.25 * i / reach, y = 0.25 * j / reach;
+      const double along = (x + turn * y) / (1 + turn * turn);
+      const double across = (y - turn * x) / (1 + turn * turn);
+      // along = v_b - v_a, |across| = v_apex, the weights summing to 1
+      const double weight = std::fabs(across), of_b = 0.5 * (1 - weight + along);
+      if (of_b < 0 || of_b + weight > 1) continue;
+      const VertexId v = s.points.add_on_triangle(b, across > 0 ? c : d, a, of_b, weight);
+      s.input.on_surface.resize(v + 1, 1);
+      s.input.fixed.resize(v + 1, 0);
+      all.push_back(v);
+    }
+  }
+  Predicates predicates(s.points);
+  Tetrahedrization delaunay(predicates);
+  const Options options;
+  Control control(options);
+  delaunay.build(all, control);
+  for (TetId t = 0; t < delaunay.capacity(); ++t) {
+    if (!delaunay.alive(t) || delaunay.is_ghost(t)) continue;
+    const VertexId* v = delaunay.vertices(t);
+    s.input.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
+  }
+  s.finish();
+  return s;
+}
+
+// ------------------------------------------------------------------------------------------ tests
+
+TEST(Rounding, GrazingVolumeVertices) {
+  std::size_t before = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scene s = make_grazing(seed, 1, false);
+    before += s.bad_when_rounded();
+    const RoundingResult r = run(s);
+    check(s, r);
+    EXPECT_EQ(r.inverted + r.flat, 0U) << seed;
+  }
+  EXPECT_GT(before, 50U);  // else the test shows nothing
+}
+
+TEST(Rounding, GrazingSurfaceVertices) {
+  std::size_t before = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scene s = make_grazing(seed, 1, true);
+    before += s.bad_when_rounded();
+    const RoundingResult r = run(s);
+    check(s, r);
+    EXPECT_EQ(r.inverted + r.flat, 0U) << seed;
+  }
+  EXPECT_GT(before, 50U);
+}
+
+TEST(Rounding, Ridges) {
+  std::size_t before = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    for (const double angle : {1e-15, 3e-16, 0.0}) {
+      const Scene s = make_ridge(seed, 1, angle);
+      before += s.bad_when_rounded();
+      const RoundingResult r = run(s);
+      check(s, r);
+      EXPECT_EQ(r.inverted + r.flat, 0U) << seed << " " << angle;
+    }
+  }
+  EXPECT_GT(before, 20U);
+}
+
+TEST(Rounding, FarFromTheOrigin) {
+  std::size_t before = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    for (const double shift : {1e3, 1e9, 1e13}) {
+      const Scene s = make_ridge(seed, 1, 2e-16 * shift, shift);
+      before += s.bad_when_rounded();
+      const RoundingResult r = run(s);
+      check(s, r);
+      EXPECT_EQ(r.inverted + r.flat, 0U) << seed << " " << shift;
+    }
+  }
+  EXPECT_GT(before, 20U);
+}
+
+TEST(Rounding, NothingToDo) {
+  const Scene s = make_ridge(1, 1, 0.1);
+  ASSERT_EQ(s.bad_when_rounded(), 0U);
+  const RoundingResult r = run(s);
+  check(s, r);
+  EXPECT_EQ(r.tetrahedra.size(), s.input.tetrahedra.size());
+  EXPECT_EQ(r.repaired, 0U);
+  for (std::size_t i = 0; i < r.vertices.size(); ++i) {
+    EXPECT_EQ(r.coordinates[i], s.points.nearest(r.vertices[i]));
+  }
+}
+
+TEST(Rounding, SameTwiceAndScaled) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const Scene s = make_ridge(seed, 1, 3e-16);
+    const Scene g = make_grazing(seed, 1, false);
+    expect_same(run(s), run(s), 1);
+    for (const double factor : {0x1p-10, 0x1p20, 0x1p-200, 0x1p300}) {
+      expect_same(run(s), run(make_ridge(seed, factor, 3e-16)), factor);
+      expect_same(run(g), run(make_grazing(seed, factor, false)), factor);
+    }
+  }
+}
+
+TEST(Rounding, WhatCannotMoveIsCounted) {
+  Scene s = make_ridge(0, 1, 3e-16);
+  std::fill(s.input.fixed.begin(), s.input.fixed.end(), 1);
+  const std::size_t before = s.bad_when_rounded();
+  ASSERT_GT(before, 0U);
+  // With every face to be kept, there are no flips either.
+  s.input.boundary.clear();
+  for (const Tet& t : s.input.tetrahedra) {
+    for (const auto& f : kFace) s.input.boundary.push_back({t[f[0]], t[f[1]], t[f[2]]});
+  }
+  const RoundingResult r = run(s);
+  EXPECT_EQ(r.repaired, 0U);
+  EXPECT_EQ(r.inverted + r.flat, before);
+  EXPECT_EQ(r.tetrahedra, s.input.tetrahedra);
+}
+
+TEST(Rounding, FlipsWhereNothingMoves) {
+  std::size_t before = 0, after = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Scene s = make_ridge(seed, 1, 3e-16);
+    std::fill(s.input.fixed.begin(), s.input.fixed.end(), 1);
+    before += s.bad_when_rounded();
+    const RoundingResult r = run(s);
+    check(s, r);
+    EXPECT_EQ(r.vertices.size(), s.points.size());
+    after += r.inverted + r.flat;
+  }
+  EXPECT_GT(before, 10U);
+  EXPECT_EQ(after, 0U);
+}
+
+TEST(Rounding, CoincidentVerticesAreSeparated) {
+  // Two tetrahedra that touch only where two different points of a segment round to one.
+  Scene s;
+  PointStore& p = s.points;
+  const VertexId a = p.add_explicit(1, 1, 1), b = p.add_explicit(3, 4, 5);
+  const VertexId v = p.add_on_segment(a, b, 0.25), w = p.add_on_segment(a, b, 0.25 + 0x1p-54);
+  ASSERT_EQ(p.nearest(v), p.nearest(w));
+  const VertexId first = p.add_explicit(7, 0, 0);
+  p.add_explicit(8, 0, 1), p.add_explicit(7, 1, 0), p.add_explicit(-7, 0, 0);
+  p.add_explicit(-8, 0, 1), p.add_explicit(-7, 1, 0);
+  Predicates exact(p);
+  for (int i = 0; i < 2; ++i) {
+    const VertexId f = first + 3 * i, x = i == 0 ? v : w;
+    const bool positive = exact.orient3d(f, f + 1, f + 2, x) > 0;
+    s.input.tetrahedra.push_back({f, positive ? f + 1 : f + 2, positive ? f + 2 : f + 1, x});
+  }
+  s.input.on_surface.assign(p.size(), 1);
+  s.input.fixed.assign(p.size(), 1);
+  s.input.fixed[v] = s.input.fixed[w] = 0;
+  s.finish();
+  const RoundingResult r = run(s);
+  check(s, r);
+  EXPECT_EQ(r.coincident, 0U);
+  s.input.fixed[v] = s.input.fixed[w] = 1;  // the others being explicit, nothing can be done
+  EXPECT_EQ(run(s).coincident, 1U);
+}
+
+TEST(Rounding, Cancels) {
+  Options options;
+  options.progress = [](const Progress&) { return false; };
+  Control control(options);
+  const Scene s = make_ridge(0, 1, 3e-16);
+  EXPECT_THROW(round_mesh(s.input, control), Stopped);
+}
+
+TEST(Rounding, EmptyMesh) {
+  Scene s;
+  s.points.add_explicit(0, 0, 0);
+  s.finish();
+  const RoundingResult r = run(s);
+  EXPECT_TRUE(r.vertices.empty());
+  EXPECT_TRUE(r.tetrahedra.empty());
+}
+
+TEST(DoubleOrientation, AgreesWithRationals) {
+  std::mt19937_64 random(5);
+  DoubleOrientation orient;
+  int zeros = 0, signs = 0;
+  for (int round = 0; round < 4000; ++round) {
+    // Small integers times powers of two: often coplanar, now and then far apart in size.
+    const int spread = round % 3 == 0 ? 600 : round % 3 == 1 ? 3 : 0;
+    std::vector<Vec3> x(4);
+    for (Vec3& p : x) {
+      for (double& c : p) {
+        const int exponent = spread == 0 ? 0 : static_cast<int>(random() % (2 * spread)) - spread;
+        c = std::ldexp(static_cast<double>(random() % 7) - 3, exponent);
+      }
+    }
+    const int expected = sign_of(x, {0, 1, 2, 3});
+    EXPECT_EQ(orient(x[0], x[1], x[2], x[3]), expected);
+    ++(expected == 0 ? zeros : signs);
+  }
+  EXPECT_GT(zeros, 50);
+  EXPECT_GT(signs, 1000);
+}
+
+}  // namespace
+}  // namespace delmesher

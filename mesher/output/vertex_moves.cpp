@@ -1,0 +1,332 @@
+#include "mesher/output/vertex_moves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace delmesher {
+namespace {
+
+// Most moves that a chain may look at, so that hopeless tetrahedra do not take forever.
+constexpr int kChainBudget = 4000;
+constexpr int kChainDepth = 3;
+
+// The distance from |x| to the next larger double; 0 for 0, whose neighbours say nothing about the
+// scale of the mesh.
+double unit_in_last_place(double x) {
+  if (x == 0) return 0;
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  return std::ldexp(1.0, std::max(exponent - 53, -1074));
+}
+
+double largest_component(const Vec3& p) {
+  return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
+}
+
+bool is_finite(const Vec3& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+Vec3 difference(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double dot(const Vec3& u, const Vec3& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+// A half space that the vertex must be in to make one tetrahedron of its star positive.
+struct HalfSpace {
+  Vec3 normal;  // of length 1, inwards
+  double offset;
+};
+
+// The half spaces of a star in coordinates relative to `origin`, divided by 2^exponent so that they
+// are around 1: nothing over- or underflows, and scaling the mesh changes nothing.
+struct StarFrame {
+  Vec3 origin;
+  int exponent = 0;
+  std::vector<HalfSpace> half_spaces;
+
+  Vec3 to_mesh(const Vec3& x) const {
+    Vec3 p;
+    for (int i = 0; i < 3; ++i) p[i] = origin[i] + std::ldexp(x[i], exponent);
+    return p;
+  }
+};
+
+StarFrame make_frame(const RoundedMesh& mesh, std::uint32_t v) {
+  StarFrame frame;
+  frame.origin = mesh.position(v);
+  double size = 0;
+  for (const std::uint32_t t : mesh.star(v)) {
+    for (const std::uint32_t w : mesh.tet(t)) {
+      size = std::max(size, largest_component(difference(mesh.position(w), frame.origin)));
+    }
+  }
+  std::frexp(size, &frame.exponent);
+  const auto local = [&](std::uint32_t w) {
+    Vec3 x = difference(mesh.position(w), frame.origin);
+    for (double& c : x) c = std::ldexp(c, -frame.exponent);
+    return x;
+  };
+  // The face opposite vertex i, seen counter-clockwise from vertex i.
+  static constexpr int kInward[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+  for (const std::uint32_t t : mesh.star(v)) {
+    const Tet& q = mesh.tet(t);
+    const auto i = std::find(q.begin(), q.end(), v) - q.begin();
+    const Vec3 a = local(q[kInward[i][0]]);
+    const Vec3 u = difference(local(q[kInward[i][1]]), a);
+    const Vec3 w = difference(local(q[kInward[i][2]]), a);
+    Vec3 normal{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    const double length = std::sqrt(dot(normal, normal));
+    if (!(length > 0) || !std::isfinite(length)) continue;
+    for (double& c : normal) c /= length;
+    frame.half_spaces.push_back({normal, dot(normal, a)});
+  }
+  return frame;
+}
+
+// A point far inside all half spaces, if there is one (else as little outside as found): steps
+// against the worst one, of decreasing length.
+Vec3 deepest_point(const StarFrame& frame) {
+  Vec3 x{}, best{};
+  double best_depth = -INFINITY;
+  for (double step = 0.25; step > 0x1p-20; step *= 0.5) {
+    x = best;
+    for (int i = 0; i < 12; ++i) {
+      const HalfSpace* worst = nullptr;
+      double depth = INFINITY;
+      for (const HalfSpace& h : frame.half_spaces) {
+        const double d = dot(h.normal, x) - h.offset;
+        if (d < depth) {
+          depth = d;
+          worst = &h;
+        }
+      }
+      if (worst == nullptr) return best;
+      if (depth > best_depth) {
+        best_depth = depth;
+        best = x;
+      }
+      for (int j = 0; j < 3; ++j) x[j] += step * worst->normal[j];
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh) {
+  double largest = 0;
+  for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
+    if (mesh.fixed(v) || mesh.on_surface(v)) {
+      largest = std::max(largest, largest_component(mesh.home(v)));
+    }
+  }
+  surface_unit_ = unit_in_last_place(largest);
+  for (int x = -2; x <= 2; ++x) {
+    for (int y = -2; y <= 2; ++y) {
+      for (int z = -2; z <= 2; ++z) {
+        if (x != 0 || y != 0 || z != 0) steps_.push_back({x, y, z});
+      }
+    }
+  }
+  const auto squared = [](const std::array<int, 3>& s) {
+    return s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+  };
+  std::stable_sort(steps_.begin(), steps_.end(),
+                   [&](const auto& s, const auto& t) { return squared(s) < squared(t); });
+}
+
+// Vertices in the volume first: moving them costs no fidelity to the surface.
+std::vector<std::uint32_t> VertexMoves::movable(std::uint32_t t) const {
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t v : mesh_.tet(t)) {
+    if (!mesh_.fixed(v)) result.push_back(v);
+  }
+  std::sort(result.begin(), result.end(), [&](std::uint32_t v, std::uint32_t w) {
+    return std::pair(mesh_.on_surface(v), v) < std::pair(mesh_.on_surface(w), w);
+  });
+  return result;
+}
+
+bool VertexMoves::allowed(std::uint32_t v, const Vec3& p) const {
+  if (!is_finite(p) || p == mesh_.position(v)) return false;
+  if (!mesh_.on_surface(v)) return true;
+  if (surface_unit_ == 0) return false;
+  const Vec3 home = mesh_.home(v);
+  double sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double d = (std::fabs(p[i] - home[i]) + mesh_.home_error(v)) / surface_unit_;
+    sum += d * d;
+  }
+  return sum <= kSurfaceUlps * kSurfaceUlps;
+}
+
+// Neighbouring doubles in each coordinate, then steps of the unit of the vertex's largest
+// coordinate; if `wide`, also steps of the unit of the surface's largest coordinate (and, for
+// vertices in the volume, some multiples of it).
+void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
+  candidates_.clear();
+  const Vec3 p = mesh_.position(v);
+  const auto add = [&](const Vec3& unit, int reach) {
+    for (const auto& s : steps_) {
+      if (std::abs(s[0]) > reach || std::abs(s[1]) > reach || std::abs(s[2]) > reach) continue;
+      const Vec3 q{p[0] + s[0] * unit[0], p[1] + s[1] * unit[1], p[2] + s[2] * unit[2]};
+      if (allowed(v, q)) candidates_.push_back(q);
+    }
+  };
+  const double own = unit_in_last_place(largest_component(p));
+  if (!wide) {
+    add({unit_in_last_place(p[0]), unit_in_last_place(p[1]), unit_in_last_place(p[2])}, 1);
+    add({own, own, own}, 2);
+    return;
+  }
+  if (surface_unit_ != own) add({surface_unit_, surface_unit_, surface_unit_}, 2);
+  if (mesh_.on_surface(v)) return;
+  for (double unit = 4 * surface_unit_; unit <= 64 * surface_unit_; unit *= 4) {
+    add({unit, unit, unit}, 2);
+  }
+}
+
+// Points from here to the middle of the star's kernel: as near as possible, then better and better.
+void VertexMoves::far_candidates(std::uint32_t v) {
+  candidates_.clear();
+  if (mesh_.on_surface(v) || !mesh_.is_enclosed(v)) return;
+  const StarFrame frame = make_frame(mesh_, v);
+  const Vec3 target = deepest_point(frame);
+  for (int k = 40; k >= 0; k -= 2) {
+    Vec3 x = target;
+    for (double& c : x) c = std::ldexp(c, -k);
+    const Vec3 p = frame.to_mesh(x);
+    if (allowed(v, p)) candidates_.push_back(p);
+  }
+}
+
+void VertexMoves::order_star(std::uint32_t v) {
+  const auto star = mesh_.star(v);
+  ordered_star_.assign(star.begin(), star.end());
+  std::stable_partition(ordered_star_.begin(), ordered_star_.end(),
+                        [&](std::uint32_t t) { return mesh_.sign(t) <= 0; });
+  star_badness_ = 0;
+  for (const std::uint32_t t : ordered_star_) star_badness_ += badness(mesh_.sign(t));
+}
+
+// How the badness of the ordered star changes if v moves to p; stops counting at `limit`.
+Badness VertexMoves::change(std::uint32_t v, const Vec3& p, Badness limit) {
+  Badness sum = -star_badness_;
+  for (const std::uint32_t t : ordered_star_) {
+    sum += badness(mesh_.sign_at(t, v, p));
+    if (sum >= limit) return limit;
+  }
+  return sum;
+}
+
+bool VertexMoves::fix(std::uint32_t t) {
+  return improve(t, false) || improve(t, true);
+}
+
+// The first move that leaves nothing bad around the vertex, or the one that helps most.
+bool VertexMoves::improve(std::uint32_t t, bool far) {
+  Badness best = 0;
+  std::uint32_t best_vertex = kNone;
+  Vec3 best_position{};
+  const int stages = far ? 1 : 2;
+  for (int stage = 0; stage < stages; ++stage) {
+    for (const std::uint32_t v : movable(t)) {
+      order_star(v);
+      far ? far_candidates(v) : near_candidates(v, stage == 1);
+      for (const Vec3& p : candidates_) {
+        const Badness gain = change(v, p, best);
+        if (gain >= best || mesh_.occupied(p)) continue;
+        best = gain;
+        best_vertex = v;
+        best_position = p;
+        if (gain != -star_badness_) continue;
+        mesh_.move(v, p);
+        return true;
+      }
+    }
+  }
+  if (best_vertex == kNone) return false;
+  mesh_.move(best_vertex, best_position);
+  return true;
+}
+
+bool VertexMoves::separate(std::uint32_t v) {
+  if (mesh_.fixed(v)) return false;
+  order_star(v);
+  for (int stage = 0; stage < 3; ++stage) {
+    stage == 2 ? far_candidates(v) : near_candidates(v, stage == 1);
+    for (const Vec3& p : candidates_) {
+      if (mesh_.occupied(p) || change(v, p, 1) > 0) continue;
+      mesh_.move(v, p);
+      return true;
+    }
+  }
+  return false;
+}
+
+// Moves made so far by a chain, to be undone if it fails. No vertex moves twice.
+struct VertexMoves::Chain {
+  std::vector<std::pair<std::uint32_t, Vec3>> earlier;
+  int budget = kChainBudget;
+};
+
+void VertexMoves::undo(Chain& chain, std::size_t mark) {
+  while (chain.earlier.size() > mark) {
+    mesh_.move(chain.earlier.back().first, chain.earlier.back().second);
+    chain.earlier.pop_back();
+  }
+}
+
+// Moves a vertex of t so that t and all that was good around it are good in the end, moving other
+// vertices for the latter.
+bool VertexMoves::free_by_chain(Chain& chain, std::uint32_t t, int depth) {
+  for (const std::uint32_t v : movable(t)) {
+    const auto moved = [&](const auto& m) { return m.first == v; };
+    if (std::any_of(chain.earlier.begin(), chain.earlier.end(), moved)) continue;
+    const Vec3 here = mesh_.position(v);
+    for (int stage = 0; stage < 2; ++stage) {
+      near_candidates(v, stage == 1);
+      const std::vector<Vec3> candidates = candidates_;
+      for (const Vec3& p : candidates) {
+        if (--chain.budget < 0) return false;
+        if (mesh_.sign_at(t, v, p) <= 0) continue;
+        order_star(v);
+        const Badness limit = depth == 0 ? 0 : 2 * kOneBad;
+        if (change(v, p, limit) >= limit || mesh_.occupied(p)) continue;
+        std::vector<std::uint32_t> broken;
+        for (const std::uint32_t u : ordered_star_) {
+          if (mesh_.sign(u) > 0 && mesh_.sign_at(u, v, p) <= 0) broken.push_back(u);
+        }
+        if (depth == 0 && !broken.empty()) continue;
+        const std::size_t mark = chain.earlier.size();
+        chain.earlier.push_back({v, here});
+        mesh_.move(v, p);
+        const auto mend = [&](std::uint32_t u) {
+          return mesh_.sign(u) > 0 || free_by_chain(chain, u, depth - 1);
+        };
+        if (std::all_of(broken.begin(), broken.end(), mend) && mesh_.sign(t) > 0) return true;
+        undo(chain, mark);
+      }
+    }
+  }
+  return false;
+}
+
+bool VertexMoves::fix_by_chain(std::uint32_t t) {
+  const auto total = [&] {
+    Badness sum = 0;
+    for (const std::uint32_t b : mesh_.bad()) sum += badness(mesh_.sign(b));
+    return sum;
+  };
+  const Badness before = total();
+  Chain chain;
+  if (free_by_chain(chain, t, kChainDepth) && total() < before) return true;
+  undo(chain, 0);
+  return false;
+}
+
+}  // namespace delmesher
