@@ -32,6 +32,14 @@ struct SurfaceFace {
   FacetId facet;
 };
 
+// What facet recovery had to do.
+struct CdtCounters {
+  std::uint64_t missing_triangles = 0, regions = 0;
+  std::uint64_t cavity_tetrahedra = 0, largest_cavity = 0;
+  std::uint64_t wrapped_tetrahedra = 0;  // not found by a local Delaunay tetrahedrization
+  std::uint64_t facet_restarts = 0;      // violations of the theory that were worked around: 0
+};
+
 struct CdtResult {
   // Finite tetrahedra (orient3d > 0) of the convex hull of the vertices, with inside flags.
   std::vector<std::array<VertexId, 4>> tetrahedra;
@@ -40,6 +48,7 @@ struct CdtResult {
   std::vector<VertexId> steiner;      // points added on segments, appended to the store
   std::vector<std::vector<VertexId>>
       chain;  // per undirected non-flat input edge: its vertices end to end
+  CdtCounters counters;
 };
 
 // Never fails on a valid surface; throws Stopped when the control says so.

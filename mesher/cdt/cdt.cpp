@@ -1,0 +1,118 @@
+#include "mesher/cdt/cdt.h"
+
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/cdt/chains.h"
+#include "mesher/cdt/classify.h"
+#include "mesher/cdt/facet_triangles.h"
+#include "mesher/cdt/regions.h"
+#include "mesher/cdt/segments.h"
+
+namespace delmesher {
+namespace {
+
+class CdtBuilder {
+ public:
+  CdtBuilder(const CdtInput& input, PointStore& points, Predicates& predicates, Control& control)
+      : input_(input),
+        topology_(*input.topology),
+        points_(points),
+        predicates_(predicates),
+        control_(control),
+        chains_(input, points) {}
+
+  CdtResult run() {
+    // Facet recovery cannot fail by the theory; should it, a few more points on the facet's
+    // boundary give it another configuration to work on.
+    constexpr int kAttempts = 8;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      Tetrahedrization mesh(predicates_);
+      const FacetId failed = constrain(mesh);
+      if (failed == kNone) return result(mesh);
+      ++restarts_;
+      split_boundary(failed);
+    }
+    DELMESHER_CHECK(false, "facet recovery failed");
+    return {};
+  }
+
+ private:
+  // Builds the tetrahedrization with all facets in it. Returns kNone, or the facet that failed.
+  FacetId constrain(Tetrahedrization& mesh) {
+    std::vector<VertexId> vertices = input_.vertices;
+    vertices.insert(vertices.end(), steiner_.begin(), steiner_.end());
+    mesh.build(vertices, control_);
+    const std::vector<VertexId> added = recover_segments(mesh, chains_, points_, control_);
+    steiner_.insert(steiner_.end(), added.begin(), added.end());
+    surface_.clear();
+    FacetTriangulator triangulator(input_, chains_, predicates_);
+    FacetRecovery recovery(mesh, topology_, chains_, control_);
+    const auto facets = static_cast<FacetId>(topology_.facet_triangles.size());
+    for (FacetId f = 0; f < facets; ++f) {
+      control_.poll(points_.size(), static_cast<double>(f) / facets);
+      const FacetTriangles triangles = triangulator.triangulate(f);
+      if (!recovery.recover(f, triangles)) return f;
+      for (const auto& t : triangles.triangles) surface_.push_back({t, f});
+    }
+    result_.counters = recovery.counters();
+    result_.counters.facet_restarts = restarts_;
+    std::size_t missing = 0;
+    inside_ = classify_tetrahedra(mesh, surface_, control_, &missing);
+    return inside_.empty() ? surface_[missing].facet : kNone;
+  }
+
+  void split_boundary(FacetId facet) {
+    std::vector<std::uint32_t> nodes;
+    for (const std::uint32_t t : topology_.facet_triangles[facet]) {
+      for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const std::uint32_t edge = topology_.edge_of[h];
+        if (topology_.edge_is_flat[edge] != 0) continue;
+        for (std::uint32_t n = chains_.first(edge); chains_.is_subsegment(n);
+             n = chains_.node(n).next) {
+          nodes.push_back(n);
+        }
+      }
+    }
+    for (const std::uint32_t n : nodes) {
+      steiner_.push_back(split_in_the_middle(chains_, n, points_, predicates_));
+    }
+  }
+
+  CdtResult result(const Tetrahedrization& mesh) {
+    for (TetId t = 0; t < mesh.capacity(); ++t) {
+      if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
+      const VertexId* v = mesh.vertices(t);
+      result_.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
+      result_.inside.push_back(inside_[t]);
+    }
+    result_.boundary = std::move(surface_);
+    result_.steiner = std::move(steiner_);
+    result_.chain.resize(topology_.edge_count());
+    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
+      if (topology_.edge_is_flat[e] == 0) result_.chain[e] = chains_.vertices(e);
+    }
+    return std::move(result_);
+  }
+
+  const CdtInput& input_;
+  const SurfaceTopology& topology_;
+  PointStore& points_;
+  Predicates& predicates_;
+  Control& control_;
+  Chains chains_;
+  std::vector<VertexId> steiner_;
+  std::vector<SurfaceFace> surface_;
+  std::vector<std::uint8_t> inside_;
+  std::uint64_t restarts_ = 0;
+  CdtResult result_;
+};
+
+}  // namespace
+
+CdtResult constrained_delaunay_tetrahedrization(const CdtInput& input, PointStore& points,
+                                                Predicates& predicates, Control& control) {
+  return CdtBuilder(input, points, predicates, control).run();
+}
+
+}  // namespace delmesher

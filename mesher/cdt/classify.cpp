@@ -1,0 +1,50 @@
+#include "mesher/cdt/classify.h"
+
+#include "mesher/base/check.h"
+
+namespace delmesher {
+
+std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
+                                              std::span<const SurfaceFace> surface,
+                                              Control& control, std::size_t* missing) {
+  constexpr std::uint8_t kUnknown = 2;
+  std::vector<std::uint8_t> walls(mesh.capacity(), 0);  // bit i: face i is on the surface
+  for (std::size_t n = 0; n < surface.size(); ++n) {
+    control.poll();
+    const auto& v = surface[n].vertices;
+    const std::uint32_t code = mesh.find_face(v[0], v[1], v[2]);
+    if (code == kNone) {
+      *missing = n;
+      return {};
+    }
+    const TetId t = code >> 2;
+    const int i = static_cast<int>(code & 3);
+    walls[t] |= static_cast<std::uint8_t>(1U << i);
+    walls[mesh.neighbor(t, i)] |= static_cast<std::uint8_t>(1U << mesh.mirror(t, i));
+  }
+  std::vector<std::uint8_t> inside(mesh.capacity(), kUnknown);
+  std::vector<TetId> queue;
+  for (TetId t = 0; t < mesh.capacity(); ++t) {
+    if (mesh.alive(t) && mesh.is_ghost(t)) {
+      inside[t] = 0;
+      queue.push_back(t);
+    }
+  }
+  while (!queue.empty()) {
+    control.poll();
+    const TetId t = queue.back();
+    queue.pop_back();
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = mesh.neighbor(t, i);
+      const auto value = static_cast<std::uint8_t>(inside[t] ^ ((walls[t] >> i) & 1U));
+      if (inside[u] == kUnknown) {
+        inside[u] = value;
+        queue.push_back(u);
+      }
+      DELMESHER_CHECK(inside[u] == value, "the surface does not separate inside from outside");
+    }
+  }
+  return inside;
+}
+
+}  // namespace delmesher

@@ -1,0 +1,18 @@
+// Inside or outside, by parity across the surface.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/cdt/cdt.h"
+
+namespace delmesher {
+
+// Per tetrahedron id: 1 if it is inside the surface made of these faces of the mesh, 0 outside.
+// Returns an empty vector and stores the face's index in *missing if one is not a face of the mesh.
+std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
+                                              std::span<const SurfaceFace> surface,
+                                              Control& control, std::size_t* missing);
+
+}  // namespace delmesher

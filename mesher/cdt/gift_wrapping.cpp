@@ -1,0 +1,134 @@
+#include "mesher/cdt/gift_wrapping.h"
+
+#include <algorithm>
+
+#include "mesher/cdt/flat_map.h"
+#include "mesher/cdt/separation.h"
+
+namespace delmesher {
+namespace {
+
+class GiftWrapper {
+ public:
+  GiftWrapper(Predicates& predicates, Control& control, const std::vector<Triangle>& walls,
+              const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra)
+      : predicates_(predicates),
+        control_(control),
+        walls_(walls),
+        vertices_(vertices),
+        tetrahedra_(tetrahedra) {
+    std::sort(vertices_.begin(), vertices_.end());
+  }
+
+  bool run() {
+    // The number of tetrahedra of n vertices is at most quadratic; far fewer in practice.
+    const std::size_t limit = tetrahedra_.size() + 64 + vertices_.size() * vertices_.size();
+    for (auto wall = walls_.rbegin(); wall != walls_.rend(); ++wall) open(*wall);
+    while (!front_.empty()) {
+      const Triangle face = front_.back();
+      front_.pop_back();
+      if (!is_open(face)) continue;
+      control_.poll();
+      const VertexId v = find_apex(face);
+      if (v == kNone || tetrahedra_.size() > limit) return false;
+      add(face, v);
+    }
+    return open_count_ == 0;
+  }
+
+ private:
+  // Directed triangles up to rotation, as a key of local vertex numbers.
+  std::uint64_t key(Triangle t) const {
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    std::uint64_t k = 0;
+    for (const VertexId v : t) {
+      const auto n = std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin();
+      k = (k << 21) | static_cast<std::uint64_t>(n);
+    }
+    return k;
+  }
+  bool is_open(const Triangle& t) const { return is_open_.get(key(t)) == 1; }
+  void open(const Triangle& t) {
+    is_open_.set(key(t), 1);
+    ++open_count_;
+    front_.push_back(t);
+  }
+  void close(const Triangle& t) {
+    is_open_.set(key(t), 0);
+    --open_count_;
+  }
+
+  // The tetrahedron on `face` inside the polyhedron. Its other faces either close an open face or
+  // are opened for the tetrahedron beyond.
+  void add(const Triangle& face, VertexId v) {
+    // face is counter-clockwise seen from outside, v inside: so (face[0], face[2], face[1], v) is
+    // positive.
+    const Tetrahedron t = {face[0], face[2], face[1], v};
+    tetrahedra_.push_back(t);
+    close(face);
+    for (int i = 0; i < 3; ++i) {
+      const Triangle side = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
+      if (is_open(side)) {
+        close(side);
+      } else {
+        open({side[0], side[2], side[1]});
+      }
+    }
+  }
+
+  // The first vertex that the pencil of spheres through the face touches among those visible from
+  // the face: the apex of its constrained Delaunay tetrahedron. A vertex touched earlier is
+  // invisible from all points of the face, so that a wall enters the tetrahedron it would make.
+  VertexId find_apex(const Triangle& face) {
+    candidates_.clear();
+    for (const VertexId v : vertices_) {
+      if (v == face[0] || v == face[1] || v == face[2]) continue;
+      if (predicates_.orient3d(face[0], face[1], face[2], v) < 0) candidates_.push_back(v);
+    }
+    const auto touched_before = [&](VertexId v, VertexId w) {
+      return predicates_.insphere_perturbed(face[0], face[2], face[1], w, v) > 0;
+    };
+    std::size_t tried = 0;
+    while (tried < candidates_.size()) {
+      if (tried < kScans) {
+        const auto begin = candidates_.begin() + static_cast<std::ptrdiff_t>(tried);
+        std::iter_swap(begin, std::min_element(begin, candidates_.end(), touched_before));
+      } else if (tried == kScans) {
+        const auto begin = candidates_.begin() + static_cast<std::ptrdiff_t>(tried);
+        std::sort(begin, candidates_.end(), touched_before);
+      }
+      const VertexId v = candidates_[tried++];
+      if (is_free({face[0], face[2], face[1], v})) return v;
+    }
+    return kNone;
+  }
+
+  bool is_free(const Tetrahedron& t) {
+    for (const Triangle& wall : walls_) {
+      if (boxes_disjoint(predicates_.points(), t, wall)) continue;
+      if (interior_meets(predicates_, t, wall)) return false;
+    }
+    return true;
+  }
+
+  static constexpr std::size_t kScans = 3;  // minima searched before the rest is sorted
+
+  Predicates& predicates_;
+  Control& control_;
+  const std::vector<Triangle>& walls_;
+  std::vector<VertexId> vertices_;
+  std::vector<Tetrahedron>& tetrahedra_;
+  FlatMap is_open_;
+  std::size_t open_count_ = 0;
+  std::vector<Triangle> front_;
+  std::vector<VertexId> candidates_;
+};
+
+}  // namespace
+
+bool gift_wrap(Predicates& predicates, Control& control, const std::vector<Triangle>& faces,
+               const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra) {
+  return GiftWrapper(predicates, control, faces, vertices, tetrahedra).run();
+}
+
+}  // namespace delmesher

@@ -1,0 +1,13 @@
+// Gift wrapping: finds the tetrahedra of a constrained Delaunay tetrahedrization one by one.
+#pragma once
+
+#include "mesher/cdt/polyhedron.h"
+
+namespace delmesher {
+
+// As PolyhedronFiller::fill, by gift wrapping alone: quadratic or worse, for small polyhedra.
+// `vertices` are those of the faces, without repetition.
+bool gift_wrap(Predicates& predicates, Control& control, const std::vector<Triangle>& faces,
+               const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra);
+
+}  // namespace delmesher

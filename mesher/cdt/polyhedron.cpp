@@ -1,0 +1,164 @@
+#include "mesher/cdt/polyhedron.h"
+
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/cdt/gift_wrapping.h"
+#include "mesher/cdt/separation.h"
+
+namespace delmesher {
+namespace {
+
+// Fewer vertices are not worth a Delaunay tetrahedrization of their own.
+constexpr std::size_t kWrapBelow = 12;
+
+// The tetrahedra of the vertices' unconstrained Delaunay tetrahedrization that are constrained
+// Delaunay in the polyhedron: those inside that no missing face of the polyhedron enters.
+class DelaunayPart {
+ public:
+  DelaunayPart(Predicates& predicates, Control& control, const std::vector<Triangle>& faces)
+      : predicates_(predicates), control_(control), faces_(faces), mesh_(predicates) {}
+
+  void run(const std::vector<VertexId>& vertices) {
+    mesh_.build(vertices, control_);
+    wall_.assign(4 * mesh_.capacity(), kNone);
+    state_.assign(mesh_.capacity(), kUnknown);
+    find_faces();
+    block();
+    flood();
+  }
+
+  // The tetrahedra found, and the faces of what remains.
+  bool collect(std::vector<Tetrahedron>& tetrahedra, std::vector<Triangle>& rest) const {
+    for (std::uint32_t n = 0; n < faces_.size(); ++n) {
+      if (code_[n] == kNone || state_[code_[n] >> 2] != kInside) rest.push_back(faces_[n]);
+    }
+    for (const TetId t : inside_) {
+      if (mesh_.is_ghost(t)) return false;
+      const VertexId* v = mesh_.vertices(t);
+      tetrahedra.push_back({v[0], v[1], v[2], v[3]});
+      for (int i = 0; i < 4; ++i) {
+        if (wall_[4 * t + i] != kNone || state_[mesh_.neighbor(t, i)] == kInside) continue;
+        rest.push_back({v[kFace[i][0]], v[kFace[i][2]], v[kFace[i][1]]});
+      }
+    }
+    return true;
+  }
+
+ private:
+  enum State : std::uint8_t { kUnknown, kInside, kBlocked };
+
+  // code_[n]: the tetrahedron on the inner side of face n and its index there, kNone if missing.
+  void find_faces() {
+    code_.assign(faces_.size(), kNone);
+    for (std::uint32_t n = 0; n < faces_.size(); ++n) {
+      control_.poll();
+      const Triangle& f = faces_[n];
+      const std::uint32_t found = mesh_.find_face(f[0], f[1], f[2]);
+      if (found == kNone) continue;
+      const TetId t = found >> 2;
+      const int i = static_cast<int>(found & 3);
+      // Listed from outside its tetrahedron in the same sense: then that is on the inner side.
+      const int at = position(t, i, f[0]);
+      const bool same = mesh_.vertex(t, kFace[i][(at + 1) % 3]) == f[1];
+      code_[n] = same ? found : 4 * mesh_.neighbor(t, i) + mesh_.mirror(t, i);
+      wall_[4 * t + i] = n;
+      wall_[4 * mesh_.neighbor(t, i) + mesh_.mirror(t, i)] = n;
+    }
+  }
+  int position(TetId t, int face, VertexId v) const {
+    int k = 0;
+    while (mesh_.vertex(t, kFace[face][k]) != v) ++k;
+    return k;
+  }
+
+  void block() {
+    std::vector<Triangle> missing;
+    for (std::uint32_t n = 0; n < faces_.size(); ++n) {
+      if (code_[n] == kNone) missing.push_back(faces_[n]);
+    }
+    if (missing.empty()) return;
+    for (TetId t = 0; t < mesh_.capacity(); ++t) {
+      if (!mesh_.alive(t) || mesh_.is_ghost(t)) continue;
+      control_.poll();
+      const VertexId* v = mesh_.vertices(t);
+      const Tetrahedron tet = {v[0], v[1], v[2], v[3]};
+      for (const Triangle& f : missing) {
+        if (boxes_disjoint(predicates_.points(), tet, f)) continue;
+        if (may_meet_improperly(predicates_, tet, f)) {
+          state_[t] = kBlocked;
+          break;
+        }
+      }
+    }
+  }
+
+  void flood() {
+    const auto take = [&](TetId t) {
+      if (state_[t] != kUnknown) return;
+      state_[t] = kInside;
+      inside_.push_back(t);
+    };
+    for (const std::uint32_t code : code_) {
+      if (code != kNone) take(code >> 2);
+    }
+    for (std::size_t n = 0; n < inside_.size(); ++n) {
+      const TetId t = inside_[n];
+      for (int i = 0; i < 4; ++i) {
+        if (wall_[4 * t + i] == kNone) take(mesh_.neighbor(t, i));
+      }
+    }
+  }
+
+  Predicates& predicates_;
+  Control& control_;
+  const std::vector<Triangle>& faces_;
+  Tetrahedrization mesh_;
+  std::vector<std::uint32_t> wall_;  // per face of a tetrahedron: some face of the polyhedron
+  std::vector<State> state_;
+  std::vector<std::uint32_t> code_;
+  std::vector<TetId> inside_;
+};
+
+}  // namespace
+
+void PolyhedronFiller::collect_vertices(const std::vector<Triangle>& faces) {
+  vertices_.clear();
+  for (const Triangle& f : faces) vertices_.insert(vertices_.end(), f.begin(), f.end());
+  std::sort(vertices_.begin(), vertices_.end());
+  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+}
+
+bool PolyhedronFiller::delaunay_part(std::vector<Triangle>& faces,
+                                     std::vector<Tetrahedron>& tetrahedra) {
+  std::vector<Triangle> rest;
+  DelaunayPart part(predicates_, control_, faces);
+  part.run(vertices_);
+  if (!part.collect(tetrahedra, rest)) return false;
+  faces = std::move(rest);
+  return true;
+}
+
+bool PolyhedronFiller::fill(std::vector<Triangle> faces, std::vector<Tetrahedron>& tetrahedra) {
+  const std::size_t start = tetrahedra.size();
+  for (;;) {
+    if (faces.empty()) return true;
+    collect_vertices(faces);
+    if (vertices_.size() < kWrapBelow) break;
+    const std::size_t before = tetrahedra.size();
+    if (!delaunay_part(faces, tetrahedra)) {
+      tetrahedra.resize(start);
+      return false;
+    }
+    if (tetrahedra.size() == before) break;
+  }
+  const std::size_t before = tetrahedra.size();
+  if (!gift_wrap(predicates_, control_, faces, vertices_, tetrahedra)) {
+    tetrahedra.resize(start);
+    return false;
+  }
+  wrapped_ += tetrahedra.size() - before;
+  return true;
+}
+
+}  // namespace delmesher

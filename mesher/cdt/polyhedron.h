@@ -1,0 +1,42 @@
+// Constrained Delaunay tetrahedrization of a polyhedron all of whose faces are constrained
+// Delaunay: one side of the cavity that a missing part of a facet leaves.
+//
+// By Shewchuk's theorem (2000; 2008 for the perturbed, that is weighted, case) it exists, needs no
+// further vertices and is unique; so whatever tetrahedra are found to be constrained Delaunay, in
+// any order, fit together.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/delaunay/tetrahedrization.h"
+
+namespace delmesher {
+
+using Triangle = std::array<VertexId, 3>;
+using Tetrahedron = std::array<VertexId, 4>;
+
+class PolyhedronFiller {
+ public:
+  PolyhedronFiller(Predicates& predicates, Control& control)
+      : predicates_(predicates), control_(control) {}
+
+  // Appends the tetrahedra that fill the polyhedron bounded by `faces`, counter-clockwise seen from
+  // outside it. A face may occur in both orientations: a dangling wall. Returns false if the faces
+  // are not what is required, which is a bug of the caller.
+  bool fill(std::vector<Triangle> faces, std::vector<Tetrahedron>& tetrahedra);
+
+  std::uint64_t wrapped() const { return wrapped_; }
+
+ private:
+  bool delaunay_part(std::vector<Triangle>& faces, std::vector<Tetrahedron>& tetrahedra);
+  void collect_vertices(const std::vector<Triangle>& faces);
+
+  Predicates& predicates_;
+  Control& control_;
+  std::vector<VertexId> vertices_;
+  std::uint64_t wrapped_ = 0;  // tetrahedra found by gift wrapping
+};
+
+}  // namespace delmesher

@@ -1,0 +1,263 @@
+#include "mesher/cdt/regions.h"
+
+#include <algorithm>
+
+#include "mesher/base/check.h"
+
+namespace delmesher {
+namespace {
+
+Triangle reversed(const Triangle& t) {
+  return {t[0], t[2], t[1]};
+}
+
+}  // namespace
+
+FacetRecovery::FacetRecovery(Tetrahedrization& mesh, const SurfaceTopology& topology,
+                             const Chains& chains, Control& control)
+    : mesh_(mesh),
+      predicates_(mesh.predicates()),
+      topology_(topology),
+      chains_(chains),
+      control_(control),
+      filler_(predicates_, control),
+      side_mark_(predicates_.points().size(), 0),
+      side_(predicates_.points().size(), 0) {}
+
+// Side of the facet's plane: +1 outside the solid.
+int FacetRecovery::side(VertexId v) {
+  if (side_mark_[v] != facet_epoch_) {
+    side_mark_[v] = facet_epoch_;
+    side_[v] = static_cast<std::int8_t>(predicates_.orient3d(frame_[0], frame_[1], frame_[2], v));
+  }
+  return side_[v];
+}
+
+// Stars are searched around the vertex with the fewest subsegments: never a hub if avoidable.
+bool FacetRecovery::is_present(const Triangle& t) {
+  Triangle v = t;
+  std::sort(v.begin(), v.end(), [&](VertexId a, VertexId b) {
+    const std::uint32_t x = chains_.valence(a), y = chains_.valence(b);
+    return x != y ? x < y : a < b;
+  });
+  return mesh_.find_face(v[0], v[1], v[2]) != kNone;
+}
+
+bool FacetRecovery::edge_is_present(VertexId a, VertexId b) {
+  if (chains_.valence(b) < chains_.valence(a)) std::swap(a, b);
+  return mesh_.find_edge(a, b) != kNone;
+}
+
+bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles) {
+  frame_ = topology_.triangles[topology_.facet_triangles[facet][0]];
+  ++facet_epoch_;
+  done_.assign(triangles.triangles.size(), 0);
+  for (std::uint32_t t = 0; t < triangles.triangles.size(); ++t) {
+    control_.poll(predicates_.points().size());
+    if (done_[t] != 0 || is_present(triangles.triangles[t])) continue;
+    collect_region(triangles, t);
+    if (!recover_region()) return false;
+  }
+  counters_.wrapped_tetrahedra = filler_.wrapped();
+  return true;
+}
+
+// The missing triangles connected to `start` through missing edges, and the border between them and
+// what is present.
+void FacetRecovery::collect_region(const FacetTriangles& all, std::uint32_t start) {
+  region_.clear();
+  region_border_.clear();
+  std::vector<std::uint32_t> queue = {start};
+  done_[start] = 1;
+  for (std::size_t n = 0; n < queue.size(); ++n) {
+    control_.poll(predicates_.points().size());
+    const Triangle& v = all.triangles[queue[n]];
+    region_.push_back(v);
+    for (int i = 0; i < 3; ++i) {
+      const VertexId a = v[(i + 1) % 3], b = v[(i + 2) % 3];
+      const std::uint32_t next = all.neighbors[queue[n]][i];
+      if (next == kNone || edge_is_present(a, b)) {
+        region_border_.push_back({a, b});
+      } else if (done_[next] == 0) {
+        done_[next] = 1;
+        queue.push_back(next);
+      }
+    }
+  }
+}
+
+void FacetRecovery::add_to_cavity(TetId t) {
+  if (cavity_mark_[t] == cavity_epoch_) return;
+  cavity_mark_[t] = cavity_epoch_;
+  cavity_.push_back(t);
+}
+
+// The tetrahedron at a border edge that the region enters there: its other two vertices are on
+// strictly different sides of the plane, and the region leaves the edge between them.
+bool FacetRecovery::seed(const std::array<VertexId, 2>& edge) {
+  VertexId a = edge[0], b = edge[1];
+  const bool swapped = chains_.valence(b) < chains_.valence(a);
+  const TetId first = swapped ? mesh_.find_edge(b, a) : mesh_.find_edge(a, b);
+  if (first == kNone) return false;
+  mesh_.edge_ring(first, a, b, ring_);
+  for (const TetId t : ring_) {
+    if (mesh_.is_ghost(t)) continue;
+    std::array<VertexId, 2> other{};
+    int count = 0;
+    for (int i = 0; i < 4; ++i) {
+      const VertexId v = mesh_.vertex(t, i);
+      if (v != a && v != b) other[count++] = v;
+    }
+    const int s0 = side(other[0]), s1 = side(other[1]);
+    if (s0 * s1 >= 0) continue;
+    const VertexId above = s0 > 0 ? other[0] : other[1], below = s0 > 0 ? other[1] : other[0];
+    // Seen along the edge the region leaves to the right, "above" is up: the angle from below to
+    // above must open to the right.
+    if (predicates_.orient3d(a, b, below, above) > 0) {
+      add_to_cavity(t);
+      return true;
+    }
+  }
+  return false;
+}
+
+bool FacetRecovery::grow_cavity() {
+  for (std::size_t n = 0; n < cavity_.size(); ++n) {
+    control_.poll(predicates_.points().size());
+    const TetId t = cavity_[n];
+    for (int i = 0; i < 4; ++i) {
+      bool above = false, below = false;
+      for (int k : kFace[i]) {
+        const int s = side(mesh_.vertex(t, k));
+        above = above || s > 0;
+        below = below || s < 0;
+      }
+      if (!above || !below) continue;
+      const TetId next = mesh_.neighbor(t, i);
+      if (mesh_.is_ghost(next)) return false;
+      add_to_cavity(next);
+    }
+  }
+  return true;
+}
+
+void FacetRecovery::collect_shell() {
+  upper_shell_.clear();
+  lower_shell_.clear();
+  for (const TetId t : cavity_) {
+    for (int i = 0; i < 4; ++i) {
+      const Triangle v = {mesh_.vertex(t, kFace[i][0]), mesh_.vertex(t, kFace[i][1]),
+                          mesh_.vertex(t, kFace[i][2])};
+      const int s[3] = {side(v[0]), side(v[1]), side(v[2])};
+      const bool above = s[0] > 0 || s[1] > 0 || s[2] > 0;
+      const bool below = s[0] < 0 || s[1] < 0 || s[2] < 0;
+      if (above && below) continue;
+      (above ? upper_shell_ : lower_shell_).push_back({v, 4 * t + static_cast<std::uint32_t>(i)});
+    }
+  }
+}
+
+bool FacetRecovery::recover_region() {
+  ++cavity_epoch_;
+  if (cavity_mark_.size() < mesh_.capacity()) cavity_mark_.resize(mesh_.capacity() * 3 / 2, 0);
+  cavity_.clear();
+  for (const auto& edge : region_border_) {
+    if (!seed(edge)) return false;
+  }
+  if (!grow_cavity()) return false;
+  collect_shell();
+  counters_.missing_triangles += region_.size();
+  ++counters_.regions;
+  counters_.cavity_tetrahedra += cavity_.size();
+  counters_.largest_cavity = std::max<std::uint64_t>(counters_.largest_cavity, cavity_.size());
+
+  std::vector<Tetrahedron> upper, lower;
+  std::vector<Triangle> faces;
+  for (const Triangle& t : region_) faces.push_back(reversed(t));
+  for (const ShellFace& f : upper_shell_) faces.push_back(f.vertices);
+  if (!filler_.fill(std::move(faces), upper)) return false;
+  faces = region_;
+  for (const ShellFace& f : lower_shell_) faces.push_back(f.vertices);
+  if (!filler_.fill(std::move(faces), lower)) return false;
+  return replace_cavity(upper, lower);
+}
+
+void FacetRecovery::number_vertices() {
+  local_.clear();
+  for (const TetId t : cavity_) {
+    for (int i = 0; i < 4; ++i) local_.push_back(mesh_.vertex(t, i));
+  }
+  for (const Triangle& t : region_) local_.insert(local_.end(), t.begin(), t.end());
+  std::sort(local_.begin(), local_.end());
+  local_.erase(std::unique(local_.begin(), local_.end()), local_.end());
+  DELMESHER_CHECK(local_.size() < (1U << 21), "cavity too large");
+}
+
+// Directed triangles up to rotation.
+std::uint64_t FacetRecovery::face_key(const Triangle& t) const {
+  Triangle v = t;
+  std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+  std::uint64_t key = 0;
+  for (const VertexId w : v) {
+    const auto n = std::lower_bound(local_.begin(), local_.end(), w) - local_.begin();
+    key = (key << 21) | static_cast<std::uint64_t>(n);
+  }
+  return key;
+}
+
+// Swaps the cavity's tetrahedra for the new ones, if these fit: every face of a new tetrahedron is
+// either matched by another new one or on the shell, and the whole shell is covered.
+bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
+                                   const std::vector<Tetrahedron>& lower) {
+  number_vertices();
+  std::vector<Tetrahedron> all = upper;
+  all.insert(all.end(), lower.begin(), lower.end());
+  // Directed face, counter-clockwise seen from outside its new tetrahedron -> 4 * index + face.
+  FlatMap owner(4 * all.size());
+  std::vector<Triangle> face(4 * all.size());
+  for (std::uint32_t n = 0; n < all.size(); ++n) {
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const Tetrahedron& t = all[n];
+      face[4 * n + i] = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
+      if (owner.get(face_key(face[4 * n + i])) != FlatMap::kAbsent) return false;
+      owner.set(face_key(face[4 * n + i]), 4 * n + i);
+    }
+  }
+  // partner[f]: a new face, or a face outside the cavity (kOuter set).
+  constexpr std::uint32_t kUnmatched = kNone;
+  std::vector<std::uint32_t> partner(face.size(), kUnmatched);
+  std::vector<std::uint32_t> outer(face.size(), kUnmatched);
+  for (const std::vector<ShellFace>* shell : {&upper_shell_, &lower_shell_}) {
+    for (const ShellFace& s : *shell) {
+      const std::uint32_t f = owner.get(face_key(s.vertices));
+      if (f == FlatMap::kAbsent) return false;
+      const TetId t = s.inner >> 2;
+      const int i = static_cast<int>(s.inner & 3);
+      const TetId beyond = mesh_.neighbor(t, i);
+      // A dangling wall between two tetrahedra of the cavity is matched below like any other face.
+      if (cavity_mark_[beyond] != cavity_epoch_) {
+        outer[f] = 4 * beyond + static_cast<std::uint32_t>(mesh_.mirror(t, i));
+      }
+    }
+  }
+  for (std::uint32_t f = 0; f < face.size(); ++f) {
+    if (outer[f] != kUnmatched) continue;
+    partner[f] = owner.get(face_key(reversed(face[f])));
+    if (partner[f] == FlatMap::kAbsent) return false;
+  }
+  for (const TetId t : cavity_) mesh_.destroy(t);
+  std::vector<TetId> id(all.size());
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    id[n] = mesh_.create(all[n][0], all[n][1], all[n][2], all[n][3]);
+    for (const VertexId v : all[n]) mesh_.set_incident(v, id[n]);
+  }
+  for (std::uint32_t f = 0; f < face.size(); ++f) {
+    const bool inside = outer[f] == kUnmatched;
+    const TetId to = inside ? id[partner[f] >> 2] : outer[f] >> 2;
+    mesh_.glue(id[f >> 2], static_cast<int>(f & 3), to,
+               static_cast<int>((inside ? partner[f] : outer[f]) & 3));
+  }
+  return true;
+}
+
+}  // namespace delmesher
