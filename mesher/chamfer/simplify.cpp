@@ -17,7 +17,8 @@ class Simplifier {
         cuts_(cuts),
         thresholds_(thresholds),
         predicates_(predicates),
-        bridges_(bridges) {}
+        bridges_(bridges),
+        original_(bridges.chain) {}
 
   void run(Control& control) {
     struct Entry {
@@ -99,30 +100,52 @@ class Simplifier {
           forward ? bridges_.chain[corner.next].back() : bridges_.chain[corner.previous].front();
       return !predicates_.angle_below(strip_end, x, y, limit);
     }
-    return allows_at_edge(away, x, y, across(corner, forward), limit);
+    return allows_at_edge(index, forward, x, y, limit);
   }
 
-  // The neighbour of an edge's cut point in the chain of the facet beyond that edge, or kNone.
-  VertexId across(const Corner& corner, bool forward) const {
+  // A facet's sector at a cut point x: from the rest of the edge, past the orthogonal direction of
+  // the original bridge, to the present neighbour of x in the chain. As the whole may be straight,
+  // it is examined in two wedges.
+  struct CutSector {
+    VertexId orthogonal = kNone, neighbour = kNone;
+  };
+
+  // The sector beyond the edge at the end of a chain; no neighbour if that facet is not kept.
+  CutSector across(const Corner& corner, bool forward) const {
     const std::uint32_t beyond =
         forward ? surface_.corner_of_incoming(topology_.opposite[corner.outgoing])
                 : surface_.corner_of_outgoing(topology_.opposite[corner.incoming]);
-    if (beyond == kNone) return kNone;
-    const std::vector<VertexId>& chain = bridges_.chain[beyond];
-    return forward ? chain[chain.size() - 2] : chain[1];
+    if (beyond == kNone) return {};
+    const std::vector<VertexId>&chain = bridges_.chain[beyond], &original = original_[beyond];
+    if (forward) return {original[original.size() - 2], chain[chain.size() - 2]};
+    return {original[1], chain[1]};
   }
 
-  // All angles at the cut point x of half-edge `away` between a new edge towards y and what is
-  // there: the rest of the edge, the other facet's bridge, and that facet.
-  bool allows_at_edge(std::uint32_t away, VertexId x, VertexId y, VertexId other, double limit) {
-    const VertexId rest = bridges_.edge_end_at_tail(topology_, topology_.opposite[away]);
+  // All angles at a cut point x between a new edge towards y and what is there: the rest of the
+  // edge, the other facet's bridge, and that facet.
+  bool allows_at_edge(std::uint32_t index, bool forward, VertexId x, VertexId y, double limit) {
+    const Corner& corner = surface_.corners()[index];
+    const std::uint32_t toward = forward ? topology_.opposite[corner.outgoing] : corner.incoming;
+    const VertexId rest = bridges_.edge_end_at_tail(topology_, toward);
     if (predicates_.angle_below(rest, x, y, limit)) return false;
-    if (other == kNone) return true;
-    if (predicates_.angle_below(other, x, y, limit)) return false;
-    return !(projects_into_wedge(predicates_, y, x, rest, other) &&
-             predicates_.edge_plane_angle_below(y, x, rest, other, limit)) &&
-           !(projects_into_wedge(predicates_, other, x, rest, y) &&
-             predicates_.edge_plane_angle_below(other, x, rest, y, limit));
+    const CutSector other = across(corner, forward);
+    if (other.neighbour == kNone) return true;
+    if (predicates_.angle_below(other.neighbour, x, y, limit)) return false;
+    const std::vector<VertexId>& original = original_[index];
+    const CutSector here = {forward ? original[1] : original[original.size() - 2], y};
+    return !acute_with_sector(y, x, rest, other, limit) &&
+           !acute_with_sector(other.neighbour, x, rest, here, limit);
+  }
+
+  bool acute_with_sector(VertexId q, VertexId x, VertexId rest, const CutSector& sector,
+                         double limit) {
+    const auto [orthogonal, neighbour] = sector;
+    const bool split = orthogonal != neighbour;
+    if (projects_into_wedge(predicates_, q, x, rest, orthogonal, false, split)) {
+      return predicates_.edge_plane_angle_below(q, x, rest, orthogonal, limit);
+    }
+    return split && projects_into_wedge(predicates_, q, x, orthogonal, neighbour, true, false) &&
+           predicates_.edge_plane_angle_below(q, x, orthogonal, neighbour, limit);
   }
 
   double edge_distance(const Corner& corner, VertexId x, VertexId y) const {
@@ -147,6 +170,7 @@ class Simplifier {
   const Thresholds& thresholds_;
   Predicates& predicates_;
   Bridges& bridges_;
+  std::vector<std::vector<VertexId>> original_;  // the chains before any simplification
 };
 
 }  // namespace
