@@ -233,16 +233,19 @@ class Checker {
   }
 
   // Corners of triangles at one vertex are in one fan if they are linked by edges at that vertex.
+  // Triangles with a repeated vertex take no part.
   void check_fans() {
     DisjointSets corners(3 * triangles_.size());
     const auto corner_at = [&](std::uint32_t h, VertexId v) {
       return from(h) == v ? h : h - h % 3 + (h + 1) % 3;
     };
     for (std::size_t e = 0; e < edges_->size(); ++e) {
-      const auto group = (*edges_)[e];
-      for (const std::uint32_t h : group) {
-        for (const VertexId v : {from(group[0]), to(group[0])}) {
-          corners.unite(corner_at(h, v), corner_at(group[0], v));
+      std::uint32_t first = kNone;
+      for (const std::uint32_t h : (*edges_)[e]) {
+        if (repeats_vertex(h / 3)) continue;
+        if (first == kNone) first = h;
+        for (const VertexId v : {from(h), to(h)}) {
+          corners.unite(corner_at(h, v), corner_at(first, v));
         }
       }
     }

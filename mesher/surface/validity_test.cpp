@@ -1,0 +1,296 @@
+#include "mesher/surface/validity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "mesher/surface/nesting.h"
+#include "mesher/surface/test_surfaces.h"
+
+namespace delmesher {
+namespace {
+
+using namespace test_surfaces;
+using Kind = Defect::Kind;
+
+ValidityResult check(const Surface& s, bool stop_at_first = false) {
+  const Options options;
+  Control control(options);
+  return check_validity(s, stop_at_first, control);
+}
+
+std::uint64_t count(const ValidityResult& r, Kind kind) {
+  return r.report.defect_counts[static_cast<std::size_t>(kind)];
+}
+
+std::uint64_t total(const ValidityResult& r) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t n : r.report.defect_counts) sum += n;
+  return sum;
+}
+
+void expect_only(const Surface& s, Kind kind, std::uint64_t n) {
+  const ValidityResult r = check(s);
+  EXPECT_EQ(r.report.status.code, StatusCode::invalid_surface);
+  EXPECT_EQ(count(r, kind), n) << r.report.status.message;
+  EXPECT_EQ(total(r), n) << r.report.status.message;
+  const ValidityResult first = check(s, true);
+  EXPECT_EQ(first.report.status.code, StatusCode::invalid_surface);
+  ASSERT_FALSE(first.report.defects.empty());
+  EXPECT_EQ(first.report.defects[0].kind, kind);
+}
+
+void expect_valid(const Surface& s) {
+  const ValidityResult r = check(s);
+  EXPECT_TRUE(r.report.status.ok()) << r.report.status.message;
+  EXPECT_EQ(total(r), 0U);
+  EXPECT_TRUE(r.report.warnings.empty());
+}
+
+const Point kOrigin{0, 0, 0};
+
+TEST(Validity, Box) {
+  const ValidityResult r = check(box(kOrigin, {1, 2, 4}, 3));
+  EXPECT_TRUE(r.report.status.ok());
+  EXPECT_EQ(r.report.components, 1U);
+  EXPECT_EQ(r.report.euler_characteristic, 2);
+  EXPECT_NEAR(r.report.volume, 8, 1e-14);
+  EXPECT_DOUBLE_EQ(r.report.bbox_diagonal, std::sqrt(21.0));
+  EXPECT_FALSE(r.report.flipped);
+}
+
+TEST(Validity, InsideOut) {
+  const Surface s = reversed(tetrahedron(kOrigin, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}));
+  const ValidityResult r = check(s);
+  EXPECT_TRUE(r.report.status.ok());
+  EXPECT_TRUE(r.report.flipped);
+  EXPECT_EQ(r.report.warnings.size(), 1U);
+  EXPECT_NEAR(r.report.volume, 1.0 / 6, 1e-16);
+  expect_valid(oriented_outwards(s, r));
+}
+
+TEST(Validity, ParityOrientsNestedComponents) {
+  const Surface outer = box(kOrigin, {8, 8, 8}), hole = box({1, 1, 1}, {7, 7, 7}),
+                island = box({2, 2, 2}, {3, 3, 3}), beside = box({9, 0, 0}, {10, 8, 8});
+  Surface good = joined(joined(joined(outer, reversed(hole)), island), beside);
+  expect_valid(good);
+  EXPECT_NEAR(check(good).report.volume, 512 - 216 + 1 + 64, 1e-12);
+  EXPECT_EQ(check(good).report.components, 4U);
+  const Surface bad = joined(joined(joined(outer, hole), island), reversed(beside));
+  const ValidityResult r = check(bad);
+  EXPECT_TRUE(r.report.status.ok());
+  EXPECT_FALSE(r.report.flipped);
+  EXPECT_EQ(r.report.warnings.size(), 2U);
+  EXPECT_NEAR(r.report.volume, 512 - 216 + 1 + 64, 1e-12);
+  EXPECT_EQ(oriented_outwards(bad, r).triangles.size(), good.triangles.size());
+  expect_valid(oriented_outwards(bad, r));
+  EXPECT_TRUE(check(reversed(good)).report.flipped);
+}
+
+// The sign of a volume that cancels almost completely has to be decided exactly.
+TEST(Validity, VolumeFarBelowRounding) {
+  const Surface thin =
+      tetrahedron({0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0.3, 0.3, std::nextafter(1.0, 2.0)});
+  EXPECT_FALSE(check(thin).report.flipped);
+  EXPECT_TRUE(check(reversed(thin)).report.flipped);
+  for (const double scale : {0x1p-1000, 0x1p-350, 0x1p350, 0x1p1020}) {
+    EXPECT_FALSE(check(scaled(thin, scale)).report.flipped) << scale;
+    EXPECT_TRUE(check(scaled(reversed(thin), scale)).report.flipped) << scale;
+  }
+}
+
+TEST(Validity, UnreadableNumbersAndIndices) {
+  Surface s = box(kOrigin, {1, 1, 1});
+  s.vertices[3][1] = std::numeric_limits<double>::quiet_NaN();
+  s.vertices[5][2] = -std::numeric_limits<double>::infinity();
+  expect_only(s, Kind::non_finite, 2);
+  s = box(kOrigin, {1, 1, 1});
+  s.triangles[4][2] = 8;
+  expect_only(s, Kind::index_out_of_range, 1);
+  expect_only({}, Kind::empty, 1);
+}
+
+TEST(Validity, UnusedVerticesAreFine) {
+  Surface s = box(kOrigin, {1, 1, 1});
+  s.vertices.push_back({0, 0, 0});
+  expect_valid(s);
+  EXPECT_EQ(check(s).report.unused_vertices, 1U);
+  EXPECT_EQ(check(s).report.euler_characteristic, 2);
+}
+
+TEST(Validity, DegenerateTriangles) {
+  Surface s = box(kOrigin, {1, 1, 1});
+  s.triangles.push_back({0, 0, 1});
+  EXPECT_EQ(count(check(s), Kind::degenerate_triangle), 1U);
+  EXPECT_EQ(count(check(s), Kind::self_intersection), 0U);
+  // Split an edge at a vertex on it, on one side only, and close the gap with a flat triangle. The
+  // neighbour across the edge then touches both halves.
+  Surface flat = box(kOrigin, {1, 1, 1});
+  const auto [a, b, c] = flat.triangles[0];
+  Point middle;
+  for (std::size_t i = 0; i < 3; ++i) middle[i] = (flat.vertices[a][i] + flat.vertices[b][i]) / 2;
+  flat.vertices.push_back(middle);
+  flat.triangles[0] = {a, 8, c};
+  flat.triangles.push_back({8, b, c});
+  flat.triangles.push_back({a, b, 8});
+  EXPECT_EQ(count(check(flat), Kind::degenerate_triangle), 1U);
+  EXPECT_EQ(count(check(flat), Kind::self_intersection), 2U);
+  EXPECT_EQ(total(check(flat)), 3U);
+}
+
+TEST(Validity, OpenEdges) {
+  Surface s = box(kOrigin, {1, 1, 1});
+  s.triangles.pop_back();
+  expect_only(s, Kind::open_edge, 3);
+}
+
+TEST(Validity, InconsistentOrientation) {
+  Surface s = box(kOrigin, {1, 1, 1});
+  std::swap(s.triangles[7][0], s.triangles[7][1]);
+  expect_only(s, Kind::inconsistent_orientation, 3);
+}
+
+TEST(Validity, DuplicateTriangle) {
+  Surface s = box(kOrigin, {1, 1, 1});
+  s.triangles.push_back(s.triangles[3]);
+  const ValidityResult r = check(s);
+  EXPECT_EQ(count(r, Kind::duplicate_triangle), 1U);
+  EXPECT_EQ(count(r, Kind::non_manifold_edge), 3U);
+  EXPECT_EQ(r.report.defects[0].triangles, (std::vector<std::uint32_t>{3, 12}));
+}
+
+TEST(Validity, BoxesTouching) {
+  const Surface cube = box(kOrigin, {1, 1, 1});
+  const auto with = [&](const Point& lo, const Point& hi) { return joined(cube, box(lo, hi)); };
+  // Merged: a pinched vertex, an edge of four triangles.
+  expect_only(welded(with({1, 1, 1}, {2, 2, 2})), Kind::non_manifold_vertex, 1);
+  expect_only(welded(with({1, 1, 0}, {2, 2, 1})), Kind::non_manifold_edge, 1);
+  // Not merged: the same contacts are intersections.
+  for (const Surface& s : {with({1, 1, 1}, {2, 2, 2}), with({1, 1, 0}, {2, 2, 1}),
+                           with({1, 0, 0}, {2, 1, 1}), with({1, 0.25, 0.25}, {2, 0.75, 0.75}),
+                           with({0.5, 0.5, 0.5}, {2, 2, 2}), with({1, 1, 0.5}, {2, 2, 0.75})}) {
+    const ValidityResult r = check(s);
+    EXPECT_GT(count(r, Kind::self_intersection), 0U);
+    EXPECT_EQ(total(r), count(r, Kind::self_intersection));
+  }
+}
+
+TEST(Validity, PlatesAnUlpApart) {
+  const Surface plate = box({0.25, 0.25, 0.1}, {0.75, 0.75, 0.7}, 3);
+  const double above = std::nextafter(0.7, 1.0);
+  expect_valid(joined(plate, box({0, 0, above}, {1, 1, 1}, 2)));
+  EXPECT_FALSE(check(joined(plate, box({0, 0, 0.7}, {1, 1, 1}, 2))).report.status.ok());
+  EXPECT_FALSE(
+      check(joined(plate, box({0, 0, std::nextafter(0.7, 0.0)}, {1, 1, 1}, 2))).report.status.ok());
+}
+
+// A pyramid whose base is cut along both diagonals' halves so that one base triangle folds back.
+TEST(Validity, CoplanarFoldAtAnEdge) {
+  Surface s = tetrahedron(kOrigin, {4, 0, 0}, {0, 4, 0}, {0, 0, 4});
+  // Insert a vertex into the base (triangle {0, 2, 1}); inside it is fine, outside it folds.
+  const auto split = [&](const Point& p) {
+    Surface t = s;
+    t.vertices.push_back(p);
+    t.triangles[3] = {0, 2, 4};
+    t.triangles.push_back({2, 1, 4});
+    t.triangles.push_back({1, 0, 4});
+    return t;
+  };
+  expect_valid(split({1, 1, 0}));
+  const ValidityResult folded = check(split({3, 3, 0}));
+  EXPECT_GE(count(folded, Kind::self_intersection), 2U);
+  EXPECT_EQ(total(folded), count(folded, Kind::self_intersection));
+  // Exactly on the edge 1-2: the flat triangle is degenerate.
+  EXPECT_EQ(count(check(split({2, 2, 0})), Kind::degenerate_triangle), 1U);
+}
+
+TEST(Validity, TriangleTouchedByAVertexOrAnEdge) {
+  const Surface cube = box(kOrigin, {4, 4, 4});
+  const auto spike = [&](double tip) {
+    return joined(cube, tetrahedron({1, 2, tip}, {1, 2, 9}, {3, 2, 9}, {2, 3, 9}));
+  };
+  EXPECT_EQ(count(check(spike(4)), Kind::self_intersection), 3U);  // the three faces at the tip
+  EXPECT_TRUE(check(spike(std::nextafter(4.0, 5.0))).report.components == 2);
+  EXPECT_EQ(count(check(spike(std::nextafter(4.0, 5.0))), Kind::self_intersection), 0U);
+  EXPECT_GT(count(check(spike(std::nextafter(4.0, 3.0))), Kind::self_intersection), 0U);
+}
+
+TEST(Validity, Moebius) {
+  Surface s;
+  constexpr std::uint32_t n = 12;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n, half = a / 2;
+    for (const double w : {-0.3, 0.3}) {
+      const double r = 1 + w * std::cos(half);
+      s.vertices.push_back({r * std::cos(a), r * std::sin(a), w * std::sin(half)});
+    }
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t a = 2 * i, b = 2 * i + 1;
+    std::uint32_t c = 2 * ((i + 1) % n), d = c + 1;
+    if (i + 1 == n) std::swap(c, d);
+    s.triangles.push_back({a, c, b});
+    s.triangles.push_back({b, c, d});
+  }
+  const ValidityResult r = check(s);
+  EXPECT_EQ(count(r, Kind::open_edge), 2 * n);
+  EXPECT_EQ(count(r, Kind::inconsistent_orientation), 1U);
+  EXPECT_EQ(r.report.euler_characteristic, 0);
+}
+
+TEST(Validity, ListsAreShortButCountsComplete) {
+  Surface s;
+  for (int i = 0; i < 30; ++i) {
+    s = joined(s,
+               tetrahedron({i * 2.0, 0, 0}, {i * 2.0 + 1, 0, 0}, {i * 2.0, 1, 0}, {i * 2.0, 0, 1}));
+    s.triangles.pop_back();
+  }
+  const ValidityResult r = check(s);
+  EXPECT_EQ(count(r, Kind::open_edge), 90U);
+  EXPECT_EQ(r.report.defects.size(), 10U);
+  EXPECT_NE(r.report.status.message.find("edge"), std::string::npos);
+}
+
+TEST(Validity, Cancels) {
+  Options options;
+  options.progress = [](const Progress&) { return false; };
+  Control control(options);
+  EXPECT_THROW(check_validity(box(kOrigin, {1, 1, 1}, 30), true, control), Stopped);
+}
+
+// Against brute force: small random closed surfaces on a grid, where contacts of every kind occur,
+// must be judged alike when vertices, triangles and axes are permuted.
+TEST(Validity, DoesNotDependOnNumberingOrAxes) {
+  std::mt19937_64 random(5);
+  int invalid = 0, valid = 0;
+  for (int round = 0; round < 400; ++round) {
+    const auto point = [&] {
+      return Point{double(random() % 4), double(random() % 4), double(random() % 4)};
+    };
+    Surface s = joined(tetrahedron(point(), point(), point(), point()),
+                       tetrahedron(point(), point(), point(), point()));
+    if (random() % 2 == 0) s = welded(s);
+    const ValidityResult expected = check(s);
+    ++(expected.report.status.ok() ? valid : invalid);
+    Surface t = s;
+    std::vector<std::uint32_t> to(s.vertices.size());
+    for (std::uint32_t i = 0; i < to.size(); ++i) to[i] = i;
+    std::shuffle(to.begin(), to.end(), random);
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      const Point& p = s.vertices[i];
+      t.vertices[to[i]] = {p[1], -p[2], p[0]};
+    }
+    for (auto& x : t.triangles) x = {to[x[1]], to[x[2]], to[x[0]]};
+    std::shuffle(t.triangles.begin(), t.triangles.end(), random);
+    EXPECT_EQ(check(t).report.defect_counts, expected.report.defect_counts) << round;
+  }
+  EXPECT_GT(valid, 20);
+  EXPECT_GT(invalid, 100);
+}
+
+}  // namespace
+}  // namespace delmesher
