@@ -1,7 +1,6 @@
 #include "mesher/arithmetic/dyadic.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -18,17 +17,6 @@ Dyadic normalised(BigInteger mantissa, std::int64_t exponent) {
 }
 
 }  // namespace
-
-DoubleParts decompose(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  const auto biased = static_cast<std::int32_t>((bits >> 52) & 0x7ff);
-  std::uint64_t magnitude = bits & ((std::uint64_t{1} << 52) - 1);
-  if (biased != 0) magnitude |= std::uint64_t{1} << 52;
-  if (magnitude == 0) return {0, 0, false};
-  const int zeros = std::countr_zero(magnitude);
-  // Subnormal numbers have the exponent of the smallest normal ones.
-  return {magnitude >> zeros, std::max(biased, 1) - 1075 + zeros, (bits >> 63) != 0};
-}
 
 Dyadic Dyadic::from_double(double value) {
   const DoubleParts parts = decompose(value);

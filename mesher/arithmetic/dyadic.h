@@ -1,6 +1,8 @@
 // Exact dyadic numbers: integer times power of two. Every finite double is one.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 
 #include "mesher/arithmetic/big_integer.h"
@@ -35,6 +37,15 @@ struct DoubleParts {
   std::int32_t exponent;
   bool negative;
 };
-DoubleParts decompose(double value);
+inline DoubleParts decompose(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto biased = static_cast<std::int32_t>((bits >> 52) & 0x7ff);
+  std::uint64_t magnitude = bits & ((std::uint64_t{1} << 52) - 1);
+  if (biased != 0) magnitude |= std::uint64_t{1} << 52;
+  if (magnitude == 0) return {0, 0, false};
+  const int zeros = std::countr_zero(magnitude);
+  // Subnormal numbers have the exponent of the smallest normal ones.
+  return {magnitude >> zeros, std::max(biased, 1) - 1075 + zeros, (bits >> 63) != 0};
+}
 
 }  // namespace delmesher

@@ -1,10 +1,43 @@
 // Signed integers of a size known at compile time: products add sizes, sums keep them.
 #pragma once
 
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
 #include <array>
 #include <cstdint>
 
 namespace delmesher {
+
+using Wide = unsigned __int128;
+
+// a + b + carry and a - b - borrow, with the new carry or borrow (0 or 1).
+#if defined(__x86_64__)
+using Carry = unsigned char;
+inline std::uint64_t add_carry(std::uint64_t a, std::uint64_t b, Carry& carry) {
+  unsigned long long sum;
+  carry = _addcarry_u64(carry, a, b, &sum);
+  return sum;
+}
+inline std::uint64_t subtract_borrow(std::uint64_t a, std::uint64_t b, Carry& borrow) {
+  unsigned long long difference;
+  borrow = _subborrow_u64(borrow, a, b, &difference);
+  return difference;
+}
+#else
+using Carry = std::uint64_t;
+inline std::uint64_t add_carry(std::uint64_t a, std::uint64_t b, Carry& carry) {
+  const Wide sum = Wide{a} + b + carry;
+  carry = static_cast<std::uint64_t>(sum >> 64);
+  return static_cast<std::uint64_t>(sum);
+}
+inline std::uint64_t subtract_borrow(std::uint64_t a, std::uint64_t b, Carry& borrow) {
+  const Wide difference = Wide{a} - b - borrow;
+  borrow = static_cast<std::uint64_t>(difference >> 64) & 1;
+  return static_cast<std::uint64_t>(difference);
+}
+#endif
 
 // Two's complement, least significant limb first. Nothing checks for overflow: callers prove that
 // values fit (see predicates/polynomials.h). Products cannot overflow.
@@ -22,40 +55,30 @@ struct FixedInteger {
   }
 };
 
-using Wide = unsigned __int128;
-
 template <int N>
 inline FixedInteger<N> operator+(const FixedInteger<N>& a, const FixedInteger<N>& b) {
   FixedInteger<N> sum;
-  Wide carry = 0;
-  for (int i = 0; i < N; ++i) {
-    carry += Wide{a.limb[i]} + b.limb[i];
-    sum.limb[i] = static_cast<std::uint64_t>(carry);
-    carry >>= 64;
-  }
+  Carry carry = 0;
+  for (int i = 0; i < N; ++i) sum.limb[i] = add_carry(a.limb[i], b.limb[i], carry);
   return sum;
 }
 
 template <int N>
 inline FixedInteger<N> operator-(const FixedInteger<N>& a, const FixedInteger<N>& b) {
   FixedInteger<N> difference;
-  std::uint64_t borrow = 0;
-  for (int i = 0; i < N; ++i) {
-    const Wide d = Wide{a.limb[i]} - b.limb[i] - borrow;
-    difference.limb[i] = static_cast<std::uint64_t>(d);
-    borrow = static_cast<std::uint64_t>(d >> 64) & 1;
-  }
+  Carry borrow = 0;
+  for (int i = 0; i < N; ++i) difference.limb[i] = subtract_borrow(a.limb[i], b.limb[i], borrow);
   return difference;
 }
 
-// Subtracts b from the limbs of a from `first` on.
+// Subtracts b from the limbs of a from `first` on if the mask is all ones, nothing if it is 0.
+// Signs are random: branches would be mispredicted.
 template <int N, int M>
-inline void subtract_at(FixedInteger<N>& a, int first, const FixedInteger<M>& b) {
-  std::uint64_t borrow = 0;
+inline void subtract_masked(FixedInteger<N>& a, int first, const FixedInteger<M>& b,
+                            std::uint64_t mask) {
+  Carry borrow = 0;
   for (int i = 0; i < M; ++i) {
-    const Wide d = Wide{a.limb[first + i]} - b.limb[i] - borrow;
-    a.limb[first + i] = static_cast<std::uint64_t>(d);
-    borrow = static_cast<std::uint64_t>(d >> 64) & 1;
+    a.limb[first + i] = subtract_borrow(a.limb[first + i], b.limb[i] & mask, borrow);
   }
 }
 
@@ -72,8 +95,8 @@ inline FixedInteger<N + M> operator*(const FixedInteger<N>& a, const FixedIntege
     product.limb[i + M] = carry;
   }
   // A negative factor was taken for itself plus 2^(64 size): subtract the other one, shifted.
-  if (a.negative()) subtract_at(product, N, b);
-  if (b.negative()) subtract_at(product, M, a);
+  subtract_masked(product, N, b, -(a.limb[N - 1] >> 63));
+  subtract_masked(product, M, a, -(b.limb[M - 1] >> 63));
   return product;
 }
 
@@ -94,7 +117,11 @@ inline FixedInteger<N> fixed_integer(const std::uint64_t* limbs, int size, bool 
     result.limb[i + words] |= limbs[i] << bits;
     if (bits != 0 && i + words + 1 < N) result.limb[i + words + 1] = limbs[i] >> (64 - bits);
   }
-  return negative ? FixedInteger<N>{} - result : result;
+  // Complement and add one if negative.
+  const std::uint64_t mask = -std::uint64_t{negative};
+  Carry carry = static_cast<Carry>(negative);
+  for (int i = 0; i < N; ++i) result.limb[i] = add_carry(result.limb[i] ^ mask, 0, carry);
+  return result;
 }
 
 }  // namespace delmesher

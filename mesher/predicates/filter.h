@@ -136,4 +136,41 @@ inline int dot(const Approximation& p, const Approximation& q, const Approximati
   return certain_sign(x + y + z, bound);
 }
 
+// The polynomial of polynomials::InDiametralBall, with u = b - a, v = c - a, w = p - a, x = b - c
+// and U, V, W, X their squared lengths. By Cauchy and Schwarz the absolute monomials sum up to at
+// most
+//   U V sqrt(X W) + U V sqrt(X W) + 2 U V W <= U V (X + 3 W) =: F.
+// Roundings of the first term: 5 in each scalar product (2 differences, 1 product, 2 sums), 2
+// products, 2 sums, k = 19 (the third term: 8 + 3 in |n|^2, 5 in W, 1, 1). Inexact arguments: every
+// vector is off by at most s = 2 sqrt(3) E in length; with rho = s / (smallest length) <= 2^-10
+// the change is at most F ((1 + rho)^6 - 1) < 6.1 rho F. Underflow: fewer than 2^8 errors of
+// 2^-1075, times at most S^2, S = 1 + U + V + W + X; overflow is excluded by S < 2^300.
+inline int in_diametral_ball(const Approximation& a, const Approximation& b, const Approximation& c,
+                             const Approximation& p) {
+  const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+  const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  const double wx = p.x - a.x, wy = p.y - a.y, wz = p.z - a.z;
+  const double xx = b.x - c.x, xy = b.y - c.y, xz = b.z - c.z;
+  const double uu = ux * ux + uy * uy + uz * uz;
+  const double vv = vx * vx + vy * vy + vz * vz;
+  const double ww = wx * wx + wy * wy + wz * wz;
+  const double xs = xx * xx + xy * xy + xz * xz;
+  const double sum = 1 + uu + vv + ww + xs;
+  if (!(sum < 0x1p300)) return 0;
+  const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  const double value = (vv * (ux * xx + uy * xy + uz * xz)) * (wx * ux + wy * uy + wz * uz) -
+                       (uu * (vx * xx + vy * xy + vz * xz)) * (wx * vx + wy * vy + wz * vz) -
+                       (nx * nx + ny * ny + nz * nz) * ww;
+  const double scale = uu * vv * (xs + 3 * ww);
+  double bound = scale * 0x1.3001p-49 + sum * sum * 0x1p-900;
+  const double error = larger(larger(a.error, b.error), larger(c.error, p.error));
+  if (error != 0) {
+    const double smallest = -larger(larger(-uu, -vv), larger(-ww, -xs));
+    const double rho = 3.5 * error / std::sqrt(smallest);
+    if (!(rho < 0x1p-10)) return 0;
+    bound += 6.1 * rho * scale;
+  }
+  return certain_sign(value, bound);
+}
+
 }  // namespace delmesher::filters

@@ -93,7 +93,14 @@ inline constexpr int kLargestFixed = 4;
 template <int N>
 FixedInteger<N> fixed_at_scale(const ExactCoordinate& x, std::int32_t exponent) {
   const bool negative = x.size < 0;
-  return fixed_integer<N>(x.limbs, negative ? -x.size : x.size, negative, x.exponent - exponent);
+  const int size = negative ? -x.size : x.size;
+  if constexpr (N == 1) {
+    if (size == 0) return {};
+    const std::uint64_t magnitude = x.limbs[0] << (x.exponent - exponent);
+    return {{negative ? -magnitude : magnitude}};
+  } else {
+    return fixed_integer<N>(x.limbs, size, negative, x.exponent - exponent);
+  }
 }
 
 // Integers of N limbs for differences of coordinates.
