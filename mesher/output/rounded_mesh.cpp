@@ -132,6 +132,7 @@ std::vector<std::vector<std::uint32_t>> RoundedMesh::coincident() const {
 }
 
 void RoundedMesh::prepare_repairs() {
+  changed_at_.assign(vertices(), 0);
   star_begin_.assign(vertices() + 1, 0);
   for (const Tet& t : tet_) {
     for (const std::uint32_t v : t) ++star_begin_[v + 1];
@@ -210,12 +211,29 @@ void RoundedMesh::move(std::uint32_t v, const Vec3& p) {
   for (const std::uint32_t t : star(v)) set_sign(t, sign_of(tet_[t]));
 }
 
+void RoundedMesh::note_change(std::uint32_t v) {
+  ++clock_;
+  for (const std::uint32_t t : star(v)) {
+    for (const std::uint32_t w : tet_[t]) changed_at_[w] = clock_;
+  }
+}
+
+std::uint32_t RoundedMesh::last_change(std::uint32_t t) const {
+  std::uint32_t last = 0;
+  for (const std::uint32_t v : tet_[t]) last = std::max(last, changed_at_[v]);
+  return last;
+}
+
 void RoundedMesh::replace(std::span<const std::uint32_t> removed, std::span<const Tet> created) {
+  ++clock_;
   const std::uint8_t flag = inside_[removed[0]];
   std::vector<std::uint32_t> free(removed.begin(), removed.end());
   std::sort(free.begin(), free.end(), std::greater<>());
   for (const std::uint32_t t : free) {
-    for (const std::uint32_t v : tet_[t]) erase_sorted(editable_star(v), t);
+    for (const std::uint32_t v : tet_[t]) {
+      erase_sorted(editable_star(v), t);
+      changed_at_[v] = clock_;
+    }
     set_sign(t, 1);
     tet_[t].fill(kNone);
   }

@@ -75,6 +75,12 @@ class RoundedMesh {
   int sign_at(std::uint32_t t, std::uint32_t v, const Vec3& p);
   int sign_of(const Tet& vertices);
   void move(std::uint32_t v, const Vec3& p);
+  // To be told when a move is there to stay.
+  void note_change(std::uint32_t v);
+  // Counts changes. Where nothing changed since a repair failed, it need not be tried again.
+  std::uint32_t clock() const { return clock_; }
+  // When a tetrahedron that shares a vertex with t last changed.
+  std::uint32_t last_change(std::uint32_t t) const;
   // Replaces tetrahedra, all with the same inside flag, by others with the same outer faces.
   void replace(std::span<const std::uint32_t> removed, std::span<const Tet> created);
 
@@ -101,7 +107,9 @@ class RoundedMesh {
   std::map<std::uint32_t, std::vector<std::uint32_t>> changed_stars_;
   std::vector<std::array<std::uint32_t, 3>> boundary_;  // each sorted, sorted
   std::vector<std::uint32_t> by_position_;              // vertices sorted by home
-  std::map<Vec3, std::uint32_t> moved_to_;              // how many moved vertices are there
+  std::uint32_t clock_ = 0;
+  std::vector<std::uint32_t> changed_at_;   // per vertex: when its star last changed
+  std::map<Vec3, std::uint32_t> moved_to_;  // how many moved vertices are there
 };
 
 }  // namespace delmesher

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "mesher/output/local_operations.h"
 #include "mesher/output/rounded_mesh.h"
@@ -13,8 +14,8 @@ namespace {
 // Repairs from mild to drastic; after each success, the mild ones get another chance.
 class Repair {
  public:
-  Repair(RoundedMesh& mesh, const PointStore& points, Control& control)
-      : mesh_(mesh), control_(control), moves_(mesh), operations_(mesh, points) {}
+  Repair(RoundedMesh& mesh, const PointStore& points, Control& control, RoundingResult& result)
+      : mesh_(mesh), control_(control), result_(result), moves_(mesh), operations_(mesh, points) {}
 
   void run() {
     for (int effort = 0; effort < kEfforts;) effort = pass(effort) ? 0 : effort + 1;
@@ -24,14 +25,21 @@ class Repair {
  private:
   static constexpr int kEfforts = 4;
 
-  // Every tetrahedron bad at the beginning gets one attempt. Badness decreases with each success,
-  // so passes end.
+  // Every tetrahedron bad at the beginning gets one attempt, unless it failed before and nothing
+  // has changed around it. Badness decreases with each success, so passes end.
   bool pass(int effort) {
     const std::vector<std::uint32_t> work(mesh_.bad().begin(), mesh_.bad().end());
     bool success = false;
     for (const std::uint32_t t : work) {
-      control_.poll();
-      if (mesh_.alive(t) && mesh_.sign(t) <= 0 && attempt(t, effort)) success = true;
+      if (!mesh_.alive(t) || mesh_.sign(t) > 0) continue;
+      const auto failed = failed_at_.find({t, effort});
+      if (failed != failed_at_.end() && failed->second >= mesh_.last_change(t)) continue;
+      effort < 2 ? control_.poll() : control_.poll_now(0, -1);
+      if (attempt(t, effort)) {
+        success = true;
+      } else {
+        failed_at_[{t, effort}] = mesh_.clock();
+      }
     }
     return success;
   }
@@ -41,12 +49,18 @@ class Repair {
       case 0:
         return moves_.fix(t);
       case 1:
-        return operations_.fix(t, true);
+        return count(operations_.fix(t, true), result_.operations);
       case 2:
         return moves_.fix_by_chain(t);
       default:
-        return operations_.fix(t, false);
+        return count(operations_.fix(t, false), result_.operations) &&
+               count(true, result_.inexact_operations);
     }
+  }
+
+  static bool count(bool success, std::uint64_t& counter) {
+    counter += success ? 1 : 0;
+    return success;
   }
 
   // All but one vertex of a group must go; vertices of the volume go first.
@@ -62,8 +76,10 @@ class Repair {
 
   RoundedMesh& mesh_;
   Control& control_;
+  RoundingResult& result_;
   VertexMoves moves_;
   LocalOperations operations_;
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> failed_at_;
 };
 
 // Upper bound of the distance of a vertex from its exact position. The sum of two roundings up of
@@ -114,7 +130,7 @@ RoundingResult round_mesh(const RoundingInput& input, Control& control) {
   const std::size_t bad_before = mesh.bad().size();
   if (bad_before != 0 || !mesh.coincident().empty()) {
     mesh.prepare_repairs();
-    Repair(mesh, *input.points, control).run();
+    Repair(mesh, *input.points, control, result).run();
   }
   for (const std::uint32_t t : mesh.bad()) ++(mesh.sign(t) < 0 ? result.inverted : result.flat);
   result.repaired = bad_before - mesh.bad().size();

@@ -38,6 +38,9 @@ struct RoundingResult {
   std::uint64_t inverted = 0, flat = 0;  // left in the result, by exact sign
   std::uint64_t repaired = 0;            // were not positive after plain rounding, and are now
   std::uint64_t coincident = 0;          // vertices left with the coordinates of an earlier one
+  // Local operations done: if not 0, the tetrahedra are not those given. They are positive on the
+  // exact coordinates as well, except where `inexact_operations` had no other choice.
+  std::uint64_t operations = 0, inexact_operations = 0;
   // Largest distance of a written surface vertex from its exact position (an upper bound, rounded
   // up).
   double max_surface_deviation = 0;

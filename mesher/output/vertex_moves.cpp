@@ -8,6 +8,8 @@ namespace {
 
 // Most moves that a chain may look at, so that hopeless tetrahedra do not take forever.
 constexpr int kChainBudget = 4000;
+// The same for all chains together, so that a hopeless mesh ends, too.
+constexpr std::int64_t kAllChainsBudget = 10'000'000;
 constexpr int kChainDepth = 3;
 
 // The distance from |x| to the next larger double; 0 for 0, whose neighbours say nothing about the
@@ -117,7 +119,7 @@ Vec3 deepest_point(const StarFrame& frame) {
 
 }  // namespace
 
-VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh) {
+VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh), chains_budget_(kAllChainsBudget) {
   double largest = 0;
   for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
     if (mesh.fixed(v) || mesh.on_surface(v)) {
@@ -245,12 +247,14 @@ bool VertexMoves::improve(std::uint32_t t, bool far) {
         best_position = p;
         if (gain != -star_badness_) continue;
         mesh_.move(v, p);
+        mesh_.note_change(v);
         return true;
       }
     }
   }
   if (best_vertex == kNone) return false;
   mesh_.move(best_vertex, best_position);
+  mesh_.note_change(best_vertex);
   return true;
 }
 
@@ -262,6 +266,7 @@ bool VertexMoves::separate(std::uint32_t v) {
     for (const Vec3& p : candidates_) {
       if (mesh_.occupied(p) || change(v, p, 1) > 0) continue;
       mesh_.move(v, p);
+      mesh_.note_change(v);
       return true;
     }
   }
@@ -317,6 +322,7 @@ bool VertexMoves::free_by_chain(Chain& chain, std::uint32_t t, int depth) {
 }
 
 bool VertexMoves::fix_by_chain(std::uint32_t t) {
+  // Badness of everything: chains reach far, and there are few bad tetrahedra left by now.
   const auto total = [&] {
     Badness sum = 0;
     for (const std::uint32_t b : mesh_.bad()) sum += badness(mesh_.sign(b));
@@ -324,7 +330,13 @@ bool VertexMoves::fix_by_chain(std::uint32_t t) {
   };
   const Badness before = total();
   Chain chain;
-  if (free_by_chain(chain, t, kChainDepth) && total() < before) return true;
+  if (chains_budget_ < 0) return false;
+  const bool freed = free_by_chain(chain, t, kChainDepth);
+  chains_budget_ -= kChainBudget - chain.budget;
+  if (freed && total() < before) {
+    for (const auto& [v, earlier] : chain.earlier) mesh_.note_change(v);
+    return true;
+  }
   undo(chain, 0);
   return false;
 }

@@ -43,6 +43,7 @@ class VertexMoves {
   std::vector<Vec3> candidates_;             // of the vertex under consideration
   std::vector<std::uint32_t> ordered_star_;  // its star, bad ones first
   Badness star_badness_ = 0;
+  std::int64_t chains_budget_;
 };
 
 }  // namespace delmesher

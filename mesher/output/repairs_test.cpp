@@ -1,0 +1,213 @@
+// Each kind of repair alone: vertex_moves.h, local_operations.h.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesher/output/local_operations.h"
+#include "mesher/output/vertex_moves.h"
+
+namespace delmesher {
+namespace {
+
+struct Scene {
+  PointStore points;
+  RoundingInput input;
+  Options options;
+  Control control{options};
+
+  VertexId add(double x, double y, double z, bool fixed, bool on_surface = false) {
+    const VertexId v = points.add_explicit(x, y, z);
+    input.fixed.push_back(fixed ? 1 : 0);
+    input.on_surface.push_back(on_surface ? 1 : 0);
+    return v;
+  }
+  RoundedMesh mesh() {
+    input.points = &points;
+    input.inside.assign(input.tetrahedra.size(), 1);
+    return {input, control};
+  }
+};
+
+std::size_t alive(const RoundedMesh& mesh) {
+  std::size_t count = 0;
+  for (std::uint32_t t = 0; t < mesh.slots(); ++t) count += mesh.alive(t) ? 1 : 0;
+  return count;
+}
+
+// An octahedron of radius 1, coned from a volume vertex (the last) at the given place.
+Scene octahedron(double x, double y, double z) {
+  Scene s;
+  for (int i = 0; i < 6; ++i) {
+    const double c = i % 2 == 0 ? 1 : -1;
+    s.add(i / 2 == 0 ? c : 0, i / 2 == 1 ? c : 0, i / 2 == 2 ? c : 0, true, true);
+  }
+  const VertexId centre = s.add(x, y, z, false);
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const std::uint32_t a = i & 1, b = 2 + (i >> 1 & 1), c = 4 + (i >> 2);
+    const bool even = (a + (b - 2) + (c - 4)) % 2 == 0;
+    s.input.tetrahedra.push_back({even ? a : b, even ? b : a, c, centre});
+    std::swap(s.input.tetrahedra.back()[2], s.input.tetrahedra.back()[3]);
+  }
+  return s;
+}
+
+TEST(Octahedron, IsPositiveWithItsCentreInside) {
+  Scene s = octahedron(0.125, 0.25, -0.125);
+  EXPECT_TRUE(s.mesh().bad().empty());
+}
+
+TEST(VertexMoves, BringsAVolumeVertexBackIntoItsStar) {
+  for (const double far : {0.6, 1.0, 1.5, 40.0}) {
+    Scene s = octahedron(far, 0.7 * far, 0.1 * far);
+    RoundedMesh mesh = s.mesh();
+    ASSERT_FALSE(mesh.bad().empty());
+    mesh.prepare_repairs();
+    VertexMoves moves(mesh);
+    for (int i = 0; i < 10 && !mesh.bad().empty(); ++i) moves.fix(*mesh.bad().begin());
+    EXPECT_TRUE(mesh.bad().empty()) << far;
+  }
+}
+
+TEST(VertexMoves, LeavesFixedVerticesAndKeepsSurfaceVerticesNear) {
+  Scene s = octahedron(1.5, 0, 0);
+  s.input.fixed[6] = 1;
+  {
+    RoundedMesh mesh = s.mesh();
+    mesh.prepare_repairs();
+    EXPECT_FALSE(VertexMoves(mesh).fix(*mesh.bad().begin()));
+  }
+  s.input.fixed[6] = 0;
+  s.input.on_surface[6] = 1;
+  RoundedMesh mesh = s.mesh();
+  mesh.prepare_repairs();
+  EXPECT_FALSE(VertexMoves(mesh).fix(*mesh.bad().begin()));
+  EXPECT_EQ(mesh.position(6), (Vec3{1.5, 0, 0}));
+}
+
+TEST(VertexMoves, TakesTheShortestMove) {
+  Scene s = octahedron(0.5, 0.25, 0.25);  // on a face
+  RoundedMesh mesh = s.mesh();
+  ASSERT_EQ(mesh.bad().size(), 1U);
+  ASSERT_EQ(mesh.sign(*mesh.bad().begin()), 0);
+  mesh.prepare_repairs();
+  EXPECT_TRUE(VertexMoves(mesh).fix(*mesh.bad().begin()));
+  EXPECT_TRUE(mesh.bad().empty());
+  double moved = 0;
+  for (int i = 0; i < 3; ++i) moved += std::fabs(mesh.position(6)[i] - mesh.home(6)[i]);
+  EXPECT_LE(moved, 0x1p-53);
+}
+
+TEST(LocalOperations, CollapsesAVolumeVertexOutsideItsStar) {
+  // The octahedron's centre has six neighbours; a collapse leaves the four tetrahedra that do not
+  // touch the vertex it goes to. Flips cannot help with a vertex this far out.
+  Scene s = octahedron(40, 30, 20);
+  RoundedMesh mesh = s.mesh();
+  mesh.prepare_repairs();
+  EXPECT_TRUE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true));
+  EXPECT_TRUE(mesh.bad().empty());
+  EXPECT_EQ(alive(mesh), 4U);
+  EXPECT_TRUE(mesh.star(6).empty());
+}
+
+TEST(LocalOperations, DoesNotCollapseSurfaceVertices) {
+  Scene s = octahedron(40, 30, 20);
+  s.input.on_surface[6] = 1;
+  RoundedMesh mesh = s.mesh();
+  mesh.prepare_repairs();
+  EXPECT_FALSE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true));
+  EXPECT_EQ(alive(mesh), 8U);
+}
+
+// n points around the z axis, and two poles whose edge passes them at x = `off`: outside the ring
+// if off > 1, with inverted tetrahedra.
+Scene ring(int n, double off) {
+  Scene s;
+  const VertexId south = s.add(off, 0.01, -1, true), north = s.add(off, 0.01, 1, true);
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * M_PI * (i + 0.5) / n;
+    s.add(std::cos(angle), std::sin(angle), 0, true);
+  }
+  for (int i = 0; i < n; ++i) {
+    s.input.tetrahedra.push_back({south, north, static_cast<std::uint32_t>(2 + i),
+                                  static_cast<std::uint32_t>(2 + (i + 1) % n)});
+  }
+  return s;
+}
+
+TEST(LocalOperations, RemovesEdges) {
+  for (int n = 3; n <= 9; ++n) {
+    ASSERT_TRUE(ring(n, 0).mesh().bad().empty());
+    Scene s = ring(n, 1.1);
+    RoundedMesh mesh = s.mesh();
+    ASSERT_FALSE(mesh.bad().empty());
+    mesh.prepare_repairs();
+    // Removing the edge replaces n tetrahedra by two for each of n - 2 triangles.
+    const bool possible = LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true);
+    EXPECT_TRUE(possible) << n;
+    EXPECT_TRUE(mesh.bad().empty());
+    EXPECT_EQ(alive(mesh), 2U * (n - 2));
+  }
+}
+
+TEST(LocalOperations, KeepsBoundaryFacesAndFlags) {
+  Scene s = ring(5, 1.1);
+  s.input.boundary.push_back({1, 3, 0});
+  RoundedMesh kept = s.mesh();
+  kept.prepare_repairs();
+  EXPECT_FALSE(LocalOperations(kept, s.points).fix(*kept.bad().begin(), true));
+
+  s.input.boundary.clear();
+  s.input.points = &s.points;
+  s.input.inside = {1, 1, 1, 0, 0};
+  RoundedMesh mixed(s.input, s.control);
+  mixed.prepare_repairs();
+  EXPECT_FALSE(LocalOperations(mixed, s.points).fix(*mixed.bad().begin(), true));
+}
+
+TEST(LocalOperations, RemovesFaces) {
+  // A flat tetrahedron below the face 0 1 2, whose tip 3 lies in it, and a good one above.
+  Scene s;
+  s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
+  s.add(1, 1, 0, true), s.add(1, 1, 2, true);
+  s.input.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
+  RoundedMesh mesh = s.mesh();
+  ASSERT_EQ(mesh.bad().size(), 1U);
+  mesh.prepare_repairs();
+  EXPECT_TRUE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true));
+  EXPECT_TRUE(mesh.bad().empty());
+  EXPECT_EQ(alive(mesh), 3U);
+}
+
+TEST(LocalOperations, MakesNoEdgeTwice) {
+  // As above, but the edge 3 4 that the flip would create exists in another tetrahedron.
+  Scene s;
+  s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
+  s.add(1, 1, 0, true), s.add(1, 1, 2, true), s.add(9, 9, 0, true), s.add(9, 0, 9, true);
+  s.input.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}, {3, 4, 5, 6}};
+  RoundedMesh mesh = s.mesh();
+  mesh.prepare_repairs();
+  EXPECT_FALSE(LocalOperations(mesh, s.points).fix(1, true));
+  EXPECT_EQ(alive(mesh), 3U);
+}
+
+TEST(LocalOperations, MayAskForExactPositions) {
+  // Vertex 3 is exactly where the flip would make inverted tetrahedra, but it is written elsewhere.
+  Scene s;
+  s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
+  s.add(5, 5, -0.5, true), s.add(1, 1, 2, true);
+  s.input.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
+  RoundedMesh mesh = s.mesh();
+  mesh.prepare_repairs();
+  EXPECT_TRUE(mesh.bad().empty());
+  mesh.move(3, {1, 1, 0});
+  ASSERT_EQ(mesh.bad().size(), 1U);
+  EXPECT_FALSE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true));
+  EXPECT_EQ(alive(mesh), 2U);
+  EXPECT_TRUE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), false));
+  EXPECT_EQ(alive(mesh), 3U);
+}
+
+}  // namespace
+}  // namespace delmesher
