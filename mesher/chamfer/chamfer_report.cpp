@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "mesher/chamfer/chamfer.h"
+#include "mesher/chamfer/filter.h"
 #include "mesher/chamfer/plc_angles.h"
 
 namespace {
@@ -33,6 +34,19 @@ bool read_off(const char* path, Surface& surface) {
   return true;
 }
 
+double diagonal(const Surface& surface) {
+  double low[3], high[3], sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    low[i] = high[i] = surface.vertices[0][i];
+    for (const auto& v : surface.vertices) {
+      low[i] = std::min(low[i], v[i]);
+      high[i] = std::max(high[i], v[i]);
+    }
+    sum += (high[i] - low[i]) * (high[i] - low[i]);
+  }
+  return std::sqrt(sum);
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -54,9 +68,14 @@ void write_segments(const char* path, const Plc& plc, const PointStore& points) 
 int main(int argc, char** argv) {
   ChamferOptions options;
   const char* segments = nullptr;
+  double tau = 0;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--acute") == 0) {
       options.cosine_squared = cosine_squared(std::atof(argv[++i]));
+      continue;
+    }
+    if (std::strcmp(argv[i], "--tau") == 0) {
+      tau = std::atof(argv[++i]);
       continue;
     }
     if (std::strcmp(argv[i], "--no-simplify") == 0) {
@@ -80,16 +99,22 @@ int main(int argc, char** argv) {
       const auto start = std::chrono::steady_clock::now();
       const SurfaceTopology topology = build_topology(surface, points, predicates);
       const double topology_seconds = seconds_since(start);
+      const auto filter_start = std::chrono::steady_clock::now();
+      const FilterResult filter = filter_input(topology, points, tau * diagonal(surface), control);
+      options.facet_kept = filter.facet_kept;
+      const double filter_seconds = seconds_since(filter_start);
       const auto chamfer_start = std::chrono::steady_clock::now();
       const ChamferResult result = chamfer(topology, points, predicates, options, control);
       const double seconds = seconds_since(chamfer_start);
       plc_angles::Report angles;
       if (!getenv("FAST")) angles = plc_angles::measure(result.plc, points);
       std::printf(
-          "%s triangles %zu facets %zu acute %llu+%llu points %zu segments %zu topology %.3fs "
+          "%s dropped %llu rounds %llu filter %.3fs triangles %zu facets %zu acute %llu+%llu "
+          "points %zu segments %zu topology %.3fs "
           "chamfer %.3fs ee %.6f ef %.6f dihedral %.6f shortest %.2e %s\n",
-          argv[i], topology.triangles.size(), topology.facet_triangles.size(),
-          static_cast<unsigned long long>(result.acute_vertices),
+          argv[i], static_cast<unsigned long long>(filter.dropped_triangles),
+          static_cast<unsigned long long>(filter.rounds), filter_seconds, topology.triangles.size(),
+          topology.facet_triangles.size(), static_cast<unsigned long long>(result.acute_vertices),
           static_cast<unsigned long long>(result.acute_edges),
           points.size() - surface.vertices.size(), result.plc.segments.size(), topology_seconds,
           seconds, angles.edge_edge.degrees, angles.edge_facet.degrees, angles.dihedral.degrees,

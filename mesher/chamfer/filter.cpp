@@ -1,0 +1,202 @@
+#include "mesher/chamfer/filter.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+
+#include "mesher/chamfer/box_tree.h"
+#include "mesher/chamfer/closest.h"
+#include "mesher/chamfer/facet_set.h"
+
+namespace delmesher {
+
+namespace {
+
+// Two elements without a common point that are too close.
+struct ClosePair {
+  double squared_distance;
+  Element first, second;
+};
+
+// The filter's first step. Every vertex and constrained edge knows the closest element it does not
+// touch, as far as that is closer than the tolerance; the closest pairs are resolved first, and
+// only elements whose partner disappeared are asked again.
+class InputFilter {
+ public:
+  InputFilter(const KeptSurface& surface, double tolerance)
+      : surface_(surface),
+        topology_(surface.topology()),
+        bound_(tolerance * tolerance),
+        facets_(surface) {
+    std::vector<Box> edge_boxes(topology_.edge_count());
+    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) edge_boxes[e] = edge_box(e);
+    edge_tree_ = BoxTree(std::move(edge_boxes));
+    std::vector<Box> triangle_boxes(topology_.triangles.size());
+    for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
+      triangle_boxes[t] = Box::around(triangle(t));
+    }
+    triangle_tree_ = BoxTree(std::move(triangle_boxes));
+    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
+      if (!facets_.alive({Element::Kind::edge, e})) edge_tree_.remove(e);
+    }
+    for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
+      if (!facets_.kept()[topology_.facet_of[t]]) triangle_tree_.remove(t);
+    }
+  }
+
+  FilterResult run(Control& control) {
+    for (VertexId v = 0; v < surface_.vertex_count(); ++v) {
+      control.poll();
+      ask({Element::Kind::vertex, v});
+    }
+    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
+      control.poll();
+      ask({Element::Kind::edge, e});
+    }
+    FilterResult result;
+    while (!queue_.empty()) {
+      control.poll();
+      const ClosePair pair = queue_.top();
+      queue_.pop();
+      if (!facets_.alive(pair.first)) continue;
+      if (facets_.alive(pair.second)) {
+        result.dropped_triangles += resolve(pair);
+        ++result.rounds;
+      }
+      ask(pair.first);
+    }
+    result.facet_kept = facets_.kept();
+    return result;
+  }
+
+ private:
+  struct Later {
+    static auto key(const ClosePair& p) {
+      return std::tuple(p.squared_distance, p.first.kind, p.first.id);
+    }
+    bool operator()(const ClosePair& a, const ClosePair& b) const { return key(a) > key(b); }
+  };
+
+  std::array<Vec3, 3> triangle(std::uint32_t t) const {
+    const auto& corner = topology_.triangles[t];
+    return {surface_.position(corner[0]), surface_.position(corner[1]),
+            surface_.position(corner[2])};
+  }
+  Box edge_box(std::uint32_t e) const {
+    const auto [v, w] = topology_.edge_vertices(e);
+    const std::array<Vec3, 2> ends = {surface_.position(v), surface_.position(w)};
+    return Box::around(ends);
+  }
+
+  // Queues the element with what is closest to it.
+  void ask(const Element& element) {
+    if (!facets_.alive(element)) return;
+    ClosePair closest{bound_, element, {}};
+    if (element.kind == Element::Kind::vertex) {
+      find_edge_near_vertex(closest);
+      find_facet_near_vertex(closest);
+    } else {
+      find_edge_near_edge(closest);
+    }
+    if (closest.second.id != kNone) queue_.push(closest);
+  }
+
+  void find_edge_near_vertex(ClosePair& closest) const {
+    const VertexId x = closest.first.id;
+    const Vec3& p = surface_.position(x);
+    const std::array<Vec3, 1> query = {p};
+    edge_tree_.nearest(Box::around(query), closest.squared_distance, [&](std::uint32_t e) {
+      const auto [v, w] = topology_.edge_vertices(e);
+      ClosestOnSegment there = closest_on_segment(p, surface_.position(v), surface_.position(w));
+      // An edge at the vertex counts with its other end: it may be too short.
+      if (v == x || w == x) {
+        there.s = v == x ? 1 : 0;
+        there.squared_distance = squared_norm(subtract(surface_.position(v), surface_.position(w)));
+      }
+      if (there.squared_distance < closest.squared_distance) {
+        closest.squared_distance = there.squared_distance;
+        closest.second = {Element::Kind::edge, e};
+        if (there.s == 0) closest.second = {Element::Kind::vertex, v};
+        if (there.s == 1) closest.second = {Element::Kind::vertex, w};
+      }
+      return closest.squared_distance;
+    });
+  }
+
+  // Only where the closest point is inside a facet: else it is on an edge.
+  void find_facet_near_vertex(ClosePair& closest) const {
+    const VertexId x = closest.first.id;
+    const Vec3& p = surface_.position(x);
+    const std::vector<FacetId> incident = facets_.facets_at(x);
+    const std::array<Vec3, 1> query = {p};
+    triangle_tree_.nearest(Box::around(query), closest.squared_distance, [&](std::uint32_t t) {
+      const FacetId f = topology_.facet_of[t];
+      if (std::binary_search(incident.begin(), incident.end(), f)) return closest.squared_distance;
+      const ClosestOnTriangle there = closest_on_triangle(p, triangle(t));
+      if (there.squared_distance < closest.squared_distance && inside_facet(t, there.feature)) {
+        closest.squared_distance = there.squared_distance;
+        closest.second = {Element::Kind::facet, f};
+      }
+      return closest.squared_distance;
+    });
+  }
+
+  bool inside_facet(std::uint32_t t, int feature) const {
+    if (feature == 6) return true;
+    if (feature >= 3) return topology_.edge_is_flat[topology_.edge_of[3 * t + feature - 3]];
+    return !facets_.alive({Element::Kind::vertex, topology_.triangles[t][feature]});
+  }
+
+  // Only where both closest points are inside the edges: else a vertex is involved.
+  void find_edge_near_edge(ClosePair& closest) const {
+    const auto [a, b] = topology_.edge_vertices(closest.first.id);
+    const Vec3 &p = surface_.position(a), &q = surface_.position(b);
+    const Box query = edge_box(closest.first.id);
+    edge_tree_.nearest(query, closest.squared_distance, [&](std::uint32_t e) {
+      const auto [c, d] = topology_.edge_vertices(e);
+      if (a == c || a == d || b == c || b == d) return closest.squared_distance;
+      const ClosestOfSegments there =
+          closest_of_segments(p, q, surface_.position(c), surface_.position(d));
+      const bool inside = there.s > 0 && there.s < 1 && there.t > 0 && there.t < 1;
+      if (inside && there.squared_distance < closest.squared_distance) {
+        closest.squared_distance = there.squared_distance;
+        closest.second = {Element::Kind::edge, e};
+      }
+      return closest.squared_distance;
+    });
+  }
+
+  // Drops all facets of one of the two elements, whichever loses less; gives the triangles lost.
+  std::uint64_t resolve(const ClosePair& pair) {
+    const std::vector<FacetId> first = facets_.facets(pair.first);
+    const std::vector<FacetId> second = facets_.facets(pair.second);
+    const bool drop_first = facets_.cost(first) < facets_.cost(second);
+    std::uint64_t lost = 0;
+    for (FacetId f : drop_first ? first : second) {
+      lost += topology_.facet_triangles[f].size();
+      for (std::uint32_t t : topology_.facet_triangles[f]) triangle_tree_.remove(t);
+      facets_.drop(f, [this](std::uint32_t e) { edge_tree_.remove(e); });
+    }
+    return lost;
+  }
+
+  const KeptSurface& surface_;
+  const SurfaceTopology& topology_;
+  double bound_;
+  FacetSet facets_;
+  BoxTree edge_tree_, triangle_tree_;
+  std::priority_queue<ClosePair, std::vector<ClosePair>, Later> queue_;
+};
+
+}  // namespace
+
+FilterResult filter_input(const SurfaceTopology& topology, const PointStore& points,
+                          double tolerance, Control& control) {
+  const KeptSurface surface(topology, points, {});
+  if (!(tolerance > 0)) {
+    return {std::vector<std::uint8_t>(topology.facet_triangles.size(), 1), 0, 0};
+  }
+  return InputFilter(surface, tolerance * surface.scale()).run(control);
+}
+
+}  // namespace delmesher
