@@ -1,0 +1,84 @@
+#include <algorithm>
+
+#include "oracles/input_surface.h"
+
+namespace tetproof::oracles {
+namespace {
+
+constexpr Index kLeafSize = 4;
+constexpr int kMaxDepth = 60;
+
+bool meet(const BoxTree::Box& a, const BoxTree::Box& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (a.low[axis] > b.high[axis] || b.low[axis] > a.high[axis]) return false;
+  }
+  return true;
+}
+
+void enlarge(BoxTree::Box& box, const BoxTree::Box& other) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], other.low[axis]);
+    box.high[axis] = std::max(box.high[axis], other.high[axis]);
+  }
+}
+
+double centre(const BoxTree::Box& box, int axis) {
+  return box.low[axis] / 2 + box.high[axis] / 2;
+}
+
+}  // namespace
+
+BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
+  order_.resize(boxes_.size());
+  for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<Index>(i);
+  nodes_.reserve(boxes_.size() + 2);
+  nodes_.emplace_back();
+  if (!boxes_.empty()) build(0, 0, static_cast<Index>(order_.size()), 0);
+}
+
+void BoxTree::build(std::size_t node, Index first, Index last, int depth) {
+  Box box = boxes_[order_[first]];
+  for (Index i = first; i < last; ++i) enlarge(box, boxes_[order_[i]]);
+  nodes_[node].box = box;
+  if (last - first <= kLeafSize || depth == kMaxDepth) {
+    nodes_[node].first = first;
+    nodes_[node].count = last - first;
+    return;
+  }
+  int axis = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
+  }
+  const Index middle = first + (last - first) / 2;
+  std::nth_element(
+      order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+      [&](Index a, Index b) { return centre(boxes_[a], axis) < centre(boxes_[b], axis); });
+  const std::size_t child = nodes_.size();
+  nodes_[node].first = static_cast<Index>(child);
+  nodes_[node].count = 0;
+  nodes_.emplace_back();
+  nodes_.emplace_back();
+  build(child, first, middle, depth + 1);
+  build(child + 1, middle, last, depth + 1);
+}
+
+void BoxTree::query(const Box& query, std::vector<Index>& found) const {
+  if (boxes_.empty()) return;
+  std::array<std::size_t, 2 * kMaxDepth + 4> stack;
+  std::size_t top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Node& node = nodes_[stack[--top]];
+    if (!meet(node.box, query)) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first;
+      stack[top++] = node.first + 1;
+      continue;
+    }
+    for (Index i = node.first; i < node.first + node.count; ++i) {
+      if (meet(boxes_[order_[i]], query)) found.push_back(order_[i]);
+    }
+  }
+}
+
+}  // namespace tetproof::oracles

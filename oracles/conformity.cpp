@@ -1,0 +1,427 @@
+#include "oracles/conformity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace tetproof::oracles {
+namespace {
+
+std::uint64_t edge_key(Index a, Index b) {
+  return static_cast<std::uint64_t>(a) << 32 | b;
+}
+
+double length(const IntegerVector& v, long exponent) {
+  return std::hypot(to_double(v[0], exponent), to_double(v[1], exponent),
+                    to_double(v[2], exponent));
+}
+
+// The check as a whole; the functions appear in the order in which they run.
+class Conformity {
+ public:
+  Conformity(const TetComplex& complex, const Neighbours& neighbours, const InputSurface& surface,
+             const ConformityOptions& options)
+      : complex_(complex),
+        points_(*complex.points),
+        neighbours_(neighbours),
+        surface_(surface),
+        options_(options) {}
+
+  ConformityResult run() {
+    collect_faces();
+    collect_edges();
+    match_vertices();
+    follow_edges();
+    grow_patches();
+    check_borders();
+    check_facets();
+    result_.report.checked = result_.faces.size();
+    result_.report.figures.emplace_back("facets", surface_.facets().size());
+    result_.report.figures.emplace_back("edges", surface_.edges().size());
+    result_.report.figures.emplace_back("input vertices", surface_.used_vertices().size());
+    result_.report.figures.emplace_back("deviation", result_.deviation);
+    return std::move(result_);
+  }
+
+ private:
+  void collect_faces();
+  void collect_edges();
+  void match_vertices();
+  Index nearest_surface_vertex(Index input_vertex) const;
+  void follow_edges();
+  bool follow(const InputSurface::Edge& edge, double tolerance, std::vector<Index>& chain) const;
+  double progress(const InputSurface::Edge& edge, Index v, double& distance) const;
+  bool advances(const InputSurface::Edge& edge, Index here, Index next) const;
+  void grow_patches();
+  void check_borders();
+  void check_facets();
+  void check_facet(Index facet, const std::vector<Index>& faces);
+  void deviate(double distance) {
+    // The few roundings of measuring stay below this factor.
+    result_.deviation = std::max(result_.deviation, distance * (1 + 1e-12));
+  }
+  void fail(const std::string& what) { result_.report.fail(what); }
+  std::string input_edge_name(const InputSurface::Edge& e) const {
+    return "input edge " + std::to_string(e.from) + "-" + std::to_string(e.to);
+  }
+  // The faces with directed edge a -> b.
+  std::pair<std::size_t, std::size_t> faces_at(Index a, Index b) const {
+    const auto range =
+        std::equal_range(directed_.begin(), directed_.end(), std::pair(edge_key(a, b), Index{0}),
+                         [](const auto& x, const auto& y) { return x.first < y.first; });
+    return {range.first - directed_.begin(), range.second - directed_.begin()};
+  }
+
+  const TetComplex& complex_;
+  const ExactPoints& points_;
+  const Neighbours& neighbours_;
+  const InputSurface& surface_;
+  const ConformityOptions& options_;
+  ConformityResult result_;
+  std::vector<std::pair<std::uint64_t, Index>> directed_;  // edge, face; sorted
+  std::vector<Index> surface_vertices_;                    // sorted by the nearest x
+  std::vector<Index> match_;                               // input vertex -> mesh vertex
+  std::unordered_map<std::uint64_t, Index> chain_facet_;  // directed mesh edge -> facet on its left
+};
+
+void Conformity::collect_faces() {
+  for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
+    if (!complex_.inside[t]) continue;
+    for (int i = 0; i < 4; ++i) {
+      const Index other = neighbours_.across[4 * t + i];
+      if (other == kNone || !complex_.inside[other / 4]) {
+        result_.faces.push_back(face_of(complex_.tetrahedra[t], i));
+      }
+    }
+  }
+  result_.facets.assign(result_.faces.size(), kNone);
+}
+
+void Conformity::collect_edges() {
+  directed_.reserve(3 * result_.faces.size());
+  for (Index f = 0; f < result_.faces.size(); ++f) {
+    const Face& face = result_.faces[f];
+    for (int i = 0; i < 3; ++i) {
+      directed_.emplace_back(edge_key(face[i], face[(i + 1) % 3]), f);
+      surface_vertices_.push_back(face[i]);
+    }
+  }
+  std::sort(directed_.begin(), directed_.end());
+  std::sort(surface_vertices_.begin(), surface_vertices_.end());
+  surface_vertices_.erase(std::unique(surface_vertices_.begin(), surface_vertices_.end()),
+                          surface_vertices_.end());
+  std::sort(surface_vertices_.begin(), surface_vertices_.end(), [&](Index a, Index b) {
+    const Position p = points_.nearest(a), q = points_.nearest(b);
+    return p != q ? p < q : a < b;
+  });
+}
+
+// Input vertices are matched by equal coordinates; failing that, and if allowed, by distance.
+void Conformity::match_vertices() {
+  match_.assign(surface_.used_vertices().back() + 1, kNone);
+  std::uint64_t moved = 0;
+  for (const Index v : surface_.used_vertices()) {
+    const Position p = points_.nearest(v);
+    auto found = std::lower_bound(
+        surface_vertices_.begin(), surface_vertices_.end(), p,
+        [&](Index a, const Position& position) { return points_.nearest(a) < position; });
+    while (found != surface_vertices_.end() && points_.nearest(*found) == p) {
+      if (exact::equal(points_, *found, v)) match_[v] = *found;
+      ++found;
+    }
+    if (match_[v] == kNone && !options_.exact) {
+      match_[v] = nearest_surface_vertex(v);
+      ++moved;
+      if (match_[v] != kNone) {
+        deviate(length(exact::difference(points_, v, match_[v]), points_.exponent()));
+      }
+    }
+    if (match_[v] == kNone) fail("input vertex " + std::to_string(v) + " is not on the boundary");
+  }
+  if (moved > 0) result_.report.notes.push_back(std::to_string(moved) + " input vertices moved");
+}
+
+Index Conformity::nearest_surface_vertex(Index input_vertex) const {
+  const Position p = points_.nearest(input_vertex);
+  Index best = kNone;
+  double distance = options_.largest_tolerance * surface_.diagonal();
+  const auto first =
+      std::lower_bound(surface_vertices_.begin(), surface_vertices_.end(), p[0] - distance,
+                       [&](Index a, double x) { return points_.nearest(a)[0] < x; });
+  for (auto i = first; i != surface_vertices_.end(); ++i) {
+    const Position q = points_.nearest(*i);
+    if (q[0] > p[0] + distance) break;
+    const double d = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+    if (d < distance) {
+      distance = d;
+      best = *i;
+    }
+  }
+  return best;
+}
+
+// Position of v along the edge (0 at its start, 1 at its end) and distance from its line, in
+// doubles: for choosing among neighbours when there is a tolerance.
+double Conformity::progress(const InputSurface::Edge& edge, Index v, double& distance) const {
+  const Position p = points_.nearest(edge.from), q = points_.nearest(edge.to),
+                 r = points_.nearest(v);
+  double uu = 0, uw = 0, u[3], w[3];
+  for (int i = 0; i < 3; ++i) {
+    u[i] = q[i] - p[i];
+    w[i] = r[i] - p[i];
+    uu += u[i] * u[i];
+    uw += u[i] * w[i];
+  }
+  distance =
+      std::hypot(u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]) /
+      std::sqrt(uu);
+  return uw / uu;
+}
+
+// Exactly: is `next` on the line of the edge, beyond `here` and not beyond the edge's end?
+bool Conformity::advances(const InputSurface::Edge& edge, Index here, Index next) const {
+  if (!exact::collinear(points_, edge.from, edge.to, next)) return false;
+  const IntegerVector direction = exact::difference(points_, edge.from, edge.to);
+  return exact::dot(direction, exact::difference(points_, here, next)) > 0 &&
+         exact::dot(direction, exact::difference(points_, next, edge.to)) >= 0;
+}
+
+// A chain of boundary edges from one end of the input edge to the other that stays on it, always
+// advancing.
+bool Conformity::follow(const InputSurface::Edge& edge, double tolerance,
+                        std::vector<Index>& chain) const {
+  const Index goal = match_[edge.to];
+  chain = {match_[edge.from]};
+  double distance = 0, reached = progress(edge, chain[0], distance);
+  while (chain.back() != goal) {
+    Index best = kNone;
+    double best_distance = 0, best_progress = 0;
+    const auto first = std::lower_bound(directed_.begin(), directed_.end(),
+                                        std::pair(edge_key(chain.back(), 0), Index{0}));
+    for (auto i = first; i != directed_.end() && i->first >> 32 == chain.back(); ++i) {
+      const Index next = static_cast<Index>(i->first);
+      const double at = progress(edge, next, distance);
+      if (options_.exact) {
+        if (!advances(edge, chain.back(), next)) continue;
+      } else if (next != goal && (at <= reached || at >= 1 + tolerance ||
+                                  distance > tolerance * surface_.diagonal())) {
+        continue;
+      }
+      if (best == kNone || distance < best_distance) {
+        best = next;
+        best_distance = distance;
+        best_progress = at;
+      }
+    }
+    if (best == kNone) return false;
+    reached = best_progress;
+    chain.push_back(best);
+    if (chain.size() > result_.faces.size()) return false;
+  }
+  return true;
+}
+
+void Conformity::follow_edges() {
+  std::vector<Index> chain;
+  for (const InputSurface::Edge& edge : surface_.edges()) {
+    if (match_[edge.from] == kNone || match_[edge.to] == kNone) continue;  // already said
+    bool found = false;
+    for (double tolerance = options_.exact ? 0 : 1e-15;
+         !found && tolerance <= options_.largest_tolerance; tolerance *= 100) {
+      found = follow(edge, tolerance, chain);
+      if (options_.exact) break;
+    }
+    if (!found) {
+      fail(input_edge_name(edge) + " is not a chain of boundary edges; it ends at " +
+           complex_.vertex_name(chain.back()));
+      continue;
+    }
+    const IntegerVector direction = exact::difference(points_, edge.from, edge.to);
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      const bool fresh = chain_facet_.emplace(edge_key(chain[i - 1], chain[i]), edge.left).second;
+      const bool back = chain_facet_.emplace(edge_key(chain[i], chain[i - 1]), edge.right).second;
+      if (!fresh || !back) {
+        fail(input_edge_name(edge) + " shares boundary edge " + complex_.vertex_name(chain[i - 1]) +
+             " - " + complex_.vertex_name(chain[i]) + " with another input edge");
+      }
+      ++result_.chain_edges;
+      if (options_.exact) continue;
+      const IntegerVector off =
+          exact::cross(direction, exact::difference(points_, edge.from, chain[i]));
+      if (!exact::is_zero(off)) {
+        deviate(length(off, 2 * points_.exponent()) / length(direction, points_.exponent()));
+      }
+    }
+  }
+  result_.report.figures.emplace_back("edges of chains", result_.chain_edges);
+}
+
+// Faces beside a chain belong to the facet on that side, and so do those reached without crossing a
+// chain.
+void Conformity::grow_patches() {
+  std::vector<Index> queue;
+  for (const auto& [key, face] : directed_) {
+    const auto chain = chain_facet_.find(key);
+    if (chain == chain_facet_.end() || result_.facets[face] != kNone) continue;
+    result_.facets[face] = chain->second;
+    queue.push_back(face);
+  }
+  while (!queue.empty()) {
+    const Index f = queue.back();
+    queue.pop_back();
+    const Face face = result_.faces[f];
+    for (int i = 0; i < 3; ++i) {
+      const Index a = face[i], b = face[(i + 1) % 3];
+      if (chain_facet_.contains(edge_key(a, b))) continue;
+      const auto [first, last] = faces_at(b, a);
+      for (std::size_t k = first; k < last; ++k) {
+        Index& other = result_.facets[directed_[k].second];
+        if (other == kNone) {
+          other = result_.facets[f];
+          queue.push_back(directed_[k].second);
+        }
+      }
+    }
+  }
+  for (std::size_t f = 0; f < result_.faces.size(); ++f) {
+    if (result_.facets[f] == kNone) {
+      fail("boundary " + complex_.face_name(result_.faces[f]) + " lies on no input facet");
+    }
+  }
+}
+
+// Each boundary edge has one face on either side; they belong to the same facet, or the edge is in
+// a chain that separates just these two facets.
+void Conformity::check_borders() {
+  for (std::size_t i = 0; i < directed_.size(); ++i) {
+    const auto [key, f] = directed_[i];
+    const Index a = static_cast<Index>(key >> 32), b = static_cast<Index>(key);
+    const auto [first, last] = faces_at(b, a);
+    const auto name = [&] {
+      return "boundary edge " + complex_.vertex_name(a) + " - " + complex_.vertex_name(b);
+    };
+    if (last - first != 1 || (i > 0 && directed_[i - 1].first == key)) {
+      fail(name() + " has not one face on either side");
+      continue;
+    }
+    const Index mine = result_.facets[f], other = result_.facets[directed_[first].second];
+    const auto chain = chain_facet_.find(key);
+    const Index wanted = chain == chain_facet_.end() ? other : chain->second;
+    if (mine != wanted && mine != kNone && wanted != kNone) {
+      fail(name() + " separates facets " + std::to_string(surface_.facets()[mine].id) + " and " +
+           std::to_string(surface_.facets()[wanted].id) + ", which do not meet there");
+    }
+  }
+}
+
+void Conformity::check_facets() {
+  std::vector<std::vector<Index>> patches(surface_.facets().size());
+  for (Index f = 0; f < result_.faces.size(); ++f) {
+    if (result_.facets[f] != kNone) patches[result_.facets[f]].push_back(f);
+  }
+  for (Index facet = 0; facet < patches.size(); ++facet) check_facet(facet, patches[facet]);
+}
+
+void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
+  const InputSurface::Facet& input = surface_.facets()[facet];
+  const std::string name = "facet " + std::to_string(input.id);
+  if (faces.empty()) return fail(name + " has no boundary faces");
+  IntegerVector area;
+  std::vector<Index> vertices;
+  std::vector<std::uint64_t> edges;
+  std::uint64_t folded = 0;
+  for (const Index f : faces) {
+    const Face& face = result_.faces[f];
+    const IntegerVector normal = exact::area2(points_, face[0], face[1], face[2]);
+    for (int i = 0; i < 3; ++i) {
+      area[i] += normal[i];
+      vertices.push_back(face[i]);
+      edges.push_back(
+          edge_key(std::min(face[i], face[(i + 1) % 3]), std::max(face[i], face[(i + 1) % 3])));
+    }
+    if (exact::dot(normal, input.normal) <= 0) {
+      ++folded;
+      if (options_.exact)
+        fail("boundary " + complex_.face_name(face) + " is folded over on " + name);
+    }
+  }
+  const auto make_unique = [](auto& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  };
+  make_unique(vertices);
+  make_unique(edges);
+  const double unit = length(input.normal, 2 * points_.exponent());
+  for (const Index v : vertices) {
+    const mpz_class off = exact::dot(input.normal, exact::difference(points_, input.vertex, v));
+    if (off == 0) continue;
+    const double distance = std::fabs(to_double(off, 3 * points_.exponent())) / unit;
+    if (options_.exact || !(distance <= options_.largest_tolerance * surface_.diagonal())) {
+      fail(complex_.vertex_name(v) + " is off the plane of " + name);
+    } else {
+      deviate(distance);
+    }
+  }
+  if (options_.exact && area != input.normal) fail("the faces on " + name + " do not add up to it");
+  const std::int64_t euler = static_cast<std::int64_t>(vertices.size() + faces.size()) -
+                             static_cast<std::int64_t>(edges.size());
+  if (euler != input.euler) fail("the faces on " + name + " have another topology than it");
+  if (folded > 0 && !options_.exact) {
+    result_.report.notes.push_back(std::to_string(folded) + " faces folded over on " + name);
+  }
+}
+
+}  // namespace
+
+ConformityResult check_conformity(const TetComplex& complex, const Neighbours& neighbours,
+                                  const InputSurface& surface, const ConformityOptions& options) {
+  return Conformity(complex, neighbours, surface, options).run();
+}
+
+OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& neighbours,
+                                 const InputSurface& surface, const ConformityResult& conformity,
+                                 const std::vector<Face>& listed,
+                                 const std::vector<std::int32_t>& labels) {
+  OracleReport report("boundary-list", "listed triangles");
+  const auto sorted = [](Face face) {
+    std::sort(face.begin(), face.end());
+    return face;
+  };
+  std::vector<std::pair<Face, Index>> actual;
+  for (Index f = 0; f < conformity.faces.size(); ++f) {
+    actual.emplace_back(sorted(conformity.faces[f]), f);
+  }
+  std::sort(actual.begin(), actual.end());
+  std::vector<std::uint8_t> found(actual.size(), 0);
+  std::vector<Face> hull;
+  for (Index i = 0; i < neighbours.across.size(); ++i) {
+    if (neighbours.across[i] != kNone || complex.inside[i / 4]) continue;
+    hull.push_back(sorted(face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4))));
+  }
+  std::sort(hull.begin(), hull.end());
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    ++report.checked;
+    const auto at =
+        std::lower_bound(actual.begin(), actual.end(), std::pair(sorted(listed[i]), Index{0}));
+    if (at == actual.end() || at->first != sorted(listed[i])) {
+      if (std::binary_search(hull.begin(), hull.end(), sorted(listed[i]))) continue;
+      report.fail("listed triangle " + std::to_string(i) + " is no boundary face of the solid");
+      continue;
+    }
+    if (found[at - actual.begin()]++) {
+      report.fail("listed triangle " + std::to_string(i) + " is listed twice");
+    }
+    const Index facet = conformity.facets[at->second];
+    if (!labels.empty() && facet != kNone && surface.facets()[facet].label != labels[i]) {
+      report.fail("listed triangle " + std::to_string(i) + " has label " +
+                  std::to_string(labels[i]) + ", its facet " +
+                  std::to_string(surface.facets()[facet].label));
+    }
+  }
+  for (std::size_t i = 0; i < actual.size(); ++i) {
+    if (!found[i]) report.fail("boundary " + complex.face_name(actual[i].first) + " is not listed");
+  }
+  return report;
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,45 @@
+// Conformity: the boundary of the tetrahedra inside tiles the input surface, facet by facet.
+//
+// What is checked proves tiling without a single point-in-polygon test. Every input edge between
+// two facets is followed along mesh edges; these chains cut the boundary faces into patches, each
+// belonging to the facet on its side of the chains. If every face of a patch lies in its facet's
+// plane with the facet's orientation, and the patch is bounded by exactly the facet's chains, then
+// patch and facet are chains of triangles in one plane with the same boundary, hence equal, and as
+// no face is turned over there is no overlap.
+#pragma once
+
+#include <vector>
+
+#include "oracles/input_surface.h"
+#include "oracles/tet_complex.h"
+
+namespace tetproof::oracles {
+
+struct ConformityOptions {
+  // With a tolerance, vertices may be off their facets and edges: for files whose Steiner points
+  // are rounded. The same combinatorial structure is demanded, and the largest deviation measured.
+  bool exact = true;
+  double largest_tolerance = 1e-5;  // fraction of the diagonal
+};
+
+struct ConformityResult {
+  OracleReport report{"conformity", "boundary faces"};
+  double deviation = 0;  // largest distance of a surface vertex from where it belongs, rounded up
+  std::vector<Face> faces;    // boundary faces of the solid, seen from outside
+  std::vector<Index> facets;  // the input facet that each tiles, or kNone
+  std::uint64_t chain_edges = 0;
+};
+
+// `surface` and `complex` use the same points. Only the flags complex.inside say what the solid is.
+ConformityResult check_conformity(const TetComplex& complex, const Neighbours& neighbours,
+                                  const InputSurface& surface, const ConformityOptions& options);
+
+// The triangles listed in a file as the boundary are those faces, in any order and orientation
+// (faces of the hull may be listed too), and each carries the label of its facet (labels may be
+// empty).
+OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& neighbours,
+                                 const InputSurface& surface, const ConformityResult& conformity,
+                                 const std::vector<Face>& listed,
+                                 const std::vector<std::int32_t>& labels);
+
+}  // namespace tetproof::oracles

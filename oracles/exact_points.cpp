@@ -1,0 +1,257 @@
+#include "oracles/exact_points.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactPoint;
+using Kind = ExactPoint::Kind;
+
+// value = mantissa * 2^exponent with an odd mantissa; a zero has no exponent to speak of.
+struct Dyadic {
+  std::int64_t mantissa = 0;
+  int exponent = 0;
+};
+
+Dyadic dyadic(double value) {
+  if (value == 0) return {};
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  Dyadic result{static_cast<std::int64_t>(std::ldexp(fraction, 53)), exponent - 53};
+  const int zeros = std::countr_zero(static_cast<std::uint64_t>(std::abs(result.mantissa)));
+  result.mantissa >>= zeros;
+  result.exponent += zeros;
+  return result;
+}
+
+mpz_class scaled(const Dyadic& value, long exponent) {
+  mpz_class result = static_cast<long>(value.mantissa);
+  if (result != 0) result <<= static_cast<unsigned long>(value.exponent - exponent);
+  return result;
+}
+
+void lower(long& exponent, double value, long offset) {
+  if (value == 0) return;
+  exponent = std::min(exponent, dyadic(value).exponent + offset);
+}
+
+std::string check_point(std::span<const ExactPoint> points, std::size_t index) {
+  const ExactPoint& p = points[index];
+  const std::string name = "point " + std::to_string(index);
+  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+    return name + " is not finite";
+  }
+  if (p.kind == Kind::explicit_point) return {};
+  const bool triangle = p.kind == Kind::on_triangle;
+  for (const Index corner : {p.i, p.j, triangle ? p.k : p.j}) {
+    if (corner >= points.size() || points[corner].kind != Kind::explicit_point) {
+      return name + " refers to " + std::to_string(corner) + ", which is not an explicit point";
+    }
+  }
+  const double v = triangle ? p.y : 0;
+  // u + v <= 1 is decided by 1 - u >= v; the subtraction may round, so leave one ulp of slack here:
+  // that the point lies in its facet is for the conformity oracle to say.
+  if (p.x < 0 || v < 0 || p.x > 1 || 1 - p.x < v - 0x1p-52) {
+    return name + " lies outside its edge or triangle";
+  }
+  return {};
+}
+
+// Exponent at which every coordinate of every point is an integer.
+long common_exponent(std::span<const ExactPoint> points) {
+  long coordinate = std::numeric_limits<int>::max();
+  for (const ExactPoint& p : points) {
+    if (p.kind != Kind::explicit_point) continue;
+    for (const double x : {p.x, p.y, p.z}) lower(coordinate, x, 0);
+  }
+  if (coordinate == std::numeric_limits<int>::max()) return 0;
+  long parameter = 0;
+  for (const ExactPoint& p : points) {
+    if (p.kind == Kind::explicit_point) continue;
+    lower(parameter, p.x, 0);
+    if (p.kind == Kind::on_triangle) lower(parameter, p.y, 0);
+  }
+  return coordinate + parameter;
+}
+
+// Adds parameter * (to - from); the product is an integer by the choice of the common exponent.
+void add_multiple(mpz_class& sum, double parameter, const mpz_class& from, const mpz_class& to) {
+  const Dyadic t = dyadic(parameter);
+  mpz_class term = (to - from) * static_cast<long>(t.mantissa);
+  if (t.exponent >= 0) {
+    term <<= static_cast<unsigned long>(t.exponent);
+  } else {
+    term >>= static_cast<unsigned long>(-t.exponent);  // exact
+  }
+  sum += term;
+}
+
+Interval enclose(const mpz_class& value, long exponent) {
+  const double d = to_double(value, exponent);
+  return Interval::around(d, d);
+}
+
+}  // namespace
+
+double to_double(const mpz_class& value, long exponent) {
+  long shift = 0;
+  const double fraction = mpz_get_d_2exp(&shift, value.get_mpz_t());
+  const long e = shift + exponent;
+  return std::ldexp(fraction, static_cast<int>(std::clamp(e, -5000L, 5000L)));
+}
+
+std::vector<ExactPoint> explicit_points(std::span<const Position> positions) {
+  std::vector<ExactPoint> points(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    points[i].x = positions[i][0];
+    points[i].y = positions[i][1];
+    points[i].z = positions[i][2];
+  }
+  return points;
+}
+
+std::string ExactPoints::assign(std::span<const Position> positions) {
+  return assign(explicit_points(positions));
+}
+
+std::string ExactPoints::assign(std::span<const ExactPoint> points) {
+  integers_.clear();
+  enclosures_.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::string why = check_point(points, i); !why.empty()) return why;
+  }
+  exponent_ = common_exponent(points);
+  integers_.resize(points.size());
+  enclosures_.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ExactPoint& p = points[i];
+    if (p.kind != Kind::explicit_point) continue;
+    const Position position = {p.x, p.y, p.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      integers_[i][axis] = scaled(dyadic(position[axis]), exponent_);
+      enclosures_[i][axis] = Interval(position[axis]);
+    }
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ExactPoint& p = points[i];
+    if (p.kind == Kind::explicit_point) continue;
+    const Index base = p.kind == Kind::on_triangle ? p.k : p.j;
+    for (int axis = 0; axis < 3; ++axis) {
+      mpz_class& value = integers_[i][axis];
+      value = integers_[base][axis];
+      add_multiple(value, p.x, integers_[base][axis], integers_[p.i][axis]);
+      if (p.kind == Kind::on_triangle) {
+        add_multiple(value, p.y, integers_[base][axis], integers_[p.j][axis]);
+      }
+      enclosures_[i][axis] = enclose(value, exponent_);
+    }
+  }
+  return {};
+}
+
+Position ExactPoints::nearest(Index i) const {
+  Position position;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval& e = enclosures_[i][axis];
+    position[axis] = e.low == e.high ? e.low : to_double(integers_[i][axis], exponent_);
+  }
+  return position;
+}
+
+namespace exact {
+namespace {
+
+IntervalVector rough_difference(const ExactPoints& points, Index from, Index to) {
+  const IntervalVector &p = points.enclosure(from), &q = points.enclosure(to);
+  return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+}
+
+template <class Number>
+Number determinant3(const std::array<Number, 3>& u, const std::array<Number, 3>& v,
+                    const std::array<Number, 3>& w) {
+  return Number(u[0] * Number(v[1] * w[2] - v[2] * w[1]) -
+                u[1] * Number(v[0] * w[2] - v[2] * w[0]) +
+                u[2] * Number(v[0] * w[1] - v[1] * w[0]));
+}
+
+template <class Number>
+Number square(const std::array<Number, 3>& v) {
+  return Number(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+// Determinant of the four rows (x - e, |x - e|^2) with the sign turned so that inside is positive.
+template <class Number>
+Number insphere_determinant(const std::array<std::array<Number, 3>, 4>& r) {
+  const Number bcd = determinant3(r[1], r[2], r[3]);
+  const Number acd = determinant3(r[0], r[2], r[3]);
+  const Number abd = determinant3(r[0], r[1], r[3]);
+  const Number abc = determinant3(r[0], r[1], r[2]);
+  return Number(Number(square(r[0]) * bcd - square(r[1]) * acd) +
+                Number(square(r[2]) * abd - square(r[3]) * abc));
+}
+
+}  // namespace
+
+IntegerVector difference(const ExactPoints& points, Index from, Index to) {
+  const IntegerVector &p = points.integer(from), &q = points.integer(to);
+  return {mpz_class(q[0] - p[0]), mpz_class(q[1] - p[1]), mpz_class(q[2] - p[2])};
+}
+
+mpz_class dot(const IntegerVector& u, const IntegerVector& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+IntegerVector cross(const IntegerVector& u, const IntegerVector& v) {
+  return {mpz_class(u[1] * v[2] - u[2] * v[1]), mpz_class(u[2] * v[0] - u[0] * v[2]),
+          mpz_class(u[0] * v[1] - u[1] * v[0])};
+}
+
+bool is_zero(const IntegerVector& v) {
+  return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
+bool equal(const ExactPoints& points, Index a, Index b) {
+  return points.integer(a) == points.integer(b);
+}
+
+mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  return determinant3(difference(points, a, b), difference(points, a, c), difference(points, a, d));
+}
+
+int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  const Interval rough =
+      determinant3(rough_difference(points, a, b), rough_difference(points, a, c),
+                   rough_difference(points, a, d));
+  const int sign = rough.sign();
+  return sign != 2 ? sign : sgn(volume6(points, a, b, c, d));
+}
+
+int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Index e) {
+  const Interval rough = insphere_determinant<Interval>(
+      {rough_difference(points, e, a), rough_difference(points, e, b),
+       rough_difference(points, e, c), rough_difference(points, e, d)});
+  const int sign = rough.sign();
+  if (sign != 2) return sign;
+  return sgn(insphere_determinant<mpz_class>({difference(points, e, a), difference(points, e, b),
+                                              difference(points, e, c), difference(points, e, d)}));
+}
+
+IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c) {
+  return cross(difference(points, a, b), difference(points, a, c));
+}
+
+bool collinear(const ExactPoints& points, Index a, Index b, Index c) {
+  const IntervalVector u = rough_difference(points, a, b), v = rough_difference(points, a, c);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const int sign = (u[i] * v[j] - u[j] * v[i]).sign();
+    if (sign == 1 || sign == -1) return false;
+  }
+  return is_zero(area2(points, a, b, c));
+}
+
+}  // namespace exact
+}  // namespace tetproof::oracles

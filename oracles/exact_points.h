@@ -1,0 +1,76 @@
+// Points with exact coordinates: integers at one common power-of-two scale, with enclosing doubles
+// for the filter. Shares nothing with the mesher's arithmetic.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher.h"
+#include "oracles/interval.h"
+
+namespace tetproof::oracles {
+
+using Index = std::uint32_t;
+inline constexpr Index kNone = 0xffffffffU;
+
+using Position = std::array<double, 3>;
+using IntegerVector = std::array<mpz_class, 3>;
+using IntervalVector = std::array<Interval, 3>;
+
+class ExactPoints {
+ public:
+  // Null on success, else why the points cannot be represented (not finite, a reference that is
+  // out of range or not explicit); the object is then empty.
+  std::string assign(std::span<const delmesher::ExactPoint> points);
+  // Plain doubles.
+  std::string assign(std::span<const Position> positions);
+
+  std::size_t size() const { return integers_.size(); }
+  // Coordinates times 2^-exponent().
+  const IntegerVector& integer(Index i) const { return integers_[i]; }
+  long exponent() const { return exponent_; }
+  // Encloses the coordinates (in true units); a single point if they are doubles.
+  const IntervalVector& enclosure(Index i) const { return enclosures_[i]; }
+  // A double within an ulp of the coordinates, in true units.
+  Position nearest(Index i) const;
+
+ private:
+  std::vector<IntegerVector> integers_;
+  std::vector<IntervalVector> enclosures_;
+  long exponent_ = 0;
+};
+
+// Explicit points of an ExactPoint list.
+std::vector<delmesher::ExactPoint> explicit_points(std::span<const Position> positions);
+
+// mpz times a power of two as a double, rounded towards zero.
+double to_double(const mpz_class& value, long exponent);
+
+// Exact signs and measures. Filtered by intervals except where the value itself is wanted. All
+// determinants are in integer units: a length is off by 2^exponent, which no sign or comparison
+// sees.
+namespace exact {
+
+// Sign of det(b - a, c - a, d - a): positive for the orientation that files are written in.
+int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d);
+// The determinant itself: six times the volume.
+mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d);
+// Positive if e lies strictly inside the sphere through a, b, c, d, where orient3d(a, b, c, d) > 0.
+int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Index e);
+// (b - a) x (c - a): twice the area vector.
+IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c);
+IntegerVector difference(const ExactPoints& points, Index from, Index to);
+mpz_class dot(const IntegerVector& u, const IntegerVector& v);
+IntegerVector cross(const IntegerVector& u, const IntegerVector& v);
+bool is_zero(const IntegerVector& v);
+bool equal(const ExactPoints& points, Index a, Index b);
+// Are a, b, c on one line?
+bool collinear(const ExactPoints& points, Index a, Index b, Index c);
+
+}  // namespace exact
+}  // namespace tetproof::oracles

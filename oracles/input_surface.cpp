@@ -1,0 +1,248 @@
+#include "oracles/input_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tetproof::oracles {
+namespace {
+
+struct DirectedEdge {
+  Index low, high;  // sorted ends
+  Index triangle;
+  int corner;  // the edge leaves this corner
+  bool forward;
+  bool operator<(const DirectedEdge& other) const {
+    return std::pair(low, high) < std::pair(other.low, other.high);
+  }
+};
+
+class UnionFind {
+ public:
+  explicit UnionFind(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+  }
+  Index find(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  // The smaller index stays the representative, so that it is the facet's id.
+  void unite(Index a, Index b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+std::string edge_name(Index a, Index b) {
+  return "edge " + std::to_string(a) + "-" + std::to_string(b);
+}
+
+}  // namespace
+
+std::string InputSurface::assign(const Polyhedron& polyhedron, const ExactPoints& points) {
+  triangles_ = polyhedron.triangles;
+  if (triangles_.empty()) return "the surface has no triangles";
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (const Index v : triangles_[t]) {
+      if (v >= polyhedron.vertices.size()) {
+        return "triangle " + std::to_string(t) + " refers to vertex " + std::to_string(v);
+      }
+    }
+  }
+  if (std::string why = find_neighbours(); !why.empty()) return why;
+  measure(points);
+  orient_components(points);
+  build_facets(polyhedron, points);
+  build_edges();
+  volume6_ = 0;
+  const Index origin = triangles_[0][0];
+  for (const auto& [a, b, c] : triangles_) volume6_ += exact::volume6(points, origin, a, b, c);
+  if (volume6_ <= 0) return "the surface encloses no volume";
+  return {};
+}
+
+std::string InputSurface::find_neighbours() {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(3 * triangles_.size());
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Index a = triangles_[t][i], b = triangles_[t][(i + 1) % 3];
+      if (a == b) return "triangle " + std::to_string(t) + " repeats vertex " + std::to_string(a);
+      edges.push_back({std::min(a, b), std::max(a, b), t, i, a < b});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  neighbours_.assign(triangles_.size(), {kNone, kNone, kNone});
+  for (std::size_t i = 0; i < edges.size(); i += 2) {
+    const DirectedEdge& e = edges[i];
+    if (i + 1 >= edges.size() || e < edges[i + 1]) return edge_name(e.low, e.high) + " is open";
+    const DirectedEdge& f = edges[i + 1];
+    if (i + 2 < edges.size() && !(e < edges[i + 2])) {
+      return edge_name(e.low, e.high) + " has more than two triangles";
+    }
+    if (e.forward == f.forward) {
+      return edge_name(e.low, e.high) + " is not consistently oriented";
+    }
+    neighbours_[e.triangle][e.corner] = f.triangle;
+    neighbours_[f.triangle][f.corner] = e.triangle;
+  }
+  return {};
+}
+
+void InputSurface::measure(const ExactPoints& points) {
+  used_vertices_.clear();
+  for (const auto& triangle : triangles_) {
+    used_vertices_.insert(used_vertices_.end(), triangle.begin(), triangle.end());
+  }
+  std::sort(used_vertices_.begin(), used_vertices_.end());
+  used_vertices_.erase(std::unique(used_vertices_.begin(), used_vertices_.end()),
+                       used_vertices_.end());
+  std::vector<BoxTree::Box> boxes(triangles_.size());
+  BoxTree::Box all = {points.nearest(used_vertices_[0]), points.nearest(used_vertices_[0])};
+  largest_coordinate_ = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    boxes[t] = {points.nearest(triangles_[t][0]), points.nearest(triangles_[t][0])};
+    for (const Index v : triangles_[t]) {
+      const Position p = points.nearest(v);
+      for (int axis = 0; axis < 3; ++axis) {
+        boxes[t].low[axis] = std::min(boxes[t].low[axis], p[axis]);
+        boxes[t].high[axis] = std::max(boxes[t].high[axis], p[axis]);
+        all.low[axis] = std::min(all.low[axis], p[axis]);
+        all.high[axis] = std::max(all.high[axis], p[axis]);
+        largest_coordinate_ = std::max(largest_coordinate_, std::fabs(p[axis]));
+      }
+    }
+  }
+  diagonal_ =
+      std::hypot(all.high[0] - all.low[0], all.high[1] - all.low[1], all.high[2] - all.low[2]);
+  tree_ = std::make_shared<const BoxTree>(std::move(boxes));
+}
+
+// A component is turned if the parity of the crossings above one of its triangles says that the
+// solid lies on its front side. Parity itself does not depend on orientations.
+void InputSurface::orient_components(const ExactPoints& points) {
+  flipped_ = 0;
+  std::vector<bool> seen(triangles_.size(), false);
+  for (Index seed = 0; seed < triangles_.size(); ++seed) {
+    if (seen[seed]) continue;
+    std::vector<Index> component = {seed};
+    seen[seed] = true;
+    for (std::size_t i = 0; i < component.size(); ++i) {
+      for (const Index n : neighbours_[component[i]]) {
+        if (!seen[n]) component.push_back(n);
+        seen[n] = true;
+      }
+    }
+    for (const Index t : component) {
+      const auto& [a, b, c] = triangles_[t];
+      const int up = sgn(exact::area2(points, a, b, c)[2]);
+      if (up == 0) continue;
+      const int above = crossings_above(points, triangles_[t], t);
+      if (above < 0) continue;
+      if ((above % 2 == 0) != (up > 0)) {
+        ++flipped_;
+        for (const Index f : component) std::swap(triangles_[f][1], triangles_[f][2]);
+        for (const Index f : component) std::swap(neighbours_[f][0], neighbours_[f][2]);
+      }
+      break;
+    }
+  }
+}
+
+void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints& points) {
+  const auto label = [&](Index t) { return polyhedron.labels.empty() ? 0 : polyhedron.labels[t]; };
+  std::vector<IntegerVector> area(triangles_.size());
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    area[t] = exact::area2(points, triangles_[t][0], triangles_[t][1], triangles_[t][2]);
+  }
+  UnionFind groups(triangles_.size());
+  unite_polygons(polyhedron, points, area, [&](Index a, Index b) { groups.unite(a, b); });
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Index n = neighbours_[t][i];
+      if (n < t || label(n) != label(t)) continue;
+      const auto& corners = triangles_[n];
+      const auto& [a, b, c] = triangles_[t];
+      const bool flat = std::all_of(corners.begin(), corners.end(), [&](Index v) {
+        return v == a || v == b || v == c || exact::orient3d(points, a, b, c, v) == 0;
+      });
+      if (flat && exact::dot(area[t], area[n]) > 0) groups.unite(t, n);
+    }
+  }
+  facets_.clear();
+  facet_of_triangle_.assign(triangles_.size(), kNone);
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    const Index root = groups.find(t);
+    if (root == t) {
+      facet_of_triangle_[t] = static_cast<Index>(facets_.size());
+      facets_.push_back({t, label(t), {}, triangles_[t][0], 0});
+    }
+    facet_of_triangle_[t] = facet_of_triangle_[root];
+    Facet& facet = facets_[facet_of_triangle_[t]];
+    for (int axis = 0; axis < 3; ++axis) facet.normal[axis] += area[t][axis];
+  }
+  count_euler();
+}
+
+// The triangles of a planar polygon belong together whatever their shape (a fan may hold degenerate
+// ones).
+void InputSurface::unite_polygons(const Polyhedron& polyhedron, const ExactPoints& points,
+                                  const std::vector<IntegerVector>& area,
+                                  const std::function<void(Index, Index)>& unite) const {
+  const std::vector<Index>& polygon = polyhedron.polygons;
+  for (std::size_t first = 0; first < polygon.size();) {
+    std::size_t last = first + 1;
+    while (last < polygon.size() && polygon[last] == polygon[first]) ++last;
+    IntegerVector normal;
+    for (std::size_t t = first; t < last; ++t) {
+      for (int axis = 0; axis < 3; ++axis) normal[axis] += area[t][axis];
+    }
+    bool flat = true;
+    for (std::size_t t = first; t < last && flat; ++t) {
+      for (const Index v : triangles_[t]) {
+        flat = flat && exact::dot(normal, exact::difference(points, triangles_[first][0], v)) == 0;
+      }
+    }
+    if (flat) {
+      for (std::size_t t = first + 1; t < last; ++t) {
+        unite(static_cast<Index>(first), static_cast<Index>(t));
+      }
+    }
+    first = last;
+  }
+}
+
+void InputSurface::count_euler() {
+  std::vector<std::pair<Index, Index>> corners;  // facet, vertex
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    const Index facet = facet_of_triangle_[t];
+    facets_[facet].euler += 1;
+    for (int i = 0; i < 3; ++i) {
+      corners.emplace_back(facet, triangles_[t][i]);
+      const Index n = neighbours_[t][i];
+      if (facet_of_triangle_[n] != facet || t < n) facets_[facet].euler -= 1;
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (const auto& corner : corners) facets_[corner.first].euler += 1;
+}
+
+void InputSurface::build_edges() {
+  edges_.clear();
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const Index n = neighbours_[t][i];
+      const Index left = facet_of_triangle_[t], right = facet_of_triangle_[n];
+      if (t < n && left != right) {
+        edges_.push_back({triangles_[t][i], triangles_[t][(i + 1) % 3], left, right});
+      }
+    }
+  }
+}
+
+}  // namespace tetproof::oracles

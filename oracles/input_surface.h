@@ -1,0 +1,109 @@
+// The input polyhedron as the oracles see it: facets, edges that are constraints, exact volume,
+// inside or not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "oracles/exact_points.h"
+
+namespace tetproof::oracles {
+
+// As read from a file: triangles, where polygons of more corners are fans of one `polygon`.
+struct Polyhedron {
+  std::vector<Position> vertices;
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<std::int32_t> labels;  // per triangle; empty: all 0
+  std::vector<Index> polygons;       // per triangle; empty: each is its own
+};
+
+// A box query over triangles, in doubles.
+class BoxTree {
+ public:
+  struct Box {
+    Position low, high;
+  };
+  explicit BoxTree(std::vector<Box> boxes);
+  // Appends to `found` the indices of the boxes that meet the query, in no particular order.
+  void query(const Box& query, std::vector<Index>& found) const;
+
+ private:
+  struct Node {
+    Box box;
+    Index first, count;  // count 0: inner node with children at first and first + 1
+  };
+  void build(std::size_t node, Index first, Index last, int depth);
+
+  std::vector<Box> boxes_;
+  std::vector<Index> order_;
+  std::vector<Node> nodes_;
+};
+
+// Points are given with the first `vertices.size()` being the polyhedron's, so that mesh vertices
+// of the same ExactPoints can be compared with them exactly.
+class InputSurface {
+ public:
+  struct Edge {  // an edge of the polyhedron between two different facets
+    Index from, to;
+    Index left, right;  // facets to the left of from -> to and of to -> from, seen from outside
+  };
+  struct Facet {
+    Index id;  // smallest triangle index
+    std::int32_t label;
+    IntegerVector normal;  // twice its area vector, outwards; exact
+    Index vertex;          // one of its corners
+    std::int64_t euler;    // of the union of its closed triangles, flat edges included
+  };
+
+  // Null on success, else why the polyhedron bounds no solid (open, not orientable, no volume).
+  std::string assign(const Polyhedron& polyhedron, const ExactPoints& points);
+
+  const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
+  const std::vector<Facet>& facets() const { return facets_; }
+  const std::vector<Index>& facet_of_triangle() const { return facet_of_triangle_; }
+  const std::vector<Edge>& edges() const { return edges_; }
+  const std::vector<Index>& used_vertices() const { return used_vertices_; }
+  const mpz_class& volume6() const { return volume6_; }
+  double diagonal() const { return diagonal_; }
+  double largest_coordinate() const { return largest_coordinate_; }
+  // Components that had to be turned so that parity decides what is inside.
+  std::uint64_t flipped_components() const { return flipped_; }
+
+  // Is the centroid of these points (of any ExactPoints with the polyhedron's vertices first)
+  // inside? 1 inside, 0 outside, -1 exactly on the surface.
+  int inside(const ExactPoints& points, std::span<const Index> corners) const;
+
+  // Does an input triangle meet the interior of the tetrahedron (positively oriented)?
+  bool meets_interior(const ExactPoints& points, const std::array<Index, 4>& tetrahedron) const;
+
+ private:
+  std::string find_neighbours();
+  void orient_components(const ExactPoints& points);
+  void build_facets(const Polyhedron& polyhedron, const ExactPoints& points);
+  void unite_polygons(const Polyhedron& polyhedron, const ExactPoints& points,
+                      const std::vector<IntegerVector>& area,
+                      const std::function<void(Index, Index)>& unite) const;
+  void count_euler();
+  void build_edges();
+  int crossings_above(const ExactPoints& points, std::span<const Index> corners,
+                      Index except) const;
+  void measure(const ExactPoints& points);
+
+  std::vector<std::array<Index, 3>> triangles_;
+  std::vector<std::array<Index, 3>> neighbours_;  // across edge corner i -> i + 1
+  std::vector<Facet> facets_;
+  std::vector<Index> facet_of_triangle_;
+  std::vector<Edge> edges_;
+  std::vector<Index> used_vertices_;
+  mpz_class volume6_;
+  double diagonal_ = 0, largest_coordinate_ = 0;
+  std::uint64_t flipped_ = 0;
+  std::shared_ptr<const BoxTree> tree_;
+};
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,366 @@
+#include "oracles/mesh_file.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "oracles/text_reader.h"
+
+namespace tetproof::oracles {
+namespace {
+
+void read_positions(TextReader& reader, std::uint64_t count, std::vector<Position>& positions) {
+  positions.reserve(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const double x = reader.number(), y = reader.number(), z = reader.number();
+    positions.push_back({x, y, z});
+  }
+}
+
+template <std::size_t size>
+std::array<Index, size> read_corners(TextReader& reader, std::int64_t first, std::uint64_t count) {
+  std::array<Index, size> corners;
+  for (Index& corner : corners) corner = reader.index(first, count);
+  return corners;
+}
+
+// ------------------------------------------------------------------------------------------ MEDIT
+
+MeshFile read_medit(const std::string& path, std::string_view text) {
+  TextReader reader(path, text);
+  MeshFile mesh;
+  // Sections that hold nothing for us, with the integers or numbers of one entry.
+  static const std::map<std::string_view, int> kSkipped = {
+      {"Edges", 3},          {"Corners", 1},  {"RequiredVertices", 1},  {"Ridges", 1},
+      {"Quadrilaterals", 5}, {"Normals", 3},  {"RequiredTriangles", 1}, {"RequiredEdges", 1},
+      {"Tangents", 3},       {"Hexahedra", 9}};
+  for (auto keyword = reader.word(); !keyword.empty() && keyword != "End";
+       keyword = reader.word()) {
+    if (keyword == "MeshVersionFormatted" || keyword == "Dimension") {
+      reader.integer();
+    } else if (keyword == "Vertices") {
+      const std::uint64_t count = reader.count();
+      for (std::uint64_t i = 0; i < count; ++i) {
+        read_positions(reader, 1, mesh.vertices);
+        reader.integer();
+      }
+    } else if (keyword == "Triangles") {
+      const std::uint64_t count = reader.count();
+      for (std::uint64_t i = 0; i < count; ++i) {
+        mesh.boundary.push_back(read_corners<3>(reader, 1, mesh.vertices.size()));
+        mesh.labels.push_back(static_cast<std::int32_t>(reader.integer()));
+      }
+    } else if (keyword == "Tetrahedra") {
+      const std::uint64_t count = reader.count();
+      for (std::uint64_t i = 0; i < count; ++i) {
+        mesh.tetrahedra.push_back(read_corners<4>(reader, 1, mesh.vertices.size()));
+        mesh.regions.push_back(reader.integer());
+      }
+    } else if (const auto skipped = kSkipped.find(keyword); skipped != kSkipped.end()) {
+      const std::uint64_t count = reader.count();
+      for (std::uint64_t i = 0; i < count * static_cast<std::uint64_t>(skipped->second); ++i) {
+        reader.number();
+      }
+    } else {
+      reader.fail("unknown section " + std::string(keyword.substr(0, 40)));
+    }
+  }
+  return mesh;
+}
+
+// ------------------------------------------------------------------------------------------- .tet
+
+MeshFile read_tet(const std::string& path, std::string_view text) {
+  TextReader reader(path, text);
+  MeshFile mesh;
+  mesh.either_orientation = true;
+  const std::uint64_t vertices = reader.count();
+  reader.skip_line();
+  const std::uint64_t inner = reader.count();
+  std::uint64_t outer = 0;
+  if (reader.word_in_line() == "inner") {
+    reader.skip_line();
+    outer = reader.count();
+    mesh.regions.assign(inner, 1);
+    mesh.regions.resize(inner + outer, 0);
+  }
+  reader.skip_line();
+  read_positions(reader, vertices, mesh.vertices);
+  for (std::uint64_t t = 0; t < inner + outer; ++t) {
+    if (reader.integer() != 4) reader.fail("a cell that is no tetrahedron");
+    mesh.tetrahedra.push_back(read_corners<4>(reader, 0, vertices));
+  }
+  return mesh;
+}
+
+// ------------------------------------------------------------------------------------------ Gmsh
+
+class GmshReader {
+ public:
+  GmshReader(const std::string& path, std::string_view text) : reader_(path, text, '\0') {}
+
+  MeshFile read() {
+    for (auto word = reader_.word(); !word.empty(); word = reader_.word()) {
+      if (word == "$MeshFormat") {
+        version_ = reader_.number();
+        if (reader_.integer() != 0) reader_.fail("binary .msh files are not read");
+      } else if (word == "$Entities") {
+        read_entities();
+      } else if (word == "$Nodes") {
+        version_ < 4 ? read_nodes_2() : read_nodes_4();
+      } else if (word == "$Elements") {
+        version_ < 4 ? read_elements_2() : read_elements_4();
+      } else {
+        continue;
+      }
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  // Physical tags of surfaces and volumes; an entity without one stands for itself.
+  void read_entities() {
+    std::uint64_t counts[4];
+    for (std::uint64_t& count : counts) count = reader_.count();
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      for (std::uint64_t i = 0; i < counts[dimension]; ++i) {
+        const std::int64_t tag = reader_.integer();
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) reader_.number();
+        physical_[{dimension, tag}] = tag;
+        const std::uint64_t tags = reader_.count();
+        for (std::uint64_t k = 0; k < tags; ++k) {
+          const std::int64_t value = reader_.integer();
+          if (k == 0) physical_[{dimension, tag}] = value;
+        }
+        if (dimension == 0) continue;
+        const std::uint64_t bounding = reader_.count();
+        for (std::uint64_t k = 0; k < bounding; ++k) reader_.integer();
+      }
+    }
+  }
+
+  void read_nodes_4() {
+    const std::uint64_t blocks = reader_.count();
+    for (int i = 0; i < 3; ++i) reader_.integer();
+    for (std::uint64_t block = 0; block < blocks; ++block) {
+      const std::int64_t dimension = reader_.integer();
+      reader_.integer();
+      const bool parametric = reader_.integer() != 0;
+      const std::uint64_t count = reader_.count();
+      for (std::uint64_t i = 0; i < count; ++i) add_node_tag(reader_.integer());
+      for (std::uint64_t i = 0; i < count; ++i) {
+        read_positions(reader_, 1, mesh_.vertices);
+        for (std::int64_t k = 0; parametric && k < dimension; ++k) reader_.number();
+      }
+    }
+  }
+
+  void read_nodes_2() {
+    const std::uint64_t count = reader_.count();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      add_node_tag(reader_.integer());
+      read_positions(reader_, 1, mesh_.vertices);
+    }
+  }
+
+  void read_elements_4() {
+    const std::uint64_t blocks = reader_.count();
+    for (int i = 0; i < 3; ++i) reader_.integer();
+    for (std::uint64_t block = 0; block < blocks; ++block) {
+      const int dimension = static_cast<int>(reader_.integer());
+      const std::int64_t entity = reader_.integer(), type = reader_.integer();
+      const std::uint64_t count = reader_.count();
+      const auto found = physical_.find({dimension, entity});
+      const std::int64_t tag = found == physical_.end() ? entity : found->second;
+      for (std::uint64_t i = 0; i < count; ++i) {
+        reader_.integer();
+        add_element(type, tag);
+      }
+    }
+  }
+
+  void read_elements_2() {
+    const std::uint64_t count = reader_.count();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      reader_.integer();
+      const std::int64_t type = reader_.integer();
+      const std::uint64_t tags = reader_.count();
+      std::int64_t tag = 0;
+      for (std::uint64_t k = 0; k < tags; ++k) {
+        const std::int64_t value = reader_.integer();
+        if (k == 0) tag = value;
+      }
+      add_element(type, tag);
+    }
+  }
+
+  void add_node_tag(std::int64_t tag) {
+    if (!nodes_.emplace(tag, static_cast<Index>(nodes_.size())).second) {
+      reader_.fail("node " + std::to_string(tag) + " is there twice");
+    }
+  }
+
+  Index node() {
+    const std::int64_t tag = reader_.integer();
+    const auto found = nodes_.find(tag);
+    if (found == nodes_.end()) reader_.fail("there is no node " + std::to_string(tag));
+    return found->second;
+  }
+
+  void add_element(std::int64_t type, std::int64_t tag) {
+    if (type == 4) {
+      mesh_.tetrahedra.push_back({node(), node(), node(), node()});
+      mesh_.regions.push_back(tag);
+    } else if (type == 2) {
+      mesh_.boundary.push_back({node(), node(), node()});
+      mesh_.labels.push_back(static_cast<std::int32_t>(tag));
+    } else {
+      reader_.skip_line();  // points and lines
+    }
+  }
+
+  TextReader reader_;
+  MeshFile mesh_;
+  double version_ = 4.1;
+  std::map<std::pair<int, std::int64_t>, std::int64_t> physical_;
+  std::map<std::int64_t, Index> nodes_;
+};
+
+// ------------------------------------------------------------------------------------------- .vtu
+
+class VtuReader {
+ public:
+  VtuReader(const std::string& path, std::string_view text) : path_(path), text_(text) {}
+
+  MeshFile read() {
+    MeshFile mesh;
+    const std::vector<double> points = array("<Points", "");
+    const std::vector<double> corners = array("<Cells", "connectivity");
+    const std::vector<double> types = array("<Cells", "types");
+    const std::vector<double> offsets = array("<Cells", "offsets");
+    for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+      mesh.vertices.push_back({points[i], points[i + 1], points[i + 2]});
+    }
+    if (types.size() != offsets.size()) fail("types and offsets differ in length");
+    std::vector<double> values = array("<CellData", "region");
+    if (values.empty()) values = array("<CellData", "inside");
+    const std::vector<double> labels = array("<CellData", "label");
+    std::size_t start = 0;
+    for (std::size_t cell = 0; cell < types.size(); ++cell) {
+      const std::size_t end = static_cast<std::size_t>(offsets[cell]);
+      if (end < start || end > corners.size()) fail("offsets leave the connectivity");
+      const auto corner = [&](std::size_t k) {
+        const double v = corners[start + k];
+        if (!(v >= 0 && v < static_cast<double>(mesh.vertices.size())))
+          fail("a cell refers to no point");
+        return static_cast<Index>(v);
+      };
+      if (types[cell] == 10 && end - start == 4) {
+        mesh.tetrahedra.push_back({corner(0), corner(1), corner(2), corner(3)});
+        if (cell < values.size()) mesh.regions.push_back(static_cast<std::int64_t>(values[cell]));
+      } else if (types[cell] == 5 && end - start == 3) {
+        mesh.boundary.push_back({corner(0), corner(1), corner(2)});
+        if (cell < labels.size()) mesh.labels.push_back(static_cast<std::int32_t>(labels[cell]));
+      }
+      start = end;
+    }
+    return mesh;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw ReadError(path_ + ": " + reason);
+  }
+
+  static std::string attribute(std::string_view tag, const std::string& name) {
+    const std::size_t at = tag.find(" " + name + "=\"");
+    if (at == std::string_view::npos) return {};
+    const std::size_t start = at + name.size() + 3;
+    return std::string(tag.substr(start, tag.find('"', start) - start));
+  }
+
+  // Values of the DataArray of that name in the first section of that kind; empty if there is none.
+  std::vector<double> array(const std::string& section, const std::string& name) const {
+    const std::size_t begin = text_.find(section);
+    if (begin == std::string_view::npos) return {};
+    const std::size_t end = text_.find("</" + section.substr(1), begin);
+    std::size_t at = begin;
+    while ((at = text_.find("<DataArray", at)) < end) {
+      const std::size_t close = text_.find('>', at);
+      if (close == std::string_view::npos) break;
+      const std::string_view tag = text_.substr(at, close - at);
+      at = close;
+      if (!name.empty() && attribute(tag, "Name") != name) continue;
+      if (attribute(tag, "format") != "ascii") fail("only text .vtu files are read");
+      const std::size_t stop = std::min(text_.find('<', close), text_.size());
+      TextReader reader(path_, text_.substr(close + 1, stop - close - 1), '\0');
+      std::vector<double> values;
+      while (!reader.at_end()) values.push_back(reader.number());
+      return values;
+    }
+    return {};
+  }
+
+  std::string path_;
+  std::string_view text_;
+};
+
+// ----------------------------------------------------------------------------------------- TetGen
+
+MeshFile read_tetgen(const std::string& stem) {
+  MeshFile mesh;
+  mesh.either_orientation = true;
+  const std::string nodes = read_whole_file(stem + ".node");
+  TextReader reader(stem + ".node", nodes);
+  const std::uint64_t count = reader.count();
+  reader.skip_line();
+  std::int64_t first = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::int64_t number = reader.integer();
+    if (i == 0) first = number;
+    if (number != first + static_cast<std::int64_t>(i)) reader.fail("nodes are not in order");
+    read_positions(reader, 1, mesh.vertices);
+    reader.skip_line();
+  }
+  const std::string elements = read_whole_file(stem + ".ele");
+  TextReader ele(stem + ".ele", elements);
+  const std::uint64_t tets = ele.count();
+  const std::int64_t corners = ele.integer();
+  const bool regions = ele.integer() != 0;
+  if (corners != 4) ele.fail("elements are not linear tetrahedra");
+  for (std::uint64_t i = 0; i < tets; ++i) {
+    ele.integer();
+    mesh.tetrahedra.push_back(read_corners<4>(ele, first, count));
+    if (regions) mesh.regions.push_back(ele.integer());
+    ele.skip_line();
+  }
+  if (!std::filesystem::exists(stem + ".face")) return mesh;
+  const std::string faces = read_whole_file(stem + ".face");
+  TextReader face(stem + ".face", faces);
+  const std::uint64_t triangles = face.count();
+  const bool markers = face.integer() != 0;
+  for (std::uint64_t i = 0; i < triangles; ++i) {
+    face.integer();
+    mesh.boundary.push_back(read_corners<3>(face, first, count));
+    if (markers) mesh.labels.push_back(static_cast<std::int32_t>(face.integer()));
+    face.skip_line();
+  }
+  return mesh;
+}
+
+}  // namespace
+
+MeshFile read_mesh(const std::string& path) {
+  const std::filesystem::path file(path);
+  const std::string extension = file.extension().string();
+  if (extension == ".node" || extension == ".ele" || extension == ".face") {
+    return read_tetgen((file.parent_path() / file.stem()).string());
+  }
+  const std::string text = read_whole_file(path);
+  if (extension == ".tet") return read_tet(path, text);
+  if (extension == ".msh") return GmshReader(path, text).read();
+  if (extension == ".vtu") return VtuReader(path, text).read();
+  return read_medit(path, text);
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,25 @@
+// Reading the files that meshers write: MEDIT .mesh, Gmsh .msh (4.1 and 2.2, text), .vtu (text),
+// TetGen's .node/.ele/.face, and .tet.
+#pragma once
+
+#include <string>
+
+#include "oracles/tet_complex.h"
+
+namespace tetproof::oracles {
+
+struct MeshFile {
+  std::vector<Position> vertices;
+  std::vector<Tet> tetrahedra;
+  std::vector<std::int64_t> regions;  // per tetrahedron; empty if the file says nothing
+  std::vector<Face> boundary;         // triangles listed in the file
+  std::vector<std::int32_t> labels;   // per triangle; empty if the file says nothing
+  // Formats without a common convention: tetrahedra that are all turned the same way are right.
+  bool either_orientation = false;
+};
+
+// Throws ReadError. Indices are checked by the complex oracle, except that a reference to no vertex
+// at all is an error of the file.
+MeshFile read_mesh(const std::string& path);
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,183 @@
+// Exact answers about the solid: parity along a vertical ray, and does the surface enter a
+// tetrahedron.
+#include <algorithm>
+#include <limits>
+
+#include "oracles/input_surface.h"
+
+namespace tetproof::oracles {
+namespace {
+
+// The sum of some points minus so many times one vertex: the direction from the vertex to the
+// centroid, scaled.
+class Centroid {
+ public:
+  Centroid(const ExactPoints& points, std::span<const Index> corners)
+      : points_(points), corners_(corners) {
+    for (const Index v : corners) {
+      for (int axis = 0; axis < 3; ++axis) sum_[axis] = sum_[axis] + points.enclosure(v)[axis];
+    }
+  }
+
+  IntervalVector rough_from(Index vertex) const {
+    const Interval count(static_cast<double>(corners_.size()));
+    const IntervalVector& p = points_.enclosure(vertex);
+    return {sum_[0] - count * p[0], sum_[1] - count * p[1], sum_[2] - count * p[2]};
+  }
+
+  IntegerVector from(Index vertex) const {
+    IntegerVector result;
+    for (const Index v : corners_) {
+      for (int axis = 0; axis < 3; ++axis) result[axis] += points_.integer(v)[axis];
+    }
+    const auto count = static_cast<unsigned long>(corners_.size());
+    for (int axis = 0; axis < 3; ++axis) result[axis] -= points_.integer(vertex)[axis] * count;
+    return result;
+  }
+
+  // Encloses the centroid itself.
+  IntervalVector position() const {
+    const double inverse = 1 / static_cast<double>(corners_.size());
+    const Interval factor = Interval::around(inverse, inverse);
+    return {sum_[0] * factor, sum_[1] * factor, sum_[2] * factor};
+  }
+
+ private:
+  const ExactPoints& points_;
+  std::span<const Index> corners_;
+  IntervalVector sum_;
+};
+
+// On which side of a -> b, seen from above, the centroid lies, after moving it by (e, e^2) for an
+// infinitesimal e: never on it unless a and b have the same projection.
+int side_above(const ExactPoints& points, Index a, Index b, const Centroid& q) {
+  const IntervalVector &p = points.enclosure(a), &r = points.enclosure(b);
+  const IntervalVector w = q.rough_from(a);
+  const int rough = ((r[0] - p[0]) * w[1] - (r[1] - p[1]) * w[0]).sign();
+  if (rough != 2 && rough != 0) return rough;
+  const IntegerVector u = exact::difference(points, a, b), v = q.from(a);
+  if (const int sign = sgn(mpz_class(u[0] * v[1] - u[1] * v[0])); sign != 0) return sign;
+  return u[1] != 0 ? -sgn(u[1]) : sgn(u[0]);
+}
+
+// Sign of the height of the centroid over the plane of a triangle along its normal.
+int side_of_plane(const ExactPoints& points, const std::array<Index, 3>& t, const Centroid& q) {
+  const IntervalVector &a = points.enclosure(t[0]), &b = points.enclosure(t[1]),
+                       &c = points.enclosure(t[2]);
+  const IntervalVector u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  const IntervalVector v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  const IntervalVector w = q.rough_from(t[0]);
+  const int rough = ((u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] +
+                     (u[0] * v[1] - u[1] * v[0]) * w[2])
+                        .sign();
+  if (rough != 2) return rough;
+  return sgn(exact::dot(exact::area2(points, t[0], t[1], t[2]), q.from(t[0])));
+}
+
+// A point of a clipped polygon by its four determinants against the faces of a tetrahedron, up to a
+// common factor.
+using FaceSides = std::array<mpz_class, 4>;
+
+std::vector<FaceSides> clip(const std::vector<FaceSides>& polygon, int face) {
+  std::vector<FaceSides> result;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const FaceSides &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    if (p[face] >= 0) result.push_back(p);
+    if (sgn(p[face]) * sgn(q[face]) >= 0) continue;
+    const FaceSides& in = p[face] > 0 ? p : q;
+    const FaceSides& out = p[face] > 0 ? q : p;
+    FaceSides cut;
+    for (int j = 0; j < 4; ++j) cut[j] = in[face] * out[j] - out[face] * in[j];
+    result.push_back(std::move(cut));
+  }
+  return result;
+}
+
+// Does the triangle contain a point strictly inside the tetrahedron? The clipped polygon does
+// exactly if it has, for each face, a vertex strictly on the inner side: then the mean of its
+// vertices is such a point.
+bool meets(const ExactPoints& points, const std::array<Index, 3>& triangle,
+           const std::array<Index, 4>& tetrahedron) {
+  std::vector<FaceSides> polygon(3);
+  for (int corner = 0; corner < 3; ++corner) {
+    for (int face = 0; face < 4; ++face) {
+      std::array<Index, 4> replaced = tetrahedron;
+      replaced[face] = triangle[corner];
+      polygon[corner][face] =
+          exact::volume6(points, replaced[0], replaced[1], replaced[2], replaced[3]);
+    }
+  }
+  for (int face = 0; face < 4; ++face) polygon = clip(polygon, face);
+  for (int face = 0; face < 4; ++face) {
+    const auto positive = [face](const FaceSides& sides) { return sides[face] > 0; };
+    if (std::none_of(polygon.begin(), polygon.end(), positive)) return false;
+  }
+  return true;
+}
+
+// Cheap proof that all corners of the triangle are on the outer side of one face, or on it.
+bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
+               const std::array<Index, 4>& tetrahedron) {
+  for (int face = 0; face < 4; ++face) {
+    const auto outside = [&](Index v) {
+      std::array<Index, 4> replaced = tetrahedron;
+      replaced[face] = v;
+      return exact::orient3d(points, replaced[0], replaced[1], replaced[2], replaced[3]) <= 0;
+    };
+    if (std::all_of(triangle.begin(), triangle.end(), outside)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+// Crossings of the surface with the upward ray from the centroid, not counting triangle `except`;
+// -1 if the centroid lies on a triangle.
+int InputSurface::crossings_above(const ExactPoints& points, std::span<const Index> corners,
+                                  Index except) const {
+  const Centroid q(points, corners);
+  const IntervalVector p = q.position();
+  std::vector<Index> found;
+  tree_->query({{p[0].low, p[1].low, p[2].low},
+                {p[0].high, p[1].high, std::numeric_limits<double>::infinity()}},
+               found);
+  int crossings = 0;
+  for (const Index t : found) {
+    const auto& [a, b, c] = triangles_[t];
+    const int s = side_above(points, a, b, q);
+    if (t == except || s == 0 || side_above(points, b, c, q) != s ||
+        side_above(points, c, a, q) != s) {
+      continue;
+    }
+    const int height = side_of_plane(points, triangles_[t], q) * s;
+    if (height == 0) return -1;
+    if (height < 0) ++crossings;
+  }
+  return crossings;
+}
+
+int InputSurface::inside(const ExactPoints& points, std::span<const Index> corners) const {
+  const int crossings = crossings_above(points, corners, kNone);
+  return crossings < 0 ? -1 : crossings % 2;
+}
+
+bool InputSurface::meets_interior(const ExactPoints& points,
+                                  const std::array<Index, 4>& tetrahedron) const {
+  BoxTree::Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::numeric_limits<double>::infinity();
+    box.high[axis] = -box.low[axis];
+    for (const Index v : tetrahedron) {
+      box.low[axis] = std::min(box.low[axis], points.enclosure(v)[axis].low);
+      box.high[axis] = std::max(box.high[axis], points.enclosure(v)[axis].high);
+    }
+  }
+  std::vector<Index> found;
+  tree_->query(box, found);
+  return std::any_of(found.begin(), found.end(), [&](Index t) {
+    return !separated(points, triangles_[t], tetrahedron) &&
+           meets(points, triangles_[t], tetrahedron);
+  });
+}
+
+}  // namespace tetproof::oracles

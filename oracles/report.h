@@ -1,0 +1,52 @@
+// What an oracle says: how much it checked, what is wrong and where. Oracles never abort and never
+// throw.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tetproof::oracles {
+
+struct OracleReport {
+  explicit OracleReport(std::string oracle_name, std::string what = {})
+      : name(std::move(oracle_name)), checked_what(std::move(what)) {}
+
+  std::string name;
+  std::string checked_what;  // e.g. "tetrahedra"
+  std::uint64_t checked = 0;
+  std::uint64_t violations = 0;
+  std::vector<std::string> findings;  // the first violations, each naming its element
+  std::vector<std::string> notes;     // no violations, but worth knowing
+  std::vector<std::pair<std::string, double>> figures;
+
+  // Counts a violation and keeps the first few in words.
+  void fail(const std::string& finding) {
+    ++violations;
+    if (findings.size() < 5) findings.push_back(finding);
+  }
+  // An oracle that has looked at nothing has not passed.
+  bool passed() const { return violations == 0 && checked > 0; }
+};
+
+enum class Verdict : std::uint8_t { exact, rounded, deviating, broken };
+
+const char* verdict_name(Verdict verdict);
+
+struct VerifyReport {
+  Verdict verdict = Verdict::broken;
+  double deviation = 0;        // of the surface as written, in input units, an upper bound
+  double deviation_ulps = 0;   // in ulps of the largest coordinate
+  double deviation_share = 0;  // as a fraction of the bounding-box diagonal
+  std::uint64_t inverted = 0, flat = 0;  // tetrahedra as written
+  std::vector<OracleReport> oracles;
+
+  const OracleReport* find(const std::string& name) const;
+  bool all_passed() const;
+};
+
+std::string to_json(const VerifyReport& report);
+std::string to_text(const VerifyReport& report);
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,14 @@
+// Reading input surfaces: OFF, OBJ, STL and PLY (text and binary), coordinates to the nearest
+// double.
+#pragma once
+
+#include <string>
+
+#include "oracles/input_surface.h"
+
+namespace tetproof::oracles {
+
+// Throws ReadError. Polygons become fans; an STL soup is welded by equal coordinates (-0 = +0).
+Polyhedron read_surface(const std::string& path);
+
+}  // namespace tetproof::oracles

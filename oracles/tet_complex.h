@@ -1,0 +1,50 @@
+// The tetrahedra under test, on exact points, and the faces between them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "oracles/exact_points.h"
+#include "oracles/report.h"
+
+namespace tetproof::oracles {
+
+using Tet = std::array<Index, 4>;
+using Face = std::array<Index, 3>;
+
+struct TetComplex {
+  const ExactPoints* points = nullptr;
+  std::vector<Tet> tetrahedra;       // indices into points
+  std::vector<std::uint8_t> inside;  // per tetrahedron: belongs to the solid
+  // The points that have to be used by some tetrahedron, [first, last); elements are reported less
+  // `first`, that is as numbered in the file.
+  Index first_vertex = 0, last_vertex = 0;
+
+  std::string vertex_name(Index v) const;
+  std::string tet_name(std::size_t t) const;
+  std::string face_name(const Face& face) const;
+};
+
+// Face i is opposite to corner i, counter-clockwise seen from outside.
+Face face_of(const Tet& tet, int i);
+
+// Across each face: tetrahedron * 4 + face, or kNone.
+struct Neighbours {
+  std::vector<Index> across;
+};
+
+// Complex oracle: indices in range, corners distinct, no duplicate tetrahedra, every face shared by
+// one or two with opposite orientation, no vertex unused, boundary closed. Fills `neighbours` as
+// far as the complex allows.
+OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours);
+
+// Orientation oracle: the exact sign of every tetrahedron. `inverted` and `flat` are figures of the
+// report.
+OracleReport check_orientation(const TetComplex& complex);
+
+// Delaunay oracle: no face between two tetrahedra has the opposite corner strictly inside a
+// circumsphere.
+OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbours);
+
+}  // namespace tetproof::oracles

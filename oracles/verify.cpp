@@ -1,0 +1,343 @@
+#include "oracles/verify.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactRecord;
+
+constexpr double kRoundedUlps = 4;
+
+double figure(const OracleReport& report, const std::string& name) {
+  for (const auto& [key, value] : report.figures) {
+    if (key == name) return value;
+  }
+  return 0;
+}
+
+// Regions are numbers without meaning, but no region may hold both tetrahedra inside and outside.
+OracleReport check_regions(const TetComplex& complex, const std::vector<std::int64_t>& regions) {
+  OracleReport report("regions", "tetrahedra");
+  std::map<std::int64_t, std::pair<std::uint8_t, std::size_t>> seen;
+  for (std::size_t t = 0; t < regions.size(); ++t) {
+    ++report.checked;
+    const auto [at, fresh] = seen.emplace(regions[t], std::pair(complex.inside[t], t));
+    if (!fresh && at->second.first != complex.inside[t]) {
+      report.fail("region " + std::to_string(regions[t]) + " holds both " + complex.tet_name(t) +
+                  " and " + complex.tet_name(at->second.second) +
+                  ", on different sides of the surface");
+    }
+  }
+  report.figures.emplace_back("regions", static_cast<double>(seen.size()));
+  return report;
+}
+
+double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
+  double sum = 0;
+  for (const Face& f : faces) {
+    const IntegerVector n = exact::area2(*complex.points, f[0], f[1], f[2]);
+    const long exponent = 2 * complex.points->exponent();
+    sum += std::hypot(to_double(n[0], exponent), to_double(n[1], exponent),
+                      to_double(n[2], exponent)) /
+           2;
+  }
+  return sum;
+}
+
+class Verification {
+ public:
+  Verification(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
+               const VerifyOptions& options, VerifyReport& report)
+      : input_(input), mesh_(mesh), exact_(exact), options_(options), report_(report) {}
+
+  std::string run() {
+    std::string why = options_.stage == Stage::refined && exact_ ? "" : check_file();
+    if (why.empty() && exact_) why = check_sidecar();
+    if (why.empty()) conclude();
+    return why;
+  }
+
+ private:
+  // The mesh as written, on its doubles.
+  std::string check_file();
+  void check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
+                          const InputSurface& surface);
+  void turn_all(TetComplex& complex) const;
+  std::string check_sidecar();
+  void check_exact_final(TetComplex& complex, const InputSurface& surface);
+  void check_exact_refined(TetComplex& complex, const InputSurface& surface);
+  OracleReport check_rounding(const ExactPoints& points) const;
+  OracleReport check_refined_faces(const TetComplex& complex, const InputSurface& surface) const;
+  void conclude();
+  void add(OracleReport oracle, const std::string& prefix = {}) {
+    oracle.name = prefix + oracle.name;
+    report_.oracles.push_back(std::move(oracle));
+  }
+
+  const Polyhedron& input_;
+  const MeshFile& mesh_;
+  const ExactRecord* exact_;
+  const VerifyOptions& options_;
+  VerifyReport& report_;
+  double ulp_ = 0, diagonal_ = 0;
+};
+
+// Some formats have no convention: there the sign of the majority is the right one.
+void Verification::turn_all(TetComplex& complex) const {
+  if (!mesh_.either_orientation) return;
+  std::int64_t balance = 0;
+  for (const auto& [a, b, c, d] : complex.tetrahedra) {
+    balance += exact::orient3d(*complex.points, a, b, c, d);
+  }
+  if (balance >= 0) return;
+  for (Tet& tet : complex.tetrahedra) std::swap(tet[2], tet[3]);
+}
+
+std::string Verification::check_file() {
+  std::vector<Position> positions = input_.vertices;
+  positions.insert(positions.end(), mesh_.vertices.begin(), mesh_.vertices.end());
+  ExactPoints points;
+  InputSurface surface;
+  if (std::string why = points.assign(positions); !why.empty()) return why;
+  if (std::string why = surface.assign(input_, points); !why.empty()) return why;
+  ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
+  diagonal_ = surface.diagonal();
+
+  const auto offset = static_cast<Index>(input_.vertices.size());
+  TetComplex complex{&points, mesh_.tetrahedra, {}, offset, static_cast<Index>(points.size())};
+  for (Tet& tet : complex.tetrahedra) {
+    for (Index& v : tet) v = v < mesh_.vertices.size() ? v + offset : kNone;
+  }
+  Neighbours neighbours;
+  add(check_complex(complex, neighbours));
+  for (const Tet& tet : complex.tetrahedra) {
+    if (*std::max_element(tet.begin(), tet.end()) == kNone)
+      return {};  // said by the complex oracle
+  }
+  turn_all(complex);
+  OracleReport orientation = check_orientation(complex);
+  report_.inverted = static_cast<std::uint64_t>(figure(orientation, "inverted"));
+  report_.flat = static_cast<std::uint64_t>(figure(orientation, "flat"));
+  add(std::move(orientation));
+  complex.inside = inside_by_parity(complex, surface);
+  if (options_.stage == Stage::refined) {
+    add(check_angles(complex, surface, options_.delta, options_.scope));
+    return {};
+  }
+  if (!mesh_.regions.empty()) add(check_regions(complex, mesh_.regions));
+  check_file_surface(complex, neighbours, surface);
+  return {};
+}
+
+void Verification::check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
+                                      const InputSurface& surface) {
+  ConformityResult conformity = check_conformity(complex, neighbours, surface, {.exact = true});
+  double allowed_volume = 0;
+  if (!conformity.report.passed()) {
+    conformity = check_conformity(complex, neighbours, surface, {.exact = false});
+    if (conformity.report.passed()) {  // else the deviation means nothing
+      report_.deviation = conformity.deviation;
+      allowed_volume = 2 * conformity.deviation * surface_area(complex, conformity.faces);
+    }
+  }
+  add(conformity.report);
+  add(check_volume(complex, surface, allowed_volume));
+  if (mesh_.boundary.empty()) return;
+  std::vector<Face> listed = mesh_.boundary;
+  for (Face& face : listed) {
+    for (Index& v : face) v += complex.first_vertex;
+  }
+  const bool labelled = !input_.labels.empty() && mesh_.labels.size() == listed.size();
+  add(check_boundary_list(complex, neighbours, surface, conformity, listed,
+                          labelled ? mesh_.labels : std::vector<std::int32_t>{}));
+}
+
+std::string Verification::check_sidecar() {
+  ExactPoints points;
+  if (std::string why = points.assign(exact_->points); !why.empty()) {
+    OracleReport report("sidecar", "points");
+    report.checked = exact_->points.size();
+    report.fail("the sidecar's " + why);
+    add(std::move(report));
+    return {};
+  }
+  OracleReport same("sidecar", "input vertices");
+  for (Index v = 0; v < input_.vertices.size(); ++v) {
+    ++same.checked;
+    if (v >= points.size() ||
+        exact_->points[v].kind != delmesher::ExactPoint::Kind::explicit_point ||
+        points.nearest(v) != input_.vertices[v]) {
+      same.fail("input vertex " + std::to_string(v) + " is not point " + std::to_string(v));
+    }
+  }
+  const bool usable = same.passed();
+  add(std::move(same));
+  if (!usable) return {};
+  InputSurface surface;
+  if (std::string why = surface.assign(input_, points); !why.empty()) return why;
+  ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
+  diagonal_ = surface.diagonal();
+
+  TetComplex complex{&points, {}, {}, 0, 0};
+  const bool refined = options_.stage == Stage::refined;
+  for (const ExactRecord::Tet& tet : refined ? exact_->refined : exact_->final) {
+    complex.tetrahedra.push_back(tet.vertices);
+    complex.inside.push_back(tet.inside);
+  }
+  refined ? check_exact_refined(complex, surface) : check_exact_final(complex, surface);
+  if (!refined) add(check_rounding(points));
+  return {};
+}
+
+void Verification::check_exact_final(TetComplex& complex, const InputSurface& surface) {
+  Neighbours neighbours;
+  OracleReport shape = check_complex(complex, neighbours);
+  const bool usable = shape.passed();
+  add(std::move(shape), "exact-");
+  if (!usable) return;
+  add(check_orientation(complex), "exact-");
+  add(check_interior(complex, surface), "exact-");
+  const ConformityResult conformity =
+      check_conformity(complex, neighbours, surface, {.exact = true});
+  add(conformity.report, "exact-");
+  add(check_volume(complex, surface, 0), "exact-");
+  if (exact_->final_facets.empty()) return;
+  OracleReport facets("exact-facets", "faces");
+  std::map<Face, Index> facet_of;
+  for (Index f = 0; f < conformity.faces.size(); ++f) {
+    Face face = conformity.faces[f];
+    std::sort(face.begin(), face.end());
+    facet_of[face] = conformity.facets[f];
+  }
+  for (const auto& [a, b, c, id] : exact_->final_facets) {
+    Face face = {a, b, c};
+    std::sort(face.begin(), face.end());
+    ++facets.checked;
+    const auto found = facet_of.find(face);
+    if (found == facet_of.end()) {
+      facets.fail(complex.face_name(face) + " is no boundary face of the solid");
+    } else if (found->second != kNone && surface.facets()[found->second].id != id) {
+      facets.fail(complex.face_name(face) + " is said to tile facet " + std::to_string(id) +
+                  " but tiles " + std::to_string(surface.facets()[found->second].id));
+    }
+  }
+  if (facets.checked != facet_of.size()) facets.fail("not every boundary face is listed once");
+  add(std::move(facets));
+}
+
+void Verification::check_exact_refined(TetComplex& complex, const InputSurface& surface) {
+  Neighbours neighbours;
+  OracleReport shape = check_complex(complex, neighbours);
+  const bool usable = shape.passed();
+  add(std::move(shape), "exact-");
+  if (!usable) return;
+  add(check_orientation(complex), "exact-");
+  add(check_delaunay(complex, neighbours), "exact-");
+  add(check_angles(complex, surface, options_.delta, options_.scope), "exact-");
+  OracleReport contained("contained", "tetrahedra called inside");
+  for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
+    if (!complex.inside[t]) continue;
+    ++contained.checked;
+    if (surface.inside(*complex.points, complex.tetrahedra[t]) != 1 ||
+        surface.meets_interior(*complex.points, complex.tetrahedra[t])) {
+      contained.fail(complex.tet_name(t) + " is called inside but is not contained in the solid");
+    }
+  }
+  add(std::move(contained), "exact-");
+  add(check_refined_faces(complex, surface), "exact-");
+}
+
+// The faces said to lie on input facets do, and are faces of the refined mesh.
+OracleReport Verification::check_refined_faces(const TetComplex& complex,
+                                               const InputSurface& surface) const {
+  OracleReport report("refined-facets", "faces");
+  std::vector<Face> faces;
+  for (const Tet& tet : complex.tetrahedra) {
+    for (int i = 0; i < 4; ++i) {
+      faces.push_back(face_of(tet, i));
+      std::sort(faces.back().begin(), faces.back().end());
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  std::map<Index, Index> facet_of_id;
+  for (Index f = 0; f < surface.facets().size(); ++f) facet_of_id[surface.facets()[f].id] = f;
+  for (const auto& [a, b, c, id] : exact_->refined_facets) {
+    Face face = {a, b, c};
+    std::sort(face.begin(), face.end());
+    ++report.checked;
+    if (!std::binary_search(faces.begin(), faces.end(), face)) {
+      report.fail(complex.face_name(face) + " is no face of the refined mesh");
+      continue;
+    }
+    const auto found = facet_of_id.find(id);
+    if (found == facet_of_id.end()) {
+      report.fail(complex.face_name(face) + ": there is no facet " + std::to_string(id));
+      continue;
+    }
+    const InputSurface::Facet& facet = surface.facets()[found->second];
+    for (const Index v : face) {
+      if (exact::dot(facet.normal, exact::difference(*complex.points, facet.vertex, v)) != 0) {
+        report.fail(complex.vertex_name(v) + " is off the plane of facet " + std::to_string(id));
+      }
+    }
+  }
+  return report;
+}
+
+// What is written is near what is exact.
+OracleReport Verification::check_rounding(const ExactPoints& points) const {
+  OracleReport report("rounding", "written vertices");
+  if (exact_->mesh_vertices.size() != mesh_.vertices.size()) {
+    report.fail("the sidecar knows " + std::to_string(exact_->mesh_vertices.size()) +
+                " written vertices, the file has " + std::to_string(mesh_.vertices.size()));
+    return report;
+  }
+  double largest = 0;
+  std::uint64_t moved = 0;
+  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+    const Index v = exact_->mesh_vertices[i];
+    ++report.checked;
+    if (v >= points.size()) {
+      report.fail("written vertex " + std::to_string(i) + " is no point of the sidecar");
+      continue;
+    }
+    const Position p = points.nearest(v), q = mesh_.vertices[i];
+    const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    moved += distance > 4 * ulp_;
+    largest = std::max(largest, distance);
+  }
+  report.figures.emplace_back("largest distance", largest);
+  report.figures.emplace_back("moved by more than 4 ulp", static_cast<double>(moved));
+  return report;
+}
+
+void Verification::conclude() {
+  report_.deviation_ulps = ulp_ > 0 ? report_.deviation / ulp_ : 0;
+  report_.deviation_share = diagonal_ > 0 ? report_.deviation / diagonal_ : 0;
+  if (!report_.all_passed()) {
+    report_.verdict = Verdict::broken;
+  } else if (report_.deviation == 0) {
+    report_.verdict = Verdict::exact;
+  } else {
+    report_.verdict =
+        report_.deviation_ulps <= kRoundedUlps ? Verdict::rounded : Verdict::deviating;
+  }
+}
+
+}  // namespace
+
+std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
+                   const VerifyOptions& options, VerifyReport& report) {
+  report = {};
+  return Verification(input, mesh, exact, options, report).run();
+}
+
+bool failed(const VerifyReport& report, const VerifyOptions& options) {
+  return report.verdict == Verdict::broken || (report.verdict == Verdict::deviating &&
+                                               report.deviation_share > options.declared_deviation);
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,100 @@
+#include "oracles/verify_command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "oracles/sidecar.h"
+#include "oracles/surface_file.h"
+#include "oracles/text_reader.h"
+#include "oracles/verify.h"
+
+namespace tetproof::oracles {
+namespace {
+
+enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kInvalid = 4, kInternal = 6 };
+
+struct Arguments {
+  std::string input, mesh, exact;
+  bool json = false;
+  VerifyOptions options;
+};
+
+void declare(CLI::App& app, Arguments& arguments) {
+  app.add_option("INPUT", arguments.input, "surface: OFF, OBJ, STL or PLY")->required();
+  app.add_option("MESH", arguments.mesh, "mesh: .mesh, .msh, .vtu, .node or .ele, .tet")
+      ->required();
+  app.add_option("--exact", arguments.exact, "sidecar with exact coordinates");
+  app.add_option("--stage", arguments.options.stage, "what the mesh is (final)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Stage>{{"refined", Stage::refined}, {"final", Stage::final}}));
+  app.add_option("--delta", arguments.options.delta, "angle bound of the refined stage (14.47)");
+  app.add_option("--region", arguments.options.scope, "where the angle bound holds (interior)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, AngleScope>{
+          {"interior", AngleScope::solid}, {"hull", AngleScope::all}}));
+  app.add_option("--declared-deviation", arguments.options.declared_deviation,
+                 "deviation that is no failure, as a fraction of the diagonal (0)");
+  app.add_flag("--json", arguments.json, "report as JSON");
+}
+
+// One line: the verdict and the first thing that is wrong.
+std::string reason(const VerifyReport& report) {
+  std::string line = verdict_name(report.verdict);
+  for (const OracleReport& oracle : report.oracles) {
+    if (oracle.passed()) continue;
+    line += ": " + oracle.name;
+    return line + ": " + (oracle.findings.empty() ? "nothing to check" : oracle.findings[0]);
+  }
+  return line + " by more than declared";
+}
+
+int verify_files(const Arguments& arguments) {
+  const Polyhedron input = read_surface(arguments.input);
+  const MeshFile mesh = read_mesh(arguments.mesh);
+  delmesher::ExactRecord record;
+  if (!arguments.exact.empty()) record = read_sidecar(arguments.exact);
+  VerifyReport report;
+  const std::string why =
+      verify(input, mesh, arguments.exact.empty() ? nullptr : &record, arguments.options, report);
+  if (!why.empty()) {
+    std::fprintf(stderr, "tetproof: %s: %s\n", arguments.input.c_str(), why.c_str());
+    return kInvalid;
+  }
+  std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
+  if (!failed(report, arguments.options)) return kDone;
+  std::fprintf(stderr, "tetproof: %s: %s\n", arguments.mesh.c_str(), reason(report).c_str());
+  return kFailed;
+}
+
+}  // namespace
+}  // namespace tetproof::oracles
+
+namespace tetproof {
+
+int run_verify(int argc, char** argv) {
+  using namespace oracles;
+  CLI::App app("Checks a tetrahedral mesh of a surface exactly.", "tetproof verify");
+  Arguments arguments;
+  declare(app, arguments);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kDone : kUsage;
+  }
+  try {
+    return verify_files(arguments);
+  } catch (const ReadError& error) {
+    std::fprintf(stderr, "tetproof: %s\n", error.what());
+    return kUnreadable;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "tetproof: %s: not enough memory\n", arguments.mesh.c_str());
+    return kInternal;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tetproof: %s: internal error: %s\n", arguments.mesh.c_str(),
+                 error.what());
+    return kInternal;
+  }
+}
+
+}  // namespace tetproof

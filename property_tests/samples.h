@@ -1,0 +1,56 @@
+// Good meshes made without any mesher, for testing the oracles, and polyhedra for testing the
+// mesher.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "mesher/delmesher.h"
+#include "oracles/mesh_file.h"
+#include "oracles/verify.h"
+
+namespace tetproof::samples {
+
+struct Sample {
+  oracles::Polyhedron input;
+  oracles::MeshFile mesh;
+};
+
+// Which cells of a grid belong to the solid.
+using Cells = std::function<bool(int x, int y, int z)>;
+
+// A solid of the cells of a `coarse`^3 grid over the unit cube. Its surface is triangulated on that
+// grid, its mesh made of six tetrahedra per cell of a grid `finer` times as fine. Everything is
+// exact in doubles if both are powers of two. If `hull`, the mesh fills the cube, with regions 1
+// inside and 0 outside.
+Sample grid_sample(int coarse, int finer, const Cells& solid, bool hull = false);
+
+Sample cube();         // one cell, refined
+Sample l_shape();      // three of eight cells and their copies above: concave edge
+Sample hollow_cube();  // 27 of 64 cells missing inside: a cavity, nested component
+Sample cube_in_hull();
+
+// The mesh of a sample under x -> A x with a matrix of rounded numbers: facets are exact (only
+// corners define them), but vertices inside them are rounded.
+Sample skewed(Sample sample);
+
+// A tetrahedron with a point on an edge and a point on a face, given exactly.
+struct ExactSample {
+  Sample sample;
+  delmesher::ExactRecord exact;
+};
+ExactSample exact_sample();
+
+// Surfaces for the mesher, by name; all valid.
+struct NamedSurface {
+  std::string name;
+  delmesher::Surface surface;
+};
+std::vector<NamedSurface> surfaces(std::uint64_t seed);
+
+oracles::Polyhedron to_polyhedron(const delmesher::Surface& surface);
+delmesher::Surface to_surface(const oracles::Polyhedron& polyhedron);
+oracles::MeshFile to_mesh(const delmesher::TetMesh& mesh);
+
+}  // namespace tetproof::samples
