@@ -1,2 +1,246 @@
-// The order of the stages.
+// The order of the stages. Reads as a table of contents; what passes between them is put together
+// in assembly.cpp.
+#include <cmath>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "mesher/assembly.h"
+#include "mesher/base/check.h"
+#include "mesher/base/control.h"
+#include "mesher/cdt/cdt.h"
+#include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
+#include "mesher/output/rounding.h"
+#include "mesher/output/statistics.h"
+#include "mesher/refine/refine.h"
+#include "mesher/surface/feature_size.h"
+#include "mesher/surface/topology.h"
+#include "mesher/surface/validity.h"
+
+namespace delmesher {
+namespace {
+
+// Names the option whose value makes no sense; empty if all do.
+std::string options_defect(const Options& o) {
+  const auto bad = [](double x, double low, double high) { return !(x >= low && x <= high); };
+  if (bad(o.delta, 0, 30) || o.delta == 0) return "delta must be above 0 and at most 30 degrees";
+  if (bad(o.tau, 0, 1)) return "tau must be between 0 and 1";
+  if (bad(o.acute, 0, 90)) return "acute must be between 0 and 90 degrees";
+  if (bad(o.chamfer_radius, 0, HUGE_VAL)) return "chamfer radius must not be negative";
+  if (bad(o.max_edge, 0, HUGE_VAL)) return "max edge must not be negative";
+  if (bad(o.time_limit_seconds, 0, HUGE_VAL)) return "time limit must not be negative";
+  return {};
+}
+
+// Runs `body` and turns everything it may throw into a status: the public API reports errors as
+// values.
+template <class Body>
+Status guarded(Control& control, Body&& body) {
+  try {
+    const Status status = body();
+    control.finish();
+    return status;
+  } catch (const Stopped& stopped) {
+    control.finish();
+    return stopped.status;
+  } catch (const InternalError& error) {
+    return {StatusCode::internal_error, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::limit_reached, "out of memory"};
+  } catch (const std::exception& error) {
+    return {StatusCode::internal_error, error.what()};
+  }
+}
+
+// One run on one surface: the store, the predicates and the topology that all stages share.
+class Run {
+ public:
+  Run(const Options& options, Control& control, Result& result)
+      : options_(options), control_(control), result_(result) {}
+
+  Status mesh(const Surface& surface) {
+    if (Status status = prepare(surface); !status.ok()) return status;
+    ChamferResult chamfered = filter_and_chamfer_input();
+    const RefineResult refined = refine_complex(chamfered);
+    if (options_.approximate) {
+      write(approximate_mesh(chamfered, refined, topology_, points_, options_.region));
+      return {};
+    }
+    control_.enter(Phase::enrich);
+    const CdtInput input =
+        enriched_input(chamfered, refined, topology_, points_, predicates_, control_);
+    const CdtResult cdt =
+        constrained_delaunay_tetrahedrization(input, points_, predicates_, control_);
+    record_cdt(cdt);
+    write(conforming_mesh(cdt, topology_, points_, options_.region));
+    return {};
+  }
+
+  Status cdt(const Surface& surface) {
+    if (Status status = prepare(surface); !status.ok()) return status;
+    control_.enter(Phase::enrich);
+    const CdtResult cdt = constrained_delaunay_tetrahedrization(plain_input(topology_), points_,
+                                                                predicates_, control_);
+    record_cdt(cdt);
+    write(conforming_mesh(cdt, topology_, points_, options_.region));
+    return {};
+  }
+
+  void finish() {
+    const PredicateCounters& c = predicates_.counters;
+    Statistics& s = result_.statistics;
+    s.phase_seconds = control_.phase_seconds();
+    s.predicate_filter = c.filter;
+    s.predicate_extended = c.extended;
+    s.predicate_exact = c.exact;
+    s.predicate_symbolic = c.symbolic;
+    s.predicate_by_support = c.support;
+  }
+
+ private:
+  Status prepare(const Surface& surface) {
+    if (const std::string defect = options_defect(options_); !defect.empty()) {
+      return {StatusCode::invalid_options, defect};
+    }
+    control_.enter(Phase::check);
+    const ValidityResult validity = check_validity(surface, true, control_);
+    if (!validity.report.status.ok()) return validity.report.status;
+    result_.warnings = validity.report.warnings;
+    result_.statistics.bbox_diagonal = validity.report.bbox_diagonal;
+    topology_ = build_topology(oriented_outwards(surface, validity), points_, predicates_);
+    return {};
+  }
+
+  ChamferResult filter_and_chamfer_input() {
+    ChamferOptions options;
+    options.cosine_squared = cosine_squared(options_.acute);
+    options.max_radius = options_.chamfer_radius;
+    options.simplify_bridges = options_.simplify_bridges;
+    FilterResult filter;
+    const double tolerance = options_.tau * result_.statistics.bbox_diagonal;
+    ChamferResult chamfered =
+        filter_and_chamfer(topology_, points_, predicates_, options, tolerance, control_, filter);
+    Statistics& s = result_.statistics;
+    s.dropped_triangles = filter.dropped_triangles;
+    s.filter_rounds = filter.rounds;
+    s.acute_vertices = chamfered.acute_vertices;
+    s.acute_edges = chamfered.acute_edges;
+    s.guaranteed_acute = options_.acute;
+    if (options_.want_exact) {
+      record_facets(topology_, filter.facet_kept, result_.exact);
+      record_chamfer(chamfered, options_.acute, result_.exact);
+    }
+    return chamfered;
+  }
+
+  RefineResult refine_complex(ChamferResult& chamfered) {
+    add_outer_box(topology_, points_, chamfered.plc);
+    RefineOptions options;
+    options.delta = options_.delta;
+    options.slivers = options_.slivers;
+    options.max_edge = options_.max_edge;
+    options.region = options_.region;
+    RefineResult refined =
+        refine(chamfered.plc, topology_, points_, predicates_, options, control_);
+    Statistics& s = result_.statistics;
+    s.steiner_on_segments = refined.on_segments;
+    s.steiner_on_facets = refined.on_facets;
+    s.steiner_in_volume = refined.in_volume.size();
+    s.refined = refined_statistics(refined, points_, options_.region);
+    if (options_.want_exact) record_refined(chamfered, refined, topology_, result_.exact);
+    if (options_.want_chamfered) {
+      result_.chamfered = chamfered_surface(chamfered, refined, topology_, points_);
+    }
+    return refined;
+  }
+
+  void record_cdt(const CdtResult& cdt) {
+    result_.statistics.steiner_on_segments += cdt.steiner.size();
+    if (!options_.want_exact) return;
+    if (result_.exact.facets.empty()) record_facets(topology_, {}, result_.exact);
+    record_final(cdt, topology_, result_.exact);
+  }
+
+  // Rounds to the doubles that will be written and fills in mesh and statistics.
+  void write(const MeshToWrite& exact) {
+    control_.enter(Phase::round);
+    RoundingResult rounded = round_mesh(exact.rounding, control_);
+    Statistics& s = result_.statistics;
+    s.rounding_inverted = rounded.inverted;
+    s.rounding_flat = rounded.flat;
+    s.rounding_repaired = rounded.repaired;
+    s.max_surface_deviation = rounded.max_surface_deviation;
+    std::uint64_t interior = 0;
+    for (const std::uint8_t inside : rounded.inside) interior += inside;
+    s.final =
+        mesh_statistics(rounded.coordinates, rounded.tetrahedra, rounded.vertices.size(), interior);
+    if (options_.want_exact) {
+      record_points(points_, topology_.vertex_half_edge.size(), rounded, result_.exact);
+    }
+    TetMesh& mesh = result_.mesh;
+    mesh.vertices = std::move(rounded.coordinates);
+    mesh.tetrahedra = std::move(rounded.tetrahedra);
+    mesh.inside = std::move(rounded.inside);
+    mesh.boundary = std::move(rounded.boundary);
+    for (const FacetId f : exact.boundary_facet) {
+      mesh.boundary_facets.push_back(topology_.facet_triangles[f][0]);
+      mesh.boundary_labels.push_back(topology_.labels[topology_.facet_triangles[f][0]]);
+    }
+  }
+
+  const Options& options_;
+  Control& control_;
+  Result& result_;
+  PointStore points_;
+  Predicates predicates_{points_};
+  SurfaceTopology topology_;
+};
+
+template <class Body>
+Result run(const Options& options, Body&& body) {
+  Result result;
+  Control control(options);
+  Run stages(options, control, result);
+  result.status = guarded(control, [&] { return body(stages); });
+  stages.finish();
+  if (!result.status.ok()) result.mesh = {};
+  return result;
+}
+
+}  // namespace
+
+Result tetrahedralize(const Surface& surface, const Options& options) {
+  return run(options, [&](Run& stages) { return stages.mesh(surface); });
+}
+
+Result constrained_delaunay(const Surface& surface, const Options& options) {
+  return run(options, [&](Run& stages) { return stages.cdt(surface); });
+}
+
+SurfaceReport check_surface(const Surface& surface, const Options& options) {
+  SurfaceReport report;
+  Control control(options);
+  const Status status = guarded(control, [&]() -> Status {
+    control.enter(Phase::check);
+    ValidityResult validity = check_validity(surface, false, control);
+    report = std::move(validity.report);
+    if (!report.status.ok()) return report.status;
+    PointStore points;
+    Predicates predicates(points);
+    const SurfaceTopology topology =
+        build_topology(oriented_outwards(surface, validity), points, predicates);
+    report.facets = topology.facet_triangles.size();
+    report.smallest_local_feature_size = smallest_local_feature_size(topology, points, control);
+    ChamferOptions chamfering;
+    chamfering.cosine_squared = cosine_squared(options.acute);
+    const ChamferResult chamfered = chamfer(topology, points, predicates, chamfering, control);
+    report.acute_vertices = chamfered.acute_vertices;
+    report.acute_edges = chamfered.acute_edges;
+    return {};
+  });
+  report.status = status;
+  return report;
+}
+
+}  // namespace delmesher

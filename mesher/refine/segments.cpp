@@ -160,9 +160,9 @@ void Refiner::split_subsegment(std::uint32_t s) {
     subsegments_[s].side[k] = kNone;
     insert_in_facet(v, sides[k] / 3, sides[k], s, half);
   }
-  after_insertion();
   check_subsegment(s);
   check_subsegment(half);
+  after_insertion();
 }
 
 }  // namespace delmesher

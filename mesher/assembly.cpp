@@ -1,0 +1,237 @@
+#include "mesher/assembly.h"
+
+#include <algorithm>
+
+#include "mesher/output/statistics.h"
+#include "mesher/surface/bvh.h"
+#include "mesher/surface/feature_size.h"
+
+namespace delmesher {
+namespace {
+
+// The spheres and cylinders of the chamfering, for the question whether a point is in one of them.
+class ChamferedRegion {
+ public:
+  ChamferedRegion(const ChamferResult& chamfered, const SurfaceTopology& topology,
+                  const PointStore& points)
+      : bvh_(build(chamfered, topology, points)) {}
+
+  bool contains(const Vec3& p) const {
+    return !bvh_.query({p, p}, [&](std::uint32_t n) {
+      return !(point_segment_distance(p, items_[n].a, items_[n].b) < items_[n].radius);
+    });
+  }
+
+ private:
+  struct Item {
+    Vec3 a, b;  // the same for a sphere
+    double radius;
+  };
+
+  void add(const Vec3& a, const Vec3& b, double radius, std::vector<Box>& boxes) {
+    if (!(radius > 0)) return;
+    items_.push_back({a, b, radius});
+    Box box = Box::around(std::array<Vec3, 2>{a, b});
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] -= radius;
+      box.hi[k] += radius;
+    }
+    boxes.push_back(box);
+  }
+
+  Bvh build(const ChamferResult& chamfered, const SurfaceTopology& topology,
+            const PointStore& points) {
+    std::vector<Box> boxes;
+    for (VertexId v = 0; v < chamfered.vertex_radius.size(); ++v) {
+      add(points.nearest(v), points.nearest(v), chamfered.vertex_radius[v], boxes);
+    }
+    for (std::uint32_t e = 0; e < chamfered.edge_radius.size(); ++e) {
+      const auto ends = topology.edge_vertices(e);
+      add(points.nearest(ends[0]), points.nearest(ends[1]), chamfered.edge_radius[e], boxes);
+    }
+    return Bvh(boxes);
+  }
+
+  std::vector<Item> items_;
+  Bvh bvh_;
+};
+
+void sort_unique(std::vector<VertexId>& v) {
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+// Points of the refined complex on input edges and inside input facets; everything else on the
+// complex (the box) goes to `vertices`.
+void add_complex_points(const ChamferResult& chamfered, const RefineResult& refined,
+                        const SurfaceTopology& topology, const PointStore& points,
+                        Predicates& predicates, CdtInput& input) {
+  const Plc& plc = chamfered.plc;
+  for (std::size_t n = 0; n < plc.segments.size(); ++n) {
+    const std::uint32_t e = plc.segments[n].input_edge;
+    if (e == kNone) continue;
+    for (const VertexId v : refined.chain[n]) {
+      if (!points.is_explicit(v)) input.on_edge[e].push_back(v);
+    }
+  }
+  for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
+    const FacetId facet = plc.facets[f].input_facet;
+    std::vector<VertexId>& inside = facet == kNone ? input.vertices : input.on_facet[facet];
+    inside.insert(inside.end(), refined.on_facet[f].begin(), refined.on_facet[f].end());
+    for (const PlcFacet::Side& side : plc.facets[f].boundary) {
+      if (plc.segments[side.segment].input_edge != kNone) continue;
+      for (const VertexId v : refined.chain[side.segment]) {
+        if (facet == kNone || points.definition(v).kind == PointKind::on_triangle) {
+          inside.push_back(v);
+        }
+      }
+    }
+  }
+  for (std::uint32_t e = 0; e < input.on_edge.size(); ++e) {
+    std::vector<VertexId>& chain = input.on_edge[e];
+    const auto ends = topology.edge_vertices(e);
+    sort_unique(chain);
+    std::sort(chain.begin(), chain.end(), [&](VertexId a, VertexId b) {
+      return a != b && predicates.dot_difference_sign(a, b, ends[0], ends[1]) > 0;
+    });
+    input.vertices.insert(input.vertices.end(), chain.begin(), chain.end());
+  }
+  for (std::vector<VertexId>& inside : input.on_facet) {
+    sort_unique(inside);
+    input.vertices.insert(input.vertices.end(), inside.begin(), inside.end());
+  }
+}
+
+using FaceKey = std::array<VertexId, 3>;
+
+FaceKey face_key(VertexId a, VertexId b, VertexId c) {
+  FaceKey key = {a, b, c};
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+RoundingInput rounding_input(const PointStore& points, std::size_t input_vertices) {
+  RoundingInput input;
+  input.points = &points;
+  input.fixed.resize(points.size());
+  input.on_surface.resize(points.size());
+  for (VertexId v = 0; v < points.size(); ++v) {
+    // Only points of the input and of the box have supports.
+    input.on_surface[v] = points.planes(v).empty() ? 0 : 1;
+    input.fixed[v] = v < input_vertices || (points.is_explicit(v) && input.on_surface[v] != 0);
+  }
+  return input;
+}
+
+}  // namespace
+
+CdtInput plain_input(const SurfaceTopology& topology) {
+  CdtInput input;
+  input.topology = &topology;
+  input.on_edge.resize(topology.edge_count());
+  input.on_facet.resize(topology.facet_triangles.size());
+  for (VertexId v = 0; v < topology.vertex_half_edge.size(); ++v) {
+    if (topology.vertex_half_edge[v] != kNone) input.vertices.push_back(v);
+  }
+  return input;
+}
+
+CdtInput enriched_input(const ChamferResult& chamfered, const RefineResult& refined,
+                        const SurfaceTopology& topology, const PointStore& points,
+                        Predicates& predicates, Control& control) {
+  CdtInput input = plain_input(topology);
+  add_complex_points(chamfered, refined, topology, points, predicates, input);
+  const ChamferedRegion removed(chamfered, topology, points);
+  for (const VertexId v : refined.in_volume) {
+    control.poll(points.size());
+    if (!removed.contains(points.nearest(v))) input.vertices.push_back(v);
+  }
+  sort_unique(input.vertices);
+  return input;
+}
+
+MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
+                            const PointStore& points, Region region) {
+  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}};
+  RoundingInput& input = mesh.rounding;
+  for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
+    if (region == Region::interior && cdt.inside[n] == 0) continue;
+    input.tetrahedra.push_back(cdt.tetrahedra[n]);
+    input.inside.push_back(cdt.inside[n]);
+  }
+  for (const SurfaceFace& face : cdt.boundary) {
+    input.boundary.push_back(face.vertices);
+    mesh.boundary_facet.push_back(face.facet);
+  }
+  return mesh;
+}
+
+MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult& refined,
+                             const SurfaceTopology& topology, const PointStore& points,
+                             Region region) {
+  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}};
+  RoundingInput& input = mesh.rounding;
+  std::vector<FaceKey> written;
+  for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
+    const bool inside = refined.side[n] == Side::inside;
+    if (region == Region::interior && !inside) continue;
+    const auto& t = refined.tetrahedra[n];
+    input.tetrahedra.push_back(t);
+    input.inside.push_back(inside ? 1 : 0);
+    for (const auto& f : kFace) written.push_back(face_key(t[f[0]], t[f[1]], t[f[2]]));
+  }
+  std::sort(written.begin(), written.end());
+  for (const RefinedFace& face : refined.faces) {
+    const FacetId facet = chamfered.plc.facets[face.facet].input_facet;
+    const auto& v = face.vertices;
+    if (facet == kNone ||
+        !std::binary_search(written.begin(), written.end(), face_key(v[0], v[1], v[2]))) {
+      continue;
+    }
+    input.boundary.push_back(v);
+    mesh.boundary_facet.push_back(facet);
+  }
+  return mesh;
+}
+
+MeshStatistics refined_statistics(const RefineResult& refined, const PointStore& points,
+                                  Region region) {
+  std::vector<std::array<double, 3>> coordinates(points.size());
+  for (VertexId v = 0; v < points.size(); ++v) coordinates[v] = points.nearest(v);
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+  std::vector<std::uint8_t> used(points.size(), 0);
+  std::uint64_t interior = 0;
+  for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
+    const bool inside = refined.side[n] == Side::inside;
+    interior += inside ? 1 : 0;
+    if (region == Region::interior && !inside) continue;
+    tetrahedra.push_back(refined.tetrahedra[n]);
+    for (const VertexId v : refined.tetrahedra[n]) used[v] = 1;
+  }
+  const auto vertices = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), 1));
+  return mesh_statistics(coordinates, tetrahedra, vertices, interior);
+}
+
+Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& refined,
+                          const SurfaceTopology& topology, const PointStore& points) {
+  Surface surface;
+  std::vector<std::uint32_t> number(points.size(), kNone);
+  for (const RefinedFace& face : refined.faces) {
+    const FacetId facet = chamfered.plc.facets[face.facet].input_facet;
+    if (facet == kNone) continue;
+    std::array<std::uint32_t, 3> triangle;
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& n = number[face.vertices[k]];
+      if (n == kNone) {
+        n = static_cast<std::uint32_t>(surface.vertices.size());
+        surface.vertices.push_back(points.nearest(face.vertices[k]));
+      }
+      triangle[k] = n;
+    }
+    surface.triangles.push_back(triangle);
+    surface.labels.push_back(topology.labels[topology.facet_triangles[facet][0]]);
+  }
+  return surface;
+}
+
+}  // namespace delmesher

@@ -1,0 +1,62 @@
+// What passes between the stages, for pipeline.cpp: gathers, converts and records, but decides
+// nothing.
+#pragma once
+
+#include <vector>
+
+#include "mesher/cdt/cdt.h"
+#include "mesher/chamfer/chamfer.h"
+#include "mesher/delmesher.h"
+#include "mesher/output/rounding.h"
+#include "mesher/refine/refine.h"
+
+namespace delmesher {
+
+// --- towards the enriched CDT (section 6)
+
+// The input surface alone.
+CdtInput plain_input(const SurfaceTopology& topology);
+
+// The input surface with the vertices of the refined mesh, without those volume vertices that lie
+// in the spheres and cylinders of the chamfering.
+CdtInput enriched_input(const ChamferResult& chamfered, const RefineResult& refined,
+                        const SurfaceTopology& topology, const PointStore& points,
+                        Predicates& predicates, Control& control);
+
+// --- towards rounding
+
+struct MeshToWrite {
+  RoundingInput rounding;
+  std::vector<FacetId> boundary_facet;  // per face of rounding.boundary
+};
+
+MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
+                            const PointStore& points, Region region);
+// The refined mesh itself; its boundary is the part of the surface that was neither chamfered nor
+// filtered.
+MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult& refined,
+                             const SurfaceTopology& topology, const PointStore& points,
+                             Region region);
+
+// --- towards the caller
+
+MeshStatistics refined_statistics(const RefineResult& refined, const PointStore& points,
+                                  Region region);
+
+// The chamfered surface with rounded coordinates, for display, in the triangulation that the
+// refinement gave it.
+Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& refined,
+                          const SurfaceTopology& topology, const PointStore& points);
+
+// --- the exact record; point indices are ids of the store until record_points renumbers them
+void record_facets(const SurfaceTopology& topology, const std::vector<std::uint8_t>& kept,
+                   ExactRecord& record);
+void record_chamfer(const ChamferResult& chamfered, double threshold_degrees, ExactRecord& record);
+void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
+                    const SurfaceTopology& topology, ExactRecord& record);
+void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
+// Adds the points that the record uses, input vertices first, and renumbers.
+void record_points(const PointStore& points, std::size_t input_vertices,
+                   const RoundingResult& rounded, ExactRecord& record);
+
+}  // namespace delmesher

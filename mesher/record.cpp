@@ -1,0 +1,128 @@
+// Filling in the exact record (command-line option --exact).
+#include <algorithm>
+
+#include "mesher/assembly.h"
+
+namespace delmesher {
+namespace {
+
+template <class Visit>
+void for_each_point(ExactRecord& record, Visit&& visit) {
+  for (auto& chain : record.segments) {
+    for (auto& v : chain.vertices) visit(v);
+  }
+  for (auto* tets : {&record.refined, &record.final}) {
+    for (auto& t : *tets) {
+      for (auto& v : t.vertices) visit(v);
+    }
+  }
+  for (auto* faces : {&record.refined_facets, &record.final_facets}) {
+    for (auto& f : *faces) {
+      for (int k = 0; k < 3; ++k) visit(f[k]);
+    }
+  }
+  for (auto& v : record.mesh_vertices) visit(v);
+}
+
+}  // namespace
+
+void record_facets(const SurfaceTopology& topology, const std::vector<std::uint8_t>& kept,
+                   ExactRecord& record) {
+  for (FacetId f = 0; f < topology.facet_triangles.size(); ++f) {
+    const auto& triangles = topology.facet_triangles[f];
+    record.facets.push_back(
+        {triangles[0], topology.labels[triangles[0]], !kept.empty() && kept[f] == 0, triangles});
+  }
+}
+
+void record_chamfer(const ChamferResult& chamfered, double threshold_degrees, ExactRecord& record) {
+  for (VertexId v = 0; v < chamfered.vertex_is_acute.size(); ++v) {
+    if (chamfered.vertex_is_acute[v] == 0) continue;
+    record.corners.push_back({v, threshold_degrees, chamfered.vertex_radius[v]});
+  }
+}
+
+void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
+                    const SurfaceTopology& topology, ExactRecord& record) {
+  const Plc& plc = chamfered.plc;
+  const auto facet_id = [&](std::uint32_t f) {
+    const FacetId facet = plc.facets[f].input_facet;
+    return facet == kNone ? kNone : topology.facet_triangles[facet][0];
+  };
+  std::vector<std::uint32_t> facet_of_segment(plc.segments.size(), kNone);
+  for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
+    for (const auto& side : plc.facets[f].boundary) facet_of_segment[side.segment] = f;
+  }
+  for (std::size_t n = 0; n < plc.segments.size(); ++n) {
+    const std::uint32_t f = facet_of_segment[n];
+    const bool box = f != kNone && plc.facets[f].input_facet == kNone;
+    if (box) continue;
+    const bool artificial = plc.segments[n].input_edge == kNone;
+    record.segments.push_back(
+        {artificial, artificial && f != kNone ? facet_id(f) : kNone, refined.chain[n]});
+  }
+  for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
+    record.refined.push_back({refined.tetrahedra[n], refined.side[n] == Side::inside});
+  }
+  for (const RefinedFace& face : refined.faces) {
+    const std::uint32_t id = facet_id(face.facet);
+    if (id == kNone) continue;
+    record.refined_facets.push_back({face.vertices[0], face.vertices[1], face.vertices[2], id});
+  }
+}
+
+void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record) {
+  for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
+    record.final.push_back({cdt.tetrahedra[n], cdt.inside[n] != 0});
+  }
+  for (const SurfaceFace& face : cdt.boundary) {
+    record.final_facets.push_back({face.vertices[0], face.vertices[1], face.vertices[2],
+                                   topology.facet_triangles[face.facet][0]});
+  }
+}
+
+void record_points(const PointStore& points, std::size_t input_vertices,
+                   const RoundingResult& rounded, ExactRecord& record) {
+  record.mesh_vertices = rounded.vertices;
+  std::vector<std::uint32_t> number(points.size(), 0);
+  const auto use = [&](std::uint32_t v) { number[v] = 1; };
+  for_each_point(record, use);
+  for (const auto& corner : record.corners) use(corner.vertex);
+  for (VertexId v = 0; v < points.size(); ++v) {
+    const PointDefinition d = points.definition(v);
+    if (number[v] == 0 || d.kind == PointKind::explicit_point) continue;
+    for (const VertexId c : d.corner) {
+      if (c != kNone) use(c);
+    }
+  }
+  // Input vertices keep their numbers, used or not.
+  std::uint32_t next = 0;
+  for (VertexId v = 0; v < points.size(); ++v) {
+    if (number[v] == 0 && v >= input_vertices) {
+      number[v] = kNone;
+      continue;
+    }
+    number[v] = next++;
+    const PointDefinition d = points.definition(v);
+    const auto at = [&](int k) { return d.corner[k] == kNone ? 0 : number[d.corner[k]]; };
+    ExactPoint p;
+    switch (d.kind) {
+      case PointKind::explicit_point: {
+        const Vec3 x = points.nearest(v);
+        p = {ExactPoint::Kind::explicit_point, 0, 0, 0, x[0], x[1], x[2]};
+        break;
+      }
+      case PointKind::on_segment:
+        p = {ExactPoint::Kind::on_segment, at(0), at(1), 0, d.u, 0, 0};
+        break;
+      case PointKind::on_triangle:
+        p = {ExactPoint::Kind::on_triangle, at(0), at(1), at(2), d.u, d.v, 0};
+        break;
+    }
+    record.points.push_back(p);
+  }
+  for_each_point(record, [&](std::uint32_t& v) { v = number[v]; });
+  for (auto& corner : record.corners) corner.vertex = number[corner.vertex];
+}
+
+}  // namespace delmesher
