@@ -15,7 +15,10 @@ GOOD = {
     "mesher/refine/refine.h": "#pragma once\n#include <gmp.h>\n#include \"mesher/base/ids.h\"\n",
     "mesher/refine/refine_test.cpp": "#include <gtest/gtest.h>\n#include \"mesher/cdt/cdt.h\"\n",
     "mesher/cdt/cdt.h": "#pragma once\n#include \"mesher/delmesher.h\"\n",
-    "mesher/pipeline.cpp": "#include \"mesher/refine/refine.h\"\n#include \"mesher/cdt/cdt.h\"\n",
+    "mesher/assembly.h": "#pragma once\n#include \"mesher/refine/refine.h\"\n",
+    "mesher/cdt/plain_reference.h": "#pragma once\n#include <gmpxx.h>\n",
+    "mesher/cdt/plain_test.cpp": "#include \"mesher/cdt/plain_reference.h\"\n",
+    "mesher/pipeline.cpp": "#include \"mesher/assembly.h\"\n#include \"mesher/refine/refine.h\"\n#include \"mesher/cdt/cdt.h\"\n",
     "mesher/cli/main.cpp": "#include <CLI/CLI.hpp>\n",
     "oracles/report.h": "#pragma once\n#include <gmpxx.h>\n#include \"mesher/delmesher.h\"\n",
     "property_tests/laws_test.cpp": "#include \"oracles/report.h\"\n#include \"mesher/refine/refine.h\"\n",
@@ -26,6 +29,8 @@ GOOD = {
 # What is changed, and what the complaint must contain.
 BAD = {
     "stage includes stage": ({"mesher/refine/a.cpp": '#include "mesher/cdt/cdt.h"\n'}, "mesher/refine must not"),
+    "stage includes the pipeline": ({"mesher/refine/a.cpp": '#include "mesher/assembly.h"\n'}, "only mesher headers"),
+    "mesher uses a test's reference": ({"mesher/cdt/a.cpp": '#include "mesher/cdt/plain_reference.h"\n'}, "for tests"),
     "base includes stage": ({"mesher/base/a.cpp": '#include "mesher/cdt/cdt.h"\n'}, "mesher/base must not"),
     "mesher uses boost": ({"mesher/cdt/a.cpp": "#include <boost/any.hpp>\n"}, "standard library and GMP"),
     "mesher uses json outside cli": ({"mesher/io/a.cpp": "#include <nlohmann/json.hpp>\n"}, "standard library"),
