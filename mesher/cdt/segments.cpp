@@ -218,9 +218,11 @@ class SegmentRecovery {
   void requeue_destroyed(VertexId v) {
     kept_.clear();
     for (const TetId t : mesh_.created()) {
-      for (const auto& e : kEdge) {
-        const VertexId a = mesh_.vertex(t, e[0]), b = mesh_.vertex(t, e[1]);
-        if (a != v && b != v) kept_.push_back(pair_key(a, b));
+      const int f = mesh_.index_of(t, v);
+      for (int k = 0; k < 3; ++k) {
+        // Each edge of the boundary has two faces, which traverse it in both directions.
+        const VertexId a = mesh_.vertex(t, kFace[f][k]), b = mesh_.vertex(t, kFace[f][(k + 1) % 3]);
+        if (a < b) kept_.push_back(pair_key(a, b));
       }
     }
     std::sort(kept_.begin(), kept_.end());
@@ -229,8 +231,9 @@ class SegmentRecovery {
         const VertexId a = mesh_.vertex(t, e[0]), b = mesh_.vertex(t, e[1]);
         if (chains_.valence(a) == 0 || chains_.valence(b) == 0) continue;
         const std::uint64_t key = pair_key(a, b);
+        if (std::binary_search(kept_.begin(), kept_.end(), key)) continue;
         const std::uint32_t n = subsegments_.get(key);
-        if (n == FlatMap::kAbsent || std::binary_search(kept_.begin(), kept_.end(), key)) continue;
+        if (n == FlatMap::kAbsent) continue;
         if (queue_.back() != n) queue_.push_back(n);
       }
     }
