@@ -45,16 +45,20 @@ class Contact {
   // it through bc or de, so it is more than a iff bc meets ade or de meets abc.
   bool sharing_vertex(const Corners& s, const Projection& ps, const Corners& t,
                       const Projection& pt) {
-    const auto [a, b, c] = s;
-    const VertexId d = t[1], e = t[2];
+    const VertexId b = s[1], c = s[2], d = t[1], e = t[2];
+    // Rules out nearly all pairs of a large fan, of which there are many.
+    const bool maybe_de = boxes_overlap(d, e, s), maybe_bc = boxes_overlap(b, c, t);
+    if (!maybe_de && !maybe_bc) return false;
     const int side_d = side(s, d), side_e = side(s, e);
     if (side_d * side_e > 0) return false;
     if (side_d == 0 && side_e == 0) {
-      return segment_in_plane(d, e, s, ps) || segment_in_plane(b, c, t, pt);
+      return (maybe_de && segment_in_plane(d, e, s, ps)) ||
+             (maybe_bc && segment_in_plane(b, c, t, pt));
     }
     const int side_b = side(t, b), side_c = side(t, c);
     if (side_b * side_c > 0) return false;
-    return segment(d, e, side_d, side_e, s, ps) || segment(b, c, side_b, side_c, t, pt);
+    return (maybe_de && segment(d, e, side_d, side_e, s, ps)) ||
+           (maybe_bc && segment(b, c, side_b, side_c, t, pt));
   }
 
   bool disjoint_corners(const Corners& s, const Projection& ps, const Corners& t,
