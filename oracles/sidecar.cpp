@@ -1,11 +1,112 @@
+// The format is described in mesher/io/exact_format.md.
 #include "oracles/sidecar.h"
 
+#include "oracles/exact_points.h"
 #include "oracles/text_reader.h"
 
 namespace tetproof::oracles {
+namespace {
 
-delmesher::ExactRecord read_sidecar(const std::string& path) {
-  throw ReadError(path + ": sidecars are not read yet");
+using delmesher::ExactPoint;
+using delmesher::ExactRecord;
+
+class SidecarReader {
+ public:
+  SidecarReader(const std::string& path, std::string_view text) : reader_(path, text) {}
+
+  ExactRecord read() {
+    expect("delmesher-exact");
+    expect("1");
+    read_points();
+    list("facets", record_.facets, [&](auto& facet) {
+      facet.id = number();
+      facet.label = static_cast<std::int32_t>(reader_.integer());
+      facet.filtered = number() != 0;
+      numbers(facet.triangles);
+    });
+    list("segments", record_.segments, [&](auto& chain) {
+      chain.artificial = reader_.required_word("I or A") == "A";
+      chain.facet = chain.artificial ? number() : kNone;
+      if (!chain.artificial) expect("-");
+      numbers(chain.vertices);
+    });
+    list("corners", record_.corners, [&](auto& corner) {
+      corner.vertex = point();
+      corner.threshold = reader_.number();
+      corner.radius = reader_.number();
+    });
+    read_tets("refined", record_.refined);
+    read_faces("refined_facets", record_.refined_facets);
+    read_tets("final", record_.final);
+    read_faces("final_facets", record_.final_facets);
+    list("mesh_vertices", record_.mesh_vertices, [&](auto& vertex) { vertex = point(); });
+    expect("end");
+    return std::move(record_);
+  }
+
+ private:
+  void expect(const std::string& wanted) {
+    const std::string_view word = reader_.required_word(wanted.c_str());
+    if (word != wanted) {
+      reader_.fail("\"" + std::string(word.substr(0, 40)) + "\" where " + wanted + " should be");
+    }
+  }
+
+  template <class Item, class Read>
+  void list(const std::string& name, std::vector<Item>& items, const Read& read_item) {
+    expect(name);
+    items.resize(reader_.count());
+    for (Item& item : items) read_item(item);
+  }
+
+  void read_points() {
+    list("points", record_.points, [&](ExactPoint& p) {
+      const std::string_view kind = reader_.required_word("E, S or T");
+      if (kind != "E" && kind != "S" && kind != "T") reader_.fail("unknown kind of point");
+      p.kind = kind == "E"   ? ExactPoint::Kind::explicit_point
+               : kind == "S" ? ExactPoint::Kind::on_segment
+                             : ExactPoint::Kind::on_triangle;
+      if (kind != "E") {
+        p.i = point();
+        p.j = point();
+      }
+      if (kind == "T") p.k = point();
+      p.x = reader_.number();
+      if (kind != "S") p.y = reader_.number();
+      if (kind == "E") p.z = reader_.number();
+    });
+  }
+
+  void read_tets(const std::string& name, std::vector<ExactRecord::Tet>& tets) {
+    list(name, tets, [&](ExactRecord::Tet& tet) {
+      for (Index& v : tet.vertices) v = point();
+      tet.inside = number() != 0;
+    });
+  }
+
+  void read_faces(const std::string& name, std::vector<std::array<Index, 4>>& faces) {
+    list(name, faces, [&](std::array<Index, 4>& face) {
+      for (int i = 0; i < 3; ++i) face[i] = point();
+      face[3] = number();
+    });
+  }
+
+  Index number() { return reader_.index(0, 0x100000000U); }
+  Index point() { return reader_.index(0, record_.points.size()); }
+  void numbers(std::vector<Index>& list) {
+    list.resize(reader_.count());
+    for (Index& value : list) value = number();
+  }
+
+  TextReader reader_;
+  ExactRecord record_;
+};
+
+}  // namespace
+
+ExactRecord read_sidecar(const std::string& path) {
+  const std::string text = read_whole_file(path);
+  return SidecarReader(path, text).read();
 }
 
 }  // namespace tetproof::oracles

@@ -37,12 +37,37 @@ Polyhedron read_off(const std::string& path, std::string_view text) {
   return surface;
 }
 
+// Labels numbered by the first use of a name.
+struct NamedLabels {
+  std::string name;
+  std::map<std::string, std::int32_t> numbers;
+  std::vector<std::int32_t> labels;
+  void use(std::size_t triangles) {
+    const auto next = static_cast<std::int32_t>(numbers.size());
+    labels.resize(triangles, numbers.emplace(name, next).first->second);
+  }
+};
+
+std::string rest_of_line(TextReader& reader) {
+  std::string rest;
+  for (auto word = reader.word_in_line(); !word.empty(); word = reader.word_in_line()) {
+    rest += (rest.empty() ? "" : " ") + std::string(word);
+  }
+  return rest;
+}
+
 Polyhedron read_obj(const std::string& path, std::string_view text) {
   TextReader reader(path, text);
   Polyhedron surface;
   Index polygons = 0;
+  // Labels are the names of the first of these that gives the faces at least two.
+  static constexpr std::string_view kNamings[] = {"usemtl", "g", "o"};
+  std::array<NamedLabels, 3> namings;
   while (!reader.at_end()) {
     const std::string_view keyword = reader.word();
+    for (int i = 0; i < 3; ++i) {
+      if (keyword == kNamings[i]) namings[i].name = rest_of_line(reader);
+    }
     if (keyword == "v") {
       const double x = reader.number(), y = reader.number(), z = reader.number();
       surface.vertices.push_back({x, y, z});
@@ -58,8 +83,13 @@ Polyhedron read_obj(const std::string& path, std::string_view text) {
         corners.push_back(static_cast<Index>(index));
       }
       add_polygon(surface, corners, polygons++);
+      for (NamedLabels& naming : namings) naming.use(surface.triangles.size());
     }
     reader.skip_line();
+  }
+  for (const NamedLabels& naming : namings) {
+    if (!surface.labels.empty() || naming.numbers.size() < 2) continue;
+    surface.labels = naming.labels;
   }
   return surface;
 }
@@ -89,6 +119,7 @@ Polyhedron read_text_stl(const std::string& path, std::string_view text) {
   Welder welder(surface);
   std::array<Position, 3> corners;
   int corner = 0;
+  std::int32_t solids = 0;
   while (!reader.at_end()) {
     const std::string_view keyword = reader.word();
     if (keyword == "vertex") {
@@ -98,8 +129,10 @@ Polyhedron read_text_stl(const std::string& path, std::string_view text) {
     } else if (keyword == "endfacet") {
       if (corner != 3) reader.fail("a facet without three corners");
       welder.triangle(corners);
+      surface.labels.push_back(std::max(solids - 1, 0));
       corner = 0;
     } else if (keyword == "solid") {
+      ++solids;
       reader.skip_line();
     }
   }
@@ -154,7 +187,9 @@ class PlyReader {
           read_property(element, property, position, corners);
         }
         if (element.name == "vertex") surface_.vertices.push_back(position);
-        if (element.name == "face") add_polygon(surface_, corners, polygons++);
+        if (element.name != "face") continue;
+        add_polygon(surface_, corners, polygons++);
+        if (!label_name_.empty()) surface_.labels.resize(surface_.triangles.size(), label_);
       }
     }
     for (const auto& triangle : surface_.triangles) {
@@ -190,8 +225,21 @@ class PlyReader {
       }
       header_.skip_line();
     }
+    find_label();
     at_ = text_.find("end_header");
     at_ = text_.find('\n', at_) + 1;
+  }
+
+  void find_label() {
+    for (const char* name :
+         {"label", "region", "marker", "group", "attribute", "material_index", "physical"}) {
+      for (const PlyElement& element : elements_) {
+        for (const PlyProperty& property : element.properties) {
+          const bool fits = element.name == "face" && property.count_type.empty();
+          if (label_name_.empty() && fits && property.name == name) label_name_ = name;
+        }
+      }
+    }
   }
 
   void read_property(const PlyElement& element, const PlyProperty& property, Position& position,
@@ -208,6 +256,9 @@ class PlyReader {
       return;
     }
     const double v = value(property.type);
+    if (element.name == "face" && property.name == label_name_) {
+      label_ = static_cast<std::int32_t>(v);
+    }
     if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z') {
       position[property.name[0] - 'x'] = v;
     }
@@ -237,6 +288,8 @@ class PlyReader {
   std::string_view text_;
   Polyhedron surface_;
   std::vector<PlyElement> elements_;
+  std::string label_name_;  // property of the faces that is their label; empty: none
+  std::int32_t label_ = 0;
   bool binary_ = false, swap_ = false;
   std::size_t at_ = 0;
 };
