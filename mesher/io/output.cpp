@@ -1,0 +1,160 @@
+#include "mesher/io/output.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "mesher/io/text.h"
+
+namespace delmesher::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) {
+  return std::strerror(error);
+}
+
+// The file that a path means: the end of a chain of links, which need not exist.
+fs::path resolve(const std::string& path) {
+  std::error_code error;
+  fs::path target = path;
+  for (int links = 0; links < 40 && fs::is_symlink(target, error); ++links) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) break;
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target;
+}
+
+bool is_special(const fs::path& target) {
+  std::error_code error;
+  const fs::file_status status = fs::status(target, error);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+// Creates a new file beside the target under a name that no other run uses.
+std::FILE* create_beside(const fs::path& target, std::string& name) {
+  std::FILE* file = nullptr;
+  for (int attempt = 0; attempt < 1000 && file == nullptr; ++attempt) {
+    const std::string leaf =
+        "." + target.filename().string().substr(0, 200) + ".part" + std::to_string(attempt);
+    name = (target.parent_path() / leaf).string();
+    errno = 0;
+    file = std::fopen(name.c_str(), "wbx");  // fails if it exists
+    if (file == nullptr && errno != EEXIST) break;
+  }
+  return file;
+}
+
+}  // namespace
+
+void TextSink::number(double value) {
+  append_double(buffer_, value);
+  flush_if_full();
+}
+
+void TextSink::hex(double value) {
+  append_hex(buffer_, value);
+  flush_if_full();
+}
+
+void TextSink::point(const std::array<double, 3>& p) {
+  append_double(buffer_, p[0]);
+  buffer_ += ' ';
+  append_double(buffer_, p[1]);
+  buffer_ += ' ';
+  append_double(buffer_, p[2]);
+  flush_if_full();
+}
+
+bool TextSink::flush() {
+  if (!failed_ && std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size()) {
+    failed_ = true;
+  }
+  buffer_.clear();
+  return !failed_;
+}
+
+OutputSet::~OutputSet() {
+  discard();
+}
+
+void OutputSet::tell_watcher() {
+  if (!watcher_) return;
+  std::vector<std::string> names;
+  for (const File& file : files_) {
+    if (!file.temporary.empty()) names.push_back(file.temporary);
+  }
+  watcher_(names);
+}
+
+void OutputSet::discard() {
+  for (File& file : files_) {
+    if (file.file != nullptr) std::fclose(file.file);
+    if (!file.temporary.empty()) std::remove(file.temporary.c_str());
+  }
+  files_.clear();
+  tell_watcher();
+}
+
+TextSink* OutputSet::open(const std::string& path, WriteStatus& status) {
+  const fs::path target = resolve(path);
+  std::error_code error;
+  File file;
+  file.path = path;
+  file.target = target.string();
+  errno = 0;
+  if (fs::is_directory(target, error)) {
+    errno = EISDIR;
+  } else if (is_special(target)) {
+    file.file = std::fopen(file.target.c_str(), "wb");
+  } else {
+    file.file = create_beside(target, file.temporary);
+  }
+  if (file.file == nullptr) {
+    status.error = path + ": cannot write: " + reason(errno);
+    return nullptr;
+  }
+  file.sink = std::make_unique<TextSink>(file.file);
+  files_.push_back(std::move(file));
+  tell_watcher();
+  return files_.back().sink.get();
+}
+
+WriteStatus OutputSet::commit() {
+  WriteStatus status;
+  for (File& file : files_) {
+    errno = 0;
+    const bool flushed = file.sink->flush();
+    const int flush_error = errno;
+    const bool closed = std::fclose(file.file) == 0;
+    file.file = nullptr;
+    if (status.ok() && (!flushed || !closed)) {
+      status.error = file.path + ": cannot write: " + reason(flushed ? errno : flush_error);
+    }
+  }
+  for (File& file : files_) {
+    if (!status.ok() || file.temporary.empty()) continue;
+    std::error_code error;
+    fs::rename(file.temporary, file.target, error);
+    if (error) {
+      status.error = file.path + ": cannot write: " + error.message();
+    } else {
+      file.temporary.clear();
+    }
+  }
+  discard();
+  return status;
+}
+
+WriteStatus check_writable(const std::string& path) {
+  // Opening a special file could have effects (a pipe blocks); its turn comes when it is written.
+  WriteStatus status;
+  if (is_special(resolve(path))) return status;
+  OutputSet trial;
+  trial.open(path, status);
+  return status;
+}
+
+}  // namespace delmesher::io

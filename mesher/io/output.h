@@ -1,0 +1,94 @@
+// Files written all or none: into temporaries beside their targets, renamed when all are complete.
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace delmesher::io {
+
+// Why something could not be written: "file: reason"; empty if all is well.
+struct WriteStatus {
+  std::string error;
+  bool ok() const { return error.empty(); }
+};
+
+// Buffered text. Errors of the disk are remembered until the file is closed.
+class TextSink {
+ public:
+  explicit TextSink(std::FILE* file) : file_(file) { buffer_.reserve(kBufferSize + 256); }
+
+  void text(std::string_view s) {
+    buffer_ += s;
+    flush_if_full();
+  }
+  // The shortest decimal that reads back as the same double.
+  void number(double value);
+  void hex(double value);
+  template <typename T>
+  void integer(T value) {
+    char digits[24];
+    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    text(std::string_view(digits, static_cast<std::size_t>(end - digits)));
+  }
+  template <typename... T>
+  void integers(T... values) {  // with a space after each
+    ((integer(values), text(" ")), ...);
+  }
+  // x y z, separated by spaces.
+  void point(const std::array<double, 3>& p);
+
+  bool flush();
+
+ private:
+  static constexpr std::size_t kBufferSize = std::size_t{1} << 18;
+  void flush_if_full() {
+    if (buffer_.size() >= kBufferSize) flush();
+  }
+  std::FILE* file_;
+  std::string buffer_;
+  bool failed_ = false;
+};
+
+class OutputSet {
+ public:
+  // Told the paths of the temporaries whenever there is one more (and the empty list when there are
+  // none left), so that a program can remove them should it be killed.
+  using Watcher = std::function<void(const std::vector<std::string>&)>;
+
+  explicit OutputSet(Watcher watcher = nullptr) : watcher_(std::move(watcher)) {}
+  ~OutputSet();  // removes what was not committed
+  OutputSet(const OutputSet&) = delete;
+  OutputSet& operator=(const OutputSet&) = delete;
+
+  // Begins a file. A symbolic link is followed; something that exists and is no regular file (a
+  // device, a pipe) is written directly. Returns null with status.error on failure.
+  TextSink* open(const std::string& path, WriteStatus& status);
+
+  // Completes all files, then renames them to their targets; on failure no target is touched unless
+  // the renaming itself fails midway.
+  WriteStatus commit();
+
+ private:
+  struct File {
+    std::string path, target, temporary;
+    std::FILE* file = nullptr;
+    std::unique_ptr<TextSink> sink;
+  };
+  void discard();
+  void tell_watcher();
+
+  Watcher watcher_;
+  std::vector<File> files_;
+};
+
+// Whether a file could be created at `path` now; leaves nothing behind.
+WriteStatus check_writable(const std::string& path);
+
+}  // namespace delmesher::io

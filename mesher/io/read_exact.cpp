@@ -1,0 +1,217 @@
+#include <algorithm>
+#include <new>
+
+#include "mesher/io/exact_record.h"
+#include "mesher/io/read_surface.h"
+#include "mesher/io/surface_builder.h"
+#include "mesher/io/text.h"
+
+namespace delmesher::io {
+namespace {
+
+class ExactReader {
+ public:
+  explicit ExactReader(std::string_view text) : in_(text, Comments::anywhere) {}
+
+  ExactRecord read();
+
+ private:
+  Position here() const { return at_line(in_.line()); }
+  void line() {
+    if (!in_.next_line()) fail(here(), "the file ends before its 'end'");
+  }
+  std::string_view token() {
+    std::string_view out;
+    if (!in_.next_token(out)) fail(here(), "the line is too short");
+    return out;
+  }
+  template <typename T>
+  T integer() {
+    const std::string_view t = token();
+    T value{};
+    if (!parse_integer(t, value)) fail(here(), "bad integer " + quoted(t));
+    return value;
+  }
+  std::uint32_t point() {
+    const auto index = integer<std::uint32_t>();
+    if (index >= record_.points.size()) fail(here(), "a point index out of range");
+    return index;
+  }
+  bool flag() {
+    const auto value = integer<int>();
+    if (value != 0 && value != 1) fail(here(), "a flag that is neither 0 nor 1");
+    return value == 1;
+  }
+  double number() {
+    const std::string_view t = token();
+    double value = 0;
+    if (parse_hex_double(t, value) != NumberStatus::ok) {
+      fail(here(), "bad hexadecimal number " + quoted(t));
+    }
+    return value;
+  }
+  void line_end() {
+    std::string_view t;
+    if (in_.next_token(t)) fail(here(), "unexpected " + quoted(t));
+  }
+  std::uint64_t section(std::string_view name);
+  template <typename Read>
+  void items(std::string_view name, Read read) {
+    const std::uint64_t count = section(name);
+    for (std::uint64_t i = 0; i < count; ++i) {
+      line();
+      read();
+      line_end();
+    }
+  }
+  void read_point();
+  void check_references();
+  std::vector<std::uint32_t> list(bool of_points);
+  void tets(std::string_view name, std::vector<ExactRecord::Tet>& out);
+  void triangles(std::string_view name, std::vector<std::array<std::uint32_t, 4>>& out);
+
+  TextLines in_;
+  ExactRecord record_;
+};
+
+std::uint64_t ExactReader::section(std::string_view name) {
+  line();
+  const std::string_view found = token();
+  if (found != name) fail(here(), quoted(found) + " instead of " + quoted(name));
+  const auto count = integer<std::uint64_t>();
+  line_end();
+  return count;
+}
+
+void ExactReader::read_point() {
+  const std::string_view kind = token();
+  ExactPoint p;
+  if (kind == "E") {
+    p.x = number();
+    p.y = number();
+    p.z = number();
+  } else if (kind == "S") {
+    p.kind = ExactPoint::Kind::on_segment;
+    p.i = integer<std::uint32_t>();
+    p.j = integer<std::uint32_t>();
+    p.x = number();
+  } else if (kind == "T") {
+    p.kind = ExactPoint::Kind::on_triangle;
+    p.i = integer<std::uint32_t>();
+    p.j = integer<std::uint32_t>();
+    p.k = integer<std::uint32_t>();
+    p.x = number();
+    p.y = number();
+  } else {
+    fail(here(), "unknown kind of point " + quoted(kind));
+  }
+  record_.points.push_back(p);
+}
+
+void ExactReader::check_references() {
+  const auto& points = record_.points;
+  for (const ExactPoint& p : points) {
+    if (p.kind == ExactPoint::Kind::explicit_point) continue;
+    const bool three = p.kind == ExactPoint::Kind::on_triangle;
+    for (std::uint32_t r : {p.i, p.j, three ? p.k : p.j}) {
+      if (r >= points.size() || points[r].kind != ExactPoint::Kind::explicit_point) {
+        fail(here(), "a point refers to one that is not explicit");
+      }
+    }
+  }
+}
+
+std::vector<std::uint32_t> ExactReader::list(bool of_points) {
+  const auto count = integer<std::uint64_t>();
+  std::vector<std::uint32_t> out;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    out.push_back(of_points ? point() : integer<std::uint32_t>());
+  }
+  return out;
+}
+
+void ExactReader::tets(std::string_view name, std::vector<ExactRecord::Tet>& out) {
+  items(name, [&] {
+    ExactRecord::Tet tet{};
+    for (std::uint32_t& v : tet.vertices) v = point();
+    tet.inside = flag();
+    out.push_back(tet);
+  });
+}
+
+void ExactReader::triangles(std::string_view name, std::vector<std::array<std::uint32_t, 4>>& out) {
+  items(name, [&] {
+    const std::uint32_t a = point(), b = point(), c = point();
+    out.push_back({a, b, c, integer<std::uint32_t>()});
+  });
+}
+
+ExactRecord ExactReader::read() {
+  const std::uint64_t version = section("delmesher-exact");
+  if (version != kExactVersion) fail(here(), "unknown version " + std::to_string(version));
+  items("points", [&] { read_point(); });
+  check_references();
+  items("facets", [&] {
+    ExactRecord::Facet facet{};
+    facet.id = integer<std::uint32_t>();
+    facet.label = integer<std::int32_t>();
+    facet.filtered = flag();
+    facet.triangles = list(false);
+    record_.facets.push_back(std::move(facet));
+  });
+  items("segments", [&] {
+    ExactRecord::Chain chain{};
+    const std::string_view kind = token();
+    if (kind != "A" && kind != "I") fail(here(), "unknown kind of segment " + quoted(kind));
+    chain.artificial = kind == "A";
+    if (chain.artificial) {
+      chain.facet = integer<std::uint32_t>();
+    } else if (token() != "-") {
+      fail(here(), "an input edge has no facet");
+    }
+    chain.vertices = list(true);
+    record_.segments.push_back(std::move(chain));
+  });
+  items("corners", [&] {
+    ExactRecord::Corner corner{};
+    corner.vertex = point();
+    corner.threshold = number();
+    corner.radius = number();
+    record_.corners.push_back(corner);
+  });
+  tets("refined", record_.refined);
+  triangles("refined_facets", record_.refined_facets);
+  tets("final", record_.final);
+  triangles("final_facets", record_.final_facets);
+  items("mesh_vertices", [&] { record_.mesh_vertices.push_back(point()); });
+  line();
+  if (token() != "end") fail(here(), "'end' missing");
+  return std::move(record_);
+}
+
+}  // namespace
+
+ExactResult parse_exact(std::string_view text, const std::string& path) {
+  ExactResult result;
+  try {
+    result.record = ExactReader(text).read();
+  } catch (const ParseError& error) {
+    result.error = path + ":" + std::to_string(error.position.number) + ": " + error.reason;
+  } catch (const std::bad_alloc&) {
+    result.error = path + ": out of memory while reading";
+  }
+  return result;
+}
+
+ExactResult read_exact(const std::string& path) {
+  try {
+    std::string error;
+    const auto text = read_file(path, error);
+    if (text) return parse_exact(*text, path);
+    return {path + ": " + error, {}};
+  } catch (const std::exception& error) {
+    return {path + ": " + error.what(), {}};
+  }
+}
+
+}  // namespace delmesher::io

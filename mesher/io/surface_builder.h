@@ -1,0 +1,96 @@
+// Collects what a reader finds and makes a Surface of it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher.h"
+
+namespace delmesher::io {
+
+// A place in a file.
+struct Position {
+  enum class Unit : std::uint8_t { line, byte, none };
+  Unit unit = Unit::none;
+  std::uint64_t number = 0;
+};
+
+inline Position at_line(std::uint64_t line) {
+  return {Position::Unit::line, line};
+}
+inline Position at_byte(std::uint64_t byte) {
+  return {Position::Unit::byte, byte};
+}
+
+// Thrown by the readers, caught by parse_surface.
+struct ParseError {
+  Position position;
+  std::string reason;
+};
+
+[[noreturn]] void fail(Position position, std::string reason);
+
+// Counts beyond these are refused: indices are 32 bits and so are half-edges.
+inline constexpr std::uint64_t kMaxVertices = 0xfffffff0ULL;
+inline constexpr std::uint64_t kMaxTriangles = 0xffffffffULL / 3;
+
+class SurfaceBuilder {
+ public:
+  // Room for so many elements as a file of `bytes` more bytes can hold at most.
+  void expect(std::uint64_t vertices, std::uint64_t polygons, std::uint64_t bytes);
+
+  // Coordinates have to be finite.
+  void add_vertex(double x, double y, double z, Position position);
+  std::uint64_t vertex_count() const { return surface_.vertices.size(); }
+  const std::vector<std::array<double, 3>>& vertices() const { return surface_.vertices; }
+
+  // At least three corners; they may refer to vertices that are added later.
+  void add_polygon(std::span<const std::uint32_t> corners, std::int32_t label, Position position);
+  // loops[0] with the other loops as holes; all vertices must have been added.
+  void add_polygon_with_holes(std::span<const std::vector<std::uint32_t>> loops, std::int32_t label,
+                              Position position);
+
+  // Something the user should know; each text once.
+  void warn(const std::string& text);
+  // Something worth telling in a log.
+  void note(const std::string& text) { notes_.push_back(text); }
+
+  // Replaces vertices of equal coordinates by the first of them (-0 = +0, written as +0).
+  void weld();
+
+  // Triangulates and checks; throws ParseError.
+  Surface finish();
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  struct Polygon {
+    std::uint64_t end;  // in corners_
+    std::int32_t label;
+    Position position;
+  };
+
+  void check_corners(std::span<const std::uint32_t> corners, Position position) const;
+  void triangulate(std::span<const std::vector<std::uint32_t>> loops, std::int32_t label,
+                   Position position);
+  void add_triangle(const std::array<std::uint32_t, 3>& triangle, std::int32_t label);
+  void report_polygons();
+  void report_unused_vertices();
+
+  Surface surface_;
+  bool labelled_ = false;
+  std::vector<std::uint32_t> corners_;
+  std::vector<Polygon> polygons_;
+  std::vector<std::string> warnings_, notes_;
+
+  std::uint64_t triangulated_ = 0, non_planar_ = 0, non_simple_ = 0;
+  double deviation_ = 0;
+  Position first_non_planar_, first_non_simple_;
+};
+
+// "line 12", "byte 84".
+std::string describe(Position position);
+
+}  // namespace delmesher::io

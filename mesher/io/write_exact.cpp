@@ -1,0 +1,109 @@
+#include "mesher/io/exact_record.h"
+
+namespace delmesher::io {
+namespace {
+
+void section(TextSink& out, const char* name, std::size_t count) {
+  out.text(name);
+  out.text(" ");
+  out.integer(count);
+  out.text("\n");
+}
+
+void write_point(TextSink& out, const ExactPoint& p) {
+  switch (p.kind) {
+    case ExactPoint::Kind::explicit_point:
+      out.text("E ");
+      out.hex(p.x);
+      out.text(" ");
+      out.hex(p.y);
+      out.text(" ");
+      out.hex(p.z);
+      break;
+    case ExactPoint::Kind::on_segment:
+      out.text("S ");
+      out.integers(p.i, p.j);
+      out.hex(p.x);
+      break;
+    case ExactPoint::Kind::on_triangle:
+      out.text("T ");
+      out.integers(p.i, p.j, p.k);
+      out.hex(p.x);
+      out.text(" ");
+      out.hex(p.y);
+      break;
+  }
+  out.text("\n");
+}
+
+void write_list(TextSink& out, const std::vector<std::uint32_t>& list) {
+  out.integer(list.size());
+  for (std::uint32_t value : list) {
+    out.text(" ");
+    out.integer(value);
+  }
+  out.text("\n");
+}
+
+void write_tets(TextSink& out, const char* name, const std::vector<ExactRecord::Tet>& tets) {
+  section(out, name, tets.size());
+  for (const auto& tet : tets) {
+    for (std::uint32_t v : tet.vertices) out.integers(v);
+    out.text(tet.inside ? "1\n" : "0\n");
+  }
+}
+
+void write_triangles(TextSink& out, const char* name,
+                     const std::vector<std::array<std::uint32_t, 4>>& triangles) {
+  section(out, name, triangles.size());
+  for (const auto& [a, b, c, facet] : triangles) {
+    out.integers(a, b, c);
+    out.integer(facet);
+    out.text("\n");
+  }
+}
+
+}  // namespace
+
+WriteStatus write_exact(OutputSet& outputs, const std::string& path, const ExactRecord& record) {
+  WriteStatus status;
+  TextSink* opened = outputs.open(path, status);
+  if (opened == nullptr) return status;
+  TextSink& out = *opened;
+  section(out, "delmesher-exact", kExactVersion);
+  section(out, "points", record.points.size());
+  for (const ExactPoint& p : record.points) write_point(out, p);
+  section(out, "facets", record.facets.size());
+  for (const auto& facet : record.facets) {
+    out.integers(facet.id, facet.label, facet.filtered ? 1 : 0);
+    write_list(out, facet.triangles);
+  }
+  section(out, "segments", record.segments.size());
+  for (const auto& chain : record.segments) {
+    // The facet of an input edge means nothing: "-".
+    out.text(chain.artificial ? "A " : "I - ");
+    if (chain.artificial) out.integers(chain.facet);
+    write_list(out, chain.vertices);
+  }
+  section(out, "corners", record.corners.size());
+  for (const auto& corner : record.corners) {
+    out.integers(corner.vertex);
+    out.hex(corner.threshold);
+    out.text(" ");
+    out.hex(corner.radius);
+    out.text("\n");
+  }
+  write_tets(out, "refined", record.refined);
+  write_triangles(out, "refined_facets", record.refined_facets);
+  write_tets(out, "final", record.final);
+  write_triangles(out, "final_facets", record.final_facets);
+  section(out, "mesh_vertices", record.mesh_vertices.size());
+  for (std::uint32_t v : record.mesh_vertices) {
+    out.integer(v);
+    out.text("\n");
+  }
+  out.text("end\n");
+  return status;
+}
+
+}  // namespace delmesher::io

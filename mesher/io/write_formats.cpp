@@ -1,0 +1,173 @@
+// MEDIT, VTU, TetGen and .tet; Gmsh's format has a file of its own.
+#include "mesher/io/write_formats.h"
+
+#include <algorithm>
+
+namespace delmesher::io {
+namespace {
+
+int region(const TetMesh& mesh, std::size_t tet) {
+  return mesh.inside[tet] != 0 ? kRegionInside : kRegionOutside;
+}
+
+void begin_array(TextSink& out, const char* type, const char* name) {
+  out.text("<DataArray type=\"");
+  out.text(type);
+  out.text("\" Name=\"");
+  out.text(name);
+  out.text("\" format=\"ascii\">\n");
+}
+
+// An array with one value for every tetrahedron, then one for every boundary triangle.
+template <typename TetValue, typename TriangleValue>
+void cell_array(TextSink& out, const TetMesh& mesh, const char* type, const char* name,
+                TetValue tet_value, TriangleValue triangle_value) {
+  begin_array(out, type, name);
+  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
+    out.integer(tet_value(i));
+    out.text("\n");
+  }
+  for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
+    out.integer(triangle_value(i));
+    out.text("\n");
+  }
+  out.text("</DataArray>\n");
+}
+
+}  // namespace
+
+void write_medit(TextSink& out, const TetMesh& mesh) {
+  out.text("MeshVersionFormatted 2\nDimension 3\nVertices\n");
+  out.integer(mesh.vertices.size());
+  out.text("\n");
+  for (const auto& v : mesh.vertices) {
+    out.point(v);
+    out.text(" 0\n");
+  }
+  out.text("Triangles\n");
+  out.integer(mesh.boundary.size());
+  out.text("\n");
+  for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
+    for (std::uint32_t v : mesh.boundary[i]) out.integers(v + 1);
+    out.integer(mesh.boundary_labels[i]);
+    out.text("\n");
+  }
+  out.text("Tetrahedra\n");
+  out.integer(mesh.tetrahedra.size());
+  out.text("\n");
+  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
+    for (std::uint32_t v : mesh.tetrahedra[i]) out.integers(v + 1);
+    out.integer(region(mesh, i));
+    out.text("\n");
+  }
+  // Readers stop at End, so what follows disturbs none of them.
+  out.text("End\nTriangleFacets\n");
+  out.integer(mesh.boundary.size());
+  out.text("\n");
+  for (std::uint32_t facet : mesh.boundary_facets) {
+    out.integer(facet);
+    out.text("\n");
+  }
+}
+
+void write_vtu(TextSink& out, const TetMesh& mesh) {
+  const std::size_t tets = mesh.tetrahedra.size(), triangles = mesh.boundary.size();
+  out.text(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
+  out.integer(mesh.vertices.size());
+  out.text("\" NumberOfCells=\"");
+  out.integer(tets + triangles);
+  out.text("\">\n<Points>\n");
+  out.text(
+      "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n");
+  for (const auto& v : mesh.vertices) {
+    out.point(v);
+    out.text("\n");
+  }
+  out.text("</DataArray>\n</Points>\n<Cells>\n");
+  begin_array(out, "Int64", "connectivity");
+  for (const auto& tet : mesh.tetrahedra) {
+    for (std::uint32_t v : tet) out.integers(v);
+    out.text("\n");
+  }
+  for (const auto& triangle : mesh.boundary) {
+    for (std::uint32_t v : triangle) out.integers(v);
+    out.text("\n");
+  }
+  out.text("</DataArray>\n");
+  cell_array(
+      out, mesh, "Int64", "offsets", [](std::size_t i) { return 4 * (i + 1); },
+      [&](std::size_t i) { return 4 * tets + 3 * (i + 1); });
+  cell_array(
+      out, mesh, "UInt8", "types", [](std::size_t) { return 10; }, [](std::size_t) { return 5; });
+  out.text("</Cells>\n<CellData>\n");
+  cell_array(
+      out, mesh, "Int8", "inside", [&](std::size_t i) { return mesh.inside[i] != 0 ? 1 : 0; },
+      [](std::size_t) { return -1; });
+  cell_array(
+      out, mesh, "Int32", "label", [](std::size_t) { return 0; },
+      [&](std::size_t i) { return mesh.boundary_labels[i]; });
+  cell_array(
+      out, mesh, "Int64", "facet", [](std::size_t) { return std::int64_t{-1}; },
+      [&](std::size_t i) { return std::int64_t{mesh.boundary_facets[i]}; });
+  out.text("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+}
+
+void write_tetgen(TextSink& node, TextSink& ele, TextSink& face, const TetMesh& mesh) {
+  node.integer(mesh.vertices.size());
+  node.text(" 3 0 0\n");
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    node.integers(i);
+    node.point(mesh.vertices[i]);
+    node.text("\n");
+  }
+  ele.integer(mesh.tetrahedra.size());
+  ele.text(" 4 1\n");
+  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
+    ele.integers(i);
+    for (std::uint32_t v : mesh.tetrahedra[i]) ele.integers(v);
+    ele.integer(region(mesh, i));
+    ele.text("\n");
+  }
+  face.integer(mesh.boundary.size());
+  face.text(" 1\n");
+  for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
+    face.integers(i);
+    for (std::uint32_t v : mesh.boundary[i]) face.integers(v);
+    face.integers(mesh.boundary_labels[i]);
+    face.integer(mesh.boundary_facets[i]);
+    face.text("\n");
+  }
+}
+
+void write_tet(TextSink& out, const TetMesh& mesh) {
+  const auto inner = static_cast<std::size_t>(
+      std::count_if(mesh.inside.begin(), mesh.inside.end(), [](auto flag) { return flag != 0; }));
+  const std::size_t outer = mesh.tetrahedra.size() - inner;
+  out.integer(mesh.vertices.size());
+  out.text(" vertices\n");
+  out.integer(inner);
+  out.text(outer == 0 ? " tets\n" : " inner tets\n");
+  if (outer != 0) {
+    out.integer(outer);
+    out.text(" outer tets\n");
+  }
+  for (const auto& v : mesh.vertices) {
+    out.point(v);
+    out.text("\n");
+  }
+  for (const bool wanted : {true, false}) {
+    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
+      if ((mesh.inside[i] != 0) != wanted) continue;
+      const auto& [a, b, c, d] = mesh.tetrahedra[i];
+      out.text("4 ");
+      out.integers(a, b, c);
+      out.integer(d);
+      out.text("\n");
+    }
+  }
+}
+
+}  // namespace delmesher::io
