@@ -181,8 +181,9 @@ Scene make_grazing(std::uint64_t seed, double scale, bool tiny_tips_on_surface) 
   Scene s;
   std::uniform_real_distribution<double> noise(-0.3, 0.3);
   const auto corner = [&](double x, double y, double z) {
-    const VertexId v = s.points.add_explicit(
-        scale * (x + noise(random)), scale * (y + noise(random)), scale * (z + noise(random)));
+    // In braces: arguments of a call are evaluated in any order.
+    const Vec3 at{x + noise(random), y + noise(random), z + noise(random)};
+    const VertexId v = s.points.add_explicit(scale * at[0], scale * at[1], scale * at[2]);
     s.input.fixed.resize(v + 1, 1);
     s.input.on_surface.resize(v + 1, 1);
     return v;
@@ -194,8 +195,8 @@ Scene make_grazing(std::uint64_t seed, double scale, bool tiny_tips_on_surface) 
     for (int j = 0; i + j <= n; ++j) {
       // Jittered, so that the sums do not happen to be exact.
       const auto jitter = [&] { return std::ldexp(std::round(noise(random) * 0x1p20), -25); };
-      const VertexId v =
-          s.points.add_on_triangle(p, q, r, double(i) / n + jitter(), double(j) / n + jitter());
+      const std::array<double, 2> u{double(i) / n + jitter(), double(j) / n + jitter()};
+      const VertexId v = s.points.add_on_triangle(p, q, r, u[0], u[1]);
       grid[{i, j}] = v;
       s.input.on_surface.resize(v + 1, 1);
       s.input.fixed.resize(v + 1, 0);
