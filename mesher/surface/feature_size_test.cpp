@@ -82,6 +82,27 @@ TEST(Distance, NeedlesAndExtremeScales) {
   const std::array<Vec3, 3> needle{Vec3{0.1, 0.7, 0.3}, Vec3{1000.3, 0.7 + 1e-9, 0.3},
                                    Vec3{500.7, 0.7 + 3e-9, 0.3}};
   EXPECT_NEAR(point_triangle_distance({600, 0.7 + 1.2e-9, 0.8}, needle), 0.5, 1e-11);
+  // The same in general position: along (2, 3, 6), width along (3, -6, 2).
+  const auto at = [](double along, double across) {
+    return Vec3{(2 * along + 3 * across) / 7, (3 * along - 6 * across) / 7,
+                (6 * along + 2 * across) / 7};
+  };
+  const std::array<Vec3, 3> oblique{at(0.1, 0), at(1000.3, 0), at(500.7, 1e-6)};
+  using Long = std::array<long double, 3>;
+  Long u, v, n;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = static_cast<long double>(oblique[1][i]) - oblique[0][i];
+    v[i] = static_cast<long double>(oblique[2][i]) - oblique[0][i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  }
+  const long double norm = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (const double x : {0.2, 0.4, 0.7, 0.9}) {
+    Vec3 p = mix(mix(oblique[0], oblique[1], x), oblique[2], 0.25);
+    for (std::size_t i = 0; i < 3; ++i) p[i] += static_cast<double>(n[i] / norm / 2);
+    EXPECT_NEAR(point_triangle_distance(p, oblique), 0.5, 1e-11);
+  }
   const Vec3 a{1, 2, 3}, b{4, 6, 9}, c{3, 1, 2}, d{-2, 0.5, 7};
   const double expected = segment_segment_distance(a, b, c, d);
   const auto times = [](const Vec3& p, double f) { return Vec3{p[0] * f, p[1] * f, p[2] * f}; };

@@ -106,6 +106,23 @@ TEST_P(Contact, AgreesWithRationalClipping) {
   for (const int n : {seen[0], seen[1], coplanar[0], coplanar[1]}) EXPECT_GT(n, 30);
 }
 
+// A triangle within another one, with no edges touching: random grids hardly ever make one.
+TEST(ContactInPlane, NestedTriangles) {
+  PointStore points;
+  Predicates predicates(points);
+  const auto at = [&](double x, double y) { return points.add_explicit(x, y, x + 2 * y); };
+  const Corners outer{at(0, 0), at(8, 0), at(0, 8)}, inner{at(1, 1), at(1, 2), at(2, 1)},
+      beside{at(5, 5), at(5, 6), at(6, 5)};
+  const auto meet = [&](const Corners& s, const Corners& t) {
+    return meet_outside_shared(predicates, s, t, find_projection(predicates, s),
+                               find_projection(predicates, t));
+  };
+  EXPECT_TRUE(meet(outer, inner));
+  EXPECT_TRUE(meet(inner, outer));
+  EXPECT_FALSE(meet(outer, beside));
+  EXPECT_FALSE(meet(beside, outer));
+}
+
 INSTANTIATE_TEST_SUITE_P(Shared, Contact, testing::Values(0, 1, 2));
 
 }  // namespace

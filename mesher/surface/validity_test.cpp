@@ -103,6 +103,31 @@ TEST(Validity, VolumeFarBelowRounding) {
   }
 }
 
+// Corners in a plane up to rounding: the volume of doubles is noise, the sign must still be right.
+TEST(Validity, VolumeSignIsExact) {
+  std::mt19937_64 random(17);
+  const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::array<int, 2> seen{};
+  for (int round = 0; round < 200; ++round) {
+    Surface s = tetrahedron({unit(), unit(), unit()}, {unit(), unit(), unit()},
+                            {unit(), unit(), unit()}, kOrigin);
+    const double u = unit() / 2, v = unit() / 2;
+    for (std::size_t i = 0; i < 3; ++i) {
+      s.vertices[3][i] =
+          u * s.vertices[0][i] + v * s.vertices[1][i] + (1 - u - v) * s.vertices[2][i];
+    }
+    PointStore points;
+    Predicates predicates(points);
+    for (const Point& p : s.vertices) points.add_explicit(p[0], p[1], p[2]);
+    const int o = predicates.orient3d(0, 1, 2, 3);
+    if (o == 0) continue;
+    ++seen[o > 0];
+    EXPECT_EQ(check(s).report.flipped, o < 0) << round;
+  }
+  EXPECT_GT(seen[0], 50);
+  EXPECT_GT(seen[1], 50);
+}
+
 TEST(Validity, UnreadableNumbersAndIndices) {
   Surface s = box(kOrigin, {1, 1, 1});
   s.vertices[3][1] = std::numeric_limits<double>::quiet_NaN();
