@@ -189,7 +189,12 @@ void Refiner::after_insertion() {
   }
   requeue_lost();
   if (!refining_) return;
-  for (const TetId t : dt_.created()) queue_if_bad(t);
+  is_fresh_.resize(dt_.capacity(), 0);
+  for (const TetId t : dt_.created()) {
+    if (is_fresh_[t] != 0) continue;
+    is_fresh_[t] = 1;
+    fresh_.push_back(t);
+  }
 }
 
 }  // namespace delmesher

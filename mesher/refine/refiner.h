@@ -92,6 +92,7 @@ class Refiner {
 
   // volume.cpp
   void refine_tetrahedra();
+  void judge_fresh();
   void queue_if_bad(TetId t);
   void split_tetrahedron(const BadTet& bad);
   bool try_volume_point(const BadTet& bad, const Vec3& center, double grid);
@@ -144,6 +145,10 @@ class Refiner {
 
   std::deque<std::uint32_t> subsegment_queue_, subfacet_queue_;
   std::priority_queue<BadTet> bad_;
+  // Tetrahedra created since the last judge_fresh(), some dead again: most of those that appear
+  // while subsegments and subfacets are split do not live to be judged.
+  std::vector<TetId> fresh_;
+  std::vector<std::uint8_t> is_fresh_;  // per tetrahedron
   bool facets_built_ = false;
   bool refining_ = false;
   double max_cosine_squared_ = 0;  // a face angle is too small if its squared cosine exceeds this

@@ -121,6 +121,14 @@ void Refiner::queue_if_bad(TetId t) {
   bad_.push({key, t, v});
 }
 
+void Refiner::judge_fresh() {
+  for (const TetId t : fresh_) {
+    is_fresh_[t] = 0;
+    if (dt_.alive(t)) queue_if_bad(t);
+  }
+  fresh_.clear();
+}
+
 bool Refiner::left_alone(TetId t) {
   if (options_.region == Region::hull) return false;
   if (side_[t] == kUnknown) {
@@ -146,15 +154,16 @@ void Refiner::refine_tetrahedra() {
     control_.poll(points_.size());
     if (dt_.alive(t)) queue_if_bad(t);
   }
-  while (!bad_.empty()) {
+  for (;;) {
     control_.poll(points_.size());
     drain();
+    judge_fresh();
+    if (bad_.empty()) break;
     const BadTet bad = bad_.top();
     bad_.pop();
     if (!dt_.alive(bad.t) || !std::equal(bad.v.begin(), bad.v.end(), dt_.vertices(bad.t))) continue;
     if (!left_alone(bad.t)) split_tetrahedron(bad);
   }
-  drain();
 }
 
 void Refiner::split_tetrahedron(const BadTet& bad) {
