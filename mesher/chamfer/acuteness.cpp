@@ -98,16 +98,21 @@ bool projects_into_wedge(Predicates& predicates, VertexId q, VertexId a, VertexI
 }
 
 Acuteness find_acute(const KeptSurface& surface, Predicates& predicates,
-                     const Thresholds& thresholds, Control& control) {
+                     const Thresholds& thresholds, const std::vector<std::uint8_t>& active,
+                     Control& control) {
   AcuteFinder finder(surface, predicates, thresholds);
+  const auto is_active = [&active](VertexId v) { return active.empty() || active[v] != 0; };
   Acuteness result;
   result.edge.resize(surface.topology().edge_count());
   for (std::uint32_t e = 0; e < result.edge.size(); ++e) {
+    const auto [v, w] = surface.topology().edge_vertices(e);
+    if (!is_active(v) || !is_active(w)) continue;
     control.poll();
     result.edge[e] = finder.edge_is_acute(e);
   }
   result.vertex.resize(surface.vertex_count());
   for (VertexId v = 0; v < result.vertex.size(); ++v) {
+    if (!is_active(v)) continue;
     control.poll();
     result.vertex[v] = finder.vertex_is_acute(v, result.edge);
   }

@@ -30,8 +30,10 @@ struct Acuteness {
   std::vector<std::uint8_t> vertex, edge;  // per input vertex, per undirected input edge
 };
 
+// If `active` is not empty, only vertices v with active[v] != 0, and edges between such.
 Acuteness find_acute(const KeptSurface& surface, Predicates& predicates,
-                     const Thresholds& thresholds, Control& control);
+                     const Thresholds& thresholds, const std::vector<std::uint8_t>& active,
+                     Control& control);
 
 // Does the ray from a towards q project into the wedge of triangle abc at a? The sides ab and ac
 // belong to the wedge if so asked.

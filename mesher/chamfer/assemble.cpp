@@ -188,17 +188,24 @@ class IsolatedVertices {
 }  // namespace
 
 void assemble_plc(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
-                  const Bridges& bridges, double isolated_clearance, ChamferResult& result) {
+                  const Bridges& bridges, const std::vector<std::uint8_t>& active,
+                  double isolated_clearance, ChamferResult& result) {
   Assembler assembler(surface, acute, bridges, result.plc);
-  IsolatedVertices isolated(surface, cuts, result, isolated_clearance * surface.scale());
   const auto facet_count = static_cast<FacetId>(surface.topology().facet_triangles.size());
   result.plc_facet.assign(facet_count, kNone);
   for (FacetId f = 0; f < facet_count; ++f) {
     if (!surface.facet_is_kept(f)) continue;
+    bool wanted = active.empty();
+    for (std::uint32_t c = surface.first_corner(f); c < surface.first_corner(f + 1); ++c) {
+      wanted = wanted || active[surface.corners()[c].vertex] != 0;
+    }
+    if (!wanted) continue;
     result.plc_facet[f] = static_cast<std::uint32_t>(result.plc.facets.size());
     result.plc.facets.push_back(assembler.facet(f));
-    result.plc.facets.back().isolated = isolated.of_facet(f);
   }
+  if (!active.empty()) return;
+  IsolatedVertices isolated(surface, cuts, result, isolated_clearance * surface.scale());
+  for (PlcFacet& facet : result.plc.facets) facet.isolated = isolated.of_facet(facet.input_facet);
 }
 
 }  // namespace delmesher

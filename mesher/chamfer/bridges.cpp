@@ -46,6 +46,13 @@ std::vector<VertexId> NewPoints::keep(const std::vector<std::uint8_t>& used) {
   return id;
 }
 
+std::vector<VertexId> NewPoints::vertices() const {
+  std::vector<VertexId> result;
+  result.reserve(list_.size());
+  for (const NewPoint& point : list_) result.push_back(point.vertex);
+  return result;
+}
+
 namespace {
 
 class BridgeBuilder {
@@ -88,7 +95,7 @@ class BridgeBuilder {
     }
     const double t = cuts_.fraction_at_tail(topology_, h);
     DELMESHER_CHECK(t > 0 && t < 0.5, "an edge is cut near its end");
-    end = new_points_.add({{PointKind::on_segment, {w, v, kNone}, t, 0}, kNone, e});
+    end = new_points_.add({{PointKind::on_segment, {w, v, kNone}, t, 0}, v, kNone, e});
   }
 
   void build_chain(std::uint32_t index) {
@@ -135,7 +142,7 @@ class BridgeBuilder {
   }
 
   VertexId place(const Corner& corner, Vec2 target, double accuracy) {
-    return new_points_.add({anchor(corner, target, accuracy), corner.facet, kNone});
+    return new_points_.add({anchor(corner, target, accuracy), corner.vertex, corner.facet, kNone});
   }
 
   // Gives the point (relative to the corner's vertex) by coordinates in a triangle of the fan that

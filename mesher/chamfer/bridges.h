@@ -11,6 +11,7 @@ namespace delmesher {
 // A point to be appended to the store, with its supports.
 struct NewPoint {
   PointDefinition definition;
+  VertexId vertex = kNone;     // the acute vertex it belongs to
   FacetId facet = kNone;       // for a point in a facet
   std::uint32_t edge = kNone;  // for a point on an edge
 };
@@ -25,6 +26,10 @@ class NewPoints {
   VertexId add(const NewPoint& point);
   // Removes the points with used[id] == 0 and renumbers the others; gives the new ids.
   std::vector<VertexId> keep(const std::vector<std::uint8_t>& used);
+
+  VertexId first() const { return first_; }
+  // The acute vertex of every point.
+  std::vector<VertexId> vertices() const;
 
  private:
   void append(const NewPoint& point);

@@ -5,6 +5,7 @@
 #include "mesher/base/check.h"
 #include "mesher/chamfer/assemble.h"
 #include "mesher/chamfer/bridges.h"
+#include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/simplify.h"
 
 namespace delmesher {
@@ -59,31 +60,39 @@ void measure_radii(const KeptSurface& surface, const Cuts& cuts, const Bridges& 
 
 }  // namespace
 
+ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
+                              Predicates& predicates, const ChamferOptions& options,
+                              const std::vector<std::uint8_t>& active, Control& control) {
+  const Thresholds thresholds(options);
+  const Acuteness acute = find_acute(surface, predicates, thresholds, active, control);
+  const Cuts cuts =
+      find_cuts(surface, acute, predicates, options.max_radius * surface.scale(), control);
+  NewPoints new_points(surface.topology(), points);
+  Bridges bridges = build_bridges(surface, acute, cuts, thresholds, new_points, control);
+  if (options.simplify_bridges) {
+    simplify_bridges(surface, acute, cuts, thresholds, predicates, bridges, control);
+  }
+  drop_unused_points(bridges, points, new_points, surface.vertex_count());
+
+  ChamferResult result;
+  result.first_new_point = new_points.first();
+  result.new_point_vertex = new_points.vertices();
+  measure_radii(surface, cuts, bridges, points, result);
+  assemble_plc(surface, acute, cuts, bridges, active, options.isolated_clearance, result);
+  result.vertex_is_acute = acute.vertex;
+  result.edge_is_acute = acute.edge;
+  for (std::uint8_t flag : acute.vertex) result.acute_vertices += flag;
+  for (std::uint8_t flag : acute.edge) result.acute_edges += flag;
+  return result;
+}
+
 ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
                       const ChamferOptions& options, Control& control) {
   DELMESHER_CHECK(options.vertex_cosine_squared.empty() ||
                       options.vertex_cosine_squared.size() == topology.vertex_half_edge.size(),
                   "one threshold per vertex");
   const KeptSurface surface(topology, points, options.facet_kept);
-  const Thresholds thresholds(options);
-  const Acuteness acute = find_acute(surface, predicates, thresholds, control);
-  const Cuts cuts =
-      find_cuts(surface, acute, predicates, options.max_radius * surface.scale(), control);
-  NewPoints new_points(topology, points);
-  Bridges bridges = build_bridges(surface, acute, cuts, thresholds, new_points, control);
-  if (options.simplify_bridges) {
-    simplify_bridges(surface, acute, cuts, thresholds, predicates, bridges, control);
-  }
-  drop_unused_points(bridges, points, new_points, topology.vertex_half_edge.size());
-
-  ChamferResult result;
-  measure_radii(surface, cuts, bridges, points, result);
-  assemble_plc(surface, acute, cuts, bridges, options.isolated_clearance, result);
-  result.vertex_is_acute = acute.vertex;
-  result.edge_is_acute = acute.edge;
-  for (std::uint8_t flag : acute.vertex) result.acute_vertices += flag;
-  for (std::uint8_t flag : acute.edge) result.acute_edges += flag;
-  return result;
+  return chamfer_surface(surface, points, predicates, options, {}, control);
 }
 
 }  // namespace delmesher

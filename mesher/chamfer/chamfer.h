@@ -36,6 +36,10 @@ struct ChamferResult {
   // Balls around vertices and cylinders around edges that together contain everything cut off.
   std::vector<double> vertex_radius;  // somewhat above vertex_distance; 0: not chamfered
   std::vector<double> edge_radius;    // largest strip width beside the edge; 0: none
+  // The new points are first_new_point ... in the store; for each, the input vertex it was made
+  // for.
+  VertexId first_new_point = 0;
+  std::vector<VertexId> new_point_vertex;
   std::uint64_t acute_vertices = 0, acute_edges = 0;
 };
 

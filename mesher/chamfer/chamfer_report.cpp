@@ -1,8 +1,10 @@
 // Development tool, not installed: chamfers OFF files and prints one line of figures for each.
-//   chamfer_report [--acute DEG] [--tau X] [--no-simplify] [--segments OUT.obj] FILE...
-#include <chrono>
+//   chamfer_report [--acute DEG] [--tau X] [--fraction X] [--no-simplify] [--segments OUT.obj]
+//   FILE...
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <sstream>
@@ -47,8 +49,8 @@ double diagonal(const Surface& surface) {
   return std::sqrt(sum);
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+double seconds_since(std::clock_t start) {
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 void write_segments(const char* path, const Plc& plc, const PointStore& points) {
@@ -68,7 +70,7 @@ void write_segments(const char* path, const Plc& plc, const PointStore& points) 
 int main(int argc, char** argv) {
   ChamferOptions options;
   const char* segments = nullptr;
-  double tau = 0;
+  double tau = 0, fraction = kChamferedFraction;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--acute") == 0) {
       options.cosine_squared = cosine_squared(std::atof(argv[++i]));
@@ -76,6 +78,10 @@ int main(int argc, char** argv) {
     }
     if (std::strcmp(argv[i], "--tau") == 0) {
       tau = std::atof(argv[++i]);
+      continue;
+    }
+    if (std::strcmp(argv[i], "--fraction") == 0) {
+      fraction = std::atof(argv[++i]);
       continue;
     }
     if (std::strcmp(argv[i], "--no-simplify") == 0) {
@@ -96,24 +102,23 @@ int main(int argc, char** argv) {
       Predicates predicates(points);
       Options control_options;
       Control control(control_options);
-      const auto start = std::chrono::steady_clock::now();
+      const auto start = std::clock();
       const SurfaceTopology topology = build_topology(surface, points, predicates);
       const double topology_seconds = seconds_since(start);
-      const auto filter_start = std::chrono::steady_clock::now();
-      const FilterResult filter = filter_input(topology, points, tau * diagonal(surface), control);
-      options.facet_kept = filter.facet_kept;
-      const double filter_seconds = seconds_since(filter_start);
-      const auto chamfer_start = std::chrono::steady_clock::now();
-      const ChamferResult result = chamfer(topology, points, predicates, options, control);
+      const auto chamfer_start = std::clock();
+      FilterResult filter;
+      const ChamferResult result =
+          filter_and_chamfer(topology, points, predicates, options, tau * diagonal(surface),
+                             control, filter, fraction);
       const double seconds = seconds_since(chamfer_start);
       plc_angles::Report angles;
       if (!getenv("FAST")) angles = plc_angles::measure(result.plc, points);
       std::printf(
-          "%s dropped %llu rounds %llu filter %.3fs triangles %zu facets %zu acute %llu+%llu "
+          "%s dropped %llu rounds %llu  triangles %zu facets %zu acute %llu+%llu "
           "points %zu segments %zu topology %.3fs "
           "chamfer %.3fs ee %.6f ef %.6f dihedral %.6f shortest %.2e %s\n",
           argv[i], static_cast<unsigned long long>(filter.dropped_triangles),
-          static_cast<unsigned long long>(filter.rounds), filter_seconds, topology.triangles.size(),
+          static_cast<unsigned long long>(filter.rounds), topology.triangles.size(),
           topology.facet_triangles.size(), static_cast<unsigned long long>(result.acute_vertices),
           static_cast<unsigned long long>(result.acute_edges),
           points.size() - surface.vertices.size(), result.plc.segments.size(), topology_seconds,

@@ -5,8 +5,10 @@
 #include <tuple>
 
 #include "mesher/chamfer/box_tree.h"
+#include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/closest.h"
 #include "mesher/chamfer/facet_set.h"
+#include "mesher/chamfer/filter_chamfered.h"
 
 namespace delmesher {
 
@@ -197,6 +199,60 @@ FilterResult filter_input(const SurfaceTopology& topology, const PointStore& poi
     return {std::vector<std::uint8_t>(topology.facet_triangles.size(), 1), 0, 0};
   }
   return InputFilter(surface, tolerance * surface.scale()).run(control);
+}
+
+namespace {
+
+// Adds the neighbours of all marked vertices.
+void mark_neighbours(const SurfaceTopology& topology, std::vector<std::uint8_t>& marked) {
+  const std::vector<std::uint8_t> before = marked;
+  for (std::uint32_t e = 0; e < topology.edge_count(); ++e) {
+    const auto [v, w] = topology.edge_vertices(e);
+    if (before[v] || before[w]) marked[v] = marked[w] = 1;
+  }
+}
+
+}  // namespace
+
+ChamferResult filter_and_chamfer(const SurfaceTopology& topology, PointStore& points,
+                                 Predicates& predicates, ChamferOptions options, double tolerance,
+                                 Control& control, FilterResult& filter,
+                                 double chamfered_fraction) {
+  filter = filter_input(topology, points, tolerance, control);
+  options.facet_kept = filter.facet_kept;
+  options.isolated_clearance = std::max(options.isolated_clearance, tolerance);
+  const std::size_t first_point = points.size();
+  std::vector<std::uint8_t> changed(topology.vertex_half_edge.size(), 1), active;
+  ChamferResult result = chamfer(topology, points, predicates, options, control);
+  while (tolerance > 0) {
+    const KeptSurface surface(topology, points, options.facet_kept);
+    // The first round was chamfered above; later ones only where something changed.
+    if (!active.empty()) {
+      result = chamfer_surface(surface, points, predicates, options, active, control);
+    }
+    FacetSet facets(surface);
+    const double smallest = chamfered_fraction * tolerance * surface.scale();
+    const std::vector<FacetId> dropped =
+        drop_for_chamfered_features(surface, points, result, smallest, changed, facets, control);
+    if (dropped.empty()) break;
+    ++filter.rounds;
+    changed.assign(changed.size(), 0);
+    for (FacetId f : dropped) {
+      filter.dropped_triangles += topology.facet_triangles[f].size();
+      for (std::uint32_t t : topology.facet_triangles[f]) {
+        for (VertexId v : topology.triangles[t]) changed[v] = 1;
+      }
+    }
+    // The height of a strip depends on both ends of its edge, a chamfer on its neighbours' strips.
+    mark_neighbours(topology, changed);
+    active = changed;
+    mark_neighbours(topology, active);
+    options.facet_kept = filter.facet_kept = facets.kept();
+    while (points.size() > first_point) points.pop_back();
+  }
+  if (active.empty()) return result;
+  while (points.size() > first_point) points.pop_back();
+  return chamfer(topology, points, predicates, options, control);
 }
 
 }  // namespace delmesher

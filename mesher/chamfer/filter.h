@@ -17,11 +17,16 @@ struct FilterResult {
 FilterResult filter_input(const SurfaceTopology& topology, const PointStore& points,
                           double tolerance, Control& control);
 
+// Features made by chamfering may be smaller than the input's by this factor: a chamfer is a third
+// of the local feature size, and a bridge across a corner of angle a that times 2 sin(a / 2).
+inline constexpr double kChamferedFraction = 1.0 / 16;
+
 // Both steps: filters the input, then alternates chamfering and dropping the facets responsible for
-// chamfered edges shorter than `tolerance` (or chamfered elements closer than it), until none
+// chamfered edges shorter than chamfered_fraction * tolerance (or elements closer), until none
 // remain. Returns the last chamfering; the points of rejected rounds are removed from the store.
 ChamferResult filter_and_chamfer(const SurfaceTopology& topology, PointStore& points,
                                  Predicates& predicates, ChamferOptions options, double tolerance,
-                                 Control& control, FilterResult& filter);
+                                 Control& control, FilterResult& filter,
+                                 double chamfered_fraction = kChamferedFraction);
 
 }  // namespace delmesher
