@@ -25,7 +25,8 @@ using IntervalVector = std::array<Interval, 3>;
 class ExactPoints {
  public:
   // Null on success, else why the points cannot be represented (not finite, a reference that is
-  // out of range or not explicit); the object is then empty.
+  // out of range or not explicit); the object is then empty. A point may lie beyond the ends of its
+  // segment or outside its triangle: where points have to lie is for the oracles to say.
   std::string assign(std::span<const delmesher::ExactPoint> points);
   // Plain doubles.
   std::string assign(std::span<const Position> positions);

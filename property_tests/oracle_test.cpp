@@ -226,6 +226,10 @@ const Damage kDamages[] = {
      }},
 };
 
+void PrintTo(const Damage& damage, std::ostream* stream) {
+  *stream << damage.name;
+}
+
 class DamageTest : public testing::TestWithParam<Damage> {};
 
 TEST_P(DamageTest, IsCaughtByTheOracleMeantForIt) {

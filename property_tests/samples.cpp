@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ostream>
 #include <random>
 
 namespace tetproof::samples {
@@ -232,6 +233,10 @@ ExactSample exact_sample() {
   for (const auto& tet : exact.final) mesh.tetrahedra.push_back(tet.vertices);
   for (const auto& [a, b, c, id] : exact.final_facets) mesh.boundary.push_back({a, b, c});
   return result;
+}
+
+void PrintTo(const NamedSurface& model, std::ostream* stream) {
+  *stream << model.name;
 }
 
 oracles::Polyhedron to_polyhedron(const delmesher::Surface& surface) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <iosfwd>
 #include <string>
 
 #include "mesher/delmesher.h"
@@ -47,6 +48,7 @@ struct NamedSurface {
   std::string name;
   delmesher::Surface surface;
 };
+void PrintTo(const NamedSurface& model, std::ostream* stream);  // for GoogleTest
 std::vector<NamedSurface> surfaces(std::uint64_t seed);
 
 oracles::Polyhedron to_polyhedron(const delmesher::Surface& surface);

@@ -1,0 +1,251 @@
+// Laws of the whole mesher, on its public interface, decided by the oracles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <thread>
+
+#include "mesher/delmesher.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using delmesher::Options;
+using delmesher::Result;
+using delmesher::StatusCode;
+using delmesher::Surface;
+using oracles::VerifyOptions;
+using oracles::VerifyReport;
+using samples::NamedSurface;
+
+constexpr std::uint64_t kSeed = 20261121;
+
+// The paper's settings: `--preset paper`.
+Options paper_options() {
+  Options options;
+  options.acute = 90;
+  options.region = delmesher::Region::hull;
+  options.want_exact = true;
+  return options;
+}
+
+Options default_options() {
+  Options options;
+  options.want_exact = true;
+  return options;
+}
+
+VerifyReport check(const Surface& surface, const Result& result, const VerifyOptions& options) {
+  VerifyReport report;
+  EXPECT_EQ(oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh),
+                            &result.exact, options, report),
+            "");
+  return report;
+}
+
+// Both certificates: the final mesh conforms exactly on exact coordinates and is valid as written;
+// the refined mesh is Delaunay with every angle above the bound.
+void expect_right(const NamedSurface& model, const Options& options) {
+  SCOPED_TRACE(model.name);
+  const Result result = delmesher::tetrahedralize(model.surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  VerifyOptions verify_options;
+  const VerifyReport final_report = check(model.surface, result, verify_options);
+  EXPECT_NE(final_report.verdict, oracles::Verdict::broken) << to_text(final_report);
+  EXPECT_NE(final_report.find("exact-conformity"), nullptr);
+  verify_options.stage = oracles::Stage::refined;
+  verify_options.delta = options.delta;
+  verify_options.scope = options.region == delmesher::Region::hull ? oracles::AngleScope::all
+                                                                   : oracles::AngleScope::solid;
+  const VerifyReport refined_report = check(model.surface, result, verify_options);
+  EXPECT_EQ(refined_report.verdict, oracles::Verdict::exact) << to_text(refined_report);
+  EXPECT_NE(refined_report.find("exact-delaunay"), nullptr);
+}
+
+class Models : public testing::TestWithParam<NamedSurface> {};
+
+std::string model_name(const testing::TestParamInfo<NamedSurface>& info) {
+  return info.param.name;
+}
+
+TEST_P(Models, AreMeshedExactlyWithTheDefaults) {
+  expect_right(GetParam(), default_options());
+}
+
+TEST_P(Models, AreMeshedExactlyWithThePapersSettings) {
+  expect_right(GetParam(), paper_options());
+}
+
+TEST_P(Models, HaveAConstrainedDelaunayTetrahedrization) {
+  Options options = default_options();
+  options.region = delmesher::Region::hull;
+  const Result result = delmesher::constrained_delaunay(GetParam().surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const VerifyReport report = check(GetParam().surface, result, {});
+  EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
+}
+
+TEST_P(Models, GiveTheSameMeshTwice) {
+  const Result first = delmesher::tetrahedralize(GetParam().surface);
+  const Result second = delmesher::tetrahedralize(GetParam().surface);
+  ASSERT_TRUE(first.status.ok()) << first.status.message;
+  EXPECT_GT(first.mesh.tetrahedra.size(), 0U);
+  EXPECT_EQ(first.mesh.vertices, second.mesh.vertices);
+  EXPECT_EQ(first.mesh.tetrahedra, second.mesh.tetrahedra);
+}
+
+TEST_P(Models, ScaledByAPowerOfTwoGiveTheScaledMesh) {
+  const Result plain = delmesher::tetrahedralize(GetParam().surface);
+  ASSERT_TRUE(plain.status.ok()) << plain.status.message;
+  for (const double scale : {0x1p-10, 0x1p20}) {
+    Surface surface = GetParam().surface;
+    for (auto& p : surface.vertices) {
+      for (double& x : p) x *= scale;
+    }
+    Result scaled = delmesher::tetrahedralize(surface);
+    ASSERT_TRUE(scaled.status.ok()) << scaled.status.message;
+    for (auto& p : scaled.mesh.vertices) {
+      for (double& x : p) x /= scale;
+    }
+    EXPECT_EQ(plain.mesh.tetrahedra, scaled.mesh.tetrahedra) << scale;
+    EXPECT_EQ(plain.mesh.vertices, scaled.mesh.vertices) << scale;
+  }
+}
+
+TEST_P(Models, PermutedGiveACorrectMesh) {
+  NamedSurface model = GetParam();
+  std::mt19937_64 random(kSeed);
+  const auto shuffle = [&](auto& list) {  // std::shuffle differs between libraries
+    for (std::size_t i = list.size(); i > 1; --i) std::swap(list[i - 1], list[random() % i]);
+  };
+  std::vector<std::uint32_t> order(model.surface.vertices.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  shuffle(order);
+  Surface permuted;
+  permuted.vertices.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    permuted.vertices[order[i]] = model.surface.vertices[i];
+  }
+  for (auto triangle : model.surface.triangles) {
+    for (auto& v : triangle) v = order[v];
+    std::rotate(triangle.begin(), triangle.begin() + random() % 3, triangle.end());
+    permuted.triangles.push_back(triangle);
+  }
+  shuffle(permuted.triangles);
+  expect_right({model.name, permuted}, default_options());
+}
+
+TEST_P(Models, WithAxesExchangedGiveACorrectMesh) {
+  NamedSurface model = GetParam();
+  for (auto& p : model.surface.vertices) p = {p[1], -p[2], -p[0]};  // a rotation
+  expect_right(model, default_options());
+}
+
+TEST_P(Models, TurnedInsideOutAreFlippedAndReported) {
+  NamedSurface model = GetParam();
+  for (auto& triangle : model.surface.triangles) std::swap(triangle[0], triangle[1]);
+  const Result result = delmesher::tetrahedralize(model.surface, default_options());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_FALSE(result.warnings.empty());
+  EXPECT_NE(check(model.surface, result, {}).verdict, oracles::Verdict::broken);
+}
+
+INSTANTIATE_TEST_SUITE_P(Made, Models, testing::ValuesIn(samples::surfaces(kSeed)), model_name);
+
+TEST(Labels, AreKeptAndMakeConstraints) {
+  Surface surface = samples::to_surface(samples::cube().input);
+  surface.labels.assign(surface.triangles.size(), 1);
+  surface.labels[0] = 2;  // one half of a face
+  const Result result = delmesher::tetrahedralize(surface, default_options());
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const VerifyReport report = check(surface, result, {});
+  EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
+  const auto& labels = result.mesh.boundary_labels;
+  EXPECT_GT(std::count(labels.begin(), labels.end(), 2), 0);
+  EXPECT_GT(std::count(labels.begin(), labels.end(), 1), 0);
+}
+
+// Figure 8: two parallel faces at distance h in a cube: counts grow as 1/h^2 and refinement ends.
+TEST(Refinement, EndsOnThinGapsWithCountsThatGrowAsTheGapShrinks) {
+  std::size_t last = 0;
+  for (const double h : {0.2, 0.1, 0.05}) {
+    Surface surface = samples::to_surface(samples::cube().input);
+    for (auto& p : surface.vertices) p[2] *= h;
+    const Result result = delmesher::tetrahedralize(surface);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_GT(result.mesh.tetrahedra.size(), last) << h;
+    EXPECT_LT(result.mesh.tetrahedra.size(), 400 / (h * h)) << h;
+    last = result.mesh.tetrahedra.size();
+  }
+}
+
+TEST(Threads, TwoMeshesInTwoThreadsAreThoseOfOneThread) {
+  const std::vector<NamedSurface> models = samples::surfaces(kSeed);
+  std::vector<Result> alone, together(models.size());
+  for (const NamedSurface& model : models) {
+    alone.push_back(delmesher::tetrahedralize(model.surface));
+    ASSERT_TRUE(alone.back().status.ok()) << model.name;
+  }
+  std::vector<std::thread> threads;
+  for (std::size_t part = 0; part < 2; ++part) {
+    threads.emplace_back([&, part] {
+      for (std::size_t i = part; i < models.size(); i += 2) {
+        together[i] = delmesher::tetrahedralize(models[i].surface);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    EXPECT_EQ(alone[i].mesh.tetrahedra, together[i].mesh.tetrahedra) << models[i].name;
+    EXPECT_EQ(alone[i].mesh.vertices, together[i].mesh.vertices) << models[i].name;
+  }
+}
+
+TEST(Limits, AreErrorsAsValues) {
+  const Surface surface = samples::to_surface(samples::skewed(samples::l_shape()).input);
+  Options options;
+  options.max_vertices = 20;
+  EXPECT_EQ(delmesher::tetrahedralize(surface, options).status.code, StatusCode::limit_reached);
+  options = {};
+  options.delta = 95;
+  EXPECT_EQ(delmesher::tetrahedralize(surface, options).status.code, StatusCode::invalid_options);
+  options = {};
+  std::uint64_t calls = 0;
+  options.progress = [&](const delmesher::Progress&) { return ++calls < 3; };
+  const Result result = delmesher::tetrahedralize(surface, options);
+  EXPECT_EQ(result.status.code, StatusCode::interrupted);
+  EXPECT_TRUE(result.mesh.tetrahedra.empty());
+  EXPECT_EQ(calls, 3U);
+}
+
+TEST(InvalidSurfaces, AreRefusedWithTheDefectNamed) {
+  const Surface good = samples::to_surface(samples::cube().input);
+  const auto refused = [](const Surface& surface) {
+    const Result result = delmesher::tetrahedralize(surface);
+    EXPECT_EQ(result.status.code, StatusCode::invalid_surface);
+    EXPECT_FALSE(result.status.message.empty());
+    EXPECT_EQ(result.status.message.find('\n'), std::string::npos);
+  };
+  Surface bad = good;
+  bad.triangles.pop_back();
+  refused(bad);
+  bad = good;
+  std::swap(bad.triangles[3][0], bad.triangles[3][1]);
+  refused(bad);
+  bad = good;
+  bad.triangles[2][1] = 77;
+  refused(bad);
+  bad = good;
+  bad.vertices[0][1] = std::nan("");
+  refused(bad);
+  bad = good;
+  bad.vertices[7] = {-3, 0.5, 0.5};  // pulls a corner through the opposite side
+  refused(bad);
+  refused(Surface{});
+}
+
+}  // namespace
+}  // namespace tetproof
