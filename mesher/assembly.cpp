@@ -102,6 +102,37 @@ void add_complex_points(const ChamferResult& chamfered, const RefineResult& refi
   }
 }
 
+// Drops points that coincide with an input vertex which the complex lacks, e.g. the midpoint of a
+// chamfered region that happens to be a flat vertex: one of coincident points stays, the input
+// vertex.
+void drop_coincident(const PointStore& points, Predicates& predicates, CdtInput& input) {
+  std::vector<VertexId>& all = input.vertices;
+  sort_unique(all);
+  std::vector<VertexId> order = all;
+  std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
+    const Vec3 p = points.nearest(a);
+    const Vec3 q = points.nearest(b);
+    return p != q ? p < q : a < b;
+  });
+  std::vector<VertexId> dropped;
+  for (std::size_t n = 0; n + 1 < order.size(); ++n) {
+    // Equal points have equal nearest doubles; a run of those is short.
+    for (std::size_t m = n + 1; m < order.size(); ++m) {
+      if (points.nearest(order[m]) != points.nearest(order[n])) break;
+      if (predicates.compare_xyz(order[n], order[m]) == 0) dropped.push_back(order[m]);
+    }
+  }
+  if (dropped.empty()) return;
+  std::sort(dropped.begin(), dropped.end());
+  const auto prune = [&](std::vector<VertexId>& list) {
+    std::erase_if(
+        list, [&](VertexId v) { return std::binary_search(dropped.begin(), dropped.end(), v); });
+  };
+  prune(all);
+  for (auto& list : input.on_edge) prune(list);
+  for (auto& list : input.on_facet) prune(list);
+}
+
 using FaceKey = std::array<VertexId, 3>;
 
 FaceKey face_key(VertexId a, VertexId b, VertexId c) {
@@ -125,6 +156,36 @@ RoundingInput rounding_input(const PointStore& points, std::size_t input_vertice
 
 }  // namespace
 
+std::vector<Box> removed_boxes(const ChamferResult& chamfered,
+                               const std::vector<std::uint8_t>& facet_kept,
+                               const SurfaceTopology& topology, const PointStore& points) {
+  // The refinement bends artificial edges by a millionth of their length; a hundredth of the radius
+  // is ample.
+  constexpr double kMargin = 1.01;
+  std::vector<Box> boxes;
+  const auto add = [&](std::span<const VertexId> corners, double radius) {
+    Box box = Box::empty();
+    for (const VertexId v : corners) box.extend({points.nearest(v), points.nearest(v)});
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] -= radius;
+      box.hi[k] += radius;
+    }
+    boxes.push_back(box);
+  };
+  for (VertexId v = 0; v < chamfered.vertex_radius.size(); ++v) {
+    const double radius = chamfered.vertex_radius[v];
+    if (radius > 0) add(std::array{v}, radius * kMargin);
+  }
+  for (std::uint32_t e = 0; e < chamfered.edge_radius.size(); ++e) {
+    const double radius = chamfered.edge_radius[e];
+    if (radius > 0) add(topology.edge_vertices(e), radius * kMargin);
+  }
+  for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
+    if (!facet_kept.empty() && facet_kept[topology.facet_of[t]] == 0) add(topology.triangles[t], 0);
+  }
+  return boxes;
+}
+
 CdtInput plain_input(const SurfaceTopology& topology) {
   CdtInput input;
   input.topology = &topology;
@@ -146,7 +207,7 @@ CdtInput enriched_input(const ChamferResult& chamfered, const RefineResult& refi
     control.poll(points.size());
     if (!removed.contains(points.nearest(v))) input.vertices.push_back(v);
   }
-  sort_unique(input.vertices);
+  drop_coincident(points, predicates, input);
   return input;
 }
 

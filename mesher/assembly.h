@@ -12,6 +12,13 @@
 
 namespace delmesher {
 
+// --- towards the refinement
+
+// Boxes covering what chamfering and filtering removed from the surface.
+std::vector<Box> removed_boxes(const ChamferResult& chamfered,
+                               const std::vector<std::uint8_t>& facet_kept,
+                               const SurfaceTopology& topology, const PointStore& points);
+
 // --- towards the enriched CDT (section 6)
 
 // The input surface alone.

@@ -117,18 +117,17 @@ class Run {
     options.cosine_squared = cosine_squared(options_.acute);
     options.max_radius = options_.chamfer_radius;
     options.simplify_bridges = options_.simplify_bridges;
-    FilterResult filter;
     const double tolerance = options_.tau * result_.statistics.bbox_diagonal;
     ChamferResult chamfered =
-        filter_and_chamfer(topology_, points_, predicates_, options, tolerance, control_, filter);
+        filter_and_chamfer(topology_, points_, predicates_, options, tolerance, control_, filter_);
     Statistics& s = result_.statistics;
-    s.dropped_triangles = filter.dropped_triangles;
-    s.filter_rounds = filter.rounds;
+    s.dropped_triangles = filter_.dropped_triangles;
+    s.filter_rounds = filter_.rounds;
     s.acute_vertices = chamfered.acute_vertices;
     s.acute_edges = chamfered.acute_edges;
     s.guaranteed_acute = options_.acute;
     if (options_.want_exact) {
-      record_facets(topology_, filter.facet_kept, result_.exact);
+      record_facets(topology_, filter_.facet_kept, result_.exact);
       record_chamfer(chamfered, options_.acute, result_.exact);
     }
     return chamfered;
@@ -141,6 +140,7 @@ class Run {
     options.slivers = options_.slivers;
     options.max_edge = options_.max_edge;
     options.region = options_.region;
+    options.removed = removed_boxes(chamfered, filter_.facet_kept, topology_, points_);
     RefineResult refined =
         refine(chamfered.plc, topology_, points_, predicates_, options, control_);
     Statistics& s = result_.statistics;
@@ -195,6 +195,7 @@ class Run {
   PointStore points_;
   Predicates predicates_{points_};
   SurfaceTopology topology_;
+  FilterResult filter_;
 };
 
 template <class Body>

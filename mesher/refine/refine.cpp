@@ -40,11 +40,10 @@ RefineResult Refiner::result() {
     control_.poll(points_.size());
     const VertexId* v = dt_.vertices(t);
     r.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
-    Side side = Side::straddling;
-    if (side_[t] == kInside) side = Side::inside;
-    if (side_[t] == kOutside) side = Side::outside;
-    if (side_[t] == kUnknown) side = solid_.classify({v[0], v[1], v[2], v[3]});
-    r.side.push_back(side);
+    const std::uint8_t side = side_of(t);
+    r.side.push_back(side == kInside    ? Side::inside
+                     : side == kOutside ? Side::outside
+                                        : Side::straddling);
   }
   for (const Subfacet& f : subfacets_) {
     if (f.alive) r.faces.push_back({f.v, f.facet});

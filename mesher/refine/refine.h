@@ -7,6 +7,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/surface/bvh.h"
 #include "mesher/surface/plc.h"
 #include "mesher/surface/solid.h"
 #include "mesher/surface/topology.h"
@@ -18,6 +19,8 @@ struct RefineOptions {
   bool slivers = true;
   double max_edge = 0;               // 0: no bound
   Region region = Region::interior;  // where bad tetrahedra are split
+  // Boxes that cover the part of the input surface that the complex lacks.
+  std::vector<Box> removed;
 };
 
 struct RefinedFace {

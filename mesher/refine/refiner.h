@@ -22,6 +22,7 @@
 #include "mesher/predicates/placement.h"
 #include "mesher/refine/facet_locator.h"
 #include "mesher/refine/refine.h"
+#include "mesher/surface/bvh.h"
 
 namespace delmesher {
 
@@ -96,7 +97,12 @@ class Refiner {
   void queue_if_bad(TetId t);
   void split_tetrahedron(const BadTet& bad);
   bool try_volume_point(const BadTet& bad, const Vec3& center, double grid);
-  bool left_alone(TetId t);
+
+  // sides.cpp
+  bool near_removed(TetId t) const;
+  std::uint8_t classify_exactly(TetId t);
+  std::uint8_t side_through(TetId t, int i) const;
+  std::uint8_t side_of(TetId start);
 
   // insertion.cpp
   void drain();  // splits queued subsegments, then subfacets, until none is left
@@ -121,6 +127,7 @@ class Refiner {
   Tetrahedrization dt_;
   Solid solid_;
   FacetLocator locator_;
+  Bvh removed_;
 
   struct FacetUse {
     std::uint32_t facet;
@@ -140,7 +147,7 @@ class Refiner {
   // Per tetrahedron.
   std::vector<std::array<std::uint32_t, 4>> subfacet_;  // on each face, or kNone
   std::vector<std::uint8_t> edge_bits_;                 // bit e: kEdge[e] is a subsegment
-  enum : std::uint8_t { kUnknown, kOutside, kInside, kStraddling };
+  enum : std::uint8_t { kUnknown, kOutside, kInside, kStraddling, kAsked };
   std::vector<std::uint8_t> side_;
 
   std::deque<std::uint32_t> subsegment_queue_, subfacet_queue_;

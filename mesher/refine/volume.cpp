@@ -129,25 +129,6 @@ void Refiner::judge_fresh() {
   fresh_.clear();
 }
 
-bool Refiner::left_alone(TetId t) {
-  if (options_.region == Region::hull) return false;
-  if (side_[t] == kUnknown) {
-    const VertexId* v = dt_.vertices(t);
-    switch (solid_.classify({v[0], v[1], v[2], v[3]})) {
-      case Side::outside:
-        side_[t] = kOutside;
-        break;
-      case Side::inside:
-        side_[t] = kInside;
-        break;
-      case Side::straddling:
-        side_[t] = kStraddling;
-        break;
-    }
-  }
-  return side_[t] == kOutside;
-}
-
 void Refiner::refine_tetrahedra() {
   refining_ = true;
   for (TetId t = 0; t < dt_.capacity(); ++t) {
@@ -162,7 +143,8 @@ void Refiner::refine_tetrahedra() {
     const BadTet bad = bad_.top();
     bad_.pop();
     if (!dt_.alive(bad.t) || !std::equal(bad.v.begin(), bad.v.end(), dt_.vertices(bad.t))) continue;
-    if (!left_alone(bad.t)) split_tetrahedron(bad);
+    if (options_.region == Region::interior && side_of(bad.t) == kOutside) continue;
+    split_tetrahedron(bad);
   }
 }
 
