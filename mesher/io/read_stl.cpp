@@ -137,20 +137,18 @@ void AsciiStlReader::read_facet() {
   }
   expect_word("endloop");
   expect_word("endfacet");
-  builder_.add_polygon(corners, std::max(solid_, 0), facet);
+  builder_.add_polygon(corners, solid_, facet);
 }
 
 void AsciiStlReader::read() {
   std::string_view token;
   bool open = false;
-  std::uint64_t facets = 0;
   while (in_.next_token_anywhere(token)) {
     if (!open && equal_ignoring_case(token, "solid")) {
       open = true;
-      facets = 0;
+      ++solid_;
       skip_name();
     } else if (open && equal_ignoring_case(token, "facet")) {
-      if (facets++ == 0) ++solid_;  // empty solids take no label
       read_facet();
     } else if (open && equal_ignoring_case(token, "endsolid")) {
       open = false;

@@ -1,0 +1,210 @@
+#include "mesher/io/write_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "mesher/io/read_surface.h"
+#include "mesher/io/text.h"
+
+namespace delmesher::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WriteMesh : public testing::Test {
+ protected:
+  WriteMesh() {
+    folder_ = fs::temp_directory_path() /
+              ("delmesher_write_" +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~WriteMesh() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  static std::string content(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::stringstream out;
+    out << in.rdbuf();
+    return out.str();
+  }
+  std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  // Two tetrahedra, one of them outside, with doubles that are hard to write.
+  static TetMesh sample() {
+    TetMesh mesh;
+    mesh.vertices = {{0.1, 1e-310, -0.0},
+                     {std::numeric_limits<double>::max(), 0, 0},
+                     {0, 1.0 / 3, 0},
+                     {0, 0, 1e22},
+                     {-1e300, -5e-324, -1}};
+    mesh.tetrahedra = {{0, 1, 2, 4}, {0, 1, 2, 3}};
+    mesh.inside = {0, 1};
+    mesh.boundary = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}};
+    mesh.boundary_labels = {7, 0, -2};
+    mesh.boundary_facets = {9, 4, 5};
+    return mesh;
+  }
+
+  fs::path folder_;
+};
+
+const char* const kPoints =
+    "0.1 1e-310 -0\n1.7976931348623157e+308 0 0\n0 0.3333333333333333 0\n0 0 1e+22\n"
+    "-1e+300 -5e-324 -1\n";
+
+TEST_F(WriteMesh, Tet) {
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("a.tet"), sample()).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  EXPECT_EQ(content(path("a.tet")), "5 vertices\n1 inner tets\n1 outer tets\n" +
+                                        std::string(kPoints) + "4 0 1 2 3\n4 0 1 2 4\n");
+  TetMesh inside = sample();
+  inside.tetrahedra.erase(inside.tetrahedra.begin());
+  inside.inside.erase(inside.inside.begin());
+  OutputSet again;
+  ASSERT_TRUE(write_mesh(again, path("a.tet"), inside).ok());
+  ASSERT_TRUE(again.commit().ok());
+  EXPECT_EQ(content(path("a.tet")), "5 vertices\n1 tets\n" + std::string(kPoints) + "4 0 1 2 3\n");
+}
+
+TEST_F(WriteMesh, Medit) {
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("a.mesh"), sample()).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  const std::string text = content(path("a.mesh"));
+  EXPECT_TRUE(
+      text.starts_with("MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0.1 1e-310 -0 0\n"));
+  EXPECT_TRUE(
+      text.ends_with("Triangles\n3\n1 3 2 7\n1 2 4 0\n2 3 4 -2\n"
+                     "Tetrahedra\n2\n1 2 3 5 2\n1 2 3 4 1\n"
+                     "End\nTriangleFacets\n3\n9\n4\n5\n"));
+}
+
+TEST_F(WriteMesh, Gmsh) {
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), sample()).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  const std::string text = content(path("a.msh"));
+  EXPECT_NE(text.find("$PhysicalNames\n5\n2 9 \"label -2\"\n2 8 \"label 0\"\n2 7 \"label 7\"\n"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("$Entities\n0 0 3 2\n5 0"), std::string::npos);
+  EXPECT_NE(text.find("$Nodes\n1 5 1 5\n3 1 0 5\n1\n2\n3\n4\n5\n" + std::string(kPoints)),
+            std::string::npos);
+  EXPECT_NE(text.find("$Elements\n5 5 1 5\n2 5 2 1\n1 1 2 4\n2 6 2 1\n2 2 3 4\n2 10 2 1\n3 1 3 2\n"
+                      "3 1 4 1\n4 1 2 3 4\n3 2 4 1\n5 1 2 3 5\n$EndElements\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST_F(WriteMesh, VtuAndTetgen) {
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("a.vtu"), sample()).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("a.node"), sample()).ok());
+  EXPECT_FALSE(fs::exists(path("a.vtu")));
+  ASSERT_TRUE(outputs.commit().ok());
+  EXPECT_EQ(files(), 4U);
+  const std::string vtu = content(path("a.vtu"));
+  EXPECT_NE(vtu.find("NumberOfPoints=\"5\" NumberOfCells=\"5\""), std::string::npos);
+  EXPECT_NE(vtu.find(kPoints), std::string::npos);
+  EXPECT_NE(vtu.find("\"facet\" format=\"ascii\">\n-1\n-1\n9\n4\n5\n<"), std::string::npos);
+  EXPECT_NE(vtu.find("\"label\" format=\"ascii\">\n0\n0\n7\n0\n-2\n<"), std::string::npos);
+  EXPECT_NE(vtu.find("\"inside\" format=\"ascii\">\n0\n1\n-1\n-1\n-1\n<"), std::string::npos);
+  EXPECT_NE(vtu.find("\"offsets\" format=\"ascii\">\n4\n8\n11\n14\n17\n<"), std::string::npos);
+  EXPECT_TRUE(content(path("a.node")).starts_with("5 3 0 0\n0 0.1 1e-310 -0\n1 1.79"));
+  EXPECT_EQ(content(path("a.ele")), "2 4 1\n0 0 1 2 4 2\n1 0 1 2 3 1\n");
+  EXPECT_EQ(content(path("a.face")), "3 1\n0 0 2 1 7 9\n1 0 1 3 0 4\n2 1 2 3 -2 5\n");
+}
+
+TEST_F(WriteMesh, OffRoundTrip) {
+  Surface surface;
+  surface.vertices = sample().vertices;
+  surface.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 4}};
+  OutputSet outputs;
+  ASSERT_TRUE(write_off(outputs, path("a.off"), surface).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  const ReadResult back = read_surface(path("a.off"));
+  ASSERT_TRUE(back.ok()) << back.error;
+  EXPECT_EQ(back.surface.vertices, surface.vertices);
+  EXPECT_TRUE(std::signbit(back.surface.vertices[0][2]));
+  EXPECT_EQ(back.surface.triangles, surface.triangles);
+}
+
+TEST_F(WriteMesh, NothingIsLeftWithoutCommit) {
+  std::ofstream(path("a.mesh")) << "old";
+  std::vector<std::string> seen;
+  {
+    OutputSet outputs([&](const std::vector<std::string>& names) { seen = names; });
+    ASSERT_TRUE(write_mesh(outputs, path("a.mesh"), sample()).ok());
+    ASSERT_TRUE(write_mesh(outputs, path("b.node"), sample()).ok());
+    EXPECT_EQ(seen.size(), 4U);
+    EXPECT_EQ(files(), 5U);
+  }
+  EXPECT_TRUE(seen.empty());
+  EXPECT_EQ(files(), 1U);
+  EXPECT_EQ(content(path("a.mesh")), "old");
+}
+
+TEST_F(WriteMesh, FailuresAreValues) {
+  OutputSet outputs;
+  EXPECT_FALSE(write_mesh(outputs, path("no/such/a.mesh"), sample()).ok());
+  EXPECT_FALSE(write_mesh(outputs, path("a.xyz"), sample()).ok());
+  fs::create_directory(path("dir.mesh"));
+  const WriteStatus status = write_mesh(outputs, path("dir.mesh"), sample());
+  EXPECT_NE(status.error.find("directory"), std::string::npos) << status.error;
+  EXPECT_FALSE(check_writable(path("no/such/a.mesh")).ok());
+  EXPECT_TRUE(check_writable(path("b.mesh")).ok());
+  EXPECT_EQ(files(), 1U);
+  TetMesh broken = sample();
+  broken.tetrahedra[0][0] = 77;
+  EXPECT_FALSE(write_mesh(outputs, path("a.mesh"), broken).ok());
+  broken = sample();
+  broken.boundary_facets.pop_back();
+  EXPECT_FALSE(write_mesh(outputs, path("a.mesh"), broken).ok());
+}
+
+TEST_F(WriteMesh, AFullDiskIsReported) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  fs::create_symlink("/dev/full", path("full.mesh"));
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("other.mesh"), sample()).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("full.mesh"), sample()).ok());
+  const WriteStatus status = outputs.commit();
+  EXPECT_NE(status.error.find("full.mesh: cannot write"), std::string::npos) << status.error;
+  EXPECT_FALSE(fs::exists(path("other.mesh")));  // all or none
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(WriteMesh, LinksAreFollowed) {
+  std::ofstream(path("target.mesh")) << "old";
+  fs::create_symlink("target.mesh", path("link.mesh"));
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("link.mesh"), sample()).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  EXPECT_TRUE(fs::is_symlink(path("link.mesh")));
+  EXPECT_TRUE(content(path("target.mesh")).starts_with("MeshVersion"));
+}
+
+TEST(MeshFormatOf, Extensions) {
+  EXPECT_EQ(mesh_format_of("a.mesh"), MeshFormat::medit);
+  EXPECT_EQ(mesh_format_of("a/b.MSH"), MeshFormat::gmsh);
+  EXPECT_EQ(mesh_format_of("a.vtu"), MeshFormat::vtu);
+  EXPECT_EQ(mesh_format_of("a.node"), MeshFormat::tetgen);
+  EXPECT_EQ(mesh_format_of("a.b.tet"), MeshFormat::tet);
+  EXPECT_EQ(mesh_format_of("a.off"), std::nullopt);
+  EXPECT_EQ(mesh_format_of("mesh"), std::nullopt);
+  EXPECT_EQ(files_of("x/a.node"), std::vector<std::string>({"x/a.node", "x/a.ele", "x/a.face"}));
+}
+
+}  // namespace
+}  // namespace delmesher::io
