@@ -97,6 +97,8 @@ double deviation(const RoundedMesh& mesh, std::uint32_t v) {
 
 void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingResult& result) {
   std::vector<std::uint32_t> index(mesh.vertices(), kNone);
+  result.tetrahedra.reserve(mesh.slots());
+  result.inside.reserve(mesh.slots());
   for (std::uint32_t t = 0; t < mesh.slots(); ++t) {
     if (!mesh.alive(t)) continue;
     result.tetrahedra.push_back(mesh.tet(t));
