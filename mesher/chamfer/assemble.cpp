@@ -106,9 +106,9 @@ class IsolatedVertices {
   }
 
  private:
-  // A chamfer or strip of size r keeps free a zone of twice that size, so that no feature is much
+  // A chamfer or strip of size r keeps free a zone of that much more, so that no feature is much
   // smaller than the chamfer itself.
-  static constexpr double kFreeZone = 2;
+  static constexpr double kFreeZone = 1.5;
 
   struct Influence {
     Vec3 a, b;  // segment; a == b for a vertex
