@@ -1,0 +1,336 @@
+#include "corpus/campaign.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <ctime>
+#include <fstream>
+#include <list>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "corpus/process.h"
+#include "corpus/progress.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+volatile sig_atomic_t interrupted = 0;
+
+// Looking at a mesh must not hang or eat the machine either, whatever a mesher wrote.
+constexpr Limits kMeasureLimits = {.wall_seconds = 900, .memory_bytes = 8ull << 30};
+
+std::string read_if_there(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string json_if_valid(const fs::path& path) {
+  const std::string text = read_if_there(path);
+  return Json::accept(text) ? text : "";
+}
+
+std::string now() {
+  const std::time_t time = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  std::array<char, 32> text;
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text.data();
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$&|;<>(){}*?#~`") == std::string::npos;
+    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+  }
+  return text;
+}
+
+// One model with one mesher: mesh, then measure, then verify, each in a child of its own.
+class Job {
+ public:
+  Job(const Model& model, const Mesher& mesher, RunRow row, fs::path folder,
+      const CampaignOptions& options)
+      : model_(model),
+        mesher_(mesher),
+        options_(options),
+        folder_(std::move(folder)),
+        row_(std::move(row)) {
+    fs::create_directories(folder_);
+    files_ = {model.path, folder_ / ("mesh" + mesher.mesh_extension), folder_ / "stats.json"};
+    const auto argv = mesher.command(files_);
+    row_.command = joined(argv);
+    row_.started = now();
+    start(argv, options.limits);
+  }
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+  ~Job() {
+    process_.reset();
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+
+  int fd() const { return process_->fd(); }
+  const RunRow& row() const { return row_; }
+  const Model& model() const { return model_; }
+  const Mesher& mesher() const { return mesher_; }
+
+  // True once the row is complete.
+  bool advance() {
+    while (process_->advance()) {
+      if (step_ == Step::mesh && !after_mesh()) return true;
+      if (step_ == Step::measure && !after_measure()) return true;
+      if (step_ == Step::verify && !after_verify()) return true;
+      step_ = static_cast<Step>(static_cast<int>(step_) + 1);
+    }
+    return false;
+  }
+
+ private:
+  enum class Step : std::uint8_t { mesh, measure, verify };
+
+  void start(const std::vector<std::string>& argv, const Limits& limits) {
+    process_ = std::make_unique<SupervisedProcess>(
+        options_.supervisor, ProcessSpec{.argv = argv, .directory = folder_, .limits = limits});
+  }
+
+  // These three return whether a further step has been started.
+  bool after_mesh() {
+    const Outcome& outcome = process_->outcome();
+    const Judgement judgement = judge(outcome, mesher_.exit_codes);
+    row_.disposition = judgement.disposition;
+    row_.reason = judgement.reason;
+    if (outcome.ending == Ending::exited) row_.exit_code = outcome.exit_code;
+    if (outcome.ending == Ending::signalled) row_.signal = outcome.signal;
+    row_.wall_seconds = outcome.wall_seconds;
+    row_.cpu_seconds = outcome.cpu_seconds;
+    row_.peak_rss_bytes = outcome.peak_rss_bytes;
+    row_.stderr_tail = outcome.stderr_tail;
+    row_.stdout_tail = outcome.stdout_tail;
+    row_.stats_json = json_if_valid(files_.stats);
+    row_.mesh_seconds = mesh_seconds(row_.stats_json);
+    row_.refined = mesh_columns(row_.stats_json, "refined");
+    if (!judgement.mesh_expected) return false;
+    if (!fs::exists(files_.mesh)) {
+      wrong("no mesh was written");
+      return false;
+    }
+    start({options_.self.string(), "measure", files_.mesh.string(), "-o", measured().string()},
+          kMeasureLimits);
+    return true;
+  }
+
+  bool after_measure() {
+    row_.mesh_json = json_if_valid(measured());
+    const Outcome& outcome = process_->outcome();
+    if (row_.mesh_json.empty()) {
+      wrong("the mesh cannot be measured: " + judge(outcome, ExitCodes::ours).reason);
+      return false;
+    }
+    take_measurements();
+    keep_mesh();
+    if (!options_.verify) return false;
+    std::ostringstream deviation;
+    deviation << mesher_.declared_deviation;
+    // Through a shell, because only the end of a child's output is kept.
+    start({"/bin/sh", "-c",
+           "exec \"$0\" verify \"$1\" \"$2\" --declared-deviation \"$3\" --json > \"$4\"",
+           options_.self.string(), files_.input.string(), files_.mesh.string(), deviation.str(),
+           verdict().string()},
+          kMeasureLimits);
+    return true;
+  }
+
+  bool after_verify() {
+    const Outcome& outcome = process_->outcome();
+    row_.verdict_json = json_if_valid(verdict());
+    const bool told = outcome.ending == Ending::exited && !row_.verdict_json.empty();
+    if (told && outcome.exit_code == 1) {
+      wrong(last_line(outcome.stderr_tail));
+    } else if (!told || outcome.exit_code != 0) {
+      // Not the mesher's fault; the row says that nobody vouches for the mesh.
+      row_.verdict_json = Json({{"error", judge(outcome, ExitCodes::ours).reason}}).dump();
+    }
+    return false;
+  }
+
+  fs::path measured() const { return folder_ / "measured.json"; }
+  fs::path verdict() const { return folder_ / "verdict.json"; }
+
+  void wrong(const std::string& reason) {
+    row_.disposition = Disposition::wrong_result;
+    row_.reason += (row_.reason.empty() ? "" : "; ") + reason;
+  }
+
+  // Wrong results are found here, never by exit status alone.
+  void take_measurements() {
+    const Json json = Json::parse(row_.mesh_json);
+    row_.mesh = mesh_columns(row_.mesh_json, "");
+    row_.inside = mesh_columns(row_.mesh_json, "inside");
+    row_.inverted = json.at("inverted").get<std::uint64_t>();
+    row_.flat = json.at("flat").get<std::uint64_t>();
+    const auto crowded = json.at("crowded_faces").get<std::uint64_t>();
+    if (row_.mesh->tetrahedra == 0) wrong("no tetrahedra");
+    if (*row_.inverted > 0) wrong(std::to_string(*row_.inverted) + " inverted tetrahedra");
+    if (crowded > 0) wrong(std::to_string(crowded) + " faces of more than two tetrahedra");
+  }
+
+  void keep_mesh() const {
+    if (options_.keep.empty()) return;
+    const fs::path target = options_.keep / mesher_.name / (model_.name + mesher_.mesh_extension);
+    fs::create_directories(target.parent_path());
+    fs::copy_file(files_.mesh, target, fs::copy_options::overwrite_existing);
+  }
+
+  const Model& model_;
+  const Mesher& mesher_;
+  const CampaignOptions& options_;
+  fs::path folder_;
+  RunFiles files_;
+  RunRow row_;
+  Step step_ = Step::mesh;
+  std::unique_ptr<SupervisedProcess> process_;
+};
+
+class Campaign {
+ public:
+  Campaign(const std::vector<Model>& models, const std::vector<Mesher>& meshers,
+           const CampaignOptions& options)
+      : models_(models),
+        meshers_(meshers),
+        options_(options),
+        database_(options.database, ResultsDatabase::Mode::write),
+        scratch_(fs::absolute(options.database).string() + ".scratch"),
+        progress_(models.size() * meshers.size(), options.terminal) {
+    // The lock on the database makes this folder ours: what is in it was left by a killed run.
+    fs::remove_all(scratch_);
+  }
+
+  CampaignSummary run() {
+    fs::create_directories(scratch_);
+    while (interrupted == 0 && (start_jobs() || !running_.empty())) {
+      wait();
+      collect();
+      show_progress();
+    }
+    summary_.interrupted = interrupted != 0;
+    running_.clear();
+    fs::remove_all(scratch_);
+    progress_.finish();
+    return summary_;
+  }
+
+ private:
+  // Fills the free places; false when there is nothing left to start.
+  bool start_jobs() {
+    while (running_.size() < options_.jobs && next_ < models_.size() * meshers_.size()) {
+      const Model& model = models_[next_ / meshers_.size()];
+      const Mesher& mesher = meshers_[next_ % meshers_.size()];
+      RunRow row;
+      row.key = {model.sha256, mesher.name, mesher.version, mesher.flags,
+                 describe(options_.limits)};
+      if (database_.has(row.key)) {
+        ++summary_.present;
+        ++next_;
+        progress_.already_done();
+        continue;
+      }
+      row.model_name = model.name;
+      row.model_path = model.path.string();
+      row.model_bytes = model.bytes;
+      row.region = mesher.region;
+      row.host = host_;
+      running_.push_back(std::make_unique<Job>(model, mesher, std::move(row),
+                                               scratch_ / std::to_string(next_), options_));
+      ++next_;
+    }
+    return !running_.empty();
+  }
+
+  void wait() {
+    std::vector<pollfd> fds;
+    for (const auto& job : running_) fds.push_back({job->fd(), POLLIN, 0});
+    poll(fds.data(), fds.size(), 250);
+  }
+
+  void collect() {
+    for (auto it = running_.begin(); it != running_.end() && interrupted == 0;) {
+      Job& job = **it;
+      if (!job.advance()) {
+        ++it;
+        continue;
+      }
+      database_.store(job.row());
+      ++summary_.counts[static_cast<std::size_t>(job.row().disposition)];
+      progress_.done(job.row());
+      it = running_.erase(it);
+    }
+  }
+
+  void show_progress() {
+    std::string text;
+    for (const auto& job : running_) {
+      text += (text.empty() ? "" : ", ") + job->mesher().name + " " + job->model().name;
+    }
+    progress_.running(text);
+  }
+
+  const std::vector<Model>& models_;
+  const std::vector<Mesher>& meshers_;
+  const CampaignOptions& options_;
+  ResultsDatabase database_;
+  fs::path scratch_;
+  Progress progress_;
+  std::string host_ = host_name();
+  std::size_t next_ = 0;
+  std::list<std::unique_ptr<Job>> running_;
+  CampaignSummary summary_;
+};
+
+}  // namespace
+
+CampaignSummary run_campaign(const std::vector<Model>& models, const std::vector<Mesher>& meshers,
+                             const CampaignOptions& options) {
+  return Campaign(models, meshers, options).run();
+}
+
+void interrupt_campaign() {
+  interrupted = 1;
+}
+
+std::string describe(const Limits& limits) {
+  std::ostringstream text;
+  text << "wall " << limits.wall_seconds << " s, cpu " << limits.cpu_seconds << " s, memory "
+       << (limits.memory_bytes >> 20) << " MiB";
+  return text.str();
+}
+
+std::optional<double> mesh_seconds(const std::string& stats_json) {
+  const Json json = Json::parse(stats_json, nullptr, false);
+  if (!json.is_object() || !json.contains("phases_seconds")) return std::nullopt;
+  double sum = 0;
+  for (const auto& [phase, seconds] : json.at("phases_seconds").items()) {
+    if (phase == "read" || phase == "check" || phase == "write" || !seconds.is_number()) continue;
+    sum += seconds.get<double>();
+  }
+  return sum;
+}
+
+}  // namespace tetproof

@@ -1,0 +1,46 @@
+// Runs meshers on models: one supervised child per pair, results in the database as they come.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "corpus/meshers.h"
+#include "corpus/models.h"
+#include "reports/results.h"
+
+namespace tetproof {
+
+struct CampaignOptions {
+  std::filesystem::path supervisor;  // tetproof-supervise
+  std::filesystem::path self;        // tetproof, whose `measure` looks at the meshes
+  std::filesystem::path database;
+  std::filesystem::path keep;  // folder for the meshes; empty: they are not kept
+  Limits limits;
+  unsigned jobs = 1;
+  bool verify = false;    // ask `tetproof verify` for a verdict on each mesh
+  bool terminal = false;  // one live line rather than a line per run
+};
+
+struct CampaignSummary {
+  std::size_t present = 0;              // rows that were there already
+  std::array<std::size_t, 7> counts{};  // rows of this campaign by disposition, old and new
+  bool interrupted = false;
+};
+
+// Ends early, with everything finished so far in the database, once interrupt_campaign() was
+// called. \throw std::runtime_error if the database cannot be written.
+CampaignSummary run_campaign(const std::vector<Model>& models, const std::vector<Mesher>& meshers,
+                             const CampaignOptions& options);
+
+// To be called from a signal handler.
+void interrupt_campaign();
+
+// The limits as part of a row's key.
+std::string describe(const Limits& limits);
+
+// Time of the meshing proper in a mesher's statistics: all phases but read, check and write.
+std::optional<double> mesh_seconds(const std::string& stats_json);
+
+}  // namespace tetproof

@@ -1,0 +1,219 @@
+// Campaigns with made-up meshers, some of them nasty.
+#include "corpus/campaign.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <map>
+#include <thread>
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kCorner = "4 vertices\\n1 tets\\n0 0 0\\n1 0 0\\n0 1 0\\n0 0 1\\n4 0 1 2 3\\n";
+// One tetrahedron against two.
+const std::string kInverted =
+    "5 vertices\\n3 tets\\n0 0 0\\n1 0 0\\n0 1 0\\n0 0 1\\n0 0 -1\\n4 0 1 2 3\\n4 0 2 1 4\\n"
+    "4 1 0 2 3\\n";
+
+class CampaignTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("campaign_test_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "models");
+    for (int i = 0; i < 3; ++i) {
+      const std::string name = {'m', static_cast<char>('0' + i)};
+      std::ofstream(folder_ / "models" / (name + ".off")) << "OFF " << i;
+    }
+    options_.supervisor = TETPROOF_SUPERVISE_PATH;
+    options_.self = TETPROOF_PATH;
+    options_.database = folder_ / "run.sqlite";
+    options_.limits = {.wall_seconds = 10, .cpu_seconds = 10, .memory_bytes = 300u << 20};
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::vector<Model> models() const { return collect_models({folder_ / "models"}).models; }
+
+  // A mesher that notes each call in a file and runs a line of shell.
+  Mesher shell(const std::string& name, const std::string& line) const {
+    return make_mesher(name + "=cmd:echo " + name + " {in} >> " + calls().string() + "; " + line +
+                           " # {in} {out.tet}",
+                       {options_.supervisor, "", ""});
+  }
+
+  fs::path calls() const { return folder_ / "calls"; }
+
+  int call_count() const {
+    std::ifstream in(calls());
+    int lines = 0;
+    for (std::string line; std::getline(in, line);) ++lines;
+    return lines;
+  }
+
+  std::map<std::string, RunRow> rows_of_model(std::size_t index) const {
+    std::map<std::string, RunRow> found;
+    const std::string hash = models()[index].sha256;
+    for (auto& row : ResultsDatabase(options_.database, ResultsDatabase::Mode::read).rows()) {
+      if (row.key.model_sha256 == hash) found[row.key.mesher] = row;
+    }
+    return found;
+  }
+
+  std::size_t row_count() const {
+    return ResultsDatabase(options_.database, ResultsDatabase::Mode::read).rows().size();
+  }
+
+  fs::path folder_;
+  CampaignOptions options_;
+};
+
+TEST_F(CampaignTest, DispositionsAreToldApart) {
+  options_.limits.wall_seconds = options_.limits.cpu_seconds = 1;
+  options_.jobs = 2;
+  const std::string nasty = TETPROOF_NASTY_PATH;
+  const std::vector<Mesher> meshers = {shell("good", "printf '" + kCorner + "' > mesh.tet"),
+                                       shell("inverted", "printf '" + kInverted + "' > mesh.tet"),
+                                       shell("garbage", "echo garbage > mesh.tet"),
+                                       shell("nothing", "true"),
+                                       shell("refuses", "echo 'bad facet 7' >&2; exit 3"),
+                                       shell("aborts", nasty + " raise 6"),
+                                       shell("sleeps", "sleep 30"),
+                                       shell("eats", nasty + " allocate 3000"),
+                                       shell("suicide", "kill -9 $$")};
+  const auto summary = run_campaign({models()[0]}, meshers, options_);
+  EXPECT_FALSE(summary.interrupted);
+  auto rows = rows_of_model(0);
+  ASSERT_EQ(rows.size(), meshers.size());
+
+  EXPECT_EQ(rows["good"].disposition, Disposition::ok) << rows["good"].reason;
+  ASSERT_TRUE(rows["good"].mesh.has_value());
+  EXPECT_EQ(rows["good"].mesh->tetrahedra, 1u);
+  EXPECT_NEAR(rows["good"].mesh->min_face_angle, 45, 1e-9);
+  EXPECT_EQ(rows["good"].exit_code, 0);
+  EXPECT_EQ(rows["inverted"].disposition, Disposition::wrong_result);
+  EXPECT_EQ(rows["inverted"].inverted, 1u);
+  EXPECT_EQ(rows["garbage"].disposition, Disposition::wrong_result);
+  EXPECT_EQ(rows["nothing"].disposition, Disposition::wrong_result);
+  EXPECT_EQ(rows["nothing"].reason, "no mesh was written");
+  EXPECT_EQ(rows["refuses"].disposition, Disposition::rejected);
+  EXPECT_EQ(rows["refuses"].reason, "exit 3: bad facet 7");
+  EXPECT_EQ(rows["refuses"].exit_code, 3);
+  EXPECT_EQ(rows["refuses"].stderr_tail, "bad facet 7\n");
+  EXPECT_EQ(rows["sleeps"].disposition, Disposition::timeout);
+  EXPECT_EQ(rows["eats"].disposition, Disposition::out_of_memory);
+  EXPECT_GT(rows["eats"].peak_rss_bytes, 200u << 20);
+  EXPECT_EQ(rows["suicide"].disposition, Disposition::killed);
+  EXPECT_EQ(rows["suicide"].signal, SIGKILL);
+  // The shell turns its child's signal into an exit code; see the direct test below.
+  EXPECT_NE(rows["aborts"].disposition, Disposition::ok);
+  EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
+}
+
+TEST_F(CampaignTest, ASignalOfTheMesherIsACrash) {
+  Mesher mesher = shell("direct", "");
+  mesher.command = [](const RunFiles&) {
+    return std::vector<std::string>{TETPROOF_NASTY_PATH, "raise", "11"};
+  };
+  run_campaign({models()[0]}, {mesher}, options_);
+  EXPECT_EQ(rows_of_model(0)["direct"].disposition, Disposition::crash);
+  EXPECT_EQ(rows_of_model(0)["direct"].reason, "SIGSEGV");
+}
+
+TEST_F(CampaignTest, WhatIsThereIsNotRunAgain) {
+  const std::vector<Mesher> meshers = {shell("a", "printf '" + kCorner + "' > mesh.tet"),
+                                       shell("b", "exit 4")};
+  EXPECT_EQ(run_campaign(models(), meshers, options_).present, 0u);
+  EXPECT_EQ(call_count(), 6);
+  EXPECT_EQ(run_campaign(models(), meshers, options_).present, 6u);
+  EXPECT_EQ(call_count(), 6);
+  std::ofstream(folder_ / "models" / "m1.off") << "OFF changed";  // one model is another now
+  EXPECT_EQ(run_campaign(models(), meshers, options_).present, 4u);
+  EXPECT_EQ(call_count(), 8);
+  options_.limits.wall_seconds = 11;  // other limits, other runs
+  EXPECT_EQ(run_campaign(models(), meshers, options_).present, 0u);
+  EXPECT_EQ(row_count(), 14u);
+}
+
+TEST_F(CampaignTest, StatisticsOfTheMesherAreStored) {
+  run_campaign({models()[0]},
+               {shell("s", "printf '" + kCorner +
+                               "' > mesh.tet; echo '{\"phases_seconds\": {\"read\": 5, \"refine\": "
+                               "2, \"enrich\": 1}, \"refined\": {\"tetrahedra\": 3, "
+                               "\"min_face_angle\": 14.5}}' > stats.json")},
+               options_);
+  const RunRow row = rows_of_model(0)["s"];
+  EXPECT_EQ(row.disposition, Disposition::ok) << row.reason;
+  EXPECT_EQ(row.mesh_seconds, 3);
+  EXPECT_EQ(row.refined->min_face_angle, 14.5);
+}
+
+TEST_F(CampaignTest, MeshesAreKeptOnRequest) {
+  options_.keep = folder_ / "kept";
+  run_campaign({models()[0]}, {shell("k", "printf '" + kCorner + "' > mesh.tet")}, options_);
+  EXPECT_TRUE(fs::exists(folder_ / "kept" / "k" / "m0.off.tet"));
+}
+
+class InterruptedCampaign : public CampaignTest {
+ protected:
+  // Starts a campaign in another process: two quick runs per model and one that never ends.
+  pid_t start() {
+    const pid_t runner = fork();
+    if (runner == 0) {
+      signal(SIGINT, [](int) { interrupt_campaign(); });
+      options_.limits.wall_seconds = options_.limits.cpu_seconds = 100;
+      const auto summary = run_campaign(models(), meshers("sleep 100"), options_);
+      _exit(summary.interrupted ? 130 : 0);
+    }
+    for (int i = 0; i < 2000 && call_count() < 3; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_EQ(call_count(), 3);
+    return runner;
+  }
+
+  std::vector<Mesher> meshers(const std::string& third) const {
+    return {shell("a", "printf '" + kCorner + "' > mesh.tet"), shell("b", "exit 4"),
+            shell("c", third)};
+  }
+};
+
+TEST_F(InterruptedCampaign, StopsCleanlyAndKeepsWhatWasDone) {
+  const pid_t runner = start();
+  kill(runner, SIGINT);
+  int status = 0;
+  waitpid(runner, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(row_count(), 2u);
+  EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
+}
+
+TEST_F(InterruptedCampaign, ResumesAfterKill9) {
+  const pid_t runner = start();
+  kill(runner, SIGKILL);
+  waitpid(runner, nullptr, 0);
+  EXPECT_EQ(row_count(), 2u);
+  options_.limits.wall_seconds = options_.limits.cpu_seconds = 100;
+  const auto summary = run_campaign(models(), meshers("exit 5"), options_);
+  EXPECT_EQ(summary.present, 2u);
+  EXPECT_EQ(row_count(), 9u);
+  EXPECT_EQ(call_count(), 3 + 7);  // only the run that was cut off is repeated
+  EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
+}
+
+TEST(MeshSeconds, WithoutReadingCheckingAndWriting) {
+  EXPECT_EQ(mesh_seconds(""), std::nullopt);
+  EXPECT_EQ(mesh_seconds("{}"), std::nullopt);
+  EXPECT_EQ(mesh_seconds(R"({"phases_seconds": {"read": 9, "check": 9, "write": 9, "mesh": 2}})"),
+            2);
+}
+
+}  // namespace
+}  // namespace tetproof

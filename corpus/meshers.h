@@ -1,0 +1,46 @@
+// The meshers a campaign can run, and how each is called.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "corpus/disposition.h"
+
+namespace tetproof {
+
+// Where the programs are.
+struct MesherPrograms {
+  std::filesystem::path supervisor;  // tetproof-supervise
+  std::filesystem::path delmesher;
+  std::filesystem::path tetgen;  // tetproof-tetgen
+};
+
+// The files of one run, all in a folder of its own.
+struct RunFiles {
+  std::filesystem::path input, mesh, stats;
+};
+
+struct Mesher {
+  std::string name;     // as given to -m, before any '='
+  std::string version;  // of the program, with the first digits of the hash of its file
+  std::string flags;    // everything of the command that is not a file of the run
+  std::string region;   // what it meshes: "interior", "hull" or "" if not known
+  std::string mesh_extension;
+  double declared_deviation = 0;  // fraction of the diagonal by which it may miss the surface
+  ExitCodes exit_codes = ExitCodes::unknown;
+  std::function<std::vector<std::string>(const RunFiles&)> command;
+};
+
+// Understands
+//   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter cdt tetgen tetgen-T0
+//   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options
+//   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it
+// \throw std::runtime_error for an unknown name or a program that is missing.
+Mesher make_mesher(const std::string& name, const MesherPrograms& programs);
+
+// The names above, for help texts.
+std::vector<std::string> mesher_names();
+
+}  // namespace tetproof

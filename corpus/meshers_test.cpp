@@ -1,0 +1,93 @@
+#include "corpus/meshers.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Meshers : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("meshers_test_" + std::to_string(getpid()));
+    fs::create_directories(folder_);
+    programs_ = {TETPROOF_SUPERVISE_PATH, script("delmesher", "echo delmesher 1.2"),
+                 script("tetproof-tetgen", "echo TetGen 9.9")};
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path script(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << "#!/bin/sh\n" << text << "\n";
+    fs::permissions(folder_ / name, fs::perms::owner_all);
+    return folder_ / name;
+  }
+
+  std::string command(const std::string& name) const {
+    std::string text;
+    for (const auto& word :
+         make_mesher(name, programs_).command({"in.off", "out.mesh", "stats.json"})) {
+      text += (text.empty() ? "" : " ") + word;
+    }
+    return text;
+  }
+
+  fs::path folder_;
+  MesherPrograms programs_;
+};
+
+TEST_F(Meshers, ThePapersExperiments) {
+  const std::string own = programs_.delmesher.string();
+  const std::string files = " in.off -o out.mesh --stats stats.json -q";
+  EXPECT_EQ(command("delmesher"), own + " mesh" + files);
+  EXPECT_EQ(command("delmesher-e4"), own + " mesh --preset paper" + files);
+  EXPECT_EQ(command("safe-delmesher-e4"), own + " mesh --preset paper --slivers off" + files);
+  EXPECT_EQ(command("delmesher-nofilter"), own + " mesh --preset paper --tau 0" + files);
+  EXPECT_EQ(command("cdt"), own + " cdt --region hull" + files);
+  const std::string tetgen = programs_.tetgen.string();
+  EXPECT_EQ(command("tetgen"), tetgen + " zpcq in.off out.mesh stats.json");
+  EXPECT_EQ(command("tetgen-T0"), tetgen + " zpcqT0 in.off out.mesh stats.json");
+}
+
+TEST_F(Meshers, WhatEachCovers) {
+  EXPECT_EQ(make_mesher("delmesher", programs_).region, "interior");
+  for (const char* name : {"delmesher-e4", "safe-delmesher-e4", "cdt", "tetgen", "tetgen-T0"}) {
+    EXPECT_EQ(make_mesher(name, programs_).region, "hull") << name;
+  }
+}
+
+TEST_F(Meshers, TheVersionChangesWithTheBuild) {
+  const std::string before = make_mesher("delmesher", programs_).version;
+  EXPECT_TRUE(before.starts_with("delmesher 1.2 (build ")) << before;
+  EXPECT_EQ(make_mesher("delmesher", programs_).version, before);
+  script("delmesher", "echo delmesher 1.2 # rebuilt");
+  EXPECT_NE(make_mesher("delmesher", programs_).version, before);
+}
+
+TEST_F(Meshers, Commands) {
+  EXPECT_EQ(command("cmd:prog -x {in} {out.mesh}"), "/bin/sh -c prog -x 'in.off' 'out.mesh'");
+  const Mesher mesher = make_mesher("mine=cmd:prog {in} {out.mesh} {stats}", programs_);
+  EXPECT_EQ(mesher.name, "mine");
+  EXPECT_EQ(mesher.mesh_extension, ".mesh");
+  EXPECT_EQ(mesher.command({"it's.off", "o.mesh", "s"})[2], "prog 'it'\\''s.off' 'o.mesh' 's'");
+  EXPECT_EQ(make_mesher("no-slivers=delmesher:mesh --slivers off", programs_).flags,
+            "mesh --slivers off");
+}
+
+TEST_F(Meshers, Errors) {
+  EXPECT_THROW(make_mesher("nonsense", programs_), std::runtime_error);
+  EXPECT_THROW(make_mesher("cmd:prog {in}", programs_), std::runtime_error);
+  EXPECT_THROW(make_mesher("cmd:prog {out.mesh}", programs_), std::runtime_error);
+  EXPECT_THROW(make_mesher("=cmd:prog {in} {out.mesh}", programs_), std::runtime_error);
+  MesherPrograms none = programs_;
+  none.tetgen = folder_ / "missing";
+  EXPECT_THROW(make_mesher("tetgen", none), std::runtime_error);
+  none.delmesher = script("broken", "exit 1");
+  EXPECT_THROW(make_mesher("delmesher", none), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace tetproof

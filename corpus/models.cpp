@@ -1,0 +1,72 @@
+#include "corpus/models.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <stdexcept>
+
+#include "corpus/sha256.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_surface_file(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".off" || extension == ".obj" || extension == ".stl" || extension == ".ply";
+}
+
+std::vector<fs::path> surface_files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink)) {
+    if (entry.is_regular_file() && is_surface_file(entry.path())) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Model make_model(const fs::path& path, const std::string& name) {
+  return {fs::absolute(path).lexically_normal(), name, sha256_of_file(path), fs::file_size(path)};
+}
+
+}  // namespace
+
+ModelList collect_models(const std::vector<fs::path>& paths) {
+  ModelList list;
+  std::set<std::string> seen;
+  const auto add = [&](Model model) {
+    if (seen.insert(model.sha256).second) {
+      list.models.push_back(std::move(model));
+    } else {
+      list.duplicates.push_back(model.path);
+    }
+  };
+  for (const fs::path& path : paths) {
+    if (fs::is_directory(path)) {
+      for (const fs::path& file : surface_files_in(path)) {
+        add(make_model(file, file.lexically_relative(path).string()));
+      }
+    } else if (fs::exists(path)) {
+      add(make_model(path, path.filename().string()));
+    } else {
+      throw std::runtime_error(path.string() + ": no such file or folder");
+    }
+  }
+  return list;
+}
+
+std::vector<Model> shard_of(const std::vector<Model>& models, unsigned index, unsigned count) {
+  std::vector<Model> part;
+  for (const Model& model : models) {
+    if (std::stoul(model.sha256.substr(0, 8), nullptr, 16) % count == index - 1) {
+      part.push_back(model);
+    }
+  }
+  return part;
+}
+
+}  // namespace tetproof

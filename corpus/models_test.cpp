@@ -1,0 +1,70 @@
+#include "corpus/models.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <set>
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Models : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("models_test_" + std::to_string(getpid()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "sub");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Models, FoldersAreSearchedAndSortedAndDuplicatesLeftOut) {
+  write("b.off", "b");
+  write("a.STL", "a");
+  write("sub/c.ply", "c");
+  write("same-as-b.obj", "b");
+  write("notes.txt", "x");
+  const ModelList list = collect_models({folder_});
+  ASSERT_EQ(list.models.size(), 3u);
+  EXPECT_EQ(list.models[0].name, "a.STL");
+  EXPECT_EQ(list.models[1].name, "b.off");
+  EXPECT_EQ(list.models[2].name, "sub/c.ply");
+  EXPECT_EQ(list.models[2].bytes, 1u);
+  EXPECT_EQ(list.models[1].sha256,
+            "3e23e8160039594a33894f6564e1b1348bbd7a0088d42c4acb73eeaed59c009d");
+  ASSERT_EQ(list.duplicates.size(), 1u);
+  EXPECT_EQ(list.duplicates[0].filename(), "same-as-b.obj");
+}
+
+TEST_F(Models, FilesOfAnyNameAreTaken) {
+  write("model.weird", "1");
+  const ModelList list = collect_models({folder_ / "model.weird"});
+  ASSERT_EQ(list.models.size(), 1u);
+  EXPECT_EQ(list.models[0].name, "model.weird");
+  EXPECT_TRUE(list.models[0].path.is_absolute());
+  EXPECT_THROW(collect_models({folder_ / "missing.off"}), std::runtime_error);
+}
+
+TEST_F(Models, ShardsPartition) {
+  for (int i = 0; i < 40; ++i) write(std::to_string(i) + ".off", std::to_string(i));
+  const auto models = collect_models({folder_}).models;
+  std::set<std::string> seen;
+  for (unsigned i = 1; i <= 3; ++i) {
+    const auto part = shard_of(models, i, 3);
+    EXPECT_GT(part.size(), 4u);
+    for (const Model& model : part) EXPECT_TRUE(seen.insert(model.sha256).second);
+  }
+  EXPECT_EQ(seen.size(), models.size());
+}
+
+}  // namespace
+}  // namespace tetproof

@@ -1,0 +1,50 @@
+// What a mesh is like, measured from the file as written, in the same way for every mesher.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "oracles/mesh_file.h"
+
+namespace tetproof {
+
+// Angles in degrees. Face angles count every triangle once, also when two tetrahedra share it.
+struct AngleStatistics {
+  double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
+  double mean_min_face_angle = 0, mean_max_face_angle = 0;  // per face, as in the paper's Fig. 11
+  double mean_min_dihedral = 0, mean_max_dihedral = 0;      // per tetrahedron
+  std::array<std::uint64_t, 12> face_angle_histogram{};     // 15-degree bins
+  std::array<std::uint64_t, 12> dihedral_histogram{};
+};
+
+struct PartQuality {
+  std::uint64_t tetrahedra = 0, vertices = 0, faces = 0;  // vertices in use
+  AngleStatistics angles;
+};
+
+struct MeshQuality {
+  PartQuality all;                    // every tetrahedron of the file
+  std::optional<PartQuality> inside;  // where the file tells inside from outside
+  std::uint64_t unused_vertices = 0;
+  std::uint64_t inverted = 0, flat = 0;  // exact signs of the doubles as written
+  std::uint64_t repeated_corners = 0;    // tetrahedra with a vertex twice (also flat)
+  std::uint64_t crowded_faces = 0;       // shared by more than two tetrahedra
+  bool left_handed = false;              // most tetrahedra are: then the others count as inverted
+};
+
+PartQuality measure_part(std::span<const std::array<double, 3>> vertices,
+                         std::span<const std::array<std::uint32_t, 4>> tetrahedra,
+                         std::uint64_t* crowded_faces = nullptr);
+
+// Inside are the tetrahedra of region 1 if the file has regions 1, and 0 or 2, only: the convention
+// of our own files. Other regions say nothing about inside and outside. \throw std::runtime_error
+// if a tetrahedron refers to a vertex that is not there.
+MeshQuality measure(const oracles::MeshFile& mesh);
+
+// Keys as in the `final` object of the mesher's --stats, and `inside` with the same ones.
+std::string to_json(const MeshQuality& quality);
+
+}  // namespace tetproof

@@ -1,0 +1,114 @@
+#include "reports/mesh_quality.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace tetproof {
+namespace {
+
+using oracles::MeshFile;
+
+// Two regular tetrahedra on a common face, with a spare vertex.
+MeshFile two_regular() {
+  MeshFile mesh;
+  mesh.vertices = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}, {5. / 3, 5. / 3, -5. / 3},
+                   {9, 9, 9}};
+  mesh.tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  return mesh;
+}
+
+TEST(MeshQuality, SharedFacesCountOnce) {
+  const MeshQuality q = measure(two_regular());
+  EXPECT_EQ(q.all.tetrahedra, 2u);
+  EXPECT_EQ(q.all.vertices, 5u);
+  EXPECT_EQ(q.unused_vertices, 1u);
+  EXPECT_EQ(q.all.faces, 7u);
+  const AngleStatistics& a = q.all.angles;
+  EXPECT_NEAR(a.min_face_angle, 60, 1e-9);
+  EXPECT_NEAR(a.max_face_angle, 60, 1e-9);
+  EXPECT_NEAR(a.mean_min_face_angle, 60, 1e-9);
+  EXPECT_NEAR(a.min_dihedral, 70.5287793655, 1e-9);
+  EXPECT_NEAR(a.mean_max_dihedral, 70.5287793655, 1e-9);
+  EXPECT_EQ(std::accumulate(a.face_angle_histogram.begin(), a.face_angle_histogram.end(), 0u), 21u);
+  EXPECT_EQ(a.dihedral_histogram[4], 12u);  // 60 to 75 degrees
+}
+
+TEST(MeshQuality, OrientationOfTheFileIsFoundByMajority) {
+  MeshFile mesh = two_regular();
+  EXPECT_EQ(measure(mesh).inverted, 0u);
+  const bool handed = measure(mesh).left_handed;
+  for (auto& t : mesh.tetrahedra) std::swap(t[0], t[1]);
+  EXPECT_EQ(measure(mesh).inverted, 0u);
+  EXPECT_NE(measure(mesh).left_handed, handed);
+  mesh.tetrahedra.push_back(mesh.tetrahedra[0]);
+  std::swap(mesh.tetrahedra[0][0], mesh.tetrahedra[0][1]);
+  EXPECT_EQ(measure(mesh).inverted, 1u);
+}
+
+TEST(MeshQuality, FlatRepeatedAndCrowded) {
+  MeshFile mesh = two_regular();
+  mesh.tetrahedra.push_back({0, 0, 1, 2});
+  EXPECT_EQ(measure(mesh).flat, 1u);
+  EXPECT_EQ(measure(mesh).repeated_corners, 1u);
+  mesh = two_regular();
+  mesh.tetrahedra.push_back({0, 1, 2, 5});
+  EXPECT_EQ(measure(mesh).crowded_faces, 1u);
+}
+
+TEST(MeshQuality, InsideIsMeasuredSeparately) {
+  MeshFile mesh = two_regular();
+  mesh.vertices[4] = {10, 10, -10};
+  mesh.regions = {1, 2};
+  const MeshQuality q = measure(mesh);
+  ASSERT_TRUE(q.inside.has_value());
+  EXPECT_EQ(q.inside->tetrahedra, 1u);
+  EXPECT_NEAR(q.inside->angles.min_face_angle, 60, 1e-9);
+  EXPECT_LT(q.all.angles.min_face_angle, 20);
+
+  const auto json = nlohmann::json::parse(to_json(q));
+  EXPECT_EQ(json.at("tetrahedra"), 2);
+  EXPECT_EQ(json.at("interior_tetrahedra"), 1);
+  EXPECT_EQ(json.at("inside").at("tetrahedra"), 1);
+  EXPECT_EQ(json.at("face_angle_histogram").size(), 12u);
+}
+
+// Means against a plain sum over a mesh small enough to do by hand: the corner of a cube.
+TEST(MeshQuality, MeansOfACorner) {
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  const AngleStatistics a = measure(mesh).all.angles;
+  EXPECT_NEAR(a.mean_min_face_angle, (3 * 45 + 60) / 4.0, 1e-9);
+  EXPECT_NEAR(a.mean_max_face_angle, (3 * 90 + 60) / 4.0, 1e-9);
+  EXPECT_NEAR(a.mean_min_dihedral, 54.7356103172, 1e-9);
+  EXPECT_NEAR(a.mean_max_dihedral, 90, 1e-9);
+  const auto& h = a.face_angle_histogram;
+  EXPECT_EQ(h[2] + h[3] + h[4], 9u);  // 45 and 60 are edges of bins, within rounding
+  EXPECT_EQ(h[5] + h[6], 3u);         // so is 90
+}
+
+TEST(MeshQuality, OtherRegionsSayNothingAboutInside) {
+  MeshFile mesh = two_regular();
+  EXPECT_FALSE(measure(mesh).inside.has_value());
+  for (const auto& regions : {std::vector<std::int64_t>{0, 0}, {1, 7}, {2, 2}}) {
+    mesh.regions = regions;
+    EXPECT_FALSE(measure(mesh).inside.has_value());
+  }
+}
+
+TEST(MeshQuality, MissingVerticesAreAnError) {
+  MeshFile mesh = two_regular();
+  mesh.tetrahedra[1][2] = 6;
+  EXPECT_THROW(measure(mesh), std::runtime_error);
+}
+
+TEST(MeshQuality, EmptyMesh) {
+  const MeshQuality q = measure(MeshFile{});
+  EXPECT_EQ(q.all.tetrahedra, 0u);
+  EXPECT_TRUE(nlohmann::json::accept(to_json(q)));
+}
+
+}  // namespace
+}  // namespace tetproof

@@ -1,0 +1,294 @@
+#include "reports/results.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+namespace tetproof {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kSchemaVersion = 1;
+constexpr int kApplicationId = 0x74657470;  // "tetp"
+constexpr std::array<const char*, 7> kDispositions = {
+    "ok", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"};
+
+// Columns besides the key, in the order in which they are bound and read. Angles and counts stand
+// in columns for queries by hand; histograms and the rest are in the JSON texts.
+constexpr const char* kSchema = R"(
+CREATE TABLE IF NOT EXISTS runs (
+  id INTEGER PRIMARY KEY,
+  model_sha256 TEXT NOT NULL, mesher TEXT NOT NULL, version TEXT NOT NULL, flags TEXT NOT NULL,
+  limits TEXT NOT NULL,
+  model_name TEXT NOT NULL, model_path TEXT NOT NULL, model_bytes INTEGER NOT NULL,
+  disposition TEXT NOT NULL, reason TEXT NOT NULL, exit_code INTEGER, signal INTEGER,
+  wall_seconds REAL NOT NULL, cpu_seconds REAL NOT NULL, mesh_seconds REAL,
+  peak_rss_bytes INTEGER NOT NULL, inverted INTEGER, flat INTEGER, region TEXT NOT NULL,
+  tetrahedra INTEGER, vertices INTEGER, min_face_angle REAL, max_face_angle REAL,
+  min_dihedral REAL, max_dihedral REAL,
+  microseconds_per_tetrahedron REAL, peak_bytes_per_tetrahedron REAL,
+  stats_json TEXT NOT NULL, mesh_json TEXT NOT NULL, verdict_json TEXT NOT NULL,
+  stderr_tail TEXT NOT NULL, stdout_tail TEXT NOT NULL,
+  command TEXT NOT NULL, host TEXT NOT NULL, started TEXT NOT NULL,
+  UNIQUE (model_sha256, mesher, version, flags, limits)))";
+
+constexpr const char* kColumns =
+    "model_sha256, mesher, version, flags, limits, model_name, model_path, model_bytes, "
+    "disposition, reason, exit_code, signal, wall_seconds, cpu_seconds, mesh_seconds, "
+    "peak_rss_bytes, inverted, flat, region, tetrahedra, vertices, min_face_angle, "
+    "max_face_angle, min_dihedral, max_dihedral, microseconds_per_tetrahedron, "
+    "peak_bytes_per_tetrahedron, stats_json, mesh_json, verdict_json, stderr_tail, stdout_tail, "
+    "command, host, started";
+constexpr int kColumnCount = 35;
+
+// Binds values to consecutive parameters; absent ones become NULL.
+class Binder {
+ public:
+  explicit Binder(SQLite::Statement& statement) : statement_(statement) {}
+  void operator()(const std::string& value) { statement_.bind(++at_, value); }
+  void operator()(double value) { statement_.bind(++at_, value); }
+  void operator()(int value) { statement_.bind(++at_, value); }
+  void operator()(std::uint64_t value) { statement_.bind(++at_, static_cast<std::int64_t>(value)); }
+  template <typename T>
+  void operator()(const std::optional<T>& value) {
+    if (value) return (*this)(*value);
+    statement_.bind(++at_);
+  }
+
+ private:
+  SQLite::Statement& statement_;
+  int at_ = 0;
+};
+
+// Reads consecutive columns.
+class Reader {
+ public:
+  explicit Reader(SQLite::Statement& statement) : statement_(statement) {}
+  void operator()(std::string& value) { value = next().getString(); }
+  void operator()(double& value) { value = next().getDouble(); }
+  void operator()(int& value) { value = next().getInt(); }
+  void operator()(std::uint64_t& value) { value = static_cast<std::uint64_t>(next().getInt64()); }
+  template <typename T>
+  void operator()(std::optional<T>& value) {
+    value.reset();
+    if (statement_.isColumnNull(at_)) {
+      ++at_;
+    } else {
+      (*this)(value.emplace());
+    }
+  }
+
+ private:
+  SQLite::Column next() { return statement_.getColumn(at_++); }
+  SQLite::Statement& statement_;
+  int at_ = 0;
+};
+
+template <typename Visit, typename Key>
+void visit_key(Visit& visit, Key& key) {
+  visit(key.model_sha256);
+  visit(key.mesher);
+  visit(key.version);
+  visit(key.flags);
+  visit(key.limits);
+}
+
+template <typename T>
+std::optional<double> column(const std::optional<MeshColumns>& mesh, T MeshColumns::*member) {
+  return mesh ? std::optional<double>(static_cast<double>((*mesh).*member)) : std::nullopt;
+}
+
+// What a row costs per tetrahedron; nothing without tetrahedra.
+std::optional<double> per_tetrahedron(const RunRow& row, double amount) {
+  if (!row.mesh || row.mesh->tetrahedra == 0) return std::nullopt;
+  return amount / static_cast<double>(row.mesh->tetrahedra);
+}
+
+void bind_row(SQLite::Statement& statement, const RunRow& row) {
+  Binder bind(statement);
+  visit_key(bind, row.key);
+  bind(row.model_name);
+  bind(row.model_path);
+  bind(row.model_bytes);
+  bind(std::string(disposition_name(row.disposition)));
+  bind(row.reason);
+  bind(row.exit_code);
+  bind(row.signal);
+  bind(row.wall_seconds);
+  bind(row.cpu_seconds);
+  bind(row.mesh_seconds);
+  bind(row.peak_rss_bytes);
+  bind(row.inverted);
+  bind(row.flat);
+  bind(row.region);
+  bind(row.mesh ? std::optional(row.mesh->tetrahedra) : std::nullopt);
+  bind(row.mesh ? std::optional(row.mesh->vertices) : std::nullopt);
+  bind(column(row.mesh, &MeshColumns::min_face_angle));
+  bind(column(row.mesh, &MeshColumns::max_face_angle));
+  bind(column(row.mesh, &MeshColumns::min_dihedral));
+  bind(column(row.mesh, &MeshColumns::max_dihedral));
+  bind(per_tetrahedron(row, 1e6 * row.wall_seconds));
+  bind(per_tetrahedron(row, static_cast<double>(row.peak_rss_bytes)));
+  bind(row.stats_json);
+  bind(row.mesh_json);
+  bind(row.verdict_json);
+  bind(row.stderr_tail);
+  bind(row.stdout_tail);
+  bind(row.command);
+  bind(row.host);
+  bind(row.started);
+}
+
+RunRow read_row(SQLite::Statement& statement) {
+  RunRow row;
+  Reader read(statement);
+  visit_key(read, row.key);
+  read(row.model_name);
+  read(row.model_path);
+  read(row.model_bytes);
+  std::string disposition;
+  read(disposition);
+  row.disposition = disposition_from_name(disposition);
+  read(row.reason);
+  read(row.exit_code);
+  read(row.signal);
+  read(row.wall_seconds);
+  read(row.cpu_seconds);
+  read(row.mesh_seconds);
+  read(row.peak_rss_bytes);
+  read(row.inverted);
+  read(row.flat);
+  read(row.region);
+  std::optional<double> in_json;
+  for (int i = 0; i < 8; ++i) read(in_json);
+  read(row.stats_json);
+  read(row.mesh_json);
+  read(row.verdict_json);
+  read(row.stderr_tail);
+  read(row.stdout_tail);
+  read(row.command);
+  read(row.host);
+  read(row.started);
+  row.mesh = mesh_columns(row.mesh_json, "");
+  row.inside = mesh_columns(row.mesh_json, "inside");
+  row.refined = mesh_columns(row.stats_json, "refined");
+  return row;
+}
+
+int lock_for_writing(const std::filesystem::path& path) {
+  const std::string name = path.string() + ".lock";
+  const int fd = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (fd < 0) throw std::runtime_error(name + ": cannot be created");
+  if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+    close(fd);
+    throw std::runtime_error(path.string() + ": another run is writing to it");
+  }
+  return fd;
+}
+
+}  // namespace
+
+const char* disposition_name(Disposition disposition) {
+  return kDispositions[static_cast<std::size_t>(disposition)];
+}
+
+Disposition disposition_from_name(const std::string& name) {
+  const auto found = std::find(kDispositions.begin(), kDispositions.end(), name);
+  if (found == kDispositions.end()) throw std::runtime_error("unknown disposition: " + name);
+  return static_cast<Disposition>(found - kDispositions.begin());
+}
+
+std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std::string& member) {
+  Json json = Json::parse(json_text, nullptr, false);
+  if (!member.empty() && json.is_object()) json = json.value(member, Json());
+  if (!json.is_object() || !json.contains("tetrahedra")) return std::nullopt;
+  const auto number = [&](const char* key) {
+    const auto found = json.find(key);
+    return found != json.end() && found->is_number() ? found->get<double>() : 0.0;
+  };
+  MeshColumns columns;
+  columns.vertices = static_cast<std::uint64_t>(number("vertices"));
+  columns.tetrahedra = static_cast<std::uint64_t>(number("tetrahedra"));
+  columns.min_face_angle = number("min_face_angle");
+  columns.max_face_angle = number("max_face_angle");
+  columns.min_dihedral = number("min_dihedral");
+  columns.max_dihedral = number("max_dihedral");
+  columns.mean_min_face_angle = number("mean_min_face_angle");
+  columns.mean_max_face_angle = number("mean_max_face_angle");
+  columns.mean_min_dihedral = number("mean_min_dihedral");
+  columns.mean_max_dihedral = number("mean_max_dihedral");
+  return columns;
+}
+
+ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) {
+  try {
+    if (mode == Mode::write) {
+      lock_fd_ = lock_for_writing(path);
+      database_ = std::make_unique<SQLite::Database>(
+          path.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 10000);
+      // A committed row survives the death of the process; NORMAL risks only power failures.
+      database_->exec("PRAGMA journal_mode = WAL");
+      database_->exec("PRAGMA synchronous = NORMAL");
+    } else {
+      database_ = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, 10000);
+    }
+    const int version = database_->execAndGet("PRAGMA user_version").getInt();
+    const bool empty = database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
+    if (version != kSchemaVersion && !(empty && mode == Mode::write)) {
+      throw std::runtime_error(path.string() + ": not a results file of this version");
+    }
+    if (mode == Mode::write) {
+      SQLite::Transaction transaction(*database_);
+      database_->exec(kSchema);
+      database_->exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+      database_->exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+      transaction.commit();
+    }
+  } catch (const SQLite::Exception& error) {
+    if (lock_fd_ >= 0) close(lock_fd_);
+    throw std::runtime_error(path.string() + ": " + error.what());
+  } catch (...) {
+    if (lock_fd_ >= 0) close(lock_fd_);
+    throw;
+  }
+}
+
+ResultsDatabase::~ResultsDatabase() {
+  database_.reset();
+  if (lock_fd_ >= 0) close(lock_fd_);
+}
+
+bool ResultsDatabase::has(const RunKey& key) {
+  SQLite::Statement query(*database_,
+                          "SELECT 1 FROM runs WHERE model_sha256 = ? AND mesher = ? AND "
+                          "version = ? AND flags = ? AND limits = ?");
+  Binder bind(query);
+  visit_key(bind, key);
+  return query.executeStep();
+}
+
+void ResultsDatabase::store(const RunRow& row) {
+  std::string places = "?";
+  for (int i = 1; i < kColumnCount; ++i) places += ", ?";
+  SQLite::Statement insert(*database_, std::string("INSERT OR REPLACE INTO runs (") + kColumns +
+                                           ") VALUES (" + places + ")");
+  bind_row(insert, row);
+  insert.exec();
+}
+
+std::vector<RunRow> ResultsDatabase::rows() {
+  std::vector<RunRow> result;
+  SQLite::Statement query(*database_, std::string("SELECT ") + kColumns + " FROM runs ORDER BY id");
+  while (query.executeStep()) result.push_back(read_row(query));
+  return result;
+}
+
+}  // namespace tetproof

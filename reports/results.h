@@ -1,0 +1,93 @@
+// The results of a campaign: one SQLite file, one row per model, mesher, version, flags and limits.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace SQLite {
+class Database;
+}
+
+namespace tetproof {
+
+enum class Disposition : std::uint8_t {
+  ok,
+  wrong_result,   // a mesh was delivered, but it is broken or has inverted tetrahedra
+  rejected,       // the mesher refused the model; the reason says why
+  crash,          // ended by a signal of its own making, or by an internal error it noticed
+  timeout,        // wall or processor limit
+  out_of_memory,  // memory limit, or it said so itself
+  killed          // by somebody else
+};
+
+const char* disposition_name(Disposition disposition);  // "wrong-result", "out-of-memory", ...
+// \throw std::runtime_error for anything that disposition_name() does not return.
+Disposition disposition_from_name(const std::string& name);
+
+// What identifies a run; a run with the same key is not repeated.
+struct RunKey {
+  std::string model_sha256;
+  std::string mesher;   // name as given to -m
+  std::string version;  // of the tool, with the build's id
+  std::string flags;
+  std::string limits;
+  auto operator<=>(const RunKey&) const = default;
+};
+
+// Size and angles of a written mesh, as measured from the file (reports/mesh_quality.h).
+struct MeshColumns {
+  std::uint64_t vertices = 0, tetrahedra = 0;
+  double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
+  double mean_min_face_angle = 0, mean_max_face_angle = 0;
+  double mean_min_dihedral = 0, mean_max_dihedral = 0;
+};
+
+struct RunRow {
+  RunKey key;
+  std::string model_name, model_path;
+  std::uint64_t model_bytes = 0;
+  Disposition disposition = Disposition::killed;
+  std::string reason;  // empty if ok
+  std::optional<int> exit_code, signal;
+  double wall_seconds = 0, cpu_seconds = 0;
+  std::optional<double> mesh_seconds;  // without reading, checking and writing, by its own account
+  std::uint64_t peak_rss_bytes = 0;
+  std::optional<MeshColumns> mesh;  // if a readable mesh was written
+  std::optional<MeshColumns> inside;
+  std::optional<MeshColumns> refined;  // before the enriched CDT, by the mesher's account
+  std::optional<std::uint64_t> inverted, flat;
+  std::string region;        // "hull", "interior" or empty: what the mesh covers
+  std::string stats_json;    // the mesher's own, empty if none
+  std::string mesh_json;     // measured, empty if no readable mesh
+  std::string verdict_json;  // the oracles', empty if not asked
+  std::string stderr_tail, stdout_tail;
+  std::string command, host, started;  // UTC, ISO 8601
+};
+
+// The columns found in the JSON of a `final`, `refined` or measured object.
+std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std::string& member);
+
+class ResultsDatabase {
+ public:
+  enum class Mode : std::uint8_t { read, write };
+
+  // Write mode creates the file, and holds a lock so that there is one writer.
+  // \throw std::runtime_error if it cannot be opened, is not ours, or another writer has it.
+  ResultsDatabase(const std::filesystem::path& path, Mode mode);
+  ~ResultsDatabase();
+
+  bool has(const RunKey& key);
+  // Durable against the death of this process once it returns. Replaces a row of the same key.
+  void store(const RunRow& row);
+  std::vector<RunRow> rows();  // in the order of storing
+
+ private:
+  std::unique_ptr<SQLite::Database> database_;
+  int lock_fd_ = -1;
+};
+
+}  // namespace tetproof

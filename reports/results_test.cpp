@@ -1,0 +1,144 @@
+#include "reports/results.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+using Mode = ResultsDatabase::Mode;
+
+class Results : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = fs::path(testing::TempDir()) / ("results_test_" + std::to_string(getpid()) + ".sqlite");
+    remove();
+  }
+  void TearDown() override { remove(); }
+  void remove() const {
+    for (const char* suffix : {"", "-wal", "-shm", ".lock"}) fs::remove(path_.string() + suffix);
+  }
+  fs::path path_;
+};
+
+RunRow sample(const std::string& model = "aa", const std::string& mesher = "tetgen") {
+  RunRow row;
+  row.key = {model, mesher, "1.0", "zpcq", "wall 60 s"};
+  row.model_name = "a.off";
+  row.disposition = Disposition::wrong_result;
+  row.reason = "3 inverted";
+  row.exit_code = 0;
+  row.wall_seconds = 0.1;
+  row.peak_rss_bytes = 1234567890123;
+  row.inverted = 3;
+  row.region = "hull";
+  row.mesh_json = R"({"tetrahedra": 10, "vertices": 7, "min_face_angle": 0.25,
+                      "inside": {"tetrahedra": 4}})";
+  row.stats_json = R"({"refined": {"tetrahedra": 9, "min_face_angle": 14.5}})";
+  row.stderr_tail = "it's \"quoted\"\n";
+  row.started = "2026-01-01T00:00:00Z";
+  return row;
+}
+
+TEST_F(Results, RoundTrip) {
+  ResultsDatabase database(path_, Mode::write);
+  EXPECT_FALSE(database.has(sample().key));
+  database.store(sample());
+  EXPECT_TRUE(database.has(sample().key));
+  const auto rows = database.rows();
+  ASSERT_EQ(rows.size(), 1u);
+  const RunRow& r = rows[0];
+  EXPECT_EQ(r.key, sample().key);
+  EXPECT_EQ(r.disposition, Disposition::wrong_result);
+  EXPECT_EQ(r.exit_code, 0);
+  EXPECT_EQ(r.signal, std::nullopt);
+  EXPECT_EQ(r.mesh_seconds, std::nullopt);
+  EXPECT_EQ(r.wall_seconds, 0.1);
+  EXPECT_EQ(r.peak_rss_bytes, 1234567890123u);
+  EXPECT_EQ(r.inverted, 3u);
+  EXPECT_EQ(r.flat, std::nullopt);
+  ASSERT_TRUE(r.mesh.has_value());
+  EXPECT_EQ(r.mesh->tetrahedra, 10u);
+  EXPECT_EQ(r.mesh->min_face_angle, 0.25);
+  EXPECT_EQ(r.inside->tetrahedra, 4u);
+  EXPECT_EQ(r.refined->min_face_angle, 14.5);
+  EXPECT_EQ(r.stderr_tail, sample().stderr_tail);
+  EXPECT_EQ(r.started, sample().started);
+}
+
+TEST_F(Results, EveryPartOfTheKeyCounts) {
+  ResultsDatabase database(path_, Mode::write);
+  database.store(sample());
+  for (int part = 0; part < 5; ++part) {
+    RunKey key = sample().key;
+    std::string* const parts[] = {&key.model_sha256, &key.mesher, &key.version, &key.flags,
+                                  &key.limits};
+    *parts[part] += "x";
+    EXPECT_FALSE(database.has(key)) << part;
+    RunRow row = sample();
+    row.key = key;
+    database.store(row);
+  }
+  EXPECT_EQ(database.rows().size(), 6u);
+  RunRow again = sample();
+  again.disposition = Disposition::ok;
+  database.store(again);
+  EXPECT_EQ(database.rows().size(), 6u);
+}
+
+TEST_F(Results, OneWriterAndAnyReaders) {
+  ResultsDatabase writer(path_, Mode::write);
+  writer.store(sample());
+  EXPECT_EQ(ResultsDatabase(path_, Mode::read).rows().size(), 1u);
+  try {
+    ResultsDatabase second(path_, Mode::write);
+    FAIL() << "a second writer got in";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("another run"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(Results, RowsSurviveTheDeathOfTheWriter) {
+  const pid_t child = fork();
+  if (child == 0) {
+    ResultsDatabase database(path_, Mode::write);
+    for (int i = 0; i < 20; ++i) database.store(sample(std::to_string(i)));
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  ResultsDatabase database(path_, Mode::write);  // the lock died with its owner
+  EXPECT_EQ(database.rows().size(), 20u);
+}
+
+TEST_F(Results, OtherFilesAreRefused) {
+  EXPECT_THROW(ResultsDatabase(path_, Mode::read), std::runtime_error);
+  std::ofstream(path_) << std::string(5000, 'x');
+  EXPECT_THROW(ResultsDatabase(path_, Mode::read), std::runtime_error);
+  EXPECT_THROW(ResultsDatabase(path_, Mode::write), std::runtime_error);
+}
+
+TEST(Disposition, NamesRoundTrip) {
+  for (int i = 0; i < 7; ++i) {
+    const auto d = static_cast<Disposition>(i);
+    EXPECT_EQ(disposition_from_name(disposition_name(d)), d);
+  }
+  EXPECT_THROW(disposition_from_name("fine"), std::runtime_error);
+}
+
+TEST(MeshColumns, AbsentOrBrokenJson) {
+  EXPECT_FALSE(mesh_columns("", "").has_value());
+  EXPECT_FALSE(mesh_columns("{", "").has_value());
+  EXPECT_FALSE(mesh_columns("[1]", "x").has_value());
+  EXPECT_FALSE(mesh_columns(R"({"refined": null})", "refined").has_value());
+  EXPECT_TRUE(mesh_columns(R"({"tetrahedra": 1, "min_face_angle": null})", "").has_value());
+}
+
+}  // namespace
+}  // namespace tetproof

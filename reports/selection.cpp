@@ -1,0 +1,108 @@
+#include "reports/selection.h"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace tetproof {
+namespace {
+
+constexpr const char* kKnownOrder[] = {"tetgen-T0",         "tetgen",       "cdt",
+                                       "safe-delmesher-e4", "delmesher-e4", "delmesher-nofilter",
+                                       "delmesher"};
+
+std::vector<std::string> ordered_meshers(
+    const std::map<std::string, std::map<std::string, RunRow>>& runs) {
+  std::vector<std::string> order;
+  for (const char* known : kKnownOrder) {
+    if (runs.count(known) != 0) order.emplace_back(known);
+  }
+  for (const auto& [mesher, ignored] : runs) {
+    if (std::find(order.begin(), order.end(), mesher) == order.end()) order.push_back(mesher);
+  }
+  return order;
+}
+
+void note_mixtures(Selection& selection) {
+  for (const std::string& mesher : selection.meshers) {
+    std::set<std::string> versions, flags, limits, hosts;
+    for (const auto& [model, row] : selection.runs.at(mesher)) {
+      versions.insert(row.key.version);
+      flags.insert(row.key.flags);
+      limits.insert(row.key.limits);
+      hosts.insert(row.host);
+    }
+    const auto note = [&](const std::set<std::string>& values, const std::string& what) {
+      if (values.size() < 2) return;
+      selection.notes.push_back(mesher + ": runs of " + std::to_string(values.size()) + " " + what +
+                                " are mixed");
+    };
+    note(versions, "versions");
+    note(flags, "sets of flags");
+    note(limits, "sets of limits");
+    note(hosts, "machines");
+  }
+}
+
+}  // namespace
+
+const RunRow* Selection::run(const std::string& mesher, const std::string& model) const {
+  const auto by_mesher = runs.find(mesher);
+  if (by_mesher == runs.end()) return nullptr;
+  const auto found = by_mesher->second.find(model);
+  return found == by_mesher->second.end() ? nullptr : &found->second;
+}
+
+const RunRow* Selection::ok_run(const std::string& mesher, const std::string& model) const {
+  const RunRow* row = run(mesher, model);
+  return row != nullptr && row->disposition == Disposition::ok && row->mesh ? row : nullptr;
+}
+
+std::vector<std::string> Selection::common_models(const std::vector<std::string>& among) const {
+  std::vector<std::string> common;
+  std::copy_if(models.begin(), models.end(), std::back_inserter(common), [&](const auto& model) {
+    return std::all_of(among.begin(), among.end(),
+                       [&](const auto& mesher) { return ok_run(mesher, model) != nullptr; });
+  });
+  return common;
+}
+
+std::vector<const RunRow*> Selection::ok_runs(const std::string& mesher) const {
+  std::vector<const RunRow*> found;
+  for (const std::string& model : models) {
+    if (const RunRow* row = ok_run(mesher, model)) found.push_back(row);
+  }
+  return found;
+}
+
+Selection select_runs(const std::vector<RunRow>& rows) {
+  Selection selection;
+  for (const RunRow& row : rows) {
+    auto& by_model = selection.runs[row.key.mesher];
+    const auto found = by_model.find(row.key.model_sha256);
+    if (found == by_model.end()) {
+      by_model.emplace(row.key.model_sha256, row);
+    } else if (row.started >= found->second.started) {
+      found->second = row;
+    }
+    selection.model_names.emplace(row.key.model_sha256, row.model_name);
+  }
+  for (const auto& [hash, name] : selection.model_names) selection.models.push_back(hash);
+  std::sort(selection.models.begin(), selection.models.end(), [&](const auto& a, const auto& b) {
+    return std::pair(selection.model_names.at(a), a) < std::pair(selection.model_names.at(b), b);
+  });
+  selection.meshers = ordered_meshers(selection.runs);
+  note_mixtures(selection);
+  return selection;
+}
+
+Selection load_runs(const std::vector<std::filesystem::path>& databases) {
+  std::vector<RunRow> rows;
+  for (const auto& path : databases) {
+    auto more = ResultsDatabase(path, ResultsDatabase::Mode::read).rows();
+    std::move(more.begin(), more.end(), std::back_inserter(rows));
+  }
+  return select_runs(rows);
+}
+
+}  // namespace tetproof

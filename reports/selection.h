@@ -1,0 +1,34 @@
+// The runs a report speaks of: from one or more databases, one run per model and mesher.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reports/results.h"
+
+namespace tetproof {
+
+struct Selection {
+  std::vector<std::string> meshers;  // the known ones in the paper's order, then the others by name
+  std::vector<std::string> models;   // hashes, by name of the model
+  std::map<std::string, std::string> model_names;             // by hash
+  std::map<std::string, std::map<std::string, RunRow>> runs;  // by mesher, then model
+  std::vector<std::string> notes;  // e.g. that runs of different versions stand side by side
+
+  const RunRow* run(const std::string& mesher, const std::string& model) const;
+  const RunRow* ok_run(const std::string& mesher, const std::string& model) const;
+  bool has(const std::string& mesher) const { return runs.count(mesher) != 0; }
+  // Models on which every one of these meshers succeeded.
+  std::vector<std::string> common_models(const std::vector<std::string>& meshers) const;
+  std::vector<const RunRow*> ok_runs(const std::string& mesher) const;
+};
+
+// Of several runs of a model with a mesher (other versions, flags or limits) the latest counts.
+Selection select_runs(const std::vector<RunRow>& rows);
+
+// \throw std::runtime_error if a file cannot be read.
+Selection load_runs(const std::vector<std::filesystem::path>& databases);
+
+}  // namespace tetproof

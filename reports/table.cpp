@@ -1,0 +1,75 @@
+#include "reports/table.h"
+
+#include <algorithm>
+
+namespace tetproof {
+namespace {
+
+std::string markdown_cell(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|' || c == '<') result += '\\';
+    result += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return result;
+}
+
+// Columns are padded so that the source reads as a table too; numbers stand on the right.
+std::string markdown_row(const std::vector<std::string>& cells,
+                         const std::vector<std::size_t>& widths) {
+  std::string line = "|";
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::string cell = markdown_cell(cells[i]);
+    const std::string padding(widths[i] - std::min(widths[i], cell.size()), ' ');
+    line += ' ' + (i == 0 ? cell + padding : padding + cell) + " |";
+  }
+  return line + '\n';
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
+
+std::string csv_row(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i == 0 ? "" : ",") + csv_cell(cells[i]);
+  return line + "\r\n";
+}
+
+}  // namespace
+
+std::string to_markdown(const Table& table) {
+  std::vector<std::size_t> widths(table.header.size(), 3);
+  const auto widen = [&](const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      widths[i] = std::max(widths[i], markdown_cell(cells[i]).size());
+    }
+  };
+  widen(table.header);
+  for (const auto& row : table.rows) widen(row);
+
+  std::string text = "### " + table.title + "\n\n" + markdown_row(table.header, widths) + "|";
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    text += i == 0 ? ":" + std::string(widths[i] + 1, '-') + "|"
+                   : std::string(widths[i] + 1, '-') + ":|";
+  }
+  text += '\n';
+  for (const auto& row : table.rows) text += markdown_row(row, widths);
+  if (!table.notes.empty()) text += '\n';
+  for (const std::string& note : table.notes) text += "- " + note + '\n';
+  return text + '\n';
+}
+
+std::string to_csv(const Table& table) {
+  std::string text = csv_row(table.header);
+  for (const auto& row : table.rows) text += csv_row(row);
+  return text;
+}
+
+}  // namespace tetproof

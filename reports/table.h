@@ -1,0 +1,20 @@
+// A table of text cells, written as Markdown and as CSV.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tetproof {
+
+struct Table {
+  std::string name;   // of the CSV file
+  std::string title;  // above the table
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+  std::vector<std::string> notes;  // below the table: denominators, conventions
+};
+
+std::string to_markdown(const Table& table);
+std::string to_csv(const Table& table);  // RFC 4180
+
+}  // namespace tetproof

@@ -1,0 +1,422 @@
+#include "reports/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+namespace tetproof {
+namespace {
+
+using Rows = std::vector<const RunRow*>;
+// Nothing where a run lacks the value.
+using Value = std::function<std::optional<double>(const RunRow&)>;
+
+constexpr std::uint64_t kLargeMesh = 10000;  // tetrahedra, where fixed costs of a process vanish
+
+std::string fixed(std::optional<double> value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+// Small angles keep three significant digits.
+std::string degrees(std::optional<double> value) {
+  if (!value) return "-";
+  if (*value == 0 || std::fabs(*value) >= 0.1) return fmt::format("{:.2f}", *value);
+  return fmt::format("{:.2g}", *value);
+}
+
+std::vector<double> values_of(const Rows& rows, const Value& value) {
+  std::vector<double> values;
+  for (const RunRow* row : rows) {
+    if (const auto v = value(*row)) values.push_back(*v);
+  }
+  return values;
+}
+
+std::optional<double> mean(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+std::optional<double> minimum(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return *std::min_element(values.begin(), values.end());
+}
+
+using Part = std::optional<MeshColumns> RunRow::*;
+
+template <typename T>
+Value of(Part part, T MeshColumns::*column) {
+  return [=](const RunRow& row) -> std::optional<double> {
+    if (!(row.*part)) return std::nullopt;
+    return static_cast<double>((*(row.*part)).*column);
+  };
+}
+
+Value wall_seconds() {
+  return [](const RunRow& row) { return row.wall_seconds; };
+}
+
+Value peak_megabytes() {
+  return [](const RunRow& row) { return static_cast<double>(row.peak_rss_bytes) / 1e6; };
+}
+
+std::optional<double> per_tetrahedron(const RunRow& row, std::optional<double> amount) {
+  if (!amount || !row.mesh || row.mesh->tetrahedra == 0) return std::nullopt;
+  return *amount / static_cast<double>(row.mesh->tetrahedra);
+}
+
+Value process_microseconds() {
+  return [](const RunRow& row) { return per_tetrahedron(row, 1e6 * row.wall_seconds); };
+}
+
+Value meshing_microseconds() {
+  return [](const RunRow& row) {
+    const auto seconds = row.mesh_seconds;
+    return per_tetrahedron(row, seconds ? std::optional(1e6 * *seconds) : std::nullopt);
+  };
+}
+
+Value peak_bytes() {
+  return [](const RunRow& row) {
+    return per_tetrahedron(row, static_cast<double>(row.peak_rss_bytes));
+  };
+}
+
+// Adds a row with one cell per mesher.
+template <typename Cell>
+void add_row(Table& table, const std::string& label, const std::vector<Rows>& columns, Cell cell) {
+  std::vector<std::string> row = {label};
+  for (const Rows& rows : columns) row.push_back(cell(rows));
+  table.rows.push_back(std::move(row));
+}
+
+std::vector<std::string> present(const Selection& selection,
+                                 const std::vector<std::string>& meshers) {
+  std::vector<std::string> found;
+  std::copy_if(meshers.begin(), meshers.end(), std::back_inserter(found),
+               [&](const auto& mesher) { return selection.has(mesher); });
+  return found;
+}
+
+std::size_t run_count(const Selection& selection, const std::string& mesher) {
+  const auto found = selection.runs.find(mesher);
+  return found == selection.runs.end() ? 0 : found->second.size();
+}
+
+struct AngleRow {
+  const char* label;
+  double MeshColumns::*column;
+};
+
+constexpr AngleRow kAngles[] = {{"Avg. min face angle", &MeshColumns::min_face_angle},
+                                {"Avg. max face angle", &MeshColumns::max_face_angle},
+                                {"Avg. min dihedral angle", &MeshColumns::min_dihedral},
+                                {"Avg. max dihedral angle", &MeshColumns::max_dihedral}};
+
+std::string with_refined(std::optional<double> value, std::optional<double> refined) {
+  return refined ? degrees(value) + " (" + degrees(refined) + ")" : degrees(value);
+}
+
+Table comparison(const Selection& selection, const std::vector<std::string>& meshers, Part part) {
+  Table table;
+  std::vector<std::string> common = selection.common_models(meshers);
+  std::erase_if(common, [&](const auto& model) {
+    return std::any_of(meshers.begin(), meshers.end(), [&](const auto& mesher) {
+      return !(selection.ok_run(mesher, model)->*part);
+    });
+  });
+  std::vector<Rows> columns;
+  table.header = {"Measure"};
+  for (const std::string& mesher : meshers) {
+    table.header.push_back(mesher);
+    Rows rows;
+    for (const auto& model : common) rows.push_back(selection.ok_run(mesher, model));
+    columns.push_back(std::move(rows));
+  }
+  for (const AngleRow& angle : kAngles) {
+    add_row(table, angle.label, columns, [&](const Rows& rows) {
+      return degrees(mean(values_of(rows, of(part, angle.column))));
+    });
+  }
+  add_row(table, "Avg. # vertices", columns, [&](const Rows& rows) {
+    return fixed(mean(values_of(rows, of(part, &MeshColumns::vertices))), 0);
+  });
+  add_row(table, "Avg. # tetrahedra", columns, [&](const Rows& rows) {
+    return fixed(mean(values_of(rows, of(part, &MeshColumns::tetrahedra))), 0);
+  });
+  std::vector<std::string> successes = {"Successes (ok of runs)"};
+  for (const std::string& mesher : meshers) {
+    successes.push_back(
+        fmt::format("{}/{}", selection.ok_runs(mesher).size(), run_count(selection, mesher)));
+  }
+  table.rows.push_back(std::move(successes));
+  table.notes.push_back(
+      fmt::format("Averages over the {} of {} models on which all {} meshers of the table succeed.",
+                  common.size(), selection.models.size(), meshers.size()));
+  return table;
+}
+
+}  // namespace
+
+std::optional<double> median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+Interval wilson_interval(std::size_t successes, std::size_t total) {
+  if (total == 0) return {0, 1};
+  constexpr double kZ = 1.959963984540054;
+  const double n = static_cast<double>(total), p = static_cast<double>(successes) / n;
+  const double center = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
+  const double half = kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
+  return {std::max(0.0, center - half), std::min(1.0, center + half)};
+}
+
+Table table_1(const Selection& selection) {
+  Table table;
+  table.name = "table1";
+  table.title = "Table 1: averages per experiment";
+  table.header = {"Measure"};
+  std::vector<Rows> columns;
+  const auto meshers = present(selection, {"safe-delmesher-e4", "delmesher-e4", "delmesher"});
+  std::vector<std::string> models = {"Models (ok of runs)"};
+  for (const std::string& mesher : meshers) {
+    table.header.push_back(mesher);
+    columns.push_back(selection.ok_runs(mesher));
+    models.push_back(fmt::format("{}/{}", columns.back().size(), run_count(selection, mesher)));
+  }
+  table.rows.push_back(models);
+  add_row(table, "Avg. # tetrahedra", columns, [](const Rows& rows) {
+    return fixed(mean(values_of(rows, of(&RunRow::mesh, &MeshColumns::tetrahedra))), 0);
+  });
+  add_row(table, "Avg. # vertices", columns, [](const Rows& rows) {
+    return fixed(mean(values_of(rows, of(&RunRow::mesh, &MeshColumns::vertices))), 0);
+  });
+  for (const AngleRow& angle : kAngles) {
+    add_row(table, angle.label, columns, [&](const Rows& rows) {
+      return with_refined(mean(values_of(rows, of(&RunRow::mesh, angle.column))),
+                          mean(values_of(rows, of(&RunRow::refined, angle.column))));
+    });
+  }
+  add_row(table, "Absolute min face angle", columns, [](const Rows& rows) {
+    return with_refined(
+        minimum(values_of(rows, of(&RunRow::mesh, &MeshColumns::min_face_angle))),
+        minimum(values_of(rows, of(&RunRow::refined, &MeshColumns::min_face_angle))));
+  });
+  add_row(table, "Average time (s)", columns,
+          [](const Rows& rows) { return fixed(mean(values_of(rows, wall_seconds())), 2); });
+  add_row(table, "Average memory (MB)", columns,
+          [](const Rows& rows) { return fixed(mean(values_of(rows, peak_megabytes())), 0); });
+  table.notes = {
+      "Each column is averaged over the models on which that experiment succeeds (first row).",
+      "In brackets: at the end of the refinement, before the enriched CDT, by the mesher's own "
+      "statistics. All else is measured on the file as written.",
+      "The two e4 experiments count every tetrahedron down to the outer box, as the paper does; "
+      "delmesher is our default run, which writes and counts the inside of the model only.",
+      "Time is the wall time of the whole process, memory its peak resident set, 1 MB = 10^6 "
+      "bytes."};
+  return table;
+}
+
+Table table_2(const Selection& selection) {
+  Table table = comparison(
+      selection,
+      present(selection, {"tetgen-T0", "tetgen", "cdt", "safe-delmesher-e4", "delmesher-e4"}),
+      &RunRow::mesh);
+  table.name = "table2";
+  table.title = "Table 2: comparison on the common subset";
+  table.notes.push_back(
+      "All tetrahedra count, down to the convex hull (TetGen, CDT) or the outer box; cdt is our "
+      "own "
+      "constrained Delaunay tetrahedrization, not the published program.");
+  return table;
+}
+
+Table table_2_inside(const Selection& selection) {
+  Table table = comparison(selection,
+                           present(selection, {"tetgen-T0", "tetgen", "cdt", "safe-delmesher-e4",
+                                               "delmesher-e4", "delmesher"}),
+                           &RunRow::inside);
+  table.name = "table2-inside";
+  table.title = "Table 2 inside the model only";
+  table.notes.push_back("Only tetrahedra inside the model count, for every mesher.");
+  return table;
+}
+
+Table disposition_table(const Selection& selection) {
+  Table table;
+  table.name = "dispositions";
+  table.title = "What became of the runs";
+  table.header = {"Mesher", "Runs", "ok", "ok %", "95 % interval"};
+  for (int d = 1; d < 7; ++d) table.header.push_back(disposition_name(static_cast<Disposition>(d)));
+  table.header.push_back("ok with flat tets");
+  for (const std::string& mesher : selection.meshers) {
+    std::array<std::size_t, 7> counts{};
+    std::size_t with_flat = 0;
+    for (const auto& [model, row] : selection.runs.at(mesher)) {
+      ++counts[static_cast<std::size_t>(row.disposition)];
+      with_flat += row.disposition == Disposition::ok && row.flat.value_or(0) > 0;
+    }
+    const std::size_t total = run_count(selection, mesher);
+    const Interval interval = wilson_interval(counts[0], total);
+    std::vector<std::string> row = {
+        mesher, std::to_string(total), std::to_string(counts[0]),
+        fixed(100.0 * static_cast<double>(counts[0]) / static_cast<double>(total), 1),
+        fixed(100 * interval.low, 1) + " to " + fixed(100 * interval.high, 1)};
+    for (int d = 1; d < 7; ++d) row.push_back(std::to_string(counts[d]));
+    row.push_back(std::to_string(with_flat));
+    table.rows.push_back(std::move(row));
+  }
+  table.notes = {
+      "wrong-result: a mesh was delivered but is unreadable, empty, has inverted "
+      "tetrahedra by exact sign, or faces of more than two tetrahedra.",
+      "Intervals are Wilson's."};
+  return table;
+}
+
+Table speed_table(const Selection& selection) {
+  Table table;
+  table.name = "speed";
+  table.title = "Microseconds and bytes per tetrahedron";
+  table.header = {"Mesher",
+                  "Models",
+                  "us/tet, median",
+                  "us/tet, all tets",
+                  "us/tet meshing only, median",
+                  "Ratio to tetgen, median (pairs)",
+                  "Meshing-only ratio, median (pairs)",
+                  "Peak bytes/tet, median",
+                  "Peak bytes/tet, large, median (models)"};
+  const auto ratio = [&](const std::string& mesher, const Value& value) {
+    std::vector<double> ratios;
+    for (const std::string& model : selection.common_models({mesher, "tetgen"})) {
+      const auto ours = value(*selection.ok_run(mesher, model));
+      const auto theirs = value(*selection.ok_run("tetgen", model));
+      if (ours && theirs && *theirs > 0) ratios.push_back(*ours / *theirs);
+    }
+    return fmt::format("{} ({})", fixed(median(ratios), 2), ratios.size());
+  };
+  for (const std::string& mesher : selection.meshers) {
+    const Rows rows = selection.ok_runs(mesher);
+    Rows large;
+    double seconds = 0, tetrahedra = 0;
+    for (const RunRow* row : rows) {
+      seconds += row->wall_seconds;
+      tetrahedra += static_cast<double>(row->mesh->tetrahedra);
+      if (row->mesh->tetrahedra >= kLargeMesh) large.push_back(row);
+    }
+    const auto total = tetrahedra > 0 ? std::optional(1e6 * seconds / tetrahedra) : std::nullopt;
+    table.rows.push_back(
+        {mesher, std::to_string(rows.size()),
+         fixed(median(values_of(rows, process_microseconds())), 2), fixed(total, 2),
+         fixed(median(values_of(rows, meshing_microseconds())), 2),
+         ratio(mesher, process_microseconds()), ratio(mesher, meshing_microseconds()),
+         fixed(median(values_of(rows, peak_bytes())), 0),
+         fmt::format("{} ({})", fixed(median(values_of(large, peak_bytes())), 0), large.size())});
+  }
+  table.notes = {
+      "us/tet: wall time of the whole process over the tetrahedra written; \"all tets\" is total "
+      "time over total tetrahedra. Meshing only: without reading, checking and writing, by the "
+      "mesher's own account (for TetGen the call of tetrahedralize()).",
+      "Ratios are paired per model, over the models on which both succeed.",
+      fmt::format("Peak: largest resident set of the process. Large: at least {} tetrahedra.",
+                  kLargeMesh)};
+  return table;
+}
+
+Table failure_table(const Selection& selection) {
+  Table table;
+  table.name = "not-ok";
+  table.title = "Runs that are not ok";
+  table.header = {"Model", "Mesher", "Disposition", "Wall s", "Reason"};
+  for (const std::string& model : selection.models) {
+    for (const std::string& mesher : selection.meshers) {
+      const RunRow* row = selection.run(mesher, model);
+      if (row == nullptr || row->disposition == Disposition::ok) continue;
+      table.rows.push_back({row->model_name, mesher, disposition_name(row->disposition),
+                            fixed(row->wall_seconds, 2), row->reason.substr(0, 300)});
+    }
+  }
+  if (table.rows.empty()) table.notes.push_back("None.");
+  return table;
+}
+
+Table run_table(const Selection& selection) {
+  Table table;
+  table.name = "runs";
+  table.title = "All runs";
+  table.header = {"model",
+                  "model_sha256",
+                  "mesher",
+                  "version",
+                  "flags",
+                  "limits",
+                  "disposition",
+                  "reason",
+                  "wall_seconds",
+                  "cpu_seconds",
+                  "mesh_seconds",
+                  "peak_rss_bytes",
+                  "region",
+                  "vertices",
+                  "tetrahedra",
+                  "inside_tetrahedra",
+                  "min_face_angle",
+                  "max_face_angle",
+                  "min_dihedral",
+                  "max_dihedral",
+                  "inside_min_face_angle",
+                  "refined_min_face_angle",
+                  "inverted",
+                  "flat",
+                  "us_per_tetrahedron",
+                  "peak_bytes_per_tetrahedron"};
+  const auto number = [](const std::optional<double>& value) {
+    return value ? fmt::format("{}", *value) : "";
+  };
+  for (const std::string& model : selection.models) {
+    for (const std::string& mesher : selection.meshers) {
+      const RunRow* found = selection.run(mesher, model);
+      if (found == nullptr) continue;
+      const RunRow& r = *found;
+      const auto get = [&](const Value& value) { return number(value(r)); };
+      const auto count = [](const std::optional<std::uint64_t>& value) {
+        return value ? std::to_string(*value) : "";
+      };
+      table.rows.push_back({r.model_name,
+                            r.key.model_sha256,
+                            mesher,
+                            r.key.version,
+                            r.key.flags,
+                            r.key.limits,
+                            disposition_name(r.disposition),
+                            r.reason,
+                            number(r.wall_seconds),
+                            number(r.cpu_seconds),
+                            number(r.mesh_seconds),
+                            std::to_string(r.peak_rss_bytes),
+                            r.region,
+                            get(of(&RunRow::mesh, &MeshColumns::vertices)),
+                            get(of(&RunRow::mesh, &MeshColumns::tetrahedra)),
+                            get(of(&RunRow::inside, &MeshColumns::tetrahedra)),
+                            get(of(&RunRow::mesh, &MeshColumns::min_face_angle)),
+                            get(of(&RunRow::mesh, &MeshColumns::max_face_angle)),
+                            get(of(&RunRow::mesh, &MeshColumns::min_dihedral)),
+                            get(of(&RunRow::mesh, &MeshColumns::max_dihedral)),
+                            get(of(&RunRow::inside, &MeshColumns::min_face_angle)),
+                            get(of(&RunRow::refined, &MeshColumns::min_face_angle)),
+                            count(r.inverted),
+                            count(r.flat),
+                            get(process_microseconds()),
+                            get(peak_bytes())});
+    }
+  }
+  return table;
+}
+
+}  // namespace tetproof

@@ -1,0 +1,217 @@
+// Tables of a small made-up campaign, against numbers computed by hand.
+#include "reports/tables.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "reports/report.h"
+
+namespace tetproof {
+namespace {
+
+struct Made {
+  const char* model;
+  const char* mesher;
+  Disposition disposition;
+  unsigned tets;
+  double min_face;
+  double wall;
+  double refined_min_face;  // 0: none
+  unsigned inside_tets;     // 0: none
+};
+
+RunRow row_of(const Made& made) {
+  RunRow row;
+  row.key = {std::string("hash-") + made.model, made.mesher, "1", "f", "l"};
+  row.model_name = made.model;
+  row.disposition = made.disposition;
+  row.wall_seconds = made.wall;
+  row.mesh_seconds = made.wall / 2;
+  row.peak_rss_bytes = made.tets * 100;
+  row.started = "2026-01-01T00:00:00Z";
+  if (made.disposition != Disposition::ok) {
+    row.reason = "a | reason";
+    return row;
+  }
+  row.mesh.emplace();
+  row.mesh->tetrahedra = made.tets;
+  row.mesh->vertices = made.tets / 5;
+  row.mesh->min_face_angle = made.min_face;
+  row.mesh->max_face_angle = 170;
+  if (made.refined_min_face > 0) {
+    row.refined.emplace();
+    row.refined->min_face_angle = made.refined_min_face;
+  }
+  if (made.inside_tets > 0) {
+    row.inside.emplace();
+    row.inside->tetrahedra = made.inside_tets;
+    row.inside->min_face_angle = 2 * made.min_face;
+  }
+  return row;
+}
+
+constexpr auto kOk = Disposition::ok;
+
+Selection campaign() {
+  std::vector<RunRow> rows;
+  for (const Made& made :
+       std::initializer_list<Made>{{"a", "safe-delmesher-e4", kOk, 1000, 2, 0.10, 14.5, 400},
+                                   {"b", "safe-delmesher-e4", kOk, 3000, 4, 0.50, 15.5, 900},
+                                   {"c", "safe-delmesher-e4", kOk, 20000, 0.003, 3.0, 14.9, 9000},
+                                   {"a", "delmesher-e4", kOk, 1500, 3, 0.2, 14.6, 500},
+                                   {"b", "delmesher-e4", Disposition::timeout, 0, 0, 60, 0, 0},
+                                   {"c", "delmesher-e4", kOk, 30000, 1, 6.0, 14.7, 10000},
+                                   {"a", "tetgen", kOk, 500, 5, 0.01, 0, 200},
+                                   {"b", "tetgen", Disposition::crash, 0, 0, 0.02, 0, 0},
+                                   {"c", "tetgen", kOk, 10000, 1, 0.4, 0, 4000},
+                                   {"a", "tetgen-T0", kOk, 600, 6, 0.012, 0, 250},
+                                   {"b", "tetgen-T0", Disposition::rejected, 0, 0, 0.02, 0, 0},
+                                   {"c", "tetgen-T0", Disposition::rejected, 0, 0, 0.02, 0, 0},
+                                   {"a", "cdt", kOk, 100, 1, 0.005, 0, 50},
+                                   {"b", "cdt", kOk, 200, 1, 0.005, 0, 80},
+                                   {"c", "cdt", kOk, 300, 1, 0.005, 0, 90}}) {
+    rows.push_back(row_of(made));
+  }
+  return select_runs(rows);
+}
+
+// Cells by row label and column header.
+std::map<std::string, std::map<std::string, std::string>> cells(const Table& table) {
+  std::map<std::string, std::map<std::string, std::string>> result;
+  for (const auto& row : table.rows) {
+    EXPECT_EQ(row.size(), table.header.size());
+    for (std::size_t i = 1; i < row.size(); ++i) result[row[0]][table.header[i]] = row[i];
+  }
+  return result;
+}
+
+TEST(Tables, Table1) {
+  const Table table = table_1(campaign());
+  auto t = cells(table);
+  EXPECT_EQ(table.header,
+            (std::vector<std::string>{"Measure", "safe-delmesher-e4", "delmesher-e4"}));
+  EXPECT_EQ(t["Models (ok of runs)"]["safe-delmesher-e4"], "3/3");
+  EXPECT_EQ(t["Models (ok of runs)"]["delmesher-e4"], "2/3");
+  EXPECT_EQ(t["Avg. # tetrahedra"]["safe-delmesher-e4"], "8000");  // 24000 / 3
+  EXPECT_EQ(t["Avg. # tetrahedra"]["delmesher-e4"], "15750");      // 31500 / 2
+  EXPECT_EQ(t["Avg. # vertices"]["safe-delmesher-e4"], "1600");    // 4800 / 3
+  EXPECT_EQ(t["Avg. min face angle"]["safe-delmesher-e4"], "2.00 (14.97)");
+  EXPECT_EQ(t["Avg. min face angle"]["delmesher-e4"], "2.00 (14.65)");
+  EXPECT_EQ(t["Absolute min face angle"]["safe-delmesher-e4"], "0.003 (14.50)");
+  EXPECT_EQ(t["Absolute min face angle"]["delmesher-e4"], "1.00 (14.60)");
+  EXPECT_EQ(t["Average time (s)"]["safe-delmesher-e4"], "1.20");  // 3.6 / 3
+  EXPECT_EQ(t["Average time (s)"]["delmesher-e4"], "3.10");       // 6.2 / 2
+  EXPECT_EQ(t["Average memory (MB)"]["delmesher-e4"], "2");       // 1.575
+}
+
+TEST(Tables, Table2IsOverTheCommonSubset) {
+  const Table table = table_2(campaign());
+  auto t = cells(table);
+  EXPECT_EQ(table.header, (std::vector<std::string>{"Measure", "tetgen-T0", "tetgen", "cdt",
+                                                    "safe-delmesher-e4", "delmesher-e4"}));
+  // Only model a is ok everywhere.
+  EXPECT_EQ(t["Avg. # tetrahedra"]["tetgen-T0"], "600");
+  EXPECT_EQ(t["Avg. # tetrahedra"]["cdt"], "100");
+  EXPECT_EQ(t["Avg. min face angle"]["tetgen"], "5.00");
+  EXPECT_EQ(t["Successes (ok of runs)"]["tetgen-T0"], "1/3");
+  EXPECT_EQ(t["Successes (ok of runs)"]["cdt"], "3/3");
+  EXPECT_NE(table.notes[0].find("the 1 of 3 models"), std::string::npos) << table.notes[0];
+}
+
+TEST(Tables, Table2Inside) {
+  auto t = cells(table_2_inside(campaign()));
+  EXPECT_EQ(t["Avg. # tetrahedra"]["tetgen"], "200");
+  EXPECT_EQ(t["Avg. min face angle"]["tetgen"], "10.00");
+}
+
+TEST(Tables, Dispositions) {
+  auto t = cells(disposition_table(campaign()));
+  EXPECT_EQ(t["tetgen-T0"]["ok"], "1");
+  EXPECT_EQ(t["tetgen-T0"]["ok %"], "33.3");
+  EXPECT_EQ(t["tetgen-T0"]["rejected"], "2");
+  EXPECT_EQ(t["tetgen"]["crash"], "1");
+  EXPECT_EQ(t["delmesher-e4"]["timeout"], "1");
+  EXPECT_EQ(t["cdt"]["ok"], "3");
+  EXPECT_EQ(t["cdt"]["timeout"], "0");
+}
+
+TEST(Tables, Speed) {
+  auto t = cells(speed_table(campaign()));
+  // safe: 100, 166.67, 150 us per tet; median 150; total 3.6 s / 24000.
+  EXPECT_EQ(t["safe-delmesher-e4"]["us/tet, median"], "150.00");
+  EXPECT_EQ(t["safe-delmesher-e4"]["us/tet, all tets"], "150.00");
+  EXPECT_EQ(t["safe-delmesher-e4"]["us/tet meshing only, median"], "75.00");
+  // tetgen: 20 and 40; ratios 100/20 = 5 and 150/40 = 3.75 on a and c.
+  EXPECT_EQ(t["tetgen"]["us/tet, median"], "30.00");
+  EXPECT_EQ(t["safe-delmesher-e4"]["Ratio to tetgen, median (pairs)"], "4.38 (2)");
+  EXPECT_EQ(t["tetgen"]["Ratio to tetgen, median (pairs)"], "1.00 (2)");
+  EXPECT_EQ(t["tetgen-T0"]["Ratio to tetgen, median (pairs)"], "1.00 (1)");
+  EXPECT_EQ(t["cdt"]["Peak bytes/tet, median"], "100");
+  EXPECT_EQ(t["safe-delmesher-e4"]["Peak bytes/tet, large, median (models)"], "100 (1)");
+}
+
+TEST(Tables, FailuresAreListedWithReasons) {
+  const Table table = failure_table(campaign());
+  ASSERT_EQ(table.rows.size(), 4u);
+  EXPECT_EQ(table.rows[0][0], "b");
+  EXPECT_EQ(table.rows[0][1], "tetgen-T0");
+  EXPECT_EQ(table.rows[0][2], "rejected");
+  EXPECT_NE(to_markdown(table).find("a \\| reason"), std::string::npos);
+}
+
+TEST(Selection, TheLatestOfSeveralRunsCounts) {
+  RunRow old = row_of({"a", "cdt", kOk, 100, 1, 1, 0, 0});
+  RunRow recent = row_of({"a", "cdt", kOk, 200, 1, 1, 0, 0});
+  recent.key.version = "2";
+  recent.started = "2026-01-02T00:00:00Z";
+  for (const auto& rows : {std::vector{old, recent}, std::vector{recent, old}}) {
+    const Selection s = select_runs(rows);
+    EXPECT_EQ(s.run("cdt", "hash-a")->mesh->tetrahedra, 200u);
+    EXPECT_TRUE(s.notes.empty());
+  }
+  recent.key.model_sha256 = "hash-b";
+  EXPECT_EQ(select_runs({old, recent}).notes.size(), 1u);
+}
+
+TEST(Statistics, Median) {
+  EXPECT_EQ(median({}), std::nullopt);
+  EXPECT_EQ(median({3}), 3);
+  EXPECT_EQ(median({9, 1, 3}), 3);
+  EXPECT_EQ(median({9, 1, 3, 4}), 3.5);
+}
+
+// Published example values of Wilson's interval (e.g. 81 of 263: 0.2553 to 0.3662).
+TEST(Statistics, WilsonInterval) {
+  EXPECT_NEAR(wilson_interval(81, 263).low, 0.2553, 5e-5);
+  EXPECT_NEAR(wilson_interval(81, 263).high, 0.3662, 5e-5);
+  EXPECT_EQ(wilson_interval(0, 10).low, 0);
+  EXPECT_NEAR(wilson_interval(10, 10).high, 1, 1e-12);
+}
+
+TEST(Table, CsvQuoting) {
+  const Table table = {"n", "t", {"a", "b"}, {{"x,y", "say \"hi\"\nthere"}}, {}};
+  EXPECT_EQ(to_csv(table), "a,b\r\n\"x,y\",\"say \"\"hi\"\"\nthere\"\r\n");
+}
+
+TEST(Report, FilesAreWritten) {
+  const auto folder =
+      std::filesystem::path(testing::TempDir()) / ("report_test_" + std::to_string(getpid()));
+  const ReportFiles files = write_report(campaign(), folder);
+  for (const char* name : {"report.md", "table1.csv", "table2.csv", "table2-inside.csv",
+                           "dispositions.csv", "speed.csv", "not-ok.csv", "runs.csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  }
+  EXPECT_NE(files.headline.find("Table 2"), std::string::npos);
+  std::ifstream runs(folder / "runs.csv");
+  int lines = 0;
+  for (std::string line; std::getline(runs, line);) ++lines;
+  EXPECT_EQ(lines, 16);
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace tetproof
