@@ -1,0 +1,223 @@
+#include "mesher/cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "mesher/io/text.h"
+#include "mesher/io/write_mesh.h"
+
+namespace delmesher::cli {
+namespace {
+
+// What the user gave; options that were not given leave the preset's value.
+struct Given {
+  // As text, so that they are read like those in files: in no locale, and never inf or nan.
+  std::map<std::string, std::string> numbers;
+  std::optional<bool> slivers;
+  std::optional<Region> region;
+  bool approximate = false, no_bridges = false, paper = false;
+};
+
+struct Bounds {
+  double low, high;
+  bool open_low;  // the lower bound itself is not allowed
+};
+
+CLI::Validator number_within(Bounds bounds) {
+  return CLI::Validator(
+      [bounds](std::string& text) -> std::string {
+        double value = 0;
+        if (io::parse_double(text, value) != io::NumberStatus::ok) return "not a number: " + text;
+        const bool low_enough = value <= bounds.high;
+        const bool high_enough = bounds.open_low ? value > bounds.low : value >= bounds.low;
+        return low_enough && high_enough ? "" : "out of range: " + text;
+      },
+      "NUMBER");
+}
+
+void add_number(CLI::App& app, Given& given, const std::string& name, const char* help,
+                Bounds bounds) {
+  app.add_option_function<std::string>(
+         "--" + name, [&given, name](const std::string& text) { given.numbers[name] = text; }, help)
+      ->check(number_within(bounds))
+      ->type_name("X");
+}
+
+constexpr double kHuge = 1e308;
+
+void add_common(CLI::App& app, Command& command) {
+  app.add_option("input", command.input, "surface: OFF, OBJ, STL, PLY, .smesh or .poly")
+      ->required();
+  auto* quiet = app.add_flag("-q,--quiet", command.quiet, "say nothing but errors");
+  app.add_flag("-v,--verbose", command.verbose, "say what each phase did")->excludes(quiet);
+}
+
+void add_run(CLI::App& app, Command& command, Given& given) {
+  app.add_option("-o,--output", command.outputs,
+                 "mesh to write: .mesh, .msh, .vtu, .node or .tet; may be repeated")
+      ->required()
+      ->expected(1)
+      ->take_all();
+  app.add_option_function<std::string>(
+         "--region",
+         [&given](const std::string& text) {
+           given.region = text == "hull" ? Region::hull : Region::interior;
+         },
+         "tetrahedra that are written: interior (of the solid) or hull")
+      ->check(CLI::IsMember({"interior", "hull"}));
+  add_number(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
+             {1, 4294967294.0, false});
+  add_number(app, given, "time-limit", "stop after this many seconds (exit 5)", {0, kHuge, true});
+  app.add_option("--stats", command.stats_file, "write statistics as JSON");
+  app.add_option("--exact", command.exact_file, "write the exact form of everything");
+}
+
+void add_mesh(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command);
+  add_run(app, command, given);
+  add_number(app, given, "delta", "smallest face angle, degrees (14.47)", {0, 60, true});
+  add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
+             {0, 1, false});
+  add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", {0, 90, false});
+  app.add_option_function<std::string>(
+         "--slivers", [&given](const std::string& text) { given.slivers = text == "on"; },
+         "treat slivers: on or off (on)")
+      ->check(CLI::IsMember({"on", "off"}));
+  app.add_flag("--approximate", given.approximate,
+               "stop before restoring the input: a mesh of the chamfered surface");
+  add_number(app, given, "chamfer-radius", "largest chamfer distance", {0, kHuge, true});
+  add_number(app, given, "max-edge", "largest edge", {0, kHuge, true});
+  app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
+  app.add_option_function<std::string>(
+         "--preset", [&given](const std::string&) { given.paper = true; },
+         "paper: delta 14.47, tau 1e-4, acute 90, region hull; other options override it")
+      ->check(CLI::IsMember({"paper"}));
+  app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
+}
+
+void apply(const Given& given, Command& command) {
+  Options& options = command.options;
+  if (command.job == Job::cdt) options.region = Region::hull;
+  if (given.paper) {
+    options.delta = 14.47;
+    options.tau = 1e-4;
+    options.acute = 90;
+    options.region = Region::hull;
+  }
+  const auto number = [&](const char* name, double& target) {
+    const auto found = given.numbers.find(name);
+    if (found != given.numbers.end()) io::parse_double(found->second, target);
+  };
+  number("delta", options.delta);
+  number("tau", options.tau);
+  number("acute", options.acute);
+  number("chamfer-radius", options.chamfer_radius);
+  number("max-edge", options.max_edge);
+  number("time-limit", options.time_limit_seconds);
+  double vertices = 0;
+  number("max-vertices", vertices);
+  options.max_vertices = static_cast<std::uint64_t>(vertices);
+  options.slivers = given.slivers.value_or(options.slivers);
+  options.region = given.region.value_or(options.region);
+  options.approximate = given.approximate;
+  options.simplify_bridges = !given.no_bridges;
+  options.want_exact = !command.exact_file.empty();
+  options.want_chamfered = !command.chamfered_file.empty();
+}
+
+// Files that would overwrite each other or the input; unknown formats.
+std::string output_error(const Command& command) {
+  std::vector<std::string> files = {command.input};
+  for (const std::string& output : command.outputs) {
+    if (!io::mesh_format_of(output)) {
+      return output + ": unknown mesh format (.mesh, .msh, .vtu, .node or .tet)";
+    }
+    for (const std::string& file : io::files_of(output)) files.push_back(file);
+  }
+  for (const std::string* file :
+       {&command.stats_file, &command.chamfered_file, &command.exact_file}) {
+    if (!file->empty()) files.push_back(*file);
+  }
+  std::vector<std::filesystem::path> seen;
+  for (const std::string& file : files) {
+    std::error_code error;
+    std::filesystem::path path =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+    if (error) path = file;
+    if (std::find(seen.begin(), seen.end(), path) != seen.end()) {
+      return file + ": named twice, or the same as the input";
+    }
+    if (!std::filesystem::is_character_file(path, error)) seen.push_back(path);
+  }
+  return {};
+}
+
+Parsed usage_error(const std::string& text) {
+  Parsed parsed;
+  parsed.exit_code = kUsage;
+  parsed.error = "delmesher: " + text + "\n";
+  return parsed;
+}
+
+void default_to_mesh(std::vector<std::string>& arguments) {
+  static constexpr std::array<std::string_view, 7> kFirst = {"mesh",   "cdt", "plane",    "check",
+                                                             "--help", "-h",  "--version"};
+  if (arguments.empty() || std::find(kFirst.begin(), kFirst.end(), arguments[0]) == kFirst.end()) {
+    arguments.insert(arguments.begin(), "mesh");
+  }
+}
+
+}  // namespace
+
+Parsed parse_arguments(std::vector<std::string> arguments) {
+  Command command;
+  Given given;
+  CLI::App app("Tetrahedral meshes of closed surfaces, exactly conforming.", "delmesher");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("delmesher ") + version());
+  CLI::App* mesh = app.add_subcommand("mesh", "tetrahedralize a closed surface (the default)");
+  CLI::App* cdt = app.add_subcommand(
+      "cdt", "constrained Delaunay tetrahedrization of the convex hull, no quality");
+  CLI::App* plane = app.add_subcommand("plane", "mesh a polygon (not available in this version)");
+  CLI::App* check = app.add_subcommand("check", "is this a valid surface? if not, what is wrong?");
+  add_mesh(*mesh, command, given);
+  add_common(*cdt, command);
+  add_run(*cdt, command, given);
+  plane->allow_extras();
+  add_common(*check, command);
+  check->add_flag("--json", command.json, "report as JSON");
+  add_number(*check, given, "acute", "corners below this angle are acute, degrees (60)",
+             {0, 90, false});
+
+  default_to_mesh(arguments);
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  Parsed parsed;
+  try {
+    app.parse(arguments);
+  } catch (const CLI::Success& success) {
+    std::ostringstream out, error;
+    app.exit(success, out, error);
+    parsed.out = out.str();
+    return parsed;
+  } catch (const CLI::ParseError& error) {
+    std::string line = error.what();
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    return usage_error(line);
+  }
+  if (plane->parsed()) return usage_error("'plane' is not available in this version");
+  command.job = cdt->parsed() ? Job::cdt : check->parsed() ? Job::check : Job::mesh;
+  apply(given, command);
+  const std::string error = output_error(command);
+  if (!error.empty()) return usage_error(error);
+  parsed.run = true;
+  parsed.command = std::move(command);
+  return parsed;
+}
+
+}  // namespace delmesher::cli

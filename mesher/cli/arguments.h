@@ -1,0 +1,37 @@
+// The command line, parsed and checked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher.h"
+
+namespace delmesher::cli {
+
+enum class Job : std::uint8_t { mesh, cdt, plane, check };
+
+// Exit codes of all programs of the project.
+inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kInvalid = 4, kLimit = 5,
+                     kInternal = 6, kInterrupted = 130;
+
+struct Command {
+  Job job = Job::mesh;
+  std::string input;
+  std::vector<std::string> outputs;
+  Options options;
+  std::string stats_file, chamfered_file, exact_file;  // empty: not wanted
+  bool json = false, quiet = false, verbose = false;
+};
+
+// Either a command to run, or what to print and the code to exit with.
+struct Parsed {
+  bool run = false;
+  Command command;
+  int exit_code = kDone;
+  std::string out, error;  // for stdout and stderr
+};
+
+// `arguments` without the program's name. Without a subcommand, `mesh` is meant. Nothing is opened.
+Parsed parse_arguments(std::vector<std::string> arguments);
+
+}  // namespace delmesher::cli

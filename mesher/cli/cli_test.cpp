@@ -1,0 +1,391 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "mesher/cli/arguments.h"
+#include "mesher/cli/progress.h"
+#include "mesher/cli/reports.h"
+#include "mesher/cli/run.h"
+#include "mesher/cli/signals.h"
+
+namespace delmesher::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Parsed parse(std::vector<std::string> arguments) {
+  return parse_arguments(std::move(arguments));
+}
+
+void expect_usage_error(std::vector<std::string> arguments, const std::string& text = "") {
+  const Parsed parsed = parse(std::move(arguments));
+  EXPECT_FALSE(parsed.run) << text;
+  EXPECT_EQ(parsed.exit_code, kUsage) << text;
+  EXPECT_TRUE(parsed.error.starts_with("delmesher: ")) << parsed.error;
+  EXPECT_EQ(std::count(parsed.error.begin(), parsed.error.end(), '\n'), 1) << parsed.error;
+  EXPECT_NE(parsed.error.find(text), std::string::npos) << parsed.error;
+}
+
+TEST(Arguments, DefaultsAreTheLibrarys) {
+  const Parsed parsed = parse({"in.off", "-o", "out.mesh"});
+  ASSERT_TRUE(parsed.run) << parsed.error;
+  const Options defaults;
+  EXPECT_EQ(parsed.command.job, Job::mesh);
+  EXPECT_EQ(parsed.command.input, "in.off");
+  EXPECT_EQ(parsed.command.outputs, std::vector<std::string>({"out.mesh"}));
+  EXPECT_EQ(parsed.command.options.delta, defaults.delta);
+  EXPECT_EQ(parsed.command.options.tau, defaults.tau);
+  EXPECT_EQ(parsed.command.options.acute, defaults.acute);
+  EXPECT_EQ(parsed.command.options.region, Region::interior);
+  EXPECT_TRUE(parsed.command.options.slivers);
+  EXPECT_TRUE(parsed.command.options.simplify_bridges);
+  EXPECT_FALSE(parsed.command.options.want_exact);
+}
+
+TEST(Arguments, AllOptions) {
+  const Parsed parsed = parse({"mesh",
+                               "in.off",
+                               "-o",
+                               "a.mesh",
+                               "-o",
+                               "b.vtu",
+                               "--delta",
+                               "12.5",
+                               "--tau",
+                               "0",
+                               "--acute",
+                               "45",
+                               "--slivers",
+                               "off",
+                               "--approximate",
+                               "--chamfer-radius",
+                               "0.25",
+                               "--max-edge",
+                               "3",
+                               "--region",
+                               "hull",
+                               "--max-vertices",
+                               "1000",
+                               "--time-limit",
+                               "2.5",
+                               "--stats",
+                               "s.json",
+                               "--save-chamfered",
+                               "c.off",
+                               "--exact",
+                               "e.txt",
+                               "--no-bridge-simplification",
+                               "-v"});
+  ASSERT_TRUE(parsed.run) << parsed.error;
+  const Options& o = parsed.command.options;
+  EXPECT_EQ(parsed.command.outputs, std::vector<std::string>({"a.mesh", "b.vtu"}));
+  EXPECT_EQ(o.delta, 12.5);
+  EXPECT_EQ(o.tau, 0);
+  EXPECT_EQ(o.acute, 45);
+  EXPECT_FALSE(o.slivers);
+  EXPECT_TRUE(o.approximate);
+  EXPECT_EQ(o.chamfer_radius, 0.25);
+  EXPECT_EQ(o.max_edge, 3);
+  EXPECT_EQ(o.region, Region::hull);
+  EXPECT_EQ(o.max_vertices, 1000U);
+  EXPECT_EQ(o.time_limit_seconds, 2.5);
+  EXPECT_FALSE(o.simplify_bridges);
+  EXPECT_TRUE(o.want_exact && o.want_chamfered);
+  EXPECT_TRUE(parsed.command.verbose);
+}
+
+TEST(Arguments, ExplicitOptionsOverrideThePresetInAnyOrder) {
+  const Options paper = parse({"i.off", "-o", "o.mesh", "--preset", "paper"}).command.options;
+  EXPECT_EQ(paper.acute, 90);
+  EXPECT_EQ(paper.tau, 1e-4);
+  EXPECT_EQ(paper.delta, 14.47);
+  EXPECT_EQ(paper.region, Region::hull);
+  const Options mixed = parse({"i.off", "-o", "o.mesh", "--tau", "0", "--region", "interior",
+                               "--preset", "paper", "--acute", "70"})
+                            .command.options;
+  EXPECT_EQ(mixed.acute, 70);
+  EXPECT_EQ(mixed.tau, 0);
+  EXPECT_EQ(mixed.delta, 14.47);
+  EXPECT_EQ(mixed.region, Region::interior);
+}
+
+TEST(Arguments, OtherJobs) {
+  const Parsed cdt = parse({"cdt", "in.off", "-o", "out.tet"});
+  EXPECT_TRUE(cdt.run);
+  EXPECT_EQ(cdt.command.job, Job::cdt);
+  EXPECT_EQ(cdt.command.options.region, Region::hull);
+  EXPECT_EQ(parse({"cdt", "i.off", "-o", "o.tet", "--region", "interior"}).command.options.region,
+            Region::interior);
+  const Parsed check = parse({"check", "in.off", "--json", "--acute", "90"});
+  EXPECT_TRUE(check.run);
+  EXPECT_TRUE(check.command.json);
+  EXPECT_EQ(check.command.options.acute, 90);
+  expect_usage_error({"plane", "in.poly", "-o", "out.mesh"}, "not available");
+  expect_usage_error({"plane"}, "not available");
+}
+
+TEST(Arguments, HelpAndVersion) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"-h"}, {"mesh", "--help"}, {"--version"}}) {
+    const Parsed parsed = parse(arguments);
+    EXPECT_FALSE(parsed.run);
+    EXPECT_EQ(parsed.exit_code, kDone);
+    EXPECT_FALSE(parsed.out.empty());
+    EXPECT_TRUE(parsed.error.empty());
+  }
+  EXPECT_NE(parse({"mesh", "--help"}).out.find("--chamfer-radius"), std::string::npos);
+  EXPECT_EQ(parse({"--version"}).out, std::string("delmesher ") + version() + "\n");
+}
+
+TEST(Arguments, MistakesAreTwo) {
+  expect_usage_error({});
+  expect_usage_error({"in.off"}, "--output");
+  expect_usage_error({"-o", "out.mesh"}, "input");
+  expect_usage_error({"in.off", "-o", "out.xyz"}, "out.xyz: unknown mesh format");
+  expect_usage_error({"in.off", "-o", "out"}, "unknown mesh format");
+  expect_usage_error({"in.off", "-o", "a.mesh", "-o", "./a.mesh"}, "named twice");
+  expect_usage_error({"in.off", "-o", "a.node", "--stats", "a.ele"}, "named twice");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--save-chamfered", "in.off"}, "named twice");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--bogus"}, "--bogus");
+  expect_usage_error({"in.off", "other.off", "-o", "a.mesh"});
+  expect_usage_error({"check"});
+  expect_usage_error({"check", "in.off", "-o", "a.mesh"});
+  for (const char* bad : {"nan", "inf", "-1", "x", "1e400", "", "61", "0"}) {
+    expect_usage_error({"in.off", "-o", "a.mesh", std::string("--delta=") + bad});
+  }
+  for (const char* bad : {"-0.1", "1.5", "nan"}) {
+    expect_usage_error({"in.off", "-o", "a.mesh", std::string("--tau=") + bad});
+  }
+  expect_usage_error({"in.off", "-o", "a.mesh", "--acute=91"});
+  expect_usage_error({"in.off", "-o", "a.mesh", "--slivers=maybe"});
+  expect_usage_error({"in.off", "-o", "a.mesh", "--region=all"});
+  expect_usage_error({"in.off", "-o", "a.mesh", "--preset=mine"});
+  expect_usage_error({"in.off", "-o", "a.mesh", "--max-vertices=0"});
+  expect_usage_error({"in.off", "-o", "a.mesh", "--time-limit=0"});
+  expect_usage_error({"in.off", "-o", "a.mesh", "-q", "-v"});
+}
+
+// A folder with an input, and a library that answers what the test wants.
+class Run : public testing::Test {
+ protected:
+  Run() {
+    folder_ = fs::temp_directory_path() /
+              ("delmesher_cli_" +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(path("in.off"))
+        << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+    answer_.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    answer_.mesh.tetrahedra = {{0, 1, 2, 3}};
+    answer_.mesh.inside = {1};
+    library_.tetrahedralize = [this](const Surface&, const Options& options) {
+      ++calls_;
+      if (options.progress) options.progress({Phase::refine, 0.5, 10});
+      return answer_;
+    };
+    library_.constrained_delaunay = library_.tetrahedralize;
+    library_.check_surface = [this](const Surface&, const Options&) { return report_; };
+    streams_.out = [this](const std::string& text) { out_ += text; };
+    streams_.error = [this](const std::string& text) { error_ += text; };
+  }
+  ~Run() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  int go(std::vector<std::string> arguments) {
+    out_.clear();
+    error_.clear();
+    const Parsed parsed = parse(std::move(arguments));
+    EXPECT_TRUE(parsed.run) << parsed.error;
+    return run(parsed.command, library_, streams_);
+  }
+  std::size_t files() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+  bool one_error_line() const {
+    return error_.starts_with("delmesher: ") && std::count(error_.begin(), error_.end(), '\n') == 1;
+  }
+
+  fs::path folder_;
+  Result answer_;
+  SurfaceReport report_;
+  Library library_;
+  Streams streams_;
+  std::string out_, error_;
+  int calls_ = 0;
+};
+
+TEST_F(Run, WritesEveryOutputAndIsSilent) {
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-o", path("a.node"), "--stats",
+                path("s.json"), "--exact", path("e.txt"), "--save-chamfered", path("c.off")}),
+            kDone);
+  EXPECT_EQ(out_ + error_, "");
+  EXPECT_EQ(files(), 8U);
+  EXPECT_EQ(go({path("in.off"), "-v", "-o", path("b.tet")}), kDone);
+  EXPECT_NE(error_.find("refine "), std::string::npos);
+  EXPECT_NE(error_.find("b.tet: 4 vertices, 1 tetrahedra"), std::string::npos);
+}
+
+TEST_F(Run, StatusesBecomeExitCodesAndLeaveNoOutput) {
+  const std::vector<std::pair<StatusCode, int>> cases = {{StatusCode::invalid_options, 2},
+                                                         {StatusCode::invalid_surface, 4},
+                                                         {StatusCode::limit_reached, 5},
+                                                         {StatusCode::internal_error, 6},
+                                                         {StatusCode::interrupted, 130}};
+  for (const auto& [status, code] : cases) {
+    answer_.status = {status, "because\nof this"};
+    EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), code);
+    EXPECT_TRUE(one_error_line()) << error_;
+    EXPECT_NE(error_.find("in.off: because?of this"), std::string::npos) << error_;
+    EXPECT_EQ(files(), 1U);
+  }
+}
+
+TEST_F(Run, InvertedIsOneAndFlatIsSaid) {
+  answer_.statistics.rounding_flat = 2;
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_NE(error_.find("2 flat"), std::string::npos);
+  answer_.statistics.rounding_inverted = 3;
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-q"}), kFailed);
+  EXPECT_NE(error_.find("3 inverted and 2 flat"), std::string::npos);
+  EXPECT_TRUE(one_error_line());
+  EXPECT_TRUE(fs::exists(path("a.mesh")));
+}
+
+TEST_F(Run, UnwritableOutputsAreFoundBeforeTheRun) {
+  for (const char* option : {"-o", "--stats", "--exact", "--save-chamfered"}) {
+    const std::string file = path("missing/x.mesh");
+    std::vector<std::string> arguments = {path("in.off"), option, file};
+    if (std::string(option) != "-o") arguments.insert(arguments.end(), {"-o", path("a.mesh")});
+    EXPECT_EQ(go(arguments), kUnreadable);
+    EXPECT_TRUE(one_error_line()) << error_;
+  }
+  EXPECT_EQ(calls_, 0);
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(Run, UnreadableInputIsThree) {
+  std::ofstream(path("bad.off")) << "OFF\n1 1 0\n0 0 nan\n3 0 0 0\n";
+  EXPECT_EQ(go({path("bad.off"), "-o", path("a.mesh")}), kUnreadable);
+  EXPECT_NE(error_.find("bad.off:3: non-finite coordinate 'nan'"), std::string::npos) << error_;
+  EXPECT_EQ(go({"check", path("none.off")}), kUnreadable);
+  EXPECT_TRUE(one_error_line());
+  EXPECT_EQ(calls_, 0);
+}
+
+TEST_F(Run, ExceptionsDoNotEscape) {
+  library_.tetrahedralize = [](const Surface&, const Options&) -> Result {
+    throw std::bad_alloc();
+  };
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kLimit);
+  library_.tetrahedralize = [](const Surface&, const Options&) -> Result {
+    throw std::runtime_error("oops");
+  };
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kInternal);
+  EXPECT_TRUE(one_error_line());
+}
+
+TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
+  answer_.statistics.final.tetrahedra = 42;
+  ASSERT_EQ(go({path("in.off"), "-o", path("a.mesh"), "--stats", path("s.json")}), kDone);
+  std::ifstream in(path("s.json"));
+  const auto json = nlohmann::ordered_json::parse(in);
+  const auto keys = [](const nlohmann::ordered_json& object) {
+    std::string out;
+    for (const auto& item : object.items()) out += item.key() + " ";
+    return out;
+  };
+  EXPECT_EQ(
+      keys(json),
+      "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes refined "
+      "final filter chamfer guarantee steiner rounding ");
+  EXPECT_EQ(keys(json["input"]), "file vertices triangles bbox_diagonal ");
+  EXPECT_EQ(
+      keys(json["phases_seconds"]),
+      "read check filter chamfer delaunay segments facets refine enrich classify round write ");
+  const std::string mesh =
+      "vertices tetrahedra interior_tetrahedra min_face_angle max_face_angle min_dihedral "
+      "max_dihedral mean_min_face_angle mean_max_face_angle mean_min_dihedral mean_max_dihedral "
+      "face_angle_histogram dihedral_histogram ";
+  EXPECT_EQ(keys(json["refined"]), mesh);
+  EXPECT_EQ(keys(json["final"]), mesh);
+  EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
+  EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
+  EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");
+  EXPECT_EQ(keys(json["guarantee"]), "acute fallback_corners ");
+  EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume ");
+  EXPECT_EQ(keys(json["rounding"]), "inverted flat repaired max_surface_deviation ");
+  EXPECT_EQ(json["status"], "ok");
+  EXPECT_EQ(json["final"]["tetrahedra"], 42);
+  EXPECT_EQ(json["input"]["triangles"], 4);
+  EXPECT_GT(json["peak_rss_bytes"], 1000000);
+}
+
+TEST_F(Run, CheckReportsAsTextAndJson) {
+  report_.facets = 4;
+  EXPECT_EQ(go({"check", path("in.off")}), kDone);
+  EXPECT_NE(out_.find("a valid surface"), std::string::npos);
+  report_.status = {StatusCode::invalid_surface, "triangles 1 and 2 intersect"};
+  report_.defects.push_back(
+      {Defect::Kind::self_intersection, {}, {1, 2}, "triangles 1 and 2 intersect"});
+  report_.defect_counts[static_cast<std::size_t>(Defect::Kind::self_intersection)] = 3;
+  EXPECT_EQ(go({"check", path("in.off")}), kInvalid);
+  EXPECT_NE(out_.find("self-intersection: 3\n    triangles 1 and 2 intersect\n    and 2 more"),
+            std::string::npos)
+      << out_;
+  EXPECT_TRUE(one_error_line());
+  EXPECT_EQ(go({"check", "--json", path("in.off")}), kInvalid);
+  const auto json = nlohmann::json::parse(out_);
+  EXPECT_EQ(json["valid"], false);
+  EXPECT_EQ(json["defect_counts"]["self-intersection"], 3);
+  EXPECT_EQ(json["defects"][0]["triangles"], nlohmann::json({1, 2}));
+}
+
+TEST_F(Run, ASignalStopsTheLibraryAndLeavesNothing) {
+  library_.tetrahedralize = [](const Surface&, const Options& options) {
+    std::raise(SIGINT);
+    Result result;
+    if (!options.progress({Phase::refine, -1, 0})) {
+      result.status = {StatusCode::interrupted, "interrupted"};
+    }
+    return result;
+  };
+  // In a child process: the flag stays set for the rest of its life.
+  const auto child = [this] {
+    install_signal_handlers();
+    std::_Exit(go({path("in.off"), "-o", path("a.mesh")}));
+  };
+  EXPECT_EXIT(child(), testing::ExitedWithCode(kInterrupted), "");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(Run, TheSecondSignalDoesNotWait) {
+  library_.tetrahedralize = [this](const Surface&, const Options&) -> Result {
+    std::ofstream(path("left.part0")) << "x";
+    set_temporaries({path("left.part0")});
+    std::raise(SIGTERM);
+    std::raise(SIGINT);
+    std::_Exit(0);
+  };
+  const auto child = [this] {
+    install_signal_handlers();
+    go({path("in.off"), "-o", path("a.mesh")});
+  };
+  EXPECT_EXIT(child(), testing::ExitedWithCode(kInterrupted), "");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST(ProgressText, SaysWhatIsKnown) {
+  EXPECT_EQ(progress_text({Phase::refine, 0.456, 123}), "refine    45 %  123 vertices");
+  EXPECT_EQ(progress_text({Phase::check, -1, 0}), "check");
+  EXPECT_EQ(progress_text({Phase::check, 7, 0}), "check     100 %");
+}
+
+}  // namespace
+}  // namespace delmesher::cli

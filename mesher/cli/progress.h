@@ -1,0 +1,41 @@
+// One line on a terminal that says what the run is doing.
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+
+#include "mesher/delmesher.h"
+
+namespace delmesher::cli {
+
+// "refine   45 %  123456 vertices", or without what is not known.
+std::string progress_text(const Progress& progress);
+
+class ProgressLine {
+ public:
+  // Prints only if `enabled`; rewrites the line with escape sequences only if `escapes`.
+  ProgressLine(std::FILE* stream, bool enabled, bool escapes)
+      : stream_(stream), enabled_(enabled), escapes_(escapes) {}
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const Progress& progress);
+  void clear();
+
+ private:
+  void write(const std::string& text);
+
+  std::FILE* stream_;
+  bool enabled_, escapes_;
+  std::size_t width_ = 0;  // of what stands on the line
+  Phase phase_ = Phase::read;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+// Whether standard error is a terminal, and one that takes escape sequences (NO_COLOR, TERM=dumb).
+bool stderr_is_terminal();
+bool stderr_takes_escapes();
+
+}  // namespace delmesher::cli

@@ -1,0 +1,201 @@
+#include "mesher/cli/reports.h"
+
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+#include "mesher/io/text.h"
+
+namespace delmesher::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json mesh_json(const MeshStatistics& s) {
+  return {{"vertices", s.vertices},
+          {"tetrahedra", s.tetrahedra},
+          {"interior_tetrahedra", s.interior_tetrahedra},
+          {"min_face_angle", s.min_face_angle},
+          {"max_face_angle", s.max_face_angle},
+          {"min_dihedral", s.min_dihedral},
+          {"max_dihedral", s.max_dihedral},
+          {"mean_min_face_angle", s.mean_min_face_angle},
+          {"mean_max_face_angle", s.mean_max_face_angle},
+          {"mean_min_dihedral", s.mean_min_dihedral},
+          {"mean_max_dihedral", s.mean_max_dihedral},
+          {"face_angle_histogram", s.face_angle_histogram},
+          {"dihedral_histogram", s.dihedral_histogram}};
+}
+
+Json parameters_json(const Command& command) {
+  static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check"};
+  const Options& o = command.options;
+  return {{"job", kJobs[static_cast<std::size_t>(command.job)]},
+          {"delta", o.delta},
+          {"tau", o.tau},
+          {"acute", o.acute},
+          {"slivers", o.slivers},
+          {"approximate", o.approximate},
+          {"bridge_simplification", o.simplify_bridges},
+          {"chamfer_radius", o.chamfer_radius},
+          {"max_edge", o.max_edge},
+          {"region", o.region == Region::hull ? "hull" : "interior"},
+          {"max_vertices", o.max_vertices},
+          {"time_limit", o.time_limit_seconds}};
+}
+
+std::string dump(const Json& json) {
+  // File names need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string number(double value) {
+  std::string out;
+  io::append_double(out, value);
+  return out;
+}
+
+std::uint64_t total_defects(const SurfaceReport& report) {
+  std::uint64_t total = 0;
+  for (std::uint64_t count : report.defect_counts) total += count;
+  return total;
+}
+
+}  // namespace
+
+const char* status_name(StatusCode code) {
+  static constexpr const char* kNames[] = {
+      "ok", "invalid-options", "invalid-surface", "limit-reached", "interrupted", "internal-error"};
+  return kNames[static_cast<std::size_t>(code)];
+}
+
+int exit_code_of(StatusCode code) {
+  static constexpr int kCodes[] = {kDone, kUsage, kInvalid, kLimit, kInterrupted, kInternal};
+  return kCodes[static_cast<std::size_t>(code)];
+}
+
+std::string stats_json(const Command& command, const Result& result, const RunFacts& facts) {
+  const Statistics& s = result.statistics;
+  Json phases;
+  for (std::size_t i = 0; i < kPhaseCount; ++i) {
+    const Phase phase = static_cast<Phase>(i);
+    double seconds = s.phase_seconds[i];
+    if (phase == Phase::read) seconds = facts.read_seconds;
+    if (phase == Phase::write) seconds = facts.write_seconds;
+    phases[phase_name(phase)] = seconds;
+  }
+  const Json json = {
+      {"input",
+       {{"file", command.input},
+        {"vertices", facts.input_vertices},
+        {"triangles", facts.input_triangles},
+        {"bbox_diagonal", s.bbox_diagonal}}},
+      {"parameters", parameters_json(command)},
+      {"status", status_name(result.status.code)},
+      {"phases_seconds", phases},
+      {"wall_seconds", facts.wall_seconds},
+      {"cpu_seconds", facts.cpu_seconds},
+      {"peak_rss_bytes", facts.peak_rss_bytes},
+      {"refined", mesh_json(s.refined)},
+      {"final", mesh_json(s.final)},
+      {"filter", {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}}},
+      {"chamfer", {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}}},
+      {"guarantee", {{"acute", s.guaranteed_acute}, {"fallback_corners", s.fallback_corners}}},
+      {"steiner",
+       {{"on_segments", s.steiner_on_segments},
+        {"on_facets", s.steiner_on_facets},
+        {"in_volume", s.steiner_in_volume}}},
+      {"rounding",
+       {{"inverted", s.rounding_inverted},
+        {"flat", s.rounding_flat},
+        {"repaired", s.rounding_repaired},
+        {"max_surface_deviation", s.max_surface_deviation}}}};
+  return dump(json);
+}
+
+std::string check_text(const std::string& file, const SurfaceReport& report) {
+  std::string out = file + ": ";
+  out += report.status.ok() ? "a valid surface\n" : "not a valid surface\n";
+  const auto line = [&](const char* name, const std::string& value) {
+    out +=
+        "  " + std::string(name) + std::string(28 - std::string(name).size(), ' ') + value + "\n";
+  };
+  line("vertices", std::to_string(report.vertices));
+  if (report.unused_vertices > 0) line("unused vertices", std::to_string(report.unused_vertices));
+  line("triangles", std::to_string(report.triangles));
+  line("components", std::to_string(report.components));
+  line("Euler characteristic", std::to_string(report.euler_characteristic));
+  line("bounding-box diagonal", number(report.bbox_diagonal));
+  if (report.status.ok()) {
+    line("volume", number(report.volume));
+    line("facets", std::to_string(report.facets));
+    line("acute vertices", std::to_string(report.acute_vertices));
+    line("acute edges", std::to_string(report.acute_edges));
+    line("smallest local feature size", number(report.smallest_local_feature_size));
+  }
+  for (const std::string& warning : report.warnings) out += "  warning: " + warning + "\n";
+  for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
+    if (report.defect_counts[kind] == 0) continue;
+    out += "  " + std::string(defect_name(static_cast<Defect::Kind>(kind))) + ": " +
+           std::to_string(report.defect_counts[kind]) + "\n";
+    std::uint64_t listed = 0;
+    for (const Defect& defect : report.defects) {
+      if (static_cast<std::size_t>(defect.kind) != kind) continue;
+      out += "    " + defect.message + "\n";
+      ++listed;
+    }
+    if (listed < report.defect_counts[kind]) {
+      out += "    and " + std::to_string(report.defect_counts[kind] - listed) + " more\n";
+    }
+  }
+  return out;
+}
+
+std::string check_json(const std::string& file, const SurfaceReport& report) {
+  Json defects = Json::array(), counts = Json::object();
+  for (const Defect& defect : report.defects) {
+    defects.push_back({{"kind", defect_name(defect.kind)},
+                       {"vertices", defect.vertices},
+                       {"triangles", defect.triangles},
+                       {"message", defect.message}});
+  }
+  for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
+    if (report.defect_counts[kind] == 0) continue;
+    counts[defect_name(static_cast<Defect::Kind>(kind))] = report.defect_counts[kind];
+  }
+  Json json = {{"file", file},
+               {"valid", report.status.ok()},
+               {"status", status_name(report.status.code)},
+               {"message", report.status.message},
+               {"vertices", report.vertices},
+               {"unused_vertices", report.unused_vertices},
+               {"triangles", report.triangles},
+               {"components", report.components},
+               {"euler_characteristic", report.euler_characteristic},
+               {"flipped", report.flipped},
+               {"bbox_diagonal", report.bbox_diagonal}};
+  if (report.status.ok()) {
+    json["volume"] = report.volume;
+    json["facets"] = report.facets;
+    json["acute_vertices"] = report.acute_vertices;
+    json["acute_edges"] = report.acute_edges;
+    json["smallest_local_feature_size"] = report.smallest_local_feature_size;
+  }
+  json["warnings"] = report.warnings;
+  json["defect_count"] = total_defects(report);
+  json["defect_counts"] = counts;
+  json["defects"] = defects;
+  return dump(json);
+}
+
+void measure_process(RunFacts& facts) {
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+  };
+  facts.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  facts.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // KiB on Linux
+}
+
+}  // namespace delmesher::cli

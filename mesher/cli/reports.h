@@ -1,0 +1,31 @@
+// What the command line prints and writes about a run: statistics, and the report of `check`.
+#pragma once
+
+#include <string>
+
+#include "mesher/cli/arguments.h"
+#include "mesher/delmesher.h"
+
+namespace delmesher::cli {
+
+// "ok", "invalid-surface", ... for JSON.
+const char* status_name(StatusCode code);
+int exit_code_of(StatusCode code);
+
+struct RunFacts {
+  std::uint64_t input_vertices = 0, input_triangles = 0;
+  double read_seconds = 0, write_seconds = 0, wall_seconds = 0, cpu_seconds = 0;
+  std::uint64_t peak_rss_bytes = 0;
+};
+
+// The JSON of --stats; its keys are stable.
+std::string stats_json(const Command& command, const Result& result, const RunFacts& facts);
+
+// The report of `check`.
+std::string check_text(const std::string& file, const SurfaceReport& report);
+std::string check_json(const std::string& file, const SurfaceReport& report);
+
+// CPU seconds and peak memory of this process so far.
+void measure_process(RunFacts& facts);
+
+}  // namespace delmesher::cli

@@ -1,0 +1,28 @@
+// Carries out a parsed command.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "mesher/cli/arguments.h"
+#include "mesher/delmesher.h"
+
+namespace delmesher::cli {
+
+// The library, or what a test puts in its place.
+struct Library {
+  std::function<Result(const Surface&, const Options&)> tetrahedralize;
+  std::function<Result(const Surface&, const Options&)> constrained_delaunay;
+  std::function<SurfaceReport(const Surface&, const Options&)> check_surface;
+};
+
+struct Streams {
+  std::function<void(const std::string&)> out, error;
+  bool terminal = false;  // standard error is one: show progress
+  bool escapes = false;   // and takes escape sequences
+};
+
+// The exit code; never throws. Errors are one line, "delmesher: FILE: reason".
+int run(const Command& command, const Library& library, const Streams& streams);
+
+}  // namespace delmesher::cli
