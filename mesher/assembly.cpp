@@ -156,6 +156,32 @@ RoundingInput rounding_input(const PointStore& points, std::size_t input_vertice
 
 }  // namespace
 
+void tighten_corners(const Vec3& place, double otherwise, const SurfaceTopology& topology,
+                     const PointStore& points, std::vector<double>& vertex_cosine_squared) {
+  if (vertex_cosine_squared.empty()) {
+    vertex_cosine_squared.assign(topology.vertex_half_edge.size(), otherwise);
+  }
+  // The nearest vertex that is not tight yet, and those that share an edge with it: where the
+  // refinement runs away, at least one corner between the two thresholds is left.
+  VertexId nearest = kNone;
+  double smallest = 0;
+  for (VertexId v = 0; v < topology.vertex_half_edge.size(); ++v) {
+    if (topology.vertex_half_edge[v] == kNone || vertex_cosine_squared[v] == 0) continue;
+    const double distance = point_segment_distance(place, points.nearest(v), points.nearest(v));
+    if (nearest == kNone || distance < smallest) {
+      nearest = v;
+      smallest = distance;
+    }
+  }
+  if (nearest == kNone) return;
+  vertex_cosine_squared[nearest] = 0;
+  for (std::uint32_t e = 0; e < topology.edge_count(); ++e) {
+    const auto ends = topology.edge_vertices(e);
+    if (ends[0] == nearest) vertex_cosine_squared[ends[1]] = 0;
+    if (ends[1] == nearest) vertex_cosine_squared[ends[0]] = 0;
+  }
+}
+
 std::vector<Box> removed_boxes(const ChamferResult& chamfered,
                                const std::vector<std::uint8_t>& facet_kept,
                                const SurfaceTopology& topology, const PointStore& points) {

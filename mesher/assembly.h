@@ -14,6 +14,11 @@ namespace delmesher {
 
 // --- towards the refinement
 
+// Sets the squared cosine of the input vertices around a place to 0 (90 degrees) in a list with one
+// entry per input vertex, which is created with the value `otherwise` if it is empty.
+void tighten_corners(const Vec3& place, double otherwise, const SurfaceTopology& topology,
+                     const PointStore& points, std::vector<double>& vertex_cosine_squared);
+
 // Boxes covering what chamfering and filtering removed from the surface.
 std::vector<Box> removed_boxes(const ChamferResult& chamfered,
                                const std::vector<std::uint8_t>& facet_kept,
@@ -58,7 +63,8 @@ Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& re
 // --- the exact record; point indices are ids of the store until record_points renumbers them
 void record_facets(const SurfaceTopology& topology, const std::vector<std::uint8_t>& kept,
                    ExactRecord& record);
-void record_chamfer(const ChamferResult& chamfered, double threshold_degrees, ExactRecord& record);
+void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
+                    const std::vector<double>& vertex_cosine_squared, ExactRecord& record);
 void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
 void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);

@@ -1,5 +1,6 @@
 // The order of the stages. Reads as a table of contents; what passes between them is put together
 // in assembly.cpp.
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
@@ -61,8 +62,8 @@ class Run {
 
   Status mesh(const Surface& surface) {
     if (Status status = prepare(surface); !status.ok()) return status;
-    ChamferResult chamfered = filter_and_chamfer_input();
-    const RefineResult refined = refine_complex(chamfered);
+    ChamferResult chamfered;
+    const RefineResult refined = chamfer_and_refine(chamfered);
     if (options_.approximate) {
       write(approximate_mesh(chamfered, refined, topology_, points_, options_.region));
       return {};
@@ -112,37 +113,81 @@ class Run {
     return {};
   }
 
-  ChamferResult filter_and_chamfer_input() {
+  // Chamfering and refinement, again with stricter corners where the refinement would not end
+  // (section 4 proves that it ends at 90 degrees only). Deterministic: the guard looks at lengths,
+  // never at time.
+  RefineResult chamfer_and_refine(ChamferResult& chamfered) {
+    constexpr int kLocalFallbacks = 6;  // then everywhere
     ChamferOptions options;
     options.cosine_squared = cosine_squared(options_.acute);
     options.max_radius = options_.chamfer_radius;
     options.simplify_bridges = options_.simplify_bridges;
-    const double tolerance = options_.tau * result_.statistics.bbox_diagonal;
-    ChamferResult chamfered =
-        filter_and_chamfer(topology_, points_, predicates_, options, tolerance, control_, filter_);
-    Statistics& s = result_.statistics;
-    s.dropped_triangles = filter_.dropped_triangles;
-    s.filter_rounds = filter_.rounds;
-    s.acute_vertices = chamfered.acute_vertices;
-    s.acute_edges = chamfered.acute_edges;
-    s.guaranteed_acute = options_.acute;
-    if (options_.want_exact) {
-      record_facets(topology_, filter_.facet_kept, result_.exact);
-      record_chamfer(chamfered, options_.acute, result_.exact);
+    const std::size_t input_points = points_.size();
+    for (int fallbacks = 0;; ++fallbacks) {
+      const bool strictest = options.cosine_squared == 0;
+      chamfered = filter_and_chamfer_input(options);
+      RefineResult refined = refine_complex(chamfered, !strictest);
+      if (!refined.runaway) {
+        record_corners(chamfered, options);
+        record_refinement(chamfered, refined);
+        return refined;
+      }
+      if (fallbacks < kLocalFallbacks) {
+        tighten_corners(*refined.runaway, options.cosine_squared, topology_, points_,
+                        options.vertex_cosine_squared);
+      } else {
+        options.cosine_squared = 0;
+        options.vertex_cosine_squared.clear();
+      }
+      while (points_.size() > input_points) points_.pop_back();
     }
-    return chamfered;
   }
 
-  RefineResult refine_complex(ChamferResult& chamfered) {
+  // The smallest distance that chamfering and filtering leave between features, roughly.
+  double feature_length() {
+    if (options_.tau > 0) return options_.tau * result_.statistics.bbox_diagonal;
+    if (feature_length_ < 0) {
+      feature_length_ = smallest_local_feature_size(topology_, points_, control_);
+    }
+    return feature_length_;
+  }
+
+  ChamferResult filter_and_chamfer_input(const ChamferOptions& options) {
+    const double tolerance = options_.tau * result_.statistics.bbox_diagonal;
+    return filter_and_chamfer(topology_, points_, predicates_, options, tolerance, control_,
+                              filter_);
+  }
+
+  RefineResult refine_complex(ChamferResult& chamfered, bool guarded) {
+    constexpr double kRunawayFraction = 1.0 / 4096;
     add_outer_box(topology_, points_, chamfered.plc);
     RefineOptions options;
     options.delta = options_.delta;
     options.slivers = options_.slivers;
     options.max_edge = options_.max_edge;
     options.region = options_.region;
+    options.runaway_length = guarded ? feature_length() * kRunawayFraction : 0;
     options.removed = removed_boxes(chamfered, filter_.facet_kept, topology_, points_);
-    RefineResult refined =
-        refine(chamfered.plc, topology_, points_, predicates_, options, control_);
+    return refine(chamfered.plc, topology_, points_, predicates_, options, control_);
+  }
+
+  void record_corners(const ChamferResult& chamfered, const ChamferOptions& options) {
+    Statistics& s = result_.statistics;
+    s.dropped_triangles = filter_.dropped_triangles;
+    s.filter_rounds = filter_.rounds;
+    s.acute_vertices = chamfered.acute_vertices;
+    s.acute_edges = chamfered.acute_edges;
+    const bool everywhere = options.cosine_squared == 0;
+    s.guaranteed_acute = everywhere ? 90 : options_.acute;
+    const auto& tightened = options.vertex_cosine_squared;
+    s.fallback_corners =
+        static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
+    if (!options_.want_exact) return;
+    record_facets(topology_, filter_.facet_kept, result_.exact);
+    record_chamfer(chamfered, s.guaranteed_acute, tightened, result_.exact);
+  }
+
+  void record_refinement(const ChamferResult& chamfered, const RefineResult& refined) {
     Statistics& s = result_.statistics;
     s.steiner_on_segments = refined.on_segments;
     s.steiner_on_facets = refined.on_facets;
@@ -152,7 +197,6 @@ class Run {
     if (options_.want_chamfered) {
       result_.chamfered = chamfered_surface(chamfered, refined, topology_, points_);
     }
-    return refined;
   }
 
   void record_cdt(const CdtResult& cdt) {
@@ -196,6 +240,7 @@ class Run {
   Predicates predicates_{points_};
   SurfaceTopology topology_;
   FilterResult filter_;
+  double feature_length_ = -1;
 };
 
 template <class Body>

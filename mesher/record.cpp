@@ -35,10 +35,12 @@ void record_facets(const SurfaceTopology& topology, const std::vector<std::uint8
   }
 }
 
-void record_chamfer(const ChamferResult& chamfered, double threshold_degrees, ExactRecord& record) {
+void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
+                    const std::vector<double>& vertex_cosine_squared, ExactRecord& record) {
   for (VertexId v = 0; v < chamfered.vertex_is_acute.size(); ++v) {
     if (chamfered.vertex_is_acute[v] == 0) continue;
-    record.corners.push_back({v, threshold_degrees, chamfered.vertex_radius[v]});
+    const bool tightened = !vertex_cosine_squared.empty() && vertex_cosine_squared[v] == 0;
+    record.corners.push_back({v, tightened ? 90 : threshold_degrees, chamfered.vertex_radius[v]});
   }
 }
 

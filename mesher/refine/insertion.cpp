@@ -36,6 +36,10 @@ Vec3 Refiner::relative(VertexId v, const Vec3& origin) const {
   return {p.x - origin[0], p.y - origin[1], p.z - origin[2]};
 }
 
+void Refiner::guard(double squared_length, const Vec3& place) const {
+  if (squared_length < options_.runaway_length * options_.runaway_length) throw Runaway{place};
+}
+
 void Refiner::queue_subsegment(std::uint32_t s) {
   if (subsegments_[s].queued || !subsegments_[s].alive) return;
   subsegments_[s].queued = true;

@@ -65,7 +65,13 @@ RefineResult Refiner::result() {
 RefineResult refine(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
                     Predicates& predicates, const RefineOptions& options, Control& control) {
   Refiner refiner(plc, topology, points, predicates, options, control);
-  refiner.run();
+  try {
+    refiner.run();
+  } catch (const Runaway& runaway) {
+    RefineResult stopped;
+    stopped.runaway = runaway.place;
+    return stopped;
+  }
   return refiner.result();
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "mesher/base/control.h"
@@ -19,6 +20,10 @@ struct RefineOptions {
   bool slivers = true;
   double max_edge = 0;               // 0: no bound
   Region region = Region::interior;  // where bad tetrahedra are split
+  // No edge of the complex's features is shorter than a few hundred of these (absolute): a
+  // subsegment or volume edge below it means that acute corners feed each other for ever. 0: no
+  // guard.
+  double runaway_length = 0;
   // Boxes that cover the part of the input surface that the complex lacks.
   std::vector<Box> removed;
 };
@@ -29,6 +34,8 @@ struct RefinedFace {
 };
 
 struct RefineResult {
+  // Where the guard stopped the refinement; everything else is then empty.
+  std::optional<Vec3> runaway;
   std::vector<std::array<VertexId, 4>> tetrahedra;  // all of them down to the outer box
   std::vector<Side> side;                           // per tetrahedron
   std::vector<RefinedFace> faces;

@@ -26,6 +26,11 @@
 
 namespace delmesher {
 
+// Thrown by the guard against endless refinement; caught by refine().
+struct Runaway {
+  Vec3 place;
+};
+
 class Refiner {
  public:
   Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
@@ -106,6 +111,9 @@ class Refiner {
 
   // insertion.cpp
   void drain();  // splits queued subsegments, then subfacets, until none is left
+  // Throws Runaway if an edge of that squared length at that place means that the refinement does
+  // not end.
+  void guard(double squared_length, const Vec3& place) const;
   void queue_subsegment(std::uint32_t s);
   void queue_subfacet(std::uint32_t s);
   void collect_constraints();

@@ -107,7 +107,9 @@ VertexId Refiner::place_on(const Subsegment& s) {
   const Vec3 a = points_.nearest(s.a);
   const Vec3 d = relative(s.b, a);
   const Vec3 middle = {a[0] + d[0] / 2, a[1] + d[1] / 2, a[2] + d[2] / 2};
-  const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+  guard(length2, a);
+  const double length = std::sqrt(length2);
   const std::uint32_t facet = segment_facets_[s.segment][0].facet;
   const bool box = segment.input_edge == kNone && plc_.facets[facet].input_facet == kNone;
   if (segment.input_edge == kNone && !box) {

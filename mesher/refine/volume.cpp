@@ -153,6 +153,7 @@ void Refiner::split_tetrahedron(const BadTet& bad) {
   std::array<Vec3, 4> p;
   for (int i = 0; i < 4; ++i) p[i] = relative(bad.v[i], origin);
   const Shape s = shape_of(p);
+  guard(s.length2[s.shortest], origin);
   const double grid = std::sqrt(s.length2[s.shortest]) * kGridFraction;
   const auto absolute = [&](const Vec3& x) {
     return Vec3{origin[0] + x[0], origin[1] + x[1], origin[2] + x[2]};

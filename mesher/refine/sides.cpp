@@ -1,0 +1,102 @@
+// Which tetrahedra are inside the solid (section 5.5), asked for one at a time during refinement.
+//
+// Away from the removed part of the surface (chamfered or filtered) the surface is a union of
+// subfacets, so no open tetrahedron meets it there and a side is passed on from tetrahedron to
+// tetrahedron: kept across an ordinary face, changed across a subfacet of the input. Only
+// tetrahedra near the removed part need the exact test against the whole surface.
+#include <algorithm>
+
+#include "mesher/refine/refiner.h"
+
+namespace delmesher {
+
+// May the tetrahedron touch the removed part? Conservative.
+bool Refiner::near_removed(TetId t) const {
+  if (removed_.empty()) return false;
+  std::array<Vec3, 4> corner;
+  double error = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Approximation& p = points_.approximation(dt_.vertex(t, i));
+    corner[i] = {p.x, p.y, p.z};
+    error = std::max(error, p.error);
+  }
+  Box box = Box::around(corner);
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] -= error;
+    box.hi[k] += error;
+  }
+  return !removed_.query(box, [](std::uint32_t) { return false; });
+}
+
+std::uint8_t Refiner::classify_exactly(TetId t) {
+  const VertexId* v = dt_.vertices(t);
+  switch (solid_.classify({v[0], v[1], v[2], v[3]})) {
+    case Side::outside:
+      return kOutside;
+    case Side::inside:
+      return kInside;
+    case Side::straddling:
+      break;
+  }
+  return kStraddling;
+}
+
+// The side seen through face i of a tetrahedron away from the removed part, kUnknown if the
+// neighbour cannot tell.
+std::uint8_t Refiner::side_through(TetId t, int i) const {
+  const TetId u = dt_.neighbor(t, i);
+  const std::uint8_t beyond = dt_.is_ghost(u) ? std::uint8_t{kOutside} : side_[u];
+  if (beyond == kUnknown || beyond == kStraddling) return kUnknown;
+  const std::uint32_t s = subfacet_[t][i];
+  const bool crosses =
+      s != kNone && subfacets_[s].alive && plc_.facets[subfacets_[s].facet].input_facet != kNone;
+  if (!crosses) return beyond;
+  return beyond == kInside ? kOutside : kInside;
+}
+
+// Requires empty queues: every subfacet is a face of the tetrahedrization.
+std::uint8_t Refiner::side_of(TetId start) {
+  if (side_[start] != kUnknown) return side_[start];
+  if (near_removed(start)) return side_[start] = classify_exactly(start);
+  // Search for a tetrahedron that knows, through those that do not, then tell all that were asked.
+  std::vector<TetId> asked = {start};
+  side_[start] = kAsked;
+  std::uint8_t found = kUnknown;
+  std::size_t n = 0;
+  for (; n < asked.size() && found == kUnknown; ++n) {
+    const TetId t = asked[n];
+    for (int i = 0; i < 4 && found == kUnknown; ++i) {
+      const TetId u = dt_.neighbor(t, i);
+      if (!dt_.is_ghost(u) && side_[u] == kAsked) continue;
+      if (!dt_.is_ghost(u) && side_[u] == kUnknown) {
+        if (near_removed(u)) {
+          side_[u] = classify_exactly(u);
+        } else {
+          side_[u] = kAsked;
+          asked.push_back(u);
+          continue;
+        }
+      }
+      found = side_through(t, i);
+    }
+  }
+  // Nobody knows (an island among straddling ones): the test on one of them serves all.
+  const TetId source = asked[n - 1];
+  if (found == kUnknown) found = classify_exactly(source);
+  for (const TetId t : asked) side_[t] = kUnknown;
+  side_[source] = found;
+  std::vector<TetId> tell = {source};
+  while (!tell.empty()) {
+    const TetId t = tell.back();
+    tell.pop_back();
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = dt_.neighbor(t, i);
+      if (dt_.is_ghost(u) || side_[u] != kUnknown || near_removed(u)) continue;
+      side_[u] = side_through(u, dt_.mirror(t, i));
+      tell.push_back(u);
+    }
+  }
+  return side_[start];
+}
+
+}  // namespace delmesher
