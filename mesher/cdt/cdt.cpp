@@ -58,7 +58,7 @@ class CdtBuilder {
     result_.counters = recovery.counters();
     result_.counters.facet_restarts = restarts_;
     std::size_t missing = 0;
-    inside_ = classify_tetrahedra(mesh, surface_, control_, &missing);
+    inside_ = classify_tetrahedra(mesh, surface_, chains_, control_, &missing);
     return inside_.empty() ? surface_[missing].facet : kNone;
   }
 

@@ -84,4 +84,18 @@ std::uint32_t Chains::insert_after(std::uint32_t n, VertexId v, const std::array
   return m;
 }
 
+TetId find_edge(Tetrahedrization& mesh, const Chains& chains, VertexId a, VertexId b) {
+  if (chains.valence(b) < chains.valence(a)) std::swap(a, b);
+  return mesh.find_edge(a, b);
+}
+
+std::uint32_t find_face(Tetrahedrization& mesh, const Chains& chains,
+                        std::array<VertexId, 3> face) {
+  std::sort(face.begin(), face.end(), [&](VertexId a, VertexId b) {
+    const std::uint32_t x = chains.valence(a), y = chains.valence(b);
+    return x != y ? x < y : a < b;
+  });
+  return mesh.find_face(face[0], face[1], face[2]);
+}
+
 }  // namespace delmesher

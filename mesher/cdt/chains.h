@@ -53,6 +53,11 @@ class Chains {
   std::vector<std::uint32_t> first_, node_of_, valence_;
 };
 
+// As Tetrahedrization::find_edge and find_face. The search is around the vertex with the fewest
+// subsegments, so that hubs with thousands of tetrahedra are not visited once per facet.
+TetId find_edge(Tetrahedrization& mesh, const Chains& chains, VertexId a, VertexId b);
+std::uint32_t find_face(Tetrahedrization& mesh, const Chains& chains, std::array<VertexId, 3> face);
+
 // Distance of two points given by their coordinates, without overflow or underflow of squares.
 double distance(const Vec3& a, const Vec3& b);
 

@@ -6,13 +6,13 @@ namespace delmesher {
 
 std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
                                               std::span<const SurfaceFace> surface,
-                                              Control& control, std::size_t* missing) {
+                                              const Chains& chains, Control& control,
+                                              std::size_t* missing) {
   constexpr std::uint8_t kUnknown = 2;
   std::vector<std::uint8_t> walls(mesh.capacity(), 0);  // bit i: face i is on the surface
   for (std::size_t n = 0; n < surface.size(); ++n) {
     control.poll();
-    const auto& v = surface[n].vertices;
-    const std::uint32_t code = mesh.find_face(v[0], v[1], v[2]);
+    const std::uint32_t code = find_face(mesh, chains, surface[n].vertices);
     if (code == kNone) {
       *missing = n;
       return {};

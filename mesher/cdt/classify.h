@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "mesher/cdt/cdt.h"
+#include "mesher/cdt/chains.h"
 
 namespace delmesher {
 
@@ -13,6 +13,7 @@ namespace delmesher {
 // Returns an empty vector and stores the face's index in *missing if one is not a face of the mesh.
 std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
                                               std::span<const SurfaceFace> surface,
-                                              Control& control, std::size_t* missing);
+                                              const Chains& chains, Control& control,
+                                              std::size_t* missing);
 
 }  // namespace delmesher

@@ -33,28 +33,13 @@ int FacetRecovery::side(VertexId v) {
   return side_[v];
 }
 
-// Stars are searched around the vertex with the fewest subsegments: never a hub if avoidable.
-bool FacetRecovery::is_present(const Triangle& t) {
-  Triangle v = t;
-  std::sort(v.begin(), v.end(), [&](VertexId a, VertexId b) {
-    const std::uint32_t x = chains_.valence(a), y = chains_.valence(b);
-    return x != y ? x < y : a < b;
-  });
-  return mesh_.find_face(v[0], v[1], v[2]) != kNone;
-}
-
-bool FacetRecovery::edge_is_present(VertexId a, VertexId b) {
-  if (chains_.valence(b) < chains_.valence(a)) std::swap(a, b);
-  return mesh_.find_edge(a, b) != kNone;
-}
-
 bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles) {
   frame_ = topology_.triangles[topology_.facet_triangles[facet][0]];
   ++facet_epoch_;
   done_.assign(triangles.triangles.size(), 0);
   for (std::uint32_t t = 0; t < triangles.triangles.size(); ++t) {
     control_.poll(predicates_.points().size());
-    if (done_[t] != 0 || is_present(triangles.triangles[t])) continue;
+    if (done_[t] != 0 || find_face(mesh_, chains_, triangles.triangles[t]) != kNone) continue;
     collect_region(triangles, t);
     if (!recover_region()) return false;
   }
@@ -76,7 +61,7 @@ void FacetRecovery::collect_region(const FacetTriangles& all, std::uint32_t star
     for (int i = 0; i < 3; ++i) {
       const VertexId a = v[(i + 1) % 3], b = v[(i + 2) % 3];
       const std::uint32_t next = all.neighbors[queue[n]][i];
-      if (next == kNone || edge_is_present(a, b)) {
+      if (next == kNone || find_edge(mesh_, chains_, a, b) != kNone) {
         region_border_.push_back({a, b});
       } else if (done_[next] == 0) {
         done_[next] = 1;
@@ -95,9 +80,8 @@ void FacetRecovery::add_to_cavity(TetId t) {
 // The tetrahedron at a border edge that the region enters there: its other two vertices are on
 // strictly different sides of the plane, and the region leaves the edge between them.
 bool FacetRecovery::seed(const std::array<VertexId, 2>& edge) {
-  VertexId a = edge[0], b = edge[1];
-  const bool swapped = chains_.valence(b) < chains_.valence(a);
-  const TetId first = swapped ? mesh_.find_edge(b, a) : mesh_.find_edge(a, b);
+  const VertexId a = edge[0], b = edge[1];
+  const TetId first = find_edge(mesh_, chains_, a, b);
   if (first == kNone) return false;
   mesh_.edge_ring(first, a, b, ring_);
   for (const TetId t : ring_) {

@@ -38,8 +38,6 @@ class FacetRecovery {
   };
 
   int side(VertexId v);
-  bool is_present(const Triangle& t);
-  bool edge_is_present(VertexId a, VertexId b);
   void collect_region(const FacetTriangles& all, std::uint32_t start);
   bool recover_region();
   bool seed(const std::array<VertexId, 2>& edge);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
 #include "mesher/cdt/flat_map.h"
 #include "mesher/predicates/placement.h"
@@ -20,6 +21,9 @@ Vec3 scaled_difference(const Vec3& a, const Vec3& b, double scale) {
 double dot(const Vec3& a, const Vec3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
 // ------------------------------------------------------------------------------ placing a point
 
@@ -28,6 +32,7 @@ struct Target {
   std::array<double, 2> from;
   int anchor;        // end whose fraction counts
   double tolerance;  // as a fraction of the edge
+  double low = 0;    // added to the fraction: more than 53 bits, with no tolerance then
 };
 
 // Fraction of the edge between two nodes, from the end where it is more accurate.
@@ -77,7 +82,10 @@ class Placer {
     const std::array<VertexId, 2> end = s.edge_vertices(edge);
     const double f = t.from[t.anchor];
     const double u = shortest_dyadic(f - t.tolerance, f + t.tolerance);
-    const VertexId v = points_.add_on_segment(end[1 - t.anchor], end[t.anchor], u);
+    const VertexId p = end[1 - t.anchor], q = end[t.anchor];
+    // q + u (p - q) + low (p - q): a point of a triangle with two equal corners has two parameters.
+    const VertexId v =
+        t.low == 0 ? points_.add_on_segment(p, q, u) : points_.add_on_triangle(p, p, q, u, t.low);
     const std::array<std::uint32_t, 2> h = s.edge_half_edges(edge);
     std::array<PlaneId, 2> planes = {s.facet_plane[s.facet_of_half_edge(h[0])],
                                      s.facet_plane[s.facet_of_half_edge(h[1])]};
@@ -197,8 +205,8 @@ class SegmentRecovery {
 
   void recover(std::uint32_t n) {
     VertexId a = chains_.node(n).vertex, b = chains_.next(n).vertex;
+    if (find_edge(mesh_, chains_, a, b) != kNone) return;
     if (chains_.valence(b) < chains_.valence(a)) std::swap(a, b);
-    if (mesh_.find_edge(a, b) != kNone) return;
     const Centre centre = static_cast<Centre>(centre_[n]);
     const std::uint32_t m = placer_.split(n, choose_target(n, centre, a, b));
     centre_[n] = centre == kBothEnds ? kEnd0 : centre;
@@ -265,7 +273,7 @@ class SegmentRecovery {
   // around an acute vertex must be on the same spheres up to less than the angles there, hence all
   // 53 bits of the parameter, anchored at that vertex.
   Target on_sphere(const ChainNode& u, const ChainNode& w, int centre, VertexId reference,
-                   const Target& middle) const {
+                   const Target& middle) {
     const double length = chains_.length(u.edge);
     const VertexId apex = chains_.topology().edge_vertices(u.edge)[centre];
     const double radius = distance_from_apex(apex, reference) / length;
@@ -279,6 +287,7 @@ class SegmentRecovery {
     t.tolerance = 0;
     t.from[centre] = radius;
     t.from[1 - centre] = 1 - radius;
+    sharpen(t, u.edge, reference);
     const Vec3 p = points_.nearest(near.vertex), q = points_.nearest(far.vertex);
     Vec3 x;
     for (int k = 0; k < 3; ++k) x[k] = p[k] + (q[k] - p[k]) * (step / width);
@@ -297,6 +306,54 @@ class SegmentRecovery {
       }
     }
     return distance(points_.nearest(apex), points_.nearest(v));
+  }
+
+  // At angles below 2^-40 a radius of 53 bits is not enough for two points to be on the same sphere
+  // up to less than their distance. Then the target gets twice as many, by exact Newton steps for
+  // |apex + t (end - apex)| = |reference - apex|.
+  void sharpen(Target& target, std::uint32_t edge, VertexId reference) {
+    const std::array<VertexId, 2> end = chains_.topology().edge_vertices(edge);
+    const VertexId apex = end[target.anchor], other = end[1 - target.anchor];
+    double& fraction = target.from[target.anchor];
+    const double length = chains_.length(edge);
+    const Vec3 d = scaled_difference(points_.nearest(other), points_.nearest(apex), length);
+    const Vec3 f =
+        scaled_difference(points_.nearest(reference), points_.nearest(apex), fraction * length);
+    const double squared_sine = dot(cross(d, f), cross(d, f));
+    if (!(squared_sine < 0x1p-80)) return;
+    // Below that no two points can be matched by the parameters a point has, and splitting goes on
+    // for ever. Edges of doubles of about the same size never come so close to each other.
+    if (squared_sine < 0x1p-212) ++hopeless_;
+    DELMESHER_CHECK(hopeless_ < 1024, "constrained edges meet at an angle below 2^-106");
+    const Dyadic squared_radius = squared_distance(apex, reference);
+    const Dyadic squared_length = squared_distance(apex, other);
+    // In units of a power of two near the length: squares may overflow otherwise.
+    int exponent = 0;
+    const double mantissa = std::frexp(length, &exponent);
+    for (int step = 0; step < 2; ++step) {
+      fraction += target.low;
+      const Dyadic t = Dyadic::from_double(fraction);
+      Dyadic difference = squared_radius - squared_length * t * t;
+      if (difference.sign() != 0) difference.exponent -= 2 * exponent;
+      target.low = round_to_double(difference).value / (2 * fraction * mantissa * mantissa);
+    }
+  }
+  Dyadic squared_distance(VertexId a, VertexId b) const {
+    Dyadic sum;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Dyadic d = exact_coordinate(a, axis) - exact_coordinate(b, axis);
+      sum = sum + d * d;
+    }
+    return sum;
+  }
+  Dyadic exact_coordinate(VertexId v, std::size_t axis) const {
+    const PointDefinition& d = points_.definition(v);
+    const auto of = [&](VertexId w) { return Dyadic::from_double(points_.nearest(w)[axis]); };
+    if (d.kind == PointKind::explicit_point) return of(v);
+    const Dyadic last = of(d.corner[d.kind == PointKind::on_segment ? 1 : 2]);
+    Dyadic sum = last + Dyadic::from_double(d.u) * (of(d.corner[0]) - last);
+    if (d.kind == PointKind::on_segment) return sum;
+    return sum + Dyadic::from_double(d.v) * (of(d.corner[1]) - last);
   }
 
   // Does the segment ab meet the closed triangle pqr (not coplanar)?
@@ -349,9 +406,8 @@ class SegmentRecovery {
     const Vec3 x = points_.nearest(v);
     const Vec3 f = scaled_difference(p, x, length), g = scaled_difference(q, x, length);
     if (!(dot(f, g) < 0)) return;
-    const Vec3 cross = {f[1] * g[2] - f[2] * g[1], f[2] * g[0] - f[0] * g[2],
-                        f[0] * g[1] - f[1] * g[0]};
-    const double sine = dot(cross, cross) / (dot(f, f) * dot(g, g));
+    const Vec3 normal = cross(f, g);
+    const double sine = dot(normal, normal) / (dot(f, f) * dot(g, g));
     if (sine < best_sine || (sine == best_sine && v < best)) {
       best = v;
       best_sine = sine;
@@ -373,6 +429,7 @@ class SegmentRecovery {
   std::vector<std::uint32_t> mark_;
   std::uint32_t epoch_ = 0;
   std::vector<TetId> crossed_;
+  std::uint32_t hopeless_ = 0;
 };
 
 }  // namespace

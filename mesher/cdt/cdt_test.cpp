@@ -1,0 +1,298 @@
+#include "mesher/cdt/cdt.h"
+
+#include <gtest/gtest.h>
+
+#include "mesher/base/check.h"
+#include "mesher/cdt/rational_check.h"
+#include "mesher/cdt/test_models.h"
+#include "mesher/surface/validity.h"
+
+namespace delmesher {
+namespace {
+
+using namespace test_models;
+
+// A surface on its way through the stage.
+struct Model {
+  explicit Model(const Surface& given) : control(options), predicates(points) {
+    const ValidityResult validity = check_validity(given, true, control);
+    valid = validity.report.defects.empty();
+    if (!valid) return;
+    surface = oriented_outwards(given, validity);
+    topology = build_topology(surface, points, predicates);
+    input.topology = &topology;
+    for (VertexId v = 0; v < surface.vertices.size(); ++v) input.vertices.push_back(v);
+  }
+
+  CdtResult run() {
+    return constrained_delaunay_tetrahedrization(input, points, predicates, control);
+  }
+  std::string wrong(const CdtResult& result) {
+    return rational::Checker(topology, points, result).run();
+  }
+
+  Options options;
+  Control control;
+  PointStore points;
+  Predicates predicates;
+  Surface surface;
+  SurfaceTopology topology;
+  CdtInput input;
+  bool valid = false;
+};
+
+CdtResult expect_good(const Surface& surface) {
+  Model model(surface);
+  EXPECT_TRUE(model.valid);
+  if (!model.valid) return {};
+  CdtResult result = model.run();
+  EXPECT_EQ(model.wrong(result), "");
+  EXPECT_EQ(result.counters.facet_restarts, 0U);
+  return result;
+}
+
+TEST(Cdt, Cube) {
+  const CdtResult result = expect_good(box(-1, 2));
+  EXPECT_TRUE(result.steiner.empty());
+  EXPECT_EQ(result.boundary.size(), 12U);
+  for (const std::uint8_t inside : result.inside) EXPECT_EQ(inside, 1);
+}
+
+// The checker itself must notice what it is there for.
+TEST(Cdt, CheckerNoticesDefects) {
+  Model model(twisted_prism(3, 0.5, 1, true));
+  ASSERT_TRUE(model.valid);
+  const CdtResult good = model.run();
+  ASSERT_EQ(model.wrong(good), "");
+  CdtResult bad = good;
+  bad.inside[0] ^= 1;
+  EXPECT_EQ(model.wrong(bad), "volume inside differs from the solid's");
+  bad = good;
+  bad.boundary.pop_back();
+  EXPECT_EQ(model.wrong(bad), "facet not covered exactly");
+  bad = good;
+  std::swap(bad.boundary[0].vertices[0], bad.boundary[0].vertices[1]);
+  EXPECT_EQ(model.wrong(bad), "face turned over");
+  bad = good;
+  std::swap(bad.tetrahedra[0][0], bad.tetrahedra[0][1]);
+  EXPECT_EQ(model.wrong(bad), "tetrahedron not positive");
+  bad = good;
+  for (auto& chain : bad.chain) {
+    if (!chain.empty()) chain.pop_back();
+  }
+  EXPECT_EQ(model.wrong(bad), "chain without its ends");
+}
+
+// Cannot be tetrahedrized without further vertices.
+TEST(Cdt, Schoenhardt) {
+  for (const double twist : {0.5, 0.2, 0.01, 1e-6, 1e-12}) {
+    const CdtResult result = expect_good(twisted_prism(3, twist, 1, true));
+    EXPECT_FALSE(result.steiner.empty()) << twist;
+    EXPECT_LT(result.steiner.size(), 200U) << twist;
+  }
+}
+
+TEST(Cdt, TwistedPrisms) {
+  for (const int n : {4, 5, 8, 13}) {
+    for (const double height : {0.05, 1.0, 7.0}) {
+      expect_good(twisted_prism(n, 0.3 / n, height, true));
+      expect_good(twisted_prism(n, 0.3 / n, height, false));
+    }
+  }
+}
+
+TEST(Cdt, CosphericalPrisms) {
+  for (const int n : {4, 6, 12, 48}) expect_good(twisted_prism(n, 0, 1, n % 4 == 0));
+}
+
+TEST(Cdt, Chazelle) {
+  for (const int n : {1, 2, 4}) {
+    for (const double gap : {1.0, 0x1p-6, 0x1p-20}) expect_good(chazelle(n, gap));
+  }
+}
+
+TEST(Cdt, PerforatedPlates) {
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    for (const double thickness : {4.0, 0.25, 0x1p-6}) {
+      const int n = 3 + 2 * static_cast<int>(seed);
+      expect_good(perforated_plate(n, thickness, seed));
+    }
+  }
+}
+
+TEST(Cdt, RegularVoxels) {
+  std::vector<double> planes;
+  for (int i = 0; i <= 9; ++i) planes.push_back(i);
+  const CdtResult result = expect_good(voxels({planes, planes, planes}, [](int i, int j, int k) {
+    return (i % 2 == 0) + (j % 2 == 0) + (k % 2 == 0) >= 2;
+  }));
+  EXPECT_TRUE(result.steiner.empty());
+}
+
+TEST(Cdt, Stars) {
+  for (std::uint32_t seed = 0; seed < 5; ++seed) expect_good(star(2, 0.05, seed));
+}
+
+TEST(Cdt, LargeMissingRegions) {
+  for (const double gap : {0x1p-6, 0x1p-10}) {
+    const CdtResult result = expect_good(plate_between_crumbs(8, gap, 1));
+    // Otherwise the test says nothing about facet recovery.
+    EXPECT_GT(result.counters.largest_cavity, 200U);
+    EXPECT_GT(result.counters.wrapped_tetrahedra, 0U);
+  }
+}
+
+TEST(Cdt, NestedCubes) {
+  Surface s = box(0, 8);
+  append(s, inside_out(box(1, 7)));
+  append(s, box(2, 6));
+  append(s, inside_out(box(3, 5)));
+  append(s, box(20, 21));
+  const CdtResult result = expect_good(s);
+  EXPECT_FALSE(result.tetrahedra.empty());
+}
+
+TEST(Cdt, NeedlesDownTo1e12) {
+  for (const double angle : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
+    const CdtResult result = expect_good(needles(6, angle, 7));
+    EXPECT_LT(result.steiner.size(), 5000U) << angle;
+  }
+}
+
+// Twice the precision of a double is what two parameters can give.
+TEST(Cdt, NeedlesDownTo1e32) {
+  for (const double angle : {1e-3, 1e-15, 1e-17, 1e-20, 1e-25, 1e-30, 1e-32}) {
+    const CdtResult result = expect_good(needle_among_obstacles(angle, 3));
+    EXPECT_LT(result.steiner.size(), 500U) << angle;
+  }
+  Model model(needle_among_obstacles(1e-40, 3));
+  ASSERT_TRUE(model.valid);
+  EXPECT_THROW(model.run(), InternalError);  // at once, not after filling all memory
+}
+
+TEST(Cdt, ScalesWithTheInput) {
+  for (const Surface& s : {star(2, 0.1, 3), perforated_plate(7, 0.25, 1)}) {
+    const CdtResult original = expect_good(s);
+    for (const double factor : {0x1p-10, 0x1p20, 0x1p-120}) {
+      Surface scaled = s;
+      for (auto& p : scaled.vertices) {
+        for (double& x : p) x *= factor;
+      }
+      Model model(scaled);
+      ASSERT_TRUE(model.valid);
+      const CdtResult result = model.run();
+      EXPECT_EQ(result.tetrahedra, original.tetrahedra);
+      EXPECT_EQ(result.inside, original.inside);
+    }
+  }
+}
+
+// Labels split a plane into facets; facets without any vertex off the plane around them.
+TEST(Cdt, LabelledPatches) {
+  std::vector<double> planes;
+  for (int i = 0; i <= 7; ++i) planes.push_back(i);
+  Surface s = voxels({planes, planes, {0, 0.5}}, [](int, int, int) { return true; });
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    double x = 0, y = 0;
+    for (const std::uint32_t v : s.triangles[t]) {
+      x += s.vertices[v][0] / 3;
+      y += s.vertices[v][1] / 3;
+    }
+    s.labels.push_back((x > 3 && x < 4) || (y > 2 && y < 5 && x < 6) ? 1 : 0);
+  }
+  const CdtResult result = expect_good(s);
+  std::set<FacetId> facets;
+  for (const SurfaceFace& f : result.boundary) facets.insert(f.facet);
+  EXPECT_GT(facets.size(), 6U);
+}
+
+// ------------------------------------------------------------------------------------- enriched
+
+// Adds points of all kinds: on edges, in facets, in the volume, and the corners of a box around.
+void enrich(Model& model, int density, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const SurfaceTopology& s = model.topology;
+  const auto add = [&](VertexId v) { model.input.vertices.push_back(v); };
+  model.input.on_edge.resize(s.edge_count());
+  for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
+    if (s.edge_is_flat[e] != 0) continue;
+    const auto end = s.edge_vertices(e);
+    const int parts = 1 + static_cast<int>(random() % (2 * static_cast<unsigned>(density)));
+    for (int i = 1; i < parts; ++i) {
+      const double t = std::floor(1024.0 * i / parts) / 1024;  // from end[0]
+      const VertexId v = t < 0.5 ? model.points.add_on_segment(end[1], end[0], t)
+                                 : model.points.add_on_segment(end[0], end[1], 1 - t);
+      const auto h = s.edge_half_edges(e);
+      std::vector<PlaneId> planes = {s.facet_plane[s.facet_of_half_edge(h[0])],
+                                     s.facet_plane[s.facet_of_half_edge(h[1])]};
+      std::sort(planes.begin(), planes.end());
+      planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+      model.points.set_supports(v, planes, {&e, 1});
+      model.input.on_edge[e].push_back(v);
+      add(v);
+    }
+  }
+  model.input.on_facet.resize(s.facet_triangles.size());
+  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+    std::set<std::array<unsigned, 2>> taken;
+    for (int i = 0; i < density; ++i) {
+      const unsigned u = 1 + static_cast<unsigned>(random() % 126);
+      const unsigned v = 1 + static_cast<unsigned>(random() % (127 - u));
+      if (!taken.insert({u, v}).second) continue;
+      const auto& c = s.triangles[t];
+      const VertexId p = model.points.add_on_triangle(c[0], c[1], c[2], u / 128.0, v / 128.0);
+      const PlaneId plane = s.facet_plane[s.facet_of[t]];
+      model.points.set_supports(p, {&plane, 1}, {});
+      model.input.on_facet[s.facet_of[t]].push_back(p);
+      add(p);
+    }
+  }
+  Vec3 lo = model.points.nearest(0), hi = lo;
+  for (VertexId v = 0; v < s.vertex_half_edge.size(); ++v) {
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], model.points.nearest(v)[k]);
+      hi[k] = std::max(hi[k], model.points.nearest(v)[k]);
+    }
+  }
+  for (int i = 0; i < 8; ++i) {
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) {
+      p[k] = ((i >> k) & 1) != 0 ? hi[k] + (hi[k] - lo[k]) / 2 : lo[k] - (hi[k] - lo[k]) / 2;
+    }
+    add(model.points.add_explicit(p[0], p[1], p[2]));
+  }
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (int i = 0; i < 40 * density; ++i) {
+    Vec3 p;
+    for (int k = 0; k < 3; ++k) p[k] = lo[k] + (hi[k] - lo[k]) * unit(random);
+    add(model.points.add_explicit(p[0], p[1], p[2]));
+  }
+}
+
+TEST(Cdt, Enriched) {
+  std::uint32_t seed = 1;
+  for (const Surface& s : {box(0, 1), perforated_plate(5, 0.25, 2), star(1, 0.1, 5),
+                           chazelle(2, 0.5), twisted_prism(3, 0.5, 1, true), needles(6, 1e-3, 1)}) {
+    for (const int density : {1, 3}) {
+      Model model(s);
+      ASSERT_TRUE(model.valid);
+      enrich(model, density, seed++);
+      const CdtResult result = model.run();
+      EXPECT_EQ(model.wrong(result), "");
+      EXPECT_EQ(result.counters.facet_restarts, 0U);
+      std::set<VertexId> used;
+      for (const auto& t : result.tetrahedra) used.insert(t.begin(), t.end());
+      EXPECT_EQ(used.size(), model.input.vertices.size() + result.steiner.size());
+    }
+  }
+}
+
+TEST(Cdt, StopsWhenTold) {
+  Model model(star(3, 0.05, 1));
+  ASSERT_TRUE(model.valid);
+  model.options.max_vertices = 300;
+  EXPECT_THROW(model.run(), Stopped);
+}
+
+}  // namespace
+}  // namespace delmesher

@@ -1,0 +1,194 @@
+#include "mesher/cdt/separation.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "mesher/cdt/gift_wrapping.h"
+#include "mesher/cdt/polyhedron.h"
+#include "mesher/cdt/rational_check.h"
+
+namespace delmesher {
+namespace {
+
+using rational::Vector;
+
+// The triangle cut by the tetrahedron's four half-spaces, in plain rational arithmetic.
+std::vector<Vector> clip(const std::array<Vector, 4>& tet, const std::array<Vector, 3>& triangle) {
+  std::vector<Vector> polygon(triangle.begin(), triangle.end());
+  for (int i = 0; i < 4; ++i) {
+    const auto height = [&](const Vector& x) {  // positive inside
+      return mpq_class(-rational::volume(tet[kFace[i][0]], tet[kFace[i][1]], tet[kFace[i][2]], x));
+    };
+    std::vector<Vector> next;
+    for (std::size_t n = 0; n < polygon.size(); ++n) {
+      const Vector &a = polygon[n], &b = polygon[(n + 1) % polygon.size()];
+      const mpq_class x = height(a), y = height(b);
+      if (sgn(x) >= 0) next.push_back(a);
+      if (sgn(x) * sgn(y) >= 0) continue;
+      Vector p;
+      for (int k = 0; k < 3; ++k) p[k] = a[k] + (b[k] - a[k]) * x / (x - y);
+      next.push_back(p);
+    }
+    polygon = next;
+  }
+  return polygon;
+}
+
+// Tiny integer coordinates, so that every kind of coincidence is frequent.
+class SeparationTest : public testing::Test {
+ protected:
+  void draw(int range) {
+    points_ = std::make_unique<PointStore>();
+    predicates_ = std::make_unique<Predicates>(*points_);
+    std::set<std::array<int, 3>> taken;
+    while (taken.size() < 7) {
+      std::array<int, 3> c;
+      for (int& x : c) x = static_cast<int>(random_() % static_cast<unsigned>(range));
+      if (taken.insert(c).second) points_->add_explicit(c[0], c[1], c[2]);
+    }
+  }
+  bool usable(std::array<VertexId, 4>& tet, const std::array<VertexId, 3>& triangle) {
+    const int side = predicates_->orient3d(tet[0], tet[1], tet[2], tet[3]);
+    if (side < 0) std::swap(tet[0], tet[1]);
+    const Vector n = rational::area(at(triangle[0]), at(triangle[1]), at(triangle[2]));
+    return side != 0 && !rational::is_zero(n);
+  }
+  Vector at(VertexId v) const { return rational::exact(*points_, v); }
+
+  std::unique_ptr<PointStore> points_;
+  std::unique_ptr<Predicates> predicates_;
+  std::mt19937 random_{4};
+};
+
+TEST_F(SeparationTest, AgreesWithRationalClipping) {
+  int meeting = 0, touching = 0, apart = 0, proper = 0, overcautious = 0;
+  for (int round = 0; round < 12000; ++round) {
+    draw(3 + round % 3);
+    const auto shared = static_cast<VertexId>(round % 3);  // 0, 1 or 2 common vertices
+    std::array<VertexId, 4> tet = {0, 1, 2, 3};
+    const std::array<VertexId, 3> triangle = {4 - shared, 5 - shared, 6 - shared};
+    if (!usable(tet, triangle)) continue;
+    const std::array<Vector, 4> t = {at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])};
+    const std::vector<Vector> common = clip(t, {at(triangle[0]), at(triangle[1]), at(triangle[2])});
+    // The interior is met iff the middle of the common part is off all four faces.
+    bool inside = !common.empty();
+    if (inside) {
+      Vector middle = {0, 0, 0};
+      for (const Vector& p : common) {
+        for (int k = 0; k < 3; ++k) middle[k] += p[k] / static_cast<int>(common.size());
+      }
+      for (int i = 0; i < 4; ++i) {
+        inside = inside &&
+                 sgn(rational::volume(t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]], middle)) != 0;
+      }
+    }
+    ASSERT_EQ(interior_meets(*predicates_, tet, triangle), inside) << round;
+    // Improper: the common part has a point that is not spanned by the common vertices. With at
+    // most two of those that is: a corner of it that is none of them.
+    bool improper = false;
+    for (const Vector& p : common) {
+      bool known = false;
+      for (VertexId v = 4 - shared; v < 4; ++v) known = known || p == at(v);
+      improper = improper || !known;
+    }
+    const bool flagged = may_meet_improperly(*predicates_, tet, triangle);
+    if (improper) {
+      ASSERT_TRUE(flagged) << round;
+    }
+    if (boxes_disjoint(*points_, tet, triangle)) {
+      ASSERT_TRUE(common.empty());
+    }
+    (inside ? meeting : improper ? touching : common.empty() ? apart : proper) += 1;
+    overcautious += flagged && !improper ? 1 : 0;
+  }
+  EXPECT_GT(meeting, 1000);
+  EXPECT_GT(touching, 1000);
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(proper, 500);
+  EXPECT_LT(overcautious, (apart + proper) / 4);
+}
+
+// ------------------------------------------------------------------------- filling of polyhedra
+
+std::set<Tetrahedron> as_set(std::vector<Tetrahedron> tetrahedra) {
+  for (Tetrahedron& t : tetrahedra) std::sort(t.begin(), t.end());
+  return {tetrahedra.begin(), tetrahedra.end()};
+}
+
+// In a convex polyhedron with Delaunay faces every way must find the Delaunay tetrahedrization.
+TEST(Polyhedron, ConvexIsDelaunay) {
+  std::mt19937 random(17);
+  Options options;
+  Control control(options);
+  for (const unsigned range : {4U, 16U, 1000U}) {
+    for (const std::size_t n : {5U, 9U, 30U}) {
+      PointStore points;
+      Predicates predicates(points);
+      std::set<std::array<unsigned, 3>> taken;
+      std::vector<VertexId> vertices;
+      while (vertices.size() < n) {
+        const std::array<unsigned, 3> c = {random() % range, random() % range, random() % range};
+        if (!taken.insert(c).second) continue;
+        vertices.push_back(points.add_explicit(c[0], c[1], c[2]));
+      }
+      Tetrahedrization mesh(predicates);
+      mesh.build(vertices, control);
+      std::vector<Triangle> faces;
+      std::vector<Tetrahedron> expected;
+      for (TetId t = 0; t < mesh.capacity(); ++t) {
+        if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
+        const VertexId* v = mesh.vertices(t);
+        expected.push_back({v[0], v[1], v[2], v[3]});
+        for (int i = 0; i < 4; ++i) {
+          if (!mesh.is_ghost(mesh.neighbor(t, i))) continue;
+          faces.push_back({v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]});
+        }
+      }
+      // Inner vertices are on no face: dangling walls bring them in.
+      std::set<VertexId> seen;
+      for (const Triangle& f : faces) seen.insert(f.begin(), f.end());
+      for (const Tetrahedron& t : expected) {
+        for (int i = 0; i < 4; ++i) {
+          const Triangle f = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
+          const bool fresh =
+              std::any_of(f.begin(), f.end(), [&](VertexId v) { return seen.count(v) == 0; });
+          if (!fresh) continue;
+          seen.insert(f.begin(), f.end());
+          faces.push_back(f);
+          faces.push_back({f[0], f[2], f[1]});
+        }
+      }
+      std::vector<Tetrahedron> filled, wrapped;
+      PolyhedronFiller filler(predicates, control);
+      ASSERT_TRUE(filler.fill(faces, filled));
+      EXPECT_EQ(as_set(filled), as_set(expected));
+      ASSERT_TRUE(gift_wrap(predicates, control, faces, vertices, wrapped));
+      EXPECT_EQ(as_set(wrapped), as_set(expected));
+    }
+  }
+}
+
+TEST(Polyhedron, OpenSurfaceIsRefused) {
+  PointStore points;
+  Predicates predicates(points);
+  Options options;
+  Control control(options);
+  points.add_explicit(0, 0, 0);
+  points.add_explicit(1, 0, 0);
+  points.add_explicit(0, 1, 0);
+  points.add_explicit(0, 0, 1);
+  std::vector<Triangle> faces = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  std::vector<Tetrahedron> tetrahedra;
+  PolyhedronFiller filler(predicates, control);
+  EXPECT_TRUE(filler.fill(faces, tetrahedra));
+  EXPECT_EQ(tetrahedra.size(), 1U);
+  faces.pop_back();
+  tetrahedra.clear();
+  EXPECT_FALSE(filler.fill(faces, tetrahedra));
+  EXPECT_TRUE(tetrahedra.empty());
+}
+
+}  // namespace
+}  // namespace delmesher
