@@ -60,11 +60,13 @@ void write_medit(TextSink& out, const TetMesh& mesh) {
     out.integer(region(mesh, i));
     out.text("\n");
   }
-  // Readers stop at End, so what follows disturbs none of them.
-  out.text("End\nTriangleFacets\n");
+  // No keyword of the format carries a second number per triangle, and some readers refuse unknown
+  // keywords even after End; comments are skipped by all.
+  out.text("End\n# TriangleFacets ");
   out.integer(mesh.boundary.size());
   out.text("\n");
   for (std::uint32_t facet : mesh.boundary_facets) {
+    out.text("# ");
     out.integer(facet);
     out.text("\n");
   }

@@ -87,7 +87,7 @@ TEST_F(WriteMesh, Medit) {
   EXPECT_TRUE(
       text.ends_with("Triangles\n3\n1 3 2 7\n1 2 4 0\n2 3 4 -2\n"
                      "Tetrahedra\n2\n1 2 3 5 2\n1 2 3 4 1\n"
-                     "End\nTriangleFacets\n3\n9\n4\n5\n"));
+                     "End\n# TriangleFacets 3\n# 9\n# 4\n# 5\n"));
 }
 
 TEST_F(WriteMesh, Gmsh) {
