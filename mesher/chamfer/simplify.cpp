@@ -7,6 +7,11 @@ namespace delmesher {
 
 namespace {
 
+// Smallest distance of a simplified bridge from the vertex it cuts off, relative to the chamfer
+// distance.
+constexpr double kLeastDistance = 0.5;
+constexpr double kLeastDistanceOfWhole = 0.25;
+
 class Simplifier {
  public:
   Simplifier(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
@@ -77,9 +82,12 @@ class Simplifier {
     // The vertex stays on the side that is cut off.
     const int side = predicates_.orient2d(topology_.facet_axis[corner.facet], x, y, corner.vertex) *
                      topology_.facet_axis_sign[corner.facet];
-    if (side < 0 || (side == 0 && !whole)) return false;
-    // Around a wide corner every edge keeps its distance.
-    if (!whole && edge_distance(corner, x, y) < 0.5 * cuts_.distance[corner.vertex]) return false;
+    if (side <= 0) return false;
+    // Around a wide corner every edge keeps its distance. So does a single edge, if less: split
+    // points of artificial edges are rounded, and must not leave the facet where its boundary is
+    // straight or nearly so.
+    const double least = whole ? kLeastDistanceOfWhole : kLeastDistance;
+    if (edge_distance(corner, x, y) < least * cuts_.distance[corner.vertex]) return false;
     return allows(index, x, y, from, true) && allows(index, y, x, to, false);
   }
 
