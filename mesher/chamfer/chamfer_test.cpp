@@ -6,8 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <tuple>
 
 #include "mesher/chamfer/assemble.h"
+#include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
 #include "mesher/surface/validity.h"
@@ -356,6 +358,41 @@ TEST(Chamfer, StripsHaveTheAnglesOfStatement2) {
     }
   }
   EXPECT_GT(strips, 100);
+}
+
+// What the filter's local rounds rely on.
+TEST(Chamfer, APartIsChamferedLikeTheWhole) {
+  const auto points_of = [](const Model& model, const ChamferResult& result, VertexId v) {
+    std::vector<std::tuple<std::array<VertexId, 3>, double, double>> list;
+    for (VertexId p = result.first_new_point; p < model.points.size(); ++p) {
+      if (result.new_point_vertex[p - result.first_new_point] != v) continue;
+      const PointDefinition& d = model.points.definition(p);
+      list.push_back({d.corner, d.u, d.v});
+    }
+    return list;
+  };
+  int compared = 0;
+  for (const Sample& sample : test_polyhedra::samples()) {
+    Model model(sample.surface), part(sample.surface);
+    const ChamferOptions options = below(60);
+    const ChamferResult whole = model.run(options);
+    const KeptSurface surface(part.topology, part.points, {});
+    const std::size_t count = surface.vertex_count();
+    for (VertexId v = 0; v < count; ++v) {
+      if (!whole.vertex_is_acute[v]) continue;
+      std::vector<std::uint8_t> active(count);
+      for (std::uint32_t e = 0; e < part.topology.edge_count(); ++e) {
+        const auto [a, b] = part.topology.edge_vertices(e);
+        if (a == v || b == v) active[a] = active[b] = 1;
+      }
+      const ChamferResult local =
+          chamfer_surface(surface, part.points, part.predicates, options, active, part.control);
+      EXPECT_EQ(points_of(model, whole, v), points_of(part, local, v)) << sample.name;
+      while (part.points.size() > count) part.points.pop_back();
+      compared += std::count(active.begin(), active.end(), 0) > 0;
+    }
+  }
+  EXPECT_GT(compared, 100);
 }
 
 TEST(Chamfer, NothingIsDoneWhereNothingIsAcute) {

@@ -105,6 +105,20 @@ std::vector<Sample> cases() {
                    {310.0 + 40 * (i % 5), 30.0 * static_cast<double>(random() % 3), 25.0 * i});
   }
   result.push_back({"swarm", swarm});
+  // Acute edges between acute vertices: rounds of the second step change their neighbours.
+  std::uniform_int_distribution<std::int64_t> narrow(-100, 100);
+  for (int i = 0; i < 40; ++i) {
+    test_polyhedra::Polygon base;
+    for (int k = 0; k < 10; ++k) {
+      const double angle = k * 3.14159265358979323846 / 5;
+      const double radius = 1000.0 + static_cast<double>(random() % 1000) * (k % 2);
+      base.push_back(
+          {std::llround(radius * std::cos(angle)), std::llround(radius * std::sin(angle))});
+    }
+    result.push_back(
+        {"pyramid " + std::to_string(i),
+         test_polyhedra::pyramid(base, {narrow(random), narrow(random), 50 + i * 10})});
+  }
   return result;
 }
 

@@ -188,6 +188,11 @@ inline std::vector<Sample> samples() {
       {"needle", tetrahedron({{{0, 0, 0}, {100000, 3, 5}, {100001, 10, 2}, {100003, 4, 11}}})},
       {"sliver", tetrahedron({{{0, 0, 0}, {1000, 1000, 1}, {1000, 0, 0}, {0, 1000, 2}}})},
   };
+  // A hole close to the middle of an edge that is acute at the bottom: it bounds the strip there.
+  result.push_back(
+      {"hole by an acute edge", sheared(prism({{0, 0}, {3000, 0}, {3000, 3000}, {0, 3000}}, 3000,
+                                              {{1400, 20}, {1400, 120}, {1600, 120}, {1600, 20}}),
+                                        {{{1, 0, 0}, {0, 1, 4}, {0, 0, 1}}})});
   const std::array<std::array<std::array<int, 3>, 3>, 2> shears = {
       {{{{1, 2, 0}, {0, 1, 3}, {1, 0, 1}}}, {{{3, -1, 1}, {1, 2, -1}, {0, 1, 2}}}}};
   const std::size_t plain = result.size();
