@@ -1,6 +1,7 @@
 #include "mesher/assembly.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mesher/output/statistics.h"
 #include "mesher/surface/bvh.h"
@@ -9,16 +10,35 @@
 namespace delmesher {
 namespace {
 
-// The spheres and cylinders of the chamfering, for the question whether a point is in one of them.
-class ChamferedRegion {
+// What the refinement did not see: the spheres and cylinders of the chamfering, and the filtered
+// facets. A volume vertex in the former or crowding the latter would make needless bad tetrahedra
+// when they return.
+class RemovedSurface {
  public:
-  ChamferedRegion(const ChamferResult& chamfered, const SurfaceTopology& topology,
-                  const PointStore& points)
-      : bvh_(build(chamfered, topology, points)) {}
+  RemovedSurface(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
+                 const SurfaceTopology& topology, const PointStore& points)
+      : points_(points),
+        topology_(topology),
+        chamfers_(build_chamfers(chamfered)),
+        dropped_(build_dropped(facet_kept)) {}
 
-  bool contains(const Vec3& p) const {
-    return !bvh_.query({p, p}, [&](std::uint32_t n) {
+  // `spacing` is the distance of p to its nearest neighbour in the refined mesh.
+  bool crowded(const Vec3& p, double spacing) const {
+    const bool in_chamfer = !chamfers_.query({p, p}, [&](std::uint32_t n) {
       return !(point_segment_distance(p, items_[n].a, items_[n].b) < items_[n].radius);
+    });
+    if (in_chamfer) return true;
+    // Nearer than this fraction of its spacing, a vertex sees a filtered facet under too small
+    // angles.
+    constexpr double kCrowding = 0.3;
+    const double reach = kCrowding * spacing;
+    Box box{p, p};
+    for (int k = 0; k < 3; ++k) {
+      box.lo[k] -= reach;
+      box.hi[k] += reach;
+    }
+    return !dropped_.query(box, [&](std::uint32_t n) {
+      return !(point_triangle_distance(p, corners(dropped_triangles_[n])) <= reach);
     });
   }
 
@@ -28,10 +48,15 @@ class ChamferedRegion {
     double radius;
   };
 
-  void add(const Vec3& a, const Vec3& b, double radius, std::vector<Box>& boxes) {
+  std::array<Vec3, 3> corners(std::uint32_t t) const {
+    const auto& v = topology_.triangles[t];
+    return {points_.nearest(v[0]), points_.nearest(v[1]), points_.nearest(v[2])};
+  }
+
+  void add(VertexId a, VertexId b, double radius, std::vector<Box>& boxes) {
     if (!(radius > 0)) return;
-    items_.push_back({a, b, radius});
-    Box box = Box::around(std::array<Vec3, 2>{a, b});
+    items_.push_back({points_.nearest(a), points_.nearest(b), radius});
+    Box box = Box::around(std::array<Vec3, 2>{items_.back().a, items_.back().b});
     for (int k = 0; k < 3; ++k) {
       box.lo[k] -= radius;
       box.hi[k] += radius;
@@ -39,22 +64,48 @@ class ChamferedRegion {
     boxes.push_back(box);
   }
 
-  Bvh build(const ChamferResult& chamfered, const SurfaceTopology& topology,
-            const PointStore& points) {
+  Bvh build_chamfers(const ChamferResult& chamfered) {
     std::vector<Box> boxes;
     for (VertexId v = 0; v < chamfered.vertex_radius.size(); ++v) {
-      add(points.nearest(v), points.nearest(v), chamfered.vertex_radius[v], boxes);
+      add(v, v, chamfered.vertex_radius[v], boxes);
     }
     for (std::uint32_t e = 0; e < chamfered.edge_radius.size(); ++e) {
-      const auto ends = topology.edge_vertices(e);
-      add(points.nearest(ends[0]), points.nearest(ends[1]), chamfered.edge_radius[e], boxes);
+      const auto ends = topology_.edge_vertices(e);
+      add(ends[0], ends[1], chamfered.edge_radius[e], boxes);
     }
     return Bvh(boxes);
   }
 
+  Bvh build_dropped(const std::vector<std::uint8_t>& facet_kept) {
+    std::vector<Box> boxes;
+    for (std::uint32_t t = 0; t < topology_.triangles.size() && !facet_kept.empty(); ++t) {
+      if (facet_kept[topology_.facet_of[t]] != 0) continue;
+      dropped_triangles_.push_back(t);
+      boxes.push_back(Box::around(corners(t)));
+    }
+    return Bvh(boxes);
+  }
+
+  const PointStore& points_;
+  const SurfaceTopology& topology_;
   std::vector<Item> items_;
-  Bvh bvh_;
+  std::vector<std::uint32_t> dropped_triangles_;
+  Bvh chamfers_, dropped_;
 };
+
+// Per point of the store: distance to its nearest neighbour along an edge of the refined mesh.
+std::vector<double> spacings(const RefineResult& refined, const PointStore& points) {
+  std::vector<double> spacing(points.size(), HUGE_VAL);
+  for (const auto& t : refined.tetrahedra) {
+    for (const auto& e : kEdge) {
+      const Vec3 p = points.nearest(t[e[0]]);
+      const double length =
+          point_segment_distance(p, points.nearest(t[e[1]]), points.nearest(t[e[1]]));
+      for (const int end : e) spacing[t[end]] = std::min(spacing[t[end]], length);
+    }
+  }
+  return spacing;
+}
 
 void sort_unique(std::vector<VertexId>& v) {
   std::sort(v.begin(), v.end());
@@ -223,15 +274,16 @@ CdtInput plain_input(const SurfaceTopology& topology) {
   return input;
 }
 
-CdtInput enriched_input(const ChamferResult& chamfered, const RefineResult& refined,
-                        const SurfaceTopology& topology, const PointStore& points,
-                        Predicates& predicates, Control& control) {
+CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
+                        const RefineResult& refined, const SurfaceTopology& topology,
+                        const PointStore& points, Predicates& predicates, Control& control) {
   CdtInput input = plain_input(topology);
   add_complex_points(chamfered, refined, topology, points, predicates, input);
-  const ChamferedRegion removed(chamfered, topology, points);
+  const RemovedSurface removed(chamfered, facet_kept, topology, points);
+  const std::vector<double> spacing = spacings(refined, points);
   for (const VertexId v : refined.in_volume) {
     control.poll(points.size());
-    if (!removed.contains(points.nearest(v))) input.vertices.push_back(v);
+    if (!removed.crowded(points.nearest(v), spacing[v])) input.vertices.push_back(v);
   }
   drop_coincident(points, predicates, input);
   return input;

@@ -31,9 +31,9 @@ CdtInput plain_input(const SurfaceTopology& topology);
 
 // The input surface with the vertices of the refined mesh, without those volume vertices that lie
 // in the spheres and cylinders of the chamfering.
-CdtInput enriched_input(const ChamferResult& chamfered, const RefineResult& refined,
-                        const SurfaceTopology& topology, const PointStore& points,
-                        Predicates& predicates, Control& control);
+CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
+                        const RefineResult& refined, const SurfaceTopology& topology,
+                        const PointStore& points, Predicates& predicates, Control& control);
 
 // --- towards rounding
 

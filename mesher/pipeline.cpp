@@ -69,8 +69,8 @@ class Run {
       return {};
     }
     control_.enter(Phase::enrich);
-    const CdtInput input =
-        enriched_input(chamfered, refined, topology_, points_, predicates_, control_);
+    const CdtInput input = enriched_input(chamfered, filter_.facet_kept, refined, topology_,
+                                          points_, predicates_, control_);
     const CdtResult cdt =
         constrained_delaunay_tetrahedrization(input, points_, predicates_, control_);
     record_cdt(cdt);
