@@ -41,8 +41,13 @@ inline Interval operator-(Interval a) {
 }
 inline Interval operator*(Interval a, Interval b) {
   const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
-  return Interval::around(std::fmin(std::fmin(p, q), std::fmin(r, s)),
-                          std::fmax(std::fmax(p, q), std::fmax(r, s)));
+  const double sum = p + q + r + s;
+  if (!(sum - sum == 0)) {  // something has overflowed
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
+  const double low_pq = p < q ? p : q, low_rs = r < s ? r : s;
+  const double high_pq = p < q ? q : p, high_rs = r < s ? s : r;
+  return Interval::around(low_pq < low_rs ? low_pq : low_rs, high_pq > high_rs ? high_pq : high_rs);
 }
 
 }  // namespace tetproof::oracles

@@ -107,17 +107,29 @@ bool meets(const ExactPoints& points, const std::array<Index, 3>& triangle,
           exact::volume6(points, replaced[0], replaced[1], replaced[2], replaced[3]);
     }
   }
-  for (int face = 0; face < 4; ++face) polygon = clip(polygon, face);
+  const auto strictly_inside = [&](int face) {
+    return std::any_of(polygon.begin(), polygon.end(),
+                       [face](const FaceSides& sides) { return sides[face] > 0; });
+  };
   for (int face = 0; face < 4; ++face) {
-    const auto positive = [face](const FaceSides& sides) { return sides[face] > 0; };
-    if (std::none_of(polygon.begin(), polygon.end(), positive)) return false;
+    polygon = clip(polygon, face);
+    if (!strictly_inside(face)) return false;
   }
-  return true;
+  return strictly_inside(0) && strictly_inside(1) && strictly_inside(2) && strictly_inside(3);
 }
 
-// Cheap proof that all corners of the triangle are on the outer side of one face, or on it.
+// Cheap proofs that the triangle stays out: its plane does not enter the tetrahedron, or all its
+// corners are on the outer side of one face, or on it.
 bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
                const std::array<Index, 4>& tetrahedron) {
+  bool above = false, below = false;
+  for (const Index v : tetrahedron) {
+    const int side = exact::orient3d(points, triangle[0], triangle[1], triangle[2], v);
+    above = above || side > 0;
+    below = below || side < 0;
+    if (above && below) break;
+  }
+  if (!above || !below) return true;
   for (int face = 0; face < 4; ++face) {
     const auto outside = [&](Index v) {
       std::array<Index, 4> replaced = tetrahedron;
