@@ -53,6 +53,12 @@ inline std::vector<Family> all() {
   const auto scaled = [](double base, double spread) {
     return [=](Random& r) { return base * (1 + spread * (r.unit() - 0.5)) * r.sign(); };
   };
+  const auto limit = [](int bits) {
+    return [=](Random& r) {
+      const int top = bits + static_cast<int>(r.below(3));
+      return r.below(4) == 0 ? 1.0 : r.sign() * (std::ldexp(1.0, top) - std::ldexp(1.0, top - 53));
+    };
+  };
   return {
       {"random", [](Random& r) { return r.unit() * 10 - 5; }, unit},
       {"short parameters", [](Random& r) { return r.unit() * 10 - 5; }, short_unit},
@@ -65,6 +71,12 @@ inline std::vector<Family> all() {
       {"far from the origin", [](Random& r) { return 1e6 + 1e-6 * r.unit(); }, unit},
       {"flat", [](Random& r) { return 1 + std::ldexp(static_cast<double>(r.below(3)), -52); },
        short_unit},
+      // Products of degree 5 and 3 at the edge of the subnormal numbers.
+      {"3e-65", scaled(3e-65, 1), unit},
+      {"3e-108", scaled(3e-108, 1), unit},
+      // As large as integers of one and of two limbs can be, and one bit too large.
+      {"one limb", limit(60), short_unit},
+      {"two limbs", limit(124), short_unit},
       {"1e-80", scaled(1e-80, 1), unit},
       {"1e-300", scaled(1e-300, 1), unit},
       {"1e300", scaled(1e300, 1), unit},

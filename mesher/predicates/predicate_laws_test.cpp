@@ -399,6 +399,55 @@ TEST_P(NearlyDegenerate, FiltersNeverErr) {
 
 INSTANTIATE_TEST_SUITE_P(Shifts, NearlyDegenerate, ::testing::Values(0.0, 1.0, 1000.0));
 
+// Implicit points on boxes far from the origin: exactly cospherical, coplanar and right-angled, but
+// their nearest doubles are not. Where the exact sign is zero, a filter must not be certain.
+TEST(Filters, AllowForTheErrorsOfImplicitPoints) {
+  Random random(13);
+  int zeros = 0, moved = 0, certain = 0;
+  for (int round = 0; round < 4000; ++round) {
+    PointStore store;
+    // Oblique, as the nearest doubles of the points of an upright box form a box; edges along
+    // orthogonal vectors, corners exact.
+    const double shift = std::ldexp(1.0, static_cast<int>(random.below(25)));
+    const double edges[3][3] = {{1, 2, 2}, {2, 1, -2}, {2, -2, 1}};
+    double length[3];
+    for (double& x : length) x = std::ldexp(1.0 + static_cast<double>(random.below(1024)), -12);
+    for (int i = 0; i < 8; ++i) {
+      Vec3 x = {shift, shift, shift};
+      for (int k = 0; k < 3; ++k) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          if ((i >> k & 1) != 0) x[axis] += length[k] * edges[k][axis];
+        }
+      }
+      store.add_explicit(x[0], x[1], x[2]);
+    }
+    // Points 8..15 are a smaller box: at s or t on the four edges of one direction, ids as the
+    // corners'.
+    const double s = random.unit(), t = random.unit();
+    for (VertexId i = 0; i < 8; ++i) store.add_on_segment(i | 1U, i & ~1U, (i & 1U) != 0 ? s : t);
+    const auto a = [&](VertexId v) -> const Approximation& { return store.approximation(v + 8); };
+    for (VertexId v = 8; v < 16; ++v) moved += store.approximation(v).error > 0 ? 1 : 0;
+    std::array<VertexId, 8> v = {0, 1, 2, 3, 4, 5, 6, 7};
+    for (std::size_t i = 7; i > 0; --i) std::swap(v[i], v[random.below(i + 1)]);
+    // Five corners of a box lie on its sphere.
+    ASSERT_EQ(filters::insphere(a(v[0]), a(v[1]), a(v[2]), a(v[3]), a(v[4])), 0);
+    // Opposite edges are coplanar, the angles between edges right.
+    const VertexId c = v[0];
+    ASSERT_EQ(filters::orient3d(a(c), a(c ^ 1U), a(c ^ 6U), a(c ^ 7U)), 0);
+    ASSERT_EQ(filters::dot(a(c ^ 1U), a(c), a(c ^ 4U)), 0);
+    ASSERT_EQ(filters::dot(a(c ^ 1U), a(c), a(c ^ 6U)), 0);
+    // Corners see a diagonal of their rectangle under a right angle.
+    ASSERT_EQ(filters::in_diametral_ball(a(c), a(c ^ 1U), a(c ^ 4U), a(c ^ 5U)), 0);
+    ASSERT_EQ(filters::in_diametral_ball(a(c), a(c ^ 1U), a(c ^ 6U), a(c ^ 7U)), 0);
+    Predicates predicates(store);
+    zeros += predicates.insphere(v[0] + 8, v[1] + 8, v[2] + 8, v[3] + 8, v[4] + 8) == 0 ? 1 : 0;
+    certain += filters::orient3d(a(c), a(c ^ 1U), a(c ^ 2U), a(c ^ 4U)) != 0 ? 1 : 0;
+  }
+  EXPECT_EQ(zeros, 4000);
+  EXPECT_GT(moved, 10000);
+  EXPECT_GT(certain, 1000);
+}
+
 TEST(Counters, EveryStageDecides) {
   Random random(12);
   const auto families = families::all();
