@@ -23,13 +23,7 @@ Refiner::Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& po
       dt_(predicates),
       solid_(topology, predicates),
       locator_(topology, points),
-      removed_(options.removed),
-      max_cosine_squared_(cosine_squared(options.delta)) {
-  // An isosceles triangle with unit base and apex angle delta has height cot(delta / 2) / 2, and
-  // cot^2(delta / 2) = (1 + cos delta) / (1 - cos delta).
-  const double cosine = std::sqrt(max_cosine_squared_);
-  offcentre2_ = (1 + cosine) / (1 - cosine) / 4;
-}
+      removed_(options.removed) {}
 
 Vec3 Refiner::relative(VertexId v, const Vec3& origin) const {
   const Approximation& p = points_.approximation(v);

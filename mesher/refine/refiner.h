@@ -57,6 +57,11 @@ class Refiner {
     bool alive = true;
     bool queued = false;
   };
+  // What makes a tetrahedron bad.
+  struct Goal {
+    double max_cosine_squared;  // a face angle is too small if its squared cosine exceeds this
+    bool slivers;
+  };
   struct BadTet {
     double key;  // squared radius-edge ratio
     TetId t;
@@ -98,6 +103,8 @@ class Refiner {
 
   // volume.cpp
   void refine_tetrahedra();
+  // Splits bad tetrahedra until there are none, or the store has `cap` points; then false.
+  bool reach(const Goal& goal, std::size_t cap);
   void judge_fresh();
   void queue_if_bad(TetId t);
   void split_tetrahedron(const BadTet& bad);
@@ -159,6 +166,9 @@ class Refiner {
   std::vector<std::uint8_t> side_;
 
   std::deque<std::uint32_t> subsegment_queue_, subfacet_queue_;
+  Goal goal_{};
+  // Squared height, per squared base, of a triangle whose apex angle just meets the goal.
+  double offcentre2_ = 0;
   std::priority_queue<BadTet> bad_;
   // Tetrahedra created since the last judge_fresh(), some dead again: most of those that appear
   // while subsegments and subfacets are split do not live to be judged.
@@ -166,9 +176,6 @@ class Refiner {
   std::vector<std::uint8_t> is_fresh_;  // per tetrahedron
   bool facets_built_ = false;
   bool refining_ = false;
-  double max_cosine_squared_ = 0;  // a face angle is too small if its squared cosine exceeds this
-  double offcentre2_ =
-      0;  // squared height over its base, per squared base, of a triangle with apex angle delta
 
   // Scratch of one insertion.
   struct FoundSubfacet {

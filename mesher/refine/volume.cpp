@@ -9,6 +9,9 @@
 namespace delmesher {
 namespace {
 
+// The proof of termination needs a radius-edge ratio above 2, that is an angle below asin(1/4)
+// (design: the paper's 20.7 is the planar bound).
+constexpr double kGuaranteedDelta = 14.4775;
 // Section 5.7: shortest edge over smallest distance of opposite edges.
 constexpr double kSliverRatio = 7.2;
 // Volume points are snapped to a grid of this fraction of the shortest edge, so that their
@@ -107,8 +110,8 @@ void Refiner::queue_if_bad(TetId t) {
   const Shape s = shape_of(p);
   const double shortest2 = s.length2[s.shortest];
   const double slack = kSlack + 32 * error / std::sqrt(shortest2);
-  bool bad = !(worst_cosine_squared(s) < max_cosine_squared_ - slack);
-  if (!bad && options_.slivers) {
+  bool bad = !(worst_cosine_squared(s) < goal_.max_cosine_squared - slack);
+  if (!bad && goal_.slivers) {
     bad = shortest2 > kSliverRatio * kSliverRatio * opposite_edges_distance2(s);
   }
   if (!bad && options_.max_edge > 0) {
@@ -129,8 +132,12 @@ void Refiner::judge_fresh() {
   fresh_.clear();
 }
 
-void Refiner::refine_tetrahedra() {
-  refining_ = true;
+bool Refiner::reach(const Goal& goal, std::size_t cap) {
+  goal_ = goal;
+  // An isosceles triangle with unit base and apex angle delta has height cot(delta / 2) / 2, and
+  // cot^2(delta / 2) = (1 + cos delta) / (1 - cos delta).
+  const double cosine = std::sqrt(goal.max_cosine_squared);
+  offcentre2_ = (1 + cosine) / (1 - cosine) / 4;
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     control_.poll(points_.size());
     if (dt_.alive(t)) queue_if_bad(t);
@@ -139,13 +146,30 @@ void Refiner::refine_tetrahedra() {
     control_.poll(points_.size());
     drain();
     judge_fresh();
-    if (bad_.empty()) break;
+    if (bad_.empty()) return true;
+    if (points_.size() > cap) break;
     const BadTet bad = bad_.top();
     bad_.pop();
     if (!dt_.alive(bad.t) || !std::equal(bad.v.begin(), bad.v.end(), dt_.vertices(bad.t))) continue;
     if (options_.region == Region::interior && side_of(bad.t) == kOutside) continue;
     split_tetrahedron(bad);
   }
+  bad_ = {};
+  return false;
+}
+
+// First what is guaranteed to end; then, with a cap on insertions, what is not: slivers and angles
+// above the bound. Where a cap strikes, the guaranteed goal is reached once more, so that it holds
+// in any case.
+void Refiner::refine_tetrahedra() {
+  refining_ = true;
+  constexpr std::size_t kUnlimited = ~std::size_t{0};
+  constexpr std::size_t kCapFactor = 4;
+  const Goal guaranteed{cosine_squared(std::min(options_.delta, kGuaranteedDelta)), false};
+  const Goal wanted{cosine_squared(options_.delta), options_.slivers};
+  reach(guaranteed, kUnlimited);
+  if (!wanted.slivers && options_.delta <= kGuaranteedDelta) return;
+  if (!reach(wanted, kCapFactor * points_.size())) reach(guaranteed, kUnlimited);
 }
 
 void Refiner::split_tetrahedron(const BadTet& bad) {
