@@ -36,7 +36,9 @@ struct SurfaceFace {
 struct CdtCounters {
   std::uint64_t missing_triangles = 0, regions = 0;
   std::uint64_t cavity_tetrahedra = 0, largest_cavity = 0;
-  std::uint64_t wrapped_tetrahedra = 0;  // not found by a local Delaunay tetrahedrization
+  std::uint64_t wrapped_tetrahedra = 0;  // found by gift wrapping
+  std::uint64_t hidden_vertices = 0;     // passed over by it because walls hide them
+  std::uint64_t blocked_tetrahedra = 0;  // local Delaunay tetrahedra that walls enter
   std::uint64_t facet_restarts = 0;      // violations of the theory that were worked around: 0
 };
 

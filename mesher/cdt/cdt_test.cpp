@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mesher/base/check.h"
+#include "mesher/cdt/gift_wrapping.h"
 #include "mesher/cdt/rational_check.h"
 #include "mesher/cdt/test_models.h"
 #include "mesher/surface/validity.h"
@@ -204,6 +205,60 @@ TEST(Cdt, LabelledPatches) {
   std::set<FacetId> facets;
   for (const SurfaceFace& f : result.boundary) facets.insert(f.facet);
   EXPECT_GT(facets.size(), 6U);
+}
+
+// Slabs squashed so that large facets, with walls already near them, are missing.
+TEST(Cdt, SquashedSlabs) {
+  std::uint64_t blocked = 0;
+  for (const std::uint32_t seed : {7U, 14U, 30U}) {
+    Surface s = slabs(3, 0.01, seed);
+    for (auto& p : s.vertices) p[2] *= 0.01;
+    const CdtResult result = expect_good(s);
+    blocked += result.counters.blocked_tetrahedra;
+  }
+  EXPECT_GT(blocked, 10U);  // otherwise the test says nothing about walls in the cavities
+}
+
+// The solid itself is a polyhedron with constrained Delaunay faces: filled from its faces alone, in
+// any way, it must give the same tetrahedra, because these are unique.
+TEST(Cdt, SolidIsFilledInOneWayOnly) {
+  std::uint64_t hidden = 0, blocked = 0;
+  Surface nested = box(0, 8);
+  append(nested, inside_out(box(1, 7)));
+  for (const Surface& s : {twisted_prism(3, 0.5, 1, true), star(1, 0.05, 3), star(2, 0.3, 4),
+                           perforated_plate(5, 0.25, 1), chazelle(2, 1), nested}) {
+    Model model(s);
+    ASSERT_TRUE(model.valid);
+    const CdtResult result = model.run();
+    std::set<Tetrahedron> expected;
+    for (std::size_t n = 0; n < result.tetrahedra.size(); ++n) {
+      Tetrahedron t = result.tetrahedra[n];
+      std::sort(t.begin(), t.end());
+      if (result.inside[n] != 0) expected.insert(t);
+    }
+    std::vector<Triangle> faces;
+    std::set<VertexId> used;
+    for (const SurfaceFace& f : result.boundary) {
+      faces.push_back(f.vertices);
+      used.insert(f.vertices.begin(), f.vertices.end());
+    }
+    const auto as_set = [](std::vector<Tetrahedron> list) {
+      for (Tetrahedron& t : list) std::sort(t.begin(), t.end());
+      return std::set<Tetrahedron>(list.begin(), list.end());
+    };
+    std::vector<Tetrahedron> filled, wrapped;
+    PolyhedronFiller filler(model.predicates, model.control);
+    EXPECT_TRUE(filler.fill(faces, filled));
+    EXPECT_EQ(as_set(filled), expected);
+    blocked += filler.counters().blocked;
+    FillCounters counters;
+    EXPECT_TRUE(gift_wrap(model.predicates, model.control, faces, {used.begin(), used.end()},
+                          wrapped, counters));
+    EXPECT_EQ(as_set(wrapped), expected);
+    hidden += counters.hidden;
+  }
+  EXPECT_GT(hidden, 20U);  // otherwise the test says nothing about visibility
+  EXPECT_GT(blocked, 20U);
 }
 
 // ------------------------------------------------------------------------------------- enriched

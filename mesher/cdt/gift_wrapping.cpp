@@ -11,12 +11,14 @@ namespace {
 class GiftWrapper {
  public:
   GiftWrapper(Predicates& predicates, Control& control, const std::vector<Triangle>& walls,
-              const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra)
+              const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra,
+              FillCounters& counters)
       : predicates_(predicates),
         control_(control),
         walls_(walls),
         vertices_(vertices),
-        tetrahedra_(tetrahedra) {
+        tetrahedra_(tetrahedra),
+        counters_(counters) {
     std::sort(vertices_.begin(), vertices_.end());
   }
 
@@ -65,6 +67,7 @@ class GiftWrapper {
     // positive.
     const Tetrahedron t = {face[0], face[2], face[1], v};
     tetrahedra_.push_back(t);
+    ++counters_.wrapped;
     close(face);
     for (int i = 0; i < 3; ++i) {
       const Triangle side = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
@@ -99,6 +102,7 @@ class GiftWrapper {
       }
       const VertexId v = candidates_[tried++];
       if (is_free({face[0], face[2], face[1], v})) return v;
+      ++counters_.hidden;
     }
     return kNone;
   }
@@ -118,6 +122,7 @@ class GiftWrapper {
   const std::vector<Triangle>& walls_;
   std::vector<VertexId> vertices_;
   std::vector<Tetrahedron>& tetrahedra_;
+  FillCounters& counters_;
   FlatMap is_open_;
   std::size_t open_count_ = 0;
   std::vector<Triangle> front_;
@@ -127,8 +132,9 @@ class GiftWrapper {
 }  // namespace
 
 bool gift_wrap(Predicates& predicates, Control& control, const std::vector<Triangle>& faces,
-               const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra) {
-  return GiftWrapper(predicates, control, faces, vertices, tetrahedra).run();
+               const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra,
+               FillCounters& counters) {
+  return GiftWrapper(predicates, control, faces, vertices, tetrahedra, counters).run();
 }
 
 }  // namespace delmesher

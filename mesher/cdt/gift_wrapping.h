@@ -8,6 +8,7 @@ namespace delmesher {
 // As PolyhedronFiller::fill, by gift wrapping alone: quadratic or worse, for small polyhedra.
 // `vertices` are those of the faces, without repetition.
 bool gift_wrap(Predicates& predicates, Control& control, const std::vector<Triangle>& faces,
-               const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra);
+               const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra,
+               FillCounters& counters);
 
 }  // namespace delmesher

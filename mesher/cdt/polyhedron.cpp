@@ -28,6 +28,8 @@ class DelaunayPart {
     flood();
   }
 
+  std::uint64_t blocked() const { return blocked_; }
+
   // The tetrahedra found, and the faces of what remains.
   bool collect(std::vector<Tetrahedron>& tetrahedra, std::vector<Triangle>& rest) const {
     for (std::uint32_t n = 0; n < faces_.size(); ++n) {
@@ -87,6 +89,7 @@ class DelaunayPart {
         if (boxes_disjoint(predicates_.points(), tet, f)) continue;
         if (may_meet_improperly(predicates_, tet, f)) {
           state_[t] = kBlocked;
+          ++blocked_;
           break;
         }
       }
@@ -118,6 +121,7 @@ class DelaunayPart {
   std::vector<State> state_;
   std::vector<std::uint32_t> code_;
   std::vector<TetId> inside_;
+  std::uint64_t blocked_ = 0;
 };
 
 }  // namespace
@@ -134,6 +138,7 @@ bool PolyhedronFiller::delaunay_part(std::vector<Triangle>& faces,
   std::vector<Triangle> rest;
   DelaunayPart part(predicates_, control_, faces);
   part.run(vertices_);
+  counters_.blocked += part.blocked();
   if (!part.collect(tetrahedra, rest)) return false;
   faces = std::move(rest);
   return true;
@@ -152,13 +157,9 @@ bool PolyhedronFiller::fill(std::vector<Triangle> faces, std::vector<Tetrahedron
     }
     if (tetrahedra.size() == before) break;
   }
-  const std::size_t before = tetrahedra.size();
-  if (!gift_wrap(predicates_, control_, faces, vertices_, tetrahedra)) {
-    tetrahedra.resize(start);
-    return false;
-  }
-  wrapped_ += tetrahedra.size() - before;
-  return true;
+  if (gift_wrap(predicates_, control_, faces, vertices_, tetrahedra, counters_)) return true;
+  tetrahedra.resize(start);
+  return false;
 }
 
 }  // namespace delmesher

@@ -17,6 +17,12 @@ namespace delmesher {
 using Triangle = std::array<VertexId, 3>;
 using Tetrahedron = std::array<VertexId, 4>;
 
+struct FillCounters {
+  std::uint64_t wrapped = 0;  // tetrahedra found by gift wrapping
+  std::uint64_t hidden = 0;   // vertices it passed over because a wall hides them
+  std::uint64_t blocked = 0;  // tetrahedra of a local Delaunay tetrahedrization that a wall enters
+};
+
 class PolyhedronFiller {
  public:
   PolyhedronFiller(Predicates& predicates, Control& control)
@@ -27,7 +33,7 @@ class PolyhedronFiller {
   // are not what is required, which is a bug of the caller.
   bool fill(std::vector<Triangle> faces, std::vector<Tetrahedron>& tetrahedra);
 
-  std::uint64_t wrapped() const { return wrapped_; }
+  const FillCounters& counters() const { return counters_; }
 
  private:
   bool delaunay_part(std::vector<Triangle>& faces, std::vector<Tetrahedron>& tetrahedra);
@@ -36,7 +42,7 @@ class PolyhedronFiller {
   Predicates& predicates_;
   Control& control_;
   std::vector<VertexId> vertices_;
-  std::uint64_t wrapped_ = 0;  // tetrahedra found by gift wrapping
+  FillCounters counters_;
 };
 
 }  // namespace delmesher

@@ -43,7 +43,9 @@ bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles) {
     collect_region(triangles, t);
     if (!recover_region()) return false;
   }
-  counters_.wrapped_tetrahedra = filler_.wrapped();
+  counters_.wrapped_tetrahedra = filler_.counters().wrapped;
+  counters_.hidden_vertices = filler_.counters().hidden;
+  counters_.blocked_tetrahedra = filler_.counters().blocked;
   return true;
 }
 

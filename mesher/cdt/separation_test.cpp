@@ -160,11 +160,12 @@ TEST(Polyhedron, ConvexIsDelaunay) {
           faces.push_back({f[0], f[2], f[1]});
         }
       }
+      FillCounters counters;
       std::vector<Tetrahedron> filled, wrapped;
       PolyhedronFiller filler(predicates, control);
       ASSERT_TRUE(filler.fill(faces, filled));
       EXPECT_EQ(as_set(filled), as_set(expected));
-      ASSERT_TRUE(gift_wrap(predicates, control, faces, vertices, wrapped));
+      ASSERT_TRUE(gift_wrap(predicates, control, faces, vertices, wrapped, counters));
       EXPECT_EQ(as_set(wrapped), as_set(expected));
     }
   }

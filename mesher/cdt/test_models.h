@@ -227,6 +227,27 @@ inline Surface plate_between_crumbs(int n, double gap, std::uint32_t seed) {
   return s;
 }
 
+// Thin plates of random directions, one in each cell of an n x n x n grid and nearly as wide as it.
+inline Surface slabs(int n, double thickness, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) {
+    return lo + (hi - lo) * static_cast<double>(random() % 4096) / 4096;
+  };
+  Surface s;
+  for (int i = 0; i < n * n * n; ++i) {
+    const std::array<int, 3> cell = {i % n, i / n % n, i / n / n};
+    std::array<std::vector<double>, 3> planes;
+    const auto thin = static_cast<std::size_t>(random() % 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double at = k == thin ? number(0.05, 0.9) : number(0.01, 0.1);
+      const double to = k == thin ? at + thickness * number(0.5, 1) : number(0.9, 0.99);
+      planes[k] = {cell[k] + at, cell[k] + to};
+    }
+    append(s, voxels(planes, [](int, int, int) { return true; }));
+  }
+  return s;
+}
+
 // Triangles of a simple polygon given counter-clockwise by (x, y) with small dyadic coordinates, by
 // cutting ears.
 inline std::vector<std::array<std::uint32_t, 3>> cut_ears(
