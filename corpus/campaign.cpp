@@ -241,6 +241,11 @@ class Campaign {
   // Fills the free places; false when there is nothing left to start.
   bool start_jobs() {
     while (running_.size() < options_.jobs && next_ < models_.size() * meshers_.size()) {
+      if (next_ % meshers_.size() == 0 && out_of_time()) {
+        summary_.models_left_out = models_.size() - next_ / meshers_.size();
+        next_ = models_.size() * meshers_.size();
+        break;
+      }
       const Model& model = models_[next_ / meshers_.size()];
       const Mesher& mesher = meshers_[next_ % meshers_.size()];
       RunRow row;
@@ -262,6 +267,12 @@ class Campaign {
       ++next_;
     }
     return !running_.empty();
+  }
+
+  // Asked between models only, so that every model begun has all its runs.
+  bool out_of_time() const {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    return options_.stop_after_seconds > 0 && elapsed.count() >= options_.stop_after_seconds;
   }
 
   void wait() {
@@ -299,6 +310,7 @@ class Campaign {
   fs::path scratch_;
   Progress progress_;
   std::string host_ = host_name();
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::size_t next_ = 0;
   std::list<std::unique_ptr<Job>> running_;
   CampaignSummary summary_;

@@ -19,14 +19,16 @@ struct CampaignOptions {
   std::filesystem::path keep;  // folder for the meshes; empty: they are not kept
   Limits limits;
   unsigned jobs = 1;
-  bool verify = false;    // ask `tetproof verify` for a verdict on each mesh
-  bool terminal = false;  // one live line rather than a line per run
+  double stop_after_seconds = 0;  // begin no further model after this long; 0: no bound
+  bool verify = false;            // ask `tetproof verify` for a verdict on each mesh
+  bool terminal = false;          // one live line rather than a line per run
 };
 
 struct CampaignSummary {
   std::size_t present = 0;              // rows that were there already
   std::array<std::size_t, 7> counts{};  // rows of this campaign by disposition, old and new
   bool interrupted = false;
+  std::size_t models_left_out = 0;  // not begun because of stop_after_seconds
 };
 
 // Ends early, with everything finished so far in the database, once interrupt_campaign() was

@@ -160,6 +160,16 @@ TEST_F(CampaignTest, MeshesAreKeptOnRequest) {
   EXPECT_TRUE(fs::exists(folder_ / "kept" / "k" / "m0.off.tet"));
 }
 
+TEST_F(CampaignTest, NoFurtherModelIsBegunOnceTimeIsUp) {
+  options_.stop_after_seconds = 0.2;
+  const std::vector<Mesher> meshers = {shell("a", "sleep 0.3"), shell("b", "exit 4")};
+  EXPECT_EQ(run_campaign(models(), meshers, options_).models_left_out, 2u);
+  EXPECT_EQ(row_count(), 2u);  // the model begun has all its runs
+  options_.stop_after_seconds = 0;
+  EXPECT_EQ(run_campaign(models(), meshers, options_).models_left_out, 0u);
+  EXPECT_EQ(row_count(), 6u);
+}
+
 class InterruptedCampaign : public CampaignTest {
  protected:
   // Starts a campaign in another process: two quick runs per model and one that never ends.

@@ -215,6 +215,7 @@ std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std:
     return found != json.end() && found->is_number() ? found->get<double>() : 0.0;
   };
   MeshColumns columns;
+  if (!member.empty() && number("tetrahedra") == 0) return std::nullopt;  // no such mesh
   columns.vertices = static_cast<std::uint64_t>(number("vertices"));
   columns.tetrahedra = static_cast<std::uint64_t>(number("tetrahedra"));
   columns.min_face_angle = number("min_face_angle");

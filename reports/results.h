@@ -68,7 +68,8 @@ struct RunRow {
   std::string command, host, started;  // UTC, ISO 8601
 };
 
-// The columns found in the JSON of a `final`, `refined` or measured object.
+// The columns found in a measured object (no member), or in its member `inside`, or in the member
+// `refined` of a mesher's statistics; a member without tetrahedra counts as absent.
 std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std::string& member);
 
 class ResultsDatabase {

@@ -137,6 +137,8 @@ TEST(MeshColumns, AbsentOrBrokenJson) {
   EXPECT_FALSE(mesh_columns("{", "").has_value());
   EXPECT_FALSE(mesh_columns("[1]", "x").has_value());
   EXPECT_FALSE(mesh_columns(R"({"refined": null})", "refined").has_value());
+  EXPECT_FALSE(mesh_columns(R"({"refined": {"tetrahedra": 0}})", "refined").has_value());
+  EXPECT_TRUE(mesh_columns(R"({"tetrahedra": 0})", "").has_value());
   EXPECT_TRUE(mesh_columns(R"({"tetrahedra": 1, "min_face_angle": null})", "").has_value());
 }
 

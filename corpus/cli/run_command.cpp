@@ -14,7 +14,7 @@ namespace {
 struct RunOptions {
   std::vector<std::string> paths, meshers;
   std::string database, shard, delmesher, keep;
-  double timeout = 600, cpu = 0;
+  double timeout = 600, cpu = 0, stop_after = 0;
   std::uint64_t memory_mebibytes = 4096;
   unsigned jobs = 1;
   bool verify = false;
@@ -72,6 +72,7 @@ CampaignOptions campaign_options(const RunOptions& options) {
   campaign.limits.cpu_seconds = options.cpu > 0 ? options.cpu : options.timeout;
   campaign.limits.memory_bytes = options.memory_mebibytes << 20;
   campaign.limits.file_bytes = 64ull << 30;
+  campaign.stop_after_seconds = options.stop_after;
   campaign.jobs = std::max(1u, options.jobs);
 #ifdef TETPROOF_HAS_VERIFY
   campaign.verify = options.verify;
@@ -97,7 +98,12 @@ int run(const RunOptions& options) {
         fmt::format(", {} {}", summary.counts[d], disposition_name(static_cast<Disposition>(d)));
   }
   fmt::print("{}{}\n", summary.interrupted ? "interrupted; " : "", text);
-  return summary.interrupted ? 130 : 0;
+  if (summary.models_left_out > 0) {
+    fmt::print("{} models were not begun within {} s; run again to go on\n",
+               summary.models_left_out, options.stop_after);
+  }
+  if (summary.interrupted) return 130;
+  return summary.models_left_out > 0 ? 5 : 0;
 }
 
 }  // namespace
@@ -122,6 +128,8 @@ Command add_run_command(CLI::App& tetproof) {
   app->add_option("--cpu", options->cpu, "Processor seconds per run (default: as --timeout)");
   app->add_option("--memory", options->memory_mebibytes, "Resident MiB per run")
       ->capture_default_str();
+  app->add_option("--stop-after", options->stop_after,
+                  "Begin no further model after this many seconds (exit 5 if some are left)");
   app->add_option("--shard", options->shard, "I/N: only the I-th of N parts of the models");
   app->add_option("--delmesher-binary", options->delmesher,
                   "Our mesher (default: the one beside this program)");

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "corpus/tetgen_adapter/inside_flood.h"
 #include "mesher/io/read_surface.h"
@@ -52,11 +53,32 @@ double seconds_since(Clock::time_point start) {
   }
 }
 
-// TetGen marks faces of no facet with 0 or, on the hull, 1; ours start well above.
+// One marker per label of the input, not per triangle: TetGen merges coplanar facets of one marker,
+// and would otherwise keep every flat edge of the triangulation as a constraint. Faces of no facet
+// have marker 0 or, on the hull, 1; ours start well above.
 constexpr int kFirstMarker = 16;
 
+struct Markers {
+  std::vector<std::int32_t> labels;      // by marker - kFirstMarker, increasing
+  std::vector<std::uint32_t> triangles;  // smallest input triangle of each
+
+  explicit Markers(const delmesher::Surface& surface) : labels(surface.labels) {
+    if (labels.empty()) labels.push_back(0);
+    std::sort(labels.begin(), labels.end());
+    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    triangles.assign(labels.size(), 0);
+    for (std::size_t i = surface.labels.size(); i-- > 0;) {
+      triangles[index_of(surface.labels[i])] = static_cast<std::uint32_t>(i);
+    }
+  }
+  std::size_t index_of(std::int32_t label) const {
+    return static_cast<std::size_t>(std::lower_bound(labels.begin(), labels.end(), label) -
+                                    labels.begin());
+  }
+};
+
 // Arrays are TetGen's to delete.
-void fill(const delmesher::Surface& surface, tetgenio& in) {
+void fill(const delmesher::Surface& surface, const Markers& markers, tetgenio& in) {
   in.firstnumber = 0;
   in.numberofpoints = static_cast<int>(surface.vertices.size());
   in.pointlist = new REAL[3 * surface.vertices.size()];
@@ -77,7 +99,8 @@ void fill(const delmesher::Surface& surface, tetgenio& in) {
     for (int c = 0; c < 3; ++c) {
       facet.polygonlist[0].vertexlist[c] = static_cast<int>(surface.triangles[i][c]);
     }
-    in.facetmarkerlist[i] = static_cast<int>(i) + kFirstMarker;
+    const std::int32_t label = surface.labels.empty() ? 0 : surface.labels[i];
+    in.facetmarkerlist[i] = kFirstMarker + static_cast<int>(markers.index_of(label));
   }
 }
 
@@ -101,7 +124,7 @@ void orient(delmesher::TetMesh& mesh) {
   for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
 }
 
-delmesher::TetMesh take(const tetgenio& out, const delmesher::Surface& surface, bool whole_hull) {
+delmesher::TetMesh take(const tetgenio& out, const Markers& markers, bool whole_hull) {
   delmesher::TetMesh mesh;
   mesh.vertices.resize(static_cast<std::size_t>(out.numberofpoints));
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -120,9 +143,9 @@ delmesher::TetMesh take(const tetgenio& out, const delmesher::Surface& surface, 
     const int* v = out.trifacelist + 3 * i;
     mesh.boundary.push_back({static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1]),
                              static_cast<std::uint32_t>(v[2])});
-    const auto input = static_cast<std::size_t>(marker - kFirstMarker);
-    mesh.boundary_labels.push_back(surface.labels.empty() ? 0 : surface.labels[input]);
-    mesh.boundary_facets.push_back(static_cast<std::uint32_t>(input));
+    const auto group = static_cast<std::size_t>(marker - kFirstMarker);
+    mesh.boundary_labels.push_back(markers.labels.at(group));
+    mesh.boundary_facets.push_back(markers.triangles.at(group));  // TetGen does not tell the facet
   }
   orient(mesh);
   if (whole_hull) mesh.inside = tetproof::flood_inside(mesh.tetrahedra, mesh.boundary);
@@ -148,7 +171,8 @@ int run(char* switches, const std::string& input, const std::string& output, con
   const delmesher::io::ReadResult read = delmesher::io::read_surface(input);
   if (!read.ok()) finish(3, input, read.error);
   tetgenio in, out;
-  fill(read.surface, in);
+  const Markers markers(read.surface);
+  fill(read.surface, markers, in);
   const double reading = seconds_since(start);
 
   start = Clock::now();
@@ -163,7 +187,7 @@ int run(char* switches, const std::string& input, const std::string& output, con
 
   start = Clock::now();
   const bool whole_hull = std::strchr(switches, 'c') != nullptr;
-  const delmesher::TetMesh mesh = take(out, read.surface, whole_hull);
+  const delmesher::TetMesh mesh = take(out, markers, whole_hull);
   delmesher::io::OutputSet outputs;
   delmesher::io::WriteStatus status = delmesher::io::write_mesh(outputs, output, mesh);
   if (status.ok()) status = outputs.commit();
