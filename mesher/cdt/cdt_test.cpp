@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "mesher/base/check.h"
+#include "mesher/cdt/cdt_reference.h"
 #include "mesher/cdt/gift_wrapping.h"
-#include "mesher/cdt/rational_check.h"
 #include "mesher/cdt/test_models.h"
 #include "mesher/surface/validity.h"
 

@@ -5,9 +5,9 @@
 #include <random>
 #include <set>
 
+#include "mesher/cdt/cdt_reference.h"
 #include "mesher/cdt/gift_wrapping.h"
 #include "mesher/cdt/polyhedron.h"
-#include "mesher/cdt/rational_check.h"
 
 namespace delmesher {
 namespace {
@@ -129,7 +129,8 @@ TEST(Polyhedron, ConvexIsDelaunay) {
       std::set<std::array<unsigned, 3>> taken;
       std::vector<VertexId> vertices;
       while (vertices.size() < n) {
-        const std::array<unsigned, 3> c = {random() % range, random() % range, random() % range};
+        std::array<unsigned, 3> c;
+        for (unsigned& x : c) x = static_cast<unsigned>(random() % range);
         if (!taken.insert(c).second) continue;
         vertices.push_back(points.add_explicit(c[0], c[1], c[2]));
       }
