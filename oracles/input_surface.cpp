@@ -166,7 +166,7 @@ void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints&
       const Index n = neighbours_[t][i];
       if (n < t || label(n) != label(t)) continue;
       const auto& corners = triangles_[n];
-      const auto& [a, b, c] = triangles_[t];
+      const Index a = triangles_[t][0], b = triangles_[t][1], c = triangles_[t][2];
       const bool flat = std::all_of(corners.begin(), corners.end(), [&](Index v) {
         return v == a || v == b || v == c || exact::orient3d(points, a, b, c, v) == 0;
       });

@@ -50,7 +50,8 @@ double BoundaryDistance::from_vertex(FacetId f, VertexId v) {
 
 double BoundaryDistance::from_edge_part(FacetId f, std::uint32_t edge,
                                         const std::array<Vec3, 2>& part) {
-  const auto [v, w] = surface_.topology().edge_vertices(edge);
+  const auto ends = surface_.topology().edge_vertices(edge);
+  const VertexId v = ends[0], w = ends[1];
   return smallest(f, Box::around(part), [&](std::uint32_t h, VertexId a, VertexId b) {
     if (surface_.topology().edge_of[h] == edge) return std::numeric_limits<double>::infinity();
     const Vec3 &p = surface_.position(a), &q = surface_.position(b);

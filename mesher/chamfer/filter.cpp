@@ -151,7 +151,8 @@ class InputFilter {
 
   // Only where both closest points are inside the edges: else a vertex is involved.
   void find_edge_near_edge(ClosePair& closest) const {
-    const auto [a, b] = topology_.edge_vertices(closest.first.id);
+    const auto ends = topology_.edge_vertices(closest.first.id);
+    const VertexId a = ends[0], b = ends[1];
     const Vec3 &p = surface_.position(a), &q = surface_.position(b);
     const Box query = edge_box(closest.first.id);
     edge_tree_.nearest(query, closest.squared_distance, [&](std::uint32_t e) {
