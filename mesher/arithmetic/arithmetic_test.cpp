@@ -102,7 +102,8 @@ TEST(BigInteger, AgreesWithGmp) {
       ASSERT_EQ(a.trailing_zeros(), mpz_scan1(x.get_mpz_t(), 0));
     }
     BigInteger copy = a;
-    copy = copy;  // NOLINT: self-assignment is the test
+    const BigInteger& same = copy;
+    copy = same;
     BigInteger moved = std::move(copy);
     copy = b;
     ASSERT_EQ(value(moved), x);

@@ -129,7 +129,8 @@ PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId 
   if (inside) {
     // Never more than halfway from the target to an end, however large the tolerance; and if the
     // target lies beyond the anchor, as near to it as the tolerance resolves.
-    const double aim = std::clamp(t, std::clamp(slack, 0x1p-52, 0.25), 0.75);
+    const double nearest = slack > 0 ? std::min(slack, 0.25) : (t > 0 ? t : 0x1p-52);
+    const double aim = std::min(std::max(t, nearest), 0.75);
     lo = std::max(lo, aim / 2);
     hi = std::min(std::max(hi, aim), (1 + aim) / 2);
     lo = std::min(lo, hi);

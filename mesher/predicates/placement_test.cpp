@@ -140,6 +140,17 @@ TEST(Placement, OutsideIsAllowedOnRequest) {
   EXPECT_EQ(d.u, -0.5);
 }
 
+// However near to the anchor, a tolerance relative to the distance is kept.
+TEST(Placement, VeryNearToTheAnchor) {
+  PointStore store;
+  const VertexId p = store.add_explicit(0, 0, 0), q = store.add_explicit(1, 0, 0);
+  for (double x = 0.3; x > 1e-200; x *= 0.7e-3) {
+    const PointDefinition d = place_on_segment(store, p, q, {x, 1e-30 * x, 0}, x * 0x1p-20);
+    EXPECT_EQ(d.corner[1], p);
+    EXPECT_NEAR(d.u / x, 1, 0x1p-20 * 1.0001);
+  }
+}
+
 TEST(Placement, ZeroToleranceIsAccepted) {
   PointStore store;
   const VertexId p = store.add_explicit(0, 0, 0), q = store.add_explicit(1, 0, 0);
