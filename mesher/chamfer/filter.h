@@ -19,6 +19,9 @@ FilterResult filter_input(const SurfaceTopology& topology, const PointStore& poi
 
 // Features made by chamfering may be smaller than the input's by this factor: a chamfer is a third
 // of the local feature size, and a bridge across a corner of angle a that times 2 sin(a / 2).
+// With 1 the second step drops as much again as the first did (of 131 models that the first step
+// touches at tau = 1e-4, 71 % of the triangles stay on average), with 1/16 next to nothing (79 %;
+// 80 % without a second step).
 inline constexpr double kChamferedFraction = 1.0 / 16;
 
 // Both steps: filters the input, then alternates chamfering and dropping the facets responsible for
