@@ -39,10 +39,9 @@ inline double largest(double a, double b, double c, double d) {
   return larger(larger(std::fabs(a), std::fabs(b)), larger(std::fabs(c), std::fabs(d)));
 }
 
+// Without branches on the sign, which is random: gcc mispredicts half of them.
 inline int certain_sign(double value, double bound) {
-  if (value > bound) return 1;
-  if (value < -bound) return -1;
-  return 0;
+  return static_cast<int>(value > bound) - static_cast<int>(value < -bound);
 }
 
 // D is at most this much larger than E.
