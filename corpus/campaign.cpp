@@ -163,7 +163,9 @@ class Job {
     row_.verdict_json = json_if_valid(verdict());
     const bool told = outcome.ending == Ending::exited && !row_.verdict_json.empty();
     if (told && outcome.exit_code == 1) {
-      wrong(last_line(outcome.stderr_tail));
+      const std::string said = last_line(outcome.stderr_tail);
+      const std::string prefix = "tetproof: " + files_.mesh.string() + ": ";
+      wrong("verify: " + (said.starts_with(prefix) ? said.substr(prefix.size()) : said));
     } else if (!told || outcome.exit_code != 0) {
       // Not the mesher's fault; the row says that nobody vouches for the mesh.
       row_.verdict_json = Json({{"error", judge(outcome, ExitCodes::ours).reason}}).dump();

@@ -323,7 +323,9 @@ Table speed_table(const Selection& selection) {
       "us/tet: wall time of the whole process over the tetrahedra written; \"all tets\" is total "
       "time over total tetrahedra. Meshing only: without reading, checking and writing, by the "
       "mesher's own account (for TetGen the call of tetrahedralize()).",
-      "Ratios are paired per model, over the models on which both succeed.",
+      "Ratios are paired per model, over the models on which both succeed. delmesher writes the "
+      "inside only but works on the outside too, so its figures per tetrahedron are not those of "
+      "the others, which count everything.",
       fmt::format("Peak: largest resident set of the process. Large: at least {} tetrahedra.",
                   kLargeMesh)};
   return table;

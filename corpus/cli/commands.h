@@ -1,19 +1,39 @@
-// The subcommands of tetproof; each adds its options and, when chosen, runs and returns an exit
-// code: 0 done, 1 a check failed, 2 usage, 3 unreadable input, 130 interrupted.
+// The subcommands of tetproof: what each is asked to do, and doing it. They return an exit code:
+// 0 done, 1 a check failed, 3 unreadable input, 5 a limit was reached, 130 interrupted.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace tetproof {
 
-struct Command {
-  CLI::App* app;
-  std::function<int()> run;
+// A request that makes no sense; exit code 2.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
-Command add_run_command(CLI::App& tetproof);
-Command add_report_command(CLI::App& tetproof);
-Command add_measure_command(CLI::App& tetproof);
+struct RunArguments {
+  std::vector<std::string> paths, meshers;
+  std::string database, shard, delmesher, keep;
+  double timeout = 600, cpu = 0, stop_after = 0;  // seconds; cpu 0: as timeout
+  std::uint64_t memory_mebibytes = 4096;
+  unsigned jobs = 1;
+  bool verify = false;
+};
+
+struct ReportArguments {
+  std::vector<std::string> databases;
+  std::string folder;
+};
+
+struct MeasureArguments {
+  std::string mesh, output;  // no output: standard output
+};
+
+int run_command(const RunArguments& arguments);
+int report_command(const ReportArguments& arguments);
+int measure_command(const MeasureArguments& arguments);
 
 }  // namespace tetproof

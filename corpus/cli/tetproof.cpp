@@ -1,12 +1,91 @@
 // tetproof: runs meshers on models, checks what they deliver and reports.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 
 #include "corpus/cli/commands.h"
+#include "corpus/meshers.h"
 #ifdef TETPROOF_HAS_VERIFY
 #include "oracles/verify_command.h"
 #endif
+
+namespace tetproof {
+namespace {
+
+CLI::App* declare_run(CLI::App& tetproof, RunArguments& a) {
+  CLI::App* app = tetproof.add_subcommand("run",
+                                          "Run meshers on models, each in a child process under "
+                                          "limits; resumes where it stopped");
+  std::string names;
+  for (const std::string& name : mesher_names()) names += name + ", ";
+  app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
+      ->required();
+  app->add_option("-m,--mesher", a.meshers,
+                  names +
+                      "cmd:'PROG {in} {out.mesh}', NAME=cmd:'...' or "
+                      "NAME=delmesher:'mesh OPTIONS'; may be repeated")
+      ->required();
+  app->add_option("--db", a.database, "SQLite file of the results")->required();
+  app->add_option("-j,--jobs", a.jobs, "Runs at a time")->capture_default_str();
+  app->add_option("--timeout", a.timeout, "Wall seconds per run")->capture_default_str();
+  app->add_option("--cpu", a.cpu, "Processor seconds per run (default: as --timeout)");
+  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")->capture_default_str();
+  app->add_option("--stop-after", a.stop_after,
+                  "Begin no further model after this many seconds (exit 5 if some are left)");
+  app->add_option("--shard", a.shard, "I/N: only the I-th of N parts of the models");
+  app->add_option("--delmesher-binary", a.delmesher,
+                  "Our mesher (default: the one beside this program)");
+  app->add_option("--keep", a.keep, "Folder in which to keep the meshes");
+#ifdef TETPROOF_HAS_VERIFY
+  app->add_flag("--verify", a.verify, "Ask the oracles about each mesh as well");
+#endif
+  return app;
+}
+
+CLI::App* declare_report(CLI::App& tetproof, ReportArguments& a) {
+  CLI::App* app = tetproof.add_subcommand("report", "Tables of one or more campaigns");
+  app->add_option("databases", a.databases, "Results of tetproof run")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app->add_option("-o,--output", a.folder, "Folder of the report")->required();
+  return app;
+}
+
+CLI::App* declare_measure(CLI::App& tetproof, MeasureArguments& a) {
+  CLI::App* app =
+      tetproof.add_subcommand("measure", "Angles, counts and orientation of a mesh file, as JSON");
+  app->add_option("mesh", a.mesh, "A .mesh, .msh, .vtu, .node or .tet file")->required();
+  app->add_option("-o,--output", a.output, "Where to write it (default: standard output)");
+  return app;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app("Runs tetrahedral meshers on models, checks what they deliver and reports.",
+               "tetproof");
+  app.set_version_flag("--version", std::string("tetproof ") + TETPROOF_VERSION);
+  app.require_subcommand(1);
+  RunArguments run;
+  ReportArguments report;
+  MeasureArguments measure;
+  const CLI::App* run_app = declare_run(app, run);
+  const CLI::App* report_app = declare_report(app, report);
+  declare_measure(app, measure);
+#ifdef TETPROOF_HAS_VERIFY
+  app.add_subcommand("verify", "Exact checks of a mesh against its input (see verify --help)");
+#endif
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (run_app->parsed()) return run_command(run);
+  if (report_app->parsed()) return report_command(report);
+  return measure_command(measure);
+}
+
+}  // namespace
+}  // namespace tetproof
 
 int main(int argc, char** argv) {
 #ifdef TETPROOF_HAS_VERIFY
@@ -15,26 +94,13 @@ int main(int argc, char** argv) {
     return tetproof::run_verify(argc - 1, argv + 1);
   }
 #endif
-  CLI::App app("Runs tetrahedral meshers on models, checks what they deliver and reports.",
-               "tetproof");
-  app.set_version_flag("--version", std::string("tetproof ") + TETPROOF_VERSION);
-  app.require_subcommand(1);
-  const tetproof::Command commands[] = {tetproof::add_run_command(app),
-                                        tetproof::add_report_command(app),
-                                        tetproof::add_measure_command(app)};
-#ifdef TETPROOF_HAS_VERIFY
-  app.add_subcommand("verify", "Exact checks of a mesh against its input (see verify --help)");
-#endif
   try {
-    app.parse(argc, argv);
-    for (const auto& command : commands) {
-      if (command.app->parsed()) return command.run();
-    }
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return tetproof::parse_and_run(argc, argv);
+  } catch (const tetproof::UsageError& error) {
+    std::fprintf(stderr, "tetproof: %s\n", error.what());
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tetproof: %s\n", error.what());
     return 3;
   }
-  return 2;
 }
