@@ -68,6 +68,8 @@ void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
 void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
 void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
+// Replaces the final tetrahedra that were handed to rounding by those that it returned.
+void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& record);
 // Adds the points that the record uses, input vertices first, and renumbers.
 void record_points(const PointStore& points, std::size_t input_vertices,
                    const RoundingResult& rounded, ExactRecord& record);

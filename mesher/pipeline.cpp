@@ -220,6 +220,8 @@ class Run {
     s.final =
         mesh_statistics(rounded.coordinates, rounded.tetrahedra, rounded.vertices.size(), interior);
     if (options_.want_exact) {
+      // Repairs by local operations have changed tetrahedra: the record holds what is written.
+      if (rounded.operations > 0) record_repaired(rounded, options_.region, result_.exact);
       record_points(points_, topology_.vertex_half_edge.size(), rounded, result_.exact);
     }
     TetMesh& mesh = result_.mesh;

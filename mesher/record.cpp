@@ -40,7 +40,7 @@ void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
   for (VertexId v = 0; v < chamfered.vertex_is_acute.size(); ++v) {
     if (chamfered.vertex_is_acute[v] == 0) continue;
     const bool tightened = !vertex_cosine_squared.empty() && vertex_cosine_squared[v] == 0;
-    record.corners.push_back({v, tightened ? 90 : threshold_degrees, chamfered.vertex_radius[v]});
+    record.corners.push_back({v, tightened ? 90 : threshold_degrees, chamfered.vertex_distance[v]});
   }
 }
 
@@ -80,6 +80,17 @@ void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRe
   for (const SurfaceFace& face : cdt.boundary) {
     record.final_facets.push_back({face.vertices[0], face.vertices[1], face.vertices[2],
                                    topology.facet_triangles[face.facet][0]});
+  }
+}
+
+void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& record) {
+  if (record.final.empty()) return;  // the refined mesh itself was written
+  std::erase_if(record.final,
+                [&](const ExactRecord::Tet& t) { return region == Region::hull || t.inside; });
+  for (std::size_t n = 0; n < rounded.tetrahedra.size(); ++n) {
+    ExactRecord::Tet tet{{}, rounded.inside[n] != 0};
+    for (int i = 0; i < 4; ++i) tet.vertices[i] = rounded.vertices[rounded.tetrahedra[n][i]];
+    record.final.push_back(tet);
   }
 }
 
