@@ -274,7 +274,9 @@ Table disposition_table(const Selection& selection) {
   }
   table.notes = {
       "wrong-result: a mesh was delivered but is unreadable, empty, has inverted "
-      "tetrahedra by exact sign, or faces of more than two tetrahedra.",
+      "tetrahedra by exact sign, or faces of more than two tetrahedra, or the oracles (where "
+      "asked) "
+      "find it broken.",
       "Intervals are Wilson's."};
   return table;
 }
