@@ -1,0 +1,289 @@
+// Laws of the refinement, checked by brute force on small complexes: nothing is encroached, angles
+// are bounded, the pieces add up.
+#include "mesher/refine/refine.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "mesher/chamfer/chamfer.h"
+#include "mesher/delaunay/tetrahedrization.h"
+
+namespace delmesher {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+Surface prism(const std::vector<std::array<double, 2>>& outline, double height) {
+  Surface s;
+  const auto n = static_cast<std::uint32_t>(outline.size());
+  for (const double z : {0.0, height}) {
+    for (const auto& p : outline) s.vertices.push_back({p[0], p[1], z});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    s.triangles.push_back({i, j, n + j});
+    s.triangles.push_back({i, n + j, n + i});
+  }
+  // Fans from vertex 0, which must see the whole outline.
+  for (std::uint32_t i = 1; i + 1 < n; ++i) {
+    s.triangles.push_back({0, i + 1, i});
+    s.triangles.push_back({n, n + i, n + i + 1});
+  }
+  return s;
+}
+
+Surface box() {
+  return prism({{0, 0}, {3, 0}, {3, 2}, {0, 2}}, 1);
+}
+// The reflex corner comes first, so that the fans are inside.
+Surface ell() {
+  return prism({{1, 1}, {0, 1}, {0, 0}, {2, 0}, {2, 1}}, 0.5);
+}
+Surface wedge() {
+  return prism({{0, 0}, {4, 0}, {4, 0.5}}, 1);
+}
+
+struct Refinement {
+  PointStore points;
+  Predicates predicates{points};
+  Options limits;
+  Control control{limits};
+  SurfaceTopology topology;
+  ChamferResult chamfered;
+  RefineResult result;
+
+  Refinement(const Surface& surface, RefineOptions options) {
+    topology = build_topology(surface, points, predicates);
+    ChamferOptions chamfering;
+    chamfered = chamfer(topology, points, predicates, chamfering, control);
+    add_outer_box(topology, points, chamfered.plc);
+    for (const auto& t : topology.triangles) {
+      Box all = Box::empty();
+      for (const VertexId v : t) all.extend({points.nearest(v), points.nearest(v)});
+      if (chamfered.acute_vertices > 0) options.removed.push_back(all);
+    }
+    result = refine(chamfered.plc, topology, points, predicates, options, control);
+  }
+
+  std::set<VertexId> vertices() const {
+    std::set<VertexId> used;
+    for (const auto& t : result.tetrahedra) used.insert(t.begin(), t.end());
+    return used;
+  }
+};
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double smallest_angle(const PointStore& points, const std::array<VertexId, 4>& t) {
+  double smallest = 180;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      for (int k = j + 1; k < 4; ++k) {
+        if (i == j || i == k) continue;
+        const Vec3 u = minus(points.nearest(t[j]), points.nearest(t[i]));
+        const Vec3 v = minus(points.nearest(t[k]), points.nearest(t[i]));
+        const Vec3 n = cross(u, v);
+        smallest = std::min(smallest, std::atan2(std::sqrt(dot(n, n)), dot(u, v)) / kDegree);
+      }
+    }
+  }
+  return smallest;
+}
+
+double volume(const PointStore& points, const std::array<VertexId, 4>& t) {
+  const Vec3 o = points.nearest(t[0]);
+  return dot(minus(points.nearest(t[1]), o),
+             cross(minus(points.nearest(t[2]), o), minus(points.nearest(t[3]), o))) /
+         6;
+}
+
+class Complexes : public testing::TestWithParam<std::pair<const char*, Surface>> {};
+
+TEST_P(Complexes, NothingIsEncroached) {
+  Refinement r(GetParam().second, {});
+  ASSERT_FALSE(r.result.runaway);
+  const std::set<VertexId> all = r.vertices();
+  ASSERT_GT(r.result.faces.size(), 10U);
+  for (const auto& chain : r.result.chain) {
+    ASSERT_GE(chain.size(), 2U);
+    for (std::size_t n = 0; n + 1 < chain.size(); ++n) {
+      for (const VertexId v : all) {
+        if (v == chain[n] || v == chain[n + 1]) continue;
+        EXPECT_GE(r.predicates.dot_sign(chain[n], v, chain[n + 1]), 0);
+      }
+    }
+  }
+  for (const RefinedFace& f : r.result.faces) {
+    for (const VertexId v : all) {
+      if (std::find(f.vertices.begin(), f.vertices.end(), v) != f.vertices.end()) continue;
+      EXPECT_LE(r.predicates.in_diametral_ball(f.vertices[0], f.vertices[1], f.vertices[2], v), 0);
+    }
+  }
+}
+
+TEST_P(Complexes, SubsegmentsAndSubfacetsAreInTheMesh) {
+  Refinement r(GetParam().second, {});
+  std::set<std::array<VertexId, 2>> edges;
+  std::set<std::array<VertexId, 3>> faces;
+  for (const auto& t : r.result.tetrahedra) {
+    for (const auto& e : kEdge) {
+      edges.insert({std::min(t[e[0]], t[e[1]]), std::max(t[e[0]], t[e[1]])});
+    }
+    for (const auto& f : kFace) {
+      std::array<VertexId, 3> face = {t[f[0]], t[f[1]], t[f[2]]};
+      std::sort(face.begin(), face.end());
+      faces.insert(face);
+    }
+  }
+  for (const auto& chain : r.result.chain) {
+    for (std::size_t n = 0; n + 1 < chain.size(); ++n) {
+      EXPECT_TRUE(
+          edges.contains({std::min(chain[n], chain[n + 1]), std::max(chain[n], chain[n + 1])}));
+    }
+  }
+  for (const RefinedFace& f : r.result.faces) {
+    std::array<VertexId, 3> face = f.vertices;
+    std::sort(face.begin(), face.end());
+    EXPECT_TRUE(faces.contains(face));
+    const auto& frame = r.chamfered.plc.facets[f.facet].frame;
+    for (const VertexId v : f.vertices) {
+      EXPECT_EQ(r.predicates.orient3d(frame[0], frame[1], frame[2], v), 0);
+    }
+  }
+}
+
+TEST_P(Complexes, AnglesMeetTheBoundWhereItHolds) {
+  for (const Region region : {Region::interior, Region::hull}) {
+    for (const double delta : {10.0, 14.47}) {
+      RefineOptions options;
+      options.region = region;
+      options.delta = delta;
+      Refinement r(GetParam().second, options);
+      ASSERT_FALSE(r.result.runaway);
+      std::size_t outside_bad = 0;
+      for (std::size_t n = 0; n < r.result.tetrahedra.size(); ++n) {
+        const double angle = smallest_angle(r.points, r.result.tetrahedra[n]);
+        if (region == Region::interior && r.result.side[n] == Side::outside) {
+          outside_bad += angle < delta ? 1 : 0;
+        } else {
+          EXPECT_GE(angle, delta);
+        }
+      }
+      // Only a complex with small features leaves something bad outside; without it the modes would
+      // not differ.
+      const bool expected = region == Region::interior && r.chamfered.acute_vertices > 0;
+      EXPECT_EQ(outside_bad > 0, expected);
+    }
+  }
+}
+
+TEST_P(Complexes, InsideVolumesAddUp) {
+  Refinement r(GetParam().second, {});
+  double inside = 0;
+  double straddling = 0;
+  for (std::size_t n = 0; n < r.result.tetrahedra.size(); ++n) {
+    EXPECT_GT(r.predicates.orient3d(r.result.tetrahedra[n][0], r.result.tetrahedra[n][1],
+                                    r.result.tetrahedra[n][2], r.result.tetrahedra[n][3]),
+              0);
+    if (r.result.side[n] == Side::inside) inside += volume(r.points, r.result.tetrahedra[n]);
+    if (r.result.side[n] == Side::straddling) {
+      straddling += volume(r.points, r.result.tetrahedra[n]);
+    }
+  }
+  double solid = 0;
+  for (const auto& t : r.topology.triangles) {
+    solid += dot(r.points.nearest(t[0]), cross(r.points.nearest(t[1]), r.points.nearest(t[2]))) / 6;
+  }
+  if (r.chamfered.acute_vertices == 0) {
+    EXPECT_EQ(straddling, 0);
+    EXPECT_NEAR(inside, solid, 1e-12 * solid);
+  } else {
+    EXPECT_GT(straddling, 0);
+    EXPECT_LT(inside, solid);
+    EXPECT_GT(inside + straddling, solid);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Complexes,
+                         testing::Values(std::pair{"box", box()}, std::pair{"ell", ell()},
+                                         std::pair{"wedge", wedge()}),
+                         [](const auto& param) { return param.param.first; });
+
+TEST(Refine, SliverTreatmentRaisesTheSmallestDistanceOfOppositeEdges) {
+  const auto worst_ratio = [](bool slivers) {
+    RefineOptions options;
+    options.slivers = slivers;
+    options.max_edge = 0.4;
+    Refinement r(ell(), options);
+    double worst = 0;
+    for (std::size_t n = 0; n < r.result.tetrahedra.size(); ++n) {
+      if (r.result.side[n] == Side::outside) continue;
+      const auto& t = r.result.tetrahedra[n];
+      double shortest2 = HUGE_VAL;
+      double distance = HUGE_VAL;
+      for (int e = 0; e < 6; ++e) {
+        const Vec3 u = minus(r.points.nearest(t[kEdge[e][1]]), r.points.nearest(t[kEdge[e][0]]));
+        const Vec3 w =
+            minus(r.points.nearest(t[kEdge[5 - e][1]]), r.points.nearest(t[kEdge[5 - e][0]]));
+        const Vec3 n2 = cross(u, w);
+        shortest2 = std::min(shortest2, dot(u, u));
+        distance = std::min(distance, 6 * volume(r.points, t) / std::sqrt(dot(n2, n2)));
+      }
+      worst = std::max(worst, std::sqrt(shortest2) / distance);
+    }
+    return worst;
+  };
+  EXPECT_LE(worst_ratio(true), 7.2 * (1 + 1e-9));
+  EXPECT_GT(worst_ratio(false), 7.2);
+}
+
+TEST(Refine, MaxEdgeBoundsEdgesInside) {
+  RefineOptions options;
+  options.max_edge = 0.3;
+  Refinement r(box(), options);
+  std::size_t checked = 0;
+  for (std::size_t n = 0; n < r.result.tetrahedra.size(); ++n) {
+    if (r.result.side[n] == Side::outside) continue;
+    for (const auto& e : kEdge) {
+      const Vec3 d = minus(r.points.nearest(r.result.tetrahedra[n][e[1]]),
+                           r.points.nearest(r.result.tetrahedra[n][e[0]]));
+      EXPECT_LE(std::sqrt(dot(d, d)), 0.3 * (1 + 1e-12));
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 1000U);
+}
+
+TEST(Refine, GuardReportsWhereEdgesGetTooShort) {
+  RefineOptions options;
+  options.runaway_length = 10;  // longer than everything
+  const Refinement r(box(), options);
+  ASSERT_TRUE(r.result.runaway);
+  EXPECT_TRUE(r.result.tetrahedra.empty());
+}
+
+TEST(Refine, AnglesAboveTheBoundAreBestEffort) {
+  RefineOptions options;
+  options.delta = 25;
+  const Refinement r(ell(), options);
+  ASSERT_FALSE(r.result.runaway);
+  EXPECT_FALSE(r.result.tetrahedra.empty());
+  for (std::size_t n = 0; n < r.result.tetrahedra.size(); ++n) {
+    if (r.result.side[n] == Side::outside) continue;
+    EXPECT_GE(smallest_angle(r.points, r.result.tetrahedra[n]), 14.47);
+  }
+}
+
+}  // namespace
+}  // namespace delmesher
