@@ -34,9 +34,11 @@ MeshFile read_medit(const std::string& path, std::string_view text) {
       {"Edges", 3},          {"Corners", 1},  {"RequiredVertices", 1},  {"Ridges", 1},
       {"Quadrilaterals", 5}, {"Normals", 3},  {"RequiredTriangles", 1}, {"RequiredEdges", 1},
       {"Tangents", 3},       {"Hexahedra", 9}};
+  if (reader.word() != "MeshVersionFormatted") reader.fail("not a MEDIT file");
+  reader.integer();
   for (auto keyword = reader.word(); !keyword.empty() && keyword != "End";
        keyword = reader.word()) {
-    if (keyword == "MeshVersionFormatted" || keyword == "Dimension") {
+    if (keyword == "Dimension") {
       reader.integer();
     } else if (keyword == "Vertices") {
       const std::uint64_t count = reader.count();

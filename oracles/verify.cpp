@@ -62,6 +62,7 @@ class Verification {
 
  private:
   // The mesh as written, on its doubles.
+  bool check_finite();
   std::string check_file();
   void check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface);
@@ -96,7 +97,23 @@ void Verification::turn_all(TetComplex& complex) const {
   for (Tet& tet : complex.tetrahedra) std::swap(tet[2], tet[3]);
 }
 
+// Whatever a mesher wrote, it is for an oracle to say what is wrong with it.
+bool Verification::check_finite() {
+  OracleReport report("complex", "vertices");
+  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+    ++report.checked;
+    const Position& p = mesh_.vertices[v];
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
+      report.fail("vertex " + std::to_string(v) + " is not finite");
+    }
+  }
+  if (report.violations == 0) return true;
+  add(std::move(report));
+  return false;
+}
+
 std::string Verification::check_file() {
+  if (!check_finite()) return {};
   std::vector<Position> positions = input_.vertices;
   positions.insert(positions.end(), mesh_.vertices.begin(), mesh_.vertices.end());
   ExactPoints points;

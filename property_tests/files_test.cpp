@@ -1,0 +1,183 @@
+// From file to file: what the program `delmesher` writes, in every format, is what `tetproof
+// verify` reads and accepts.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "oracles/mesh_file.h"
+#include "oracles/sidecar.h"
+#include "oracles/surface_file.h"
+#include "oracles/text_reader.h"
+#include "oracles/verify_command.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(TETPROOF_SCRATCH) / test->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+  }
+
+  void write_off(const std::string& name, const oracles::Polyhedron& surface) const {
+    std::string text = "OFF\n" + std::to_string(surface.vertices.size()) + " " +
+                       std::to_string(surface.triangles.size()) + " 0\n";
+    char line[128];
+    for (const auto& p : surface.vertices) {
+      std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", p[0], p[1], p[2]);
+      text += line;
+    }
+    for (const auto& t : surface.triangles) {
+      std::snprintf(line, sizeof line, "3 %u %u %u\n", t[0], t[1], t[2]);
+      text += line;
+    }
+    write(name, text);
+  }
+
+  static int run(const std::string& arguments) {
+    return std::system((std::string(DELMESHER_PATH) + " " + arguments).c_str());
+  }
+
+  static int verify(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "verify");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    return run_verify(static_cast<int>(argv.size()), argv.data());
+  }
+
+  fs::path folder_;
+};
+
+constexpr const char* kFormats[] = {"mesh", "msh", "vtu", "node", "tet"};
+
+TEST_F(Files, AllFormatsAndTheSidecarAreVerified) {
+  write_off("in.off", samples::skewed(samples::l_shape()).input);
+  std::string outputs;
+  for (const char* format : kFormats) outputs += " -o " + path(std::string("out.") + format);
+  ASSERT_EQ(run("mesh -q " + path("in.off") + outputs + " --exact " + path("out.exact")), 0);
+  const oracles::MeshFile first = oracles::read_mesh(path("out.mesh"));
+  EXPECT_GT(first.tetrahedra.size(), 5U);
+  EXPECT_GT(oracles::read_sidecar(path("out.exact")).refined.size(), first.tetrahedra.size() / 2);
+  for (const char* format : kFormats) {
+    const std::string file = path(std::string("out.") + format);
+    EXPECT_EQ(verify({path("in.off"), file, "--exact", path("out.exact")}), 0) << format;
+    EXPECT_EQ(verify({path("in.off"), file, "--exact", path("out.exact"), "--stage", "refined"}),
+              0);
+    const oracles::MeshFile mesh = oracles::read_mesh(file);
+    EXPECT_EQ(mesh.vertices, first.vertices) << format;
+    EXPECT_EQ(mesh.tetrahedra.size(), first.tetrahedra.size()) << format;
+  }
+}
+
+TEST_F(Files, HullsCarryTheirRegionsInAllFormats) {
+  write_off("in.off", samples::hollow_cube().input);
+  std::string outputs;
+  for (const char* format : kFormats) outputs += " -o " + path(std::string("out.") + format);
+  ASSERT_EQ(run("cdt -q " + path("in.off") + outputs), 0);
+  for (const char* format : kFormats) {
+    const std::string file = path(std::string("out.") + format);
+    EXPECT_EQ(verify({path("in.off"), file}), 0) << format;
+    EXPECT_EQ(oracles::read_mesh(file).regions.size(), oracles::read_mesh(file).tetrahedra.size())
+        << format;
+  }
+}
+
+TEST_F(Files, AMeshOfAnotherSurfaceIsBroken) {
+  write_off("in.off", samples::l_shape().input);
+  write_off("other.off", samples::cube().input);
+  ASSERT_EQ(run("mesh -q " + path("in.off") + " -o " + path("out.mesh")), 0);
+  EXPECT_EQ(verify({path("in.off"), path("out.mesh")}), 0);
+  EXPECT_EQ(verify({path("other.off"), path("out.mesh")}), 1);
+}
+
+TEST_F(Files, BadFilesAreRefusedNotBelieved) {
+  write_off("in.off", samples::cube().input);
+  write("empty.mesh", "");
+  write("text.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 1 0 0 zero 1");
+  write("lie.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 99999999999");
+  write("range.mesh",
+        "MeshVersionFormatted 2 Dimension 3 Vertices 1 0 0 0 0 Tetrahedra 1 1 2 3 4 1");
+  write("cut.tet", "4 vertices\n1 tets\n0 0 0\n");
+  write("infinite.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 1 inf 0 0 0");
+  for (const char* name :
+       {"empty.mesh", "text.mesh", "lie.mesh", "range.mesh", "cut.tet", "none.msh"}) {
+    EXPECT_EQ(verify({path("in.off"), path(name)}), 3) << name;
+  }
+  EXPECT_EQ(verify({path("in.off"), path("infinite.mesh")}), 1);
+  oracles::Polyhedron open = samples::cube().input;
+  open.triangles.pop_back();
+  write_off("open.off", open);
+  write("one.tet", "4 vertices\n1 tets\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 0 1 2 3\n");
+  EXPECT_EQ(verify({path("open.off"), path("one.tet")}), 4);
+  EXPECT_EQ(verify({path("in.off"), path("one.tet")}), 1);
+  EXPECT_EQ(verify({path("in.off")}), 2);
+}
+
+TEST_F(Files, SurfacesReadTheSameInEveryFormat) {
+  const std::vector<oracles::Position> corners = {
+      {0, 0, 0}, {0x1.8p0, 0, 0}, {0, 0x1.4p1, 0}, {0, 0, 0x1p-3}};
+  write("a.obj",
+        "# c\nv 0 0 0\nv 1.5 0 0\nv 0 2.5 0\nv 0 0 0.125\n"
+        "f 1 3 2\nf 1/1 2/2 4/3\nf -3 -2 -1\nf 3//1 1//1 4//1\n");
+  write("a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\n"
+        "property double z\nelement face 4\nproperty list uchar int vertex_indices\n"
+        "property int label\nend_header\n0 0 0\n1.5 0 0\n0 2.5 0\n0 0 0.125\n"
+        "3 0 2 1 5\n3 0 1 3 5\n3 1 2 3 6\n3 2 0 3 5\n");
+  const oracles::Polyhedron obj = oracles::read_surface(path("a.obj"));
+  const oracles::Polyhedron ply = oracles::read_surface(path("a.ply"));
+  EXPECT_EQ(obj.vertices, corners);
+  EXPECT_EQ(ply.vertices, corners);
+  EXPECT_EQ(obj.triangles, ply.triangles);
+  EXPECT_EQ(ply.labels, (std::vector<std::int32_t>{5, 5, 6, 5}));
+  std::string text = "solid a\n";
+  std::string bytes(80, ' ');
+  const std::uint32_t count = 4;
+  bytes.append(reinterpret_cast<const char*>(&count), 4);
+  for (const auto& triangle : ply.triangles) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    bytes.append(12, '\0');
+    for (const auto v : triangle) {
+      for (const double x : ply.vertices[v]) {
+        const float value = static_cast<float>(x);
+        bytes.append(reinterpret_cast<const char*>(&value), 4);
+      }
+      const auto& p = ply.vertices[v];
+      text += "vertex " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " +
+              std::to_string(p[2]) + "\n";
+    }
+    bytes.append(2, '\0');
+    text += "endloop\nendfacet\n";
+  }
+  write("text.stl", text + "endsolid a\n");
+  write("binary.stl", bytes);
+  for (const char* name : {"text.stl", "binary.stl"}) {
+    const oracles::Polyhedron stl = oracles::read_surface(path(name));
+    ASSERT_EQ(stl.triangles.size(), 4U) << name;
+    EXPECT_EQ(stl.vertices.size(), 4U) << name;
+    for (std::size_t t = 0; t < 4; ++t) {
+      for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(stl.vertices[stl.triangles[t][i]], ply.vertices[ply.triangles[t][i]]) << name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tetproof
