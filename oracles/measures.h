@@ -17,6 +17,9 @@ OracleReport check_interior(const TetComplex& complex, const InputSurface& surfa
 // Ray parity of every centroid (points exactly on the surface count as outside).
 std::vector<std::uint8_t> inside_by_parity(const TetComplex& complex, const InputSurface& surface);
 
+// Rounded; 0 for a flat tetrahedron.
+double smallest_altitude(const ExactPoints& points, const Tet& tet);
+
 // Which tetrahedra promise the angle bound.
 enum class AngleScope : std::uint8_t {
   solid,  // those whose interior meets the solid (region interior)

@@ -1,6 +1,7 @@
 #include "oracles/mesh_file.h"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <map>
 
@@ -106,6 +107,8 @@ class GmshReader {
       if (word == "$MeshFormat") {
         version_ = reader_.number();
         if (reader_.integer() != 0) reader_.fail("binary .msh files are not read");
+      } else if (word == "$PhysicalNames") {
+        read_names();
       } else if (word == "$Entities") {
         read_entities();
       } else if (word == "$Nodes") {
@@ -120,6 +123,21 @@ class GmshReader {
   }
 
  private:
+  // Physical tags are positive: labels that are not stand in the name, "label -3".
+  void read_names() {
+    const std::uint64_t count = reader_.count();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::int64_t dimension = reader_.integer(), tag = reader_.integer();
+      const bool label = reader_.word() == "\"label";
+      const std::string_view number = reader_.word_in_line();
+      std::int64_t value = 0;
+      const auto [end, error] =
+          std::from_chars(number.data(), number.data() + number.size(), value);
+      if (dimension == 2 && label && error == std::errc()) labels_[tag] = value;
+      reader_.skip_line();
+    }
+  }
+
   // Physical tags of surfaces and volumes; an entity without one stands for itself.
   void read_entities() {
     std::uint64_t counts[4];
@@ -215,7 +233,9 @@ class GmshReader {
       mesh_.regions.push_back(tag);
     } else if (type == 2) {
       mesh_.boundary.push_back({node(), node(), node()});
-      mesh_.labels.push_back(static_cast<std::int32_t>(tag));
+      const auto label = labels_.find(tag);
+      mesh_.labels.push_back(
+          static_cast<std::int32_t>(label == labels_.end() ? tag : label->second));
     } else {
       reader_.skip_line();  // points and lines
     }
@@ -225,6 +245,7 @@ class GmshReader {
   MeshFile mesh_;
   double version_ = 4.1;
   std::map<std::pair<int, std::int64_t>, std::int64_t> physical_;
+  std::map<std::int64_t, std::int64_t> labels_;  // of physical tags
   std::map<std::int64_t, Index> nodes_;
 };
 

@@ -294,6 +294,59 @@ class PlyReader {
   std::size_t at_ = 0;
 };
 
+// TetGen's .smesh and .poly; a .poly facet must be one polygon, as there is nothing here to cut
+// holes with. Points may be in a .node file of the same name.
+Polyhedron read_tetgen(const std::string& path, std::string_view text, bool poly) {
+  TextReader reader(path, text);
+  Polyhedron surface;
+  std::int64_t base = 0;
+  const auto read_nodes = [&](TextReader& nodes, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const std::int64_t index = nodes.integer();
+      if (i == 0) base = index;
+      const double x = nodes.number(), y = nodes.number(), z = nodes.number();
+      surface.vertices.push_back({x, y, z});
+      nodes.skip_line();
+    }
+  };
+  const std::uint64_t own = reader.count();
+  reader.skip_line();
+  if (own > 0) {
+    read_nodes(reader, own);
+  } else {
+    const std::string node_path = path.substr(0, path.rfind('.')) + ".node";
+    const std::string node_text = read_whole_file(node_path);
+    TextReader nodes(node_path, node_text);
+    const std::uint64_t count = nodes.count();
+    nodes.skip_line();
+    read_nodes(nodes, count);
+  }
+  const std::uint64_t facets = reader.count();
+  const std::string_view flag = reader.word_in_line();
+  const bool markers = !flag.empty() && flag != "0";
+  reader.skip_line();
+  for (std::uint64_t f = 0; f < facets; ++f) {
+    std::int64_t marker = 0;
+    if (poly) {
+      const std::int64_t polygons = reader.integer();
+      const std::string_view holes = reader.word_in_line(), given = reader.word_in_line();
+      if (polygons != 1 || (!holes.empty() && holes != "0")) {
+        reader.fail("a facet of several polygons or with holes is not read here");
+      }
+      if (!given.empty()) marker = TextReader(path, given).integer();
+      reader.skip_line();
+    }
+    std::vector<Index> corners(reader.count());
+    for (Index& corner : corners) corner = reader.index(base, surface.vertices.size());
+    const std::string_view given = reader.word_in_line();
+    if (!poly && !given.empty()) marker = TextReader(path, given).integer();
+    reader.skip_line();
+    add_polygon(surface, corners, static_cast<Index>(f));
+    if (markers) surface.labels.resize(surface.triangles.size(), static_cast<std::int32_t>(marker));
+  }
+  return surface;
+}
+
 bool is_binary_stl(std::string_view text) {
   return text.size() >= 84 &&
          text.size() == 84 + 50 * static_cast<std::uint64_t>(binary<std::uint32_t>(text, 80));
@@ -310,6 +363,9 @@ Polyhedron read_surface(const std::string& path) {
   });
   if (start.starts_with("ply")) return PlyReader(path, text).read();
   if (extension == "obj") return read_obj(path, text);
+  if (extension == "smesh" || extension == "poly") {
+    return read_tetgen(path, text, extension == "poly");
+  }
   if (extension == "stl") {
     return is_binary_stl(text) ? read_binary_stl(path, text) : read_text_stl(path, text);
   }

@@ -18,21 +18,55 @@ double figure(const OracleReport& report, const std::string& name) {
   return 0;
 }
 
-// Regions are numbers without meaning, but no region may hold both tetrahedra inside and outside.
-OracleReport check_regions(const TetComplex& complex, const std::vector<std::int64_t>& regions) {
-  OracleReport report("regions", "tetrahedra");
-  std::map<std::int64_t, std::pair<std::uint8_t, std::size_t>> seen;
-  for (std::size_t t = 0; t < regions.size(); ++t) {
-    ++report.checked;
-    const auto [at, fresh] = seen.emplace(regions[t], std::pair(complex.inside[t], t));
-    if (!fresh && at->second.first != complex.inside[t]) {
-      report.fail("region " + std::to_string(regions[t]) + " holds both " + complex.tet_name(t) +
-                  " and " + complex.tet_name(at->second.second) +
-                  ", on different sides of the surface");
+// Regions are numbers without meaning, but none may hold both tetrahedra inside and outside. The
+// side of a region is where most of its volume lies by parity of the centroids. Rounding may leave
+// the centroid of a sliver along the surface on the other side: `complex.inside` follows the region
+// then, and the sliver may be no thicker than `allowed`, checked by check_strays.
+class Regions {
+ public:
+  Regions(TetComplex& complex, const std::vector<std::int64_t>& regions)
+      : complex_(complex), regions_(regions) {
+    std::map<std::int64_t, std::array<mpz_class, 2>> volumes;
+    for (std::size_t t = 0; t < regions.size(); ++t) {
+      const auto& [a, b, c, d] = complex.tetrahedra[t];
+      volumes[regions[t]][complex.inside[t]] += abs(exact::volume6(*complex.points, a, b, c, d));
+    }
+    count_ = volumes.size();
+    for (std::size_t t = 0; t < regions.size(); ++t) {
+      const auto& [outside, inside] = volumes[regions[t]];
+      const std::uint8_t side = inside > outside;
+      if (complex.inside[t] != side) strays_.push_back(t);
+      complex.inside[t] = side;
     }
   }
-  report.figures.emplace_back("regions", static_cast<double>(seen.size()));
-  return report;
+
+  OracleReport check_strays(double allowed) const {
+    OracleReport report("regions", "tetrahedra");
+    report.checked = regions_.size();
+    for (const std::size_t t : strays_) {
+      if (smallest_altitude(*complex_.points, complex_.tetrahedra[t]) <= allowed) continue;
+      report.fail(complex_.tet_name(t) + " is not on the side of the surface where the rest of " +
+                  "region " + std::to_string(regions_[t]) + " lies");
+    }
+    report.figures.emplace_back("regions", static_cast<double>(count_));
+    report.figures.emplace_back("slivers along the surface", static_cast<double>(strays_.size()));
+    return report;
+  }
+
+ private:
+  TetComplex& complex_;
+  const std::vector<std::int64_t>& regions_;
+  std::size_t count_ = 0;
+  std::vector<std::size_t> strays_;
+};
+
+// Have the tetrahedra, all together, about the volume of the solid?
+bool fills(const TetComplex& complex, const InputSurface& surface) {
+  mpz_class sum;
+  for (const auto& [a, b, c, d] : complex.tetrahedra) {
+    sum += exact::volume6(*complex.points, a, b, c, d);
+  }
+  return abs(sum - surface.volume6()) * 1000000 <= surface.volume6();
 }
 
 double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
@@ -144,8 +178,16 @@ std::string Verification::check_file() {
     add(check_angles(complex, surface, options_.delta, options_.scope));
     return {};
   }
-  if (!mesh_.regions.empty()) add(check_regions(complex, mesh_.regions));
+  std::vector<std::int64_t> given = mesh_.regions;
+  if (given.empty() && fills(complex, surface)) given.assign(complex.tetrahedra.size(), 0);
+  if (given.empty()) {  // the hull: parity alone decides
+    check_file_surface(complex, neighbours, surface);
+    return {};
+  }
+  const Regions regions(complex, given);
   check_file_surface(complex, neighbours, surface);
+  // The centroid of a tetrahedron is a quarter of its altitude away from its faces.
+  add(regions.check_strays(8 * report_.deviation));
   return {};
 }
 

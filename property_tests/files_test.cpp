@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "oracles/mesh_file.h"
 #include "oracles/sidecar.h"
@@ -95,6 +96,28 @@ TEST_F(Files, HullsCarryTheirRegionsInAllFormats) {
     EXPECT_EQ(verify({path("in.off"), file}), 0) << format;
     EXPECT_EQ(oracles::read_mesh(file).regions.size(), oracles::read_mesh(file).tetrahedra.size())
         << format;
+  }
+}
+
+TEST_F(Files, LabelsComeBack) {
+  std::string text = "8 3 0 0\n";  // .smesh: a cube whose faces have markers, some not positive
+  for (int v = 0; v < 8; ++v) {
+    text += std::to_string(v) + " " + std::to_string(v & 1) + " " + std::to_string(v >> 1 & 1) +
+            " " + std::to_string(v >> 2) + "\n";
+  }
+  text +=
+      "6 1\n4 0 2 3 1 7\n4 4 5 7 6 -3\n4 0 1 5 4 0\n4 2 6 7 3 7\n4 0 4 6 2 2\n4 1 3 7 5 9\n"
+      "0\n0\n";
+  write("in.smesh", text);
+  const std::map<std::int32_t, int> expected = {{-3, 1}, {0, 1}, {2, 1}, {7, 2}, {9, 1}};
+  for (const char* format : {"mesh", "msh", "vtu", "node"}) {
+    const std::string file = path(std::string("out.") + format);
+    ASSERT_EQ(run("cdt -q " + path("in.smesh") + " -o " + file), 0);
+    EXPECT_EQ(verify({path("in.smesh"), file}), 0) << format;
+    std::map<std::int32_t, int> triangles;
+    for (const std::int32_t label : oracles::read_mesh(file).labels) ++triangles[label];
+    for (auto& [label, count] : triangles) count /= 2;  // two triangles a face
+    EXPECT_EQ(triangles, expected) << format;
   }
 }
 

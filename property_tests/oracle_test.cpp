@@ -1,6 +1,7 @@
 // The oracles accept good meshes and catch every kind of damage, each by the oracle meant for it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -285,6 +286,47 @@ TEST(OracleDamage, WrongRegionIsCaught) {
   const VerifyReport report = run(sample);
   EXPECT_EQ(report.verdict, Verdict::broken);
   EXPECT_FALSE(report.find("regions")->passed());
+}
+
+// Adds a sliver to a refined cube: on two boundary triangles of the face z = 1, spanning their four
+// corners, one of which has been raised by `rise`.
+Sample cube_with_sliver(double rise) {
+  Sample sample = samples::cube();
+  auto& mesh = sample.mesh;
+  const Index raised = vertex_at(sample, {0.5, 0.5, 1});
+  const auto flat = [&](const std::array<Index, 3>& t) {
+    return std::all_of(t.begin(), t.end(), [&](Index v) { return mesh.vertices[v][2] == 1; });
+  };
+  std::array<Index, 3> first{};
+  for (const auto& t : mesh.boundary) {
+    if (flat(t) && std::find(t.begin(), t.end(), raised) != t.end()) first = t;
+  }
+  while (first[0] != raised) std::rotate(first.begin(), first.begin() + 1, first.end());
+  for (const auto& t : mesh.boundary) {
+    for (int i = 0; i < 3 && flat(t); ++i) {
+      if (t[i] != first[2] || t[(i + 1) % 3] != first[1]) continue;
+      mesh.tetrahedra.push_back({raised, t[(i + 2) % 3], first[1], first[2]});
+      mesh.regions.push_back(mesh.regions.empty() ? 1 : mesh.regions[0]);
+    }
+  }
+  mesh.regions.resize(mesh.tetrahedra.size(), 1);
+  mesh.boundary.clear();
+  mesh.labels.clear();
+  mesh.vertices[raised][2] = 1 + rise;
+  return sample;
+}
+
+TEST(Oracles, ARoundedSliverAlongTheSurfaceKeepsItsRegion) {
+  Sample sample = cube_with_sliver(0x1p-52);
+  VerifyReport report = run(sample);
+  EXPECT_EQ(report.verdict, Verdict::rounded) << to_text(report);
+  sample.mesh.regions.clear();  // tetrahedra inside only, without any number
+  report = run(sample);
+  EXPECT_EQ(report.verdict, Verdict::rounded) << to_text(report);
+}
+
+TEST(OracleDamage, AThickSliverOutsideIsCaught) {
+  EXPECT_EQ(run(cube_with_sliver(0.125)).verdict, Verdict::broken);
 }
 
 struct RecordDamage {
