@@ -80,9 +80,10 @@ class Run {
 
   Status cdt(const Surface& surface) {
     if (Status status = prepare(surface); !status.ok()) return status;
-    control_.enter(Phase::enrich);
-    const CdtResult cdt = constrained_delaunay_tetrahedrization(plain_input(topology_), points_,
-                                                                predicates_, control_);
+    CdtInput input = plain_input(topology_);
+    input.phase_by_phase = true;
+    const CdtResult cdt =
+        constrained_delaunay_tetrahedrization(input, points_, predicates_, control_);
     record_cdt(cdt);
     write(conforming_mesh(cdt, topology_, points_, options_.region));
     return {};

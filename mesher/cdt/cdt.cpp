@@ -42,10 +42,13 @@ class CdtBuilder {
   FacetId constrain(Tetrahedrization& mesh) {
     std::vector<VertexId> vertices = input_.vertices;
     vertices.insert(vertices.end(), steiner_.begin(), steiner_.end());
+    enter(Phase::delaunay);
     mesh.build(vertices, control_);
+    enter(Phase::segments);
     const std::vector<VertexId> added = recover_segments(mesh, chains_, points_, control_);
     steiner_.insert(steiner_.end(), added.begin(), added.end());
     surface_.clear();
+    enter(Phase::facets);
     FacetTriangulator triangulator(input_, chains_, predicates_);
     FacetRecovery recovery(mesh, topology_, chains_, control_);
     const auto facets = static_cast<FacetId>(topology_.facet_triangles.size());
@@ -57,10 +60,13 @@ class CdtBuilder {
     }
     result_.counters = recovery.counters();
     result_.counters.facet_restarts = restarts_;
+    control_.enter(Phase::classify);
     std::size_t missing = 0;
     inside_ = classify_tetrahedra(mesh, surface_, chains_, control_, &missing);
     return inside_.empty() ? surface_[missing].facet : kNone;
   }
+
+  void enter(Phase phase) { control_.enter(input_.phase_by_phase ? phase : Phase::enrich); }
 
   void split_boundary(FacetId facet) {
     std::vector<std::uint32_t> nodes;

@@ -24,6 +24,9 @@ struct CdtInput {
   std::vector<std::vector<VertexId>> on_edge;
   // Per facet: enriching points strictly inside it (not on its constrained edges).
   std::vector<std::vector<VertexId>> on_facet;
+  // Account for the phases delaunay, segments and facets one by one, as nothing before used them;
+  // else all is Phase::enrich up to Phase::classify.
+  bool phase_by_phase = false;
 };
 
 // A face of the tetrahedrization lying on the surface.
