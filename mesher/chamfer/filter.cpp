@@ -219,7 +219,9 @@ ChamferResult filter_and_chamfer(const SurfaceTopology& topology, PointStore& po
                                  Predicates& predicates, ChamferOptions options, double tolerance,
                                  Control& control, FilterResult& filter,
                                  double chamfered_fraction) {
+  control.enter(Phase::filter);
   filter = filter_input(topology, points, tolerance, control);
+  control.enter(Phase::chamfer);
   options.facet_kept = filter.facet_kept;
   options.isolated_clearance = std::max(options.isolated_clearance, tolerance);
   const std::size_t first_point = points.size();
@@ -229,8 +231,10 @@ ChamferResult filter_and_chamfer(const SurfaceTopology& topology, PointStore& po
     const KeptSurface surface(topology, points, options.facet_kept);
     // The first round was chamfered above; later ones only where something changed.
     if (!active.empty()) {
+      control.enter(Phase::chamfer);
       result = chamfer_surface(surface, points, predicates, options, active, control);
     }
+    control.enter(Phase::filter);
     FacetSet facets(surface);
     const double smallest = chamfered_fraction * tolerance * surface.scale();
     const std::vector<FacetId> dropped =
@@ -251,6 +255,7 @@ ChamferResult filter_and_chamfer(const SurfaceTopology& topology, PointStore& po
     options.facet_kept = filter.facet_kept = facets.kept();
     while (points.size() > first_point) points.pop_back();
   }
+  control.enter(Phase::chamfer);
   if (active.empty()) return result;
   while (points.size() > first_point) points.pop_back();
   return chamfer(topology, points, predicates, options, control);

@@ -1,0 +1,188 @@
+// The program itself, as users run it: what is wrong with a file is said in one line with the
+// documented exit code, nothing is left half-written, and signals and limits end a run.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::replace(name.begin(), name.end(), '/', '_');
+    folder_ = fs::path(DELMESHER_SCRATCH) / name;
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string text(const std::string& name) const {
+    std::ifstream in(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void write(const std::string& name, const std::string& contents) const {
+    std::ofstream(path(name), std::ios::binary) << contents;
+  }
+
+  // Runs it in the folder; `before` may be another program with its arguments.
+  int run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd '" + folder_.string() + "' && " + before + " '" +
+                                DELMESHER_PATH + "' " + arguments + " > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  // One line, beginning with the program's name and the file's, that contains `part`.
+  void expect_error(const std::string& file, const std::string& part) const {
+    const std::string said = text("err.txt");
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_TRUE(said.starts_with("delmesher: " + file + ":")) << said;
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  }
+
+  // Nothing but the input, what was said, and the statistics, which tell the status of any run.
+  void expect_no_output() const {
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string();
+      const bool known = name == "out.txt" || name == "err.txt" || name == "stats.json";
+      EXPECT_TRUE(known || name.starts_with("in.")) << name;
+    }
+  }
+
+  fs::path folder_;
+};
+
+const std::string kCubeVertices = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
+const std::string kCubeTriangles =
+    "3 0 2 3\n3 0 3 1\n3 4 5 7\n3 4 7 6\n3 0 1 5\n3 0 5 4\n"
+    "3 2 6 7\n3 2 7 3\n3 0 4 6\n3 0 6 2\n3 1 3 7\n3 1 7 5\n";
+
+std::string cube() {
+  return "OFF\n8 12 0\n" + kCubeVertices + kCubeTriangles;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, std::string::npos) << what;
+  return text.replace(at, what.size(), by);
+}
+
+struct BadFile {
+  const char* law;
+  const char* name;
+  std::string contents;
+  int code;
+  const char* said;
+};
+
+void PrintTo(const BadFile& file, std::ostream* stream) {
+  *stream << file.law;
+}
+
+class BadFiles : public Program, public testing::WithParamInterface<BadFile> {};
+
+TEST_P(BadFiles, EndWithTheirCodeAndOneLine) {
+  const BadFile& bad = GetParam();
+  write(bad.name, bad.contents);
+  EXPECT_EQ(run(std::string("mesh ") + bad.name + " -o mesh.vtu --stats stats.json"), bad.code);
+  expect_error(bad.name, bad.said);
+  EXPECT_EQ(text("out.txt"), "");
+  EXPECT_EQ(run(std::string("check ") + bad.name), bad.code);
+  expect_error(bad.name, bad.said);
+  EXPECT_EQ(run(std::string("cdt ") + bad.name + " -o mesh.tet"), bad.code);
+  expect_no_output();
+}
+
+const BadFile kBadFiles[] = {
+    {"Empty", "in.off", "", 3, ""},
+    {"NoSurface", "in.off", "OFF\n0 0 0\n", 3, "no faces"},
+    {"Garbage", "in.off",
+     std::string("\x7f"
+                 "ELF\0\1\2\3garbage",
+                 15),
+     3, ""},
+    {"Truncated", "in.off", cube().substr(0, cube().size() - 30), 3, "in.off:"},
+    {"NoNumber", "in.off", replaced(cube(), "1 1 0\n", "1 one 0\n"), 3, "in.off:6:"},
+    {"NaN", "in.off", replaced(cube(), "1 1 0\n", "1 nan 0\n"), 3, "in.off:6:"},
+    {"Infinite", "in.off", replaced(cube(), "1 1 0\n", "1 1e999 0\n"), 3, "in.off:6:"},
+    {"IndexOutOfRange", "in.off", replaced(cube(), "3 1 7 5\n", "3 1 7 8\n"), 3, "in.off:22:"},
+    {"NegativeIndex", "in.off", replaced(cube(), "3 1 7 5\n", "3 1 7 -5\n"), 3, "in.off:22:"},
+    {"HugeCounts", "in.off", "OFF\n999999999999 999999999999 0\n0 0 0\n", 3, "in.off:"},
+    {"HugePolygon", "in.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000000 0 1 2\n", 3,
+     "in.off:6:"},
+    {"BinaryStlCutShort", "in.stl", std::string(80, 'x') + std::string("\xff\xff\xff\x7f", 4), 3,
+     ""},
+    {"ObjWithoutCoordinates", "in.obj", "v 0 0\nf 1 1 1\n", 3, "in.obj:1:"},
+    {"PlyWithoutEnd", "in.ply", "ply\nformat ascii 1.0\nelement vertex 8\n", 3, "in.ply:"},
+    {"Open", "in.off", replaced(replaced(cube(), "8 12", "8 11"), "3 1 7 5\n", ""), 4, "edge"},
+    {"RepeatedCorner", "in.off", replaced(cube(), "3 1 7 5\n", "3 1 7 7\n"), 4, "triangle 11"},
+    {"TwiceTheSameTriangle", "in.off",
+     replaced(replaced(cube(), "8 12", "8 13"), "3 1 7 5\n", "3 1 7 5\n3 1 7 5\n"), 4, "11"},
+    {"OneTriangleTurned", "in.off", replaced(cube(), "3 1 7 5\n", "3 1 5 7\n"), 4, "11"},
+    {"VertexThroughAFace", "in.off", replaced(cube(), "1 1 1\n", "0.5 0.5 -1\n"), 4, "intersect"},
+    {"Flat", "in.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", 4, "triangle"},
+    {"CollinearCorners", "in.off",
+     "OFF\n5 6 0\n0 0 0\n1 0 0\n2 0 0\n0 1 0\n0 0 1\n3 0 3 2\n3 0 1 4\n3 1 2 4\n3 0 4 3\n3 2 3 "
+     "4\n3 0 2 1\n",
+     4, "triangle 5"},
+    {"TwoSolidsSharingAVertex", "in.off",
+     "OFF\n7 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 "
+     "1 2 3\n"
+     "3 0 4 5\n3 0 6 4\n3 0 5 6\n3 4 6 5\n",
+     4, "vertex 0"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Program, BadFiles, testing::ValuesIn(kBadFiles),
+                         [](const auto& bad) { return std::string(bad.param.law); });
+
+TEST_F(Program, AGoodFileIsMeshedInSilence) {
+  write("in.off", cube());
+  EXPECT_EQ(run("in.off -o mesh.mesh"), 0);
+  EXPECT_EQ(text("out.txt") + text("err.txt"), "");
+  EXPECT_GT(text("mesh.mesh").size(), 100U);
+}
+
+TEST_F(Program, MissingAndUnwritableFilesAreSaid) {
+  write("in.off", cube());
+  EXPECT_EQ(run("mesh in.none.off -o mesh.mesh"), 3);
+  expect_error("in.none.off", "");
+  EXPECT_EQ(run("mesh . -o mesh.mesh"), 3);
+  expect_error(".", "");
+  EXPECT_EQ(run("mesh in.off -o nowhere/mesh.mesh"), 3);
+  expect_error("nowhere/mesh.mesh", "");
+  expect_no_output();
+}
+
+// A cube with edges this short would take hours.
+constexpr const char* kEndless = "mesh in.off -o mesh.mesh --stats stats.json --max-edge 0.0005";
+
+TEST_F(Program, LimitsAreFive) {
+  write("in.off", cube());
+  EXPECT_EQ(run(std::string(kEndless) + " --time-limit 0.3"), 5);
+  expect_error("in.off", "time");
+  EXPECT_EQ(run(std::string(kEndless) + " --max-vertices 5000"), 5);
+  expect_error("in.off", "vertices");
+  expect_no_output();
+}
+
+TEST_F(Program, SignalsEndIt) {
+  write("in.off", cube());
+  for (const char* signal : {"INT", "TERM"}) {
+    EXPECT_EQ(run(kEndless, std::string("timeout --preserve-status -s ") + signal + " 0.5"), 130);
+    expect_error("in.off", "interrupted");
+  }
+  expect_no_output();
+}
+
+}  // namespace
