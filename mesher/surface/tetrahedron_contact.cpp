@@ -25,10 +25,10 @@ class SeparatingPlanes {
 
   // Most pairs are separated by a face of the tetrahedron or by the triangle's plane.
   bool exist() {
+    if (separates(4, 5, 6)) return true;
     if (separates(1, 2, 3) || separates(0, 2, 3) || separates(0, 1, 3) || separates(0, 1, 2)) {
       return true;
     }
-    if (separates(4, 5, 6)) return true;
     for (unsigned i = 0; i < 4; ++i) {
       for (unsigned j = i + 1; j < 4; ++j) {
         for (unsigned k = 4; k < 7; ++k) {
