@@ -47,7 +47,7 @@ FOLDERS = {
     "corpus": ("oracles", "reports"),
     "reports": ("oracles",),
     "property_tests": ("oracles", "mesher"),
-    "fuzz": ("property_tests", "oracles", "mesher"),
+    "fuzz": ("property_tests", "oracles", "corpus", "mesher"),
     "ci": (),
 }
 

@@ -32,8 +32,26 @@ struct MeasureArguments {
   std::string mesh, output;  // no output: standard output
 };
 
+struct GenerateArguments {
+  std::vector<std::string> families, models;
+  std::string folder;
+  std::uint64_t seed = 1, first = 0, count = 10;
+  bool twins = false, list = false;
+};
+
+struct ShrinkArguments {
+  std::string input, mesher, output;
+  double timeout = 10, seconds = 600;  // per run, in all
+  std::uint64_t memory_mebibytes = 2048, runs = 5000;
+  bool no_verify = false;
+};
+
 int run_command(const RunArguments& arguments);
 int report_command(const ReportArguments& arguments);
 int measure_command(const MeasureArguments& arguments);
+#ifdef TETPROOF_HAS_GENERATE
+int generate_command(const GenerateArguments& arguments);
+int shrink_command(const ShrinkArguments& arguments);
+#endif
 
 }  // namespace tetproof

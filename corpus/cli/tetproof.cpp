@@ -60,6 +60,38 @@ CLI::App* declare_measure(CLI::App& tetproof, MeasureArguments& a) {
   return app;
 }
 
+#ifdef TETPROOF_HAS_GENERATE
+CLI::App* declare_generate(CLI::App& tetproof, GenerateArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "generate", "Near-degenerate polyhedra, certified valid, and invalid twins");
+  app->add_option("family", a.families, "Names of families, or all");
+  app->add_option("--seed", a.seed)->capture_default_str();
+  app->add_option("--first", a.first, "Number of the first member")->capture_default_str();
+  app->add_option("--count", a.count, "Members of each family")->capture_default_str();
+  app->add_option("-o,--output", a.folder, "Folder for the files and manifest.csv");
+  app->add_option("--model", a.models, "Surfaces that derived families start from; may be repeated")
+      ->check(CLI::ExistingFile);
+  app->add_flag("--twins", a.twins, "Write invalid twins too, with the expected reason");
+  app->add_flag("--list", a.list, "Name the families");
+  return app;
+}
+
+CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "shrink", "The smallest valid surface found on which a mesher fails in the same way");
+  app->add_option("input", a.input, "A surface on which it fails")->required();
+  app->add_option("-m,--mesher", a.mesher, "As for run")->required();
+  app->add_option("-o,--output", a.output, "OFF file of the result")->required();
+  app->add_option("--timeout", a.timeout, "Seconds per run of the mesher; more is a failure")
+      ->capture_default_str();
+  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")->capture_default_str();
+  app->add_option("--seconds", a.seconds, "In all")->capture_default_str();
+  app->add_option("--runs", a.runs, "Of the mesher, at most")->capture_default_str();
+  app->add_flag("--no-verify", a.no_verify, "Look at how it ends only, not at what it delivers");
+  return app;
+}
+#endif
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app("Runs tetrahedral meshers on models, checks what they deliver and reports.",
                "tetproof");
@@ -71,6 +103,12 @@ int parse_and_run(int argc, char** argv) {
   const CLI::App* run_app = declare_run(app, run);
   const CLI::App* report_app = declare_report(app, report);
   declare_measure(app, measure);
+#ifdef TETPROOF_HAS_GENERATE
+  GenerateArguments generate;
+  const CLI::App* generate_app = declare_generate(app, generate);
+  ShrinkArguments shrink;
+  const CLI::App* shrink_app = declare_shrink(app, shrink);
+#endif
 #ifdef TETPROOF_HAS_VERIFY
   app.add_subcommand("verify", "Exact checks of a mesh against its input (see verify --help)");
 #endif
@@ -81,6 +119,10 @@ int parse_and_run(int argc, char** argv) {
   }
   if (run_app->parsed()) return run_command(run);
   if (report_app->parsed()) return report_command(report);
+#ifdef TETPROOF_HAS_GENERATE
+  if (generate_app->parsed()) return generate_command(generate);
+  if (shrink_app->parsed()) return shrink_command(shrink);
+#endif
   return measure_command(measure);
 }
 

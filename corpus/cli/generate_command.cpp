@@ -1,0 +1,55 @@
+#include <fmt/core.h>
+
+#include "corpus/cli/commands.h"
+#include "corpus/generate/generate.h"
+#include "oracles/surface_file.h"
+
+namespace tetproof {
+namespace {
+
+int list_families() {
+  for (const Family& family : families()) {
+    fmt::print("{:<16} {}\n", family.name, family.description);
+  }
+  return 0;
+}
+
+std::vector<const Family*> chosen_families(const GenerateArguments& arguments) {
+  std::vector<const Family*> chosen;
+  for (const std::string& name : arguments.families) {
+    if (name == "all") {
+      for (const Family& family : families()) chosen.push_back(&family);
+    } else if (const Family* family = find_family(name)) {
+      chosen.push_back(family);
+    } else {
+      throw UsageError("unknown family: " + name + " (see generate --list)");
+    }
+  }
+  if (chosen.empty()) throw UsageError("a family is expected (see generate --list), or all");
+  if (arguments.folder.empty()) throw UsageError("-o DIR is expected");
+  return chosen;
+}
+
+}  // namespace
+
+int generate_command(const GenerateArguments& arguments) {
+  if (arguments.list) return list_families();
+  GenerateRequest request;
+  request.families = chosen_families(arguments);
+  request.seed = arguments.seed;
+  request.first = arguments.first;
+  request.count = arguments.count;
+  request.twins = arguments.twins;
+  request.folder = arguments.folder;
+  for (const std::string& model : arguments.models) {
+    const oracles::Polyhedron read = oracles::read_surface(model);
+    request.models.push_back({read.vertices, read.triangles, read.labels});
+  }
+  const GenerateSummary summary = generate_files(request);
+  fmt::print("{} valid polyhedra and {} invalid twins in {}\n", summary.valid, summary.twins,
+             arguments.folder);
+  for (const std::string& name : summary.missing) fmt::print("could not be made: {}\n", name);
+  return summary.missing.empty() ? 0 : 1;
+}
+
+}  // namespace tetproof

@@ -1,0 +1,85 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "corpus/cli/commands.h"
+#include "corpus/generate/certify.h"
+#include "corpus/generate/generate.h"
+#include "corpus/generate/shrink.h"
+#include "corpus/process.h"
+#include "oracles/surface_file.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Scratch {
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "tetproof-shrink-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+    path = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  fs::path path;
+};
+
+Prober prober_for(const ShrinkArguments& arguments, const fs::path& folder) {
+  MesherPrograms programs;
+  programs.supervisor = beside_this_program("tetproof-supervise");
+  programs.tetgen = beside_this_program("tetproof-tetgen");
+  programs.delmesher = beside_this_program("delmesher");
+  Prober prober;
+  try {
+    prober.mesher = make_mesher(arguments.mesher, programs);
+  } catch (const std::runtime_error& error) {
+    throw UsageError(std::string("-m: ") + error.what());
+  }
+  prober.supervisor = programs.supervisor;
+  prober.self = fs::read_symlink("/proc/self/exe");
+  prober.folder = folder;
+  prober.limits.wall_seconds = prober.limits.cpu_seconds = arguments.timeout;
+  prober.limits.memory_bytes = arguments.memory_mebibytes << 20;
+  prober.verify = !arguments.no_verify;
+  return prober;
+}
+
+}  // namespace
+
+int shrink_command(const ShrinkArguments& arguments) {
+  const Scratch scratch;
+  const Prober prober = prober_for(arguments, scratch.path);
+  const oracles::Polyhedron read = oracles::read_surface(arguments.input);
+  const delmesher::Surface surface = {read.vertices, read.triangles, {}};
+  if (const auto defect = first_defect(surface)) {
+    throw std::runtime_error(arguments.input + ": not a valid surface");
+  }
+  const Failure wanted = prober.failure(surface);
+  if (wanted.empty()) {
+    fmt::print("{} does not fail on {}\n", prober.mesher.name, arguments.input);
+    return 1;
+  }
+  fmt::print("{} triangles: {}\n", surface.triangles.size(), wanted);
+  ShrinkProgress progress;
+  progress.tell = [&](const std::string& step, const delmesher::Surface& s) {
+    fmt::print("{:>8} runs, after {:<12} {} triangles\n", progress.runs, step, s.triangles.size());
+    std::fflush(stdout);
+  };
+  const delmesher::Surface small = shrink(
+      surface, [&](const delmesher::Surface& s) { return prober.failure(s) == wanted; },
+      {arguments.runs, arguments.seconds}, progress);
+  std::ofstream file(arguments.output, std::ios::binary);
+  file << to_off(small, prober.mesher.name + ": " + wanted, true);
+  file.close();
+  if (!file) throw std::runtime_error(arguments.output + ": cannot be written");
+  fmt::print("{} triangles in {} after {} runs\n", small.triangles.size(), arguments.output,
+             progress.runs);
+  return 0;
+}
+
+}  // namespace tetproof

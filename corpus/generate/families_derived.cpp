@@ -1,0 +1,100 @@
+// Families that change other surfaces.
+#include <algorithm>
+#include <cmath>
+
+#include "corpus/generate/approach.h"
+#include "corpus/generate/certify.h"
+#include "corpus/generate/edits.h"
+#include "corpus/generate/families.h"
+#include "corpus/generate/shapes.h"
+
+namespace tetproof {
+namespace {
+
+using namespace shapes;
+
+// A model of the caller's, or a member of one of the other families.
+Surface some_surface(FamilyMember& m, int bits) {
+  Random& r = m.random;
+  if (m.models != nullptr && !m.models->empty()) return (*m.models)[r.below(m.models->size())];
+  std::vector<Family> choice = sharp_families();
+  for (const Family& f : close_families()) choice.push_back(f);
+  for (const Family& f : tied_families()) choice.push_back(f);
+  for (int attempt = 0; attempt < 20; ++attempt) {
+    FamilyMember other{Random(r.bits()), std::min(m.bits, bits)};
+    const Surface s = choice[r.below(choice.size())].make(other);
+    if (!s.triangles.empty() && s.triangles.size() < 400 && certified_valid(s)) return s;
+  }
+  return box({0, 0, 0}, {1, 1, 1});
+}
+
+// Moved so far away that few bits are left of its shape.
+Surface offset(FamilyMember& m) {
+  Random& r = m.random;
+  Surface s = some_surface(m, 10);
+  Point shift;
+  for (double& x : shift)
+    x = r.chance(0.7) ? r.sign() * std::ldexp(1 + r.unit(), r.integer(8, 8 + m.bits * 2 / 3)) : 0;
+  move(s, [&](const Point& p) { return Point{p[0] + shift[0], p[1] + shift[1], p[2] + shift[2]}; });
+  return s;
+}
+
+// Very large, very small, or both in different directions.
+Surface scale(FamilyMember& m) {
+  Random& r = m.random;
+  Surface s = some_surface(m, 16);
+  std::array<int, 3> power;
+  const int common = r.integer(-6 * m.bits, 6 * m.bits);
+  const bool uneven = r.chance(0.4);
+  for (int& k : power) k = common + (uneven ? r.integer(-m.bits / 3, m.bits / 3) : 0);
+  move(s, [&](const Point& p) {
+    return Point{std::ldexp(p[0], power[0]), std::ldexp(p[1], power[1]),
+                 std::ldexp(p[2], power[2])};
+  });
+  return s;
+}
+
+// Vertices pulled to within 2^-k of a facet.
+Surface damaged(FamilyMember& m) {
+  Random& r = m.random;
+  Surface s = some_surface(m, 20);
+  for (int damage = r.integer(1, 3); damage > 0; --damage) pull_near(s, r, m.bits);
+  return s;
+}
+
+// Edge flips, splits, collapses, nudges, extrusions and cuts, one after the other.
+Surface edited(FamilyMember& m) {
+  Random& r = m.random;
+  Surface s = some_surface(m, 20);
+  for (int i = r.integer(3, 25); i > 0; --i) edit(s, r, m.bits);
+  return s;
+}
+
+}  // namespace
+
+std::vector<Family> derived_families() {
+  return {{"offset", "surfaces moved until few bits of their shape are left", offset},
+          {"scale", "surfaces times powers of two, down to 2^-300 and up to 2^300", scale},
+          {"damaged", "vertices pulled to within 2^-50 of a facet (see --model)", damaged},
+          {"edited", "half-edge edits of other surfaces (see --model)", edited}};
+}
+
+const std::vector<Family>& families() {
+  static const std::vector<Family> all = [] {
+    std::vector<Family> list;
+    for (const auto& group :
+         {sharp_families(), close_families(), tied_families(), derived_families()}) {
+      list.insert(list.end(), group.begin(), group.end());
+    }
+    return list;
+  }();
+  return all;
+}
+
+const Family* find_family(const std::string& name) {
+  const auto at = std::find_if(families().begin(), families().end(),
+                               [&](const Family& f) { return name == f.name; });
+  return at == families().end() ? nullptr : &*at;
+}
+
+}  // namespace tetproof

@@ -1,0 +1,292 @@
+#include "corpus/generate/shrink.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "corpus/generate/certify.h"
+#include "corpus/generate/edits.h"
+#include "corpus/generate/random.h"
+#include "corpus/generate/shapes.h"
+
+namespace tetproof {
+namespace {
+
+using delmesher::Surface;
+using shapes::Point;
+
+// Parts of the triangles that are connected by vertices.
+std::vector<std::vector<std::size_t>> components(const Surface& s) {
+  std::vector<std::uint32_t> root(s.vertices.size());
+  std::iota(root.begin(), root.end(), 0U);
+  const auto find = [&](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : s.triangles) {
+    root[find(a)] = find(b);
+    root[find(b)] = find(c);
+  }
+  std::map<std::uint32_t, std::vector<std::size_t>> parts;
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) parts[find(s.triangles[t][0])].push_back(t);
+  std::vector<std::vector<std::size_t>> result;
+  for (auto& [v, part] : parts) result.push_back(std::move(part));
+  return result;
+}
+
+struct Range {
+  Point low, high;
+  double size() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
+};
+
+Range range_of(const Surface& s) {
+  Range r{s.vertices[0], s.vertices[0]};
+  for (const Point& p : s.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      r.low[i] = std::min(r.low[i], p[i]);
+      r.high[i] = std::max(r.high[i], p[i]);
+    }
+  }
+  return r;
+}
+
+// The edge from a to b becomes b.
+void collapse(Surface& s, std::uint32_t a, std::uint32_t b) {
+  for (auto& t : s.triangles) {
+    for (auto& v : t) {
+      if (v == a) v = b;
+    }
+  }
+  std::erase_if(s.triangles,
+                [](const auto& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+}
+
+std::size_t digits(const Surface& s) {
+  std::size_t bits = 0;
+  for (const Point& p : s.vertices) {
+    for (const double x : p) {
+      int exponent = 0;
+      double mantissa = std::frexp(std::fabs(x), &exponent);
+      for (; mantissa != 0; mantissa = mantissa * 2 - std::floor(mantissa * 2)) ++bits;
+    }
+  }
+  return bits;
+}
+
+class Shrinker {
+ public:
+  Shrinker(const Surface& surface, const StillFails& fails, const ShrinkLimits& limits,
+           ShrinkProgress& progress)
+      : best_(shapes::welded(surface)), fails_(fails), limits_(limits), progress_(progress) {}
+
+  Surface run() {
+    for (bool better = true; better && !spent();) {
+      better = false;
+      better |= step("components", [&] { return remove_components(); });
+      better |= step("cuts", [&] { return cut_away(); });
+      better |= step("collapses", [&] { return collapse_edges(); });
+    }
+    // Coordinates last: a collapse spoils them no more, but may be possible again after them.
+    for (bool better = true; better && !spent();) {
+      better = step("coordinates", [&] { return simplify_coordinates(); });
+      step("collapses", [&] { return collapse_edges(); });
+    }
+    return best_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool spent() const {
+    const std::chrono::duration<double> taken = Clock::now() - start_;
+    return progress_.runs >= limits_.runs || taken.count() > limits_.seconds;
+  }
+
+  template <class Body>
+  bool step(const char* name, Body&& body) {
+    if (spent() || !body()) return false;
+    if (progress_.tell) progress_.tell(name, best_);
+    return true;
+  }
+
+  // Keeps the surface if it is valid and fails.
+  bool accept(const Surface& candidate) {
+    if (spent() || candidate.triangles.empty()) return false;
+    Surface welded = shapes::welded(candidate);
+    if (!certified_valid(welded)) return false;
+    ++progress_.runs;
+    if (!fails_(welded)) return false;
+    best_ = std::move(welded);
+    return true;
+  }
+
+  // Halves of the components first, then single ones.
+  bool remove_components() {
+    bool better = false;
+    for (std::size_t share = 2;; share *= 2) {
+      auto parts = components(best_);
+      if (parts.size() < 2) return better;
+      const std::size_t group = std::max<std::size_t>(1, parts.size() / share);
+      for (std::size_t first = 0; first < parts.size();) {
+        Surface rest = best_;
+        rest.triangles.clear();
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+          if (i >= first && i < first + group) continue;
+          for (const std::size_t t : parts[i]) rest.triangles.push_back(best_.triangles[t]);
+        }
+        if (accept(rest)) {
+          better = true;
+          parts = components(best_);
+        } else {
+          first += group;
+        }
+      }
+      if (group == 1) return better;
+    }
+  }
+
+  bool cut_away() {
+    bool better = false;
+    for (const double share : {0.5, 0.25, 0.125, 1.0 / 32}) {
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const bool upper : {false, true}) {
+          while (cut_once(axis, upper, share)) better = true;
+        }
+      }
+    }
+    return better;
+  }
+
+  // Removes about this share of the extent at one end of an axis.
+  bool cut_once(int axis, bool upper, double share) {
+    const Range r = range_of(best_);
+    const auto i = static_cast<std::size_t>(axis);
+    const double at = upper ? r.high[i] - (r.high[i] - r.low[i]) * share
+                            : r.low[i] + (r.high[i] - r.low[i]) * share;
+    const std::size_t before = best_.triangles.size();
+    Surface part;
+    if (upper) {
+      part = cut(best_, axis, at);
+    } else {
+      Surface mirrored = best_;
+      mirror(mirrored, i);
+      part = cut(mirrored, axis, -at);
+      mirror(part, i);
+    }
+    return part.triangles.size() < before && accept(part);
+  }
+  static void mirror(Surface& s, std::size_t axis) {
+    for (Point& p : s.vertices) p[axis] = -p[axis];
+    shapes::reverse(s);
+  }
+
+  // Many edges at once, then fewer, down to one by one.
+  bool collapse_edges() {
+    bool better = false;
+    for (std::size_t batch = std::max<std::size_t>(1, best_.triangles.size() / 8);; batch /= 2) {
+      const std::size_t tries = batch == 1 ? 2 * best_.triangles.size() : 24;
+      for (std::size_t i = 0; i < tries && !spent(); ++i) {
+        if (batch == 1 ? collapse_edge_number(i) : collapse_some(batch)) better = true;
+      }
+      if (batch == 1) return better;
+    }
+  }
+  bool collapse_some(std::size_t count) {
+    Surface s = best_;
+    std::vector<bool> touched(s.vertices.size(), false);
+    for (std::size_t i = 0; i < count && s.triangles.size() > 4; ++i) {
+      const auto& t = s.triangles[random_.below(s.triangles.size())];
+      const auto k = random_.below(3);
+      const auto a = t[k], b = t[(k + 1) % 3];
+      if (touched[a] || touched[b]) continue;
+      for (const auto& u : best_.triangles) {  // neighbours stay for this round
+        if (u[0] == a || u[1] == a || u[2] == a)
+          touched[u[0]] = touched[u[1]] = touched[u[2]] = true;
+      }
+      Surface next = s;
+      collapse(next, a, b);
+      s = std::move(next);
+    }
+    return s.triangles.size() < best_.triangles.size() && accept(s);
+  }
+  bool collapse_edge_number(std::size_t i) {
+    const auto& t = best_.triangles[(i / 2) % best_.triangles.size()];
+    const std::size_t k = random_.below(3);
+    const auto a = t[k], b = t[(k + 1) % 3];
+    Surface s = best_;
+    collapse(s, i % 2 == 0 ? a : b, i % 2 == 0 ? b : a);
+    return s.triangles.size() < best_.triangles.size() && accept(s);
+  }
+
+  // Fewer bits for all coordinates, then for single ones.
+  bool simplify_coordinates() {
+    bool better = simplify_all();
+    for (std::size_t v = 0; v < best_.vertices.size(); ++v) {
+      for (std::size_t i = 0; i < 3 && !spent(); ++i) better |= simplify_one(v, i);
+    }
+    return better;
+  }
+  bool accept_if_simpler(const Surface& s) { return digits(s) < digits(best_) && accept(s); }
+
+  bool simplify_all() {
+    const Range r = range_of(best_);
+    Surface moved = best_;
+    shapes::move(moved, [&](const Point& p) {
+      return Point{p[0] - r.low[0], p[1] - r.low[1], p[2] - r.low[2]};
+    });
+    bool better = accept_if_simpler(moved);
+    // As integers of few bits: the mesher may care, so every scale is tried.
+    int exponent = 0;
+    std::frexp(range_of(best_).size(), &exponent);
+    for (int bits = 4; bits <= 40; bits += bits < 16 ? 1 : 4) {
+      for (const bool integers : {true, false}) {
+        Surface coarse = best_;
+        shapes::move(coarse, [&](const Point& p) {
+          Point q;
+          for (std::size_t i = 0; i < 3; ++i) {
+            q[i] = std::nearbyint(std::ldexp(p[i], bits - exponent)) + 0.0;
+            if (!integers) q[i] = std::ldexp(q[i], exponent - bits);
+          }
+          return q;
+        });
+        if (accept_if_simpler(coarse)) return true;
+      }
+    }
+    return better;
+  }
+  bool simplify_one(std::size_t v, std::size_t i) {
+    const double x = best_.vertices[v][i];
+    if (x == 0) return false;
+    int exponent = 0;
+    std::frexp(range_of(best_).size(), &exponent);
+    for (int bits = 0; bits <= 24; bits += bits < 8 ? 1 : 4) {
+      const double step = std::ldexp(1, exponent - bits);
+      const double simple = std::nearbyint(x / step) * step + 0.0;
+      if (simple == x) return false;
+      Surface s = best_;
+      s.vertices[v][i] = simple;
+      if (accept_if_simpler(s)) return true;
+    }
+    return false;
+  }
+
+  Surface best_;
+  const StillFails& fails_;
+  const ShrinkLimits& limits_;
+  ShrinkProgress& progress_;
+  Random random_{1};
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+Surface shrink(const Surface& surface, const StillFails& fails, const ShrinkLimits& limits,
+               ShrinkProgress& progress) {
+  return Shrinker(surface, fails, limits, progress).run();
+}
+
+}  // namespace tetproof
