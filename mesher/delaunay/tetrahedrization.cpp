@@ -16,7 +16,7 @@ Tetrahedrization::Tetrahedrization(Predicates& predicates) : predicates_(predica
 // ------------------------------------------------------------------------------------- building
 
 void Tetrahedrization::build(std::span<const VertexId> vertices, Control& control) {
-  DELMESHER_CHECK(vertex_.empty(), "tetrahedrization built twice");
+  DELMESHER_CHECK(cell_.empty(), "tetrahedrization built twice");
   const PointStore& points = predicates_.points();
   std::vector<VertexId> order(vertices.begin(), vertices.end());
   {
@@ -29,8 +29,7 @@ void Tetrahedrization::build(std::span<const VertexId> vertices, Control& contro
     spatial_sort(position, coordinates);
     for (std::size_t n = 0; n < order.size(); ++n) order[n] = vertices[position[n]];
   }
-  vertex_.reserve(order.size() * 28);
-  neighbor_.reserve(order.size() * 28);
+  cell_.reserve(order.size() * 7);
   first_tetrahedron(order);
   TetId hint = 0;
   for (std::size_t n = 4; n < order.size(); ++n) {
@@ -104,14 +103,13 @@ TetId Tetrahedrization::allocate() {
   dead_.push_back(0);
   mark_.push_back(0);
   star_mark_.push_back(0);
-  vertex_.resize(vertex_.size() + 4);
-  neighbor_.resize(neighbor_.size() + 4, kNone);
+  cell_.emplace_back();
   return t;
 }
 
 TetId Tetrahedrization::create(VertexId a, VertexId b, VertexId c, VertexId d) {
   const TetId t = allocate();
-  VertexId* v = &vertex_[4 * std::size_t{t}];
+  VertexId* v = cell_[t].vertex;
   v[0] = a;
   v[1] = b;
   v[2] = c;
@@ -128,8 +126,8 @@ void Tetrahedrization::destroy(TetId t) {
 }
 
 void Tetrahedrization::glue(TetId t, int i, TetId u, int j) {
-  neighbor_[4 * std::size_t{t} + i] = 4 * u + static_cast<std::uint32_t>(j);
-  neighbor_[4 * std::size_t{u} + j] = 4 * t + static_cast<std::uint32_t>(i);
+  cell_[t].neighbor[i] = 4 * u + static_cast<std::uint32_t>(j);
+  cell_[u].neighbor[j] = 4 * t + static_cast<std::uint32_t>(i);
 }
 
 // -------------------------------------------------------------------------------------- queries
@@ -299,40 +297,43 @@ void Tetrahedrization::find_cavity(VertexId v, TetId start) {
 
 TetId Tetrahedrization::cone(const BoundaryFace& boundary, VertexId v) {
   const TetId t = allocate();
-  const std::size_t inner = 4 * std::size_t{boundary.inner};
-  VertexId* w = &vertex_[4 * std::size_t{t}];
+  Cell& inner = cell_[boundary.inner];
+  Cell& cell = cell_[t];
+  const int face = boundary.face;
   bool ghost = false;
   for (int i = 0; i < 4; ++i) {
-    w[i] = i == boundary.face ? v : vertex_[inner + i];
-    ghost = ghost || w[i] == kInfinite;
+    cell.vertex[i] = i == face ? v : inner.vertex[i];
+    cell.neighbor[i] = kNone;
+    ghost = ghost || cell.vertex[i] == kInfinite;
   }
   if (!ghost) {
-    for (int i = 0; i < 4; ++i) incident_[w[i]] = t;
+    for (int i = 0; i < 4; ++i) incident_[cell.vertex[i]] = t;
   }
-  const std::uint32_t outside = neighbor_[inner + boundary.face];
-  neighbor_[4 * std::size_t{t} + boundary.face] = outside;
-  neighbor_[outside] = 4 * t + static_cast<std::uint32_t>(boundary.face);
+  const std::uint32_t own = 4 * t + static_cast<std::uint32_t>(face);
+  const std::uint32_t outside = inner.neighbor[face];
+  cell.neighbor[face] = outside;
+  cell_[outside >> 2].neighbor[outside & 3U] = own;
   // The dead tetrahedron's slot now leads to the new one: glue_around looks it up there.
-  neighbor_[inner + boundary.face] = 4 * t + static_cast<std::uint32_t>(boundary.face);
+  inner.neighbor[face] = own;
   return t;
 }
 
 void Tetrahedrization::glue_around(TetId created, const BoundaryFace& boundary) {
   for (int j = 0; j < 4; ++j) {
-    if (j == boundary.face) continue;
+    if (cell_[created].neighbor[j] != kNone) continue;  // done from the other side
     // Rotate inside the cavity around the edge that face j of the new tetrahedron shares with the
     // boundary face, until the boundary face on the other side.
     TetId c = boundary.inner;
     int cross = j;
     int stay = boundary.face;
     for (;;) {
-      const std::uint32_t next = neighbor_[4 * std::size_t{c} + cross];
+      const std::uint32_t next = cell_[c].neighbor[cross];
       const TetId u = next >> 2;
       if (mark_[u] != epoch_) {
-        neighbor_[4 * std::size_t{created} + j] = 4 * u + static_cast<std::uint32_t>(stay);
+        glue(created, j, u, stay);
         break;
       }
-      const VertexId pivot = vertex_[4 * std::size_t{c} + stay];
+      const VertexId pivot = cell_[c].vertex[stay];
       stay = static_cast<int>(next & 3U);
       c = u;
       cross = index_of(c, pivot);

@@ -43,11 +43,11 @@ class Tetrahedrization {
   bool alive(TetId t) const { return dead_[t] == 0; }
   std::size_t tetrahedra() const;  // alive and finite
   bool is_ghost(TetId t) const;
-  const VertexId* vertices(TetId t) const { return &vertex_[4 * std::size_t{t}]; }
-  VertexId vertex(TetId t, int i) const { return vertex_[4 * std::size_t{t} + i]; }
+  const VertexId* vertices(TetId t) const { return cell_[t].vertex; }
+  VertexId vertex(TetId t, int i) const { return cell_[t].vertex[i]; }
   // Neighbour across face i, and the same face's index over there.
-  TetId neighbor(TetId t, int i) const { return neighbor_[4 * std::size_t{t} + i] >> 2; }
-  int mirror(TetId t, int i) const { return neighbor_[4 * std::size_t{t} + i] & 3; }
+  TetId neighbor(TetId t, int i) const { return cell_[t].neighbor[i] >> 2; }
+  int mirror(TetId t, int i) const { return cell_[t].neighbor[i] & 3; }
   // Some tetrahedron (never a ghost if avoidable) with vertex v; kNone if v is not a vertex.
   TetId incident(VertexId v) const { return v < incident_.size() ? incident_[v] : kNone; }
   // Index of vertex v in tetrahedron t, -1 if absent.
@@ -107,8 +107,12 @@ class Tetrahedrization {
   std::uint32_t next_random() { return random_ = random_ * 1664525U + 1013904223U; }
 
   Predicates& predicates_;
-  std::vector<VertexId> vertex_;         // 4 per tetrahedron
-  std::vector<std::uint32_t> neighbor_;  // 4 per tetrahedron: 4 * tet + face over there
+  // Half a cache line.
+  struct alignas(32) Cell {
+    VertexId vertex[4] = {kNone, kNone, kNone, kNone};
+    std::uint32_t neighbor[4] = {kNone, kNone, kNone, kNone};  // 4 * tet + face over there
+  };
+  std::vector<Cell> cell_;
   std::vector<std::uint8_t> dead_;
   std::vector<std::uint32_t> mark_;  // epoch_: in the cavity; epoch_ + 1: visited, not in it
   std::vector<TetId> free_;
