@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesher/base/planted.h"
 #include "mesher/chamfer/boundary_distance.h"
 #include "mesher/predicates/placement.h"
 
@@ -51,7 +52,8 @@ class Cutter {
  private:
   void bound_distance(std::uint32_t index) {
     const Corner& corner = surface_.corners()[index];
-    double bound = boundary_.from_vertex(corner.facet, corner.vertex) / 3;
+    const double share = planted(Planted::chamfer_distance) ? 1.25 : 3;
+    double bound = boundary_.from_vertex(corner.facet, corner.vertex) / share;
     const double step = cuts_.split[index].step;
     // The inner points of a bridge are farther away than its ends.
     if (max_radius_ > 0) bound = std::min(bound, max_radius_ / std::sqrt(1 + step * step));

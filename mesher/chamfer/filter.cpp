@@ -4,6 +4,7 @@
 #include <queue>
 #include <tuple>
 
+#include "mesher/base/planted.h"
 #include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/closest.h"
@@ -64,6 +65,7 @@ class InputFilter {
       if (facets_.alive(pair.second)) {
         result.dropped_triangles += resolve(pair);
         ++result.rounds;
+        if (planted(Planted::filter_worklist)) continue;
       }
       ask(pair.first);
     }

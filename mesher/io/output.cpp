@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "mesher/base/planted.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::io {
@@ -50,6 +51,13 @@ std::FILE* create_beside(const fs::path& target, std::string& name) {
 }  // namespace
 
 void TextSink::number(double value) {
+  if (planted(Planted::written_digits)) {
+    char digits[40];
+    const auto end =
+        std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 15);
+    text(std::string_view(digits, static_cast<std::size_t>(end.ptr - digits)));
+    return;
+  }
   append_double(buffer_, value);
   flush_if_full();
 }

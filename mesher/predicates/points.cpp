@@ -6,6 +6,7 @@
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
+#include "mesher/base/planted.h"
 
 namespace delmesher {
 namespace {
@@ -80,7 +81,8 @@ VertexId PointStore::add_implicit(const PointDefinition& definition) {
     limbs_.insert(limbs_.end(), x.mantissa.data(), x.mantissa.data() + x.mantissa.used());
   }
   const auto combined = [](const std::array<Rounded, 3>& r) -> Approximation {
-    const double error = std::max({r[0].error, r[1].error, r[2].error});
+    double error = std::max({r[0].error, r[1].error, r[2].error});
+    if (planted(Planted::implicit_error)) error /= 4;
     return {r[0].value, r[1].value, r[2].value, error};
   };
   approximations_.push_back(combined(nearest));

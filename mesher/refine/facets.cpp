@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mesher/base/check.h"
+#include "mesher/base/planted.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
@@ -182,6 +183,7 @@ void Refiner::check_subfacet(std::uint32_t s, std::uint32_t face) {
   for (int k = 0; k < 2; ++k) {
     subfacet_[t[k]][i[k]] = s;
     const VertexId v = dt_.vertex(t[k], i[k]);
+    if (k == 1 && planted(Planted::facet_encroachment)) continue;
     if (v != kInfinite && predicates_.in_diametral_ball(c[0], c[1], c[2], v) > 0) queue_subfacet(s);
   }
 }

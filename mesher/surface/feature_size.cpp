@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/base/planted.h"
 #include "mesher/surface/bvh.h"
 
 namespace delmesher {
@@ -155,7 +156,7 @@ class ClosestElements {
       if (topology_.edge_is_flat[e] == 0) edges_.push_back(e);
     }
     examine_vertices();
-    examine_edges();
+    if (!planted(Planted::edge_distance)) examine_edges();
     return best_;
   }
 

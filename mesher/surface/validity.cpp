@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "mesher/base/planted.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/half_edges.h"
@@ -275,6 +276,7 @@ class Checker {
       control_.poll();
       if (t > u) std::swap(t, u);
       if (projections_[t].sign == 0 || projections_[u].sign == 0 || same_corners(t, u)) return true;
+      if (planted(Planted::shared_vertex) && share_a_corner(t, u)) return true;
       if (!meet_outside_shared(predicates_, triangles_[t], triangles_[u], projections_[t],
                                projections_[u])) {
         return true;
@@ -289,6 +291,12 @@ class Checker {
 
   bool same_corners(std::uint32_t t, std::uint32_t u) const {
     return std::all_of(triangles_[t].begin(), triangles_[t].end(), [&](VertexId v) {
+      return std::find(triangles_[u].begin(), triangles_[u].end(), v) != triangles_[u].end();
+    });
+  }
+
+  bool share_a_corner(std::uint32_t t, std::uint32_t u) const {
+    return std::any_of(triangles_[t].begin(), triangles_[t].end(), [&](VertexId v) {
       return std::find(triangles_[u].begin(), triangles_[u].end(), v) != triangles_[u].end();
     });
   }
@@ -317,7 +325,8 @@ class Checker {
                                          predicates_, *bvh_, control_);
     std::vector<std::uint8_t> wrong;
     for (const ComponentNesting& c : nesting) {
-      const int wanted = c.depth % 2 == 0 ? 1 : -1;
+      const bool outer = planted(Planted::nesting) ? c.depth == 0 : c.depth % 2 == 0;
+      const int wanted = outer ? 1 : -1;
       wrong.push_back(c.volume_sign != wanted);
       result_.report.volume += wanted * c.volume;
     }
