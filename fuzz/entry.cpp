@@ -1,0 +1,80 @@
+#include "fuzz/entry.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "corpus/generate/certify.h"
+#include "corpus/generate/generate.h"
+#include "mesher/io/read_surface.h"
+
+namespace tetproof::fuzz {
+
+std::optional<delmesher::Surface> parse(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  auto read = delmesher::io::parse_surface(text, "input.off");
+  if (!read.ok() || read.format != "OFF") return {};
+  if (read.surface.triangles.empty() || read.surface.triangles.size() > kLargestSurface) return {};
+  return std::move(read.surface);
+}
+
+void report(const Finding& finding, const delmesher::Surface* surface) {
+  std::fprintf(stderr, "FINDING %s\n", finding.c_str());
+  if (surface != nullptr) std::fputs(to_off(*surface, finding, true).c_str(), stderr);
+  std::abort();
+}
+
+int on_valid_surface(const std::uint8_t* data, std::size_t size,
+                     Finding (*property)(const delmesher::Surface&)) {
+  const auto surface = parse(data, size);
+  if (!surface || !certified_valid(*surface)) return 0;
+  if (const Finding finding = property(*surface); !finding.empty()) report(finding, &*surface);
+  return 0;
+}
+
+int on_any_surface(const std::uint8_t* data, std::size_t size,
+                   Finding (*property)(const delmesher::Surface&)) {
+  const auto surface = parse(data, size);
+  if (!surface) return 0;
+  if (const Finding finding = property(*surface); !finding.empty()) report(finding, &*surface);
+  return 0;
+}
+
+double Bytes::coordinate() {
+  switch (below(8)) {
+    case 0:
+    case 1:
+      return last_ = static_cast<double>(static_cast<std::int8_t>(byte()) / 16);
+    case 2:
+      return last_ = static_cast<std::int8_t>(byte()) / 32.0;
+    case 3:
+      return last_ = static_cast<std::int8_t>(byte()) * 0.1;
+    case 4:
+      return last_ = std::nextafter(last_, (byte() & 1) != 0 ? HUGE_VAL : -HUGE_VAL);
+    case 5:
+      return last_;
+    case 6: {
+      const int power = static_cast<std::int8_t>(byte());
+      return last_ = std::ldexp(static_cast<std::int8_t>(byte()), power);
+    }
+    default: {
+      const double any = std::bit_cast<double>(word());
+      return last_ = std::isfinite(any) ? any : 1;
+    }
+  }
+}
+
+double Bytes::parameter() {
+  switch (below(3)) {
+    case 0:
+      return byte() / 16 / 16.0;
+    case 1:
+      return std::ldexp(byte(), -8 - static_cast<int>(below(50)));
+    default:
+      return static_cast<double>(word() >> 11) * 0x1p-53;
+  }
+}
+
+}  // namespace tetproof::fuzz

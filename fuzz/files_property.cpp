@@ -1,0 +1,186 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "corpus/generate/generate.h"
+#include "fuzz/properties.h"
+#include "mesher/cli/run.h"
+#include "mesher/io/output.h"
+#include "mesher/io/read_surface.h"
+#include "mesher/io/write_mesh.h"
+#include "oracles/mesh_file.h"
+#include "oracles/text_reader.h"
+
+namespace tetproof::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of this process, removed at its end.
+const fs::path& scratch() {
+  static const struct Folder {
+    Folder() {
+      std::string name = (fs::temp_directory_path() / "tetproof-fuzz-XXXXXX").string();
+      if (mkdtemp(name.data()) == nullptr) std::abort();
+      path = name;
+    }
+    ~Folder() {
+      std::error_code ignored;
+      fs::remove_all(path, ignored);
+    }
+    fs::path path;
+  } folder;
+  return folder.path;
+}
+
+bool is_one_line(const std::string& text) {
+  return !text.empty() && text.find_first_of("\r\n") == std::string::npos;
+}
+
+bool same_bits(const delmesher::Surface& s, const delmesher::Surface& t) {
+  if (s.triangles != t.triangles || s.vertices.size() != t.vertices.size()) return false;
+  for (std::size_t v = 0; v < s.vertices.size(); ++v) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (std::bit_cast<std::uint64_t>(s.vertices[v][i]) !=
+          std::bit_cast<std::uint64_t>(t.vertices[v][i])) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+// As sets of tetrahedra with sorted corners: formats differ in order and orientation.
+template <class Cells>
+std::multiset<std::array<std::uint32_t, 4>> sorted_cells(const Cells& cells) {
+  std::multiset<std::array<std::uint32_t, 4>> result;
+  for (auto cell : cells) {
+    std::sort(cell.begin(), cell.end());
+    result.insert(cell);
+  }
+  return result;
+}
+
+delmesher::TetMesh read_mesh(Bytes& bytes) {
+  delmesher::TetMesh mesh;
+  const std::uint32_t vertices = 4 + bytes.below(12);
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    const double x = bytes.coordinate(), y = bytes.coordinate(), z = bytes.coordinate();
+    mesh.vertices.push_back({x, y, z});
+  }
+  const auto corners = [&](auto& cell) {
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      do {
+        cell[i] = bytes.empty() ? static_cast<std::uint32_t>(i) : bytes.below(vertices);
+      } while (!bytes.empty() && std::find(cell.begin(), cell.begin() + static_cast<long>(i),
+                                           cell[i]) != cell.begin() + static_cast<long>(i));
+    }
+  };
+  for (std::uint32_t t = 1 + bytes.below(8); t > 0; --t) {
+    corners(mesh.tetrahedra.emplace_back());
+    mesh.inside.push_back(static_cast<std::uint8_t>(bytes.below(2)));
+  }
+  for (std::uint32_t t = bytes.below(8); t > 0; --t) {
+    corners(mesh.boundary.emplace_back());
+    mesh.boundary_labels.push_back(static_cast<std::int8_t>(bytes.byte()));
+    mesh.boundary_facets.push_back(bytes.byte());
+  }
+  return mesh;
+}
+
+Finding written_and_read(const delmesher::TetMesh& mesh, const std::string& extension) {
+  const std::string path = (scratch() / ("mesh" + extension)).string();
+  delmesher::io::OutputSet outputs;
+  if (const auto status = delmesher::io::write_mesh(outputs, path, mesh); !status.ok()) {
+    return "writer refuses: " + status.error;
+  }
+  if (const auto status = outputs.commit(); !status.ok()) return "writer fails: " + status.error;
+  const oracles::MeshFile read = oracles::read_mesh(path);
+  if (read.vertices != mesh.vertices) return "vertices of " + extension + ": differ when read back";
+  if (sorted_cells(read.tetrahedra) != sorted_cells(mesh.tetrahedra)) {
+    return "tetrahedra of " + extension + ": differ when read back";
+  }
+  if (extension != ".tet" && read.boundary.size() != mesh.boundary.size()) {
+    return "boundary of " + extension + ": differs when read back";
+  }
+  return {};
+}
+
+}  // namespace
+
+Finding reader_holds(const std::string& text, const std::string& name) {
+  const auto first = delmesher::io::parse_surface(text, name);
+  if (!first.ok()) {
+    return is_one_line(first.error) ? "" : "reader error: not one line";
+  }
+  const delmesher::Surface& s = first.surface;
+  if (!s.labels.empty() && s.labels.size() != s.triangles.size()) return "reader labels: too few";
+  for (const auto& t : s.triangles) {
+    for (const std::uint32_t v : t) {
+      if (v >= s.vertices.size()) return "reader index: out of range";
+    }
+  }
+  delmesher::Surface plain = s;
+  plain.labels.clear();
+  if (plain.triangles.empty()) return {};
+  const auto again = delmesher::io::parse_surface(to_off(plain), "again.off");
+  if (!again.ok()) return "reader round trip: " + again.error;
+  return same_bits(plain, again.surface) ? "" : "reader round trip: differs";
+}
+
+Finding writers_hold(Bytes bytes) {
+  const delmesher::TetMesh mesh = read_mesh(bytes);
+  for (const char* extension : {".mesh", ".msh", ".vtu", ".node", ".tet"}) {
+    try {
+      if (Finding f = written_and_read(mesh, extension); !f.empty()) return f;
+    } catch (const oracles::ReadError& error) {
+      return "written file of " + std::string(extension) + ": " + error.what();
+    }
+  }
+  return {};
+}
+
+Finding command_line_holds(const std::string& text) {
+  if (text.find('/') != std::string::npos) return {};  // stays in its own folder
+  fs::current_path(scratch());
+  std::vector<std::string> words(1);
+  for (const char c : text) {
+    if (c == '\n') {
+      words.emplace_back();
+    } else if (c != '\0') {
+      words.back() += c;
+    }
+  }
+  const delmesher::cli::Parsed parsed = delmesher::cli::parse_arguments(words);
+  if (!parsed.run) {
+    const bool known = parsed.exit_code == 0 || parsed.exit_code == 2;
+    return known ? "" : "command line: parsing ends with " + std::to_string(parsed.exit_code);
+  }
+  std::string said;
+  const auto fails = [](const delmesher::Surface&, const delmesher::Options&) {
+    delmesher::Result result;
+    result.status = {delmesher::StatusCode::invalid_surface, "not a surface"};
+    return result;
+  };
+  const auto no_surface = [](const delmesher::Surface&, const delmesher::Options&) {
+    delmesher::SurfaceReport report;
+    report.status = {delmesher::StatusCode::invalid_surface, "not a surface"};
+    return report;
+  };
+  const int code = delmesher::cli::run(
+      parsed.command, {fails, fails, no_surface},
+      {[](const std::string&) {}, [&](const std::string& line) { said += line; }});
+  if (code < 0 || (code > 6 && code != 130)) {
+    return "command line: exit code " + std::to_string(code);
+  }
+  if (code != 0 && said.rfind("delmesher: ", 0) != 0)
+    return "command line: says nothing of " + said;
+  return {};
+}
+
+}  // namespace tetproof::fuzz

@@ -1,0 +1,145 @@
+#include <array>
+#include <sstream>
+
+#include "fuzz/properties.h"
+#include "mesher/predicates/predicates.h"
+#include "mesher/predicates/rational_reference.h"
+
+namespace tetproof::fuzz {
+namespace {
+
+using namespace delmesher;
+
+struct Points {
+  PointStore store;
+  VertexId corners = 0;
+};
+
+Points read_points(Bytes& bytes) {
+  Points p;
+  p.corners = 3 + bytes.below(6);
+  for (VertexId i = 0; i < p.corners; ++i) {
+    const double x = bytes.coordinate(), y = bytes.coordinate(), z = bytes.coordinate();
+    p.store.add_explicit(x, y, z);
+  }
+  for (std::uint32_t n = bytes.below(8); n > 0; --n) {
+    const VertexId a = bytes.below(p.corners), b = bytes.below(p.corners),
+                   c = bytes.below(p.corners);
+    const double u = bytes.parameter(), v = bytes.parameter();
+    if (bytes.below(2) == 0) {
+      p.store.add_on_segment(a, b, u);
+    } else {
+      p.store.add_on_triangle(a, b, c, u, v);
+    }
+  }
+  return p;
+}
+
+// One call of a predicate with the ids it gets.
+class Call {
+ public:
+  Call(Points& points, Bytes& bytes) : points_(points), predicates_(points.store) {
+    for (VertexId& v : id_) v = bytes.below(static_cast<std::uint32_t>(points.store.size()));
+    for (std::size_t i = 0; i < id_.size(); ++i) at_[i] = reference::point(points.store, id_[i]);
+    axis_ = static_cast<int>(bytes.below(3));
+    cosine_squared_ = bytes.below(2) == 0 ? 0.25 : bytes.parameter();
+    predicate_ = bytes.below(11);
+  }
+
+  Finding compare() {
+    const auto [name, ours, right] = answers();
+    if (ours == right) return {};
+    std::ostringstream out;
+    out << "predicate " << name << ": ours " << ours << ", rational " << right << ", arguments";
+    for (std::size_t i = 0; i < id_.size(); ++i) describe(out, id_[i]);
+    out << " axis " << axis_ << " cosine^2 " << std::hexfloat << cosine_squared_;
+    return out.str();
+  }
+
+ private:
+  struct Answers {
+    const char* name;
+    int ours, right;
+  };
+
+  void describe(std::ostream& out, VertexId v) const {
+    const PointDefinition d = points_.store.definition(v);
+    if (d.kind == PointKind::explicit_point) {
+      const Vec3 p = points_.store.nearest(v);
+      out << " E(" << std::hexfloat << p[0] << ' ' << p[1] << ' ' << p[2] << ")";
+    } else {
+      out << (d.kind == PointKind::on_segment ? " S(" : " T(");
+      for (int i = 0; i < (d.kind == PointKind::on_segment ? 2 : 3); ++i) {
+        describe(out, d.corner[static_cast<std::size_t>(i)]);
+      }
+      out << ' ' << std::hexfloat << d.u << ' ' << d.v << ")";
+    }
+  }
+
+  static int distance_sign(const reference::Point* p) {
+    const auto u = reference::minus(p[0], p[1]), v = reference::minus(p[2], p[3]);
+    return sgn(mpq_class(reference::dot(u, u) - reference::dot(v, v)));
+  }
+  static int xyz_sign(const reference::Point* p) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (const int s = cmp(p[0][i], p[1][i]); s != 0) return s < 0 ? -1 : 1;
+    }
+    return 0;
+  }
+
+  Answers answers() {
+    const auto [a, b, c, d, e] = id_;
+    const reference::Point* p = at_.data();
+    switch (predicate_) {
+      case 0:
+        return {"orient3d", predicates_.orient3d(a, b, c, d), reference::orient3d(p)};
+      case 1:
+        return {"orient2d", predicates_.orient2d(axis_, a, b, c), reference::orient2d(axis_, p)};
+      case 2:
+        return {"insphere", predicates_.insphere(a, b, c, d, e), reference::insphere(p)};
+      case 3:
+        return {"dot", predicates_.dot_sign(a, b, c),
+                sgn(reference::dot(reference::minus(p[0], p[1]), reference::minus(p[2], p[1])))};
+      case 4:
+        return {"dot of differences", predicates_.dot_difference_sign(a, b, c, d),
+                sgn(reference::dot(reference::minus(p[1], p[0]), reference::minus(p[3], p[2])))};
+      case 5:
+        if (reference::collinear(p[0], p[1], p[2])) return {"in ball", 0, 0};
+        return {"in ball", predicates_.in_diametral_ball(a, b, c, d),
+                reference::in_diametral_ball(p)};
+      case 6:
+        return {"dihedral", predicates_.dihedral_sign(a, b, c, d), reference::dihedral_sign(p)};
+      case 7:
+        return {"distance", predicates_.compare_distance(a, b, c, d), distance_sign(p)};
+      case 8:
+        return {"order", predicates_.compare_xyz(a, b), xyz_sign(p)};
+      case 9:
+        return {"angle below", predicates_.angle_below(a, b, c, cosine_squared_),
+                reference::below(reference::minus(p[0], p[1]), reference::minus(p[2], p[1]),
+                                 cosine_squared_)};
+      default:
+        return {"dihedral below", predicates_.dihedral_below(a, b, c, d, cosine_squared_),
+                reference::dihedral_below(p, cosine_squared_)};
+    }
+  }
+
+  Points& points_;
+  Predicates predicates_;
+  std::array<VertexId, 5> id_{};
+  std::array<reference::Point, 5> at_;
+  int axis_ = 0;
+  double cosine_squared_ = 0.25;
+  std::uint32_t predicate_ = 0;
+};
+
+}  // namespace
+
+Finding predicates_agree(Bytes bytes) {
+  Points points = read_points(bytes);
+  for (int calls = 0; calls < 24 && !bytes.empty(); ++calls) {
+    if (Finding finding = Call(points, bytes).compare(); !finding.empty()) return finding;
+  }
+  return {};
+}
+
+}  // namespace tetproof::fuzz

@@ -1,0 +1,51 @@
+// The properties that the fuzz targets (and tests) check, one each. A property returns an empty
+// text if it holds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fuzz/entry.h"
+#include "mesher/delmesher.h"
+
+namespace tetproof::fuzz {
+
+// Every predicate on any mix of points agrees with rational arithmetic.
+Finding predicates_agree(Bytes bytes);
+
+// A reader refuses in one line or delivers a surface that can be written and read back unchanged.
+// `name` gives the format by its extension.
+Finding reader_holds(const std::string& text, const std::string& name);
+
+// Our check of a surface and CGAL's agree on what is valid; defects are named.
+Finding check_agrees(const delmesher::Surface& surface);
+
+// Facets are those of the oracles; the smallest local feature size is that of all pairs.
+Finding features_agree(const delmesher::Surface& surface);
+
+// The tetrahedrization of points passes its own validation and is Delaunay and complete for CGAL.
+Finding delaunay_agrees(Bytes bytes);
+
+// The plain constrained tetrahedrization passes the oracles.
+Finding cdt_holds(const delmesher::Surface& surface);
+
+// No acute angle is left by chamfering, and chamfer distances obey their bound.
+Finding chamfer_holds(const delmesher::Surface& surface);
+
+// What the input filter keeps is not closer than the tolerance.
+Finding filter_holds(const delmesher::Surface& surface);
+
+// The refined mesh is Delaunay, keeps the angle bound, and ends.
+Finding refinement_holds(const delmesher::Surface& surface);
+
+// The whole pipeline passes all oracles, exactly and as written.
+Finding pipeline_holds(const delmesher::Surface& surface);
+
+// Every format reads back what was written.
+Finding writers_hold(Bytes bytes);
+
+// The command line ends with a documented code and says one line.
+Finding command_line_holds(const std::string& text);
+
+}  // namespace tetproof::fuzz

@@ -1,0 +1,30 @@
+// A valid surface prepared for single stages of the mesher.
+#pragma once
+
+#include "mesher/base/control.h"
+#include "mesher/delmesher.h"
+#include "mesher/predicates/predicates.h"
+#include "mesher/surface/topology.h"
+#include "mesher/surface/validity.h"
+
+namespace tetproof::fuzz {
+
+struct Stages {
+  explicit Stages(const delmesher::Surface& surface)
+      : control(options),
+        topology(delmesher::build_topology(oriented(surface, control), points, predicates)) {}
+
+  static delmesher::Surface oriented(const delmesher::Surface& surface,
+                                     delmesher::Control& control) {
+    const auto validity = delmesher::check_validity(surface, true, control);
+    return delmesher::oriented_outwards(surface, validity);
+  }
+
+  delmesher::Options options;
+  delmesher::Control control;
+  delmesher::PointStore points;
+  delmesher::Predicates predicates{points};
+  delmesher::SurfaceTopology topology;
+};
+
+}  // namespace tetproof::fuzz

@@ -1,0 +1,90 @@
+// Mutation and crossover of surfaces for the targets that take one: half-edge edits that keep it
+// valid, so that the fuzzer spends its time behind the input check. Deterministic in the seed.
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "corpus/generate/certify.h"
+#include "corpus/generate/edits.h"
+#include "corpus/generate/generate.h"
+#include "corpus/generate/twins.h"
+#include "fuzz/entry.h"
+
+namespace tetproof::fuzz {
+namespace {
+
+using delmesher::Surface;
+
+constexpr int kBits = 50;
+
+std::size_t store(const Surface& surface, std::uint8_t* data, std::size_t size,
+                  std::size_t max_size) {
+  const std::string text = to_off(surface);
+  if (text.size() > max_size || surface.triangles.size() > kLargestSurface) return size;
+  std::memcpy(data, text.data(), text.size());
+  return text.size();
+}
+
+// A member of a family, now and then instead of what the corpus offers.
+Surface fresh(Random& random) {
+  const Family& family = families()[random.below(families().size())];
+  const auto surface = generate(family, random.bits(), 0);
+  return surface ? *surface : Surface{};
+}
+
+void move_everything(Surface& surface, Random& random) {
+  Surface moved = surface;
+  const double scale = std::ldexp(random.sign(), random.integer(-40, 40));
+  std::array<double, 3> shift{};
+  if (random.chance(0.5)) {
+    for (double& x : shift) x = random.sign() * random.tiny(20) * (random.chance(0.3) ? 0x1p30 : 1);
+  }
+  for (auto& p : moved.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) p[i] = p[i] * scale + shift[i];
+  }
+  if (certified_valid(moved)) surface = std::move(moved);
+}
+
+Surface mutate(Surface surface, Random& random) {
+  if (random.chance(0.08)) return fresh(random);
+  if (random.chance(0.05)) move_everything(surface, random);
+  if (random.chance(0.05)) combine(surface, fresh(random), random);
+  for (int changes = random.integer(1, 4), attempt = 0; changes > 0 && attempt < 16; ++attempt) {
+    if (edit(surface, random, kBits)) --changes;
+  }
+#ifdef TETPROOF_FUZZ_INVALID
+  if (random.chance(0.5)) {
+    const auto twins = make_twins(surface, random);
+    if (!twins.empty()) return twins[random.below(twins.size())].surface;
+  }
+#endif
+  return surface;
+}
+
+}  // namespace
+}  // namespace tetproof::fuzz
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t max_size, unsigned int seed) {
+  using namespace tetproof::fuzz;
+  tetproof::Random random(seed);
+  auto surface = parse(data, size);
+  if (!surface || !tetproof::certified_valid(*surface)) surface = fresh(random);
+  if (surface->triangles.empty()) return size;
+  return store(mutate(std::move(*surface), random), data, size, max_size);
+}
+
+extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std::size_t size1,
+                                                 const std::uint8_t* data2, std::size_t size2,
+                                                 std::uint8_t* out, std::size_t max_out,
+                                                 unsigned int seed) {
+  using namespace tetproof::fuzz;
+  tetproof::Random random(seed);
+  auto first = parse(data1, size1);
+  const auto second = parse(data2, size2);
+  if (!first || !second || !tetproof::certified_valid(*first) ||
+      !tetproof::certified_valid(*second)) {
+    return 0;
+  }
+  return tetproof::combine(*first, *second, random) ? store(*first, out, 0, max_out) : 0;
+}

@@ -1,0 +1,7 @@
+// Chamfering leaves no acute angle, at 60 and at 90 degrees.
+#include "fuzz/properties.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace tetproof::fuzz;
+  return on_valid_surface(data, size, chamfer_holds);
+}

@@ -1,0 +1,7 @@
+// Facets and the local feature size agree with the oracles and with all pairs.
+#include "fuzz/properties.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace tetproof::fuzz;
+  return on_valid_surface(data, size, features_agree);
+}
