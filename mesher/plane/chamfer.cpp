@@ -1,0 +1,327 @@
+#include "mesher/plane/chamfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesher/base/check.h"
+#include "mesher/predicates/placement.h"
+#include "mesher/predicates/predicates.h"
+
+namespace delmesher::plane {
+namespace {
+
+using Point = std::array<double, 2>;
+
+double distance(const Point& a, const Point& b) {
+  const double x = b[0] - a[0], y = b[1] - a[1];
+  return std::sqrt(x * x + y * y);
+}
+
+struct Line {
+  Point a, b;
+  double length() const { return distance(a, b); }
+  Point at(double t) const { return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])}; }
+  // Parameter of the point nearest to p.
+  double nearest(const Point& p) const {
+    const double x = b[0] - a[0], y = b[1] - a[1];
+    const double square = x * x + y * y;
+    if (!(square > 0)) return 0;
+    return std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0);
+  }
+  double distance_to(const Point& p) const { return distance(at(nearest(p)), p); }
+};
+
+class Chamferer {
+ public:
+  Chamferer(const InputGraph& graph, PointStore& points, PlanePredicates& predicates,
+            const ChamferOptions& options, Spared& spared, Control& control)
+      : graph_(graph),
+        base_(graph.base),
+        points_(points),
+        predicates_(predicates),
+        spatial_(points),
+        options_(options),
+        spared_(spared),
+        control_(control),
+        seen_(base_.size(), 0) {}
+
+  Chamfered run() {
+    constexpr std::uint64_t kRounds = 50;
+    spared_.piece.resize(graph_.pieces.size(), 0);
+    spared_.vertex.resize(graph_.vertices, 0);
+    do {
+      ++result_.rounds;
+      find_corners();
+    } while (options_.tau > 0 && result_.rounds < kRounds && drop_narrow());
+    cut();
+    return std::move(result_);
+  }
+
+ private:
+  bool kept(PieceId p) const { return p != kNone && spared_.piece[p] == 0; }
+
+  Point point(VertexId v) const {
+    const Approximation& a = points_.approximation(v);
+    return {a.x, a.y};
+  }
+
+  void find_corners() {
+    radius_.assign(graph_.vertices, -1);
+    for (VertexId v = 0; v < graph_.vertices; ++v) {
+      control_.poll(points_.size());
+      if (spared_.vertex[v] != 0 || !acute(v)) continue;
+      const auto found = feature_size_.find(v);
+      double r = found != feature_size_.end()
+                     ? found->second
+                     : feature_size_.emplace(v, feature_size(v)).first->second;
+      r /= 3;
+      if (options_.max_radius > 0) r = std::min(r, options_.max_radius);
+      radius_[v] = r;
+    }
+  }
+
+  // Do two neighbouring segments form a sharp corner on a side that will be refined?
+  bool acute(VertexId v) {
+    base_.star(v, star_);
+    spokes_.clear();
+    for (const EdgeId e : star_) {
+      const EdgeId spoke = edge_of(triangle_of(e), previous(index_of(e)));  // from v to origin(e)
+      const bool inside = options_.everywhere || graph_.inside[triangle_of(e)] != 0;
+      if (kept(base_.piece(spoke))) {
+        spokes_.push_back({base_.origin(e), inside});
+      } else if (!spokes_.empty()) {
+        spokes_.back().inside = spokes_.back().inside || inside;
+      } else {
+        before_first_ = before_first_ || inside;
+      }
+    }
+    if (!spokes_.empty()) spokes_.back().inside = spokes_.back().inside || before_first_;
+    before_first_ = false;
+    if (spokes_.size() < 2) return false;
+    for (std::size_t k = 0; k < spokes_.size(); ++k) {
+      const VertexId u = spokes_[k].to, w = spokes_[(k + 1) % spokes_.size()].to;
+      if (spokes_[k].inside && angle_below(u, v, w)) return true;
+    }
+    return false;
+  }
+
+  // Is the angle from vu counter-clockwise to vw below the threshold?
+  bool angle_below(VertexId u, VertexId v, VertexId w) {
+    if (predicates_.dot(u, v, w) <= 0 || predicates_.orient(v, u, w) <= 0) return false;
+    const Point a = point(u), b = point(v), c = point(w);
+    const double ux = a[0] - b[0], uy = a[1] - b[1], wx = c[0] - b[0], wy = c[1] - b[1];
+    const double dot = ux * wx + uy * wy;
+    const double excess =
+        dot * dot - options_.cosine_squared * (ux * ux + uy * uy) * (wx * wx + wy * wy);
+    if (std::fabs(excess) > dot * dot * 0x1p-40) return excess > 0;
+    return spatial_.angle_below(u, v, w, options_.cosine_squared);
+  }
+
+  // Distance from v to the nearest vertex or segment that it is not an end of. What is nearest can
+  // be seen from v: a walk through the triangles around that does not pass segments.
+  double feature_size(VertexId v) {
+    const Point p = point(v);
+    double best = HUGE_VAL;
+    const auto meet = [&](VertexId u) {
+      if (!graph_.is_box_corner(u)) best = std::min(best, distance(p, point(u)));
+    };
+    ++epoch_;
+    base_.star(v, star_);
+    for (const EdgeId e : star_) {
+      meet(base_.origin(e));
+      seen_[triangle_of(e)] = epoch_;
+    }
+    std::vector<EdgeId>& stack = star_;
+    while (!stack.empty()) {
+      const EdgeId e = stack.back();
+      stack.pop_back();
+      const double d = Line{point(base_.origin(e)), point(base_.target(e))}.distance_to(p);
+      if (base_.piece(e) != kNone) {
+        if (base_.piece(e) >= kBoxPieces) best = std::min(best, d);
+        continue;
+      }
+      const EdgeId f = base_.twin(e);
+      if (!(d < best) || seen_[triangle_of(f)] == epoch_) continue;
+      seen_[triangle_of(f)] = epoch_;
+      meet(base_.apex(f));
+      stack.push_back(edge_of(triangle_of(f), next(index_of(f))));
+      stack.push_back(edge_of(triangle_of(f), previous(index_of(f))));
+    }
+    return best;
+  }
+
+  // A piece without what is cut off.
+  Line middle(PieceId id) const {
+    const Piece& piece = graph_.pieces[id];
+    const Line whole{point(piece.a), point(piece.b)};
+    const double length = whole.length();
+    const auto cut_at = [&](VertexId v) {
+      return v < graph_.vertices && radius_[v] > 0 && length > 0 ? radius_[v] / length : 0.0;
+    };
+    return {whole.at(cut_at(piece.a)), whole.at(1 - cut_at(piece.b))};
+  }
+
+  bool share_vertex(const Piece& p, const Piece& q) const {
+    for (const VertexId v : {p.a, p.b}) {
+      if ((v == q.a || v == q.b) && !(v < graph_.vertices && radius_[v] > 0)) return true;
+    }
+    return false;
+  }
+
+  // Length of the narrow part of the channel between two pieces over its width, the narrow part
+  // being where it is at most four times as wide as at its narrowest.
+  double narrowness(PieceId p, PieceId q) const {
+    Line s = middle(p), t = middle(q);
+    if (s.length() > t.length()) std::swap(s, t);
+    const double x0 = t.nearest(s.a), x1 = t.nearest(s.b);
+    double best = 0, width = HUGE_VAL;
+    const auto consider = [&](double x) {
+      const double d = t.distance_to(s.at(x));
+      if (d < width) {
+        width = d;
+        best = x;
+      }
+    };
+    for (const double x :
+         {0.0, 1.0, s.nearest(t.at(x0)), s.nearest(t.at(x1)), s.nearest(t.a), s.nearest(t.b)}) {
+      consider(x);
+    }
+    const double far =
+        std::max({std::fabs(s.a[0]), std::fabs(s.a[1]), std::fabs(t.a[0]), std::fabs(t.a[1])});
+    if (!(width > kFloor * far)) return HUGE_VAL;
+    const double length = s.length();
+    if (length * options_.tau <= width) return length / width;  // not narrow, whatever it is
+    // The distance from a line to a convex set is convex along the line: bisection.
+    const auto end = [&](double x) {
+      if (t.distance_to(s.at(x)) <= 4 * width) return x;
+      double near = best, away = x;
+      for (int k = 0; k < 40; ++k) {
+        const double half = (near + away) / 2;
+        (t.distance_to(s.at(half)) <= 4 * width ? near : away) = half;
+      }
+      return near;
+    };
+    return (end(1) - end(0)) * length / width;
+  }
+
+  // Drops one of the two pieces along every channel that is too narrow, the narrowest first; false
+  // if there was none. The two sides of a channel are edges of neighbouring triangles.
+  bool drop_narrow() {
+    struct Pair {
+      double narrowness;
+      PieceId p, q;
+    };
+    std::vector<Pair> pairs;
+    const auto consider = [&](PieceId p, PieceId q) {
+      if (p < kBoxPieces || q < kBoxPieces || p == q || !kept(p) || !kept(q)) return;
+      if (share_vertex(graph_.pieces[p], graph_.pieces[q])) return;
+      const double n = narrowness(p, q);
+      if (n * options_.tau > 1) pairs.push_back({n, std::min(p, q), std::max(p, q)});
+    };
+    for (TriangleId t = 0; t < base_.size(); ++t) {
+      control_.poll(points_.size());
+      const auto& own = base_[t].piece;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const EdgeId f = base_[t].neighbor[i];
+        if (own[i] != kNone) {
+          for (std::size_t j = 0; j < i; ++j) {
+            if (own[j] != kNone) consider(own[i], own[j]);
+          }
+        } else if (triangle_of(f) > t) {
+          for (const PieceId p : own) {
+            for (const PieceId q : base_[triangle_of(f)].piece) {
+              if (p != kNone && q != kNone) consider(p, q);
+            }
+          }
+        }
+      }
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+      return a.narrowness != b.narrowness ? a.narrowness > b.narrowness
+             : a.p != b.p                 ? a.p < b.p
+                                          : a.q < b.q;
+    });
+    for (const Pair& pair : pairs) {
+      if (!kept(pair.p) || !kept(pair.q)) continue;
+      const auto length = [&](PieceId p) {
+        return distance(point(graph_.pieces[p].a), point(graph_.pieces[p].b));
+      };
+      spared_.piece[length(pair.p) > length(pair.q) ? pair.p : pair.q] = 1;
+      ++spared_.count;
+    }
+    return !pairs.empty();
+  }
+
+  void cut() {
+    std::vector<std::uint8_t> attached(graph_.vertices, 0);  // 1: has pieces, 2: has kept ones
+    result_.ends.assign(graph_.pieces.size(), {kNone, kNone});
+    for (PieceId id = 0; id < graph_.pieces.size(); ++id) {
+      const Piece& piece = graph_.pieces[id];
+      if (id >= kBoxPieces) {
+        for (const VertexId v : {piece.a, piece.b}) {
+          attached[v] |= kept(id) ? 3 : 1;
+        }
+      }
+      if (!kept(id)) {
+        result_.gaps.push_back({piece.a, piece.b, id});
+        continue;
+      }
+      result_.ends[id] = {cut_point(id, piece.a), cut_point(id, piece.b)};
+      result_.cut_pieces += result_.ends[id][0] != piece.a || result_.ends[id][1] != piece.b;
+    }
+    result_.vertex_kept.assign(graph_.vertices, 0);
+    for (VertexId v = 0; v < graph_.vertices; ++v) {
+      const bool alone = attached[v] == 1;  // all its pieces are dropped
+      if (radius_[v] > 0) {
+        result_.corners.push_back({v, radius_[v]});
+      } else {
+        result_.vertex_kept[v] = !alone && spared_.vertex[v] == 0;
+      }
+    }
+  }
+
+  // The end of a piece at its vertex v: v, or a new point beside it.
+  VertexId cut_point(PieceId id, VertexId v) {
+    if (v >= graph_.vertices || !(radius_[v] > 0)) return v;
+    const Piece& piece = graph_.pieces[id];
+    const Point p = point(v), q = point(v == piece.a ? piece.b : piece.a);
+    const double t = radius_[v] / distance(p, q);
+    const Vec3 target = {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), 0};
+    const VertexId c =
+        points_.add(place_on_segment(points_, piece.a, piece.b, target, radius_[v] * 0x1p-20));
+    result_.gaps.push_back({v, c, id});
+    return c;
+  }
+
+  struct Spoke {
+    VertexId to;
+    bool inside;  // something between it and the next one is
+  };
+
+  const InputGraph& graph_;
+  const Triangulation& base_;
+  PointStore& points_;
+  PlanePredicates& predicates_;
+  Predicates spatial_;
+  const ChamferOptions& options_;
+  Spared& spared_;
+  Control& control_;
+  Chamfered result_;
+  std::vector<double> radius_;  // per input vertex; negative: not acute
+  std::map<VertexId, double> feature_size_;
+  std::vector<EdgeId> star_;
+  std::vector<Spoke> spokes_;
+  bool before_first_ = false;
+  std::vector<std::uint32_t> seen_;  // per triangle: epoch of the last visit
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace
+
+Chamfered chamfer(const InputGraph& graph, PointStore& points, PlanePredicates& predicates,
+                  const ChamferOptions& options, Spared& spared, Control& control) {
+  return Chamferer(graph, points, predicates, options, spared, control).run();
+}
+
+}  // namespace delmesher::plane

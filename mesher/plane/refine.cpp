@@ -1,0 +1,385 @@
+#include "mesher/plane/refine.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "mesher/base/check.h"
+#include "mesher/plane/shape.h"
+#include "mesher/predicates/placement.h"
+
+namespace delmesher::plane {
+namespace {
+
+// Worst first, in the order of arrival among equally bad ones: buckets by the leading bits of the
+// squared sine of the smallest angle.
+class BadTriangles {
+ public:
+  struct Entry {
+    TriangleId triangle;
+    std::array<VertexId, 3> vertex;  // as it was: it may be gone by the time of its turn
+  };
+  static constexpr std::size_t kBuckets = 256;
+
+  void push(double badness, const Entry& entry) {
+    const std::size_t b = bucket(badness);
+    queue_[b].entries.push_back(entry);
+    lowest_ = std::min(lowest_, b);
+  }
+  bool pop(Entry& entry) {
+    for (; lowest_ < kBuckets; ++lowest_) {
+      Queue& q = queue_[lowest_];
+      if (q.head == q.entries.size()) {
+        q.entries.clear();
+        q.head = 0;
+        continue;
+      }
+      entry = q.entries[q.head++];
+      if (q.head >= 1024 && 2 * q.head > q.entries.size()) {
+        q.entries.erase(q.entries.begin(), q.entries.begin() + static_cast<std::ptrdiff_t>(q.head));
+        q.head = 0;
+      }
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  struct Queue {
+    std::vector<Entry> entries;
+    std::size_t head = 0;
+  };
+  // Monotone in `badness`; four buckets for each factor of two below 1, the last for all above.
+  static std::size_t bucket(double badness) {
+    const auto bits = std::bit_cast<std::uint64_t>(std::max(badness, 0.0)) >> 50;
+    constexpr std::uint64_t kTop = std::uint64_t{1023} << 2;  // of 1.0
+    const std::uint64_t below = bits >= kTop ? 0 : kTop - bits;
+    return below >= kBuckets ? 0 : kBuckets - 1 - static_cast<std::size_t>(below);
+  }
+
+  std::array<Queue, kBuckets> queue_;
+  std::size_t lowest_ = kBuckets;
+};
+
+class Refiner {
+ public:
+  Refiner(InputGraph& graph, const Chamfered& chamfered, PointStore& points,
+          PlanePredicates& predicates, const RefineOptions& options, Control& control)
+      : graph_(graph),
+        chamfered_(chamfered),
+        points_(points),
+        predicates_(predicates),
+        options_(options),
+        control_(control),
+        result_{.mesh = Triangulation(predicates),
+                .side = {},
+                .carrier = {},
+                .crowded_pieces = {},
+                .crowded_vertices = {}},
+        mesh_(result_.mesh),
+        sides_(graph, result_.mesh, points, predicates, chamfered.gaps) {}
+
+  RefinedMesh run() {
+    control_.enter(Phase::delaunay);
+    build();
+    control_.enter(Phase::segments);
+    sides_.start();
+    queue_all_segments();
+    split_segments();
+    control_.enter(Phase::refine);
+    result_.delta = std::min(options_.delta, kProvenDelta);
+    refine_to(result_.delta, 0);
+    if (options_.delta > kProvenDelta) try_for(options_.delta);
+    sides_.settle();
+    result_.side.resize(mesh_.size());
+    for (TriangleId t = 0; t < mesh_.size(); ++t) result_.side[t] = sides_.of(t);
+    carry(static_cast<VertexId>(points_.size() - 1), kNone);
+    return std::move(result_);
+  }
+
+ private:
+  bool counts(TriangleId t) const { return options_.everywhere || sides_.of(t) != Side::outside; }
+
+  void carry(VertexId v, PieceId piece) {
+    if (v >= result_.carrier.size()) result_.carrier.resize(std::size_t{v} + 1, kNone);
+    result_.carrier[v] = piece;
+  }
+
+  // The chamfered graph, triangulated.
+  void build() {
+    const bool unchanged =
+        chamfered_.gaps.empty() &&
+        std::count(chamfered_.vertex_kept.begin(), chamfered_.vertex_kept.end(), 0) == 0;
+    carry(static_cast<VertexId>(points_.size() - 1), kNone);
+    if (unchanged) {
+      mesh_ = graph_.base;
+      return;
+    }
+    std::vector<VertexId> order;
+    for (VertexId v = 0; v < graph_.vertices; ++v) {
+      if (chamfered_.vertex_kept[v] != 0) order.push_back(v);
+    }
+    for (PieceId id = kBoxPieces; id < graph_.pieces.size(); ++id) {
+      for (const VertexId v : chamfered_.ends[id]) {
+        if (v == kNone || v < graph_.vertices) continue;
+        order.push_back(v);
+        carry(v, id);
+      }
+    }
+    mesh_.reserve(2 * points_.size());
+    const VertexId c = graph_.vertices;
+    mesh_.start({c, c + 1, c + 2, c + 3}, {0, 1, 2, 3});
+    sort_for_insertion(points_, order);
+    TriangleId hint = 0;
+    for (const VertexId v : order) {
+      control_.poll(points_.size());
+      DELMESHER_CHECK(mesh_.insert(v, hint) == v, "chamfering made vertices coincide");
+      hint = mesh_.around(v);
+    }
+    std::vector<VertexId> chain;
+    for (PieceId id = kBoxPieces; id < graph_.pieces.size(); ++id) {
+      const auto [a, b] = chamfered_.ends[id];
+      if (a == kNone) continue;
+      control_.poll(points_.size());
+      const auto obstacle = mesh_.insert_segment(a, b, id, chain);
+      DELMESHER_CHECK(obstacle.kind == Triangulation::Obstacle::Kind::none && chain.size() == 2,
+                      "chamfered segments meet");
+    }
+  }
+
+  // ---------------------------------------------------------------- segments
+
+  struct Subsegment {
+    VertexId a, b;
+  };
+
+  bool encroached(EdgeId e) {
+    const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+    for (const EdgeId f : {e, mesh_.twin(e)}) {
+      if (f == kNone || !counts(triangle_of(f))) continue;
+      if (predicates_.dot(a, mesh_.apex(f), b) < 0) return true;
+    }
+    return false;
+  }
+
+  void queue_all_segments() {
+    for (TriangleId t = 0; t < mesh_.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const EdgeId e = edge_of(t, i), f = mesh_.twin(e);
+        if (mesh_.piece(e) == kNone || (f != kNone && f < e)) continue;
+        if (encroached(e)) segments_.push_back({mesh_.origin(e), mesh_.target(e)});
+      }
+    }
+  }
+
+  void split_segments() {
+    for (; segment_head_ < segments_.size(); ++segment_head_) {
+      const Subsegment s = segments_[segment_head_];
+      const EdgeId e = mesh_.find_edge(s.a, s.b);
+      if (e != kNone && mesh_.piece(e) != kNone && encroached(e)) split_segment(e);
+    }
+    segments_.clear();
+    segment_head_ = 0;
+  }
+
+  // False if there is no room for a point between the ends.
+  bool split_segment(EdgeId e) {
+    const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+    const PieceId id = mesh_.piece(e);
+    const Approximation& pa = points_.approximation(a);
+    const Approximation& pb = points_.approximation(b);
+    const double dx = pb.x - pa.x, dy = pb.y - pa.y;
+    const double length = std::sqrt(dx * dx + dy * dy);
+    if (!(length > 2 * kFloor * std::max(magnitude(points_, a), magnitude(points_, b)))) {
+      crowd(a, b);
+      return false;
+    }
+    const Vec3 middle = {pa.x + dx / 2, pa.y + dy / 2, 0};
+    VertexId p;
+    if (id < kBoxPieces) {
+      p = points_.add_explicit(middle[0], middle[1], 0);  // on the side: one coordinate is constant
+    } else {
+      const Piece& piece = graph_.pieces[id];
+      p = points_.add(place_on_segment(points_, piece.a, piece.b, middle, length * 0x1p-21));
+      if (!(predicates_.dot(a, p, b) < 0)) {
+        points_.pop_back();
+        crowd(a, b);
+        return false;
+      }
+      carry(p, id);
+    }
+    ++result_.on_segments;
+    mesh_.find_cavity(p, triangle_of(e), e);
+    fill(p);
+    for (std::size_t k = 0; k < mesh_.created().size(); ++k) {
+      const TriangleId t = mesh_.created()[k];
+      for (int i = 0; i < 3; ++i) {
+        const EdgeId f = edge_of(t, i);
+        if (mesh_.piece(f) == kNone || !counts(t)) continue;
+        const VertexId u = mesh_.origin(f), w = mesh_.target(f);
+        if (predicates_.dot(u, mesh_.apex(f), w) < 0) segments_.push_back({u, w});
+      }
+    }
+    return true;
+  }
+
+  void fill(VertexId p) {
+    sides_.before_fill();
+    mesh_.fill_cavity(p);
+    sides_.after_fill();
+    if (refining_) {
+      for (const TriangleId t : mesh_.created()) judge(t);
+    }
+    control_.poll(points_.size());
+  }
+
+  // ---------------------------------------------------------------- triangles
+
+  void judge(TriangleId t) {
+    if (!counts(t)) return;
+    const auto& v = mesh_[t].vertex;
+    const Shape shape = shape_of(points_, v[0], v[1], v[2]);
+    if (shape.sine_squared < sine_squared_) {
+      bad_.push(shape.sine_squared, {t, v});
+    } else if (shape.longest_squared > max_edge_squared_) {
+      bad_.push(1, {t, v});
+    }
+  }
+
+  // Until every triangle keeps the bound, or (if `most` is not 0) so many points are in.
+  bool refine_to(double degrees, std::uint64_t most) {
+    // The computed squared sine is off by less than 1e-14 of itself; doubles as written may be off
+    // more.
+    sine_squared_ = (1 - cosine_squared(degrees)) * (1 + 1e-9);
+    max_edge_squared_ = options_.max_edge > 0 ? options_.max_edge * options_.max_edge : HUGE_VAL;
+    const double cosine = std::sqrt(cosine_squared(degrees));
+    // Half the cotangent of half the angle, less five percent so that rounding makes no new one.
+    off_centre_ = 0.475 * std::sqrt((1 + cosine) / (1 - cosine));
+    refining_ = true;
+    for (TriangleId t = 0; t < mesh_.size(); ++t) judge(t);
+    const std::size_t limit = points_.size() + most;
+    BadTriangles::Entry entry;
+    while (bad_.pop(entry)) {
+      if (mesh_[entry.triangle].vertex != entry.vertex) continue;
+      if (most > 0 && points_.size() > limit) {
+        bad_ = {};
+        return false;
+      }
+      split_triangle(entry.triangle);
+      split_segments();
+    }
+    return true;
+  }
+
+  // Beyond what is proven: within a multiple of what the proven bound took.
+  void try_for(double degrees) {
+    result_.delta = degrees;
+    if (result_.crowded) return;
+    const std::uint64_t most = 8 * points_.size() + 1000;
+    if (refine_to(degrees, most) && !result_.crowded) return;
+    result_.crowded = false;  // not what was asked to be certain
+    result_.crowded_pieces.clear();
+    result_.crowded_vertices.clear();
+    result_.delta = kProvenDelta;
+    refine_to(kProvenDelta, 0);
+  }
+
+  void split_triangle(TriangleId t) {
+    const std::array<VertexId, 3> v = mesh_[t].vertex;
+    const Shape shape = shape_of(points_, v[0], v[1], v[2]);
+    double least = 0;
+    for (const VertexId u : v) least = std::max(least, magnitude(points_, u));
+    if (!(shape.shortest_squared > least * kFloor * (least * kFloor))) return crowd(t);
+    const double reach = shape.sine_squared < sine_squared_
+                             ? std::min(shape.circumcentre, off_centre_)
+                             : shape.circumcentre;
+    const Vec3 place = shape.place(points_, v, reach);
+    if (!std::isfinite(place[0]) || !std::isfinite(place[1])) return crowd(t);
+    const VertexId p = points_.add_explicit(place[0], place[1], 0);
+    const Triangulation::Sight sight = mesh_.look(p, t);
+    EdgeId blocked = sight.blocked;
+    if (blocked == kNone) {
+      for (int i = 0; i < 3; ++i) {
+        const EdgeId e = edge_of(sight.location.triangle, i);
+        if ((sight.location.zeros >> i & 1) != 0 && mesh_.piece(e) != kNone) blocked = e;
+      }
+    }
+    encroached_.clear();
+    if (blocked != kNone) {
+      encroached_.push_back({mesh_.origin(blocked), mesh_.target(blocked)});
+    } else {
+      mesh_.find_cavity(p, sight.location.triangle, kNone);
+      for (const auto& edge : mesh_.boundary()) {
+        if (edge.piece != kNone && counts(edge.inner) &&
+            predicates_.dot(edge.from, p, edge.to) < 0) {
+          encroached_.push_back({edge.from, edge.to});
+        }
+      }
+    }
+    if (encroached_.empty()) {
+      const auto& cavity = mesh_.cavity();
+      if (std::popcount(sight.location.zeros) < 2 &&
+          std::find(cavity.begin(), cavity.end(), t) != cavity.end()) {
+        ++result_.in_faces;
+        return fill(p);
+      }
+      points_.pop_back();
+      return crowd(t);
+    }
+    points_.pop_back();
+    bool progress = false;
+    for (const Subsegment& s : encroached_) {
+      const EdgeId e = mesh_.find_edge(s.a, s.b);
+      if (e == kNone || split_segment(e)) progress = true;
+    }
+    if (mesh_[t].vertex != v) return;
+    if (progress) {
+      judge(t);
+    } else {
+      crowd(t);
+    }
+  }
+
+  // ---------------------------------------------------------------- no room
+
+  void crowd(TriangleId t) {
+    for (const VertexId v : mesh_[t].vertex) crowd_at(v);
+  }
+  void crowd(VertexId a, VertexId b) {
+    crowd_at(a);
+    crowd_at(b);
+  }
+  void crowd_at(VertexId v) {
+    result_.crowded = true;
+    if (v < graph_.vertices) {
+      result_.crowded_vertices.push_back(v);
+    } else if (v < result_.carrier.size() && result_.carrier[v] != kNone) {
+      result_.crowded_pieces.push_back(result_.carrier[v]);
+    }
+  }
+
+  InputGraph& graph_;
+  const Chamfered& chamfered_;
+  PointStore& points_;
+  PlanePredicates& predicates_;
+  const RefineOptions& options_;
+  Control& control_;
+  RefinedMesh result_;
+  Triangulation& mesh_;
+  Sides sides_;
+  std::vector<Subsegment> segments_, encroached_;
+  std::size_t segment_head_ = 0;
+  BadTriangles bad_;
+  bool refining_ = false;
+  double sine_squared_ = 0, max_edge_squared_ = 0, off_centre_ = 0;
+};
+
+}  // namespace
+
+RefinedMesh refine(InputGraph& graph, const Chamfered& chamfered, PointStore& points,
+                   PlanePredicates& predicates, const RefineOptions& options, Control& control) {
+  return Refiner(graph, chamfered, points, predicates, options, control).run();
+}
+
+}  // namespace delmesher::plane

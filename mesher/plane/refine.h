@@ -1,0 +1,40 @@
+// Ruppert's Delaunay refinement of the chamfered graph, with off-centres (Ruppert 1995; Uengoer
+// 2004; Shewchuk 2002 for corners of 60 degrees and more).
+#pragma once
+
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/plane/chamfer.h"
+#include "mesher/plane/sides.h"
+
+namespace delmesher::plane {
+
+// Proven to end up to here.
+inline constexpr double kProvenDelta = 20.7;
+
+struct RefineOptions {
+  double delta = kProvenDelta;
+  double max_edge = 0;      // in the units of the store; 0: no bound
+  bool everywhere = false;  // triangles outside count as well
+};
+
+struct RefinedMesh {
+  Triangulation mesh;
+  std::vector<Side> side;        // per triangle
+  std::vector<PieceId> carrier;  // per vertex id: the piece of an on-segment point, or kNone
+  std::uint64_t on_segments = 0, in_faces = 0;
+  double delta = 0;  // that is kept: less than asked for if that did not end
+  // Where no room was left between doubles: what to spare the refinement, and try again. If they
+  // are empty, every triangle in the region keeps the bound.
+  std::vector<PieceId> crowded_pieces;
+  std::vector<VertexId> crowded_vertices;
+  bool crowded = false;
+};
+
+// Adds points to the store. Segments end at the outer box; no two kept segments may form a corner
+// below 60 degrees on a side that is refined.
+RefinedMesh refine(InputGraph& graph, const Chamfered& chamfered, PointStore& points,
+                   PlanePredicates& predicates, const RefineOptions& options, Control& control);
+
+}  // namespace delmesher::plane

@@ -1,0 +1,227 @@
+#include "mesher/plane/sides.h"
+
+#include <algorithm>
+
+#include "mesher/base/check.h"
+
+namespace delmesher::plane {
+namespace {
+
+constexpr std::uint8_t kOutside = static_cast<std::uint8_t>(Side::outside);
+constexpr std::uint8_t kInside = static_cast<std::uint8_t>(Side::inside);
+constexpr std::uint8_t kMixed = static_cast<std::uint8_t>(Side::mixed);
+constexpr std::uint8_t kUnknown = 3;
+
+}  // namespace
+
+// The separating axis of two convex sets in the plane is normal to an edge of one of them.
+Sides::Contact Sides::contact(TriangleId t, const Gap& gap) {
+  const auto& v = mesh_[t].vertex;
+  int sign[3], zeros = 0, sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sign[i] = predicates_.orient(gap.a, gap.b, v[i]);
+    zeros += sign[i] == 0;
+    sum += sign[i];
+  }
+  if (sum == 3 || sum == -3) return Contact::none;
+  if (zeros == 2) {  // an edge on the line of the gap
+    const std::size_t i = sign[0] != 0 ? 0 : sign[1] != 0 ? 1 : 2;
+    const VertexId u = v[(i + 1) % 3], w = v[(i + 2) % 3];
+    if ((u == gap.a && w == gap.b) || (u == gap.b && w == gap.a)) return Contact::proper;
+    const int between[] = {predicates_.dot(gap.a, u, gap.b), predicates_.dot(gap.a, w, gap.b),
+                           predicates_.dot(u, gap.a, w), predicates_.dot(u, gap.b, w)};
+    const int least = *std::min_element(std::begin(between), std::end(between));
+    return least < 0 ? Contact::proper : least == 0 ? Contact::point : Contact::none;
+  }
+  if (zeros == 1 && (sum == 2 || sum == -2)) {  // a corner on the line
+    const std::size_t i = sign[0] == 0 ? 0 : sign[1] == 0 ? 1 : 2;
+    return predicates_.dot(gap.a, v[i], gap.b) <= 0 ? Contact::point : Contact::none;
+  }
+  Contact result = Contact::proper;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int a = predicates_.orient(v[i], v[(i + 1) % 3], gap.a);
+    const int b = predicates_.orient(v[i], v[(i + 1) % 3], gap.b);
+    if (a < 0 && b < 0) return Contact::none;
+    if (a <= 0 && b <= 0) result = Contact::point;
+  }
+  return result;
+}
+
+// Finds the triangles that a gap runs through, from one of its ends.
+void Sides::trace(std::uint32_t gap) {
+  const Gap& g = gaps_[gap];
+  const TriangleId hint = mesh_.has_vertex(g.b) ? mesh_.around(g.b) : mesh_.around(graph_.vertices);
+  std::vector<TriangleId> found = {mesh_.locate(g.a, hint).triangle};
+  seen_[found[0]] = gap + 1;
+  for (std::size_t k = 0; k < found.size(); ++k) {  // grows
+    const TriangleId t = found[k];
+    const Contact c = contact(t, g);
+    if (c == Contact::none) continue;
+    if (c == Contact::proper) {
+      if (list_of_[t] == kNone) {
+        list_of_[t] = static_cast<std::uint32_t>(lists_.size());
+        lists_.emplace_back();
+      }
+      lists_[list_of_[t]].push_back(gap);
+      side_[t] = kMixed;
+    }
+    for (const EdgeId f : mesh_[t].neighbor) {
+      if (f == kNone) continue;
+      if (seen_[triangle_of(f)] == gap + 1) continue;
+      seen_[triangle_of(f)] = gap + 1;
+      found.push_back(triangle_of(f));
+    }
+  }
+}
+
+// The side of the triangle of e, which lies along a piece.
+Side Sides::beside(EdgeId e) {
+  const Piece& piece = graph_.pieces[mesh_.piece(e)];
+  const bool along =
+      spatial_.dot_difference_sign(mesh_.origin(e), mesh_.target(e), piece.a, piece.b) > 0;
+  return (along ? piece.inside_left : piece.inside_right) ? Side::inside : Side::outside;
+}
+
+// By location of a point inside it, where no neighbour tells.
+Side Sides::resolve(TriangleId t, VertexId near) {
+  const auto& v = mesh_[t].vertex;
+  double x = 0, y = 0;
+  for (const VertexId corner : v) {
+    x += points_.approximation(corner).x / 3;
+    y += points_.approximation(corner).y / 3;
+  }
+  const VertexId p = points_.add_explicit(x, y, 0);
+  Side side = Side::mixed;
+  if (predicates_.orient(v[0], v[1], p) > 0 && predicates_.orient(v[1], v[2], p) > 0 &&
+      predicates_.orient(v[2], v[0], p) > 0) {
+    const Location at = graph_.base.locate(p, graph_.base.around(near));
+    side = graph_.inside[at.triangle] != 0 ? Side::inside : Side::outside;
+  }
+  points_.pop_back();
+  return side;
+}
+
+void Sides::start() {
+  side_.assign(mesh_.size(), kUnknown);
+  if (!gaps_.empty()) {
+    list_of_.assign(mesh_.size(), kNone);
+    seen_.assign(mesh_.size(), 0);
+    for (std::uint32_t g = 0; g < gaps_.size(); ++g) trace(g);
+    seen_ = {};
+  }
+  flood();
+}
+
+void Sides::spread(TriangleId t, std::vector<TriangleId>& stack) {
+  stack.push_back(t);
+  while (!stack.empty()) {
+    const TriangleId u = stack.back();
+    stack.pop_back();
+    for (int i = 0; i < 3; ++i) {
+      const EdgeId e = edge_of(u, i), f = mesh_.twin(e);
+      if (f == kNone || mesh_.piece(e) != kNone || side_[triangle_of(f)] != kUnknown) continue;
+      side_[triangle_of(f)] = side_[u];
+      stack.push_back(triangle_of(f));
+    }
+  }
+}
+
+void Sides::flood() {
+  std::vector<TriangleId> stack;
+  for (TriangleId t = 0; t < mesh_.size(); ++t) {
+    for (int i = 0; i < 3 && side_[t] == kUnknown; ++i) {
+      const EdgeId e = edge_of(t, i);
+      if (mesh_.piece(e) == kNone) continue;
+      side_[t] = static_cast<std::uint8_t>(beside(e));
+      spread(t, stack);
+    }
+  }
+  for (TriangleId t = 0; t < mesh_.size(); ++t) {
+    if (side_[t] != kUnknown) continue;
+    VertexId near = graph_.vertices;
+    for (const VertexId v : mesh_[t].vertex) {
+      if (v < graph_.vertices) near = v;
+    }
+    side_[t] = static_cast<std::uint8_t>(resolve(t, near));
+    if (side_[t] != kMixed) spread(t, stack);
+  }
+}
+
+void Sides::before_fill() {
+  old_sides_.clear();
+  for (const auto& edge : mesh_.boundary()) old_sides_.push_back(side_[edge.inner]);
+  any_mixed_ = false;
+  candidates_.clear();
+  for (const TriangleId t : mesh_.cavity()) {
+    if (side_[t] != kMixed) continue;
+    any_mixed_ = true;
+    if (list_of_.empty() || list_of_[t] == kNone) continue;
+    std::vector<std::uint32_t>& list = lists_[list_of_[t]];
+    candidates_.insert(candidates_.end(), list.begin(), list.end());
+    list.clear();
+    free_lists_.push_back(list_of_[t]);
+    list_of_[t] = kNone;
+  }
+  std::sort(candidates_.begin(), candidates_.end());
+  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+}
+
+void Sides::after_fill() {
+  const auto& created = mesh_.created();
+  side_.resize(mesh_.size());
+  if (!gaps_.empty()) list_of_.resize(mesh_.size(), kNone);
+  if (!any_mixed_) {
+    for (std::size_t k = 0; k < created.size(); ++k) side_[created[k]] = old_sides_[k];
+    return;
+  }
+  for (const TriangleId t : created) side_[t] = kMixed;
+  for (std::size_t k = 0; k < created.size(); ++k) {
+    const TriangleId t = created[k];
+    for (const std::uint32_t g : candidates_) {
+      if (contact(t, gaps_[g]) != Contact::proper) continue;
+      if (list_of_[t] == kNone) {
+        if (free_lists_.empty()) {
+          free_lists_.push_back(static_cast<std::uint32_t>(lists_.size()));
+          lists_.emplace_back();
+        }
+        list_of_[t] = free_lists_.back();
+        free_lists_.pop_back();
+      }
+      lists_[list_of_[t]].push_back(g);
+    }
+    if (list_of_[t] != kNone) continue;
+    // In one face: that of the old triangle, or of the one beyond the edge between them.
+    const EdgeId e = edge_of(t, 0), f = mesh_.twin(e);
+    if (old_sides_[k] != kMixed) {
+      side_[t] = old_sides_[k];
+    } else if (mesh_.piece(e) != kNone) {
+      side_[t] = static_cast<std::uint8_t>(beside(e));
+    } else if (side_[triangle_of(f)] != kMixed) {
+      side_[t] = side_[triangle_of(f)];
+    } else {
+      const VertexId near = candidates_.empty() ? graph_.vertices : gaps_[candidates_[0]].a;
+      side_[t] = static_cast<std::uint8_t>(resolve(t, near));
+    }
+  }
+}
+
+void Sides::settle() {
+  if (gaps_.empty()) return;
+  for (TriangleId t = 0; t < mesh_.size(); ++t) {
+    if (side_[t] != kMixed) continue;
+    bool crossed = false;
+    if (list_of_[t] != kNone) {
+      const auto& v = mesh_[t].vertex;
+      for (const std::uint32_t g : lists_[list_of_[t]]) {
+        int zeros = 0;
+        for (const VertexId corner : v) {
+          zeros += predicates_.orient(gaps_[g].a, gaps_[g].b, corner) == 0;
+        }
+        crossed = crossed || zeros < 2;  // not just along an edge
+      }
+    }
+    if (!crossed) side_[t] = static_cast<std::uint8_t>(resolve(t, graph_.vertices));
+  }
+}
+
+}  // namespace delmesher::plane

@@ -1,0 +1,70 @@
+// Which triangles of the refined mesh are inside, kept up to date during refinement.
+//
+// The segments of the chamfered graph leak at the cut points, so that triangles cannot be told by
+// flooding alone. What is missing of the segments, the gaps, is remembered by the triangles that it
+// runs through (mixed); every other triangle lies in one face of the graph.
+#pragma once
+
+#include <vector>
+
+#include "mesher/plane/chamfer.h"
+#include "mesher/plane/graph.h"
+#include "mesher/plane/triangulation.h"
+#include "mesher/predicates/predicates.h"
+
+namespace delmesher::plane {
+
+using Side = PlaneRecord::Side;
+
+class Sides {
+ public:
+  // `gaps` must outlive it.
+  Sides(InputGraph& graph, Triangulation& mesh, PointStore& points, PlanePredicates& predicates,
+        const std::vector<Gap>& gaps)
+      : graph_(graph),
+        mesh_(mesh),
+        points_(points),
+        predicates_(predicates),
+        spatial_(points),
+        gaps_(gaps) {}
+
+  // Classifies all triangles of the mesh, which must have all segments of the chamfered graph.
+  void start();
+  Side of(TriangleId t) const { return static_cast<Side>(side_[t]); }
+
+  // Around every Triangulation::fill_cavity.
+  void before_fill();
+  void after_fill();
+
+  // Decides for mixed triangles that gaps only touch: contained in the inside or not.
+  void settle();
+
+ private:
+  enum class Contact : std::uint8_t { none, point, proper };
+  // How a gap meets a triangle: `proper` if it meets the interior or part of an edge.
+  Contact contact(TriangleId t, const Gap& gap);
+  void trace(std::uint32_t gap);
+  Side beside(EdgeId e);
+  Side resolve(TriangleId t, VertexId near);
+  void flood();
+  void spread(TriangleId t, std::vector<TriangleId>& stack);
+
+  InputGraph& graph_;
+  Triangulation& mesh_;
+  PointStore& points_;
+  PlanePredicates& predicates_;
+  Predicates spatial_;
+  const std::vector<Gap>& gaps_;
+  std::vector<std::uint8_t> side_;
+  // Gaps at the mixed triangles, as an index into lists_ (or kNone); empty if there are no gaps.
+  std::vector<std::uint32_t> list_of_;
+  std::vector<std::vector<std::uint32_t>> lists_;
+  std::vector<std::uint32_t> free_lists_;
+  std::vector<std::uint32_t> seen_;  // while gaps are traced: the last gap, plus one
+  // Between before_fill and after_fill.
+  std::vector<std::uint8_t> old_sides_;
+  std::vector<std::uint32_t> candidates_;
+  bool any_mixed_ = false;
+};
+
+}  // namespace delmesher::plane

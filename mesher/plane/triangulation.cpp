@@ -1,0 +1,547 @@
+#include "mesher/plane/triangulation.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+#include "mesher/base/check.h"
+
+namespace delmesher::plane {
+namespace {
+
+// The other two edges of the triangle of e, as seen when entering through e: counter-clockwise from
+// the origin of the twin of e.
+EdgeId after(EdgeId e) {
+  return edge_of(triangle_of(e), next(index_of(e)));
+}
+EdgeId before(EdgeId e) {
+  return edge_of(triangle_of(e), previous(index_of(e)));
+}
+
+// Turns around a vertex. A spoke is the edge opposite the vertex in a triangle there.
+class Fan {
+ public:
+  Fan(const Triangulation& mesh, VertexId v) : mesh_(mesh) {
+    const TriangleId t = mesh.around(v);
+    for (int i = 0; i < 3; ++i) {
+      if (mesh[t].vertex[static_cast<std::size_t>(i)] == v) first_ = edge_of(t, i);
+    }
+    DELMESHER_CHECK(first_ != kNone, "triangle not at its vertex");
+    spoke_ = first_;
+  }
+  EdgeId spoke() const { return spoke_; }
+  // False if there are no more.
+  bool advance() {
+    if (!clockwise_) {
+      const EdgeId f = mesh_.twin(after(spoke_));
+      if (f != kNone) {
+        spoke_ = after(f);
+        return spoke_ != first_;
+      }
+      clockwise_ = true;  // at the border: the other way from the start
+      spoke_ = first_;
+    }
+    const EdgeId f = mesh_.twin(before(spoke_));
+    if (f == kNone) return false;
+    spoke_ = before(f);
+    return true;
+  }
+  // The edge between the vertex and b in the present triangle, or kNone.
+  EdgeId edge_to(VertexId b) const {
+    if (mesh_.origin(spoke_) == b) return before(spoke_);
+    if (mesh_.target(spoke_) != b) return kNone;
+    const EdgeId e = after(spoke_);  // from b to the vertex
+    const EdgeId f = mesh_.twin(e);
+    return f != kNone ? f : e;
+  }
+
+ private:
+  const Triangulation& mesh_;
+  EdgeId first_ = kNone, spoke_ = kNone;
+  bool clockwise_ = false;
+};
+
+std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int bits) {
+  std::uint64_t key = 0;
+  for (std::uint32_t s = 1U << (bits - 1); s != 0; s >>= 1) {
+    const bool right = (x & s) != 0, upper = (y & s) != 0;
+    key = 4 * key + ((right ? 3U : 0U) ^ (upper ? 1U : 0U));
+    if (!upper) {
+      if (right) {
+        x = ~x;
+        y = ~y;
+      }
+      std::swap(x, y);
+    }
+  }
+  return key;
+}
+
+std::uint32_t hash(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352dU;
+  x ^= x >> 15;
+  x *= 0x846ca68bU;
+  return x ^ (x >> 16);
+}
+
+}  // namespace
+
+void Triangulation::reserve(std::size_t vertices) {
+  triangles_.reserve(2 * vertices + 16);
+  around_.reserve(vertices + 16);
+}
+
+void Triangulation::link(EdgeId e, EdgeId f) {
+  if (e != kNone) triangles_[triangle_of(e)].neighbor[static_cast<std::size_t>(index_of(e))] = f;
+  if (f != kNone) triangles_[triangle_of(f)].neighbor[static_cast<std::size_t>(index_of(f))] = e;
+}
+
+void Triangulation::grow_around(VertexId v) {
+  if (v >= around_.size()) around_.resize(std::size_t{v} + 1, kNone);
+}
+
+void Triangulation::start(const std::array<VertexId, 4>& c, const std::array<PieceId, 4>& pieces) {
+  triangles_.assign(2, {});
+  triangles_[0] = {{c[0], c[1], c[2]}, {kNone, kNone, kNone}, {pieces[1], kNone, pieces[0]}};
+  triangles_[1] = {{c[0], c[2], c[3]}, {kNone, kNone, kNone}, {pieces[2], pieces[3], kNone}};
+  link(edge_of(0, 1), edge_of(1, 2));
+  for (std::size_t i = 0; i < 4; ++i) {
+    grow_around(c[i]);
+    around_[c[i]] = i == 3 ? 1 : 0;
+  }
+}
+
+EdgeId Triangulation::find_edge(VertexId a, VertexId b) const {
+  // Around both at once, so that it takes as long as the smaller of the two degrees.
+  Fan at_a(*this, a), at_b(*this, b);
+  for (;;) {
+    if (const EdgeId e = at_a.edge_to(b); e != kNone) return e;
+    if (const EdgeId e = at_b.edge_to(a); e != kNone) return twin(e) != kNone ? twin(e) : e;
+    if (!at_a.advance() || !at_b.advance()) return kNone;
+  }
+}
+
+void Triangulation::star(VertexId v, std::vector<EdgeId>& edges) const {
+  edges.clear();
+  Fan fan(*this, v);
+  do {
+    edges.push_back(fan.spoke());
+  } while (fan.advance());
+}
+
+void Triangulation::set_piece(EdgeId e, PieceId piece) {
+  triangles_[triangle_of(e)].piece[static_cast<std::size_t>(index_of(e))] = piece;
+  const EdgeId f = twin(e);
+  if (f != kNone) triangles_[triangle_of(f)].piece[static_cast<std::size_t>(index_of(f))] = piece;
+}
+
+void Triangulation::rename(VertexId from, VertexId to) {
+  std::vector<EdgeId> spokes;
+  star(from, spokes);
+  for (const EdgeId e : spokes) {
+    triangles_[triangle_of(e)].vertex[static_cast<std::size_t>(index_of(e))] = to;
+  }
+  grow_around(to);
+  around_[to] = around_[from];
+  around_[from] = kNone;
+}
+
+// ---------------------------------------------------------------------------------- location
+
+Location Triangulation::locate(VertexId p, TriangleId from) {
+  TriangleId t = from;
+  EdgeId entered = kNone;
+  for (;;) {
+    const Triangle& triangle = triangles_[t];
+    // The visibility walk ends in a Delaunay triangulation whatever side comes first; with
+    // constraints it could run in circles if the choice were always the same (Devillers et al.).
+    random_ = random_ * 1664525U + 1013904223U;
+    int i = static_cast<int>((random_ >> 16) % 3);
+    unsigned zeros = 0;
+    bool moved = false;
+    for (int k = 0; k < 3 && !moved; ++k, i = next(i)) {
+      const EdgeId e = edge_of(t, i);
+      if (e == entered) continue;
+      const int s = predicates_->orient(triangle.vertex[static_cast<std::size_t>(next(i))],
+                                        triangle.vertex[static_cast<std::size_t>(previous(i))], p);
+      if (s == 0) zeros |= 1U << i;
+      if (s >= 0) continue;
+      entered = triangle.neighbor[static_cast<std::size_t>(i)];
+      DELMESHER_CHECK(entered != kNone, "a point outside the rectangle");
+      t = triangle_of(entered);
+      moved = true;
+    }
+    if (!moved) return {t, zeros};
+  }
+}
+
+Location Triangulation::locate_here(VertexId p, TriangleId t) {
+  const Triangle& triangle = triangles_[t];
+  unsigned zeros = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int s = predicates_->orient(triangle.vertex[static_cast<std::size_t>(next(i))],
+                                      triangle.vertex[static_cast<std::size_t>(previous(i))], p);
+    if (s < 0) return {kNone, static_cast<unsigned>(i)};
+    if (s == 0) zeros |= 1U << i;
+  }
+  return {t, zeros};
+}
+
+Triangulation::Sight Triangulation::look(VertexId p, TriangleId from) {
+  const Location here = locate_here(p, from);
+  if (here.triangle != kNone) return {here, kNone};
+  EdgeId e = edge_of(from, static_cast<int>(here.zeros));
+  const VertexId a = apex(e);
+  // Along the ray from a; where p is not in the sector of a that e spans, to the next triangle.
+  const bool in_sector =
+      predicates_->orient(a, origin(e), p) >= 0 && predicates_->orient(a, target(e), p) <= 0;
+  for (;;) {
+    if (piece(e) != kNone || twin(e) == kNone) return {{triangle_of(e), 0}, e};
+    const EdgeId f = twin(e);
+    if (!in_sector) return look(p, triangle_of(f));
+    // The ray leaves the next triangle on the side of its apex where the ray does not pass.
+    e = predicates_->orient(a, p, apex(f)) >= 0 ? after(f) : before(f);
+    if (predicates_->orient(origin(e), target(e), p) >= 0) {
+      const Location found = locate_here(p, triangle_of(f));
+      if (found.triangle != kNone) return {found, kNone};
+      return look(p, triangle_of(f));
+    }
+  }
+}
+
+// ---------------------------------------------------------------------------------- insertion
+
+// Depth first, entering triangles so that boundary_ comes out counter-clockwise: the cavity has no
+// vertex inside, so its triangles form a tree.
+void Triangulation::add_to_cavity(VertexId p, EdgeId crossing) {
+  stack_.clear();
+  stack_.push_back(crossing);
+  while (!stack_.empty()) {
+    const EdgeId e = stack_.back();
+    stack_.pop_back();
+    const EdgeId f = twin(e);
+    if (piece(e) == kNone && f != kNone) {
+      const auto& v = triangle(f).vertex;
+      if (predicates_->in_circle_perturbed(v[0], v[1], v[2], p) > 0) {
+        cavity_.push_back(triangle_of(f));
+        stack_.push_back(before(f));
+        stack_.push_back(after(f));
+        continue;
+      }
+    }
+    boundary_.push_back({origin(e), target(e), f, piece(e), triangle_of(e)});
+  }
+}
+
+void Triangulation::find_cavity(VertexId p, TriangleId at, EdgeId split) {
+  cavity_.clear();
+  boundary_.clear();
+  split_ = split;
+  if (split == kNone) {
+    cavity_.push_back(at);
+    for (int i = 0; i < 3; ++i) add_to_cavity(p, edge_of(at, i));
+    return;
+  }
+  split_from_ = origin(split);
+  split_to_ = target(split);
+  split_piece_ = piece(split);
+  const EdgeId f = twin(split);
+  cavity_.push_back(triangle_of(split));
+  if (f != kNone) cavity_.push_back(triangle_of(f));
+  add_to_cavity(p, after(split));
+  add_to_cavity(p, before(split));
+  if (f != kNone) {
+    add_to_cavity(p, after(f));
+    add_to_cavity(p, before(f));
+  }
+}
+
+void Triangulation::fill_cavity(VertexId p) {
+  const std::size_t n = boundary_.size();
+  const bool open = split_ != kNone && twin(split_) == kNone;
+  created_.assign(cavity_.begin(), cavity_.end());
+  grow_around(p);
+  while (created_.size() < n) {
+    created_.push_back(static_cast<TriangleId>(triangles_.size()));
+    triangles_.emplace_back();
+  }
+  DELMESHER_CHECK(created_.size() == n && triangles_.size() < (std::size_t{1} << 30),
+                  "a cavity of the wrong size");
+  for (std::size_t k = 0; k < n; ++k) {
+    const BoundaryEdge& b = boundary_[k];
+    const TriangleId t = created_[k];
+    Triangle& triangle = triangles_[t];
+    triangle.vertex = {p, b.from, b.to};
+    triangle.piece = {b.piece, kNone, kNone};
+    triangle.neighbor = {b.outer, kNone, kNone};
+    if (b.outer != kNone) {
+      triangles_[triangle_of(b.outer)].neighbor[static_cast<std::size_t>(index_of(b.outer))] =
+          edge_of(t, 0);
+    }
+    triangle.neighbor[1] = edge_of(created_[k + 1 < n ? k + 1 : 0], 2);
+    triangle.neighbor[2] = edge_of(created_[k > 0 ? k - 1 : n - 1], 1);
+    around_[b.from] = t;
+    if (split_ != kNone) {
+      if (b.to == split_from_ || b.to == split_to_) triangle.piece[1] = split_piece_;
+      if (b.from == split_from_ || b.from == split_to_) triangle.piece[2] = split_piece_;
+    }
+  }
+  if (open) {
+    triangles_[created_[0]].neighbor[2] = kNone;
+    triangles_[created_[n - 1]].neighbor[1] = kNone;
+    around_[boundary_[n - 1].to] = created_[n - 1];
+  }
+  around_[p] = created_[0];
+}
+
+VertexId Triangulation::insert(VertexId p, TriangleId from) {
+  const Location at = locate(p, from);
+  const auto& v = triangles_[at.triangle].vertex;
+  EdgeId split = kNone;
+  for (int i = 0; i < 3; ++i) {
+    const unsigned others = 7U & ~(1U << i);
+    if (at.zeros == others) return v[static_cast<std::size_t>(i)];
+    const EdgeId e = edge_of(at.triangle, i);
+    if ((at.zeros >> i & 1) != 0 && piece(e) != kNone) split = e;
+  }
+  find_cavity(p, at.triangle, split);
+  fill_cavity(p);
+  return p;
+}
+
+// ---------------------------------------------------------------------------------- segments
+
+// From t = (p, q, r) and n = (x, r, q) to t = (p, q, x) and n = (x, r, p); e is the edge qr of t.
+void Triangulation::flip(EdgeId e) {
+  const EdgeId f = twin(e);
+  const TriangleId t = triangle_of(e), n = triangle_of(f);
+  const Triangle old_t = triangles_[t], old_n = triangles_[n];
+  const auto i = static_cast<std::size_t>(index_of(e)), j = static_cast<std::size_t>(index_of(f));
+  const std::size_t i1 = next_index(e), i2 = previous_index(e);
+  const std::size_t j1 = next_index(f), j2 = previous_index(f);
+  const VertexId p = old_t.vertex[i], q = old_t.vertex[i1], r = old_t.vertex[i2],
+                 x = old_n.vertex[j];
+  triangles_[t].vertex = {p, q, x};
+  triangles_[n].vertex = {x, r, p};
+  triangles_[t].piece = {old_n.piece[j1], kNone, old_t.piece[i2]};
+  triangles_[n].piece = {old_t.piece[i1], kNone, old_n.piece[j2]};
+  link(edge_of(t, 0), old_n.neighbor[j1]);
+  link(edge_of(t, 2), old_t.neighbor[i2]);
+  link(edge_of(n, 0), old_t.neighbor[i1]);
+  link(edge_of(n, 2), old_n.neighbor[j2]);
+  link(edge_of(t, 1), edge_of(n, 1));
+  around_[p] = around_[q] = around_[x] = t;
+  around_[r] = n;
+}
+
+bool Triangulation::convex(EdgeId e) {
+  const VertexId p = apex(e), x = apex(twin(e));
+  return predicates_->orient(p, origin(e), x) > 0 && predicates_->orient(x, target(e), p) > 0;
+}
+
+void Triangulation::legalize(std::vector<TriangleId>& stack) {
+  while (!stack.empty()) {
+    const TriangleId t = stack.back();
+    stack.pop_back();
+    for (int i = 0; i < 3; ++i) {
+      const EdgeId e = edge_of(t, i);
+      const EdgeId f = twin(e);
+      if (piece(e) != kNone || f == kNone) continue;
+      const auto& v = triangles_[t].vertex;
+      if (predicates_->in_circle_perturbed(v[0], v[1], v[2], apex(f)) <= 0) continue;
+      flip(e);
+      stack.push_back(t);
+      stack.push_back(triangle_of(f));
+      break;
+    }
+  }
+}
+
+// The edge that the line from a to b crosses first, seen from the triangle at a; or, if the line
+// runs through a neighbour of a, that vertex and the edge `along` to it.
+EdgeId Triangulation::first_crossing(VertexId a, VertexId b, VertexId& on_line, EdgeId& along) {
+  Fan fan(*this, a);
+  do {
+    const EdgeId e = fan.spoke();
+    const VertexId u = origin(e), w = target(e);
+    const int su = predicates_->orient(a, b, u);
+    if (su == 0 && predicates_->dot(b, a, u) > 0) {
+      on_line = u;
+      along = before(e);
+      return kNone;
+    }
+    if (su < 0 && predicates_->orient(a, b, w) > 0 && predicates_->orient(a, u, w) > 0 &&
+        predicates_->orient(u, w, b) < 0) {
+      return e;
+    }
+  } while (fan.advance());
+  DELMESHER_CHECK(false, "no way from a vertex to another");
+  return kNone;
+}
+
+// Flips the edges that the line from a crosses until the line from a to `end` (b, or the first
+// vertex on the way) is an edge (Sloan 1993).
+Triangulation::Obstacle Triangulation::cross(VertexId a, VertexId b, EdgeId first, VertexId& end) {
+  crossed_.clear();
+  std::vector<TriangleId> strip = {triangle_of(first)};
+  for (EdgeId e = first;;) {
+    if (piece(e) != kNone) return {Obstacle::Kind::crossing, piece(e)};
+    crossed_.push_back(e);
+    const EdgeId f = twin(e);
+    strip.push_back(triangle_of(f));
+    end = apex(f);
+    const int s = end == b ? 0 : predicates_->orient(a, b, end);
+    if (s == 0) break;
+    e = s > 0 ? after(f) : before(f);
+  }
+  // The crossed edges in the order along the line, as a linked list: a flip moves the handle of the
+  // one that follows.
+  const std::size_t n = crossed_.size();
+  std::vector<std::size_t> following(n), queue(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    following[k] = k + 1;
+    queue[k] = k;
+  }
+  std::vector<std::size_t> preceding(n + 1);
+  for (std::size_t k = 0; k < n; ++k) preceding[k + 1] = k;
+  preceding[0] = n;
+  for (std::size_t head = 0; head < queue.size(); ++head) {
+    const std::size_t k = queue[head];
+    const EdgeId e = crossed_[k];
+    if (!convex(e)) {
+      queue.push_back(k);
+      continue;
+    }
+    const TriangleId t = triangle_of(e), other = triangle_of(twin(e));
+    const VertexId p = apex(e), x = apex(twin(e));
+    const int sp = p == a ? 0 : predicates_->orient(a, b, p);
+    const int sx = x == end ? 0 : predicates_->orient(a, b, x);
+    flip(e);
+    // With x on the left the line goes on across (q, x), now edge 0 of t, else across (x, r).
+    if (following[k] < n) crossed_[following[k]] = sx > 0 ? edge_of(t, 0) : edge_of(other, 2);
+    if (sp * sx < 0) {
+      crossed_[k] = sp > 0 ? edge_of(t, 1) : edge_of(other, 1);
+      queue.push_back(k);
+    } else {
+      if (preceding[k] < n) following[preceding[k]] = following[k];
+      preceding[following[k]] = preceding[k];
+    }
+  }
+  const EdgeId made = find_edge(a, end);
+  DELMESHER_CHECK(made != kNone, "flips did not make the edge");
+  set_piece(made, kNone - 1);  // fixed while its surroundings are made Delaunay
+  legalize(strip);
+  return {};
+}
+
+Triangulation::Obstacle Triangulation::insert_segment(VertexId a, VertexId b, PieceId piece_id,
+                                                      std::vector<VertexId>& chain) {
+  chain.assign(1, a);
+  // From the end with fewer triangles.
+  bool reversed = false;
+  {
+    Fan at_a(*this, a), at_b(*this, b);
+    for (;;) {
+      if (at_a.edge_to(b) != kNone || at_b.edge_to(a) != kNone) break;
+      if (!at_a.advance()) break;
+      if (!at_b.advance()) {
+        reversed = true;
+        break;
+      }
+    }
+  }
+  if (reversed) std::swap(a, b);
+  chain[0] = a;
+  while (a != b) {
+    EdgeId e = find_edge(a, b);
+    VertexId end = b;
+    if (e == kNone) {
+      const EdgeId first = first_crossing(a, b, end, e);
+      if (first != kNone) {
+        const Obstacle obstacle = cross(a, b, first, end);
+        if (obstacle.kind != Obstacle::Kind::none) return obstacle;
+        e = find_edge(a, end);
+        set_piece(e, kNone);
+      }
+    }
+    if (piece(e) != kNone) return {Obstacle::Kind::overlap, piece(e)};
+    set_piece(e, piece_id);
+    chain.push_back(end);
+    a = end;
+  }
+  if (reversed) std::reverse(chain.begin(), chain.end());
+  return {};
+}
+
+// ---------------------------------------------------------------------------------- checks
+
+const char* Triangulation::check(bool delaunay) const {
+  for (TriangleId t = 0; t < triangles_.size(); ++t) {
+    const auto& v = triangles_[t].vertex;
+    if (predicates_->orient(v[0], v[1], v[2]) <= 0) return "a triangle that is not positive";
+    for (int i = 0; i < 3; ++i) {
+      const EdgeId e = edge_of(t, i);
+      if (around_[v[static_cast<std::size_t>(i)]] == kNone) return "a vertex without a triangle";
+      const EdgeId f = twin(e);
+      if (f == kNone) {
+        if (piece(e) == kNone) return "a border without a piece";
+        continue;
+      }
+      if (twin(f) != e) return "neighbours that do not agree";
+      if (origin(e) != target(f) || target(e) != origin(f)) return "neighbours without common edge";
+      if (piece(e) != piece(f)) return "an edge with two pieces";
+      if (delaunay && piece(e) == kNone &&
+          predicates_->in_circle_perturbed(v[0], v[1], v[2], apex(f)) > 0) {
+        return "an edge that is not Delaunay";
+      }
+    }
+  }
+  for (VertexId v = 0; v < around_.size(); ++v) {
+    if (around_[v] == kNone) continue;
+    const auto& corners = triangles_[around_[v]].vertex;
+    if (std::find(corners.begin(), corners.end(), v) == corners.end()) return "a stray vertex";
+  }
+  return nullptr;
+}
+
+void sort_for_insertion(const PointStore& points, std::span<VertexId> order) {
+  if (order.size() < 2) return;
+  constexpr int kBits = 28;
+  std::array<double, 2> low = {points.nearest(order[0])[0], points.nearest(order[0])[1]};
+  std::array<double, 2> high = low;
+  for (const VertexId v : order) {
+    const Vec3 x = points.nearest(v);
+    for (std::size_t k = 0; k < 2; ++k) {
+      low[k] = std::min(low[k], x[k]);
+      high[k] = std::max(high[k], x[k]);
+    }
+  }
+  const double extent = std::max(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2);
+  const auto cells = static_cast<double>((1U << kBits) - 1);
+  // Rounds of doubling size, drawn by a hash of the position; below 64 points a round is not worth
+  // its scatter.
+  const int rounds = std::max(0, static_cast<int>(std::bit_width(order.size())) - 6);
+  struct Item {
+    std::uint64_t key;
+    std::uint32_t position;
+    VertexId vertex;
+  };
+  std::vector<Item> items(order.size());
+  for (std::uint32_t n = 0; n < order.size(); ++n) {
+    const Vec3 x = points.nearest(order[n]);
+    std::array<std::uint32_t, 2> cell = {0, 0};
+    for (std::size_t k = 0; k < 2 && extent > 0; ++k) {
+      cell[k] = static_cast<std::uint32_t>((x[k] / 2 - low[k] / 2) / extent * cells);
+    }
+    const int round = std::max(0, rounds - std::countr_zero(hash(n) | (1U << 31)));
+    const auto group = static_cast<std::uint64_t>(std::clamp(round - rounds + 15, 0, 15));
+    items[n] = {(group << 60) | hilbert_key(cell[0], cell[1], kBits), n, order[n]};
+  }
+  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+    return a.key != b.key ? a.key < b.key : a.position < b.position;
+  });
+  for (std::size_t n = 0; n < items.size(); ++n) order[n] = items[n].vertex;
+}
+
+}  // namespace delmesher::plane
