@@ -153,6 +153,34 @@ TEST(Cdt, NestedCubes) {
   EXPECT_FALSE(result.tetrahedra.empty());
 }
 
+// Edges between others that run along them: the points on all of them have to lie on the same
+// spheres up to the square of their distance, or the splitting multiplies with every bit of it.
+TEST(Cdt, NestedShellsDownTo1e14) {
+  const double radius[6] = {0.625, 0.6537, 0.638, 0.93, 0.79, 0.907};
+  const Surface octahedron = {
+      {},
+      {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}},
+      {}};
+  for (const double gap : {0x1p-28, 0x1p-46}) {
+    Surface s;
+    double scale = 1;
+    for (int shell = 0; shell < 4; ++shell, scale *= 1 - gap) {
+      Surface part = octahedron;
+      for (std::size_t i = 0; i < 6; ++i) {
+        Point p = {0, 0, 0};
+        p[i / 2] = (i % 2 == 0 ? 1 : -1) * scale * radius[i];
+        part.vertices.push_back(p);
+      }
+      append(s, part);
+    }
+    Model model(s);
+    ASSERT_TRUE(model.valid);
+    const CdtResult result = model.run();
+    EXPECT_GT(result.steiner.size(), 100U);
+    EXPECT_LT(result.steiner.size(), 8000U) << gap;
+  }
+}
+
 TEST(Cdt, NeedlesDownTo1e12) {
   for (const double angle : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
     const CdtResult result = expect_good(needles(6, angle, 7));
