@@ -289,7 +289,7 @@ CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::u
   return input;
 }
 
-MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
+MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,
                             const PointStore& points, Region region) {
   MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}};
   RoundingInput& input = mesh.rounding;

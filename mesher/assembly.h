@@ -42,7 +42,7 @@ struct MeshToWrite {
   std::vector<FacetId> boundary_facet;  // per face of rounding.boundary
 };
 
-MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
+MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,
                             const PointStore& points, Region region);
 // The refined mesh itself; its boundary is the part of the surface that was neither chamfered nor
 // filtered.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "mesher/assembly.h"
@@ -62,19 +63,12 @@ class Run {
 
   Status mesh(const Surface& surface) {
     if (Status status = prepare(surface); !status.ok()) return status;
-    ChamferResult chamfered;
-    const RefineResult refined = chamfer_and_refine(chamfered);
-    if (options_.approximate) {
-      write(approximate_mesh(chamfered, refined, topology_, points_, options_.region));
-      return {};
-    }
-    control_.enter(Phase::enrich);
-    const CdtInput input = enriched_input(chamfered, filter_.facet_kept, refined, topology_,
-                                          points_, predicates_, control_);
-    const CdtResult cdt =
-        constrained_delaunay_tetrahedrization(input, points_, predicates_, control_);
+    std::optional<CdtInput> input = refined_input();
+    if (!input) return {};
+    CdtResult cdt = constrained_delaunay_tetrahedrization(*input, points_, predicates_, control_);
+    input.reset();
     record_cdt(cdt);
-    write(conforming_mesh(cdt, topology_, points_, options_.region));
+    write(conforming_mesh(std::move(cdt), topology_, points_, options_.region));
     return {};
   }
 
@@ -82,10 +76,9 @@ class Run {
     if (Status status = prepare(surface); !status.ok()) return status;
     CdtInput input = plain_input(topology_);
     input.phase_by_phase = true;
-    const CdtResult cdt =
-        constrained_delaunay_tetrahedrization(input, points_, predicates_, control_);
+    CdtResult cdt = constrained_delaunay_tetrahedrization(input, points_, predicates_, control_);
     record_cdt(cdt);
-    write(conforming_mesh(cdt, topology_, points_, options_.region));
+    write(conforming_mesh(std::move(cdt), topology_, points_, options_.region));
     return {};
   }
 
@@ -112,6 +105,20 @@ class Run {
     result_.statistics.bbox_diagonal = validity.report.bbox_diagonal;
     topology_ = build_topology(oriented_outwards(surface, validity), points_, predicates_);
     return {};
+  }
+
+  // What the last step restores the surface in; none if the refined mesh was to be written itself.
+  // The refined mesh goes before the last step needs the memory.
+  std::optional<CdtInput> refined_input() {
+    ChamferResult chamfered;
+    const RefineResult refined = chamfer_and_refine(chamfered);
+    if (options_.approximate) {
+      write(approximate_mesh(chamfered, refined, topology_, points_, options_.region));
+      return {};
+    }
+    control_.enter(Phase::enrich);
+    return enriched_input(chamfered, filter_.facet_kept, refined, topology_, points_, predicates_,
+                          control_);
   }
 
   // Chamfering and refinement, again with stricter corners where the refinement would not end
@@ -208,9 +215,9 @@ class Run {
   }
 
   // Rounds to the doubles that will be written and fills in mesh and statistics.
-  void write(const MeshToWrite& exact) {
+  void write(MeshToWrite exact) {
     control_.enter(Phase::round);
-    RoundingResult rounded = round_mesh(exact.rounding, control_);
+    RoundingResult rounded = round_mesh(std::move(exact.rounding), control_);
     Statistics& s = result_.statistics;
     s.rounding_inverted = rounded.inverted;
     s.rounding_flat = rounded.flat;

@@ -2,7 +2,10 @@
 
 #include <sys/resource.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "mesher/io/text.h"
 
@@ -188,6 +191,20 @@ std::string check_json(const std::string& file, const SurfaceReport& report) {
   return dump(json);
 }
 
+namespace {
+
+// ru_maxrss survives exec on Linux: a small run started by a large program would report the
+// large one's memory. 0 if this is not Linux.
+std::uint64_t peak_since_exec() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) return std::strtoull(line.c_str() + 6, nullptr, 10) * 1024;
+  }
+  return 0;
+}
+
+}  // namespace
+
 void measure_process(RunFacts& facts) {
   struct rusage usage = {};
   getrusage(RUSAGE_SELF, &usage);
@@ -195,7 +212,10 @@ void measure_process(RunFacts& facts) {
     return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
   };
   facts.cpu_seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  facts.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // KiB on Linux
+  facts.peak_rss_bytes = peak_since_exec();
+  if (facts.peak_rss_bytes == 0) {
+    facts.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // KiB
+  }
 }
 
 }  // namespace delmesher::cli

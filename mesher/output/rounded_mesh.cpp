@@ -63,8 +63,8 @@ int DoubleOrientation::operator()(const Vec3& a, const Vec3& b, const Vec3& c, c
   return exact;
 }
 
-RoundedMesh::RoundedMesh(const RoundingInput& input, Control& control)
-    : input_(input), tet_(input.tetrahedra), inside_(input.inside) {
+RoundedMesh::RoundedMesh(RoundingInput& input, Control& control)
+    : input_(input), tet_(std::move(input.tetrahedra)), inside_(std::move(input.inside)) {
   DELMESHER_CHECK(inside_.size() == tet_.size(), "one inside flag per tetrahedron");
   number_vertices();
   certify(control);

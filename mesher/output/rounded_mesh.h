@@ -40,8 +40,9 @@ inline Badness badness(int sign) {
 // slot freed by a local operation stays dead or is used again.
 class RoundedMesh {
  public:
-  // Rounds to nearest and decides the sign of every tetrahedron. The input must outlive the mesh.
-  RoundedMesh(const RoundingInput& input, Control& control);
+  // Rounds to nearest and decides the sign of every tetrahedron. The input must outlive the mesh;
+  // its tetrahedra are moved out of it.
+  RoundedMesh(RoundingInput& input, Control& control);
 
   std::size_t vertices() const { return store_id_.size(); }
   VertexId store_id(std::uint32_t v) const { return store_id_[v]; }

@@ -126,7 +126,7 @@ void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingRe
 
 }  // namespace
 
-RoundingResult round_mesh(const RoundingInput& input, Control& control) {
+RoundingResult round_mesh(RoundingInput input, Control& control) {
   RoundedMesh mesh(input, control);
   RoundingResult result;
   const std::size_t bad_before = mesh.bad().size();

@@ -46,6 +46,6 @@ struct RoundingResult {
   double max_surface_deviation = 0;
 };
 
-RoundingResult round_mesh(const RoundingInput& input, Control& control);
+RoundingResult round_mesh(RoundingInput input, Control& control);
 
 }  // namespace delmesher

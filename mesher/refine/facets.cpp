@@ -361,6 +361,44 @@ void Refiner::insert_in_facet(VertexId v, std::uint32_t start, std::uint32_t spl
     if (subfacets_[spoke.subfacet].neighbor[2] == kNone) attach_half(spoke.subfacet, 2, spoke.from);
   }
   for (const std::uint32_t s : cavity) subfacets_[s].alive = false;
+  dead_subfacets_ += cavity.size();
+}
+
+// Dead subfacets keep their slots, so that stale references to them are recognized; where they
+// outnumber the living, all are renumbered, in the same order. Not to be called during a split.
+void Refiner::compact_subfacets() {
+  constexpr std::size_t kFew = 4096;
+  if (dead_subfacets_ < kFew || 2 * dead_subfacets_ < subfacets_.size()) return;
+  std::vector<std::uint32_t> renumbered(subfacets_.size(), kNone);
+  std::uint32_t count = 0;
+  for (std::uint32_t s = 0; s < subfacets_.size(); ++s) {
+    if (!subfacets_[s].alive) continue;
+    renumbered[s] = count;
+    subfacets_[count++] = subfacets_[s];
+  }
+  subfacets_.resize(count);
+  dead_subfacets_ = 0;
+  const auto renumber = [&](std::uint32_t& handle) {  // 3 * subfacet + edge
+    if (handle != kNone) handle = 3 * renumbered[handle / 3] + handle % 3;
+  };
+  for (Subfacet& f : subfacets_) {
+    for (std::uint32_t& handle : f.neighbor) renumber(handle);
+  }
+  for (Subsegment& s : subsegments_) {
+    if (!s.alive) continue;
+    for (std::uint32_t& handle : s.side) renumber(handle);
+  }
+  for (auto& faces : subfacet_) {
+    for (std::uint32_t& s : faces) {
+      if (s != kNone) s = renumbered[s];
+    }
+  }
+  std::deque<std::uint32_t> queue;
+  for (const std::uint32_t s : subfacet_queue_) {
+    if (renumbered[s] != kNone) queue.push_back(renumbered[s]);
+  }
+  subfacet_queue_.swap(queue);
+  subfacet_stamp_.assign(count, 0);
 }
 
 }  // namespace delmesher

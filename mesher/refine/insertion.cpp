@@ -60,6 +60,7 @@ void Refiner::drain() {
       subfacets_[s].queued = false;
       if (subfacets_[s].alive) split_subfacet(s);
     }
+    compact_subfacets();
   }
 }
 

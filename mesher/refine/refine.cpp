@@ -35,15 +35,28 @@ void Refiner::run() {
 
 RefineResult Refiner::result() {
   RefineResult r;
+  std::size_t count = 0;
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
     control_.poll(points_.size());
+    side_of(t);
+    ++count;
+  }
+  // The memory of the queues and marks goes before that of the result comes.
+  bad_ = {};
+  std::vector<std::array<std::uint32_t, 4>>().swap(subfacet_);
+  std::vector<std::uint8_t>().swap(edge_bits_);
+  std::vector<std::uint8_t>().swap(is_fresh_);
+  edge_map_ = {};
+  r.tetrahedra.reserve(count);
+  r.side.reserve(count);
+  for (TetId t = 0; t < dt_.capacity(); ++t) {
+    if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
     const VertexId* v = dt_.vertices(t);
     r.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
-    const std::uint8_t side = side_of(t);
-    r.side.push_back(side == kInside    ? Side::inside
-                     : side == kOutside ? Side::outside
-                                        : Side::straddling);
+    r.side.push_back(side_[t] == kInside    ? Side::inside
+                     : side_[t] == kOutside ? Side::outside
+                                            : Side::straddling);
   }
   for (const Subfacet& f : subfacets_) {
     if (f.alive) r.faces.push_back({f.v, f.facet});

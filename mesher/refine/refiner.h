@@ -98,6 +98,7 @@ class Refiner {
   void insert_in_facet(VertexId v, std::uint32_t start, std::uint32_t split, std::uint32_t half_a,
                        std::uint32_t half_b);
   std::uint32_t new_subfacet(const std::array<VertexId, 3>& v, std::uint32_t facet);
+  void compact_subfacets();
   void check_subfacet(std::uint32_t s, std::uint32_t face);
   void make_apex(std::uint32_t f);
 
@@ -153,7 +154,7 @@ class Refiner {
   std::vector<std::uint32_t> first_subsegment_;                // per segment of the complex
   std::unordered_map<std::uint64_t, std::uint32_t> edge_map_;  // looked up only, never iterated
   std::vector<Subfacet> subfacets_;
-  std::vector<std::uint32_t> free_subfacets_;
+  std::size_t dead_subfacets_ = 0;
   std::vector<FacetPlane> planes_;               // per facet
   std::vector<std::vector<VertexId>> on_facet_;  // per facet: Steiner points inside it
   std::vector<VertexId> in_volume_;
