@@ -26,8 +26,8 @@ Finding guarded(const char* stage, Body&& body) {
   }
 }
 
-// The angles are measured in doubles, and points on triangles are rounded to dyadic parameters.
-constexpr double kDegreesLost = 1e-3;
+// Points on triangles are rounded to dyadic parameters; the angles are measured in doubles.
+constexpr double kDegreesLost = 0.02;
 
 double length(const delmesher::PointStore& points, const std::array<delmesher::VertexId, 2>& ends) {
   const Vec3 p = points.nearest(ends[0]), q = points.nearest(ends[1]);

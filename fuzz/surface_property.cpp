@@ -93,8 +93,13 @@ Finding features_agree(const Surface& surface) {
   const double ours =
       delmesher::smallest_local_feature_size(stages.topology, stages.points, stages.control);
   const double facets = smallest_distance(stages.topology, stages.points);
-  // Elements of touching facets count as well, so ours is at most the distance of the facets.
-  if (!(ours <= facets * (1 + 1e-9))) {
+  double largest = 0;
+  for (const auto& p : surface.vertices) {
+    for (const double x : p) largest = std::max(largest, std::fabs(x));
+  }
+  // Elements of touching facets count as well, so ours is at most the distance of the facets, up to
+  // the rounding of coordinates.
+  if (!(ours <= facets * (1 + 1e-9) + largest * 0x1p-48)) {
     return "features size: ours " + std::to_string(ours) + ", facets are " +
            std::to_string(facets) + " apart";
   }

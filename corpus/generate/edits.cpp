@@ -103,7 +103,7 @@ void raise_face(Mesh& mesh, Random& random, int bits) {
   const double s = random.between(0.1, 0.9), t = random.between(0.1, 0.9) * (1 - s);
   Vector p = a + (b - a) * s + (c - a) * t;
   if (length > 0 && random.chance(0.7))
-    p += normal * (random.sign() * random.tiny(bits) * size / length);
+    p += normal * (random.sign() * random.thin(bits) * size / length);
   mesh.split(f, p);
 }
 
@@ -115,7 +115,7 @@ void extrude_face(Mesh& mesh, Random& random, int bits) {
   const Vector normal = area_normal(mesh, f);
   const double length = normal.norm();
   if (!(length > 0)) return;
-  const Vector up = normal * (random.sign() * random.tiny(bits) * std::sqrt(length) / length);
+  const Vector up = normal * (random.sign() * random.thin(bits) * std::sqrt(length) / length);
   const Vector middle = mesh.calc_face_centroid(f);
   const double shrink = random.chance(0.5) ? 1 : random.between(0.2, 0.9);
   std::array<std::uint32_t, 3> top;
@@ -139,7 +139,7 @@ void nudge_vertex(Mesh& mesh, Random& random, int bits) {
   Vector p = mesh.point(v);
   switch (random.below(3)) {
     case 0:
-      p += vertex_normal(mesh, v) * (random.sign() * random.tiny(bits));
+      p += vertex_normal(mesh, v) * (random.sign() * random.thin(bits));
       break;
     case 1: {
       const auto w = *mesh.cvv_iter(v);

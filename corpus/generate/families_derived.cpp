@@ -34,7 +34,7 @@ Surface offset(FamilyMember& m) {
   Surface s = some_surface(m, 10);
   Point shift;
   for (double& x : shift)
-    x = r.chance(0.7) ? r.sign() * std::ldexp(1 + r.unit(), r.integer(8, 8 + m.bits * 2 / 3)) : 0;
+    x = r.chance(0.7) ? r.sign() * std::ldexp(1 + r.unit(), r.integer(8, 30)) : 0;
   move(s, [&](const Point& p) { return Point{p[0] + shift[0], p[1] + shift[1], p[2] + shift[2]}; });
   return s;
 }

@@ -1,0 +1,119 @@
+// The generated families: our check agrees with their certificate, and twins are refused for the
+// right reason. TETPROOF_ITERATIONS widens the test.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "corpus/generate/certify.h"
+#include "corpus/generate/edits.h"
+#include "corpus/generate/generate.h"
+#include "corpus/generate/shrink.h"
+#include "corpus/generate/twins.h"
+#include "mesher/delmesher.h"
+
+namespace tetproof {
+namespace {
+
+using delmesher::Surface;
+
+std::uint64_t members() {
+  const char* text = std::getenv("TETPROOF_ITERATIONS");
+  return text != nullptr ? static_cast<std::uint64_t>(std::atoi(text)) : 3;
+}
+
+class Families : public testing::TestWithParam<const char*> {};
+
+TEST_P(Families, AreValidAndTheSameEveryTime) {
+  const Family* family = find_family(GetParam());
+  ASSERT_NE(family, nullptr);
+  for (std::uint64_t i = 0; i < members(); ++i) {
+    const auto surface = generate(*family, 11, i);
+    ASSERT_TRUE(surface) << i;
+    const auto report = delmesher::check_surface(*surface);
+    EXPECT_TRUE(report.status.ok()) << i << ": " << report.status.message;
+    const auto again = generate(*family, 11, i);
+    EXPECT_EQ(surface->vertices, again->vertices);
+    EXPECT_EQ(surface->triangles, again->triangles);
+  }
+}
+
+TEST_P(Families, TwinsAreRefusedForTheRightReason) {
+  const Family* family = find_family(GetParam());
+  for (std::uint64_t i = 0; i < members(); ++i) {
+    const auto surface = generate(*family, 12, i);
+    ASSERT_TRUE(surface);
+    Random random(i);
+    const auto twins = make_twins(*surface, random);
+    EXPECT_EQ(twins.size(), 4U) << i;
+    for (const Twin& twin : twins) {
+      const auto report = delmesher::check_surface(twin.surface);
+      EXPECT_EQ(report.status.code, delmesher::StatusCode::invalid_surface) << i << twin.name;
+      EXPECT_GT(report.defect_counts[static_cast<std::size_t>(twin.reason)], 0U) << i << twin.name;
+      EXPECT_STREQ(reason_text(twin.reason), delmesher::defect_name(twin.reason));
+    }
+  }
+}
+
+std::vector<const char*> family_names() {
+  std::vector<const char*> names;
+  for (const Family& family : families()) names.push_back(family.name);
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(family_names()),
+                         [](const auto& name) { return std::string(name.param); });
+
+// The certificate must object to what is wrong, or it means nothing.
+TEST(Certificate, NamesDefects) {
+  using Kind = delmesher::Defect::Kind;
+  Surface tet = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                 {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}},
+                 {}};
+  EXPECT_FALSE(first_defect(tet));
+  Surface open = tet;
+  open.triangles.pop_back();
+  EXPECT_EQ(first_defect(open), Kind::open_edge);
+  Surface turned = tet;
+  std::swap(turned.triangles[0][0], turned.triangles[0][1]);
+  EXPECT_EQ(first_defect(turned), Kind::inconsistent_orientation);
+  Surface twice = tet;
+  for (const auto& p : tet.vertices) twice.vertices.push_back({p[0] / 2, p[1] / 2, p[2] / 2});
+  for (const auto& t : tet.triangles) twice.triangles.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
+  EXPECT_EQ(first_defect(twice), Kind::self_intersection);
+}
+
+TEST(Edits, KeepSurfacesValidAndChangeThem) {
+  Surface surface = *generate(*find_family("star"), 1, 1);
+  Random random(5);
+  int changes = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Surface before = surface;
+    const bool changed = edit(surface, random, 40);
+    changes += changed ? 1 : 0;
+    EXPECT_EQ(changed,
+              before.vertices != surface.vertices || before.triangles != surface.triangles);
+    ASSERT_TRUE(certified_valid(surface)) << i;
+  }
+  EXPECT_GT(changes, 15);
+}
+
+// "Fails" on everything that has a vertex beyond x = 2: one spike of many is what is left.
+TEST(Shrink, KeepsWhatMatters) {
+  Surface surface = *generate(*find_family("star"), 1, 1);
+  for (auto& p : surface.vertices) p[0] = p[0] * 1.7 + 1.3;
+  const auto fails = [](const Surface& s) {
+    for (const auto& p : s.vertices) {
+      if (p[0] > 2) return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(fails(surface));
+  ShrinkProgress progress;
+  const Surface small = shrink(surface, fails, {2000, 20}, progress);
+  EXPECT_TRUE(certified_valid(small));
+  EXPECT_TRUE(fails(small));
+  EXPECT_EQ(small.triangles.size(), 4U);
+  EXPECT_GT(progress.runs, 0U);
+}
+
+}  // namespace
+}  // namespace tetproof
