@@ -86,7 +86,8 @@ class Run {
     constexpr int kAttempts = 8;
     const double unit = std::ldexp(1.0, -graph.scale);
     plane::ChamferOptions chamfering;
-    chamfering.cosine_squared = cosine_squared(options_.acute);
+    // Right angles and those of 60 degrees are off by rounding; a billionth less does no harm.
+    chamfering.cosine_squared = cosine_squared(options_.acute) * (1 + 1e-9) + 1e-18;
     chamfering.max_radius = options_.chamfer_radius * unit;
     chamfering.tau = options_.tau;
     chamfering.everywhere = options_.region == Region::hull;
@@ -94,6 +95,10 @@ class Run {
     refining.delta = options_.delta;
     refining.max_edge = options_.max_edge * unit;
     refining.everywhere = options_.region == Region::hull;
+    if (options_.tau > 0) {
+      // A channel as narrow as tau allows takes about 4 / tau; neighbours may add to that.
+      refining.most_splits = 16 * (static_cast<std::uint64_t>(1 / options_.tau) + graph.vertices);
+    }
     const std::size_t input_points = points_.size();
     plane::Spared spared;
     for (int attempt = 1;; ++attempt) {
@@ -211,12 +216,6 @@ Status guarded(Run& run) {
 }
 
 }  // namespace
-
-Options plane_options() {
-  Options options;
-  options.delta = plane::kProvenDelta;
-  return options;
-}
 
 PlaneResult triangulate_polygon(const PlanarGraph& graph, const Options& options) {
   PlaneResult result;

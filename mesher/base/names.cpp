@@ -1,4 +1,4 @@
-// Names of the enumerators of the public header.
+// Names of the enumerators of the public header, and defaults.
 #include "mesher/delmesher.h"
 
 namespace delmesher {
@@ -22,6 +22,13 @@ const char* defect_name(Defect::Kind kind) {
                                            "duplicate triangle",
                                            "self-intersection"};
   return kNames[static_cast<std::size_t>(kind)];
+}
+
+// (Here, so that the command line does not need the mesher to know its defaults.)
+Options plane_options() {
+  Options options;
+  options.delta = 20.7;
+  return options;
 }
 
 const char* version() {

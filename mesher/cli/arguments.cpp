@@ -11,6 +11,7 @@
 
 #include "mesher/io/text.h"
 #include "mesher/io/write_mesh.h"
+#include "mesher/io/write_plane.h"
 
 namespace delmesher::cli {
 namespace {
@@ -51,25 +52,23 @@ void add_number(CLI::App& app, Given& given, const std::string& name, const char
 
 constexpr double kHuge = 1e308;
 
-void add_common(CLI::App& app, Command& command) {
-  app.add_option("input", command.input, "surface: OFF, OBJ, STL, PLY, .smesh or .poly")
-      ->required();
+constexpr const char* kSurfaces = "surface: OFF, OBJ, STL, PLY, .smesh or .poly";
+constexpr const char* kMeshes = "mesh to write: .mesh, .msh, .vtu, .node or .tet; may be repeated";
+
+void add_common(CLI::App& app, Command& command, const char* input = kSurfaces) {
+  app.add_option("input", command.input, input)->required();
   auto* quiet = app.add_flag("-q,--quiet", command.quiet, "say nothing but errors");
   app.add_flag("-v,--verbose", command.verbose, "say what each phase did")->excludes(quiet);
 }
 
-void add_run(CLI::App& app, Command& command, Given& given) {
-  app.add_option("-o,--output", command.outputs,
-                 "mesh to write: .mesh, .msh, .vtu, .node or .tet; may be repeated")
-      ->required()
-      ->expected(1)
-      ->take_all();
+void add_run(CLI::App& app, Command& command, Given& given, const char* outputs = kMeshes) {
+  app.add_option("-o,--output", command.outputs, outputs)->required()->expected(1)->take_all();
   app.add_option_function<std::string>(
          "--region",
          [&given](const std::string& text) {
            given.region = text == "hull" ? Region::hull : Region::interior;
          },
-         "tetrahedra that are written: interior (of the solid) or hull")
+         "what is written: interior or hull")
       ->check(CLI::IsMember({"interior", "hull"}));
   add_number(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
              {1, 4294967294.0, false});
@@ -101,7 +100,27 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
 }
 
+void add_plane(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command, "planar graph: .poly, OFF or OBJ with z = 0, or rings of x y lines");
+  add_run(app, command, given, "mesh to write: .node, .vtu, .off, .msh or .svg; may be repeated");
+  add_number(app, given, "delta", "smallest angle, degrees (20.7)", {0, 34, true});
+  add_number(app, given, "tau", "narrowest channel refined, width over length, 0 is off (1e-4)",
+             {0, 1, false});
+  add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)",
+             {60, 90, false});
+  app.add_flag("--approximate", given.approximate,
+               "stop before restoring the input: a mesh of the chamfered graph");
+  add_number(app, given, "chamfer-radius", "largest chamfer distance", {0, kHuge, true});
+  add_number(app, given, "max-edge", "largest edge", {0, kHuge, true});
+  app.add_option_function<std::string>(
+         "--preset", [&given](const std::string&) { given.paper = true; },
+         "paper: delta 20.7, tau 0, acute 90, region hull; other options override it")
+      ->check(CLI::IsMember({"paper"}));
+  app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered graph, .poly");
+}
+
 void apply(const Given& given, Command& command) {
+  if (command.job == Job::plane) command.options = plane_options();
   Options& options = command.options;
   if (command.job == Job::cdt) options.region = Region::hull;
   if (given.paper) {
@@ -109,6 +128,10 @@ void apply(const Given& given, Command& command) {
     options.tau = 1e-4;
     options.acute = 90;
     options.region = Region::hull;
+  }
+  if (given.paper && command.job == Job::plane) {
+    options.delta = plane_options().delta;
+    options.tau = 0;
   }
   const auto number = [&](const char* name, double& target) {
     const auto found = given.numbers.find(name);
@@ -134,11 +157,17 @@ void apply(const Given& given, Command& command) {
 // Files that would overwrite each other or the input; unknown formats.
 std::string output_error(const Command& command) {
   std::vector<std::string> files = {command.input};
+  const bool plane = command.job == Job::plane;
   for (const std::string& output : command.outputs) {
-    if (!io::mesh_format_of(output)) {
+    if (plane && !io::plane_format_of(output)) {
+      return output + ": unknown mesh format (.node, .vtu, .off, .msh or .svg)";
+    }
+    if (!plane && !io::mesh_format_of(output)) {
       return output + ": unknown mesh format (.mesh, .msh, .vtu, .node or .tet)";
     }
-    for (const std::string& file : io::files_of(output)) files.push_back(file);
+    for (const std::string& file : plane ? io::plane_files_of(output) : io::files_of(output)) {
+      files.push_back(file);
+    }
   }
   for (const std::string* file :
        {&command.stats_file, &command.chamfered_file, &command.exact_file}) {
@@ -184,12 +213,12 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   CLI::App* mesh = app.add_subcommand("mesh", "tetrahedralize a closed surface (the default)");
   CLI::App* cdt = app.add_subcommand(
       "cdt", "constrained Delaunay tetrahedrization of the convex hull, no quality");
-  CLI::App* plane = app.add_subcommand("plane", "mesh a polygon (not available in this version)");
+  CLI::App* plane = app.add_subcommand("plane", "mesh a planar graph with triangles");
   CLI::App* check = app.add_subcommand("check", "is this a valid surface? if not, what is wrong?");
   add_mesh(*mesh, command, given);
   add_common(*cdt, command);
   add_run(*cdt, command, given);
-  plane->allow_extras();
+  add_plane(*plane, command, given);
   add_common(*check, command);
   check->add_flag("--json", command.json, "report as JSON");
   add_number(*check, given, "acute", "corners below this angle are acute, degrees (60)",
@@ -210,8 +239,10 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
     std::replace(line.begin(), line.end(), '\n', ' ');
     return usage_error(line);
   }
-  if (plane->parsed()) return usage_error("'plane' is not available in this version");
-  command.job = cdt->parsed() ? Job::cdt : check->parsed() ? Job::check : Job::mesh;
+  command.job = plane->parsed()   ? Job::plane
+                : cdt->parsed()   ? Job::cdt
+                : check->parsed() ? Job::check
+                                  : Job::mesh;
   apply(given, command);
   const std::string error = output_error(command);
   if (!error.empty()) return usage_error(error);

@@ -125,8 +125,17 @@ TEST(Arguments, OtherJobs) {
   EXPECT_TRUE(check.run);
   EXPECT_TRUE(check.command.json);
   EXPECT_EQ(check.command.options.acute, 90);
-  expect_usage_error({"plane", "in.poly", "-o", "out.mesh"}, "not available");
-  expect_usage_error({"plane"}, "not available");
+  const Parsed plane = parse({"plane", "in.poly", "-o", "out.svg", "--preset", "paper"});
+  EXPECT_TRUE(plane.run);
+  EXPECT_EQ(plane.command.job, Job::plane);
+  EXPECT_EQ(plane.command.options.delta, plane_options().delta);
+  EXPECT_EQ(plane.command.options.acute, 90);
+  EXPECT_EQ(plane.command.options.region, Region::hull);
+  EXPECT_EQ(parse({"plane", "i.off", "-o", "o.node"}).command.options.acute, 60);
+  expect_usage_error({"plane", "in.poly", "-o", "out.mesh"}, "unknown mesh format");
+  expect_usage_error({"plane", "in.poly", "-o", "out.svg", "--acute", "30"}, "out of range");
+  expect_usage_error({"plane", "in.poly", "-o", "in.node"}, "same as the input");
+  expect_usage_error({"plane"}, "required");
 }
 
 TEST(Arguments, HelpAndVersion) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <new>
 
+#include "mesher/cli/plane_run.h"
 #include "mesher/cli/progress.h"
 #include "mesher/cli/reports.h"
 #include "mesher/cli/signals.h"
@@ -224,6 +225,7 @@ int Runner::mesh() {
 
 int Runner::run() {
   try {
+    if (command_.job == Job::plane) return run_plane(command_, library_, streams_);
     int code = check_outputs();
     if (code == kDone) code = read();
     if (code != kDone) return code;

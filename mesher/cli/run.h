@@ -14,6 +14,7 @@ struct Library {
   std::function<Result(const Surface&, const Options&)> tetrahedralize;
   std::function<Result(const Surface&, const Options&)> constrained_delaunay;
   std::function<SurfaceReport(const Surface&, const Options&)> check_surface;
+  std::function<PlaneResult(const PlanarGraph&, const Options&)> triangulate_polygon = nullptr;
 };
 
 struct Streams {

@@ -30,6 +30,10 @@ struct Line {
     return std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0);
   }
   double distance_to(const Point& p) const { return distance(at(nearest(p)), p); }
+  double distance_to_line(const Line& l) const {  // that does not cross it
+    return std::min(std::min(distance_to(l.a), distance_to(l.b)),
+                    std::min(l.distance_to(a), l.distance_to(b)));
+  }
 };
 
 class Chamferer {
@@ -205,8 +209,46 @@ class Chamferer {
     return (end(1) - end(0)) * length / width;
   }
 
+  // Calls meet(piece) for the kept pieces that lie close beside the piece of an edge, on the side
+  // of its triangle: across edges that come near to it, or leave its ends under a small angle.
+  template <class Meet>
+  void along_channel(EdgeId start, Meet&& meet) {
+    constexpr int kMost = 64;  // triangles
+    const VertexId a = base_.origin(start), b = base_.target(start);
+    const Line side{point(a), point(b)};
+    const double reach = 8 * options_.tau * side.length();
+    const auto near = [&](VertexId v, VertexId other) {
+      if (v == a || v == b) return false;
+      const bool touching = other == a || other == b;
+      const double d = side.distance_to(point(v));
+      return d <= reach || (touching && d <= 8 * options_.tau * distance(point(v), point(other)));
+    };
+    ++epoch_;
+    std::vector<EdgeId>& stack = star_;
+    stack.assign(1, start);
+    for (int count = 0; !stack.empty() && count < kMost; ++count) {
+      const EdgeId from = stack.back();
+      stack.pop_back();
+      for (const int i : {next(index_of(from)), previous(index_of(from))}) {
+        const EdgeId e = edge_of(triangle_of(from), i);
+        if (kept(base_.piece(e))) {
+          meet(base_.piece(e));
+          continue;
+        }
+        const VertexId u = base_.origin(e), w = base_.target(e);
+        const EdgeId f = base_.twin(e);
+        if (f == kNone || seen_[triangle_of(f)] == epoch_) continue;
+        if (!near(u, w) && !near(w, u) && side.distance_to_line({point(u), point(w)}) > reach)
+          continue;
+        if ((u == a || u == b || w == a || w == b) && !near(u, w) && !near(w, u)) continue;
+        seen_[triangle_of(f)] = epoch_;
+        stack.push_back(f);
+      }
+    }
+  }
+
   // Drops one of the two pieces along every channel that is too narrow, the narrowest first; false
-  // if there was none. The two sides of a channel are edges of neighbouring triangles.
+  // if there was none.
   bool drop_narrow() {
     struct Pair {
       double narrowness;
@@ -221,20 +263,11 @@ class Chamferer {
     };
     for (TriangleId t = 0; t < base_.size(); ++t) {
       control_.poll(points_.size());
-      const auto& own = base_[t].piece;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const EdgeId f = base_[t].neighbor[i];
-        if (own[i] != kNone) {
-          for (std::size_t j = 0; j < i; ++j) {
-            if (own[j] != kNone) consider(own[i], own[j]);
-          }
-        } else if (triangle_of(f) > t) {
-          for (const PieceId p : own) {
-            for (const PieceId q : base_[triangle_of(f)].piece) {
-              if (p != kNone && q != kNone) consider(p, q);
-            }
-          }
-        }
+      for (int i = 0; i < 3; ++i) {
+        const EdgeId e = edge_of(t, i);
+        const PieceId p = base_.piece(e);
+        if (p != kNone && p >= kBoxPieces && kept(p))
+          along_channel(e, [&](PieceId q) { consider(p, q); });
       }
     }
     std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {

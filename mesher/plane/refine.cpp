@@ -84,6 +84,7 @@ class Refiner {
     control_.enter(Phase::delaunay);
     build();
     control_.enter(Phase::segments);
+    splits_.assign(graph_.pieces.size(), 0);
     sides_.start();
     queue_all_segments();
     split_segments();
@@ -91,7 +92,7 @@ class Refiner {
     result_.delta = std::min(options_.delta, kProvenDelta);
     refine_to(result_.delta, 0);
     if (options_.delta > kProvenDelta) try_for(options_.delta);
-    sides_.settle();
+    if (!hopeless_) sides_.settle();
     result_.side.resize(mesh_.size());
     for (TriangleId t = 0; t < mesh_.size(); ++t) result_.side[t] = sides_.of(t);
     carry(static_cast<VertexId>(points_.size() - 1), kNone);
@@ -174,7 +175,7 @@ class Refiner {
   }
 
   void split_segments() {
-    for (; segment_head_ < segments_.size(); ++segment_head_) {
+    for (; segment_head_ < segments_.size() && !hopeless_; ++segment_head_) {
       const Subsegment s = segments_[segment_head_];
       const EdgeId e = mesh_.find_edge(s.a, s.b);
       if (e != kNone && mesh_.piece(e) != kNone && encroached(e)) split_segment(e);
@@ -208,6 +209,7 @@ class Refiner {
         return false;
       }
       carry(p, id);
+      if (++splits_[id] == options_.most_splits) crowd_piece(id);
     }
     ++result_.on_segments;
     mesh_.find_cavity(p, triangle_of(e), e);
@@ -256,11 +258,12 @@ class Refiner {
     const double cosine = std::sqrt(cosine_squared(degrees));
     // Half the cotangent of half the angle, less five percent so that rounding makes no new one.
     off_centre_ = 0.475 * std::sqrt((1 + cosine) / (1 - cosine));
+    split_segments();
     refining_ = true;
     for (TriangleId t = 0; t < mesh_.size(); ++t) judge(t);
     const std::size_t limit = points_.size() + most;
     BadTriangles::Entry entry;
-    while (bad_.pop(entry)) {
+    while (!hopeless_ && bad_.pop(entry)) {
       if (mesh_[entry.triangle].vertex != entry.vertex) continue;
       if (most > 0 && points_.size() > limit) {
         bad_ = {};
@@ -278,7 +281,8 @@ class Refiner {
     if (result_.crowded) return;
     const std::uint64_t most = 8 * points_.size() + 1000;
     if (refine_to(degrees, most) && !result_.crowded) return;
-    result_.crowded = false;  // not what was asked to be certain
+    bad_ = {};
+    hopeless_ = result_.crowded = false;  // not what was asked to be certain
     result_.crowded_pieces.clear();
     result_.crowded_vertices.clear();
     result_.delta = kProvenDelta;
@@ -350,6 +354,11 @@ class Refiner {
     crowd_at(a);
     crowd_at(b);
   }
+  // A channel that the filter overlooked. It would take long, so stop right now.
+  void crowd_piece(PieceId id) {
+    result_.crowded = hopeless_ = true;
+    result_.crowded_pieces.push_back(id);
+  }
   void crowd_at(VertexId v) {
     result_.crowded = true;
     if (v < graph_.vertices) {
@@ -371,7 +380,8 @@ class Refiner {
   std::vector<Subsegment> segments_, encroached_;
   std::size_t segment_head_ = 0;
   BadTriangles bad_;
-  bool refining_ = false;
+  bool refining_ = false, hopeless_ = false;
+  std::vector<std::uint64_t> splits_;  // per piece
   double sine_squared_ = 0, max_edge_squared_ = 0, off_centre_ = 0;
 };
 

@@ -17,6 +17,8 @@ struct RefineOptions {
   double delta = kProvenDelta;
   double max_edge = 0;      // in the units of the store; 0: no bound
   bool everywhere = false;  // triangles outside count as well
+  // A piece that is split more often counts as crowded; 0: no bound.
+  std::uint64_t most_splits = 0;
 };
 
 struct RefinedMesh {

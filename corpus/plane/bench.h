@@ -1,0 +1,63 @@
+// What the parts of tetproof-plane share.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher.h"
+
+namespace tetproof::plane_bench {
+
+using delmesher::PlanarGraph;
+
+struct Input {
+  std::string name;
+  PlanarGraph graph;
+};
+
+// "koch:4", "star:12", ...; throws std::invalid_argument.
+Input family(const std::string& what);
+const std::vector<std::string>& family_names();
+Input file(const std::string& path);
+
+// One mesher on one input. Plain data: it crosses a pipe.
+struct Measurement {
+  bool ok = false;
+  char reason[160] = {};
+  std::uint64_t triangles = 0;
+  double refined_angle = 0;  // smallest, before the exact end; negative: not told apart
+  double final_angle = 0;    // smallest
+  double mean_angle = 0;     // of the smallest per triangle
+  double seconds = 0;        // processor time
+  double peak_megabytes = 0;
+  std::uint64_t acute = 0, dropped = 0;
+};
+
+struct Mesher {
+  std::string name;
+  // Fills in all but the time; throws to fail.
+  std::function<void(const PlanarGraph&, Measurement&)> run;
+};
+
+Mesher delmesher_plane(const delmesher::Options& options);
+Mesher cgal_mesh_2();
+// `command` with {in} for a .poly file.
+Mesher foreign_command(const std::string& command);
+
+// In a child process, which is killed after `timeout` seconds of processor time.
+Measurement measure(const Mesher& mesher, const PlanarGraph& graph, double timeout);
+
+// Smallest and mean smallest angle.
+void count_angles(const std::vector<std::array<double, 2>>& vertices,
+                  const std::vector<std::array<std::uint32_t, 3>>& triangles, Measurement& m);
+
+struct Row {
+  std::string input;
+  std::size_t vertices;
+  std::string mesher;
+  Measurement measurement;
+};
+std::string markdown(const std::vector<Row>& rows, bool summary_only);
+
+}  // namespace tetproof::plane_bench

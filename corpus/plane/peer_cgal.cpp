@@ -1,0 +1,134 @@
+// CGAL's 2D Delaunay mesher: what users of C++ would pick. B = 1/8 is an angle of 20.7 degrees.
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_size_criteria_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <ctime>
+#include <map>
+
+#include "corpus/plane/bench.h"
+
+namespace tetproof::plane_bench {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Vertex = CGAL::Delaunay_mesh_vertex_base_2<Kernel>;
+using Face = CGAL::Delaunay_mesh_face_base_2<Kernel>;
+using Structure = CGAL::Triangulation_data_structure_2<Vertex, Face>;
+using Cdt =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
+using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Cdt>;
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+// A point in every bounded face of the graph that is outside.
+std::list<Kernel::Point_2> seeds(const PlanarGraph& graph, Cdt& cdt,
+                                 const std::map<Cdt::Vertex_handle, std::uint32_t>& number) {
+  std::list<Kernel::Point_2> result;
+  if (graph.insideness == delmesher::Insideness::enclosed) {
+    for (const auto& [x, y] : graph.holes) result.emplace_back(x, y);
+    return result;
+  }
+  std::map<Edge, bool> separates;
+  for (std::size_t i = 0; i < graph.segments.size(); ++i) {
+    const auto [a, b] = graph.segments[i];
+    separates[std::minmax(a, b)] = graph.partitions.empty() || graph.partitions[i] == 0;
+  }
+  std::map<Cdt::Face_handle, int> depth;
+  std::list<Cdt::Face_handle> present = {cdt.infinite_face()}, deeper;
+  depth[cdt.infinite_face()] = 0;
+  for (int d = 0; !present.empty(); ++d) {
+    Cdt::Face_handle largest;
+    double area = -1;
+    while (!present.empty()) {
+      const Cdt::Face_handle face = present.front();
+      present.pop_front();
+      if (d % 2 == 0 && d > 0 && !cdt.is_infinite(face)) {
+        const double own = cdt.triangle(face).area();
+        if (own > area) largest = face;
+        area = std::max(area, own);
+        result.push_back(CGAL::centroid(cdt.triangle(face)));
+      }
+      for (int i = 0; i < 3; ++i) {
+        const Cdt::Face_handle other = face->neighbor(i);
+        if (depth.contains(other)) continue;
+        bool wall = false;
+        if (face->is_constrained(i)) {
+          const auto a = number.find(face->vertex(Cdt::cw(i)));
+          const auto b = number.find(face->vertex(Cdt::ccw(i)));
+          const auto found = a == number.end() || b == number.end()
+                                 ? separates.end()
+                                 : separates.find(std::minmax(a->second, b->second));
+          wall = found == separates.end() || found->second;
+        }
+        if (wall) {
+          deeper.push_back(other);
+        } else {
+          depth[other] = d;
+          present.push_back(other);
+        }
+      }
+    }
+    for (const Cdt::Face_handle face : deeper) {
+      if (depth.emplace(face, d + 1).second) present.push_back(face);
+    }
+    deeper.clear();
+  }
+  return result;
+}
+
+double cpu_now() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+void run(const PlanarGraph& graph, Measurement& m) {
+  double spent = -cpu_now();
+  std::vector<Kernel::Point_2> points;
+  for (const auto& [x, y] : graph.vertices) points.emplace_back(x, y);
+  Cdt cdt;
+  // All at once: CGAL sorts them along a curve.
+  std::vector<std::pair<std::size_t, std::size_t>> segments;
+  for (const auto& [a, b] : graph.segments) segments.emplace_back(a, b);
+  cdt.insert_constraints(points.begin(), points.end(), segments.begin(), segments.end());
+  spent += cpu_now();
+  std::map<Kernel::Point_2, std::uint32_t> place;
+  std::map<Cdt::Vertex_handle, std::uint32_t> number;
+  for (std::uint32_t i = 0; i < points.size(); ++i) place[points[i]] = i;
+  for (auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v) {
+    const auto found = place.find(v->point());
+    if (found != place.end()) number[v] = found->second;
+  }
+  const std::list<Kernel::Point_2> holes = seeds(graph, cdt, number);
+  spent -= cpu_now();
+  CGAL::Delaunay_mesher_2<Cdt, Criteria> mesher(cdt, Criteria(0.125, 0));
+  if (!holes.empty()) mesher.set_seeds(holes.begin(), holes.end(), false);
+  mesher.refine_mesh();
+  spent += cpu_now();
+  std::map<Cdt::Vertex_handle, std::uint32_t> id;
+  std::vector<std::array<double, 2>> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
+    if (!f->is_in_domain()) continue;
+    std::array<std::uint32_t, 3> triangle;
+    for (int i = 0; i < 3; ++i) {
+      const auto [found, is_new] =
+          id.emplace(f->vertex(i), static_cast<std::uint32_t>(vertices.size()));
+      if (is_new) vertices.push_back({f->vertex(i)->point().x(), f->vertex(i)->point().y()});
+      triangle[static_cast<std::size_t>(i)] = found->second;
+    }
+    triangles.push_back(triangle);
+  }
+  count_angles(vertices, triangles, m);
+  m.refined_angle = -1;
+  m.seconds = spent;
+}
+
+}  // namespace
+
+Mesher cgal_mesh_2() {
+  return {"CGAL Mesh_2", run};
+}
+
+}  // namespace tetproof::plane_bench

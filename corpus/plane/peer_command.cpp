@@ -1,0 +1,103 @@
+// Ours through the public header, and foreign programs through files in Triangle's format.
+#include <unistd.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "corpus/plane/bench.h"
+#include "mesher/io/write_plane.h"
+
+namespace tetproof::plane_bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string with(std::string command, const std::string& file) {
+  const std::size_t at = command.find("{in}");
+  if (at == std::string::npos) throw std::invalid_argument("no {in} in the command");
+  return command.replace(at, 4, file);
+}
+
+// Triangle's .node and .ele; the numbers begin at 0 or 1.
+void read_result(const std::string& stem, Measurement& m) {
+  std::ifstream node(stem + ".1.node"), ele(stem + ".1.ele");
+  std::size_t n = 0, corners = 0, skip = 0, attributes = 0;
+  std::string rest;
+  node >> n >> skip >> attributes;
+  std::getline(node, rest);
+  std::vector<std::array<double, 2>> vertices(n);
+  std::size_t base = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::size_t number = 0;
+    node >> number >> vertices[i][0] >> vertices[i][1];
+    if (i == 0) base = number;
+    node.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  std::size_t count = 0;
+  ele >> count >> corners >> attributes;
+  std::vector<std::array<std::uint32_t, 3>> triangles(count);
+  for (auto& triangle : triangles) {
+    std::size_t number = 0;
+    ele >> number;
+    for (std::uint32_t& v : triangle) {
+      std::size_t index = 0;
+      ele >> index;
+      v = static_cast<std::uint32_t>(index - base);
+      if (index < base || v >= n) throw std::runtime_error("bad triangle in its result");
+    }
+    ele.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  if (!node || !ele || n == 0) throw std::runtime_error("no result");
+  count_angles(vertices, triangles, m);
+}
+
+}  // namespace
+
+Mesher delmesher_plane(const delmesher::Options& options) {
+  return {"delmesher plane", [options](const PlanarGraph& graph, Measurement& m) {
+            const std::clock_t start = std::clock();
+            const delmesher::PlaneResult result = delmesher::triangulate_polygon(graph, options);
+            m.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+            if (!result.status.ok()) throw std::runtime_error(result.status.message);
+            const auto& s = result.statistics;
+            if (s.rounding_inverted > 0) throw std::runtime_error("inverted triangles");
+            m.triangles = s.final.triangles;
+            m.refined_angle = s.refined.min_angle;
+            m.final_angle = s.final.min_angle;
+            m.mean_angle = s.final.mean_min_angle;
+            m.acute = s.acute_vertices;
+            m.dropped = s.dropped_segments;
+          }};
+}
+
+Mesher foreign_command(const std::string& command) {
+  return {command.substr(0, command.find(' ')),
+          [command](const PlanarGraph& graph, Measurement& m) {
+            const fs::path folder =
+                fs::temp_directory_path() / ("tetproof-plane-" + std::to_string(getpid()));
+            fs::create_directories(folder);
+            const std::string stem = (folder / "input").string();
+            delmesher::io::OutputSet outputs;
+            delmesher::io::WriteStatus status =
+                delmesher::io::write_poly(outputs, stem + ".poly", graph);
+            if (status.ok()) status = outputs.commit();
+            if (!status.ok()) throw std::runtime_error(status.error);
+            const int code = std::system(with(command, stem + ".poly").c_str());
+            std::exception_ptr failure;
+            try {
+              if (code != 0) throw std::runtime_error("exit status " + std::to_string(code));
+              read_result(stem, m);
+            } catch (...) {
+              failure = std::current_exception();
+            }
+            fs::remove_all(folder);
+            if (failure) std::rethrow_exception(failure);
+            m.refined_angle = -1;
+          }};
+}
+
+}  // namespace tetproof::plane_bench

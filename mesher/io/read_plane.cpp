@@ -1,0 +1,369 @@
+#include "mesher/io/read_plane.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
+#include "mesher/io/text.h"
+
+namespace delmesher::io {
+namespace {
+
+using Point2 = std::array<double, 2>;
+
+double need_number(TextLines& in, const char* what) {
+  std::string_view token;
+  if (!in.next_token(token)) fail(at_line(in.line()), std::string(what) + " is missing");
+  double value = 0;
+  switch (parse_double(token, value)) {
+    case NumberStatus::malformed:
+      fail(at_line(in.line()), "bad number " + quoted(token));
+    case NumberStatus::not_finite:
+      fail(at_line(in.line()), "non-finite number " + quoted(token));
+    case NumberStatus::ok:
+      break;
+  }
+  return value + 0.0;  // -0 is 0
+}
+
+// Triangle's files (https://www.cs.cmu.edu/~quake/triangle.html), counted from 0 or 1.
+class PolyReader {
+ public:
+  PolyReader(std::string_view text, PlanarGraph& graph)
+      : in_(text, Comments::anywhere, ','), graph_(graph) {}
+
+  bool read_header() {
+    need_line("the number of vertices");
+    vertices_ = need_integer<std::uint64_t>("number of vertices");
+    const auto dimension = integer_or<std::int64_t>(2);
+    if (dimension != 2) {
+      fail(here(), "vertices of dimension " + std::to_string(dimension) + ", the plane has 2");
+    }
+    integer_or<std::uint64_t>(0);  // attributes, and markers of vertices, are not used
+    return vertices_ != 0;
+  }
+
+  void read_vertices() {
+    check_count(vertices_, "vertices");
+    graph_.vertices.reserve(vertices_);
+    for (std::uint64_t i = 0; i < vertices_; ++i) {
+      need_line("a vertex");
+      const auto number = need_integer<std::uint64_t>("vertex number");
+      if (i == 0) base_ = number;
+      if (base_ > 1) fail(here(), "vertices have to be numbered from 0 or 1");
+      if (number != base_ + i) {
+        fail(here(), "vertex number " + std::to_string(number) + " where " +
+                         std::to_string(base_ + i) + " is expected");
+      }
+      graph_.vertices.push_back(need_point());
+    }
+  }
+
+  void read_segments() {
+    need_line("the number of segments");
+    const auto count = need_integer<std::uint64_t>("number of segments");
+    const bool marked = integer_or<std::int64_t>(0) != 0;
+    check_count(count, "segments");
+    for (std::uint64_t i = 0; i < count; ++i) {
+      need_line("a segment");
+      need_integer<std::int64_t>("segment number");
+      const std::uint32_t a = need_vertex(), b = need_vertex();
+      graph_.segments.push_back({a, b});
+      if (marked) graph_.markers.push_back(integer_or<std::int32_t>(0));
+    }
+  }
+
+  void read_holes_and_regions(std::vector<std::string>& warnings) {
+    if (!in_.next_line()) return;
+    const auto holes = need_integer<std::uint64_t>("number of holes");
+    check_count(holes, "holes");
+    for (std::uint64_t i = 0; i < holes; ++i) {
+      need_line("a hole");
+      need_integer<std::int64_t>("hole number");
+      graph_.holes.push_back(need_point());
+    }
+    if (!in_.next_line()) return;
+    const auto regions = need_integer<std::uint64_t>("number of regions");
+    check_count(regions, "regions");
+    bool areas = false;
+    for (std::uint64_t i = 0; i < regions; ++i) {
+      need_line("a region");
+      need_integer<std::int64_t>("region number");
+      const Point2 point = need_point();
+      const double attribute = need_number(in_, "attribute");
+      std::string_view token;
+      double area = 0;
+      if (in_.next_token(token) && parse_double(token, area) != NumberStatus::ok) {
+        fail(here(), "bad number " + quoted(token));
+      }
+      areas = areas || area > 0;
+      graph_.regions.push_back({point, attribute});
+    }
+    if (areas) warnings.push_back("largest areas of regions ignored, see --max-edge");
+    if (in_.next_line()) warnings.push_back("lines after the region list ignored");
+  }
+
+  void take_base(const PolyReader& nodes) { base_ = nodes.base_; }
+
+ private:
+  Position here() const { return at_line(in_.line()); }
+  void need_line(const char* what) {
+    if (!in_.next_line()) fail(here(), std::string("the file ends where ") + what + " is expected");
+  }
+  template <typename T>
+  T need_integer(const char* what) {
+    std::string_view token;
+    if (!in_.next_token(token)) fail(here(), std::string(what) + " is missing");
+    T value{};
+    if (!parse_integer(token, value))
+      fail(here(), "bad " + std::string(what) + " " + quoted(token));
+    return value;
+  }
+  template <typename T>
+  T integer_or(T fallback) {
+    std::string_view token;
+    if (!in_.next_token(token)) return fallback;
+    T value{};
+    if (!parse_integer(token, value)) fail(here(), "bad number " + quoted(token));
+    return value;
+  }
+  Point2 need_point() {
+    const double x = need_number(in_, "x");
+    return {x, need_number(in_, "y")};
+  }
+  std::uint32_t need_vertex() {
+    const auto number = need_integer<std::uint64_t>("vertex of a segment");
+    if (number < base_ || number - base_ >= graph_.vertices.size()) {
+      fail(here(), "vertex index out of range: " + std::to_string(number) + " of " +
+                       std::to_string(graph_.vertices.size()) + " (numbered from " +
+                       std::to_string(base_) + ")");
+    }
+    return static_cast<std::uint32_t>(number - base_);
+  }
+  // Every item takes a line of at least two bytes.
+  void check_count(std::uint64_t count, const char* what) const {
+    if (count >= kMaxVertices || count > in_.remaining() / 2 + 1) {
+      fail(here(), "the file is too short for " + std::to_string(count) + " " + what);
+    }
+  }
+
+  TextLines in_;
+  PlanarGraph& graph_;
+  std::uint64_t vertices_ = 0, base_ = 0;
+};
+
+// Equal points become one vertex, in the order of their first appearance.
+std::vector<std::uint32_t> weld(const std::vector<Point2>& points, std::vector<Point2>& vertices) {
+  std::vector<std::uint32_t> order(points.size()), first(points.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return points[a] != points[b] ? points[a] < points[b] : a < b;
+  });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && points[order[k]] == points[order[k - 1]];
+    first[order[k]] = same ? first[order[k - 1]] : order[k];
+  }
+  std::vector<std::uint32_t> number(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (first[i] == i) {
+      number[i] = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(points[i]);
+    } else {
+      number[i] = number[first[i]];
+    }
+  }
+  return number;
+}
+
+struct CountedEdge {
+  std::array<std::uint32_t, 2> ends;  // the smaller index first
+  std::uint32_t position;             // of its first appearance
+  std::uint32_t count;
+};
+
+// Edges with the number of their appearances, in the order of the first.
+std::vector<CountedEdge> count_edges(std::vector<std::array<std::uint32_t, 2>> edges) {
+  std::vector<CountedEdge> result;
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    const auto [a, b] = edges[i];
+    if (a != b) result.push_back({{std::min(a, b), std::max(a, b)}, i, 1});
+  }
+  std::sort(result.begin(), result.end(), [](const CountedEdge& e, const CountedEdge& f) {
+    return e.ends != f.ends ? e.ends < f.ends : e.position < f.position;
+  });
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    if (n > 0 && result[n - 1].ends == result[k].ends) {
+      ++result[n - 1].count;
+    } else {
+      result[n++] = result[k];
+    }
+  }
+  result.resize(n);
+  std::sort(result.begin(), result.end(),
+            [](const CountedEdge& e, const CountedEdge& f) { return e.position < f.position; });
+  return result;
+}
+
+bool has_extension(const std::string& path, std::string_view extension) {
+  return equal_ignoring_case(std::filesystem::path(path).extension().string(), extension);
+}
+
+void read_by_format(std::string_view bytes, const std::string& path, const NodeFile& node_file,
+                    PlaneReadResult& result) {
+  if (looks_like_off(bytes) || has_extension(path, ".off") || has_extension(path, ".obj")) {
+    ReadOptions options;
+    options.planar = true;
+    ReadResult surface = parse_surface(bytes, path, options);
+    result.code = surface.code;
+    result.error = surface.error;
+    result.format = surface.format;
+    result.warnings = surface.warnings;
+    if (surface.ok()) result.graph = outline(surface.surface);
+  } else if (has_extension(path, ".poly")) {
+    result.format = "poly";
+    read_triangle_poly(bytes, node_file, result);
+  } else {
+    result.format = "polygons";
+    read_polygons(bytes, result);
+  }
+}
+
+}  // namespace
+
+void read_triangle_poly(std::string_view text, const NodeFile& node_file, PlaneReadResult& result) {
+  result.graph.insideness = Insideness::enclosed;
+  PolyReader reader(text, result.graph);
+  if (reader.read_header()) {
+    reader.read_vertices();
+  } else {
+    const auto nodes = node_file ? node_file() : std::nullopt;
+    if (!nodes) fail(at_line(1), "no vertices, and no .node file beside it");
+    PolyReader node_reader(*nodes, result.graph);
+    try {
+      if (node_reader.read_header()) node_reader.read_vertices();
+    } catch (const ParseError& error) {
+      fail(at_line(1), "in the .node file, " + describe(error.position) + ": " + error.reason);
+    }
+    reader.take_base(node_reader);
+  }
+  reader.read_segments();
+  reader.read_holes_and_regions(result.warnings);
+}
+
+void read_polygons(std::string_view text, PlaneReadResult& result) {
+  TextLines in(text, Comments::anywhere, ',');
+  std::vector<Point2> points;
+  std::vector<std::size_t> ends;  // of the rings, in points
+  const auto close = [&] {
+    if (points.size() > (ends.empty() ? 0 : ends.back())) ends.push_back(points.size());
+  };
+  while (in.next_raw_line()) {
+    const std::string_view rest = in.rest_of_line();
+    if (rest.empty() || rest[0] == '>') {
+      close();
+      continue;
+    }
+    const double x = need_number(in, "x");
+    points.push_back({x, need_number(in, "y")});
+    if (points.size() >= kMaxVertices) fail(at_line(in.line()), "too many points");
+  }
+  close();
+  if (ends.empty()) fail({}, "no points");
+  PlanarGraph& graph = result.graph;
+  graph.insideness = Insideness::nested;
+  const std::vector<std::uint32_t> number = weld(points, graph.vertices);
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t j = i + 1 < end ? i + 1 : begin;
+      if (end - begin == 2 && i > begin) continue;  // a single segment, not there and back
+      edges.push_back({number[i], number[j]});
+    }
+    begin = end;
+  }
+  for (const CountedEdge& edge : count_edges(std::move(edges))) {
+    graph.segments.push_back(edge.ends);
+    graph.partitions.push_back(edge.count % 2 == 0);
+  }
+}
+
+PlanarGraph outline(const Surface& surface) {
+  PlanarGraph graph;
+  graph.insideness = Insideness::nested;
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+    const auto& [x, y, z] = surface.vertices[i];
+    if (z != 0) fail({}, "vertex " + std::to_string(i) + " is not in the plane z = 0");
+    graph.vertices.push_back({x + 0.0, y + 0.0});
+  }
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  const auto label = [&](std::size_t t) { return surface.labels.empty() ? 0 : surface.labels[t]; };
+  for (const auto& [a, b, c] : surface.triangles) {
+    edges.push_back({a, b});
+    edges.push_back({b, c});
+    edges.push_back({c, a});
+  }
+  // The last triangle at an edge, to compare labels with the first.
+  std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> at;
+  for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    at.push_back({{std::min(edges[i][0], edges[i][1]), std::max(edges[i][0], edges[i][1])}, i / 3});
+  }
+  std::sort(at.begin(), at.end());
+  for (const CountedEdge& edge : count_edges(edges)) {
+    const auto [a, b] = edge.ends;
+    if (edge.count > 2) {
+      fail({}, "edge " + std::to_string(a) + "-" + std::to_string(b) + " has " +
+                   std::to_string(edge.count) + " triangles");
+    }
+    const auto first = std::lower_bound(at.begin(), at.end(), std::pair(edge.ends, 0U));
+    if (edge.count == 2 && label(first->second) == label((first + 1)->second)) continue;
+    graph.segments.push_back(edge.ends);
+    graph.partitions.push_back(edge.count == 2);
+  }
+  return graph;
+}
+
+PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
+                            const NodeFile& node_file) {
+  PlaneReadResult result;
+  try {
+    read_by_format(bytes, path, node_file, result);
+  } catch (const ParseError& error) {
+    result.code = ReadCode::unreadable;
+    const bool at = error.position.unit == Position::Unit::line;
+    result.error =
+        path + (at ? ":" + std::to_string(error.position.number) : "") + ": " + error.reason;
+  } catch (const std::bad_alloc&) {
+    result.code = ReadCode::out_of_memory;
+    result.error = path + ": out of memory while reading";
+  } catch (const std::length_error&) {
+    result.code = ReadCode::out_of_memory;
+    result.error = path + ": out of memory while reading";
+  }
+  return result;
+}
+
+PlaneReadResult read_plane(const std::string& path) {
+  PlaneReadResult result;
+  try {
+    std::string error;
+    const auto bytes = read_file(path, error);
+    if (!bytes) {
+      result.code = ReadCode::unreadable;
+      result.error = path + ": " + error;
+      return result;
+    }
+    return parse_plane(*bytes, path, [&]() -> std::optional<std::string> {
+      std::string ignored;
+      return read_file(std::filesystem::path(path).replace_extension(".node").string(), ignored);
+    });
+  } catch (const std::bad_alloc&) {
+    result.code = ReadCode::out_of_memory;
+    result.error = path + ": out of memory while reading";
+  }
+  return result;
+}
+
+}  // namespace delmesher::io

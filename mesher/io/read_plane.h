@@ -1,0 +1,39 @@
+// Reads a planar straight-line graph from a file of any supported format; see formats.md.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesher/delmesher.h"
+#include "mesher/io/read_surface.h"
+#include "mesher/io/readers.h"
+
+namespace delmesher::io {
+
+struct PlaneReadResult {
+  ReadCode code = ReadCode::ok;
+  std::string error;  // "file:line: reason" or "file: reason"
+  PlanarGraph graph;
+  std::string format;  // "poly", "OFF", "OBJ", "polygons"
+  std::vector<std::string> warnings;
+  bool ok() const { return code == ReadCode::ok; }
+};
+
+PlaneReadResult read_plane(const std::string& path);
+
+// The same for a file's bytes; `node_file` returns the .node file beside a .poly without vertices.
+PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
+                            const NodeFile& node_file = nullptr);
+
+// --- the single formats; they throw ParseError
+
+// Shewchuk's Triangle: vertices, segments, holes, regions.
+void read_triangle_poly(std::string_view text, const NodeFile& node_file, PlaneReadResult& result);
+// Rings of "x y" lines, separated by blank lines or lines that begin with '>' (GMT). Equal points
+// are one vertex. An edge that occurs an even number of times divides what is inside (a border).
+void read_polygons(std::string_view text, PlaneReadResult& result);
+// The outline of a flat surface, and the edges where its labels change.
+PlanarGraph outline(const Surface& surface);
+
+}  // namespace delmesher::io

@@ -1,0 +1,31 @@
+// Writes triangulations of the plane; the formats are described in formats.md.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher.h"
+#include "mesher/io/output.h"
+
+namespace delmesher::io {
+
+enum class PlaneFormat : std::uint8_t { triangle, vtu, off, gmsh, svg };
+
+// By the extension: .node, .vtu, .off, .msh, .svg (in any case).
+std::optional<PlaneFormat> plane_format_of(const std::string& path);
+
+// The files that writing to `path` makes: itself, and .ele and .poly beside a .node.
+std::vector<std::string> plane_files_of(const std::string& path);
+
+// Adds the mesh to a set of outputs; nothing is in place before its commit().
+WriteStatus write_plane(OutputSet& outputs, const std::string& path, const PlaneMesh& mesh);
+
+// A .poly file (Shewchuk's Triangle).
+WriteStatus write_poly(OutputSet& outputs, const std::string& path, const PlanarGraph& graph);
+
+// The sidecar of --exact in the plane; exact_format.md has the grammar.
+WriteStatus write_plane_exact(OutputSet& outputs, const std::string& path,
+                              const PlaneRecord& record);
+
+}  // namespace delmesher::io

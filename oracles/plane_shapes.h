@@ -1,0 +1,49 @@
+// Planar graphs that are valid by construction: families that grow, and seeded ones with tiny
+// angles. For property tests, benchmarks and tables.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher.h"
+
+namespace tetproof::shapes {
+
+using delmesher::PlanarGraph;
+
+// One closed polygon.
+PlanarGraph polygon(const std::vector<std::array<double, 2>>& corners);
+
+PlanarGraph square();
+// A triangle with this angle (radians) at the origin and sides of length 1.
+PlanarGraph needle(double angle);
+// 2n corners, at distance 1 and `ratio` from the centre in turn.
+PlanarGraph star(int n, double ratio);
+// n teeth of height 1 and width `width`, as far apart, on a bar.
+PlanarGraph comb(int n, double width);
+// Von Koch's snowflake: 3 * 4^level corners.
+PlanarGraph koch(int level);
+// n corners around a circle, at distances of 1 to 1 + noise.
+PlanarGraph rough_circle(int n, double noise, std::uint64_t seed);
+// n segments from one point, `angle` apart, in a square.
+PlanarGraph fan(int n, double angle);
+// Squares in squares, every second one a hole.
+PlanarGraph nested_squares(int n);
+// n x n random points joined to a shape like a coast: a closed ring and `islands` small ones.
+PlanarGraph archipelago(int n, int islands, std::uint64_t seed);
+// About the shape of the paper's figure 2: a leaf with sharp tips.
+PlanarGraph figure();
+
+// Something with angles down to 1e-12, of one of the families above or a combination, turned,
+// scaled and moved. The name says what it is.
+struct Named {
+  std::string name;
+  PlanarGraph graph;
+};
+Named tiny_angles(std::uint64_t seed);
+
+// The graph moved, turned and scaled (coordinates are rounded).
+PlanarGraph moved(PlanarGraph graph, double angle, double scale, double x, double y);
+
+}  // namespace tetproof::shapes

@@ -1,0 +1,382 @@
+// End-to-end properties of triangulate_polygon, judged by the exact oracles of the plane.
+// TETPROOF_ITERATIONS widens the generated inputs (the table in reports/plane.md used 1000).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "mesher/delmesher.h"
+#include "oracles/plane_shapes.h"
+#include "oracles/plane_verify.h"
+
+namespace {
+
+using namespace delmesher;
+namespace shapes = tetproof::shapes;
+
+int iterations(int otherwise) {
+  const char* given = std::getenv("TETPROOF_ITERATIONS");
+  return given != nullptr ? std::max(1, std::atoi(given)) : otherwise;
+}
+
+Options exact_options() {
+  Options options = plane_options();
+  options.want_exact = true;
+  return options;
+}
+
+PlaneResult expect_verified(const PlanarGraph& graph, const Options& options = exact_options()) {
+  PlaneResult result = triangulate_polygon(graph, options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  if (!result.status.ok()) return result;
+  const tetproof::PlaneVerdict verdict = tetproof::verify_plane(graph, options, result);
+  EXPECT_TRUE(verdict.ok()) << verdict.text();
+  EXPECT_GT(verdict.checks, 0U);
+  EXPECT_EQ(result.statistics.rounding_inverted, 0U);
+  return result;
+}
+
+std::string refusal(const PlanarGraph& graph, const Options& options = plane_options()) {
+  const PlaneResult result = triangulate_polygon(graph, options);
+  EXPECT_EQ(result.status.code, StatusCode::invalid_surface);
+  EXPECT_TRUE(result.mesh.triangles.empty());
+  return result.status.message;
+}
+
+std::vector<std::array<double, 2>> doubled(std::vector<std::array<double, 2>> points, int k) {
+  for (auto& p : points) p = {std::ldexp(p[0], k), std::ldexp(p[1], k)};
+  return points;
+}
+
+TEST(Plane, Families) {
+  const PlaneResult square = expect_verified(shapes::square());
+  EXPECT_EQ(square.mesh.triangles.size(), 2U);  // a tie of four cocircular points costs nothing
+  EXPECT_GT(expect_verified(shapes::star(7, 0.2)).statistics.acute_vertices, 0U);
+  expect_verified(shapes::comb(6, 0.1));
+  EXPECT_EQ(expect_verified(shapes::koch(3)).statistics.dropped_segments, 0U);
+  expect_verified(shapes::fan(9, 0.05));
+  expect_verified(shapes::nested_squares(5));
+  expect_verified(shapes::rough_circle(150, 0.3, 1));
+  expect_verified(shapes::archipelago(200, 20, 3));
+  expect_verified(shapes::figure());
+}
+
+TEST(Plane, OptionsKeepTheirPromises) {
+  for (const Region region : {Region::interior, Region::hull}) {
+    for (const double acute : {60.0, 90.0}) {
+      Options options = exact_options();
+      options.region = region;
+      options.acute = acute;
+      expect_verified(shapes::figure(), options);
+      expect_verified(shapes::star(5, 0.3), options);
+      options.approximate = true;
+      expect_verified(shapes::figure(), options);
+      options.chamfer_radius = 0.01;
+      expect_verified(shapes::figure(), options);
+      options.tau = 0;
+      options.delta = 10;
+      expect_verified(shapes::figure(), options);
+    }
+  }
+  Options options = exact_options();
+  options.max_edge = 0.1;
+  const PlaneResult fine = expect_verified(shapes::square(), options);
+  for (const auto& t : fine.mesh.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const auto &p = fine.mesh.vertices[t[i]], &q = fine.mesh.vertices[t[(i + 1) % 3]];
+      EXPECT_LE(std::hypot(p[0] - q[0], p[1] - q[1]), 0.1 * (1 + 1e-9));
+    }
+  }
+}
+
+TEST(Plane, BeyondTheProvenBound) {
+  Options options = exact_options();
+  options.delta = 30;
+  const PlaneResult result = expect_verified(shapes::figure(), options);
+  EXPECT_EQ(result.statistics.guaranteed_delta, 30);
+  EXPECT_GE(result.statistics.refined.min_angle, 30);
+  options.delta = 34;  // may not end: then the proven bound holds
+  const PlaneResult most = expect_verified(shapes::koch(2), options);
+  EXPECT_GE(most.statistics.guaranteed_delta, 20.7);
+}
+
+TEST(Plane, TinyAngles) {
+  std::uint64_t chamfered = 0, dropped = 0;
+  const int n = iterations(96);
+  for (int seed = 0; seed < n; ++seed) {
+    const shapes::Named input = shapes::tiny_angles(static_cast<std::uint64_t>(seed));
+    SCOPED_TRACE(input.name + " " + std::to_string(seed));
+    Options options = exact_options();
+    // The larger the channels that are refined, the longer the oracles take.
+    options.tau = seed % 16 == 0 ? 1e-4 : 1e-2;
+    options.region = seed % 5 == 0 ? Region::hull : Region::interior;
+    options.acute = seed % 3 == 0 ? 90 : 60;
+    options.delta = seed % 7 == 0 ? 28 : 20.7;
+    options.approximate = seed % 11 == 0;
+    const PlaneResult result = expect_verified(input.graph, options);
+    EXPECT_GE(result.statistics.refined.min_angle, 20.7 - 1e-6);
+    chamfered += result.statistics.acute_vertices;
+    dropped += result.statistics.dropped_segments;
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(chamfered, 0U);  // not vacuous
+  EXPECT_GT(dropped, 0U);
+}
+
+// --- relations between runs
+
+TEST(Plane, ScalesWithPowersOfTwo) {
+  for (const int k : {-300, -3, 1, 40, 300}) {
+    PlanarGraph graph = shapes::figure();
+    const PlaneResult first = triangulate_polygon(graph);
+    graph.vertices = doubled(graph.vertices, k);
+    const PlaneResult second = triangulate_polygon(graph);
+    ASSERT_TRUE(first.status.ok() && second.status.ok());
+    EXPECT_EQ(first.mesh.triangles, second.mesh.triangles);
+    EXPECT_EQ(doubled(first.mesh.vertices, k), second.mesh.vertices);
+  }
+}
+
+TEST(Plane, SameInputSameMesh) {
+  const PlanarGraph graph = shapes::archipelago(300, 10, 5);
+  const PlaneResult first = triangulate_polygon(graph);
+  std::vector<PlaneResult> others(3);
+  std::vector<std::thread> threads;  // reentrant
+  for (PlaneResult& other : others) {
+    threads.emplace_back([&] { other = triangulate_polygon(graph); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const PlaneResult& other : others) {
+    EXPECT_EQ(first.mesh.triangles, other.mesh.triangles);
+    EXPECT_EQ(first.mesh.vertices, other.mesh.vertices);
+  }
+}
+
+TEST(Plane, OrderAndDirectionOfSegmentsDoNotMatter) {
+  PlanarGraph graph = shapes::figure();
+  const PlaneResult first = triangulate_polygon(graph);
+  std::reverse(graph.segments.begin(), graph.segments.end());
+  for (std::size_t i = 0; i < graph.segments.size(); i += 2) {
+    std::swap(graph.segments[i][0], graph.segments[i][1]);
+  }
+  const PlaneResult second = triangulate_polygon(graph);
+  // The order in which encroached segments are split may differ, the quality may not.
+  EXPECT_NEAR(static_cast<double>(first.mesh.triangles.size()),
+              static_cast<double>(second.mesh.triangles.size()),
+              0.2 * static_cast<double>(first.mesh.triangles.size()));
+  PlanarGraph turned = graph;
+  for (auto& p : turned.vertices) p = {-p[1], p[0]};  // exact: a quarter turn
+  Options options = exact_options();
+  expect_verified(turned, options);
+}
+
+TEST(Plane, SplittingASegmentByHandKeepsTheArea) {
+  PlanarGraph graph = shapes::star(6, 0.4);
+  const auto area = [](const PlaneMesh& mesh) {
+    double sum = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const auto &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+      sum += (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    }
+    return sum / 2;
+  };
+  const double before = area(triangulate_polygon(graph).mesh);
+  const auto [a, b] = graph.segments[0];
+  graph.vertices.push_back({(graph.vertices[a][0] + graph.vertices[b][0]) / 2,
+                            (graph.vertices[a][1] + graph.vertices[b][1]) / 2});
+  const auto m = static_cast<std::uint32_t>(graph.vertices.size() - 1);
+  graph.segments[0] = {a, m};
+  graph.segments.push_back({m, b});
+  EXPECT_NEAR(before, area(expect_verified(graph).mesh), 1e-12);
+}
+
+// --- what is inside
+
+TEST(Plane, HolesAndRegions) {
+  PlanarGraph graph = shapes::nested_squares(3);
+  graph.insideness = Insideness::enclosed;
+  graph.holes = {{0, 0.6}};  // between the second and the third
+  graph.regions = {{{0, 0}, 7}, {{0, 0.9}, 3}};
+  const PlaneResult result = expect_verified(graph);
+  ASSERT_EQ(result.mesh.attributes.size(), result.mesh.triangles.size());
+  std::array<int, 8> count{};
+  for (const double a : result.mesh.attributes) ++count[static_cast<std::size_t>(a)];
+  EXPECT_GT(count[7], 0);
+  EXPECT_GT(count[3], 0);
+  EXPECT_EQ(count[0], 0);
+  graph.holes = {{5, 5}, {0, 0.6}};
+  const PlaneResult odd = triangulate_polygon(graph);
+  ASSERT_EQ(odd.warnings.size(), 1U);
+  EXPECT_NE(odd.warnings[0].find("hole"), std::string::npos);
+}
+
+TEST(Plane, BordersDivide) {
+  // Two squares side by side, given as rings: the common edge divides.
+  PlanarGraph graph;
+  graph.insideness = Insideness::nested;
+  graph.vertices = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
+  graph.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}, {1, 4}};
+  graph.partitions = {0, 0, 0, 0, 0, 0, 1};
+  graph.markers = {1, 1, 1, 1, 1, 1, 9};
+  const PlaneResult result = expect_verified(graph);
+  EXPECT_EQ(std::count(result.mesh.edge_markers.begin(), result.mesh.edge_markers.end(), 9), 1);
+}
+
+// --- invalid and odd input
+
+TEST(Plane, RefusesAndSaysWhy) {
+  PlanarGraph graph = shapes::square();
+  graph.segments.push_back({0, 2});
+  graph.segments.push_back({1, 3});
+  EXPECT_NE(refusal(graph).find("segments 4 and 5 cross"), std::string::npos);
+  graph = shapes::square();
+  graph.vertices.push_back({1, 1});
+  EXPECT_NE(refusal(graph).find("vertices 2 and 4 coincide"), std::string::npos);
+  graph = shapes::square();
+  graph.vertices[1][0] = NAN;
+  EXPECT_NE(refusal(graph).find("vertex 1 is not finite"), std::string::npos);
+  graph = shapes::square();
+  graph.segments[2] = {1, 9};
+  EXPECT_NE(refusal(graph).find("segment 2 has the vertex 9 of 4"), std::string::npos);
+  graph.segments[2] = {3, 3};
+  EXPECT_NE(refusal(graph).find("begins and ends at vertex 3"), std::string::npos);
+  graph = shapes::square();
+  graph.vertices.push_back({2, 0});
+  graph.segments.push_back({0, 4});
+  EXPECT_NE(refusal(graph).find("segments 0 and 4 overlap"), std::string::npos);
+  EXPECT_NE(refusal({}).find("no segments"), std::string::npos);
+  graph = shapes::square();
+  graph.segments.pop_back();
+  EXPECT_NE(refusal(graph).find("enclose nothing"), std::string::npos);
+  graph = shapes::square();
+  graph.markers = {1};
+  EXPECT_NE(refusal(graph).find("markers"), std::string::npos);
+  graph = shapes::square();
+  graph.vertices[0] = {-5e-324, 0};
+  graph.vertices[2] = {1e300, 1e300};
+  EXPECT_NE(refusal(graph).find("orders of magnitude"), std::string::npos);
+}
+
+TEST(Plane, AcceptsAndWarns) {
+  PlanarGraph graph = shapes::square();
+  graph.vertices.push_back({0.5, 0});  // on segment 0
+  graph.segments.push_back({4, 2});
+  PlaneResult result = expect_verified(graph);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].find("1 segments split"), std::string::npos);
+  graph = shapes::square();
+  graph.segments.push_back({2, 1});
+  result = expect_verified(graph);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].find("more than once"), std::string::npos);
+  graph = shapes::square();
+  graph.vertices.push_back({0.3, 0.4});  // a lone vertex is a vertex of the mesh
+  result = expect_verified(graph);
+  EXPECT_NE(std::find(result.mesh.vertices.begin(), result.mesh.vertices.end(),
+                      std::array<double, 2>{0.3, 0.4}),
+            result.mesh.vertices.end());
+}
+
+TEST(Plane, NoRoomBetweenDoubles) {
+  // Three vertices within a few units in the last place, and a segment as close to a side.
+  PlanarGraph graph = shapes::square();
+  graph.insideness = Insideness::enclosed;
+  const double x = 0.7, up = std::nextafter(x, 1);
+  graph.vertices.insert(
+      graph.vertices.end(),
+      {{x, x}, {up, x}, {x, up}, {0.2, 0.3}, {0.1, 1 - 0x1p-53}, {0.9, 1 - 0x1p-52}});
+  graph.segments.push_back({7, 4});
+  graph.segments.push_back({8, 9});
+  const PlaneResult result = expect_verified(graph);
+  EXPECT_GT(result.statistics.dropped_segments, 0U);
+}
+
+TEST(Plane, LimitsAndOptions) {
+  Options options = plane_options();
+  options.max_vertices = 50;
+  EXPECT_EQ(triangulate_polygon(shapes::koch(4), options).status.code, StatusCode::limit_reached);
+  options = plane_options();
+  options.time_limit_seconds = 1e-9;
+  EXPECT_EQ(triangulate_polygon(shapes::koch(4), options).status.code, StatusCode::limit_reached);
+  options = plane_options();
+  options.progress = [](const Progress&) { return false; };
+  EXPECT_EQ(triangulate_polygon(shapes::koch(4), options).status.code, StatusCode::interrupted);
+  options = plane_options();
+  options.acute = 45;
+  EXPECT_EQ(triangulate_polygon(shapes::square(), options).status.code,
+            StatusCode::invalid_options);
+  options.acute = 60;
+  options.delta = 40;
+  EXPECT_EQ(triangulate_polygon(shapes::square(), options).status.code,
+            StatusCode::invalid_options);
+}
+
+// --- the oracles themselves: what they are told wrong they notice
+
+TEST(PlaneOracle, NoticesWhatIsWrong) {
+  const PlanarGraph graph = shapes::figure();
+  const Options options = exact_options();
+  const PlaneResult good = triangulate_polygon(graph, options);
+  ASSERT_TRUE(tetproof::verify_plane(graph, options, good).ok());
+  const auto noticed = [&](const char* kind, const std::function<void(PlaneResult&)>& spoil) {
+    PlaneResult bad = good;
+    spoil(bad);
+    const std::string text = tetproof::verify_plane(graph, options, bad).text();
+    EXPECT_NE(text.find(kind), std::string::npos) << kind << " in: " << text;
+  };
+  noticed("points", [](PlaneResult& r) { r.exact.points[0].x += 1e-9; });
+  noticed("orientation", [](PlaneResult& r) {
+    std::swap(r.exact.final[5].vertices[0], r.exact.final[5].vertices[1]);
+  });
+  noticed("area", [](PlaneResult& r) { r.exact.refined.pop_back(); });
+  noticed("tiling", [](PlaneResult& r) { r.exact.final_edges.erase(r.exact.final_edges.begin()); });
+  noticed("angle", [](PlaneResult& r) { r.exact.delta = 33; });
+  noticed("side", [](PlaneResult& r) { r.exact.final[7].side = PlaneRecord::Side::mixed; });
+  noticed("side", [](PlaneResult& r) {
+    for (auto& t : r.exact.refined) t.side = PlaneRecord::Side::inside;
+  });
+  noticed("chamfer", [](PlaneResult& r) { r.exact.corners[0].radius *= 2; });
+  noticed("written", [](PlaneResult& r) { r.mesh.vertices[3][0] += 1e-9; });
+  noticed("written", [](PlaneResult& r) { r.mesh.triangles.pop_back(); });
+}
+
+TEST(PlaneOracle, NoticesAnEdgeThatIsNotDelaunay) {
+  // A flip of an edge of the final mesh leaves everything right but this.
+  const PlanarGraph graph = shapes::square();
+  Options options = exact_options();
+  options.max_edge = 0.3;
+  PlaneResult result = triangulate_polygon(graph, options);
+  auto& triangles = result.exact.refined;
+  bool flipped = false;
+  for (std::size_t i = 0; i < triangles.size() && !flipped; ++i) {
+    for (std::size_t j = 0; j < i && !flipped; ++j) {
+      std::vector<std::uint32_t> common, apex;
+      for (const auto v : triangles[i].vertices) {
+        const auto& w = triangles[j].vertices;
+        (std::find(w.begin(), w.end(), v) != w.end() ? common : apex).push_back(v);
+      }
+      if (common.size() != 2 || triangles[i].side != PlaneRecord::Side::inside) continue;
+      for (const auto v : triangles[j].vertices) {
+        if (std::find(common.begin(), common.end(), v) == common.end()) apex.push_back(v);
+      }
+      const auto set = [&](std::size_t k, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const auto &p = result.exact.points[a], &q = result.exact.points[b],
+                   &r = result.exact.points[c];
+        const double area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+        if (area > 0) triangles[k].vertices = {a, b, c};
+        if (area < 0) triangles[k].vertices = {a, c, b};
+      };
+      const auto before = triangles;
+      set(i, apex[0], apex[1], common[0]);
+      set(j, apex[0], apex[1], common[1]);
+      const std::string text = tetproof::verify_plane(graph, options, result).text();
+      flipped = text.find("Delaunay") != std::string::npos;
+      if (!flipped) triangles = before;
+    }
+  }
+  EXPECT_TRUE(flipped);
+}
+
+}  // namespace
