@@ -2,6 +2,7 @@
 // right reason. TETPROOF_ITERATIONS widens the test.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "corpus/generate/certify.h"
@@ -113,6 +114,30 @@ TEST(Shrink, KeepsWhatMatters) {
   EXPECT_TRUE(fails(small));
   EXPECT_EQ(small.triangles.size(), 4U);
   EXPECT_GT(progress.runs, 0U);
+}
+
+// Lengths whose fourth powers are no doubles.
+TEST(Scale, ExtremeSizesGiveTheSameMesh) {
+  const Surface surface = *generate(*find_family("boolean_boxes"), 1, 0);
+  const auto plain = delmesher::tetrahedralize(surface);
+  ASSERT_TRUE(plain.status.ok()) << plain.status.message;
+  for (const int exponent : {-400, -268, 268}) {
+    Surface scaled = surface;
+    for (auto& p : scaled.vertices) {
+      for (double& x : p) x = std::ldexp(x, exponent);
+    }
+    const auto result = delmesher::tetrahedralize(scaled);
+    ASSERT_TRUE(result.status.ok()) << exponent << ": " << result.status.message;
+    EXPECT_EQ(result.mesh.tetrahedra, plain.mesh.tetrahedra) << exponent;
+    ASSERT_EQ(result.mesh.vertices.size(), plain.mesh.vertices.size()) << exponent;
+    for (std::size_t v = 0; v < plain.mesh.vertices.size(); ++v) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        ASSERT_EQ(result.mesh.vertices[v][i], std::ldexp(plain.mesh.vertices[v][i], exponent));
+      }
+    }
+    EXPECT_EQ(result.statistics.bbox_diagonal,
+              std::ldexp(plain.statistics.bbox_diagonal, exponent));
+  }
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "mesher/output/rounding.h"
 #include "mesher/output/statistics.h"
 #include "mesher/refine/refine.h"
+#include "mesher/scaling.h"
 #include "mesher/surface/feature_size.h"
 #include "mesher/surface/topology.h"
 #include "mesher/surface/validity.h"
@@ -267,11 +268,15 @@ Result run(const Options& options, Body&& body) {
 }  // namespace
 
 Result tetrahedralize(const Surface& surface, const Options& options) {
-  return run(options, [&](Run& stages) { return stages.mesh(surface); });
+  return in_ordinary_units(surface, options, [](const Surface& s, const Options& o) {
+    return run(o, [&](Run& stages) { return stages.mesh(s); });
+  });
 }
 
 Result constrained_delaunay(const Surface& surface, const Options& options) {
-  return run(options, [&](Run& stages) { return stages.cdt(surface); });
+  return in_ordinary_units(surface, options, [](const Surface& s, const Options& o) {
+    return run(o, [&](Run& stages) { return stages.cdt(s); });
+  });
 }
 
 SurfaceReport check_surface(const Surface& surface, const Options& options) {

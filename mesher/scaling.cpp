@@ -1,0 +1,79 @@
+#include "mesher/scaling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace delmesher {
+namespace {
+
+// Tenth powers of lengths of ordinary size, and of a 2^-20th of them, are far from the limits.
+constexpr int kOrdinary = 64;
+// Coordinates in small units must not become subnormal in the given ones.
+constexpr int kSmallest = -700;
+
+using Point = std::array<double, 3>;
+
+void scale(Point& p, int exponent) {
+  for (double& x : p) x = std::ldexp(x, exponent);
+}
+
+bool is_exact(const std::vector<Point>& points, int exponent) {
+  return std::all_of(points.begin(), points.end(), [&](const Point& p) {
+    return std::all_of(p.begin(), p.end(), [&](double x) {
+      return std::ldexp(std::ldexp(x, exponent), -exponent) == x;
+    });
+  });
+}
+
+void scale(ExactRecord& record, int exponent) {
+  for (ExactPoint& p : record.points) {
+    if (p.kind != ExactPoint::Kind::explicit_point) continue;
+    p.x = std::ldexp(p.x, exponent);
+    p.y = std::ldexp(p.y, exponent);
+    p.z = std::ldexp(p.z, exponent);
+  }
+  for (ExactRecord::Corner& corner : record.corners) {
+    corner.radius = std::ldexp(corner.radius, exponent);
+  }
+}
+
+// 0 for models of ordinary size, and where scaling would not be exact.
+int unit_exponent(const Surface& surface) {
+  double largest = 0;
+  for (const Point& p : surface.vertices) {
+    for (const double x : p) largest = std::max(largest, std::fabs(x));
+  }
+  if (!(largest > 0) || !std::isfinite(largest)) return 0;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  if (std::abs(exponent) <= kOrdinary || exponent < kSmallest) return 0;
+  return is_exact(surface.vertices, -exponent) ? exponent : 0;
+}
+
+}  // namespace
+
+Result in_ordinary_units(const Surface& surface, const Options& options,
+                         const std::function<Result(const Surface&, const Options&)>& task) {
+  const int exponent = unit_exponent(surface);
+  if (exponent == 0) return task(surface, options);
+  Surface scaled = surface;
+  for (Point& p : scaled.vertices) scale(p, -exponent);
+  Options units = options;
+  units.max_edge = std::ldexp(options.max_edge, -exponent);
+  units.chamfer_radius = std::ldexp(options.chamfer_radius, -exponent);
+  Result result = task(scaled, units);
+  // Messages about what is wrong name coordinates; points that become subnormal are not exact.
+  if (result.status.code == StatusCode::invalid_surface ||
+      !is_exact(result.mesh.vertices, exponent)) {
+    return task(surface, options);
+  }
+  for (Point& p : result.mesh.vertices) scale(p, exponent);
+  for (Point& p : result.chamfered.vertices) scale(p, exponent);
+  scale(result.exact, exponent);
+  Statistics& s = result.statistics;
+  s.bbox_diagonal = std::ldexp(s.bbox_diagonal, exponent);
+  s.max_surface_deviation = std::ldexp(s.max_surface_deviation, exponent);
+  return result;
+}
+
+}  // namespace delmesher

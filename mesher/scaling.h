@@ -1,0 +1,17 @@
+// Models of extreme size. The stages work in doubles where they only steer; lengths of about 1e-80
+// have fourth powers that underflow. So such models are meshed in units of a power of two near
+// their size, which is exact, and the result is given back in theirs.
+#pragma once
+
+#include <functional>
+
+#include "mesher/delmesher.h"
+
+namespace delmesher {
+
+// Calls `task` with surface and options, in other units if the model's size calls for it and if
+// that is exact for every coordinate.
+Result in_ordinary_units(const Surface& surface, const Options& options,
+                         const std::function<Result(const Surface&, const Options&)>& task);
+
+}  // namespace delmesher
