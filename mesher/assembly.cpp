@@ -293,6 +293,9 @@ MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,
                             const PointStore& points, Region region) {
   MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}};
   RoundingInput& input = mesh.rounding;
+  const auto inside = static_cast<std::size_t>(std::count(cdt.inside.begin(), cdt.inside.end(), 1));
+  input.tetrahedra.reserve(region == Region::interior ? inside : cdt.tetrahedra.size());
+  input.inside.reserve(input.tetrahedra.capacity());
   for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
     if (region == Region::interior && cdt.inside[n] == 0) continue;
     input.tetrahedra.push_back(cdt.tetrahedra[n]);

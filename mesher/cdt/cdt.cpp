@@ -86,6 +86,9 @@ class CdtBuilder {
   }
 
   CdtResult result(const Tetrahedrization& mesh) {
+    const std::size_t count = mesh.tetrahedra();
+    result_.tetrahedra.reserve(count);
+    result_.inside.reserve(count);
     for (TetId t = 0; t < mesh.capacity(); ++t) {
       if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
       const VertexId* v = mesh.vertices(t);

@@ -103,7 +103,7 @@ TetId Tetrahedrization::allocate() {
   dead_.push_back(0);
   mark_.push_back(0);
   star_mark_.push_back(0);
-  cell_.emplace_back();
+  cell_.push_back({});
   return t;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/base/growing_array.h"
 #include "mesher/base/ids.h"
 #include "mesher/predicates/predicates.h"
 
@@ -112,9 +113,9 @@ class Tetrahedrization {
     VertexId vertex[4] = {kNone, kNone, kNone, kNone};
     std::uint32_t neighbor[4] = {kNone, kNone, kNone, kNone};  // 4 * tet + face over there
   };
-  std::vector<Cell> cell_;
-  std::vector<std::uint8_t> dead_;
-  std::vector<std::uint32_t> mark_;  // epoch_: in the cavity; epoch_ + 1: visited, not in it
+  GrowingArray<Cell> cell_;
+  GrowingArray<std::uint8_t> dead_;
+  GrowingArray<std::uint32_t> mark_;  // epoch_: in the cavity; epoch_ + 1: visited, not in it
   std::vector<TetId> free_;
   std::vector<TetId> incident_;  // per point of the store
   std::uint32_t epoch_ = 0;
@@ -122,7 +123,7 @@ class Tetrahedrization {
   std::vector<TetId> cavity_, created_;
   std::vector<BoundaryFace> boundary_;
   std::vector<TetId> star_;
-  std::vector<std::uint32_t> star_mark_;
+  GrowingArray<std::uint32_t> star_mark_;
   std::uint32_t star_epoch_ = 0;
 };
 

@@ -26,8 +26,12 @@ struct Scene {
   RoundedMesh mesh() {
     input.points = &points;
     input.inside.assign(input.tetrahedra.size(), 1);
-    return {input, control};
+    given_ = input;
+    return {given_, control};
   }
+
+ private:
+  RoundingInput given_;  // what the mesh takes its tetrahedra from
 };
 
 std::size_t alive(const RoundedMesh& mesh) {

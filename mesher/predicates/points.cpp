@@ -78,7 +78,7 @@ VertexId PointStore::add_implicit(const PointDefinition& definition) {
     }
     d.size[axis] = x.sign() * static_cast<std::int32_t>(x.mantissa.used());
     d.exponent[axis] = x.exponent;
-    limbs_.insert(limbs_.end(), x.mantissa.data(), x.mantissa.data() + x.mantissa.used());
+    limbs_.append(x.mantissa.data(), x.mantissa.data() + x.mantissa.used());
   }
   const auto combined = [](const std::array<Rounded, 3>& r) -> Approximation {
     double error = std::max({r[0].error, r[1].error, r[2].error});

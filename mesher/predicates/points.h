@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "mesher/base/growing_array.h"
 #include "mesher/base/ids.h"
 
 namespace delmesher {
@@ -109,11 +110,11 @@ class PointStore {
   // The limbs of details are stored in the order of the points, x before y before z.
   static std::size_t limb_count(const Detail& d);
 
-  std::vector<Approximation> approximations_;
-  std::vector<std::uint32_t> detail_of_;  // index into details_, or kNone
-  std::vector<Detail> details_;
-  std::vector<mp_limb_t> limbs_;
-  std::vector<std::uint32_t> supports_;  // per detail: planes, then lines
+  GrowingArray<Approximation> approximations_;
+  GrowingArray<std::uint32_t> detail_of_;  // index into details_, or kNone
+  GrowingArray<Detail> details_;
+  GrowingArray<mp_limb_t> limbs_;
+  GrowingArray<std::uint32_t> supports_;  // per detail: planes, then lines
 };
 
 }  // namespace delmesher

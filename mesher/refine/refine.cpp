@@ -44,9 +44,9 @@ RefineResult Refiner::result() {
   }
   // The memory of the queues and marks goes before that of the result comes.
   bad_ = {};
-  std::vector<std::array<std::uint32_t, 4>>().swap(subfacet_);
-  std::vector<std::uint8_t>().swap(edge_bits_);
-  std::vector<std::uint8_t>().swap(is_fresh_);
+  subfacet_.release();
+  edge_bits_.release();
+  is_fresh_.release();
   edge_map_ = {};
   r.tetrahedra.reserve(count);
   r.side.reserve(count);

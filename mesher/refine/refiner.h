@@ -17,6 +17,7 @@
 #include <queue>
 #include <unordered_map>
 
+#include "mesher/base/growing_array.h"
 #include "mesher/delaunay/planar.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/placement.h"
@@ -153,7 +154,7 @@ class Refiner {
   std::vector<Subsegment> subsegments_;
   std::vector<std::uint32_t> first_subsegment_;                // per segment of the complex
   std::unordered_map<std::uint64_t, std::uint32_t> edge_map_;  // looked up only, never iterated
-  std::vector<Subfacet> subfacets_;
+  GrowingArray<Subfacet> subfacets_;
   std::size_t dead_subfacets_ = 0;
   std::vector<FacetPlane> planes_;               // per facet
   std::vector<std::vector<VertexId>> on_facet_;  // per facet: Steiner points inside it
@@ -161,10 +162,10 @@ class Refiner {
   std::uint64_t on_segments_ = 0, on_facets_ = 0;
 
   // Per tetrahedron.
-  std::vector<std::array<std::uint32_t, 4>> subfacet_;  // on each face, or kNone
-  std::vector<std::uint8_t> edge_bits_;                 // bit e: kEdge[e] is a subsegment
+  GrowingArray<std::array<std::uint32_t, 4>> subfacet_;  // on each face, or kNone
+  GrowingArray<std::uint8_t> edge_bits_;                 // bit e: kEdge[e] is a subsegment
   enum : std::uint8_t { kUnknown, kOutside, kInside, kStraddling, kAsked };
-  std::vector<std::uint8_t> side_;
+  GrowingArray<std::uint8_t> side_;
 
   std::deque<std::uint32_t> subsegment_queue_, subfacet_queue_;
   Goal goal_{};
@@ -174,7 +175,7 @@ class Refiner {
   // Tetrahedra created since the last judge_fresh(), some dead again: most of those that appear
   // while subsegments and subfacets are split do not live to be judged.
   std::vector<TetId> fresh_;
-  std::vector<std::uint8_t> is_fresh_;  // per tetrahedron
+  GrowingArray<std::uint8_t> is_fresh_;  // per tetrahedron
   bool facets_built_ = false;
   bool refining_ = false;
 
