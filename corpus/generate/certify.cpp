@@ -2,6 +2,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Random.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
@@ -119,6 +120,8 @@ Surface convex_hull(const std::vector<std::array<double, 3>>& points) {
   std::vector<Kernel::Point_3> input;
   for (const auto& p : points) input.push_back(point(p));
   Mesh mesh;
+  // It chooses among coplanar triangulations by chance: the same chances every time.
+  CGAL::get_default_random() = CGAL::Random(1);
   CGAL::convex_hull_3(input.begin(), input.end(), mesh);
   Surface surface;
   for (const auto v : mesh.vertices()) {
