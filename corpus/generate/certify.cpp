@@ -2,13 +2,13 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Random.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace tetproof {
@@ -116,26 +116,79 @@ std::optional<Kind> first_defect(const Surface& surface) {
   return {};
 }
 
+namespace {
+
+// A convex polygon from its directed edges, beginning at `first`.
+std::vector<Index> loop_of(const std::map<Index, Index>& next, Index first) {
+  std::vector<Index> loop = {first};
+  for (Index v = next.at(first); v != first && loop.size() <= next.size(); v = next.at(v)) {
+    loop.push_back(v);
+  }
+  return loop;
+}
+
+// Triangles of a convex polygon around its first corner, in the order of `vertices`, for which none
+// is degenerate.
+void add_fan(const std::map<Index, Index>& next, Surface& surface) {
+  for (const auto& [first, second] : next) {
+    const std::vector<Index> loop = loop_of(next, first);
+    std::vector<std::array<Index, 3>> fan;
+    for (std::size_t i = 2; i < loop.size(); ++i) fan.push_back({first, loop[i - 1], loop[i]});
+    const bool good = std::none_of(fan.begin(), fan.end(),
+                                   [&](const auto& t) { return is_degenerate(surface, t); });
+    if (!good) continue;
+    surface.triangles.insert(surface.triangles.end(), fan.begin(), fan.end());
+    return;
+  }
+}
+
+}  // namespace
+
+// CGAL's hull depends on addresses where points are coplanar. Only its facets, which are unique,
+// are taken from it, and triangulated in the order of the points.
 Surface convex_hull(const std::vector<std::array<double, 3>>& points) {
   std::vector<Kernel::Point_3> input;
   for (const auto& p : points) input.push_back(point(p));
   Mesh mesh;
-  // It chooses among coplanar triangulations by chance: the same chances every time.
-  CGAL::get_default_random() = CGAL::Random(1);
   CGAL::convex_hull_3(input.begin(), input.end(), mesh);
+  std::set<Kernel::Point_3> left;
+  for (const auto v : mesh.vertices()) left.insert(mesh.point(v));
   Surface surface;
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    surface.vertices.push_back({p.x(), p.y(), p.z()});
+  for (const auto& p : points) {
+    if (left.erase(point(p)) > 0) surface.vertices.push_back(p);
   }
-  for (const auto f : mesh.faces()) {
-    std::array<Index, 3> triangle;
-    std::size_t i = 0;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
-      triangle[i++ % 3] = static_cast<Index>(v.idx());
+  std::map<Kernel::Point_3, Index> number;
+  for (Index v = 0; v < surface.vertices.size(); ++v) number[point(surface.vertices[v])] = v;
+  const auto corner = [&](Mesh::Halfedge_index h) { return number.at(mesh.point(mesh.target(h))); };
+  const auto is_flat = [&](Mesh::Halfedge_index h) {
+    const auto other = mesh.opposite(h);
+    return CGAL::coplanar(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)),
+                          mesh.point(mesh.target(mesh.next(h))),
+                          mesh.point(mesh.target(mesh.next(other))));
+  };
+  std::vector<std::map<Index, Index>> facets;  // border edges of each, from corner to corner
+  std::vector<bool> seen(mesh.number_of_faces(), false);
+  for (const auto start : mesh.faces()) {
+    if (seen[start]) continue;
+    seen[start] = true;
+    facets.emplace_back();
+    std::vector<Mesh::Face_index> queue = {start};
+    while (!queue.empty()) {
+      const auto f = queue.back();
+      queue.pop_back();
+      for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+        const auto beyond = mesh.face(mesh.opposite(h));
+        if (!is_flat(h)) {
+          facets.back()[corner(mesh.opposite(h))] = corner(h);
+        } else if (!seen[beyond]) {
+          seen[beyond] = true;
+          queue.push_back(beyond);
+        }
+      }
     }
-    surface.triangles.push_back(triangle);
   }
+  std::sort(facets.begin(), facets.end());
+  for (const auto& facet : facets) add_fan(facet, surface);
   return surface;
 }
 
