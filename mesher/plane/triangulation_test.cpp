@@ -13,16 +13,16 @@ namespace {
 
 class Mesh {
  public:
-  Mesh() : predicates_(points_), mesh_(predicates_) {
+  Mesh() : predicates(points), mesh(predicates) {
     const VertexId a = point(-4, -4), b = point(4, -4), c = point(4, 4), d = point(-4, 4);
-    mesh_.start({a, b, c, d}, {0, 1, 2, 3});
+    mesh.start({a, b, c, d}, {0, 1, 2, 3});
   }
-  VertexId point(double x, double y) { return points_.add_explicit(x, y, 0); }
-  VertexId insert(double x, double y) { return mesh_.insert(point(x, y), 0); }
+  VertexId point(double x, double y) { return points.add_explicit(x, y, 0); }
+  VertexId insert(double x, double y) { return mesh.insert(point(x, y), 0); }
 
-  PointStore points_;
-  PlanePredicates predicates_;
-  Triangulation mesh_;
+  PointStore points;
+  PlanePredicates predicates;
+  Triangulation mesh;
 };
 
 std::vector<std::array<double, 2>> random_points(int n, bool grid, std::uint64_t seed) {
@@ -45,9 +45,9 @@ TEST(Triangulation, DelaunayAfterEveryInsertion) {
     Mesh m;
     for (const auto& [x, y] : random_points(150, grid, 3)) {
       m.insert(x, y);
-      ASSERT_EQ(m.mesh_.check(true), nullptr);
+      ASSERT_EQ(m.mesh.check(true), nullptr);
     }
-    EXPECT_EQ(m.mesh_.size(), 2 + 2 * 150U);  // Euler
+    EXPECT_EQ(m.mesh.size(), 2 + 2 * 150U);  // Euler
   }
 }
 
@@ -59,9 +59,9 @@ TEST(Triangulation, UniqueWhateverTheOrder) {
     ids.push_back(first.point(x, y));
     second.point(x, y);
   }
-  for (const VertexId v : ids) first.mesh_.insert(v, 0);
-  sort_for_insertion(second.points_, ids);
-  for (const VertexId v : ids) second.mesh_.insert(v, 0);
+  for (const VertexId v : ids) first.mesh.insert(v, 0);
+  sort_for_insertion(second.points, ids);
+  for (const VertexId v : ids) second.mesh.insert(v, 0);
   const auto triangles = [](const Triangulation& mesh) {
     std::set<std::array<VertexId, 3>> result;
     for (const Triangle& t : mesh.triangles()) {
@@ -71,7 +71,7 @@ TEST(Triangulation, UniqueWhateverTheOrder) {
     }
     return result;
   };
-  EXPECT_EQ(triangles(first.mesh_), triangles(second.mesh_));
+  EXPECT_EQ(triangles(first.mesh), triangles(second.mesh));
 }
 
 TEST(Triangulation, FindsWhatIsThere) {
@@ -80,29 +80,29 @@ TEST(Triangulation, FindsWhatIsThere) {
   EXPECT_EQ(m.insert(0, 0), a);
   const VertexId b = m.insert(1, 0);
   m.insert(0.5, 1);
-  const EdgeId e = m.mesh_.find_edge(a, b);
+  const EdgeId e = m.mesh.find_edge(a, b);
   ASSERT_NE(e, kNone);
-  EXPECT_EQ(m.mesh_.origin(e), a);
-  EXPECT_EQ(m.mesh_.target(e), b);
-  EXPECT_EQ(m.mesh_.find_edge(b, 3), kNone);  // a corner far away
-  EXPECT_NE(m.mesh_.find_edge(0, 1), kNone);  // a side of the rectangle
+  EXPECT_EQ(m.mesh.origin(e), a);
+  EXPECT_EQ(m.mesh.target(e), b);
+  EXPECT_EQ(m.mesh.find_edge(b, 3), kNone);  // a corner far away
+  EXPECT_NE(m.mesh.find_edge(0, 1), kNone);  // a side of the rectangle
   std::vector<EdgeId> star;
-  m.mesh_.star(a, star);
-  for (const EdgeId spoke : star) EXPECT_EQ(m.mesh_.apex(spoke), a);
+  m.mesh.star(a, star);
+  for (const EdgeId spoke : star) EXPECT_EQ(m.mesh.apex(spoke), a);
   const VertexId c = m.point(9, 9);
-  m.mesh_.rename(b, c);
-  EXPECT_NE(m.mesh_.find_edge(a, c), kNone);
-  EXPECT_FALSE(m.mesh_.has_vertex(b));
+  m.mesh.rename(b, c);
+  EXPECT_NE(m.mesh.find_edge(a, c), kNone);
+  EXPECT_FALSE(m.mesh.has_vertex(b));
 }
 
 TEST(Triangulation, SidesOfTheRectangleCanBeSplit) {
   Mesh m;
   m.insert(0, 0);
   const VertexId p = m.insert(0, -4);
-  EXPECT_EQ(m.mesh_.check(true), nullptr);
-  const EdgeId e = m.mesh_.find_edge(p, 1);
+  EXPECT_EQ(m.mesh.check(true), nullptr);
+  const EdgeId e = m.mesh.find_edge(p, 1);
   ASSERT_NE(e, kNone);
-  EXPECT_EQ(m.mesh_.piece(e), 0U);
+  EXPECT_EQ(m.mesh.piece(e), 0U);
 }
 
 TEST(Triangulation, SegmentsThroughEverything) {
@@ -117,17 +117,17 @@ TEST(Triangulation, SegmentsThroughEverything) {
     for (int i = 0; i < 200; ++i) {
       const VertexId a = ids[random() % ids.size()], b = ids[random() % ids.size()];
       if (a == b) continue;
-      const auto obstacle = m.mesh_.insert_segment(a, b, ++piece, chain);
-      ASSERT_EQ(m.mesh_.check(true), nullptr);
+      const auto obstacle = m.mesh.insert_segment(a, b, ++piece, chain);
+      ASSERT_EQ(m.mesh.check(true), nullptr);
       if (obstacle.kind == Triangulation::Obstacle::Kind::none) {
         ++entered;
         long_chains += chain.size() > 2;
         ASSERT_EQ(chain.front(), a);
         ASSERT_EQ(chain.back(), b);
         for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
-          const EdgeId e = m.mesh_.find_edge(chain[k], chain[k + 1]);
+          const EdgeId e = m.mesh.find_edge(chain[k], chain[k + 1]);
           ASSERT_NE(e, kNone);
-          ASSERT_EQ(m.mesh_.piece(e), piece);
+          ASSERT_EQ(m.mesh.piece(e), piece);
         }
       } else {
         ++crossing;
@@ -142,7 +142,7 @@ TEST(Triangulation, SegmentsThroughEverything) {
     // Points inserted now leave the segments alone, but for those that they lie on.
     for (const auto& [x, y] : random_points(100, false, 8)) {
       m.insert(x, y);
-      ASSERT_EQ(m.mesh_.check(true), nullptr);
+      ASSERT_EQ(m.mesh.check(true), nullptr);
     }
   }
 }
@@ -153,15 +153,15 @@ TEST(Triangulation, LooksNoFurtherThanConstraints) {
   m.insert(0, 2);
   m.insert(0, -2);
   std::vector<VertexId> chain;
-  m.mesh_.insert_segment(a, b, 17, chain);
+  m.mesh.insert_segment(a, b, 17, chain);
   const VertexId p = m.point(0.1, -1);
-  const EdgeId e = m.mesh_.find_edge(a, b);  // above it
-  const auto sight = m.mesh_.look(p, triangle_of(e));
+  const EdgeId e = m.mesh.find_edge(a, b);  // above it
+  const auto sight = m.mesh.look(p, triangle_of(e));
   ASSERT_NE(sight.blocked, kNone);
-  EXPECT_EQ(m.mesh_.piece(sight.blocked), 17U);
-  const auto clear = m.mesh_.look(p, triangle_of(m.mesh_.twin(e)));
+  EXPECT_EQ(m.mesh.piece(sight.blocked), 17U);
+  const auto clear = m.mesh.look(p, triangle_of(m.mesh.twin(e)));
   EXPECT_EQ(clear.blocked, kNone);
-  EXPECT_EQ(clear.location.triangle, m.mesh_.locate(p, 0).triangle);
+  EXPECT_EQ(clear.location.triangle, m.mesh.locate(p, 0).triangle);
 }
 
 }  // namespace
