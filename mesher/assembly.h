@@ -61,6 +61,7 @@ Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& re
                           const SurfaceTopology& topology, const PointStore& points);
 
 // --- the exact record; point indices are ids of the store until record_points renumbers them
+void record_parameters(const Options& options, double diagonal, ExactRecord& record);
 void record_facets(const SurfaceTopology& topology, const std::vector<std::uint8_t>& kept,
                    ExactRecord& record);
 void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,

@@ -122,6 +122,12 @@ struct ExactPoint {
 // The exact form of a run (command-line option --exact): everything an independent program needs
 // to decide every claim without rounding. Point indices are into `points`.
 struct ExactRecord {
+  struct Parameters {  // what the run promised
+    double delta = 0;  // face angles of the refined mesh, degrees; 0: not recorded
+    double acute = 0;  // corners are chamfered below this, where none of `corners` says otherwise
+    double tolerance = 0;  // of the filter, in input units
+    Region region = Region::interior;
+  } parameters;
   std::vector<ExactPoint> points;  // the input vertices first, in input order
   struct Facet {
     std::uint32_t id;  // smallest input triangle index
@@ -142,13 +148,22 @@ struct ExactRecord {
     double radius;     // chamfer distance along its edges, rounded to nearest
   };
   std::vector<Corner> corners;
+  // Points made by chamfering, each with the input vertex that it was made for.
+  std::vector<std::array<std::uint32_t, 2>> chamfer_points;
   struct Tet {
     std::array<std::uint32_t, 4> vertices;
     bool inside;
   };
   std::vector<Tet> refined;  // every tetrahedron down to the outer box
   std::vector<std::array<std::uint32_t, 4>> refined_facets;  // a, b, c, facet id
+  struct Ball {  // a volume Steiner point and the tetrahedron in whose circumball it was put
+    std::uint32_t vertex;
+    std::array<std::uint32_t, 4> tetrahedron;
+  };
+  std::vector<Ball> balls;
   std::vector<Tet> final;
+  std::vector<Tet>
+      unrepaired;  // `final` before local repairs of rounding; empty if there were none
   std::vector<std::array<std::uint32_t, 4>> final_facets;  // a, b, c, facet id
   // Indices into `points` of the vertices of TetMesh, in its order.
   std::vector<std::uint32_t> mesh_vertices;

@@ -176,6 +176,7 @@ class Run {
     options.max_edge = options_.max_edge;
     options.region = options_.region;
     options.runaway_length = guarded ? feature_length() * kRunawayFraction : 0;
+    options.want_balls = options_.want_exact;
     options.removed = removed_boxes(chamfered, filter_.facet_kept, topology_, points_);
     return refine(chamfered.plc, topology_, points_, predicates_, options, control_);
   }
@@ -192,6 +193,7 @@ class Run {
     s.fallback_corners =
         static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
     if (!options_.want_exact) return;
+    record_parameters(options_, result_.statistics.bbox_diagonal, result_.exact);
     record_facets(topology_, filter_.facet_kept, result_.exact);
     record_chamfer(chamfered, s.guaranteed_acute, tightened, result_.exact);
   }

@@ -11,7 +11,12 @@ void for_each_point(ExactRecord& record, Visit&& visit) {
   for (auto& chain : record.segments) {
     for (auto& v : chain.vertices) visit(v);
   }
-  for (auto* tets : {&record.refined, &record.final}) {
+  for (auto& point : record.chamfer_points) visit(point[0]);
+  for (auto& ball : record.balls) {
+    visit(ball.vertex);
+    for (auto& v : ball.tetrahedron) visit(v);
+  }
+  for (auto* tets : {&record.refined, &record.final, &record.unrepaired}) {
     for (auto& t : *tets) {
       for (auto& v : t.vertices) visit(v);
     }
@@ -25,6 +30,14 @@ void for_each_point(ExactRecord& record, Visit&& visit) {
 }
 
 }  // namespace
+
+void record_parameters(const Options& options, double diagonal, ExactRecord& record) {
+  // Above a radius-edge ratio of 2 the bound is best effort.
+  constexpr double kGuaranteedDelta = 14.4775;
+  record.parameters.delta = std::min(options.delta, kGuaranteedDelta);
+  record.parameters.tolerance = options.tau * diagonal;
+  record.parameters.region = options.region;
+}
 
 void record_facets(const SurfaceTopology& topology, const std::vector<std::uint8_t>& kept,
                    ExactRecord& record) {
@@ -41,6 +54,10 @@ void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
     if (chamfered.vertex_is_acute[v] == 0) continue;
     const bool tightened = !vertex_cosine_squared.empty() && vertex_cosine_squared[v] == 0;
     record.corners.push_back({v, tightened ? 90 : threshold_degrees, chamfered.vertex_distance[v]});
+  }
+  record.parameters.acute = threshold_degrees;
+  for (std::uint32_t n = 0; n < chamfered.new_point_vertex.size(); ++n) {
+    record.chamfer_points.push_back({chamfered.first_new_point + n, chamfered.new_point_vertex[n]});
   }
 }
 
@@ -66,6 +83,9 @@ void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
   for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
     record.refined.push_back({refined.tetrahedra[n], refined.side[n] == Side::inside});
   }
+  for (std::size_t n = 0; n < refined.in_volume.size(); ++n) {
+    record.balls.push_back({refined.in_volume[n], refined.ball[n]});
+  }
   for (const RefinedFace& face : refined.faces) {
     const std::uint32_t id = facet_id(face.facet);
     if (id == kNone) continue;
@@ -85,6 +105,7 @@ void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRe
 
 void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& record) {
   if (record.final.empty()) return;  // the refined mesh itself was written
+  record.unrepaired = record.final;
   std::erase_if(record.final,
                 [&](const ExactRecord::Tet& t) { return region == Region::hull || t.inside; });
   for (std::size_t n = 0; n < rounded.tetrahedra.size(); ++n) {
@@ -136,6 +157,7 @@ void record_points(const PointStore& points, std::size_t input_vertices,
   }
   for_each_point(record, [&](std::uint32_t& v) { v = number[v]; });
   for (auto& corner : record.corners) corner.vertex = number[corner.vertex];
+  for (auto& point : record.chamfer_points) point[1] = number[point[1]];
 }
 
 }  // namespace delmesher

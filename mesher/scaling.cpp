@@ -32,6 +32,7 @@ void scale(ExactRecord& record, int exponent) {
     p.y = std::ldexp(p.y, exponent);
     p.z = std::ldexp(p.z, exponent);
   }
+  record.parameters.tolerance = std::ldexp(record.parameters.tolerance, exponent);
   for (ExactRecord::Corner& corner : record.corners) {
     corner.radius = std::ldexp(corner.radius, exponent);
   }

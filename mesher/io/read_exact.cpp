@@ -148,7 +148,16 @@ void ExactReader::triangles(std::string_view name, std::vector<std::array<std::u
 
 ExactRecord ExactReader::read() {
   const std::uint64_t version = section("delmesher-exact");
-  if (version != kExactVersion) fail(here(), "unknown version " + std::to_string(version));
+  if (version < 1 || version > kExactVersion) {
+    fail(here(), "unknown version " + std::to_string(version));
+  }
+  if (version >= 2) {
+    items("parameters", [&] {
+      auto& p = record_.parameters;
+      for (double* value : {&p.delta, &p.acute, &p.tolerance}) *value = number();
+      p.region = flag() ? Region::hull : Region::interior;
+    });
+  }
   items("points", [&] { read_point(); });
   check_references();
   items("facets", [&] {
@@ -184,6 +193,19 @@ ExactRecord ExactReader::read() {
   tets("final", record_.final);
   triangles("final_facets", record_.final_facets);
   items("mesh_vertices", [&] { record_.mesh_vertices.push_back(point()); });
+  if (version >= 2) {
+    items("chamfer_points", [&] {
+      const std::uint32_t p = point();
+      record_.chamfer_points.push_back({p, point()});
+    });
+    items("balls", [&] {
+      ExactRecord::Ball ball{};
+      ball.vertex = point();
+      for (std::uint32_t& v : ball.tetrahedron) v = point();
+      record_.balls.push_back(ball);
+    });
+    tets("unrepaired", record_.unrepaired);
+  }
   line();
   if (token() != "end") fail(here(), "'end' missing");
   return std::move(record_);

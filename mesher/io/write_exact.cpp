@@ -71,6 +71,13 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
   if (opened == nullptr) return status;
   TextSink& out = *opened;
   section(out, "delmesher-exact", kExactVersion);
+  section(out, "parameters", 1);
+  for (const double value :
+       {record.parameters.delta, record.parameters.acute, record.parameters.tolerance}) {
+    out.hex(value);
+    out.text(" ");
+  }
+  out.text(record.parameters.region == Region::hull ? "1\n" : "0\n");
   section(out, "points", record.points.size());
   for (const ExactPoint& p : record.points) write_point(out, p);
   section(out, "facets", record.facets.size());
@@ -102,6 +109,19 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
     out.integer(v);
     out.text("\n");
   }
+  section(out, "chamfer_points", record.chamfer_points.size());
+  for (const auto& [point, vertex] : record.chamfer_points) {
+    out.integers(point);
+    out.integer(vertex);
+    out.text("\n");
+  }
+  section(out, "balls", record.balls.size());
+  for (const auto& ball : record.balls) {
+    out.integers(ball.vertex);
+    for (std::uint32_t v : ball.tetrahedron) out.integers(v);
+    out.text("\n");
+  }
+  write_tets(out, "unrepaired", record.unrepaired);
   out.text("end\n");
   return status;
 }

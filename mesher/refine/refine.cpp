@@ -70,6 +70,7 @@ RefineResult Refiner::result() {
   }
   r.on_facet = std::move(on_facet_);
   r.in_volume = std::move(in_volume_);
+  r.ball = std::move(ball_);
   r.on_segments = on_segments_;
   r.on_facets = on_facets_;
   return r;

@@ -26,6 +26,7 @@ struct RefineOptions {
   double runaway_length = 0;
   // Boxes that cover the part of the input surface that the complex lacks.
   std::vector<Box> removed;
+  bool want_balls = false;  // fill RefineResult::ball
 };
 
 struct RefinedFace {
@@ -42,6 +43,9 @@ struct RefineResult {
   std::vector<std::vector<VertexId>> chain;     // per segment of the complex, end to end
   std::vector<std::vector<VertexId>> on_facet;  // per facet: points inserted inside it
   std::vector<VertexId> in_volume;
+  // Per point in the volume: the tetrahedron in whose circumball it was put (section 5.6); empty
+  // unless asked for.
+  std::vector<std::array<VertexId, 4>> ball;
   std::uint64_t on_segments = 0, on_facets = 0;
 };
 

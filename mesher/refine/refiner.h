@@ -159,6 +159,7 @@ class Refiner {
   std::vector<FacetPlane> planes_;               // per facet
   std::vector<std::vector<VertexId>> on_facet_;  // per facet: Steiner points inside it
   std::vector<VertexId> in_volume_;
+  std::vector<std::array<VertexId, 4>> ball_;  // of each of them
   std::uint64_t on_segments_ = 0, on_facets_ = 0;
 
   // Per tetrahedron.

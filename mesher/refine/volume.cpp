@@ -234,6 +234,7 @@ bool Refiner::try_volume_point(const BadTet& bad, const Vec3& center, double gri
     return true;
   }
   in_volume_.push_back(v);
+  if (options_.want_balls) ball_.push_back(bad.v);
   commit(v);
   new_subfacets_.clear();
   after_insertion();
