@@ -6,10 +6,14 @@
 namespace tetproof::oracles {
 namespace {
 
+// Sixteen bytes, because there are four for every tetrahedron.
 struct FaceRecord {
   Face sorted;
-  Index tet_face;
-  bool even;  // sorted is an even permutation of the face seen from outside
+  Index packed;
+  Index tet_face() const { return packed & ~kEven; }
+  bool even() const { return (packed & kEven) != 0; }
+  // Set if `sorted` is an even permutation of the face seen from outside.
+  static constexpr Index kEven = 0x80000000U;
   bool operator<(const FaceRecord& other) const { return sorted < other.sorted; }
 };
 
@@ -25,7 +29,7 @@ FaceRecord face_record(const Tet& tet, Index t, int i) {
   order(0, 1);
   order(1, 2);
   order(0, 1);
-  return {face, 4 * t + static_cast<Index>(i), even};
+  return {face, (4 * t + static_cast<Index>(i)) | (even ? FaceRecord::kEven : 0)};
 }
 
 // Indices in range, four different corners, no two tetrahedra on the same corners. False if faces
@@ -66,9 +70,22 @@ void check_used(const TetComplex& complex, OracleReport& report) {
   }
 }
 
-// Every edge of the boundary faces is traversed as often in one direction as in the other.
-void check_closed(const TetComplex& complex, const std::vector<Face>& boundary,
-                  OracleReport& report) {
+std::int64_t count_used(const TetComplex& complex, const auto& cells) {
+  std::vector<std::uint8_t> used(complex.points->size(), 0);
+  std::int64_t count = 0;
+  for (const auto& cell : cells) {
+    for (const Index v : cell) {
+      count += used[v] == 0;
+      used[v] = 1;
+    }
+  }
+  return count;
+}
+
+// Every edge of the boundary faces is traversed as often in one direction as in the other. The
+// number of edges.
+std::int64_t check_closed(const TetComplex& complex, const std::vector<Face>& boundary,
+                          OracleReport& report) {
   std::vector<std::array<Index, 3>> edges;  // low, high, direction
   edges.reserve(3 * boundary.size());
   for (const Face& face : boundary) {
@@ -78,7 +95,8 @@ void check_closed(const TetComplex& complex, const std::vector<Face>& boundary,
     }
   }
   std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0; i < edges.size();) {
+  std::int64_t distinct = 0;
+  for (std::size_t i = 0; i < edges.size(); ++distinct) {
     std::size_t j = i;
     std::int64_t balance = 0;
     for (; j < edges.size() && edges[j][0] == edges[i][0] && edges[j][1] == edges[i][1]; ++j) {
@@ -90,9 +108,41 @@ void check_closed(const TetComplex& complex, const std::vector<Face>& boundary,
     }
     i = j;
   }
+  return distinct;
+}
+
+void check_euler(const TetComplex& complex, std::uint64_t faces, const std::vector<Face>& boundary,
+                 std::int64_t boundary_edges, OracleReport& report) {
+  const std::int64_t euler = count_used(complex, complex.tetrahedra) -
+                             static_cast<std::int64_t>(mesh_edges(complex).size()) +
+                             static_cast<std::int64_t>(faces) -
+                             static_cast<std::int64_t>(complex.tetrahedra.size());
+  const std::int64_t of_boundary =
+      count_used(complex, boundary) - boundary_edges + static_cast<std::int64_t>(boundary.size());
+  report.figures.emplace_back("Euler characteristic", euler);
+  if (2 * euler != of_boundary) {
+    report.fail("the Euler characteristic is " + std::to_string(euler) + ", that of the boundary " +
+                std::to_string(of_boundary) + " and not twice as much");
+  }
 }
 
 }  // namespace
+
+std::vector<std::uint64_t> mesh_edges(const TetComplex& complex) {
+  std::vector<std::uint64_t> edges;
+  edges.reserve(6 * complex.tetrahedra.size());
+  for (const Tet& t : complex.tetrahedra) {
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        edges.push_back(static_cast<std::uint64_t>(std::min(t[i], t[j])) << 32 |
+                        std::max(t[i], t[j]));
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
 
 std::string TetComplex::vertex_name(Index v) const {
   return v < first_vertex ? "input vertex " + std::to_string(v)
@@ -123,6 +173,10 @@ OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours) {
   report.checked = complex.tetrahedra.size();
   neighbours.across.assign(4 * complex.tetrahedra.size(), kNone);
   if (complex.tetrahedra.empty()) report.fail("there are no tetrahedra");
+  if (complex.tetrahedra.size() >= FaceRecord::kEven / 4) {
+    report.fail("there are more tetrahedra than this program can number");
+    return report;
+  }
   if (!check_corners(complex, report)) return report;
   check_used(complex, report);
 
@@ -137,13 +191,13 @@ OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours) {
   for (std::size_t i = 0; i < faces.size(); ++distinct) {
     std::size_t j = i + 1;
     while (j < faces.size() && faces[j].sorted == faces[i].sorted) ++j;
-    const Index first = faces[i].tet_face;
+    const Index first = faces[i].tet_face();
     if (j - i > 2) {
       report.fail(complex.face_name(faces[i].sorted) + " belongs to " + std::to_string(j - i) +
                   " tetrahedra");
     } else if (j - i == 2) {
-      const Index second = faces[i + 1].tet_face;
-      if (faces[i].even == faces[i + 1].even) {
+      const Index second = faces[i + 1].tet_face();
+      if (faces[i].even() == faces[i + 1].even()) {
         report.fail(complex.face_name(faces[i].sorted) + " has both its tetrahedra, " +
                     std::to_string(first / 4) + " and " + std::to_string(second / 4) +
                     ", on the same side");
@@ -155,7 +209,9 @@ OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours) {
     }
     i = j;
   }
-  check_closed(complex, boundary, report);
+  faces = {};
+  const std::int64_t boundary_edges = check_closed(complex, boundary, report);
+  check_euler(complex, distinct, boundary, boundary_edges, report);
   report.figures.emplace_back("faces", distinct);
   report.figures.emplace_back("boundary faces", boundary.size());
   return report;
@@ -174,23 +230,6 @@ OracleReport check_orientation(const TetComplex& complex) {
   }
   report.figures.emplace_back("inverted", inverted);
   report.figures.emplace_back("flat", flat);
-  return report;
-}
-
-OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbours) {
-  OracleReport report("delaunay", "faces between two tetrahedra");
-  for (Index i = 0; i < neighbours.across.size(); ++i) {
-    const Index j = neighbours.across[i];
-    if (j == kNone || j < i) continue;
-    const auto& [a, b, c, d] = complex.tetrahedra[i / 4];
-    const Index apex = complex.tetrahedra[j / 4][j % 4];
-    ++report.checked;
-    if (exact::insphere(*complex.points, a, b, c, d, apex) > 0) {
-      report.fail(complex.face_name(face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4))) +
-                  ": " + complex.vertex_name(apex) + " lies inside the circumsphere of " +
-                  complex.tet_name(i / 4));
-    }
-  }
   return report;
 }
 

@@ -83,11 +83,6 @@ void add_multiple(mpz_class& sum, double parameter, const mpz_class& from, const
   sum += term;
 }
 
-Interval enclose(const mpz_class& value, long exponent) {
-  const double d = to_double(value, exponent);
-  return Interval::around(d, d);
-}
-
 }  // namespace
 
 double to_double(const mpz_class& value, long exponent) {
@@ -114,12 +109,14 @@ std::string ExactPoints::assign(std::span<const Position> positions) {
 std::string ExactPoints::assign(std::span<const ExactPoint> points) {
   integers_.clear();
   enclosures_.clear();
+  nearest_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::string why = check_point(points, i); !why.empty()) return why;
   }
   exponent_ = common_exponent(points);
   integers_.resize(points.size());
   enclosures_.resize(points.size());
+  nearest_.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ExactPoint& p = points[i];
     if (p.kind != Kind::explicit_point) continue;
@@ -128,6 +125,7 @@ std::string ExactPoints::assign(std::span<const ExactPoint> points) {
       integers_[i][axis] = scaled(dyadic(position[axis]), exponent_);
       enclosures_[i][axis] = Interval(position[axis]);
     }
+    nearest_[i] = position;
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ExactPoint& p = points[i];
@@ -140,19 +138,11 @@ std::string ExactPoints::assign(std::span<const ExactPoint> points) {
       if (p.kind == Kind::on_triangle) {
         add_multiple(value, p.y, integers_[base][axis], integers_[p.j][axis]);
       }
-      enclosures_[i][axis] = enclose(value, exponent_);
+      nearest_[i][axis] = to_double(value, exponent_);
+      enclosures_[i][axis] = Interval::around(nearest_[i][axis], nearest_[i][axis]);
     }
   }
   return {};
-}
-
-Position ExactPoints::nearest(Index i) const {
-  Position position;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Interval& e = enclosures_[i][axis];
-    position[axis] = e.low == e.high ? e.low : to_double(integers_[i][axis], exponent_);
-  }
-  return position;
 }
 
 namespace exact {
@@ -174,6 +164,24 @@ Number determinant3(const std::array<Number, 3>& u, const std::array<Number, 3>&
 template <class Number>
 Number square(const std::array<Number, 3>& v) {
   return Number(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+template <class Number>
+std::array<Number, 3> product(const std::array<Number, 3>& u, const std::array<Number, 3>& v) {
+  return {Number(u[1] * v[2] - u[2] * v[1]), Number(u[2] * v[0] - u[0] * v[2]),
+          Number(u[0] * v[1] - u[1] * v[0])};
+}
+
+// The circumcentre of 0, u, v is (|u|^2 (v x n) + |v|^2 (n x u)) / (2 |n|^2) with n = u x v; the
+// value is |w - centre|^2 less the squared radius, times |n|^2.
+template <class Number>
+Number diametral(const std::array<Number, 3>& u, const std::array<Number, 3>& v,
+                 const std::array<Number, 3>& w) {
+  const std::array<Number, 3> n = product(u, v), p = product(v, n), q = product(n, u);
+  const Number uu = square(u), vv = square(v);
+  Number sum = Number(square(w) * square(n));
+  for (int i = 0; i < 3; ++i) sum = Number(sum - w[i] * Number(uu * p[i] + vv * q[i]));
+  return sum;
 }
 
 // Determinant of the four rows (x - e, |x - e|^2) with the sign turned so that inside is positive.
@@ -231,6 +239,27 @@ int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Inde
   if (sign != 2) return sign;
   return sgn(insphere_determinant<mpz_class>({difference(points, e, a), difference(points, e, b),
                                               difference(points, e, c), difference(points, e, d)}));
+}
+
+mpz_class squared(const IntegerVector& v) {
+  return dot(v, v);
+}
+
+int dot_sign(const ExactPoints& points, Index apex, Index p, Index q) {
+  const IntervalVector u = rough_difference(points, apex, p), v = rough_difference(points, apex, q);
+  const int sign = (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]).sign();
+  if (sign != 2) return sign;
+  return sgn(dot(difference(points, apex, p), difference(points, apex, q)));
+}
+
+bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  const int sign =
+      diametral<Interval>(rough_difference(points, a, b), rough_difference(points, a, c),
+                          rough_difference(points, a, d))
+          .sign();
+  if (sign != 2) return sign < 0;
+  return diametral<mpz_class>(difference(points, a, b), difference(points, a, c),
+                              difference(points, a, d)) < 0;
 }
 
 IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c) {

@@ -38,11 +38,12 @@ class ExactPoints {
   // Encloses the coordinates (in true units); a single point if they are doubles.
   const IntervalVector& enclosure(Index i) const { return enclosures_[i]; }
   // A double within an ulp of the coordinates, in true units.
-  Position nearest(Index i) const;
+  const Position& nearest(Index i) const { return nearest_[i]; }
 
  private:
   std::vector<IntegerVector> integers_;
   std::vector<IntervalVector> enclosures_;
+  std::vector<Position> nearest_;
   long exponent_ = 0;
 };
 
@@ -63,6 +64,11 @@ int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d);
 mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // Positive if e lies strictly inside the sphere through a, b, c, d, where orient3d(a, b, c, d) > 0.
 int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Index e);
+// Sign of (p - apex) . (q - apex); negative exactly if the apex lies strictly inside the ball with
+// diameter pq.
+int dot_sign(const ExactPoints& points, Index apex, Index p, Index q);
+// Does d lie strictly inside the smallest sphere through a, b, c?
+bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // (b - a) x (c - a): twice the area vector.
 IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c);
 IntegerVector difference(const ExactPoints& points, Index from, Index to);
@@ -70,6 +76,7 @@ mpz_class dot(const IntegerVector& u, const IntegerVector& v);
 IntegerVector cross(const IntegerVector& u, const IntegerVector& v);
 bool is_zero(const IntegerVector& v);
 bool equal(const ExactPoints& points, Index a, Index b);
+mpz_class squared(const IntegerVector& v);
 // Are a, b, c on one line?
 bool collinear(const ExactPoints& points, Index a, Index b, Index c);
 

@@ -66,11 +66,17 @@ class InputSurface {
   const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
   const std::vector<Facet>& facets() const { return facets_; }
   const std::vector<Index>& facet_of_triangle() const { return facet_of_triangle_; }
+  // The triangle across the edge from corner i to corner i + 1.
+  Index neighbour(Index triangle, int i) const { return neighbours_[triangle][i]; }
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Index>& used_vertices() const { return used_vertices_; }
   const mpz_class& volume6() const { return volume6_; }
   double diagonal() const { return diagonal_; }
   double largest_coordinate() const { return largest_coordinate_; }
+  // Appends the triangles whose boxes meet the query.
+  void triangles_near(const BoxTree::Box& box, std::vector<Index>& found) const {
+    tree_->query(box, found);
+  }
   // Components that had to be turned so that parity decides what is inside.
   std::uint64_t flipped_components() const { return flipped_; }
 
@@ -105,5 +111,8 @@ class InputSurface {
   std::uint64_t flipped_ = 0;
   std::shared_ptr<const BoxTree> tree_;
 };
+
+// The smallest box around points as far as their enclosures tell.
+BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners);
 
 }  // namespace tetproof::oracles

@@ -1,4 +1,4 @@
-// Oracles that measure: volume, inside flags, angles.
+// Oracles that measure: volume, inside flags.
 #pragma once
 
 #include "oracles/input_surface.h"
@@ -19,17 +19,5 @@ std::vector<std::uint8_t> inside_by_parity(const TetComplex& complex, const Inpu
 
 // Rounded; 0 for a flat tetrahedron.
 double smallest_altitude(const ExactPoints& points, const Tet& tet);
-
-// Which tetrahedra promise the angle bound.
-enum class AngleScope : std::uint8_t {
-  solid,  // those whose interior meets the solid (region interior)
-  all
-};
-
-// Angle oracle: every face angle of those tetrahedra is at least `delta` degrees, certified by
-// comparing squared cosines in integers; the bound itself is taken 1e-9 (relative, on the squared
-// cosine) to the safe side of libm.
-OracleReport check_angles(const TetComplex& complex, const InputSurface& surface, double delta,
-                          AngleScope scope);
 
 }  // namespace tetproof::oracles

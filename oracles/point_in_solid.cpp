@@ -143,6 +143,19 @@ bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
 
 }  // namespace
 
+BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners) {
+  BoxTree::Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::numeric_limits<double>::infinity();
+    box.high[axis] = -box.low[axis];
+    for (const Index v : corners) {
+      box.low[axis] = std::min(box.low[axis], points.enclosure(v)[axis].low);
+      box.high[axis] = std::max(box.high[axis], points.enclosure(v)[axis].high);
+    }
+  }
+  return box;
+}
+
 // Crossings of the surface with the upward ray from the centroid, not counting triangle `except`;
 // -1 if the centroid lies on a triangle.
 int InputSurface::crossings_above(const ExactPoints& points, std::span<const Index> corners,
@@ -175,17 +188,8 @@ int InputSurface::inside(const ExactPoints& points, std::span<const Index> corne
 
 bool InputSurface::meets_interior(const ExactPoints& points,
                                   const std::array<Index, 4>& tetrahedron) const {
-  BoxTree::Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::numeric_limits<double>::infinity();
-    box.high[axis] = -box.low[axis];
-    for (const Index v : tetrahedron) {
-      box.low[axis] = std::min(box.low[axis], points.enclosure(v)[axis].low);
-      box.high[axis] = std::max(box.high[axis], points.enclosure(v)[axis].high);
-    }
-  }
   std::vector<Index> found;
-  tree_->query(box, found);
+  tree_->query(box_around(points, tetrahedron), found);
   return std::any_of(found.begin(), found.end(), [&](Index t) {
     return !separated(points, triangles_[t], tetrahedron) &&
            meets(points, triangles_[t], tetrahedron);

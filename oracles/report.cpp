@@ -61,6 +61,7 @@ std::string to_json(const VerifyReport& report) {
     entry["findings"] = oracle.findings;
     entry["notes"] = oracle.notes;
     for (const auto& [name, value] : oracle.figures) entry["figures"][name] = value;
+    for (const auto& [name, bins] : oracle.histograms) entry["histograms"][name] = bins;
     json["oracles"].push_back(entry);
   }
   return json.dump(2) + "\n";
@@ -74,6 +75,11 @@ std::string to_text(const VerifyReport& report) {
     if (oracle.violations > 0) text += ", " + std::to_string(oracle.violations) + " violations";
     for (const auto& [name, value] : oracle.figures) text += "; " + name + " " + number(value);
     text += "\n";
+    for (const auto& [name, bins] : oracle.histograms) {
+      text += "      " + name + " in bins of 15 degrees:";
+      for (const std::uint64_t count : bins) text += " " + std::to_string(count);
+      text += "\n";
+    }
     for (const std::string& finding : oracle.findings) text += "      " + finding + "\n";
     for (const std::string& note : oracle.notes) text += "      note: " + note + "\n";
   }

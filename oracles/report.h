@@ -2,6 +2,7 @@
 // throw.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -20,6 +21,8 @@ struct OracleReport {
   std::vector<std::string> findings;  // the first violations, each naming its element
   std::vector<std::string> notes;     // no violations, but worth knowing
   std::vector<std::pair<std::string, double>> figures;
+  // Of angles, 15 degrees a bin.
+  std::vector<std::pair<std::string, std::array<std::uint64_t, 12>>> histograms;
 
   // Counts a violation and keeps the first few in words.
   void fail(const std::string& finding) {

@@ -16,7 +16,9 @@ class SidecarReader {
 
   ExactRecord read() {
     expect("delmesher-exact");
-    expect("1");
+    version_ = reader_.index(0, 3);
+    if (version_ == 0) reader_.fail("unknown version 0");
+    if (version_ >= 2) read_parameters();
     read_points();
     list("facets", record_.facets, [&](auto& facet) {
       facet.id = number();
@@ -40,11 +42,33 @@ class SidecarReader {
     read_tets("final", record_.final);
     read_faces("final_facets", record_.final_facets);
     list("mesh_vertices", record_.mesh_vertices, [&](auto& vertex) { vertex = point(); });
+    if (version_ >= 2) read_additions();
     expect("end");
     return std::move(record_);
   }
 
  private:
+  void read_parameters() {
+    expect("parameters");
+    expect("1");
+    auto& p = record_.parameters;
+    p.delta = reader_.number();
+    p.acute = reader_.number();
+    p.tolerance = reader_.number();
+    p.region = number() != 0 ? delmesher::Region::hull : delmesher::Region::interior;
+  }
+
+  void read_additions() {
+    list("chamfer_points", record_.chamfer_points, [&](auto& made) {
+      for (Index& v : made) v = point();
+    });
+    list("balls", record_.balls, [&](auto& ball) {
+      ball.vertex = point();
+      for (Index& v : ball.tetrahedron) v = point();
+    });
+    read_tets("unrepaired", record_.unrepaired);
+  }
+
   void expect(const std::string& wanted) {
     const std::string_view word = reader_.required_word(wanted.c_str());
     if (word != wanted) {
@@ -99,6 +123,7 @@ class SidecarReader {
   }
 
   TextReader reader_;
+  Index version_ = 0;
   ExactRecord record_;
 };
 

@@ -34,17 +34,18 @@ struct Neighbours {
   std::vector<Index> across;
 };
 
+// Every edge of the mesh once, ascending: the lower vertex in the high half, the higher in the low.
+std::vector<std::uint64_t> mesh_edges(const TetComplex& complex);
+
 // Complex oracle: indices in range, corners distinct, no duplicate tetrahedra, every face shared by
-// one or two with opposite orientation, no vertex unused, boundary closed. Fills `neighbours` as
-// far as the complex allows.
+// one or two with opposite orientation, no vertex unused, boundary closed; and the Euler
+// characteristic is half that of the boundary, as it is of every manifold of odd dimension: solids
+// that hang together at a vertex or an edge only fail. Fills `neighbours` as far as the complex
+// allows.
 OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours);
 
 // Orientation oracle: the exact sign of every tetrahedron. `inverted` and `flat` are figures of the
 // report.
 OracleReport check_orientation(const TetComplex& complex);
-
-// Delaunay oracle: no face between two tetrahedra has the opposite corner strictly inside a
-// circumsphere.
-OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbours);
 
 }  // namespace tetproof::oracles

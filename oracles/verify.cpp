@@ -4,12 +4,20 @@
 #include <cmath>
 #include <map>
 
+#include "oracles/chamfer.h"
+#include "oracles/delaunay.h"
+#include "oracles/filter.h"
+#include "oracles/hull.h"
+#include "oracles/refinement.h"
+#include "oracles/surface_validity.h"
+
 namespace tetproof::oracles {
 namespace {
 
 using delmesher::ExactRecord;
 
 constexpr double kRoundedUlps = 4;
+constexpr double kDefaultDelta = 14.47;
 
 double figure(const OracleReport& report, const std::string& name) {
   for (const auto& [key, value] : report.figures) {
@@ -81,6 +89,17 @@ double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
   return sum;
 }
 
+TetComplex complex_of(const std::vector<ExactRecord::Tet>& tets, const ExactPoints& points) {
+  TetComplex complex{&points, {}, {}, 0, 0};
+  complex.tetrahedra.reserve(tets.size());
+  complex.inside.reserve(tets.size());
+  for (const ExactRecord::Tet& tet : tets) {
+    complex.tetrahedra.push_back(tet.vertices);
+    complex.inside.push_back(tet.inside);
+  }
+  return complex;
+}
+
 class Verification {
  public:
   Verification(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
@@ -89,6 +108,7 @@ class Verification {
 
   std::string run() {
     std::string why = options_.stage == Stage::refined && exact_ ? "" : check_file();
+    if (why.empty()) add(check_surface_validity(input_));
     if (why.empty() && exact_) why = check_sidecar();
     if (why.empty()) conclude();
     return why;
@@ -100,15 +120,26 @@ class Verification {
   std::string check_file();
   void check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface);
+  void check_file_hull(const TetComplex& complex, const Neighbours& neighbours);
+  void check_file_quality(const TetComplex& complex, const Neighbours& neighbours,
+                          const InputSurface& surface, const ConformityResult& conformity);
   void turn_all(TetComplex& complex) const;
   std::string check_sidecar();
-  void check_exact_final(TetComplex& complex, const InputSurface& surface);
-  void check_exact_refined(TetComplex& complex, const InputSurface& surface);
+  void check_exact_final(const ExactPoints& points, const InputSurface& surface);
+  void check_exact_refined(const ExactPoints& points, const InputSurface& surface);
   OracleReport check_rounding(const ExactPoints& points) const;
-  OracleReport check_refined_faces(const TetComplex& complex, const InputSurface& surface) const;
+  OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
+                               const InputSurface& surface) const;
+  void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
+                         const InputSurface& surface);
+  void check_promises(const RefinedMesh& mesh);
+  OracleReport check_contained(const TetComplex& complex, const InputSurface& surface) const;
+  double delta() const;
+  AngleScope scope() const;
   void conclude();
   void add(OracleReport oracle, const std::string& prefix = {}) {
     oracle.name = prefix + oracle.name;
+    if (options_.progress) options_.progress(oracle);
     report_.oracles.push_back(std::move(oracle));
   }
 
@@ -175,19 +206,22 @@ std::string Verification::check_file() {
   add(std::move(orientation));
   complex.inside = inside_by_parity(complex, surface);
   if (options_.stage == Stage::refined) {
-    add(check_angles(complex, surface, options_.delta, options_.scope));
+    add(check_angles(complex, neighbours, surface, delta(), scope()));
     return {};
   }
   std::vector<std::int64_t> given = mesh_.regions;
-  if (given.empty() && fills(complex, surface)) given.assign(complex.tetrahedra.size(), 0);
+  const bool solid_only = fills(complex, surface);
+  if (given.empty() && solid_only) given.assign(complex.tetrahedra.size(), 0);
   if (given.empty()) {  // the hull: parity alone decides
     check_file_surface(complex, neighbours, surface);
+    check_file_hull(complex, neighbours);
     return {};
   }
   const Regions regions(complex, given);
   check_file_surface(complex, neighbours, surface);
   // The centroid of a tetrahedron is a quarter of its altitude away from its faces.
   add(regions.check_strays(8 * report_.deviation));
+  if (!solid_only) check_file_hull(complex, neighbours);
   return {};
 }
 
@@ -204,6 +238,7 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
   }
   add(conformity.report);
   add(check_volume(complex, surface, allowed_volume));
+  check_file_quality(complex, neighbours, surface, conformity);
   if (mesh_.boundary.empty()) return;
   std::vector<Face> listed = mesh_.boundary;
   for (Face& face : listed) {
@@ -212,6 +247,25 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
   const bool labelled = !input_.labels.empty() && mesh_.labels.size() == listed.size();
   add(check_boundary_list(complex, neighbours, surface, conformity, listed,
                           labelled ? mesh_.labels : std::vector<std::int32_t>{}));
+}
+
+// Nothing is promised of the doubles as written: these only count and measure.
+void Verification::check_file_quality(const TetComplex& complex, const Neighbours& neighbours,
+                                      const InputSurface& surface,
+                                      const ConformityResult& conformity) {
+  add(check_constrained_delaunay(complex, neighbours, surface, conformity.faces, {.gate = false}));
+  OracleReport angles("angles", "tetrahedra inside");
+  for (const std::uint8_t inside : complex.inside) angles.checked += inside;
+  measure_angles(complex, neighbours, complex.inside, angles);
+  add(std::move(angles));
+}
+
+// Steiner points on the outer boundary are rounded like all others.
+void Verification::check_file_hull(const TetComplex& complex, const Neighbours& neighbours) {
+  if (report_.inverted + report_.flat > 0) return;  // what the oracle takes for granted
+  add(check_hull(complex, neighbours,
+                 {.allowed = std::max({kRoundedUlps * ulp_, report_.deviation,
+                                       options_.declared_deviation * diagonal_})}));
 }
 
 std::string Verification::check_sidecar() {
@@ -240,18 +294,16 @@ std::string Verification::check_sidecar() {
   ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
   diagonal_ = surface.diagonal();
 
-  TetComplex complex{&points, {}, {}, 0, 0};
-  const bool refined = options_.stage == Stage::refined;
-  for (const ExactRecord::Tet& tet : refined ? exact_->refined : exact_->final) {
-    complex.tetrahedra.push_back(tet.vertices);
-    complex.inside.push_back(tet.inside);
+  if (options_.stage != Stage::refined) {
+    check_exact_final(points, surface);
+    add(check_rounding(points));
   }
-  refined ? check_exact_refined(complex, surface) : check_exact_final(complex, surface);
-  if (!refined) add(check_rounding(points));
+  if (options_.stage != Stage::final) check_exact_refined(points, surface);
   return {};
 }
 
-void Verification::check_exact_final(TetComplex& complex, const InputSurface& surface) {
+void Verification::check_exact_final(const ExactPoints& points, const InputSurface& surface) {
+  const TetComplex complex = complex_of(exact_->final, points);
   Neighbours neighbours;
   OracleReport shape = check_complex(complex, neighbours);
   const bool usable = shape.passed();
@@ -263,39 +315,97 @@ void Verification::check_exact_final(TetComplex& complex, const InputSurface& su
       check_conformity(complex, neighbours, surface, {.exact = true});
   add(conformity.report, "exact-");
   add(check_volume(complex, surface, 0), "exact-");
+  add(check_hull(complex, neighbours), "exact-");
   if (exact_->final_facets.empty()) return;
-  OracleReport facets("exact-facets", "faces");
-  std::map<Face, Index> facet_of;
+  check_constrained(complex, neighbours, surface);
+  add(check_facet_ids(complex, conformity, surface));
+}
+
+// The faces that are said to tile facets are those that do.
+OracleReport Verification::check_facet_ids(const TetComplex& complex,
+                                           const ConformityResult& conformity,
+                                           const InputSurface& surface) const {
+  OracleReport report("exact-facets", "faces");
+  std::vector<std::pair<Face, Index>> facet_of;
+  facet_of.reserve(conformity.faces.size());
   for (Index f = 0; f < conformity.faces.size(); ++f) {
-    Face face = conformity.faces[f];
-    std::sort(face.begin(), face.end());
-    facet_of[face] = conformity.facets[f];
+    facet_of.emplace_back(conformity.faces[f], conformity.facets[f]);
+    std::sort(facet_of.back().first.begin(), facet_of.back().first.end());
   }
+  std::sort(facet_of.begin(), facet_of.end());
   for (const auto& [a, b, c, id] : exact_->final_facets) {
     Face face = {a, b, c};
     std::sort(face.begin(), face.end());
-    ++facets.checked;
-    const auto found = facet_of.find(face);
-    if (found == facet_of.end()) {
-      facets.fail(complex.face_name(face) + " is no boundary face of the solid");
+    ++report.checked;
+    const auto found =
+        std::lower_bound(facet_of.begin(), facet_of.end(), std::pair(face, Index{0}));
+    if (found == facet_of.end() || found->first != face) {
+      report.fail(complex.face_name(face) + " is no boundary face of the solid");
     } else if (found->second != kNone && surface.facets()[found->second].id != id) {
-      facets.fail(complex.face_name(face) + " is said to tile facet " + std::to_string(id) +
+      report.fail(complex.face_name(face) + " is said to tile facet " + std::to_string(id) +
                   " but tiles " + std::to_string(surface.facets()[found->second].id));
     }
   }
-  if (facets.checked != facet_of.size()) facets.fail("not every boundary face is listed once");
-  add(std::move(facets));
+  if (report.checked != facet_of.size()) report.fail("not every boundary face is listed once");
+  return report;
 }
 
-void Verification::check_exact_refined(TetComplex& complex, const InputSurface& surface) {
+// A gate before rounding was repaired, a count after.
+void Verification::check_constrained(const TetComplex& complex, const Neighbours& neighbours,
+                                     const InputSurface& surface) {
+  std::vector<Face> constraints;
+  for (const auto& [a, b, c, id] : exact_->final_facets) constraints.push_back({a, b, c});
+  const bool repaired = !exact_->unrepaired.empty();
+  add(check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = !repaired}),
+      "exact-");
+  if (!repaired) return;
+  const TetComplex before = complex_of(exact_->unrepaired, *complex.points);
+  Neighbours neighbours_before;
+  OracleReport shape = check_complex(before, neighbours_before);
+  const bool usable = shape.passed();
+  add(std::move(shape), "unrepaired-");
+  if (!usable) return;
+  add(check_orientation(before), "unrepaired-");
+  add(check_constrained_delaunay(before, neighbours_before, surface, constraints), "unrepaired-");
+}
+
+void Verification::check_exact_refined(const ExactPoints& points, const InputSurface& surface) {
+  const TetComplex complex = complex_of(exact_->refined, points);
   Neighbours neighbours;
   OracleReport shape = check_complex(complex, neighbours);
   const bool usable = shape.passed();
-  add(std::move(shape), "exact-");
+  add(std::move(shape), "refined-");
   if (!usable) return;
-  add(check_orientation(complex), "exact-");
-  add(check_delaunay(complex, neighbours), "exact-");
-  add(check_angles(complex, surface, options_.delta, options_.scope), "exact-");
+  add(check_orientation(complex), "refined-");
+  add(check_hull(complex, neighbours), "refined-");
+  add(check_delaunay(complex, neighbours), "refined-");
+  add(check_angles(complex, neighbours, surface, delta(), scope()), "refined-");
+  add(check_contained(complex, surface), "refined-");
+  check_promises({exact_, &points, &surface, &complex, &neighbours});
+}
+
+// What only a record with facets and segments can be asked.
+void Verification::check_promises(const RefinedMesh& mesh) {
+  if (!exact_->refined_facets.empty() || !exact_->facets.empty()) {
+    OracleReport facets = check_refined_facets(mesh);
+    if (!exact_->refined_facets.empty() || facets.violations > 0)
+      add(std::move(facets), "refined-");
+  }
+  if (!exact_->segments.empty()) add(check_segments(mesh), "refined-");
+  if (!exact_->segments.empty() || !exact_->refined_facets.empty()) {
+    add(check_encroachment(mesh), "refined-");
+  }
+  if (!exact_->balls.empty()) add(check_balls(mesh), "refined-");
+  const delmesher::ExactRecord::Parameters& promised = exact_->parameters;
+  if (promised.acute > 0 && !exact_->segments.empty()) {
+    add(check_chamfer_angles(mesh), "refined-");
+    if (!exact_->chamfer_points.empty()) add(check_chamfer_extent(mesh), "refined-");
+  }
+  if (promised.tolerance > 0) add(check_filter(mesh), "refined-");
+}
+
+OracleReport Verification::check_contained(const TetComplex& complex,
+                                           const InputSurface& surface) const {
   OracleReport contained("contained", "tetrahedra called inside");
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
     if (!complex.inside[t]) continue;
@@ -305,45 +415,19 @@ void Verification::check_exact_refined(TetComplex& complex, const InputSurface& 
       contained.fail(complex.tet_name(t) + " is called inside but is not contained in the solid");
     }
   }
-  add(std::move(contained), "exact-");
-  add(check_refined_faces(complex, surface), "exact-");
+  return contained;
 }
 
-// The faces said to lie on input facets do, and are faces of the refined mesh.
-OracleReport Verification::check_refined_faces(const TetComplex& complex,
-                                               const InputSurface& surface) const {
-  OracleReport report("refined-facets", "faces");
-  std::vector<Face> faces;
-  for (const Tet& tet : complex.tetrahedra) {
-    for (int i = 0; i < 4; ++i) {
-      faces.push_back(face_of(tet, i));
-      std::sort(faces.back().begin(), faces.back().end());
-    }
-  }
-  std::sort(faces.begin(), faces.end());
-  std::map<Index, Index> facet_of_id;
-  for (Index f = 0; f < surface.facets().size(); ++f) facet_of_id[surface.facets()[f].id] = f;
-  for (const auto& [a, b, c, id] : exact_->refined_facets) {
-    Face face = {a, b, c};
-    std::sort(face.begin(), face.end());
-    ++report.checked;
-    if (!std::binary_search(faces.begin(), faces.end(), face)) {
-      report.fail(complex.face_name(face) + " is no face of the refined mesh");
-      continue;
-    }
-    const auto found = facet_of_id.find(id);
-    if (found == facet_of_id.end()) {
-      report.fail(complex.face_name(face) + ": there is no facet " + std::to_string(id));
-      continue;
-    }
-    const InputSurface::Facet& facet = surface.facets()[found->second];
-    for (const Index v : face) {
-      if (exact::dot(facet.normal, exact::difference(*complex.points, facet.vertex, v)) != 0) {
-        report.fail(complex.vertex_name(v) + " is off the plane of facet " + std::to_string(id));
-      }
-    }
-  }
-  return report;
+// The record says what was promised, unless the caller knows better.
+double Verification::delta() const {
+  if (options_.delta) return *options_.delta;
+  return exact_ && exact_->parameters.delta > 0 ? exact_->parameters.delta : kDefaultDelta;
+}
+
+AngleScope Verification::scope() const {
+  if (options_.scope) return *options_.scope;
+  return exact_ && exact_->parameters.region == delmesher::Region::hull ? AngleScope::all
+                                                                        : AngleScope::solid;
 }
 
 // What is written is near what is exact.

@@ -1,9 +1,12 @@
 // All oracles on one mesh, and the verdict.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "mesher/delmesher.h"
+#include "oracles/angles.h"
 #include "oracles/conformity.h"
 #include "oracles/input_surface.h"
 #include "oracles/measures.h"
@@ -12,15 +15,19 @@
 
 namespace tetproof::oracles {
 
-enum class Stage : std::uint8_t { refined, final };
+// Of a mesh file there is only what it holds; a sidecar has both.
+enum class Stage : std::uint8_t { refined, final, both };
 
 struct VerifyOptions {
   Stage stage = Stage::final;
-  double delta = 14.47;  // refined stage
-  AngleScope scope = AngleScope::solid;
+  // Refined stage; what the record says if not given, and failing that 14.47 and the solid.
+  std::optional<double> delta = std::nullopt;
+  std::optional<AngleScope> scope = std::nullopt;
   // Largest deviation that is no failure, as a fraction of the diagonal; beyond 4 ulp the verdict
   // says "deviating" in any case.
   double declared_deviation = 0;
+  // Called with the report of every oracle as soon as it has one.
+  std::function<void(const OracleReport&)> progress = nullptr;
 };
 
 // Why the input bounds no solid, or null; the report is empty then.

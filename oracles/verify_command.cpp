@@ -1,6 +1,9 @@
 #include "oracles/verify_command.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -18,25 +21,56 @@ enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kInvalid = 
 struct Arguments {
   std::string input, mesh, exact;
   bool json = false;
+  std::optional<Stage> stage;
   VerifyOptions options;
 };
+
+// CLI11's own description of the choices shows the numbers behind the names.
+template <class Choice>
+CLI::Validator one_of(const std::map<std::string, Choice>& choices) {
+  std::string names;
+  for (const auto& [name, choice] : choices) names += (names.empty() ? "" : "|") + name;
+  return CLI::CheckedTransformer(choices).description("{" + names + "}");
+}
 
 void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("INPUT", arguments.input, "surface: OFF, OBJ, STL or PLY")->required();
   app.add_option("MESH", arguments.mesh, "mesh: .mesh, .msh, .vtu, .node or .ele, .tet")
       ->required();
   app.add_option("--exact", arguments.exact, "sidecar with exact coordinates");
-  app.add_option("--stage", arguments.options.stage, "what the mesh is (final)")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Stage>{{"refined", Stage::refined}, {"final", Stage::final}}));
-  app.add_option("--delta", arguments.options.delta, "angle bound of the refined stage (14.47)");
-  app.add_option("--region", arguments.options.scope, "where the angle bound holds (interior)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, AngleScope>{
-          {"interior", AngleScope::solid}, {"hull", AngleScope::all}}));
+  app.add_option("--stage", arguments.stage,
+                 "what is checked (final; of a sidecar both, if not said otherwise)")
+      ->transform(one_of<Stage>({{"refined", Stage::refined}, {"final", Stage::final}}))
+      ->type_name("STAGE");
+  app.add_option("--delta", arguments.options.delta,
+                 "angle bound of the refined stage (what the sidecar says, or 14.47)");
+  app.add_option("--region", arguments.options.scope,
+                 "where the angle bound holds (what the sidecar says, or interior)")
+      ->transform(one_of<AngleScope>({{"interior", AngleScope::solid}, {"hull", AngleScope::all}}))
+      ->type_name("REGION");
   app.add_option("--declared-deviation", arguments.options.declared_deviation,
                  "deviation that is no failure, as a fraction of the diagonal (0)");
   app.add_flag("--json", arguments.json, "report as JSON");
 }
+
+// On a terminal, one line that says what has been checked last and how long all has taken; cleared
+// at the end. Nothing elsewhere.
+class Terminal {
+ public:
+  void say(const std::string& what) {
+    if (!terminal_) return;
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
+    std::fprintf(stderr, "\r\033[Kverify: %.1f s: %s", elapsed.count(), what.c_str());
+    std::fflush(stderr);
+  }
+  ~Terminal() {
+    if (terminal_) std::fputs("\r\033[K", stderr);
+  }
+
+ private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 // One line: the verdict and the first thing that is wrong.
 std::string reason(const VerifyReport& report) {
@@ -49,14 +83,27 @@ std::string reason(const VerifyReport& report) {
   return line + " by more than declared";
 }
 
-int verify_files(const Arguments& arguments) {
+// Why the input bounds no solid, or null.
+std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
+  Terminal terminal;
+  terminal.say("reading " + arguments.mesh);
   const Polyhedron input = read_surface(arguments.input);
   const MeshFile mesh = read_mesh(arguments.mesh);
   delmesher::ExactRecord record;
   if (!arguments.exact.empty()) record = read_sidecar(arguments.exact);
+  VerifyOptions options = arguments.options;
+  const bool refined_as_well = !record.refined.empty() && !record.final.empty();
+  options.stage = arguments.stage.value_or(refined_as_well ? Stage::both : Stage::final);
+  terminal.say(std::to_string(mesh.tetrahedra.size()) + " tetrahedra read");
+  options.progress = [&](const OracleReport& oracle) {
+    terminal.say(oracle.name + ": " + std::to_string(oracle.checked) + " " + oracle.checked_what);
+  };
+  return verify(input, mesh, arguments.exact.empty() ? nullptr : &record, options, report);
+}
+
+int verify_files(const Arguments& arguments) {
   VerifyReport report;
-  const std::string why =
-      verify(input, mesh, arguments.exact.empty() ? nullptr : &record, arguments.options, report);
+  const std::string why = verify_quietly(arguments, report);
   if (!why.empty()) {
     std::fprintf(stderr, "tetproof: %s: %s\n", arguments.input.c_str(), why.c_str());
     return kInvalid;

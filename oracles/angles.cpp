@@ -1,0 +1,325 @@
+#include "oracles/angles.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetproof::oracles {
+namespace {
+
+constexpr double kDegrees = 180 / 3.14159265358979323846;
+constexpr int kBins = 12;
+
+// Certifies that angles are not below a bound: cos^2 <= c2 for acute ones.
+class AngleBound {
+ public:
+  explicit AngleBound(double degrees) {
+    const double cosine = std::cos(degrees / kDegrees);
+    bound_ = cosine * cosine * (1 + 1e-9);
+    exact_bound_ = bound_;
+  }
+
+  // Is the angle of the triangle at `apex` below the bound?
+  bool below(const ExactPoints& points, Index apex, Index b, Index c) const {
+    const IntervalVector &p = points.enclosure(apex), &q = points.enclosure(b),
+                         &r = points.enclosure(c);
+    Interval uv(0), uu(0), vv(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Interval u = q[axis] - p[axis], v = r[axis] - p[axis];
+      uv = uv + u * v;
+      uu = uu + u * u;
+      vv = vv + v * v;
+    }
+    if (uv.sign() == -1) return false;
+    if (uv.sign() == 1) {
+      const int sign = (uu * vv * Interval(bound_) - uv * uv).sign();
+      if (sign != 2) return sign < 0;
+    }
+    return below_exactly(points, apex, b, c);
+  }
+
+ private:
+  bool below_exactly(const ExactPoints& points, Index apex, Index b, Index c) const {
+    const IntegerVector u = exact::difference(points, apex, b);
+    const IntegerVector v = exact::difference(points, apex, c);
+    const mpz_class uv = exact::dot(u, v);
+    if (uv <= 0) return exact::is_zero(u) || exact::is_zero(v);
+    const mpq_class product = mpz_class(exact::dot(u, u) * exact::dot(v, v));
+    return mpq_class(mpz_class(uv * uv)) > product * exact_bound_;
+  }
+
+  double bound_;
+  mpq_class exact_bound_;
+};
+
+// The first angle below the bound, as face and corner; false if there is none.
+bool find_small_angle(const ExactPoints& points, const Tet& tet, const AngleBound& bound,
+                      Face& corner_first) {
+  for (int i = 0; i < 4; ++i) {
+    const Face face = face_of(tet, i);
+    for (int corner = 0; corner < 3; ++corner) {
+      const Index a = face[corner], b = face[(corner + 1) % 3], c = face[(corner + 2) % 3];
+      if (bound.below(points, a, b, c)) {
+        corner_first = {a, b, c};
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Cosine and squared sine up to positive factors, and the product of the squared norms that
+// belongs to the cosine.
+template <class Number>
+struct Parts {
+  Number cosine, sine_squared, norms;
+};
+
+template <class Number>
+Number dot(const std::array<Number, 3>& u, const std::array<Number, 3>& v) {
+  return Number(u[0] * v[0] + u[1] * v[1] + u[2] * v[2]);
+}
+
+template <class Number>
+std::array<Number, 3> cross(const std::array<Number, 3>& u, const std::array<Number, 3>& v) {
+  return {Number(u[1] * v[2] - u[2] * v[1]), Number(u[2] * v[0] - u[0] * v[2]),
+          Number(u[0] * v[1] - u[1] * v[0])};
+}
+
+template <class Number>
+Parts<Number> between(const std::array<Number, 3>& u, const std::array<Number, 3>& v) {
+  const std::array<Number, 3> n = cross(u, v);
+  return {dot(u, v), dot(n, n), Number(dot(u, u) * dot(v, v))};
+}
+
+IntervalVector rough(const ExactPoints& points, Index from, Index to) {
+  const IntervalVector &p = points.enclosure(from), &q = points.enclosure(to);
+  return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+}
+
+// The angle at `apex` between the directions to b and c.
+struct FaceAngle {
+  Index apex, b, c;
+  Parts<Interval> roughly(const ExactPoints& points) const {
+    return between(rough(points, apex, b), rough(points, apex, c));
+  }
+  Parts<mpz_class> exactly(const ExactPoints& points) const {
+    return between(exact::difference(points, apex, b), exact::difference(points, apex, c));
+  }
+};
+
+// The angle at edge ab between the half-planes of c and d: that of ab x ac and ab x ad.
+struct DihedralAngle {
+  Index a, b, c, d;
+  Parts<Interval> roughly(const ExactPoints& points) const {
+    return parts<Interval>(rough(points, a, b), rough(points, a, c), rough(points, a, d));
+  }
+  Parts<mpz_class> exactly(const ExactPoints& points) const {
+    return parts<mpz_class>(exact::difference(points, a, b), exact::difference(points, a, c),
+                            exact::difference(points, a, d));
+  }
+
+ private:
+  // |(u x v) x (u x w)| = |u| |det(u, v, w)|.
+  template <class Number>
+  static Parts<Number> parts(const std::array<Number, 3>& u, const std::array<Number, 3>& v,
+                             const std::array<Number, 3>& w) {
+    const std::array<Number, 3> m = cross(u, v), n = cross(u, w);
+    const Number volume = dot(m, w);
+    return {dot(m, n), Number(Number(volume * volume) * dot(u, u)), Number(dot(m, m) * dot(n, n))};
+  }
+};
+
+bool narrow(const Interval& x, double scale) {
+  return x.high - x.low <= 1e-10 * scale;
+}
+
+// Extremes, mean and histogram of one kind of angle.
+class Distribution {
+ public:
+  explicit Distribution(const ExactPoints& points) : points_(points) {}
+
+  // In degrees.
+  template <class Angle>
+  double add(const Angle& angle) {
+    const Parts<Interval> p = angle.roughly(points_);
+    const double cosine = middle(p.cosine), sine2 = middle(p.sine_squared);
+    const double sine = std::sqrt(std::max(0.0, sine2));
+    double degrees = 0;
+    int bin = -1;
+    // Relative accuracy also of angles near 0 and 180 degrees.
+    if (narrow(p.sine_squared, sine2) && narrow(p.cosine, std::fabs(cosine) + sine)) {
+      degrees = std::atan2(sine, cosine) * kDegrees;
+      const double bins = degrees / 15;
+      if (std::fabs(bins - std::round(bins)) > 1e-6) bin = static_cast<int>(bins);
+    } else {
+      const Parts<mpz_class> e = angle.exactly(points_);
+      degrees = exact_angle(e.sine_squared, e.cosine);
+    }
+    if (bin < 0) {
+      const Parts<mpz_class> e = angle.exactly(points_);
+      bin = angle_bin(e.cosine, e.norms);
+    }
+    ++histogram[bin];
+    if (degrees < smallest || degrees > largest) {
+      const Parts<mpz_class> e = angle.exactly(points_);
+      const double better = exact_angle(e.sine_squared, e.cosine);
+      smallest = std::min(smallest, better);
+      largest = std::max(largest, better);
+    }
+    return degrees;
+  }
+
+  std::array<std::uint64_t, kBins> histogram{};
+  double smallest = 180, largest = 0;
+
+ private:
+  static double middle(const Interval& x) { return x.low / 2 + x.high / 2; }
+  const ExactPoints& points_;
+};
+
+struct Mean {
+  double sum = 0;
+  std::uint64_t count = 0;
+  void add(double value) {
+    sum += value;
+    ++count;
+  }
+  double value() const { return count > 0 ? sum / static_cast<double>(count) : 0; }
+};
+
+// Face angles and dihedral angles of a selection, each face once.
+class AngleMeasure {
+ public:
+  AngleMeasure(const TetComplex& complex, const Neighbours& neighbours,
+               const std::vector<std::uint8_t>& selected)
+      : complex_(complex),
+        neighbours_(neighbours),
+        selected_(selected),
+        face_(*complex.points),
+        dihedral_(*complex.points) {}
+
+  void run(OracleReport& report) {
+    for (std::size_t t = 0; t < complex_.tetrahedra.size(); ++t) {
+      if (!selected_[t]) continue;
+      for (int i = 0; i < 4; ++i) {
+        if (counts(4 * t + i)) add_face(face_of(complex_.tetrahedra[t], i));
+      }
+      add_dihedrals(complex_.tetrahedra[t]);
+    }
+    if (smallest_dihedral_.count == 0) return;
+    report.figures.emplace_back("smallest face angle", face_.smallest);
+    report.figures.emplace_back("largest face angle", face_.largest);
+    report.figures.emplace_back("smallest dihedral angle", dihedral_.smallest);
+    report.figures.emplace_back("largest dihedral angle", dihedral_.largest);
+    report.figures.emplace_back("mean of faces' smallest angles", smallest_face_.value());
+    report.figures.emplace_back("mean of faces' largest angles", largest_face_.value());
+    report.figures.emplace_back("mean of smallest dihedral angles", smallest_dihedral_.value());
+    report.figures.emplace_back("mean of largest dihedral angles", largest_dihedral_.value());
+    report.histograms.emplace_back("face angles", face_.histogram);
+    report.histograms.emplace_back("dihedral angles", dihedral_.histogram);
+  }
+
+ private:
+  // A face between two selected tetrahedra belongs to the first.
+  bool counts(std::size_t tet_face) const {
+    const Index other = neighbours_.across[tet_face];
+    return other == kNone || !selected_[other / 4] || tet_face < other;
+  }
+
+  void add_face(const Face& f) {
+    const double a = face_.add(FaceAngle{f[0], f[1], f[2]});
+    const double b = face_.add(FaceAngle{f[1], f[2], f[0]});
+    const double c = face_.add(FaceAngle{f[2], f[0], f[1]});
+    smallest_face_.add(std::min({a, b, c}));
+    largest_face_.add(std::max({a, b, c}));
+  }
+
+  void add_dihedrals(const Tet& t) {
+    static constexpr int kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
+                                         {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
+    double low = 180, high = 0;
+    for (const auto& [a, b, c, d] : kEdges) {
+      const double angle = dihedral_.add(DihedralAngle{t[a], t[b], t[c], t[d]});
+      low = std::min(low, angle);
+      high = std::max(high, angle);
+    }
+    smallest_dihedral_.add(low);
+    largest_dihedral_.add(high);
+  }
+
+  const TetComplex& complex_;
+  const Neighbours& neighbours_;
+  const std::vector<std::uint8_t>& selected_;
+  Distribution face_, dihedral_;
+  Mean smallest_face_, largest_face_, smallest_dihedral_, largest_dihedral_;
+};
+
+}  // namespace
+
+double exact_angle(const mpz_class& sine_squared, const mpz_class& cosine) {
+  if (sine_squared == 0) return cosine < 0 ? 180 : 0;
+  // Scaled so that neither overflows: sine^2 and cosine by 2^(2 s) and 2^s.
+  const auto bits = static_cast<long>(mpz_sizeinbase(sine_squared.get_mpz_t(), 2));
+  const long shift = (bits + 1) / 2;
+  const double sine = std::sqrt(to_double(sine_squared, -2 * shift));
+  return std::atan2(sine, to_double(cosine, -shift)) * kDegrees;
+}
+
+int angle_bin(const mpz_class& dot_product, const mpz_class& norms) {
+  const mpz_class dd = dot_product * dot_product;
+  // For an acute angle a: cos^2 a > cos^2(15 k), that is a < 15 k. cos^2(15) and cos^2(75) are
+  // (2 +- sqrt 3) / 4, and x = 4 dd - 2 norms is compared with +- sqrt(3) norms by squares.
+  const mpz_class x = 4 * dd - 2 * norms;
+  const int square = cmp(mpz_class(x * x), mpz_class(3 * norms * norms));
+  const int beyond[5] = {x > 0 ? square : -1,  // 15 degrees
+                         cmp(mpz_class(4 * dd), mpz_class(3 * norms)),
+                         cmp(mpz_class(2 * dd), norms), cmp(mpz_class(4 * dd), norms),
+                         x < 0 ? -square : 1};
+  const int sign = sgn(dot_product);
+  if (sign == 0) return 6;
+  int k = 0;
+  if (sign > 0) {
+    while (k < 5 && beyond[k] <= 0) ++k;  // a >= 15 (k + 1)
+    return k;
+  }
+  while (k < 5 && beyond[k] < 0) ++k;  // 180 - a > 15 (k + 1)
+  return kBins - 1 - k;
+}
+
+void measure_angles(const TetComplex& complex, const Neighbours& neighbours,
+                    const std::vector<std::uint8_t>& selected, OracleReport& report) {
+  AngleMeasure(complex, neighbours, selected).run(report);
+}
+
+OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbours,
+                          const InputSurface& surface, double delta, AngleScope scope) {
+  OracleReport report("angles", "tetrahedra");
+  const AngleBound bound(delta);
+  std::uint64_t left_alone = 0;
+  std::vector<std::uint8_t> selected(complex.tetrahedra.size(), 1);
+  for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
+    const Tet& tet = complex.tetrahedra[t];
+    Face at;
+    const bool bad = find_small_angle(*complex.points, tet, bound, at);
+    if (bad && scope == AngleScope::solid && surface.inside(*complex.points, tet) == 0 &&
+        !surface.meets_interior(*complex.points, tet)) {
+      ++left_alone;
+      selected[t] = 0;
+      continue;
+    }
+    ++report.checked;
+    if (!bad) continue;
+    const Parts<mpz_class> parts = FaceAngle{at[0], at[1], at[2]}.exactly(*complex.points);
+    char text[64];
+    std::snprintf(text, sizeof text, " has an angle of %.6g degrees at ",
+                  exact_angle(parts.sine_squared, parts.cosine));
+    report.fail(complex.tet_name(t) + text + complex.vertex_name(at[0]) + " in " +
+                complex.face_name(at));
+  }
+  report.figures.emplace_back("bound", delta);
+  report.figures.emplace_back("bad tetrahedra outside the solid", left_alone);
+  measure_angles(complex, neighbours, selected, report);
+  return report;
+}
+
+}  // namespace tetproof::oracles

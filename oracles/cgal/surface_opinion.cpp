@@ -1,0 +1,79 @@
+#include "oracles/cgal/surface_opinion.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace tetproof::oracles {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+namespace processing = CGAL::Polygon_mesh_processing;
+
+// What neither library may be asked about.
+std::string defect_of_lists(const Polyhedron& surface) {
+  if (surface.triangles.empty()) return "no triangles";
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    for (const Index v : surface.triangles[t]) {
+      if (v >= surface.vertices.size()) {
+        return "triangle " + std::to_string(t) + " refers to no vertex";
+      }
+    }
+  }
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    for (const double x : surface.vertices[v]) {
+      if (!std::isfinite(x)) return "vertex " + std::to_string(v) + " is not finite";
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface, const SurfaceQuestions& questions) {
+  SurfaceOpinion opinion;
+  opinion.reason = defect_of_lists(surface);
+  if (!opinion.reason.empty()) return opinion;
+  std::vector<std::vector<std::size_t>> polygons;
+  for (const auto& t : surface.triangles) polygons.push_back({t[0], t[1], t[2]});
+  opinion.manifold = processing::is_polygon_soup_a_polygon_mesh(polygons);
+  if (!opinion.manifold) {
+    opinion.reason = "not a consistently oriented manifold";
+    return opinion;
+  }
+  std::vector<Kernel::Point_3> points;
+  for (const Position& p : surface.vertices) points.emplace_back(p[0], p[1], p[2]);
+  Mesh mesh;
+  processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  opinion.closed = CGAL::is_closed(mesh);
+  if (!opinion.closed) {
+    opinion.reason = "open";
+    return opinion;
+  }
+  opinion.decides_intersections = questions.intersections;
+  if (!questions.intersections) return opinion;
+  for (const auto face : mesh.faces()) {
+    if (!processing::is_degenerate_triangle_face(face, mesh)) continue;
+    opinion.reason = "triangle " + std::to_string(static_cast<std::size_t>(face)) + " is flat";
+    return opinion;
+  }
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
+  processing::self_intersections(mesh, std::back_inserter(pairs));
+  opinion.free_of_intersections = pairs.empty();
+  if (!pairs.empty()) {
+    const auto [a, b] = *std::min_element(pairs.begin(), pairs.end());
+    opinion.reason = "triangles " + std::to_string(static_cast<std::size_t>(a)) + " and " +
+                     std::to_string(static_cast<std::size_t>(b)) + " intersect";
+  }
+  return opinion;
+}
+
+}  // namespace tetproof::oracles

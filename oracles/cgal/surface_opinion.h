@@ -1,0 +1,31 @@
+// Is a triangulated surface a valid input? Asked of CGAL and of OpenMesh, as a second opinion on
+// the mesher's own check.
+#pragma once
+
+#include <string>
+
+#include "oracles/input_surface.h"
+
+namespace tetproof::oracles {
+
+struct SurfaceOpinion {
+  // Each is decided only if what stands above it holds.
+  bool manifold = false;  // oriented consistently, edges of at most two triangles, one fan a vertex
+  bool closed = false;
+  bool free_of_intersections = false;  // also of degenerate triangles
+  bool decides_intersections = true;   // OpenMesh knows no geometry
+  std::string reason;                  // what is wrong, with an element where the library names one
+
+  bool valid() const {
+    return manifold && closed && (free_of_intersections || !decides_intersections);
+  }
+};
+
+struct SurfaceQuestions {
+  bool intersections = true;  // and degenerate triangles
+};
+SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface,
+                                    const SurfaceQuestions& questions = {});
+SurfaceOpinion openmesh_surface_opinion(const Polyhedron& surface);
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,487 @@
+#include "oracles/chamfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "oracles/angles.h"
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactPoint;
+using delmesher::ExactRecord;
+
+// How far below the threshold an angle at a rounded point may be, in degrees: points are placed
+// within 2^-20 of the chamfer distance, and the shortest bridges are a few hundredths of it.
+constexpr double kRounding = 1e-3;
+
+// cos^2 of a threshold; exact for 60 and 90 degrees, rounded upwards otherwise, to the safe side.
+mpq_class cosine_squared(double degrees) {
+  if (degrees == 90) return 0;
+  if (degrees == 60) return mpq_class(1, 4);
+  const double cosine = std::cos(degrees * (3.14159265358979323846 / 180));
+  return mpq_class(cosine * cosine * (1 + 1e-12));
+}
+
+class Threshold {
+ public:
+  explicit Threshold(double degrees) : degrees_(degrees), bound_(cosine_squared(degrees)) {}
+  double degrees() const { return degrees_; }
+  // Is the angle with this cosine, and this product of squared norms, below it?
+  bool above(const mpz_class& cosine, const mpz_class& norms) const {
+    return cosine > 0 && beyond(cosine * cosine, norms);
+  }
+  // The same of the squared cosine of an angle that is not obtuse.
+  bool beyond(const mpz_class& squared_cosine, const mpz_class& norms) const {
+    return squared_cosine * bound_.get_den() > bound_.get_num() * norms;
+  }
+
+ private:
+  double degrees_;
+  mpq_class bound_;
+};
+
+struct Segment {
+  Index from, to;     // ends of the chain
+  bool artificial;    // else on an input edge
+  Index input_edge;   // of the surface, or kNone
+  Index left, right;  // kept facets, or kNone
+};
+
+// A corner of a facet at a vertex: counter-clockwise, seen from outside, from the segment towards
+// `out` to the one towards `in`.
+struct Sector {
+  Index facet, out, in;
+};
+
+class ChamferedSurface {
+ public:
+  explicit ChamferedSurface(const RefinedMesh& mesh)
+      : record_(*mesh.record),
+        points_(*mesh.points),
+        surface_(*mesh.surface),
+        facets_(surface_, record_),
+        default_(record_.parameters.acute) {
+    for (const auto& corner : record_.corners) corner_[corner.vertex] = &corner;
+    for (const auto& [point, vertex] : record_.chamfer_points) made_for_[point] = vertex;
+    collect_segments();
+    collect_sectors();
+  }
+
+  const std::vector<Segment>& segments() const { return segments_; }
+  const std::vector<std::vector<Index>>& at() const { return at_; }  // segments per vertex slot
+  const std::vector<Index>& vertices() const { return vertices_; }
+  const std::vector<Sector>& sectors(std::size_t slot) const { return sectors_[slot]; }
+
+  Threshold at_input_vertex(Index v) const {
+    const auto corner = corner_.find(v);
+    return Threshold(corner != corner_.end() ? corner->second->threshold : default_);
+  }
+  Threshold at_vertex(Index p) const {
+    const auto made = made_for_.find(p);
+    return at_input_vertex(made != made_for_.end() ? made->second : p);
+  }
+  // The stricter of the ends of the input edge.
+  Threshold at_edge(Index e) const {
+    const Threshold a = at_input_vertex(surface_.edges()[e].from),
+                    b = at_input_vertex(surface_.edges()[e].to);
+    return a.degrees() > b.degrees() ? a : b;
+  }
+
+ private:
+  void collect_segments();
+  void collect_sectors();
+  void pair_sides(std::size_t slot, Index facet, std::vector<Index>& outs, std::vector<Index>& ins);
+
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  const FacetIndex facets_;
+  double default_;
+  std::unordered_map<Index, const ExactRecord::Corner*> corner_;
+  std::unordered_map<Index, Index> made_for_;
+  std::vector<Segment> segments_;
+  std::vector<Index> vertices_;  // ends of segments, ascending
+  std::vector<std::vector<Index>> at_;
+  std::vector<std::vector<Sector>> sectors_;
+};
+
+void ChamferedSurface::collect_segments() {
+  // Which side of an artificial segment its facet is on, only the faces on the facet tell.
+  std::vector<std::pair<Index, std::uint64_t>> sides;
+  for (const auto& [a, b, c, id] : record_.refined_facets) {
+    for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+      sides.emplace_back(id, static_cast<std::uint64_t>(p) << 32 | q);
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  const InputEdges input_edges(surface_);
+  for (const ExactRecord::Chain& chain : record_.segments) {
+    if (chain.vertices.size() < 2) continue;  // the segment oracle says so
+    Segment s{chain.vertices.front(), chain.vertices.back(), chain.artificial, kNone, kNone, kNone};
+    if (chain.artificial) {
+      const std::uint64_t first =
+          static_cast<std::uint64_t>(chain.vertices[0]) << 32 | chain.vertices[1];
+      const bool left =
+          std::binary_search(sides.begin(), sides.end(), std::pair(chain.facet, first));
+      (left ? s.left : s.right) = facets_.find(chain.facet);
+    } else {
+      s.input_edge = input_edges.of_chain(record_, chain.vertices);
+      if (s.input_edge == kNone) continue;
+      const InputSurface::Edge& edge = surface_.edges()[s.input_edge];
+      if (exact::dot(exact::difference(points_, edge.from, edge.to),
+                     exact::difference(points_, s.from, s.to)) < 0) {
+        std::swap(s.from, s.to);
+      }
+      s.left = facets_.kept(edge.left) ? edge.left : kNone;
+      s.right = facets_.kept(edge.right) ? edge.right : kNone;
+    }
+    segments_.push_back(s);
+    vertices_.push_back(s.from);
+    vertices_.push_back(s.to);
+  }
+  std::sort(vertices_.begin(), vertices_.end());
+  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  at_.resize(vertices_.size());
+  for (Index n = 0; n < segments_.size(); ++n) {
+    for (const Index v : {segments_[n].from, segments_[n].to}) {
+      at_[std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin()].push_back(n);
+    }
+  }
+}
+
+void ChamferedSurface::collect_sectors() {
+  sectors_.resize(vertices_.size());
+  for (std::size_t slot = 0; slot < vertices_.size(); ++slot) {
+    const Index v = vertices_[slot];
+    std::vector<Index> facets;
+    for (const Index n : at_[slot]) {
+      for (const Index f : {segments_[n].left, segments_[n].right}) {
+        if (f != kNone) facets.push_back(f);
+      }
+    }
+    std::sort(facets.begin(), facets.end());
+    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+    for (const Index f : facets) {
+      std::vector<Index> outs, ins;
+      for (const Index n : at_[slot]) {
+        const Segment& s = segments_[n];
+        const Index other = s.from == v ? s.to : s.from;
+        // The facet is on the left of the direction in which it traverses the segment.
+        if ((s.left == f) == (s.from == v) && (s.left == f || s.right == f)) outs.push_back(other);
+        if ((s.left == f) != (s.from == v) && (s.left == f || s.right == f)) ins.push_back(other);
+      }
+      pair_sides(slot, f, outs, ins);
+    }
+  }
+}
+
+// Each outgoing side begins the sector that the next incoming one, counter-clockwise, ends.
+void ChamferedSurface::pair_sides(std::size_t slot, Index facet, std::vector<Index>& outs,
+                                  std::vector<Index>& ins) {
+  const Index v = vertices_[slot];
+  const IntegerVector& normal = surface_.facets()[facet].normal;
+  const auto direction = [&](Index to) { return exact::difference(points_, v, to); };
+  for (const Index out : outs) {
+    const IntegerVector o = direction(out);
+    // 0: turned by less than 180 degrees from o, 1: by 180 or more.
+    const auto half = [&](const IntegerVector& d) {
+      const int side = sgn(exact::dot(normal, exact::cross(o, d)));
+      return side > 0 || (side == 0 && exact::dot(o, d) > 0) ? 0 : 1;
+    };
+    Index best = kNone;
+    for (const Index in : ins) {
+      if (in == out) continue;
+      if (best == kNone) {
+        best = in;
+        continue;
+      }
+      const IntegerVector d = direction(in), e = direction(best);
+      const bool nearer =
+          half(d) != half(e) ? half(d) < half(e) : exact::dot(normal, exact::cross(d, e)) > 0;
+      if (nearer) best = in;
+    }
+    if (best != kNone) sectors_[slot].push_back({facet, out, best});
+  }
+}
+
+class ChamferAngles {
+ public:
+  explicit ChamferAngles(const RefinedMesh& mesh)
+      : points_(*mesh.points), surface_(*mesh.surface), complex_(*mesh.complex), chamfered_(mesh) {}
+
+  OracleReport run() {
+    for (const Segment& s : chamfered_.segments()) {
+      if (s.left != kNone && s.right != kNone) check_dihedral(s);
+    }
+    for (std::size_t slot = 0; slot < chamfered_.vertices().size(); ++slot) check_vertex(slot);
+    report_.figures.emplace_back("below the threshold by rounding", below_);
+    report_.figures.emplace_back("largest shortfall in degrees", shortfall_);
+    if (below_ > 0 || report_.violations > 0) {
+      report_.figures.emplace_back("smallest angle", smallest_);
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void check_dihedral(const Segment& s);
+  void check_vertex(std::size_t slot);
+  void check_pair(Index v, const Segment& s, const Segment& t, const Threshold& threshold);
+  void check_sector(Index v, const Segment& s, const Sector& sector, const Threshold& threshold);
+  void judge(const mpz_class& cosine, const mpz_class& norms, const mpz_class& sine_squared,
+             const Threshold& threshold, bool rounded, const std::string& what);
+  void offend(double angle, const Threshold& threshold, bool rounded, const std::string& what);
+  std::string segment_name(const Segment& s) const {
+    return (s.artificial ? "artificial segment " : "segment ") + complex_.vertex_name(s.from) +
+           " - " + complex_.vertex_name(s.to);
+  }
+
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  const TetComplex& complex_;
+  const ChamferedSurface chamfered_;
+  std::uint64_t below_ = 0;
+  double shortfall_ = 0, smallest_ = 180;
+  OracleReport report_{"chamfer-angles", "angles of constraints"};
+};
+
+void ChamferAngles::judge(const mpz_class& cosine, const mpz_class& norms,
+                          const mpz_class& sine_squared, const Threshold& threshold, bool rounded,
+                          const std::string& what) {
+  if (threshold.above(cosine, norms)) {
+    offend(exact_angle(sine_squared, cosine), threshold, rounded, what);
+  }
+}
+
+void ChamferAngles::offend(double angle, const Threshold& threshold, bool rounded,
+                           const std::string& what) {
+  smallest_ = std::min(smallest_, angle);
+  const double missing = threshold.degrees() - angle;
+  if (rounded && missing <= kRounding) {
+    ++below_;
+    shortfall_ = std::max(shortfall_, missing);
+    return;
+  }
+  char text[96];
+  std::snprintf(text, sizeof text, " form an angle of %.9g degrees, less than %g", angle,
+                threshold.degrees());
+  report_.fail(what + text);
+}
+
+void ChamferAngles::check_dihedral(const Segment& s) {
+  ++report_.checked;
+  const IntegerVector &m = surface_.facets()[s.left].normal, &n = surface_.facets()[s.right].normal;
+  const mpz_class cosine = -exact::dot(m, n);
+  if (cosine <= 0) return;
+  judge(cosine, exact::squared(m) * exact::squared(n), exact::squared(exact::cross(m, n)),
+        chamfered_.at_edge(s.input_edge), false,
+        "facets " + std::to_string(surface_.facets()[s.left].id) + " and " +
+            std::to_string(surface_.facets()[s.right].id) + " at " + segment_name(s));
+}
+
+void ChamferAngles::check_vertex(std::size_t slot) {
+  const Index v = chamfered_.vertices()[slot];
+  const std::vector<Index>& at = chamfered_.at()[slot];
+  const Threshold threshold = chamfered_.at_vertex(v);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Segment& s = chamfered_.segments()[at[i]];
+    for (std::size_t j = 0; j < i; ++j) {
+      check_pair(v, s, chamfered_.segments()[at[j]], threshold);
+    }
+    for (const Sector& sector : chamfered_.sectors(slot)) {
+      if (sector.facet != s.left && sector.facet != s.right) check_sector(v, s, sector, threshold);
+    }
+  }
+}
+
+void ChamferAngles::check_pair(Index v, const Segment& s, const Segment& t,
+                               const Threshold& threshold) {
+  ++report_.checked;
+  const Index p = s.from == v ? s.to : s.from, q = t.from == v ? t.to : t.from;
+  if (exact::dot_sign(points_, v, p, q) <= 0) return;
+  const IntegerVector a = exact::difference(points_, v, p), b = exact::difference(points_, v, q);
+  judge(exact::dot(a, b), exact::squared(a) * exact::squared(b), exact::squared(exact::cross(a, b)),
+        threshold, s.artificial || t.artificial, segment_name(s) + " and " + segment_name(t));
+}
+
+// The angle of a segment and a facet counts if the segment projects into the sector's interior.
+void ChamferAngles::check_sector(Index v, const Segment& s, const Sector& sector,
+                                 const Threshold& threshold) {
+  ++report_.checked;
+  const InputSurface::Facet& facet = surface_.facets()[sector.facet];
+  const IntegerVector& n = facet.normal;
+  const IntegerVector d = exact::difference(points_, v, s.from == v ? s.to : s.from);
+  const mpz_class height = exact::dot(n, d);
+  const mpz_class norms = exact::squared(n) * exact::squared(d), sine_squared = height * height;
+  // cos^2 = 1 - sin^2; compared before the sector is looked at, because that is rarely passed.
+  if (!threshold.beyond(norms - sine_squared, norms)) return;
+  const IntegerVector o = exact::difference(points_, v, sector.out),
+                      i = exact::difference(points_, v, sector.in);
+  const auto left = [&](const IntegerVector& x, const IntegerVector& y) {
+    return sgn(exact::dot(n, exact::cross(x, y)));
+  };
+  const int turn = left(o, i);
+  const bool inside =
+      turn > 0 ? left(o, d) > 0 && left(d, i) > 0 : !(left(i, d) >= 0 && left(d, o) >= 0);
+  if (!inside) return;
+  const double angle = 90 - exact_angle(norms - sine_squared, abs(height));
+  offend(angle, threshold, true, segment_name(s) + " and facet " + std::to_string(facet.id));
+}
+
+// --- extent
+
+class ChamferExtent {
+ public:
+  explicit ChamferExtent(const RefinedMesh& mesh)
+      : record_(*mesh.record),
+        points_(*mesh.points),
+        surface_(*mesh.surface),
+        complex_(*mesh.complex),
+        facets_(surface_, record_) {
+    for (const auto& corner : record_.corners) corner_[corner.vertex] = &corner;
+  }
+
+  OracleReport run() {
+    for (const auto& [point, vertex] : record_.chamfer_points) check_point(point, vertex);
+    for (const ExactRecord::Chain& chain : record_.segments) {
+      if (chain.artificial) check_chain(chain);
+    }
+    check_areas();
+    report_.figures.emplace_back("edges of artificial segments", edges_);
+    report_.figures.emplace_back("largest distance over radius", farthest_);
+    return std::move(report_);
+  }
+
+ private:
+  void check_point(Index p, Index vertex);
+  void check_chain(const ExactRecord::Chain& chain);
+  bool contains_midpoint(Index facet, Index a, Index b);
+  bool crosses_border(Index facet, Index a, Index b);
+  void check_areas();
+
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  const TetComplex& complex_;
+  const FacetIndex facets_;
+  std::unordered_map<Index, const ExactRecord::Corner*> corner_;
+  std::vector<Index> found_;
+  std::uint64_t edges_ = 0;
+  double farthest_ = 0;
+  OracleReport report_{"chamfer-extent", "points made by chamfering"};
+};
+
+void ChamferExtent::check_point(Index p, Index vertex) {
+  // |VP| / |VA| where A is the cut point of a sector of 120 degrees and |AP| = |PQ| = |QB|.
+  constexpr double kWidest = 1.3228756555322954;  // sqrt(7) / 2
+  constexpr double kPlacement = 1 + 0x1p-16;
+  ++report_.checked;
+  const ExactPoint& point = record_.points[p];
+  const bool on_edge = point.kind == ExactPoint::Kind::on_segment;
+  if (point.kind == ExactPoint::Kind::explicit_point) {
+    return report_.fail(complex_.vertex_name(p) + " was made by chamfering, but is not given on " +
+                        "an input edge or triangle");
+  }
+  // Where bridge points lie is for check_chain: a facet may have many triangles, any of which may
+  // serve as the point's frame.
+  if (on_edge && !(point.x >= 0 && point.x <= 1)) {
+    report_.fail(complex_.vertex_name(p) + " lies beyond the ends of its edge");
+  }
+  if (on_edge && point.i != vertex && point.j != vertex) {
+    report_.fail(complex_.vertex_name(p) + " is on no edge of input vertex " +
+                 std::to_string(vertex));
+  }
+  const auto corner = corner_.find(vertex);
+  if (corner == corner_.end()) {
+    return report_.fail(complex_.vertex_name(p) + " was made for input vertex " +
+                        std::to_string(vertex) + ", which was not chamfered");
+  }
+  const Position &a = points_.nearest(p), &b = points_.nearest(vertex);
+  const double distance = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  const double radius = corner->second->radius;
+  farthest_ = std::max(farthest_, distance / radius);
+  if (!(distance <= radius * (on_edge ? 1 : kWidest) * kPlacement)) {
+    report_.fail(complex_.vertex_name(p) + " is farther than the radius from input vertex " +
+                 std::to_string(vertex));
+  }
+}
+
+void ChamferExtent::check_chain(const ExactRecord::Chain& chain) {
+  const Index facet = facets_.find(chain.facet);
+  if (facet == kNone) return;  // the segment oracle says so
+  for (std::size_t n = 1; n < chain.vertices.size(); ++n) {
+    const Index a = chain.vertices[n - 1], b = chain.vertices[n];
+    ++edges_;
+    found_.clear();
+    surface_.triangles_near(box_around(points_, std::array{a, b}), found_);
+    if (!contains_midpoint(facet, a, a) || !contains_midpoint(facet, b, b) ||
+        !contains_midpoint(facet, a, b) || crosses_border(facet, a, b)) {
+      report_.fail("artificial edge " + complex_.vertex_name(a) + " - " + complex_.vertex_name(b) +
+                   " leaves facet " + std::to_string(chain.facet));
+    }
+  }
+}
+
+// In the closed facet, that is in one of its closed triangles.
+bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) {
+  const IntegerVector& normal = surface_.facets()[facet].normal;
+  return std::any_of(found_.begin(), found_.end(), [&](Index t) {
+    if (surface_.facet_of_triangle()[t] != facet) return false;
+    for (int i = 0; i < 3; ++i) {
+      const Index p = surface_.triangles()[t][i], q = surface_.triangles()[t][(i + 1) % 3];
+      const IntegerVector u = exact::difference(points_, p, a),
+                          v = exact::difference(points_, p, b);
+      const IntegerVector sum = {mpz_class(u[0] + v[0]), mpz_class(u[1] + v[1]),
+                                 mpz_class(u[2] + v[2])};
+      if (exact::dot(normal, exact::cross(exact::difference(points_, p, q), sum)) < 0) return false;
+    }
+    return true;
+  });
+}
+
+// Properly, through the inside of both edges.
+bool ChamferExtent::crosses_border(Index facet, Index a, Index b) {
+  const IntegerVector& normal = surface_.facets()[facet].normal;
+  const auto side = [&](Index p, Index q, Index r) {
+    return sgn(exact::dot(normal, exact::area2(points_, p, q, r)));
+  };
+  return std::any_of(found_.begin(), found_.end(), [&](Index t) {
+    if (surface_.facet_of_triangle()[t] != facet) return false;
+    for (int i = 0; i < 3; ++i) {
+      if (surface_.facet_of_triangle()[surface_.neighbour(t, i)] == facet) continue;
+      const Index p = surface_.triangles()[t][i], q = surface_.triangles()[t][(i + 1) % 3];
+      if (side(p, q, a) * side(p, q, b) < 0 && side(a, b, p) * side(a, b, q) < 0) return true;
+    }
+    return false;
+  });
+}
+
+void ChamferExtent::check_areas() {
+  std::vector<IntegerVector> area(surface_.facets().size());
+  for (const auto& [a, b, c, id] : record_.refined_facets) {
+    const Index f = facets_.find(id);
+    if (f == kNone) continue;
+    const IntegerVector n = exact::area2(points_, a, b, c);
+    for (int axis = 0; axis < 3; ++axis) area[f][axis] += n[axis];
+  }
+  for (Index f = 0; f < area.size(); ++f) {
+    const IntegerVector& whole = surface_.facets()[f].normal;
+    if (exact::dot(area[f], whole) > exact::squared(whole)) {
+      report_.fail("the faces on facet " + std::to_string(surface_.facets()[f].id) +
+                   " cover more than the facet");
+    }
+  }
+}
+
+}  // namespace
+
+OracleReport check_chamfer_angles(const RefinedMesh& mesh) {
+  return ChamferAngles(mesh).run();
+}
+
+OracleReport check_chamfer_extent(const RefinedMesh& mesh) {
+  return ChamferExtent(mesh).run();
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,180 @@
+#include "oracles/delaunay.h"
+
+#include <algorithm>
+
+#include "oracles/cgal/kernel_opinion.h"
+#include "oracles/sample.h"
+
+namespace tetproof::oracles {
+namespace {
+
+// The in-sphere sign of our integers, checked against CGAL's.
+class TwoOpinions {
+ public:
+  explicit TwoOpinions(const ExactPoints& points) : points_(points), cgal_(points) {}
+
+  int insphere(const Tet& t, Index e, OracleReport& report) {
+    const int ours = exact::insphere(points_, t[0], t[1], t[2], t[3], e);
+    const int theirs = cgal_.insphere(t[0], t[1], t[2], t[3], e);
+    if (ours != theirs) {
+      report.fail("the in-sphere tests of this program (" + std::to_string(ours) +
+                  ") and of CGAL (" + std::to_string(theirs) + ") disagree");
+    }
+    return theirs;
+  }
+
+ private:
+  const ExactPoints& points_;
+  const KernelOpinion cgal_;
+};
+
+struct ViolationNames {
+  const TetComplex& complex;
+  std::string face(Index tet_face, Index apex) const {
+    const Tet& tet = complex.tetrahedra[tet_face / 4];
+    return complex.face_name(face_of(tet, static_cast<int>(tet_face % 4))) + ": " +
+           complex.vertex_name(apex) + " lies inside the circumsphere of " +
+           complex.tet_name(tet_face / 4);
+  }
+};
+
+// Visits the sampled tetrahedra with every vertex strictly inside their circumspheres.
+template <class Visit>
+std::uint64_t for_each_inside(const TetComplex& complex, const Visit& visit) {
+  const std::vector<Index> vertices = used_vertices(complex);
+  const Sample sample(complex.tetrahedra.size(), vertices.size());
+  std::uint64_t tried = 0;
+  for (std::size_t t = sample.first(); t < complex.tetrahedra.size(); t += sample.step(), ++tried) {
+    const auto& [a, b, c, d] = complex.tetrahedra[t];
+    for (const Index v : vertices) {
+      if (v == a || v == b || v == c || v == d) continue;
+      if (exact::insphere(*complex.points, a, b, c, d, v) > 0) visit(t, v);
+    }
+  }
+  return tried;
+}
+
+// Does the surface block the view from the centroid of a tetrahedron to a vertex?
+class Sight {
+ public:
+  Sight(const TetComplex& complex, const InputSurface& surface)
+      : points_(*complex.points), complex_(complex), surface_(surface) {}
+
+  bool blocked(std::size_t t, Index v) {
+    std::array<Index, 5> all;
+    std::copy_n(complex_.tetrahedra[t].begin(), 4, all.begin());
+    all[4] = v;
+    found_.clear();
+    surface_.triangles_near(box_around(points_, all), found_);
+    return std::any_of(found_.begin(), found_.end(), [&](Index triangle) {
+      return crosses(surface_.triangles()[triangle], complex_.tetrahedra[t], v);
+    });
+  }
+
+ private:
+  // The sum of the corners less four times `from`: towards the centroid.
+  IntegerVector towards_centroid(Index from, const Tet& tet) const {
+    IntegerVector sum;
+    for (const Index c : tet) {
+      const IntegerVector d = exact::difference(points_, from, c);
+      for (int axis = 0; axis < 3; ++axis) sum[axis] += d[axis];
+    }
+    return sum;
+  }
+
+  bool crosses(const std::array<Index, 3>& triangle, const Tet& tet, Index v) const {
+    const auto& [a, b, c] = triangle;
+    const IntegerVector normal = exact::area2(points_, a, b, c);
+    const int near = sgn(exact::dot(normal, towards_centroid(a, tet)));
+    const int far = sgn(exact::dot(normal, exact::difference(points_, a, v)));
+    if (near * far >= 0) return false;
+    // The line from v to the centroid passes the three sides on the same side, or meets them.
+    const IntegerVector line = towards_centroid(v, tet);
+    int sides[3];
+    for (int i = 0; i < 3; ++i) {
+      sides[i] =
+          sgn(exact::dot(line, exact::cross(exact::difference(points_, v, triangle[i]),
+                                            exact::difference(points_, v, triangle[(i + 1) % 3]))));
+    }
+    const auto [low, high] = std::minmax({sides[0], sides[1], sides[2]});
+    return low * high >= 0;
+  }
+
+  const ExactPoints& points_;
+  const TetComplex& complex_;
+  const InputSurface& surface_;
+  std::vector<Index> found_;
+};
+
+}  // namespace
+
+std::vector<Index> used_vertices(const TetComplex& complex) {
+  std::vector<std::uint8_t> used(complex.points->size(), 0);
+  for (const Tet& tet : complex.tetrahedra) {
+    for (const Index v : tet) used[v] = 1;
+  }
+  std::vector<Index> vertices;
+  for (Index v = 0; v < used.size(); ++v) {
+    if (used[v]) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbours) {
+  OracleReport report("delaunay", "faces between two tetrahedra, and tetrahedra");
+  const ViolationNames names{complex};
+  TwoOpinions opinions(*complex.points);
+  for (Index i = 0; i < neighbours.across.size(); ++i) {
+    const Index j = neighbours.across[i];
+    if (j == kNone || j < i) continue;
+    const Index apex = complex.tetrahedra[j / 4][j % 4];
+    ++report.checked;
+    if (opinions.insphere(complex.tetrahedra[i / 4], apex, report) > 0) {
+      report.fail(names.face(i, apex));
+    }
+  }
+  const std::uint64_t tried = for_each_inside(complex, [&](std::size_t t, Index v) {
+    report.fail(complex.vertex_name(v) + " lies inside the circumsphere of " + complex.tet_name(t));
+  });
+  report.checked += tried;
+  report.figures.emplace_back("tetrahedra tried against all vertices", tried);
+  return report;
+}
+
+OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbours& neighbours,
+                                        const InputSurface& surface, std::vector<Face> constraints,
+                                        const ConstrainedDelaunayOptions& options) {
+  OracleReport report("constrained-delaunay", "faces off the surface, and tetrahedra");
+  const ViolationNames names{complex};
+  for (Face& face : constraints) std::sort(face.begin(), face.end());
+  std::sort(constraints.begin(), constraints.end());
+  std::uint64_t not_delaunay = 0;
+  TwoOpinions opinions(*complex.points);
+  for (Index i = 0; i < neighbours.across.size(); ++i) {
+    const Index j = neighbours.across[i];
+    if (j == kNone || j < i) continue;
+    Face face = face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4));
+    std::sort(face.begin(), face.end());
+    if (std::binary_search(constraints.begin(), constraints.end(), face)) continue;
+    const Index apex = complex.tetrahedra[j / 4][j % 4];
+    ++report.checked;
+    if (opinions.insphere(complex.tetrahedra[i / 4], apex, report) <= 0) continue;
+    ++not_delaunay;
+    if (options.gate) report.fail(names.face(i, apex));
+  }
+  Sight sight(complex, surface);
+  std::uint64_t inside = 0;
+  const std::uint64_t tried = for_each_inside(complex, [&](std::size_t t, Index v) {
+    ++inside;
+    if (!options.gate || sight.blocked(t, v)) return;
+    report.fail(complex.tet_name(t) + " sees " + complex.vertex_name(v) +
+                " inside its circumsphere");
+  });
+  report.figures.emplace_back("not locally Delaunay", not_delaunay);
+  report.checked += tried;
+  report.figures.emplace_back("tetrahedra tried against all vertices", tried);
+  report.figures.emplace_back("hidden vertices inside their spheres", inside);
+  return report;
+}
+
+}  // namespace tetproof::oracles

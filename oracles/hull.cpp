@@ -1,0 +1,161 @@
+#include "oracles/hull.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <tuple>
+
+#include "oracles/cgal/kernel_opinion.h"
+
+namespace tetproof::oracles {
+namespace {
+
+class Hull {
+ public:
+  Hull(const TetComplex& complex, const Neighbours& neighbours, const HullOptions& options)
+      : complex_(complex), points_(*complex.points), allowed_(options.allowed) {
+    for (Index i = 0; i < neighbours.across.size(); ++i) {
+      if (neighbours.across[i] != kNone) continue;
+      faces_.push_back(face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4)));
+    }
+  }
+
+  OracleReport run() {
+    check_edges();
+    check_volume();
+    return std::move(report_);
+  }
+
+ private:
+  struct Side {
+    Index from, to, opposite, face;
+    bool operator<(const Side& other) const {
+      return std::tie(from, to) < std::tie(other.from, other.to);
+    }
+  };
+
+  void check_edges();
+  void check_edge(const Side& side, const Side& other);
+  void check_volume();
+  double area() const;
+
+  const TetComplex& complex_;
+  const ExactPoints& points_;
+  double allowed_;
+  std::vector<Face> faces_;
+  std::vector<std::uint8_t> corner_;  // per point: at the end of an edge that is not flat
+  OracleReport report_{"hull", "boundary edges"};
+};
+
+// Every edge once each way, convex; the faces are connected, and vertices + faces - edges = 2.
+void Hull::check_edges() {
+  corner_.assign(points_.size(), 0);
+  std::vector<Side> sides;
+  for (Index f = 0; f < faces_.size(); ++f) {
+    for (int i = 0; i < 3; ++i) {
+      sides.push_back({faces_[f][i], faces_[f][(i + 1) % 3], faces_[f][(i + 2) % 3], f});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::vector<Index> root(faces_.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](Index f) {
+    while (root[f] != f) f = root[f] = root[root[f]];
+    return f;
+  };
+  std::size_t components = faces_.size();
+  std::int64_t euler = static_cast<std::int64_t>(faces_.size());
+  std::vector<std::uint8_t> used(points_.size(), 0);
+  for (const Side& side : sides) {
+    if (!used[side.from]) ++euler;
+    used[side.from] = 1;
+    const auto [low, high] =
+        std::equal_range(sides.begin(), sides.end(), Side{side.to, side.from, 0, 0});
+    if (high - low != 1) {
+      report_.fail("boundary edge " + complex_.vertex_name(side.from) + " - " +
+                   complex_.vertex_name(side.to) + " does not have one face on each side");
+      continue;
+    }
+    if (const Index a = find(side.face), b = find(low->face); a != b) {
+      root[std::max(a, b)] = std::min(a, b);
+      --components;
+    }
+    if (side.from > side.to) continue;
+    --euler;
+    check_edge(side, *low);
+  }
+  if (components != 1) {
+    report_.fail("the outer boundary consists of " + std::to_string(components) + " pieces");
+  } else if (euler != 2) {
+    report_.fail("the outer boundary is no sphere: its Euler characteristic is " +
+                 std::to_string(euler));
+  }
+}
+
+void Hull::check_edge(const Side& side, const Side& other) {
+  ++report_.checked;
+  const auto& [a, b, c, face] = side;
+  const int sign = exact::orient3d(points_, a, b, c, other.opposite);
+  if (sign != 0) corner_[a] = corner_[b] = 1;
+  if (sign < 0) return;
+  const IntegerVector m = exact::area2(points_, a, b, c),
+                      n = exact::area2(points_, b, a, other.opposite);
+  if (sign == 0 && exact::dot(m, n) > 0) return;
+  if (sign > 0 && allowed_ > 0) {
+    // How far the opposite corner is in front of the face.
+    const double height =
+        to_double(exact::dot(m, exact::difference(points_, a, other.opposite)),
+                  3 * points_.exponent()) /
+        std::hypot(to_double(m[0], 2 * points_.exponent()), to_double(m[1], 2 * points_.exponent()),
+                   to_double(m[2], 2 * points_.exponent()));
+    if (height <= allowed_) return;
+  }
+  report_.fail("the outer boundary is not convex at edge " + complex_.vertex_name(a) + " - " +
+               complex_.vertex_name(b));
+}
+
+double Hull::area() const {
+  double sum = 0;
+  for (const Face& f : faces_) {
+    const IntegerVector n = exact::area2(points_, f[0], f[1], f[2]);
+    const long exponent = 2 * points_.exponent();
+    sum += std::hypot(to_double(n[0], exponent), to_double(n[1], exponent),
+                      to_double(n[2], exponent)) /
+           2;
+  }
+  return sum;
+}
+
+void Hull::check_volume() {
+  mpz_class sum;
+  for (const auto& [a, b, c, d] : complex_.tetrahedra) {
+    sum += exact::volume6(points_, a, b, c, d);
+  }
+  std::vector<Index> corners;
+  for (Index v = 0; v < corner_.size(); ++v) {
+    if (corner_[v]) corners.push_back(v);
+  }
+  const mpz_class hull = cgal_hull_volume6(points_, corners);
+  const long exponent = 3 * points_.exponent();
+  const double volume = to_double(hull, exponent) / 6;
+  report_.figures.emplace_back("volume of the hull", volume);
+  if (sum == hull) return;
+  const double difference = to_double(mpz_class(sum - hull), exponent) / 6;
+  report_.figures.emplace_back("difference", difference);
+  if (allowed_ > 0 && std::fabs(difference) <= 2 * allowed_ * area()) return;
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "all tetrahedra have a volume that differs by %.3g from the hull's %.6g",
+                difference, volume);
+  report_.fail(text);
+}
+
+}  // namespace
+
+OracleReport check_hull(const TetComplex& complex, const Neighbours& neighbours,
+                        const HullOptions& options) {
+  return Hull(complex, neighbours, options).run();
+}
+
+}  // namespace tetproof::oracles

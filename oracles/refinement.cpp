@@ -1,0 +1,515 @@
+#include "oracles/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "oracles/sample.h"
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactPoint;
+using delmesher::ExactRecord;
+
+std::uint64_t directed_key(Index a, Index b) {
+  return static_cast<std::uint64_t>(a) << 32 | b;
+}
+std::uint64_t edge_key(Index a, Index b) {
+  return directed_key(std::min(a, b), std::max(a, b));
+}
+
+std::string chain_name(std::size_t n, const ExactRecord::Chain& chain) {
+  return (chain.artificial ? "artificial segment " : "segment ") + std::to_string(n);
+}
+
+// --- chains
+
+class Segments {
+ public:
+  explicit Segments(const RefinedMesh& mesh)
+      : record_(*mesh.record),
+        points_(*mesh.points),
+        surface_(*mesh.surface),
+        complex_(*mesh.complex),
+        facets_(surface_, record_),
+        input_edges_(surface_),
+        mesh_edges_(mesh_edges(complex_)),
+        first_(surface_.edges().size(), kNone),
+        last_(surface_.edges().size(), kNone) {
+    for (const auto& corner : record_.corners) corner_[corner.vertex] = &corner;
+  }
+
+  OracleReport run() {
+    if (!facets_.defect().empty()) report_.fail(facets_.defect());
+    for (std::size_t n = 0; n < record_.segments.size(); ++n) {
+      const ExactRecord::Chain& chain = record_.segments[n];
+      if (!check_mesh_edges(n, chain)) continue;
+      chain.artificial ? check_artificial(n, chain) : check_input(n, chain);
+    }
+    check_ends();
+    report_.figures.emplace_back("segments", record_.segments.size());
+    report_.figures.emplace_back("artificial segments", artificial_);
+    report_.figures.emplace_back("largest bend of an artificial segment", largest_bend_);
+    return std::move(report_);
+  }
+
+ private:
+  bool check_mesh_edges(std::size_t n, const ExactRecord::Chain& chain);
+  void check_artificial(std::size_t n, const ExactRecord::Chain& chain);
+  void check_input(std::size_t n, const ExactRecord::Chain& chain);
+  void check_ends();
+  void check_gap(const InputSurface::Edge& edge, Index input_vertex, Index end);
+  std::string edge_name(const InputSurface::Edge& edge) const {
+    return "input edge " + std::to_string(edge.from) + "-" + std::to_string(edge.to);
+  }
+
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  const TetComplex& complex_;
+  const FacetIndex facets_;
+  const InputEdges input_edges_;
+  const std::vector<std::uint64_t> mesh_edges_;
+  std::unordered_map<Index, const ExactRecord::Corner*> corner_;
+  std::unordered_map<std::uint64_t, std::size_t> used_;  // edge -> chain
+  std::vector<Index> first_, last_;                      // per input edge: ends of its chain
+  std::uint64_t artificial_ = 0;
+  double largest_bend_ = 0;
+  OracleReport report_{"segments", "edges of segments"};
+};
+
+bool Segments::check_mesh_edges(std::size_t n, const ExactRecord::Chain& chain) {
+  if (chain.vertices.size() < 2) {
+    report_.fail(chain_name(n, chain) + " has fewer than two vertices");
+    return false;
+  }
+  for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
+    const Index a = chain.vertices[i - 1], b = chain.vertices[i];
+    ++report_.checked;
+    if (!std::binary_search(mesh_edges_.begin(), mesh_edges_.end(), edge_key(a, b))) {
+      report_.fail(chain_name(n, chain) + ": " + complex_.vertex_name(a) + " - " +
+                   complex_.vertex_name(b) + " is no edge of the refined mesh");
+    }
+    const auto [other, fresh] = used_.emplace(edge_key(a, b), n);
+    if (!fresh) {
+      report_.fail(chain_name(n, chain) + " shares an edge with segment " +
+                   std::to_string(other->second));
+    }
+  }
+  return true;
+}
+
+void Segments::check_artificial(std::size_t n, const ExactRecord::Chain& chain) {
+  ++artificial_;
+  const std::string name = chain_name(n, chain);
+  const Index facet = facets_.find(chain.facet);
+  if (facet == kNone || !facets_.kept(facet)) {
+    return report_.fail(name + " lies in facet " + std::to_string(chain.facet) +
+                        ", which is none that was kept");
+  }
+  const InputSurface::Facet& plane = surface_.facets()[facet];
+  std::vector<Index> sorted = chain.vertices;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
+    report_.fail(name + " passes a vertex twice");
+  }
+  const Index from = chain.vertices.front(), to = chain.vertices.back();
+  const IntegerVector along = exact::difference(points_, from, to);
+  const mpz_class length2 = exact::squared(along);
+  mpz_class reached = 0;
+  for (const Index v : chain.vertices) {
+    if (exact::dot(plane.normal, exact::difference(points_, plane.vertex, v)) != 0) {
+      report_.fail(name + ": " + complex_.vertex_name(v) + " is off the plane of facet " +
+                   std::to_string(chain.facet));
+    }
+    if (v == from) continue;
+    const IntegerVector w = exact::difference(points_, from, v);
+    const mpz_class position = exact::dot(along, w);
+    if (position <= reached || position > length2) report_.fail(name + " turns back");
+    reached = position;
+    if (v == to) continue;
+    // The distance from the straight line is |along x w| / |along|.
+    const mpz_class off2 = exact::squared(exact::cross(along, w));
+    if (off2 == 0) continue;
+    if ((off2 << 40) > length2 * length2) {
+      report_.fail(name + ": " + complex_.vertex_name(v) +
+                   " is farther than 2^-20 of the length from the straight line");
+    }
+    const mpq_class share(off2, length2 * length2);
+    largest_bend_ = std::max(largest_bend_, std::sqrt(share.get_d()));
+  }
+}
+
+void Segments::check_input(std::size_t n, const ExactRecord::Chain& chain) {
+  const std::string name = chain_name(n, chain);
+  const Index e = input_edges_.of_chain(record_, chain.vertices);
+  if (e == kNone) return report_.fail(name + " lies on no input edge between two facets");
+  const InputSurface::Edge& edge = surface_.edges()[e];
+  if (!facets_.kept(edge.left) && !facets_.kept(edge.right)) {
+    report_.fail(name + " lies between two filtered facets");
+  }
+  std::vector<Index> ordered = chain.vertices;
+  const IntegerVector along = exact::difference(points_, edge.from, edge.to);
+  if (exact::dot(along, exact::difference(points_, ordered.front(), ordered.back())) < 0) {
+    std::reverse(ordered.begin(), ordered.end());
+  }
+  mpz_class reached = -1;
+  for (const Index v : ordered) {
+    const IntegerVector w = exact::difference(points_, edge.from, v);
+    if (!exact::is_zero(exact::cross(along, w))) {
+      report_.fail(name + ": " + complex_.vertex_name(v) + " is off " + edge_name(edge));
+    }
+    const mpz_class position = exact::dot(along, w);
+    if (position <= reached) report_.fail(name + " turns back on " + edge_name(edge));
+    reached = position;
+  }
+  if (reached > exact::squared(along)) report_.fail(name + " leaves " + edge_name(edge));
+  if (first_[e] != kNone) return report_.fail(edge_name(edge) + " has two segments");
+  first_[e] = ordered.front();
+  last_[e] = ordered.back();
+}
+
+// What of an edge is missing was cut off at a chamfered corner, or the edge was acute.
+void Segments::check_ends() {
+  std::uint64_t missing = 0;
+  for (std::size_t e = 0; e < surface_.edges().size(); ++e) {
+    const InputSurface::Edge& edge = surface_.edges()[e];
+    if (!facets_.kept(edge.left) && !facets_.kept(edge.right)) continue;
+    if (first_[e] == kNone) {
+      ++missing;
+      const IntegerVector &n = surface_.facets()[edge.left].normal,
+                          &m = surface_.facets()[edge.right].normal;
+      // The dihedral angle is acute exactly if that of the outward normals is obtuse.
+      const bool acute = facets_.kept(edge.left) && facets_.kept(edge.right) &&
+                         exact::dot(n, m) < 0 && corner_.contains(edge.from) &&
+                         corner_.contains(edge.to);
+      if (!acute) report_.fail(edge_name(edge) + " has no segment and is not acute");
+      continue;
+    }
+    check_gap(edge, edge.from, first_[e]);
+    check_gap(edge, edge.to, last_[e]);
+  }
+  report_.figures.emplace_back("acute edges", missing);
+}
+
+void Segments::check_gap(const InputSurface::Edge& edge, Index input_vertex, Index end) {
+  if (end == input_vertex) return;
+  const auto corner = corner_.find(input_vertex);
+  if (corner == corner_.end()) {
+    return report_.fail(edge_name(edge) + " has no segment near input vertex " +
+                        std::to_string(input_vertex) + ", which was not chamfered");
+  }
+  const Position &p = points_.nearest(input_vertex), &q = points_.nearest(end);
+  const double cut = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  // Cut points are placed with a relative accuracy of 2^-20.
+  if (!(cut <= corner->second->radius * (1 + 0x1p-16))) {
+    report_.fail(edge_name(edge) + " is cut off farther than the radius at input vertex " +
+                 std::to_string(input_vertex));
+  }
+}
+
+// --- faces on facets
+
+class RefinedFacets {
+ public:
+  explicit RefinedFacets(const RefinedMesh& mesh)
+      : record_(*mesh.record),
+        points_(*mesh.points),
+        surface_(*mesh.surface),
+        complex_(*mesh.complex),
+        facets_(surface_, record_) {}
+
+  OracleReport run() {
+    collect_mesh_faces();
+    for (const auto& [a, b, c, id] : record_.refined_facets) check_face({a, b, c}, id);
+    // Records without segments say nothing about borders.
+    if (!record_.segments.empty()) {
+      collect_chains();
+      check_borders();
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void collect_mesh_faces();
+  void check_face(Face face, Index id);
+  void collect_chains();
+  void check_borders();
+
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  const TetComplex& complex_;
+  const FacetIndex facets_;
+  std::vector<Face> mesh_faces_;
+  std::vector<std::pair<Index, std::uint64_t>> sides_;    // facet, directed edge of a face
+  std::vector<std::pair<Index, std::uint64_t>> chained_;  // facet, edge of a chain
+  OracleReport report_{"facets", "faces"};
+};
+
+void RefinedFacets::collect_mesh_faces() {
+  mesh_faces_.reserve(4 * complex_.tetrahedra.size());
+  for (const Tet& tet : complex_.tetrahedra) {
+    for (int i = 0; i < 4; ++i) {
+      mesh_faces_.push_back(face_of(tet, i));
+      std::sort(mesh_faces_.back().begin(), mesh_faces_.back().end());
+    }
+  }
+  std::sort(mesh_faces_.begin(), mesh_faces_.end());
+}
+
+void RefinedFacets::check_face(Face face, Index id) {
+  ++report_.checked;
+  Face sorted = face;
+  std::sort(sorted.begin(), sorted.end());
+  if (!std::binary_search(mesh_faces_.begin(), mesh_faces_.end(), sorted)) {
+    return report_.fail(complex_.face_name(face) + " is no face of the refined mesh");
+  }
+  const Index f = facets_.find(id);
+  if (f == kNone) {
+    return report_.fail(complex_.face_name(face) + ": there is no facet " + std::to_string(id));
+  }
+  const InputSurface::Facet& facet = surface_.facets()[f];
+  for (const Index v : face) {
+    if (exact::dot(facet.normal, exact::difference(points_, facet.vertex, v)) != 0) {
+      report_.fail(complex_.vertex_name(v) + " is off the plane of facet " + std::to_string(id));
+    }
+  }
+  if (!facets_.kept(f)) report_.fail(complex_.face_name(face) + " lies on a filtered facet");
+  if (exact::dot(exact::area2(points_, face[0], face[1], face[2]), facet.normal) <= 0) {
+    report_.fail(complex_.face_name(face) + " is folded over on facet " + std::to_string(id));
+  }
+  for (int i = 0; i < 3; ++i) sides_.emplace_back(f, directed_key(face[i], face[(i + 1) % 3]));
+}
+
+void RefinedFacets::collect_chains() {
+  const InputEdges input_edges(surface_);
+  for (const ExactRecord::Chain& chain : record_.segments) {
+    std::array<Index, 2> of = {kNone, kNone};
+    if (chain.artificial) {
+      of[0] = facets_.find(chain.facet);
+    } else if (const Index e = input_edges.of_chain(record_, chain.vertices); e != kNone) {
+      of = {surface_.edges()[e].left, surface_.edges()[e].right};
+    }
+    for (const Index f : of) {
+      if (f == kNone || !facets_.kept(f)) continue;
+      for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
+        chained_.emplace_back(f, edge_key(chain.vertices[i - 1], chain.vertices[i]));
+      }
+    }
+  }
+  std::sort(chained_.begin(), chained_.end());
+}
+
+// A side of a face has its opposite among the faces of the facet, or lies on a chain of the facet;
+// and on every edge of a chain there is exactly one side.
+void RefinedFacets::check_borders() {
+  std::sort(sides_.begin(), sides_.end());
+  const auto name = [&](const std::pair<Index, std::uint64_t>& side) {
+    return "edge " + complex_.vertex_name(static_cast<Index>(side.second >> 32)) + " - " +
+           complex_.vertex_name(static_cast<Index>(side.second)) + " of facet " +
+           std::to_string(surface_.facets()[side.first].id);
+  };
+  if (const auto twice = std::adjacent_find(sides_.begin(), sides_.end()); twice != sides_.end()) {
+    report_.fail(name(*twice) + " has two faces on one side");
+  }
+  std::vector<std::pair<Index, std::uint64_t>> open;
+  for (const auto& side : sides_) {
+    const auto a = static_cast<Index>(side.second >> 32), b = static_cast<Index>(side.second);
+    const bool pair =
+        std::binary_search(sides_.begin(), sides_.end(), std::pair(side.first, directed_key(b, a)));
+    if (!pair) open.emplace_back(side.first, edge_key(a, b));
+  }
+  std::sort(open.begin(), open.end());
+  for (const auto& side : open) {
+    if (!std::binary_search(chained_.begin(), chained_.end(), side)) {
+      report_.fail(name(side) + " has a face on one side only and is on no segment");
+    }
+  }
+  for (const auto& side : chained_) {
+    if (!std::binary_search(open.begin(), open.end(), side)) {
+      report_.fail(name(side) + " is on a segment but does not bound the faces");
+    }
+  }
+  report_.figures.emplace_back("edges on segments", chained_.size());
+}
+
+}  // namespace
+
+FacetIndex::FacetIndex(const InputSurface& surface, const ExactRecord& record) {
+  for (Index f = 0; f < surface.facets().size(); ++f) {
+    by_id_.emplace_back(surface.facets()[f].id, f);
+  }
+  std::sort(by_id_.begin(), by_id_.end());
+  kept_.assign(surface.facets().size(), 1);
+  std::uint64_t named = 0;
+  for (const ExactRecord::Facet& facet : record.facets) {
+    const Index f = find(facet.id);
+    if (f == kNone || surface.facets()[f].label != facet.label) {
+      defect_ = "facet " + std::to_string(facet.id) + " of the record is none of the surface";
+      continue;
+    }
+    ++named;
+    kept_[f] = facet.filtered ? 0 : 1;
+    for (const Index t : facet.triangles) {
+      if (t >= surface.triangles().size() || surface.facet_of_triangle()[t] != f) {
+        defect_ = "facet " + std::to_string(facet.id) + " of the record has triangle " +
+                  std::to_string(t) + ", which is not its";
+      }
+    }
+  }
+  if (!record.facets.empty() && named != surface.facets().size()) {
+    defect_ = "the record has " + std::to_string(named) + " of the " +
+              std::to_string(surface.facets().size()) + " facets";
+  }
+}
+
+Index FacetIndex::find(Index id) const {
+  const auto found = std::lower_bound(by_id_.begin(), by_id_.end(), std::pair(id, Index{0}));
+  return found != by_id_.end() && found->first == id ? found->second : kNone;
+}
+
+InputEdges::InputEdges(const InputSurface& surface) {
+  for (Index e = 0; e < surface.edges().size(); ++e) {
+    edges_.emplace_back(edge_key(surface.edges()[e].from, surface.edges()[e].to), e);
+  }
+  std::sort(edges_.begin(), edges_.end());
+}
+
+Index InputEdges::find(Index a, Index b) const {
+  const auto found =
+      std::lower_bound(edges_.begin(), edges_.end(), std::pair(edge_key(a, b), Index{0}));
+  return found != edges_.end() && found->first == edge_key(a, b) ? found->second : kNone;
+}
+
+Index InputEdges::of_chain(const ExactRecord& record, const std::vector<Index>& chain) const {
+  if (chain.empty()) return kNone;
+  for (const Index v : chain) {
+    const ExactPoint& p = record.points[v];
+    if (p.kind == ExactPoint::Kind::on_segment) return find(p.i, p.j);
+  }
+  return find(chain.front(), chain.back());
+}
+
+OracleReport check_segments(const RefinedMesh& mesh) {
+  return Segments(mesh).run();
+}
+
+OracleReport check_refined_facets(const RefinedMesh& mesh) {
+  return RefinedFacets(mesh).run();
+}
+
+OracleReport check_balls(const RefinedMesh& mesh) {
+  OracleReport report("steiner-balls", "volume Steiner points");
+  const ExactPoints& points = *mesh.points;
+  std::uint64_t on_sphere = 0;
+  for (const ExactRecord::Ball& ball : mesh.record->balls) {
+    const auto& [a, b, c, d] = ball.tetrahedron;
+    ++report.checked;
+    const int sign = exact::orient3d(points, a, b, c, d);
+    const int inside = sign * exact::insphere(points, a, b, c, d, ball.vertex);
+    if (sign == 0) {
+      report.fail(mesh.complex->vertex_name(ball.vertex) + " was made for a flat tetrahedron");
+    } else if (inside <= 0) {
+      on_sphere += inside == 0;
+      report.fail(mesh.complex->vertex_name(ball.vertex) + " is " +
+                  (inside == 0 ? "on" : "outside") + " the circumsphere that it was made for");
+    }
+  }
+  report.figures.emplace_back("on the sphere", on_sphere);
+  return report;
+}
+
+namespace {
+
+class Encroachment {
+ public:
+  explicit Encroachment(const RefinedMesh& mesh)
+      : record_(*mesh.record), points_(*mesh.points), complex_(*mesh.complex) {}
+
+  OracleReport run() {
+    collect();
+    check_neighbours();
+    check_sample();
+    report_.figures.emplace_back("edges", edges_.size());
+    report_.figures.emplace_back("faces", faces_.size());
+    return std::move(report_);
+  }
+
+ private:
+  void collect() {
+    for (const ExactRecord::Chain& chain : record_.segments) {
+      for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
+        edges_.push_back(edge_key(chain.vertices[i - 1], chain.vertices[i]));
+      }
+    }
+    for (const auto& [a, b, c, id] : record_.refined_facets) {
+      faces_.push_back({a, b, c});
+      std::sort(faces_.back().begin(), faces_.back().end());
+    }
+    std::sort(edges_.begin(), edges_.end());
+    std::sort(faces_.begin(), faces_.end());
+    report_.checked = edges_.size() + faces_.size();
+  }
+
+  void check_neighbours() {
+    for (const Tet& t : complex_.tetrahedra) {
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < i; ++j) {
+          if (!std::binary_search(edges_.begin(), edges_.end(), edge_key(t[i], t[j]))) continue;
+          for (int k = 0; k < 4; ++k) {
+            if (k != i && k != j) check_edge(t[i], t[j], t[k]);
+          }
+        }
+        Face face = face_of(t, i);
+        std::sort(face.begin(), face.end());
+        if (std::binary_search(faces_.begin(), faces_.end(), face)) check_face(face, t[i]);
+      }
+    }
+  }
+
+  void check_sample() {
+    const std::vector<Index> vertices = used_vertices(complex_);
+    Sample sample(edges_.size() + faces_.size(), vertices.size());
+    for (std::size_t i = sample.first(); i < edges_.size() + faces_.size(); i += sample.step()) {
+      for (const Index v : vertices) {
+        if (i < edges_.size()) {
+          check_edge(static_cast<Index>(edges_[i] >> 32), static_cast<Index>(edges_[i]), v);
+        } else {
+          check_face(faces_[i - edges_.size()], v);
+        }
+      }
+      ++tried_;
+    }
+    report_.figures.emplace_back("tried against all vertices", tried_);
+  }
+
+  void check_edge(Index a, Index b, Index v) {
+    if (v == a || v == b || exact::dot_sign(points_, v, a, b) >= 0) return;
+    report_.fail(complex_.vertex_name(v) + " encroaches edge " + complex_.vertex_name(a) + " - " +
+                 complex_.vertex_name(b));
+  }
+
+  void check_face(const Face& f, Index v) {
+    if (v == f[0] || v == f[1] || v == f[2]) return;
+    if (!exact::in_diametral_ball(points_, f[0], f[1], f[2], v)) return;
+    report_.fail(complex_.vertex_name(v) + " encroaches " + complex_.face_name(f));
+  }
+
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  const TetComplex& complex_;
+  std::vector<std::uint64_t> edges_;
+  std::vector<Face> faces_;
+  std::uint64_t tried_ = 0;
+  OracleReport report_{"encroachment", "edges of segments and faces on facets"};
+};
+
+}  // namespace
+
+OracleReport check_encroachment(const RefinedMesh& mesh) {
+  return Encroachment(mesh).run();
+}
+
+}  // namespace tetproof::oracles

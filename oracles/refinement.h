@@ -1,0 +1,63 @@
+// The refined mesh as the exact record describes it (sections 5.2 to 5.6): chains of segments,
+// faces on facets, encroachment, and where volume Steiner points were put.
+#pragma once
+
+#include "oracles/input_surface.h"
+#include "oracles/tet_complex.h"
+
+namespace tetproof::oracles {
+
+// What the refined-stage oracles look at. `complex` holds record->refined.
+struct RefinedMesh {
+  const delmesher::ExactRecord* record = nullptr;
+  const ExactPoints* points = nullptr;
+  const InputSurface* surface = nullptr;
+  const TetComplex* complex = nullptr;
+  const Neighbours* neighbours = nullptr;
+};
+
+// Facets of the surface by id, and which of them the filter kept.
+class FacetIndex {
+ public:
+  FacetIndex(const InputSurface& surface, const delmesher::ExactRecord& record);
+  Index find(Index id) const;  // kNone if there is no such facet
+  bool kept(Index facet) const { return kept_[facet] != 0; }
+  // Why the record's list of facets is not that of the surface; empty if it is.
+  const std::string& defect() const { return defect_; }
+
+ private:
+  std::vector<std::pair<Index, Index>> by_id_;
+  std::vector<std::uint8_t> kept_;
+  std::string defect_;
+};
+
+// The edge of the input, between two facets, on which a chain of the record lies.
+class InputEdges {
+ public:
+  explicit InputEdges(const InputSurface& surface);
+  Index find(Index a, Index b) const;  // index into surface.edges(), or kNone
+  // By the form of the chain's points: two input vertices, or points on a segment.
+  Index of_chain(const delmesher::ExactRecord& record, const std::vector<Index>& chain) const;
+
+ private:
+  std::vector<std::pair<std::uint64_t, Index>> edges_;
+};
+
+// Chains on input edges: straight, on their edge, made of mesh edges, disjoint, and no part of an
+// edge is missing but at chamfered corners. Artificial chains: simple, exactly in the plane of a
+// kept facet, within 2^-20 of their length of the straight line.
+OracleReport check_segments(const RefinedMesh& mesh);
+
+// The faces on a facet are faces of the mesh, exactly in its plane, not folded, and bounded by
+// exactly the chains of that facet.
+OracleReport check_refined_facets(const RefinedMesh& mesh);
+
+// No vertex lies strictly inside the diametral ball of an edge of a chain or of a face on a facet.
+// In a Delaunay mesh, an element whose ball holds any vertex has one in the ball that shares a
+// tetrahedron with it; a sample is tried against all vertices none the less.
+OracleReport check_encroachment(const RefinedMesh& mesh);
+
+// Every volume Steiner point lies strictly inside the circumball it was made for (section 5.6).
+OracleReport check_balls(const RefinedMesh& mesh);
+
+}  // namespace tetproof::oracles
