@@ -62,7 +62,7 @@ void expect_right(const NamedSurface& model, const Options& options) {
                                                                    : oracles::AngleScope::solid;
   const VerifyReport refined_report = check(model.surface, result, verify_options);
   EXPECT_EQ(refined_report.verdict, oracles::Verdict::exact) << to_text(refined_report);
-  EXPECT_NE(refined_report.find("exact-delaunay"), nullptr);
+  EXPECT_NE(refined_report.find("refined-delaunay"), nullptr);
 }
 
 class Models : public testing::TestWithParam<NamedSurface> {};

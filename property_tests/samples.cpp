@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <ostream>
 #include <random>
+
+#include "oracles/cgal/surface_opinion.h"
 
 namespace tetproof::samples {
 namespace {
@@ -217,9 +220,9 @@ ExactSample exact_sample() {
   input.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
   delmesher::ExactRecord& exact = result.exact;
   exact.points = oracles::explicit_points(input.vertices);
-  // Point 4 on edge 0-1, point 5 on triangle 1-2-3.
-  exact.points.push_back({ExactPoint::Kind::on_segment, 0, 1, 0, 0x1.5p-2, 0, 0});
-  exact.points.push_back({ExactPoint::Kind::on_triangle, 1, 2, 3, 0x1.3p-2, 0x1.7p-2, 0});
+  // Point 4 on edge 0-1, point 5 on triangle 1-2-3; everything is Delaunay.
+  exact.points.push_back({ExactPoint::Kind::on_segment, 0, 1, 0, 0x1.85p-1, 0, 0});
+  exact.points.push_back({ExactPoint::Kind::on_triangle, 1, 2, 3, 0x1.43p-1, 0x1.03p-2, 0});
   // Tetrahedra 0 2 3 with 4, and 4 with the three parts of 1-2-3.
   exact.final = {
       {{0, 4, 2, 3}, true}, {{4, 1, 2, 5}, true}, {{4, 2, 3, 5}, true}, {{4, 3, 1, 5}, true}};
@@ -237,6 +240,86 @@ ExactSample exact_sample() {
 
 void PrintTo(const NamedSurface& model, std::ostream* stream) {
   *stream << model.name;
+}
+
+delmesher::Surface random_voxels(std::uint64_t seed) {
+  constexpr int kSize = 4;
+  std::mt19937_64 random(seed);
+  for (;;) {
+    std::array<bool, kSize * kSize * kSize> cells{};
+    cells[random() % cells.size()] = true;
+    for (int n = 0; n < 40; ++n) {  // grow over faces
+      const std::size_t at = random() % cells.size();
+      const std::size_t step = std::array<std::size_t, 3>{1, kSize, kSize * kSize}[random() % 3];
+      if (at + step < cells.size() && at / step % kSize + 1 < kSize) {
+        if (cells[at] || cells[at + step]) cells[at] = cells[at + step] = true;
+      }
+    }
+    const Sample sample = grid_sample(kSize, 1, [&](int x, int y, int z) {
+      return cells[static_cast<std::size_t>((z * kSize + y) * kSize + x)];
+    });
+    delmesher::Surface surface = to_surface(sample.input);
+    if (oracles::cgal_surface_opinion(sample.input).valid()) return surface;
+  }
+}
+
+delmesher::Surface quantized_star(std::uint64_t seed) {
+  for (;; seed += 1000003) {
+    delmesher::Surface surface = star(seed, 1, 0.9);
+    for (auto& p : surface.vertices) {
+      for (double& x : p) x = std::nearbyint(x * 8) / 8;
+    }
+    if (oracles::cgal_surface_opinion(to_polyhedron(surface)).valid()) return surface;
+  }
+}
+
+delmesher::Surface finned_cube(double length, double h) {
+  delmesher::Surface s;
+  const double l = length;
+  s.vertices = {{0, 0, 0},
+                {1, 0, 0},
+                {1, 1, 0},
+                {0, 1, 0},
+                {0, 0, 1},
+                {1, 0, 1},
+                {1, 1, 1},
+                {0, 1, 1},
+                // The fin stands on the side x = 1, in the middle of it.
+                {1, 0.5, 0.5},
+                {1, 0.5 + l, 0.5},
+                {1, 0.5 + l, 0.5 + h},
+                {1, 0.5, 0.5 + h},
+                {1 + l, 0.5, 0.5},
+                {1 + l, 0.5 + l, 0.5},
+                {1 + l, 0.5 + l, 0.5 + h},
+                {1 + l, 0.5, 0.5 + h}};
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    s.triangles.push_back({a, b, c});
+    s.triangles.push_back({a, c, d});
+  };
+  quad(0, 3, 2, 1);
+  quad(4, 5, 6, 7);
+  quad(0, 1, 5, 4);
+  quad(2, 3, 7, 6);
+  quad(0, 4, 7, 3);
+  // The side around the fin.
+  quad(1, 2, 9, 8);
+  quad(2, 6, 10, 9);
+  quad(6, 5, 11, 10);
+  quad(5, 1, 8, 11);
+  // The fin.
+  quad(8, 9, 13, 12);
+  quad(9, 10, 14, 13);
+  quad(10, 11, 15, 14);
+  quad(11, 8, 12, 15);
+  quad(12, 13, 14, 15);
+  return s;
+}
+
+int iterations(int normal) {
+  const char* factor = std::getenv("TETPROOF_ITERATIONS");
+  const long times = factor != nullptr ? std::strtol(factor, nullptr, 10) : 1;
+  return normal * static_cast<int>(std::clamp(times, 1L, 1000000L));
 }
 
 oracles::Polyhedron to_polyhedron(const delmesher::Surface& surface) {

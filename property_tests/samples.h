@@ -51,6 +51,17 @@ struct NamedSurface {
 void PrintTo(const NamedSurface& model, std::ostream* stream);  // for GoogleTest
 std::vector<NamedSurface> surfaces(std::uint64_t seed);
 
+// Seeded solids that are full of degenerate configurations, and valid: some cells of a small grid,
+// and a star-shaped surface with coordinates in eighths.
+delmesher::Surface random_voxels(std::uint64_t seed);
+delmesher::Surface quantized_star(std::uint64_t seed);
+
+// A cube with a square fin on one side of the given length and thickness h (Figure 8's family).
+delmesher::Surface finned_cube(double length, double h);
+
+// How often to repeat something: the given number, times the environment's TETPROOF_ITERATIONS.
+int iterations(int normal);
+
 oracles::Polyhedron to_polyhedron(const delmesher::Surface& surface);
 delmesher::Surface to_surface(const oracles::Polyhedron& polyhedron);
 oracles::MeshFile to_mesh(const delmesher::TetMesh& mesh);

@@ -1,0 +1,629 @@
+// Deliberate damage to good meshes: every kind is caught by the oracle meant for it. At the end the
+// mutation score is printed as a table.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "mesher/delmesher.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::ExactPoint;
+using delmesher::ExactRecord;
+using samples::Sample;
+
+// --- the table
+
+struct Score {
+  std::string base, damage, meant;
+  bool caught = false;
+  std::string also;  // other oracles that objected
+};
+
+class ScoreTable : public testing::Environment {
+ public:
+  static std::vector<Score>& rows() {
+    static std::vector<Score> rows;  // NOLINT: a test program's own
+    return rows;
+  }
+  void TearDown() override {
+    if (rows().empty()) return;
+    std::cout << "| mesh | damage | meant to catch it | caught | objecting as well |\n"
+              << "|---|---|---|---|---|\n";
+    std::size_t caught = 0;
+    for (const Score& s : rows()) {
+      caught += s.caught;
+      std::cout << "| " << s.base << " | " << s.damage << " | " << s.meant << " | "
+                << (s.caught ? "yes" : "NO") << " | " << s.also << " |\n";
+    }
+    std::cout << "mutation score: " << caught << " of " << rows().size() << "\n";
+  }
+};
+
+[[maybe_unused]] const auto* const kTable = testing::AddGlobalTestEnvironment(new ScoreTable);
+
+void judge(const std::string& base, const std::string& damage, const std::string& meant,
+           const VerifyReport& report) {
+  Score score{base, damage, meant, false, {}};
+  for (const OracleReport& oracle : report.oracles) {
+    if (oracle.passed()) continue;
+    if (oracle.name == meant) {
+      score.caught = !oracle.findings.empty();
+    } else {
+      score.also += (score.also.empty() ? "" : ", ") + oracle.name;
+    }
+  }
+  EXPECT_TRUE(score.caught) << damage << " is not caught by " << meant << "\n" << to_text(report);
+  EXPECT_EQ(report.verdict, Verdict::broken) << damage;
+  ScoreTable::rows().push_back(score);
+}
+
+template <class Damage>
+std::string test_name(const testing::TestParamInfo<Damage>& tested) {
+  std::string name = tested.param.name;
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  }
+  return name;
+}
+
+// --- files
+
+struct FileDamage {
+  const char* name;
+  const char* oracle;  // the one meant to catch it
+  void (*apply)(Sample&);
+};
+
+Index vertex_at(const Sample& sample, const Position& p) {
+  for (Index v = 0; v < sample.mesh.vertices.size(); ++v) {
+    if (sample.mesh.vertices[v] == p) return v;
+  }
+  ADD_FAILURE() << "no such vertex";
+  return 0;
+}
+
+double up(double x) {
+  return std::nextafter(x, std::numeric_limits<double>::infinity());
+}
+
+// On the refined unit cube, as a file.
+const FileDamage kFileDamages[] = {
+    {"index out of range", "complex", [](Sample& s) { s.mesh.tetrahedra[5][2] = 100000; }},
+    {"repeated corner", "complex",
+     [](Sample& s) { s.mesh.tetrahedra[5][2] = s.mesh.tetrahedra[5][1]; }},
+    {"duplicated tetrahedron", "complex",
+     [](Sample& s) {
+       s.mesh.tetrahedra.push_back(s.mesh.tetrahedra[7]);
+       s.mesh.regions.push_back(1);
+     }},
+    {"orphan vertex", "complex",
+     [](Sample& s) {
+       s.mesh.vertices.push_back({0.5, 0.5, 0.4});
+     }},
+    {"tetrahedron hung on at a vertex", "complex",
+     [](Sample& s) {
+       const Index v = vertex_at(s, {1, 1, 1}), n = static_cast<Index>(s.mesh.vertices.size());
+       s.mesh.vertices.insert(s.mesh.vertices.end(), {{2, 1, 1}, {1, 2, 1}, {1, 1, 2}});
+       s.mesh.tetrahedra.push_back({v, n, n + 1, n + 2});
+       s.mesh.regions.push_back(0);
+     }},
+    {"input that crosses itself", "input",
+     [](Sample& s) {
+       const auto n = static_cast<Index>(s.input.vertices.size());
+       s.input.vertices.insert(s.input.vertices.end(),
+                               {{0.5, 0.5, 0.5}, {2, 0.5, 0.5}, {0.5, 2, 0.5}, {0.5, 0.5, 2}});
+       s.input.triangles.insert(
+           s.input.triangles.end(),
+           {{n, n + 2, n + 1}, {n, n + 1, n + 3}, {n, n + 3, n + 2}, {n + 1, n + 2, n + 3}});
+     }},
+    {"two corners swapped", "orientation",
+     [](Sample& s) { std::swap(s.mesh.tetrahedra[9][0], s.mesh.tetrahedra[9][1]); }},
+    {"two corners swapped, seen by the faces", "complex",
+     [](Sample& s) { std::swap(s.mesh.tetrahedra[9][0], s.mesh.tetrahedra[9][1]); }},
+    {"torn along a face", "conformity",
+     [](Sample& s) {  // an inner vertex doubled for one tetrahedron
+       const Index v = vertex_at(s, {0.5, 0.5, 0.5});
+       for (Tet& tet : s.mesh.tetrahedra) {
+         const auto at = std::find(tet.begin(), tet.end(), v);
+         if (at == tet.end()) continue;
+         *at = static_cast<Index>(s.mesh.vertices.size());
+         break;
+       }
+       s.mesh.vertices.push_back({0.5, 0.5, 0.5});
+     }},
+    {"tetrahedron dropped inside", "conformity",
+     [](Sample& s) {
+       const Index v = vertex_at(s, {0.5, 0.5, 0.5});
+       for (std::size_t t = 0; t < s.mesh.tetrahedra.size(); ++t) {
+         const Tet tet = s.mesh.tetrahedra[t];
+         if (std::find(tet.begin(), tet.end(), v) == tet.end()) continue;
+         s.mesh.tetrahedra.erase(s.mesh.tetrahedra.begin() + static_cast<std::ptrdiff_t>(t));
+         break;
+       }
+       s.mesh.regions.clear();
+     }},
+    {"tetrahedron dropped, seen by the volume", "volume",
+     [](Sample& s) {
+       s.mesh.tetrahedra.erase(s.mesh.tetrahedra.begin() + 20);
+       s.mesh.regions.clear();
+     }},
+    {"tetrahedron dropped at the boundary", "conformity",
+     [](Sample& s) {
+       s.mesh.tetrahedra.pop_back();
+       s.mesh.regions.clear();
+     }},
+    {"vertex moved through its star", "orientation",
+     [](Sample& s) {
+       s.mesh.vertices[vertex_at(s, {0.5, 0.5, 0.5})] = {0.9, 0.9, 0.9};
+     }},
+    {"tetrahedron flattened", "orientation",
+     [](Sample& s) {
+       s.mesh.vertices[vertex_at(s, {0.5, 0.5, 0.5})] = {0.5, 0.5, 0.75};
+     }},
+    {"input corner lost", "conformity",
+     [](Sample& s) {
+       s.mesh.vertices[vertex_at(s, {1, 1, 0})] = {0.9, 0.9, 0.1};
+     }},
+    {"vertex pulled off its edge", "conformity",
+     [](Sample& s) {
+       s.mesh.vertices[vertex_at(s, {0.5, 0, 0})] = {0.5, 0.1, 0.1};
+     }},
+    {"boundary vertex pushed in, seen by the volume", "volume",
+     [](Sample& s) {
+       s.mesh.vertices[vertex_at(s, {0.5, 0, 0})] = {0.5, 0.01, 0.01};
+     }},
+    {"edge flipped on an input edge", "conformity",
+     [](Sample& s) {  // cuts the ridge between (0,0,0) and (0.5,0,0) off
+       const Index v = vertex_at(s, {0.25, 0, 0});
+       std::erase_if(s.mesh.tetrahedra, [&](const Tet& tet) {
+         return std::find(tet.begin(), tet.end(), v) != tet.end();
+       });
+       s.mesh.regions.clear();
+     }},
+    {"listed boundary face missing", "boundary-list",
+     [](Sample& s) { s.mesh.boundary.pop_back(); }},
+    {"listed boundary face twice", "boundary-list",
+     [](Sample& s) { s.mesh.boundary.push_back(s.mesh.boundary[0]); }},
+    {"inner face listed as boundary", "boundary-list",
+     [](Sample& s) {
+       const Index v = vertex_at(s, {0.5, 0.5, 0.5});
+       for (const Tet& tet : s.mesh.tetrahedra) {
+         if (tet[3] == v) s.mesh.boundary[0] = face_of(tet, 0);
+       }
+     }},
+    {"wrong label", "boundary-list",
+     [](Sample& s) {
+       s.input.labels.assign(s.input.triangles.size(), 3);
+       s.mesh.labels.assign(s.mesh.boundary.size(), 3);
+       s.mesh.labels[4] = 2;
+     }},
+    {"input has a facet that the mesh has not", "conformity",
+     [](Sample& s) {  // one triangle gets its own label: its diagonal becomes a constraint
+       s.input.labels.assign(s.input.triangles.size(), 0);
+       s.input.labels[0] = 1;
+       const auto& t = s.input.triangles[0];
+       // the mesh keeps the grid's diagonals; swap the input's to the other one
+       for (std::size_t n = 1; n < s.input.triangles.size(); ++n) {
+         auto& other = s.input.triangles[n];
+         std::vector<Index> common, rest;
+         for (const Index v : other) {
+           (std::find(t.begin(), t.end(), v) != t.end() ? common : rest).push_back(v);
+         }
+         if (common.size() != 2) continue;
+         const auto& p = s.input.vertices;
+         const Index mine = t[0] + t[1] + t[2] - common[0] - common[1];
+         const bool square =
+             std::fabs(std::hypot(p[mine][0] - p[rest[0]][0], p[mine][1] - p[rest[0]][1],
+                                  p[mine][2] - p[rest[0]][2]) -
+                       std::sqrt(2)) < 1e-9;
+         if (!square) continue;
+         std::array<Index, 3> first = t;
+         for (Index& v : first) {
+           if (v == common[1]) v = rest[0];
+         }
+         for (Index& v : other) {
+           if (v == common[0]) v = mine;
+         }
+         s.input.triangles[0] = first;
+         return;
+       }
+     }},
+};
+
+VerifyReport run(const Sample& sample, const ExactRecord* exact = nullptr,
+                 const VerifyOptions& options = {}) {
+  VerifyReport report;
+  EXPECT_EQ(verify(sample.input, sample.mesh, exact, options, report), "");
+  return report;
+}
+
+void PrintTo(const FileDamage& damage, std::ostream* stream) {
+  *stream << damage.name;
+}
+
+class FileDamages : public testing::TestWithParam<FileDamage> {};
+
+TEST_P(FileDamages, AreCaughtByTheOracleMeantForThem) {
+  Sample sample = samples::cube();
+  ASSERT_EQ(run(sample).verdict, Verdict::exact);
+  GetParam().apply(sample);
+  judge("refined cube", GetParam().name, GetParam().oracle, run(sample));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FileDamages, testing::ValuesIn(kFileDamages), test_name<FileDamage>);
+
+TEST(RegionDamage, IsCaught) {
+  Sample sample = samples::cube_in_hull();
+  ASSERT_EQ(run(sample).verdict, Verdict::exact);
+  sample.mesh.regions[100] = 1 - sample.mesh.regions[100];
+  judge("cube in its hull", "region of one tetrahedron swapped", "regions", run(sample));
+}
+
+TEST(HullDamage, IsCaught) {
+  Sample sample = samples::cube_in_hull();
+  ASSERT_TRUE(run(sample).find("hull")->passed());
+  // The last cell is at a corner of the hull.
+  sample.mesh.tetrahedra.pop_back();
+  sample.mesh.regions.pop_back();
+  judge("cube in its hull", "tetrahedron missing in the hull", "hull", run(sample));
+}
+
+// --- exact records
+
+struct RecordDamage {
+  const char* name;
+  const char* oracle;
+  void (*apply)(ExactRecord&);
+};
+
+void PrintTo(const RecordDamage& damage, std::ostream* stream) {
+  *stream << damage.name;
+}
+
+// On a tetrahedron with a point on an edge and one on a face.
+const RecordDamage kSmallDamages[] = {
+    {"inside flag swapped", "exact-interior", [](auto& r) { r.final[1].inside = false; }},
+    {"inside flag swapped, seen by the volume", "exact-volume",
+     [](auto& r) { r.final[1].inside = false; }},
+    {"point on a facet rounded to doubles", "exact-conformity",
+     [](auto& r) {
+       ExactPoints points;
+       points.assign(r.points);
+       const Position p = points.nearest(5);
+       r.points[5] = {ExactPoint::Kind::explicit_point, 0, 0, 0, p[0], p[1], p[2]};
+     }},
+    {"input vertex moved by an ulp", "sidecar", [](auto& r) { r.points[2].x = up(r.points[2].x); }},
+    {"reference to an implicit point", "sidecar", [](auto& r) { r.points[5].k = 4; }},
+    {"tetrahedron lost", "exact-conformity", [](auto& r) { r.final.pop_back(); }},
+    {"facet id wrong", "exact-facets", [](auto& r) { r.final_facets[3][3] = 2; }},
+    {"vertex of the file unknown", "rounding", [](auto& r) { r.mesh_vertices.pop_back(); }},
+};
+
+class SmallDamages : public testing::TestWithParam<RecordDamage> {};
+
+TEST_P(SmallDamages, AreCaughtByTheOracleMeantForThem) {
+  samples::ExactSample sample = samples::exact_sample();
+  ASSERT_NE(run(sample.sample, &sample.exact).verdict, Verdict::broken);
+  GetParam().apply(sample.exact);
+  judge("tetrahedron", GetParam().name, GetParam().oracle, run(sample.sample, &sample.exact));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SmallDamages, testing::ValuesIn(kSmallDamages),
+                         test_name<RecordDamage>);
+
+// --- runs of the mesher, with chamfers, artificial segments, Steiner points of all kinds and
+// filtered facets
+
+struct MesherRun {
+  Sample sample;
+  ExactRecord record;
+};
+
+// A wedge with an edge of 11 degrees, and a thin slab beside it that the filter takes apart.
+MesherRun mesher_run() {
+  delmesher::Surface s;
+  s.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0.2, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0.2, 1}};
+  s.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                 {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  for (int z = 0; z < 2; ++z) {
+    for (const auto& [x, y] : {std::pair(2.0, 0.0), {3.0, 0.0}, {3.0, 1.0}, {2.0, 1.0}}) {
+      s.vertices.push_back({x, y, z * 0x1p-10});
+    }
+  }
+  for (const auto& [a, b, c, d] : {std::array{6U, 9U, 8U, 7U},
+                                   {10U, 11U, 12U, 13U},
+                                   {6U, 7U, 11U, 10U},
+                                   {7U, 8U, 12U, 11U},
+                                   {8U, 9U, 13U, 12U},
+                                   {9U, 6U, 10U, 13U}}) {
+    s.triangles.push_back({a, b, c});
+    s.triangles.push_back({a, c, d});
+  }
+  delmesher::Options options;
+  options.want_exact = true;
+  options.tau = 0x1p-9;
+  const delmesher::Result result = delmesher::tetrahedralize(s, options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  return {{samples::to_polyhedron(s), samples::to_mesh(result.mesh)}, result.exact};
+}
+
+const MesherRun& good_run() {
+  static const MesherRun run = mesher_run();
+  return run;
+}
+
+Index first_volume_vertex(const ExactRecord& r) {
+  return r.balls.at(r.balls.size() / 2).vertex;
+}
+
+std::size_t artificial_chain(const ExactRecord& r, std::size_t length) {
+  for (std::size_t n = 0; n < r.segments.size(); ++n) {
+    if (r.segments[n].artificial && r.segments[n].vertices.size() >= length) return n;
+  }
+  ADD_FAILURE() << "no such artificial segment";
+  return 0;
+}
+
+std::size_t input_chain(const ExactRecord& r, std::size_t length) {
+  for (std::size_t n = 0; n < r.segments.size(); ++n) {
+    if (!r.segments[n].artificial && r.segments[n].vertices.size() >= length) return n;
+  }
+  ADD_FAILURE() << "no such segment";
+  return 0;
+}
+
+Index chamfer_point(const ExactRecord& r, ExactPoint::Kind kind) {
+  for (const auto& [point, vertex] : r.chamfer_points) {
+    if (r.points[point].kind == kind) return point;
+  }
+  ADD_FAILURE() << "no such chamfer point";
+  return 0;
+}
+
+void move_towards(ExactRecord& r, Index v, const std::array<Index, 2>& ends, double share) {
+  ExactPoints points;
+  points.assign(r.points);
+  double* to[3] = {&r.points[v].x, &r.points[v].y, &r.points[v].z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double target = (points.nearest(ends[0])[axis] + points.nearest(ends[1])[axis]) / 2;
+    *to[axis] += share * (target - *to[axis]);
+  }
+}
+
+// Moves a volume vertex almost to the midpoint of an edge of a segment that it shares a tetrahedron
+// with.
+void encroach(ExactRecord& r) {
+  std::set<std::pair<Index, Index>> edges;
+  for (const auto& chain : r.segments) {
+    for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
+      edges.insert({chain.vertices[i - 1], chain.vertices[i]});
+    }
+  }
+  for (const auto& ball : r.balls) {
+    for (const auto& tet : r.refined) {
+      if (std::count(tet.vertices.begin(), tet.vertices.end(), ball.vertex) == 0) continue;
+      for (const Index a : tet.vertices) {
+        for (const Index b : tet.vertices) {
+          if (edges.contains({a, b})) return move_towards(r, ball.vertex, {a, b}, 0.9375);
+        }
+      }
+    }
+  }
+  ADD_FAILURE() << "no volume vertex beside a segment";
+}
+
+// Replaces two tetrahedra by the three around the edge between their apexes.
+bool flip_some_face(const ExactRecord& r, std::vector<ExactRecord::Tet>& tets) {
+  ExactPoints points;
+  points.assign(r.points);
+  TetComplex complex{&points, {}, {}, 0, 0};
+  std::set<Face> constraints;
+  for (const auto& [a, b, c, id] : r.final_facets) {
+    Face face = {a, b, c};
+    std::sort(face.begin(), face.end());
+    constraints.insert(face);
+  }
+  for (const auto& tet : tets) complex.tetrahedra.push_back(tet.vertices);
+  Neighbours neighbours;
+  check_complex(complex, neighbours);
+  for (Index i = 0; i < neighbours.across.size(); ++i) {
+    const Index j = neighbours.across[i];
+    if (j == kNone) continue;
+    const Face f = face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4));
+    Face sorted = f;
+    std::sort(sorted.begin(), sorted.end());
+    const Index p = complex.tetrahedra[i / 4][i % 4], q = complex.tetrahedra[j / 4][j % 4];
+    bool convex = !constraints.contains(sorted);
+    for (int k = 0; k < 3; ++k) {
+      convex = convex && exact::orient3d(points, p, q, f[k], f[(k + 1) % 3]) > 0;
+    }
+    const auto& [a, b, c, d] = complex.tetrahedra[i / 4];
+    if (!convex || exact::insphere(points, a, b, c, d, q) == 0) continue;
+    const bool inside = tets[i / 4].inside;
+    tets[i / 4] = {{p, q, f[0], f[1]}, inside};
+    tets[j / 4] = {{p, q, f[1], f[2]}, inside};
+    tets.push_back({{p, q, f[2], f[0]}, inside});
+    return true;
+  }
+  return false;
+}
+
+const RecordDamage kRefinedDamages[] = {
+    {"face no longer Delaunay", "refined-delaunay",
+     [](auto& r) {
+       const auto& tet = r.balls.at(0).tetrahedron;
+       move_towards(r, first_volume_vertex(r), {tet[0], tet[0]}, 0x1p-3);
+     }},
+    {"angle shrunk below delta", "refined-angles",
+     [](auto& r) {
+       ExactPoints points;
+       points.assign(r.points);
+       for (const auto& tet : r.refined) {  // pull a volume vertex onto its neighbour, inside
+         if (!tet.inside) continue;
+         for (const Index v : tet.vertices) {
+           const bool volume = std::any_of(r.balls.begin(), r.balls.end(),
+                                           [v](const auto& ball) { return ball.vertex == v; });
+           if (!volume) continue;
+           const Index w = tet.vertices[0] == v ? tet.vertices[1] : tet.vertices[0];
+           return move_towards(r, v, {w, w}, 0.9);
+         }
+       }
+     }},
+    {"promise of a larger angle", "refined-angles", [](auto& r) { r.parameters.delta = 40; }},
+    {"tetrahedron missing at the outer box", "refined-hull",
+     [](auto& r) {
+       std::map<Face, std::vector<std::size_t>> of;
+       for (std::size_t t = 0; t < r.refined.size(); ++t) {
+         for (int i = 0; i < 4; ++i) {
+           Face face = face_of(r.refined[t].vertices, i);
+           std::sort(face.begin(), face.end());
+           of[face].push_back(t);
+         }
+       }
+       const auto outer = std::find_if(of.begin(), of.end(),
+                                       [](const auto& face) { return face.second.size() == 1; });
+       r.refined.erase(r.refined.begin() + static_cast<std::ptrdiff_t>(outer->second[0]));
+     }},
+    {"tetrahedron called inside that is not", "refined-contained",
+     [](auto& r) {
+       for (auto& tet : r.refined) tet.inside = true;
+     }},
+    {"face on another facet", "refined-facets",
+     [](auto& r) { r.refined_facets[3][3] = (r.refined_facets[3][3] + 2) % 8; }},
+    {"face torn out of a facet", "refined-facets",
+     [](auto& r) { r.refined_facets.erase(r.refined_facets.begin() + 5); }},
+    {"face listed twice", "refined-facets",
+     [](auto& r) { r.refined_facets.push_back(r.refined_facets[7]); }},
+    {"face turned over", "refined-facets",
+     [](auto& r) { std::swap(r.refined_facets[7][0], r.refined_facets[7][1]); }},
+    {"segment skips a vertex", "refined-segments",
+     [](auto& r) {
+       auto& chain = r.segments[input_chain(r, 3)].vertices;
+       chain.erase(chain.begin() + 1);
+     }},
+    {"segment dropped", "refined-segments",
+     [](auto& r) {
+       r.segments.erase(r.segments.begin() + static_cast<std::ptrdiff_t>(input_chain(r, 2)));
+     }},
+    {"segment listed twice", "refined-segments",
+     [](auto& r) { r.segments.push_back(r.segments[input_chain(r, 2)]); }},
+    {"artificial segment in another facet", "refined-segments",
+     [](auto& r) {
+       auto& chain = r.segments[artificial_chain(r, 2)];
+       for (const auto& facet : r.facets) {
+         if (facet.id != chain.facet && !facet.filtered) {
+           chain.facet = facet.id;
+           return;
+         }
+       }
+     }},
+    {"artificial segment bent", "refined-segments",
+     [](auto& r) {
+       const auto& chain = r.segments[artificial_chain(r, 3)].vertices;
+       auto& p = r.points[chain[1]];
+       ASSERT_EQ(p.kind, ExactPoint::Kind::on_triangle);
+       p.x += 0x1p-9;
+     }},
+    {"chamfered corner not told", "refined-segments", [](auto& r) { r.corners.pop_back(); }},
+    {"chamfer opened too wide along an edge", "refined-segments",
+     [](auto& r) {
+       for (auto& corner : r.corners) corner.radius *= 0.75;
+     }},
+    {"chamfer opened too wide inside a facet", "refined-chamfer-extent",
+     [](auto& r) {
+       for (auto& corner : r.corners) corner.radius *= 0.75;
+     }},
+    {"chamfer point for another corner", "refined-chamfer-extent",
+     [](auto& r) { r.chamfer_points[0][1] = r.chamfer_points[0][1] == 0 ? 5 : 0; }},
+    {"chamfer point outside its facet", "refined-chamfer-extent",
+     [](auto& r) { r.points[chamfer_point(r, ExactPoint::Kind::on_triangle)].x = -0.25; }},
+    {"promise of 90-degree corners", "refined-chamfer-angles",
+     [](auto& r) {
+       r.parameters.acute = 90;
+       for (auto& corner : r.corners) corner.threshold = 90;
+     }},
+    {"cut point moved until an angle is too small", "refined-chamfer-angles",
+     [](auto& r) {
+       // The cut on one edge three times as far as on the others.
+       const Index point = chamfer_point(r, ExactPoint::Kind::on_segment);
+       auto& p = r.points[point];
+       for (const auto& [made, vertex] : r.chamfer_points) {
+         if (made == point) p.x = p.i == vertex ? 1 - 3 * (1 - p.x) : 3 * p.x;
+       }
+     }},
+    {"vertex moved into the ball of a segment", "refined-encroachment",
+     [](auto& r) { encroach(r); }},
+    {"Steiner point told to be for another ball", "refined-steiner-balls",
+     [](auto& r) { r.balls.front().tetrahedron = r.balls.back().tetrahedron; }},
+    {"facet that the filter dropped called kept", "refined-filter",
+     [](auto& r) {
+       for (auto& facet : r.facets) facet.filtered = false;
+     }},
+    {"promise of a larger tolerance", "refined-filter",
+     [](auto& r) { r.parameters.tolerance *= 256; }},
+    {"facet called dropped that was not", "refined-facets",
+     [](auto& r) {
+       for (auto& facet : r.facets) {
+         if (!facet.filtered) {
+           facet.filtered = true;
+           return;
+         }
+       }
+     }},
+    {"triangle listed with another facet", "refined-segments",
+     [](auto& r) { r.facets[0].triangles.push_back(r.facets[1].triangles[0]); }},
+};
+
+class RefinedDamages : public testing::TestWithParam<RecordDamage> {};
+
+TEST_P(RefinedDamages, AreCaughtByTheOracleMeantForThem) {
+  MesherRun mutant = good_run();
+  VerifyOptions options;
+  options.stage = Stage::refined;
+  static const VerifyReport good = run(mutant.sample, &mutant.record, options);
+  ASSERT_EQ(good.verdict, Verdict::exact) << to_text(good);
+  GetParam().apply(mutant.record);
+  judge("refined wedge and slab", GetParam().name, GetParam().oracle,
+        run(mutant.sample, &mutant.record, options));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RefinedDamages, testing::ValuesIn(kRefinedDamages),
+                         test_name<RecordDamage>);
+
+TEST(ConstrainedDamage, AFlippedFaceIsCaught) {
+  MesherRun mutant = good_run();
+  const VerifyReport good = run(mutant.sample, &mutant.record);
+  ASSERT_NE(good.verdict, Verdict::broken) << to_text(good);
+  ASSERT_NE(good.find("exact-constrained-delaunay"), nullptr);
+  ASSERT_TRUE(mutant.record.unrepaired.empty());
+  ASSERT_TRUE(flip_some_face(mutant.record, mutant.record.final));
+  judge("final wedge and slab", "face flipped", "exact-constrained-delaunay",
+        run(mutant.sample, &mutant.record));
+}
+
+TEST(ConstrainedDamage, AfterRepairsOnlyWhatWasBeforeIsAGate) {
+  MesherRun mutant = good_run();
+  mutant.record.unrepaired = mutant.record.final;
+  ASSERT_TRUE(flip_some_face(mutant.record, mutant.record.final));
+  const VerifyReport counted = run(mutant.sample, &mutant.record);
+  EXPECT_NE(counted.verdict, Verdict::broken) << to_text(counted);
+  EXPECT_GT(counted.find("exact-constrained-delaunay")->figures[0].second, 0);
+  mutant = good_run();
+  mutant.record.unrepaired = mutant.record.final;
+  ASSERT_TRUE(flip_some_face(mutant.record, mutant.record.unrepaired));
+  judge("final wedge and slab", "face flipped before repairs", "unrepaired-constrained-delaunay",
+        run(mutant.sample, &mutant.record));
+}
+
+}  // namespace
+}  // namespace tetproof
