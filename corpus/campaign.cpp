@@ -62,7 +62,13 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// One model with one mesher: mesh, then measure, then verify, each in a child of its own.
+bool same_bytes(const fs::path& a, const fs::path& b) {
+  return fs::exists(b) && fs::file_size(a) == fs::file_size(b) &&
+         read_if_there(a) == read_if_there(b);
+}
+
+// One model with one mesher: mesh, then measure, then perhaps write a sidecar, then verify, each in
+// a child of its own.
 class Job {
  public:
   Job(const Model& model, const Mesher& mesher, RunRow row, fs::path folder,
@@ -73,7 +79,8 @@ class Job {
         folder_(std::move(folder)),
         row_(std::move(row)) {
     fs::create_directories(folder_);
-    files_ = {model.path, folder_ / ("mesh" + mesher.mesh_extension), folder_ / "stats.json"};
+    files_ = {model.path, folder_ / ("mesh" + mesher.mesh_extension), folder_ / "stats.json",
+              folder_ / ("again" + mesher.mesh_extension), folder_ / "exact.txt"};
     const auto argv = mesher.command(files_);
     row_.command = joined(argv);
     row_.started = now();
@@ -97,6 +104,7 @@ class Job {
     while (process_->advance()) {
       if (step_ == Step::mesh && !after_mesh()) return true;
       if (step_ == Step::measure && !after_measure()) return true;
+      if (step_ == Step::sidecar && !after_sidecar()) return true;
       if (step_ == Step::verify && !after_verify()) return true;
       step_ = static_cast<Step>(static_cast<int>(step_) + 1);
     }
@@ -104,14 +112,14 @@ class Job {
   }
 
  private:
-  enum class Step : std::uint8_t { mesh, measure, verify };
+  enum class Step : std::uint8_t { mesh, measure, sidecar, verify };
 
   void start(const std::vector<std::string>& argv, const Limits& limits) {
     process_ = std::make_unique<SupervisedProcess>(
         options_.supervisor, ProcessSpec{.argv = argv, .directory = folder_, .limits = limits});
   }
 
-  // These three return whether a further step has been started.
+  // These return whether a further step has been started.
   bool after_mesh() {
     const Outcome& outcome = process_->outcome();
     const Judgement judgement = judge(outcome, mesher_.exit_codes);
@@ -147,14 +155,36 @@ class Job {
     take_measurements();
     keep_mesh();
     if (!options_.verify) return false;
+    if (options_.sidecars && mesher_.sidecar_command) {
+      start(mesher_.sidecar_command(files_), kMeasureLimits);
+      return true;
+    }
+    step_ = Step::sidecar;
+    return after_sidecar();
+  }
+
+  // Starts the oracles, whether there is a sidecar or not.
+  bool after_sidecar() {
+    const bool wanted = options_.sidecars && mesher_.sidecar_command;
+    if (wanted && !fs::exists(files_.exact)) {
+      wrong("no sidecar: " + judge(process_->outcome(), mesher_.exit_codes).reason);
+    } else if (wanted && !same_bytes(files_.mesh, files_.again)) {
+      wrong("a second run wrote another mesh");
+    }
     std::ostringstream deviation;
     deviation << mesher_.declared_deviation;
     // Through a shell, because only the end of a child's output is kept.
-    start({"/bin/sh", "-c",
-           "exec \"$0\" verify \"$1\" \"$2\" --declared-deviation \"$3\" --json > \"$4\"",
-           options_.self.string(), files_.input.string(), files_.mesh.string(), deviation.str(),
-           verdict().string()},
-          kMeasureLimits);
+    std::vector<std::string> argv = {"/bin/sh",
+                                     "-c",
+                                     R"(out=$1; shift; exec "$0" verify "$@" --json > "$out")",
+                                     options_.self.string(),
+                                     verdict().string(),
+                                     files_.input.string(),
+                                     files_.mesh.string(),
+                                     "--declared-deviation",
+                                     deviation.str()};
+    if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
+    start(argv, kMeasureLimits);
     return true;
   }
 

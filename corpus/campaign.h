@@ -21,7 +21,10 @@ struct CampaignOptions {
   unsigned jobs = 1;
   double stop_after_seconds = 0;  // begin no further model after this long; 0: no bound
   bool verify = false;            // ask `tetproof verify` for a verdict on each mesh
-  bool terminal = false;          // one live line rather than a line per run
+  // With `verify`: meshers that know sidecars write one in a second run, which counts for nothing
+  // else but has to write the same bytes, and the oracles that need one are asked as well.
+  bool sidecars = false;
+  bool terminal = false;  // one live line rather than a line per run
 };
 
 struct CampaignSummary {

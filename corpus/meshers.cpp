@@ -70,6 +70,14 @@ Mesher own_mesher(const std::string& name, const std::string& arguments,
     }
     return argv;
   };
+  mesher.sidecar_command = [program = programs.delmesher.string(),
+                            words = words_of(arguments)](const RunFiles& files) {
+    std::vector<std::string> argv = {program};
+    argv.insert(argv.end(), words.begin(), words.end());
+    argv.insert(argv.end(), {files.input.string(), "-o", files.again.string(), "--exact",
+                             files.exact.string(), "-q"});
+    return argv;
+  };
   return mesher;
 }
 

@@ -20,6 +20,7 @@ struct MesherPrograms {
 // The files of one run, all in a folder of its own.
 struct RunFiles {
   std::filesystem::path input, mesh, stats;
+  std::filesystem::path again = {}, exact = {};
 };
 
 struct Mesher {
@@ -31,6 +32,8 @@ struct Mesher {
   double declared_deviation = 0;  // fraction of the diagonal by which it may miss the surface
   ExitCodes exit_codes = ExitCodes::unknown;
   std::function<std::vector<std::string>(const RunFiles&)> command;
+  // Writes the mesh once more, to `again`, with the sidecar beside it; null if it knows none.
+  std::function<std::vector<std::string>(const RunFiles&)> sidecar_command;
 };
 
 // Understands

@@ -41,6 +41,7 @@ ReportFiles write_report(const Selection& selection, const std::filesystem::path
                                      two,
                                      table_2_inside(selection),
                                      disposition_table(selection),
+                                     oracle_table(selection),
                                      speed_table(selection),
                                      failure_table(selection),
                                      mesher_table(selection)};

@@ -23,6 +23,9 @@ Table table_2_inside(const Selection& selection);
 // How many runs of each mesher ended how.
 Table disposition_table(const Selection& selection);
 
+// How many files of each mesher passed each oracle, with an example of every failure.
+Table oracle_table(const Selection& selection);
+
 // Microseconds and bytes per tetrahedron, and paired ratios to TetGen.
 Table speed_table(const Selection& selection);
 

@@ -177,6 +177,30 @@ TEST(Selection, TheLatestOfSeveralRunsCounts) {
   EXPECT_EQ(select_runs({old, recent}).notes.size(), 1u);
 }
 
+TEST(Tables, OraclesByMesherWithAnExample) {
+  const auto verdict = [](const char* mesher, const char* model, const char* json) {
+    RunRow row = row_of({model, mesher, kOk, 10, 1, 1, 0, 0});
+    row.verdict_json = json;
+    return row;
+  };
+  const Table table = oracle_table(select_runs({
+      verdict("tetgen", "a",
+              R"({"verdict": "broken", "oracles": [{"name": "complex", "passed": true},
+                  {"name": "volume", "passed": false, "findings": ["too much", "x"]}]})"),
+      verdict("tetgen", "b",
+              R"({"verdict": "exact", "oracles": [{"name": "complex", "passed": true},
+                  {"name": "volume", "passed": true}]})"),
+      verdict("tetgen", "c", R"({"error": "timeout"})"),
+      verdict("cdt", "a", ""),
+  }));
+  ASSERT_EQ(table.rows.size(), 1U);  // cdt's file was not verified
+  EXPECT_EQ(table.header.back(), "volume");
+  EXPECT_EQ(table.rows[0],
+            (std::vector<std::string>{"tetgen", "3", "1", "0", "0", "1", "1", "2 of 2", "1 of 2"}));
+  ASSERT_EQ(table.notes.size(), 2U);
+  EXPECT_EQ(table.notes[1], "tetgen, volume, for example a: too much");
+}
+
 TEST(Statistics, Median) {
   EXPECT_EQ(median({}), std::nullopt);
   EXPECT_EQ(median({3}), 3);
@@ -201,8 +225,9 @@ TEST(Report, FilesAreWritten) {
   const auto folder =
       std::filesystem::path(testing::TempDir()) / ("report_test_" + std::to_string(getpid()));
   const ReportFiles files = write_report(campaign(), folder);
-  for (const char* name : {"report.md", "table1.csv", "table2.csv", "table2-inside.csv",
-                           "dispositions.csv", "speed.csv", "not-ok.csv", "runs.csv"}) {
+  for (const char* name :
+       {"report.md", "table1.csv", "table2.csv", "table2-inside.csv", "dispositions.csv",
+        "oracles.csv", "speed.csv", "not-ok.csv", "runs.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   }
   EXPECT_NE(files.headline.find("Table 2"), std::string::npos);

@@ -20,7 +20,7 @@ struct RunArguments {
   double timeout = 600, cpu = 0, stop_after = 0;  // seconds; cpu 0: as timeout
   std::uint64_t memory_mebibytes = 4096;
   unsigned jobs = 1;
-  bool verify = false;
+  bool verify = false, sidecars = false;
 };
 
 struct ReportArguments {

@@ -68,7 +68,8 @@ CampaignOptions campaign_options(const RunArguments& arguments) {
   campaign.stop_after_seconds = arguments.stop_after;
   campaign.jobs = std::max(1u, arguments.jobs);
 #ifdef TETPROOF_HAS_VERIFY
-  campaign.verify = arguments.verify;
+  campaign.verify = arguments.verify || arguments.sidecars;
+  campaign.sidecars = arguments.sidecars;
 #endif
   campaign.terminal = isatty(STDOUT_FILENO) != 0;
   return campaign;

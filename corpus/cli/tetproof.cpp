@@ -39,6 +39,10 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a) {
   app->add_option("--keep", a.keep, "Folder in which to keep the meshes");
 #ifdef TETPROOF_HAS_VERIFY
   app->add_flag("--verify", a.verify, "Ask the oracles about each mesh as well");
+  app->add_flag(
+      "--exact", a.sidecars,
+      "With --verify: delmesher runs once more for its sidecar, and is asked for the same "
+      "bytes; all oracles are asked");
 #endif
   return app;
 }
