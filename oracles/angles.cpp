@@ -296,13 +296,14 @@ OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbour
   OracleReport report("angles", "tetrahedra");
   const AngleBound bound(delta);
   std::uint64_t left_alone = 0;
+  InputSurface::PlaneSides known;
   std::vector<std::uint8_t> selected(complex.tetrahedra.size(), 1);
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
     const Tet& tet = complex.tetrahedra[t];
     Face at;
     const bool bad = find_small_angle(*complex.points, tet, bound, at);
     if (bad && scope == AngleScope::solid && surface.inside(*complex.points, tet) == 0 &&
-        !surface.meets_interior(*complex.points, tet)) {
+        !surface.meets_interior(*complex.points, tet, known)) {
       ++left_alone;
       selected[t] = 0;
       continue;

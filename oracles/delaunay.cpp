@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "oracles/ball_side.h"
 #include "oracles/cgal/kernel_opinion.h"
 #include "oracles/sample.h"
 
@@ -46,9 +47,11 @@ std::uint64_t for_each_inside(const TetComplex& complex, const Visit& visit) {
   std::uint64_t tried = 0;
   for (std::size_t t = sample.first(); t < complex.tetrahedra.size(); t += sample.step(), ++tried) {
     const auto& [a, b, c, d] = complex.tetrahedra[t];
+    const BallSide ball = BallSide::circumscribed(*complex.points, complex.tetrahedra[t]);
     for (const Index v : vertices) {
-      if (v == a || v == b || v == c || v == d) continue;
-      if (exact::insphere(*complex.points, a, b, c, d, v) > 0) visit(t, v);
+      const int side = ball.side(v);
+      if (side > 0 || v == a || v == b || v == c || v == d) continue;
+      if (side < 0 || exact::insphere(*complex.points, a, b, c, d, v) > 0) visit(t, v);
     }
   }
   return tried;

@@ -142,6 +142,15 @@ std::string ExactPoints::assign(std::span<const ExactPoint> points) {
       enclosures_[i][axis] = Interval::around(nearest_[i][axis], nearest_[i][axis]);
     }
   }
+  bool rounded = false;
+  largest_coordinate_ = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    rounded = rounded || points[i].kind != Kind::explicit_point;
+    for (const double x : nearest_[i]) {
+      largest_coordinate_ = std::max(largest_coordinate_, std::fabs(x));
+    }
+  }
+  difference_error_ = rounded ? largest_coordinate_ * 0x1p-50 : 0;
   return {};
 }
 
@@ -221,6 +230,25 @@ bool equal(const ExactPoints& points, Index a, Index b) {
 
 mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d) {
   return determinant3(difference(points, a, b), difference(points, a, c), difference(points, a, d));
+}
+
+const mpz_class& Volume6::operator()(const std::array<Index, 4>& tetrahedron) {
+  const IntegerVector& origin = points_.integer(tetrahedron[0]);
+  IntegerVector* const to[3] = {&u_, &v_, &w_};
+  for (int i = 0; i < 3; ++i) {
+    const IntegerVector& p = points_.integer(tetrahedron[i + 1]);
+    for (int axis = 0; axis < 3; ++axis) {
+      mpz_sub((*to[i])[axis].get_mpz_t(), p[axis].get_mpz_t(), origin[axis].get_mpz_t());
+    }
+  }
+  value_ = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    mpz_mul(minor_.get_mpz_t(), v_[j].get_mpz_t(), w_[k].get_mpz_t());
+    mpz_submul(minor_.get_mpz_t(), v_[k].get_mpz_t(), w_[j].get_mpz_t());
+    mpz_addmul(value_.get_mpz_t(), u_[i].get_mpz_t(), minor_.get_mpz_t());
+  }
+  return value_;
 }
 
 int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d) {

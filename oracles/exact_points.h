@@ -39,12 +39,16 @@ class ExactPoints {
   const IntervalVector& enclosure(Index i) const { return enclosures_[i]; }
   // A double within an ulp of the coordinates, in true units.
   const Position& nearest(Index i) const { return nearest_[i]; }
+  double largest_coordinate() const { return largest_coordinate_; }
+  // How far the difference of two of those may be from the exact one, before it is rounded.
+  double difference_error() const { return difference_error_; }
 
  private:
   std::vector<IntegerVector> integers_;
   std::vector<IntervalVector> enclosures_;
   std::vector<Position> nearest_;
   long exponent_ = 0;
+  double largest_coordinate_ = 0, difference_error_ = 0;
 };
 
 // Explicit points of an ExactPoint list.
@@ -62,6 +66,17 @@ namespace exact {
 int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // The determinant itself: six times the volume.
 mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d);
+// The same of many tetrahedra, without allocating anew for each.
+class Volume6 {
+ public:
+  explicit Volume6(const ExactPoints& points) : points_(points) {}
+  const mpz_class& operator()(const std::array<Index, 4>& tetrahedron);
+
+ private:
+  const ExactPoints& points_;
+  IntegerVector u_, v_, w_;
+  mpz_class minor_, value_;
+};
 // Positive if e lies strictly inside the sphere through a, b, c, d, where orient3d(a, b, c, d) > 0.
 int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Index e);
 // Sign of (p - apex) . (q - apex); negative exactly if the apex lies strictly inside the ball with

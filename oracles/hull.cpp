@@ -129,9 +129,8 @@ double Hull::area() const {
 
 void Hull::check_volume() {
   mpz_class sum;
-  for (const auto& [a, b, c, d] : complex_.tetrahedra) {
-    sum += exact::volume6(points_, a, b, c, d);
-  }
+  exact::Volume6 volume6(points_);
+  for (const Tet& tet : complex_.tetrahedra) sum += volume6(tet);
   std::vector<Index> corners;
   for (Index v = 0; v < corner_.size(); ++v) {
     if (corner_[v]) corners.push_back(v);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "oracles/exact_points.h"
@@ -84,8 +85,11 @@ class InputSurface {
   // inside? 1 inside, 0 outside, -1 exactly on the surface.
   int inside(const ExactPoints& points, std::span<const Index> corners) const;
 
+  // On which side of the planes of facets points lie; many tetrahedra ask the same.
+  using PlaneSides = std::unordered_map<std::uint64_t, int>;
   // Does an input triangle meet the interior of the tetrahedron (positively oriented)?
-  bool meets_interior(const ExactPoints& points, const std::array<Index, 4>& tetrahedron) const;
+  bool meets_interior(const ExactPoints& points, const std::array<Index, 4>& tetrahedron,
+                      PlaneSides& known) const;
 
  private:
   std::string find_neighbours();

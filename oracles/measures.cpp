@@ -22,10 +22,10 @@ double smallest_altitude(const ExactPoints& points, const Tet& tet) {
 OracleReport check_volume(const TetComplex& complex, const InputSurface& surface, double allowed) {
   OracleReport report("volume", "tetrahedra inside");
   mpz_class sum;
+  exact::Volume6 volume6(*complex.points);
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
     if (!complex.inside[t]) continue;
-    const auto& [a, b, c, d] = complex.tetrahedra[t];
-    sum += exact::volume6(*complex.points, a, b, c, d);
+    sum += volume6(complex.tetrahedra[t]);
     ++report.checked;
   }
   const long exponent = 3 * complex.points->exponent();

@@ -118,18 +118,10 @@ bool meets(const ExactPoints& points, const std::array<Index, 3>& triangle,
   return strictly_inside(0) && strictly_inside(1) && strictly_inside(2) && strictly_inside(3);
 }
 
-// Cheap proofs that the triangle stays out: its plane does not enter the tetrahedron, or all its
-// corners are on the outer side of one face, or on it.
+// A cheap proof that the triangle stays out: all its corners are on the outer side of one face, or
+// on it.
 bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
                const std::array<Index, 4>& tetrahedron) {
-  bool above = false, below = false;
-  for (const Index v : tetrahedron) {
-    const int side = exact::orient3d(points, triangle[0], triangle[1], triangle[2], v);
-    above = above || side > 0;
-    below = below || side < 0;
-    if (above && below) break;
-  }
-  if (!above || !below) return true;
   for (int face = 0; face < 4; ++face) {
     const auto outside = [&](Index v) {
       std::array<Index, 4> replaced = tetrahedron;
@@ -187,11 +179,27 @@ int InputSurface::inside(const ExactPoints& points, std::span<const Index> corne
 }
 
 bool InputSurface::meets_interior(const ExactPoints& points,
-                                  const std::array<Index, 4>& tetrahedron) const {
+                                  const std::array<Index, 4>& tetrahedron,
+                                  PlaneSides& known) const {
   std::vector<Index> found;
   tree_->query(box_around(points, tetrahedron), found);
+  // A facet's plane that does not enter the tetrahedron keeps all its triangles out.
+  const auto plane_enters = [&](Index t) {
+    bool above = false, below = false;
+    for (const Index v : tetrahedron) {
+      const auto key = static_cast<std::uint64_t>(facet_of_triangle_[t]) << 32 | v;
+      const auto [at, fresh] = known.try_emplace(key, 0);
+      if (fresh) {
+        const auto& [a, b, c] = triangles_[t];
+        at->second = exact::orient3d(points, a, b, c, v);
+      }
+      above = above || at->second > 0;
+      below = below || at->second < 0;
+    }
+    return above && below;
+  };
   return std::any_of(found.begin(), found.end(), [&](Index t) {
-    return !separated(points, triangles_[t], tetrahedron) &&
+    return plane_enters(t) && !separated(points, triangles_[t], tetrahedron) &&
            meets(points, triangles_[t], tetrahedron);
   });
 }

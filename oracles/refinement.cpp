@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "oracles/ball_side.h"
 #include "oracles/sample.h"
 
 namespace tetproof::oracles {
@@ -473,12 +474,15 @@ class Encroachment {
     const std::vector<Index> vertices = used_vertices(complex_);
     Sample sample(edges_.size() + faces_.size(), vertices.size());
     for (std::size_t i = sample.first(); i < edges_.size() + faces_.size(); i += sample.step()) {
+      const bool edge = i < edges_.size();
+      const auto a = static_cast<Index>(edge ? edges_[i] >> 32 : 0);
+      const auto b = static_cast<Index>(edge ? edges_[i] : 0);
+      const Face face = edge ? Face{} : faces_[i - edges_.size()];
+      const BallSide ball =
+          edge ? BallSide::diametral(points_, a, b) : BallSide::diametral(points_, face);
       for (const Index v : vertices) {
-        if (i < edges_.size()) {
-          check_edge(static_cast<Index>(edges_[i] >> 32), static_cast<Index>(edges_[i]), v);
-        } else {
-          check_face(faces_[i - edges_.size()], v);
-        }
+        if (ball.side(v) > 0) continue;
+        edge ? check_edge(a, b, v) : check_face(face, v);
       }
       ++tried_;
     }

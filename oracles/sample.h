@@ -12,7 +12,7 @@ namespace tetproof::oracles {
 class Sample {
  public:
   Sample(std::size_t elements, std::size_t vertices) {
-    constexpr std::size_t kTests = std::size_t{1} << 20;
+    constexpr std::size_t kTests = std::size_t{1} << 18;
     const std::size_t wanted =
         std::max<std::size_t>(4, kTests / std::max<std::size_t>(1, vertices));
     step_ = std::max<std::size_t>(1, elements / wanted);

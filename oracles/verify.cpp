@@ -35,9 +35,9 @@ class Regions {
   Regions(TetComplex& complex, const std::vector<std::int64_t>& regions)
       : complex_(complex), regions_(regions) {
     std::map<std::int64_t, std::array<mpz_class, 2>> volumes;
+    exact::Volume6 volume6(*complex.points);
     for (std::size_t t = 0; t < regions.size(); ++t) {
-      const auto& [a, b, c, d] = complex.tetrahedra[t];
-      volumes[regions[t]][complex.inside[t]] += abs(exact::volume6(*complex.points, a, b, c, d));
+      volumes[regions[t]][complex.inside[t]] += abs(volume6(complex.tetrahedra[t]));
     }
     count_ = volumes.size();
     for (std::size_t t = 0; t < regions.size(); ++t) {
@@ -71,9 +71,8 @@ class Regions {
 // Have the tetrahedra, all together, about the volume of the solid?
 bool fills(const TetComplex& complex, const InputSurface& surface) {
   mpz_class sum;
-  for (const auto& [a, b, c, d] : complex.tetrahedra) {
-    sum += exact::volume6(*complex.points, a, b, c, d);
-  }
+  exact::Volume6 volume6(*complex.points);
+  for (const Tet& tet : complex.tetrahedra) sum += volume6(tet);
   return abs(sum - surface.volume6()) * 1000000 <= surface.volume6();
 }
 
@@ -407,11 +406,12 @@ void Verification::check_promises(const RefinedMesh& mesh) {
 OracleReport Verification::check_contained(const TetComplex& complex,
                                            const InputSurface& surface) const {
   OracleReport contained("contained", "tetrahedra called inside");
+  InputSurface::PlaneSides known;
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
     if (!complex.inside[t]) continue;
     ++contained.checked;
     if (surface.inside(*complex.points, complex.tetrahedra[t]) != 1 ||
-        surface.meets_interior(*complex.points, complex.tetrahedra[t])) {
+        surface.meets_interior(*complex.points, complex.tetrahedra[t], known)) {
       contained.fail(complex.tet_name(t) + " is called inside but is not contained in the solid");
     }
   }

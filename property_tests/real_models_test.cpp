@@ -1,0 +1,79 @@
+// The same laws on real models: parts and scans that come with CGAL (Debian's libcgal-demo).
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <ostream>
+
+#include "mesher/delmesher.h"
+#include "oracles/surface_file.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+using oracles::VerifyReport;
+
+// Quadrilaterals, cavities, acute corners, curved and organic shapes, small enough for every run.
+constexpr const char* kModels[] = {"cross_quad", "cheese-box", "mpi_triang", "double-torus-example",
+                                   "anchor"};
+
+fs::path extracted(const std::string& model) {
+  std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  for (char& c : test) {
+    if (c == '/') c = '_';
+  }
+  const fs::path folder = fs::path(TETPROOF_SCRATCH) / "real_models" / test;
+  fs::create_directories(folder);
+  const std::string member = "data/meshes/" + model + ".off";
+  const std::string command =
+      "tar -xzf " CGAL_DATA " -C '" + folder.string() + "' '" + member + "'";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  return folder / member;
+}
+
+class RealModels : public testing::TestWithParam<const char*> {};
+
+std::string test_name(const testing::TestParamInfo<const char*>& tested) {
+  std::string name = tested.param;
+  for (char& c : name) {
+    if (c == '-') c = '_';
+  }
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cgal, RealModels, testing::ValuesIn(kModels), test_name);
+
+void expect_every_promise_kept(const oracles::Polyhedron& input, delmesher::Options options) {
+  options.want_exact = true;
+  const delmesher::Result result = delmesher::tetrahedralize(samples::to_surface(input), options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  VerifyReport report;
+  ASSERT_EQ(oracles::verify(input, samples::to_mesh(result.mesh), &result.exact,
+                            {.stage = oracles::Stage::both}, report),
+            "");
+  EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
+  for (const char* oracle : {"conformity", "exact-conformity", "exact-volume", "exact-interior",
+                             "exact-constrained-delaunay", "refined-delaunay", "refined-angles",
+                             "refined-segments", "refined-encroachment"}) {
+    const oracles::OracleReport* said = report.find(oracle);
+    ASSERT_NE(said, nullptr) << oracle;
+    EXPECT_GT(said->checked, 50U) << oracle;
+  }
+}
+
+TEST_P(RealModels, KeepEveryPromiseWithTheDefaults) {
+  expect_every_promise_kept(oracles::read_surface(extracted(GetParam()).string()), {});
+}
+
+TEST_P(RealModels, KeepEveryPromiseWithThePapersSettings) {
+  delmesher::Options options;
+  options.acute = 90;
+  options.region = delmesher::Region::hull;
+  expect_every_promise_kept(oracles::read_surface(extracted(GetParam()).string()), options);
+}
+
+}  // namespace
+}  // namespace tetproof
