@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <map>
 #include <set>
@@ -12,6 +11,7 @@
 #include "mesher/delmesher.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
+#include "property_tests/score_table.h"
 
 namespace tetproof {
 namespace {
@@ -20,52 +20,6 @@ using namespace oracles;  // NOLINT
 using delmesher::ExactPoint;
 using delmesher::ExactRecord;
 using samples::Sample;
-
-// --- the table
-
-struct Score {
-  std::string base, damage, meant;
-  bool caught = false;
-  std::string also;  // other oracles that objected
-};
-
-class ScoreTable : public testing::Environment {
- public:
-  static std::vector<Score>& rows() {
-    static std::vector<Score> rows;  // NOLINT: a test program's own
-    return rows;
-  }
-  void TearDown() override {
-    if (rows().empty()) return;
-    std::cout << "| mesh | damage | meant to catch it | caught | objecting as well |\n"
-              << "|---|---|---|---|---|\n";
-    std::size_t caught = 0;
-    for (const Score& s : rows()) {
-      caught += s.caught;
-      std::cout << "| " << s.base << " | " << s.damage << " | " << s.meant << " | "
-                << (s.caught ? "yes" : "NO") << " | " << s.also << " |\n";
-    }
-    std::cout << "mutation score: " << caught << " of " << rows().size() << "\n";
-  }
-};
-
-[[maybe_unused]] const auto* const kTable = testing::AddGlobalTestEnvironment(new ScoreTable);
-
-void judge(const std::string& base, const std::string& damage, const std::string& meant,
-           const VerifyReport& report) {
-  Score score{base, damage, meant, false, {}};
-  for (const OracleReport& oracle : report.oracles) {
-    if (oracle.passed()) continue;
-    if (oracle.name == meant) {
-      score.caught = !oracle.findings.empty();
-    } else {
-      score.also += (score.also.empty() ? "" : ", ") + oracle.name;
-    }
-  }
-  EXPECT_TRUE(score.caught) << damage << " is not caught by " << meant << "\n" << to_text(report);
-  EXPECT_EQ(report.verdict, Verdict::broken) << damage;
-  ScoreTable::rows().push_back(score);
-}
 
 template <class Damage>
 std::string test_name(const testing::TestParamInfo<Damage>& tested) {
