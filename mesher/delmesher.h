@@ -63,6 +63,14 @@ struct Options {
   double tau = 1e-4;
   // Corners with an angle below this (degrees) are chamfered; 90 is the paper's, with its proof.
   double acute = 60;
+  // The same, if smaller, for the corner of one facet between two neighbouring edges: segments that
+  // are split at equal distances from their common end do not encroach each other, however acute
+  // their angle.
+  double corner = 20;
+  // Split constraints until their open diametral balls are empty, as the paper does (sections 5.2
+  // and 5.3). Otherwise they are split where the Delaunay tetrahedrization lacks them and where
+  // volume points encroach them, which takes fewer tetrahedra.
+  bool gabriel = false;
   bool slivers = true;           // treat slivers (section 5.7)
   bool approximate = false;      // stop before the enriched CDT (section 6)
   bool simplify_bridges = true;  // section 4.4
@@ -125,8 +133,12 @@ struct ExactRecord {
   struct Parameters {  // what the run promised
     double delta = 0;  // face angles of the refined mesh, degrees; 0: not recorded
     double acute = 0;  // corners are chamfered below this, where none of `corners` says otherwise
+    // The same for two neighbouring edges of a facet at a vertex that is not chamfered; 0: as
+    // acute.
+    double corner = 0;
     double tolerance = 0;  // of the filter, in input units
     Region region = Region::interior;
+    bool gabriel = true;  // no vertex is in the open diametral ball of a constraint
   } parameters;
   std::vector<ExactPoint> points;  // the input vertices first, in input order
   struct Facet {
@@ -186,6 +198,8 @@ struct Statistics {
   std::uint64_t dropped_triangles = 0, filter_rounds = 0;
   std::uint64_t acute_vertices = 0, acute_edges = 0;
   double guaranteed_acute = 0;         // threshold in force away from the fallback corners
+  double guaranteed_corner = 0;        // the same for corners of one facet
+  bool gabriel = false;                // the constraints of the refined mesh have empty balls
   std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
   std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;
   std::uint64_t rounding_inverted = 0, rounding_flat = 0, rounding_repaired = 0;

@@ -30,10 +30,18 @@ std::string options_defect(const Options& o) {
   if (bad(o.delta, 0, 30) || o.delta == 0) return "delta must be above 0 and at most 30 degrees";
   if (bad(o.tau, 0, 1)) return "tau must be between 0 and 1";
   if (bad(o.acute, 0, 90)) return "acute must be between 0 and 90 degrees";
+  if (bad(o.corner, 0, 90)) return "corner must be between 0 and 90 degrees";
   if (bad(o.chamfer_radius, 0, HUGE_VAL)) return "chamfer radius must not be negative";
   if (bad(o.max_edge, 0, HUGE_VAL)) return "max edge must not be negative";
   if (bad(o.time_limit_seconds, 0, HUGE_VAL)) return "time limit must not be negative";
   return {};
+}
+
+// The threshold for corners of one facet. The facet's triangle at a corner that is not chamfered
+// has its angle, so that has to exceed delta.
+double corner_threshold(const Options& o) {
+  constexpr double kMargin = 5;
+  return std::min(o.acute, std::max(o.corner, o.delta + kMargin));
 }
 
 // Runs `body` and turns everything it may throw into a status: the public API reports errors as
@@ -122,18 +130,21 @@ class Run {
                           control_);
   }
 
-  // Chamfering and refinement, again with stricter corners where the refinement would not end
-  // (section 4 proves that it ends at 90 degrees only). Deterministic: the guard looks at lengths,
-  // never at time.
+  // Chamfering and refinement, again with empty diametral balls and then with stricter corners
+  // where the refinement would not end (section 4 proves that it ends with both, at 90 degrees).
+  // Deterministic: the guard looks at lengths, never at time.
   RefineResult chamfer_and_refine(ChamferResult& chamfered) {
     constexpr int kLocalFallbacks = 6;  // then everywhere
     ChamferOptions options;
     options.cosine_squared = cosine_squared(options_.acute);
+    options.corner_cosine_squared = cosine_squared(corner_threshold(options_));
+    gabriel_ = options_.gabriel;
     options.max_radius = options_.chamfer_radius;
     options.simplify_bridges = options_.simplify_bridges;
     const std::size_t input_points = points_.size();
     for (int fallbacks = 0;; ++fallbacks) {
-      const bool strictest = options.cosine_squared == 0;
+      const bool strictest =
+          gabriel_ && options.cosine_squared == 0 && options.corner_cosine_squared == 0;
       chamfered = filter_and_chamfer_input(options);
       RefineResult refined = refine_complex(chamfered, !strictest);
       if (!refined.runaway) {
@@ -141,11 +152,13 @@ class Run {
         record_refinement(chamfered, refined);
         return refined;
       }
-      if (fallbacks < kLocalFallbacks) {
+      if (!gabriel_) {
+        gabriel_ = true;
+      } else if (fallbacks < kLocalFallbacks) {
         tighten_corners(*refined.runaway, options.cosine_squared, topology_, points_,
                         options.vertex_cosine_squared);
       } else {
-        options.cosine_squared = 0;
+        options.cosine_squared = options.corner_cosine_squared = 0;
         options.vertex_cosine_squared.clear();
       }
       while (points_.size() > input_points) points_.pop_back();
@@ -177,6 +190,8 @@ class Run {
     options.region = options_.region;
     options.runaway_length = guarded ? feature_length() * kRunawayFraction : 0;
     options.want_balls = options_.want_exact;
+    options.gabriel = gabriel_;
+    options.apex = chamfered.vertex_is_apex;
     options.removed = removed_boxes(chamfered, filter_.facet_kept, topology_, points_);
     return refine(chamfered.plc, topology_, points_, predicates_, options, control_);
   }
@@ -187,8 +202,10 @@ class Run {
     s.filter_rounds = filter_.rounds;
     s.acute_vertices = chamfered.acute_vertices;
     s.acute_edges = chamfered.acute_edges;
-    const bool everywhere = options.cosine_squared == 0;
+    const bool everywhere = options.cosine_squared == 0 && options.corner_cosine_squared == 0;
     s.guaranteed_acute = everywhere ? 90 : options_.acute;
+    s.guaranteed_corner = everywhere ? 90 : corner_threshold(options_);
+    s.gabriel = gabriel_;
     const auto& tightened = options.vertex_cosine_squared;
     s.fallback_corners =
         static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
@@ -196,6 +213,9 @@ class Run {
     record_parameters(options_, result_.statistics.bbox_diagonal, result_.exact);
     record_facets(topology_, filter_.facet_kept, result_.exact);
     record_chamfer(chamfered, s.guaranteed_acute, tightened, result_.exact);
+    result_.exact.parameters.acute = s.guaranteed_acute;
+    result_.exact.parameters.corner = s.guaranteed_corner;
+    result_.exact.parameters.gabriel = s.gabriel;
   }
 
   void record_refinement(const ChamferResult& chamfered, const RefineResult& refined) {
@@ -254,6 +274,7 @@ class Run {
   SurfaceTopology topology_;
   FilterResult filter_;
   double feature_length_ = -1;
+  bool gabriel_ = false;  // in force: options_.gabriel, or a fallback
 };
 
 template <class Body>
@@ -297,6 +318,7 @@ SurfaceReport check_surface(const Surface& surface, const Options& options) {
     report.smallest_local_feature_size = smallest_local_feature_size(topology, points, control);
     ChamferOptions chamfering;
     chamfering.cosine_squared = cosine_squared(options.acute);
+    chamfering.corner_cosine_squared = cosine_squared(corner_threshold(options));
     const ChamferResult chamfered = chamfer(topology, points, predicates, chamfering, control);
     report.acute_vertices = chamfered.acute_vertices;
     report.acute_edges = chamfered.acute_edges;

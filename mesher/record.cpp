@@ -55,7 +55,6 @@ void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
     const bool tightened = !vertex_cosine_squared.empty() && vertex_cosine_squared[v] == 0;
     record.corners.push_back({v, tightened ? 90 : threshold_degrees, chamfered.vertex_distance[v]});
   }
-  record.parameters.acute = threshold_degrees;
   for (std::uint32_t n = 0; n < chamfered.new_point_vertex.size(); ++n) {
     record.chamfer_points.push_back({chamfered.first_new_point + n, chamfered.new_point_vertex[n]});
   }

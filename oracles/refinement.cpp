@@ -435,6 +435,7 @@ class Encroachment {
     check_sample();
     report_.figures.emplace_back("edges", edges_.size());
     report_.figures.emplace_back("faces", faces_.size());
+    if (!record_.parameters.gabriel) report_.figures.emplace_back("vertices in a ball", found_);
     return std::move(report_);
   }
 
@@ -491,14 +492,18 @@ class Encroachment {
 
   void check_edge(Index a, Index b, Index v) {
     if (v == a || v == b || exact::dot_sign(points_, v, a, b) >= 0) return;
-    report_.fail(complex_.vertex_name(v) + " encroaches edge " + complex_.vertex_name(a) + " - " +
-                 complex_.vertex_name(b));
+    offend(v, "edge " + complex_.vertex_name(a) + " - " + complex_.vertex_name(b));
   }
 
   void check_face(const Face& f, Index v) {
     if (v == f[0] || v == f[1] || v == f[2]) return;
     if (!exact::in_diametral_ball(points_, f[0], f[1], f[2], v)) return;
-    report_.fail(complex_.vertex_name(v) + " encroaches " + complex_.face_name(f));
+    offend(v, complex_.face_name(f));
+  }
+
+  void offend(Index v, const std::string& what) {
+    ++found_;
+    if (record_.parameters.gabriel) report_.fail(complex_.vertex_name(v) + " encroaches " + what);
   }
 
   const ExactRecord& record_;
@@ -506,7 +511,7 @@ class Encroachment {
   const TetComplex& complex_;
   std::vector<std::uint64_t> edges_;
   std::vector<Face> faces_;
-  std::uint64_t tried_ = 0;
+  std::uint64_t tried_ = 0, found_ = 0;
   OracleReport report_{"encroachment", "edges of segments and faces on facets"};
 };
 

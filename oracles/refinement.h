@@ -54,7 +54,8 @@ OracleReport check_refined_facets(const RefinedMesh& mesh);
 
 // No vertex lies strictly inside the diametral ball of an edge of a chain or of a face on a facet.
 // In a Delaunay mesh, an element whose ball holds any vertex has one in the ball that shares a
-// tetrahedron with it; a sample is tried against all vertices none the less.
+// tetrahedron with it; a sample is tried against all vertices none the less. Counted, not failed,
+// where the record does not promise it.
 OracleReport check_encroachment(const RefinedMesh& mesh);
 
 // Every volume Steiner point lies strictly inside the circumball it was made for (section 5.6).

@@ -54,8 +54,10 @@ class SidecarReader {
     auto& p = record_.parameters;
     p.delta = reader_.number();
     p.acute = reader_.number();
+    p.corner = reader_.number();
     p.tolerance = reader_.number();
     p.region = number() != 0 ? delmesher::Region::hull : delmesher::Region::interior;
+    p.gabriel = number() != 0;
   }
 
   void read_additions() {

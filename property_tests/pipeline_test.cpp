@@ -26,7 +26,8 @@ constexpr std::uint64_t kSeed = 20261121;
 // The paper's settings: `--preset paper`.
 Options paper_options() {
   Options options;
-  options.acute = 90;
+  options.acute = options.corner = 90;
+  options.gabriel = true;
   options.region = delmesher::Region::hull;
   options.want_exact = true;
   return options;

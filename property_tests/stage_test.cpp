@@ -163,7 +163,7 @@ TEST(Figure3, NaiveChamferingLeavesAcuteAnglesAtTheHole) {
 TEST(Figure3, OrthogonalChamferingLeavesNone) {
   for (const bool simplify : {false, true}) {
     Options options;
-    options.acute = 90;
+    options.acute = options.corner = 90;
     options.tau = 0;
     options.want_exact = true;
     options.simplify_bridges = simplify;
@@ -211,7 +211,7 @@ TEST(AppendixB, Statement1HoldsOnTheMeshersBridges) {
   // The lifted point is acute, but its edges are not; those of the base are.
   const Surface surface = figure_3();
   Options options;
-  options.acute = 90;
+  options.acute = options.corner = 90;
   options.tau = 0;
   options.want_exact = true;
   options.simplify_bridges = false;
@@ -247,7 +247,7 @@ TEST(AppendixB, Statement2HoldsOnTheMeshersRectangles) {
   wedge.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
                      {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
   Options options;
-  options.acute = 90;
+  options.acute = options.corner = 90;
   options.tau = 0;
   options.want_exact = true;
   options.simplify_bridges = false;

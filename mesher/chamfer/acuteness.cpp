@@ -27,6 +27,7 @@ class AcuteFinder {
   }
 
   bool vertex_is_acute(VertexId v, const std::vector<std::uint8_t>& edge_is_acute) {
+    apex_ = false;
     const std::vector<std::uint32_t> spokes = surface_.live_half_edges(v);
     for (std::uint32_t h : spokes) {
       if (edge_is_acute[topology_.edge_of[h]]) return true;
@@ -34,16 +35,34 @@ class AcuteFinder {
     return two_edges_are_acute(v, spokes) || edge_and_facet_are_acute(v, spokes);
   }
 
+  bool apex() const { return apex_; }  // of the last vertex
+
  private:
-  // More than six (at 60 degrees: twelve) directions always contain an acute pair, so this ends
-  // after a few tests however many edges there are.
+  // Do two edges bound a sector of one facet?
+  bool neighbours_in_facet(std::uint32_t h, std::uint32_t g) const {
+    for (const std::uint32_t outgoing : {h, g}) {
+      const std::uint32_t index = surface_.corner_of_outgoing(outgoing);
+      if (index == kNone) continue;
+      const std::uint32_t other = topology_.edge_of[outgoing == h ? g : h];
+      if (topology_.edge_of[surface_.corners()[index].incoming] == other) return true;
+    }
+    return false;
+  }
+
+  // Few directions fit into space without an acute pair, so this ends soon however many edges there
+  // are.
   bool two_edges_are_acute(VertexId v, const std::vector<std::uint32_t>& spokes) {
     const double limit = thresholds_.at_vertex(v);
     for (std::size_t i = 1; i < spokes.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (predicates_.angle_below(topology_.to(spokes[i]), v, topology_.to(spokes[j]), limit)) {
+        const VertexId p = topology_.to(spokes[i]);
+        const VertexId q = topology_.to(spokes[j]);
+        if (!predicates_.angle_below(p, v, q, limit)) continue;
+        if (!neighbours_in_facet(spokes[i], spokes[j]) ||
+            predicates_.angle_below(p, v, q, thresholds_.at_corner(v))) {
           return true;
         }
+        apex_ = true;
       }
     }
     return false;
@@ -84,6 +103,7 @@ class AcuteFinder {
   const SurfaceTopology& topology_;
   Predicates& predicates_;
   const Thresholds& thresholds_;
+  bool apex_ = false;
 };
 
 }  // namespace
@@ -111,10 +131,12 @@ Acuteness find_acute(const KeptSurface& surface, Predicates& predicates,
     result.edge[e] = finder.edge_is_acute(e);
   }
   result.vertex.resize(surface.vertex_count());
+  result.apex.resize(surface.vertex_count());
   for (VertexId v = 0; v < result.vertex.size(); ++v) {
     if (!is_active(v)) continue;
     control.poll();
     result.vertex[v] = finder.vertex_is_acute(v, result.edge);
+    result.apex[v] = result.vertex[v] == 0 && finder.apex();
   }
   return result;
 }

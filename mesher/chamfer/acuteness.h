@@ -1,6 +1,7 @@
 // Which vertices and edges are acute (section 4), decided exactly and by facets.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,11 @@ class Thresholds {
     return options_.vertex_cosine_squared.empty() ? options_.cosine_squared
                                                   : options_.vertex_cosine_squared[v];
   }
+  // For two neighbouring edges of a facet's boundary.
+  double at_corner(VertexId v) const {
+    const bool tightened = !options_.vertex_cosine_squared.empty() && at_vertex(v) == 0;
+    return tightened ? 0 : std::max(at_vertex(v), options_.corner_cosine_squared);
+  }
   double at_edge(const SurfaceTopology& topology, std::uint32_t e) const {
     const auto [v, w] = topology.edge_vertices(e);
     return at_vertex(v) < at_vertex(w) ? at_vertex(v) : at_vertex(w);
@@ -28,6 +34,8 @@ class Thresholds {
 
 struct Acuteness {
   std::vector<std::uint8_t> vertex, edge;  // per input vertex, per undirected input edge
+  // Per input vertex: acute by at_vertex(), but not by at_corner() and therefore not in `vertex`.
+  std::vector<std::uint8_t> apex;
 };
 
 // If `active` is not empty, only vertices v with active[v] != 0, and edges between such.

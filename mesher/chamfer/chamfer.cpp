@@ -81,6 +81,7 @@ ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
   assemble_plc(surface, acute, cuts, bridges, active, options.isolated_clearance, result);
   result.vertex_is_acute = acute.vertex;
   result.edge_is_acute = acute.edge;
+  result.vertex_is_apex = acute.apex;
   for (std::uint8_t flag : acute.vertex) result.acute_vertices += flag;
   for (std::uint8_t flag : acute.edge) result.acute_edges += flag;
   return result;

@@ -14,6 +14,10 @@ namespace delmesher {
 
 struct ChamferOptions {
   double cosine_squared = 0.25;  // corners with a smaller angle are acute (0.25: 60 degrees)
+  // The same for two neighbouring edges of one facet's boundary; 0: as above. Segments that are
+  // split at equal distances from their common end do not encroach each other, however acute their
+  // angle.
+  double corner_cosine_squared = 0;
   // Per input vertex, overriding cosine_squared; empty: none. The runaway guard sets 0 (90 degrees)
   // here.
   std::vector<double> vertex_cosine_squared;
@@ -32,7 +36,9 @@ struct ChamferResult {
   std::vector<std::uint32_t> plc_facet;       // input facet -> index in plc.facets, or kNone
   std::vector<std::uint8_t> vertex_is_acute;  // per input vertex
   std::vector<std::uint8_t> edge_is_acute;    // per undirected input edge
-  std::vector<double> vertex_distance;        // chamfer distance along the edges; 0: not chamfered
+  // Per input vertex: not chamfered although two edges meet below cosine_squared.
+  std::vector<std::uint8_t> vertex_is_apex;
+  std::vector<double> vertex_distance;  // chamfer distance along the edges; 0: not chamfered
   // Balls around vertices and cylinders around edges that together contain everything cut off.
   std::vector<double> vertex_radius;  // somewhat above vertex_distance; 0: not chamfered
   std::vector<double> edge_radius;    // largest strip width beside the edge; 0: none

@@ -99,6 +99,42 @@ Outline outline(const Plc& plc, const PlcFacet& facet, const PointStore& points)
   return result;
 }
 
+// A pyramid on a prism: its faces have corners of 43.6 and 95.9 degrees at the apex, vertex 8, where
+// nothing else is acute.
+TEST(Corners, OfOneFacetHaveAThresholdOfTheirOwn) {
+  Surface surface = test_polyhedra::prism({{0, 0}, {8, 0}, {8, 4}, {0, 4}}, 6);
+  std::erase_if(surface.triangles, [&](const auto& t) {
+    return std::ranges::all_of(t, [&](std::uint32_t v) { return surface.vertices[v][2] == 6; });
+  });
+  surface.vertices.push_back({4, 2, 9});
+  for (std::uint32_t i = 0; i < 4; ++i) surface.triangles.push_back({4 + i, 4 + (i + 1) % 4, 8});
+  const auto acute = [&](double angle, double corner) {
+    ChamferOptions options = below(angle);
+    options.corner_cosine_squared = cosine_squared(corner);
+    Model model(surface);
+    const ChamferResult result = model.run(options);
+    return std::pair(result.vertex_is_acute[8] != 0, result.vertex_is_apex[8] != 0);
+  };
+  EXPECT_EQ(acute(45, 45), std::pair(true, false));
+  EXPECT_EQ(acute(45, 44), std::pair(true, false));
+  EXPECT_EQ(acute(45, 40), std::pair(false, true));
+  EXPECT_EQ(acute(40, 30), std::pair(false, false));
+}
+
+// Edges that bound no common facet obey the stricter threshold: opposite edges of a tall pyramid.
+TEST(Corners, OfDifferentFacetsHaveTheCommonThreshold) {
+  Surface surface;
+  surface.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 3}};
+  surface.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  ChamferOptions options =
+      below(55);  // 50.5 degrees between opposite edges, 35.1 between neighbours
+  options.corner_cosine_squared = cosine_squared(30);
+  Model model(surface);
+  const ChamferResult result = model.run(options);
+  EXPECT_EQ(result.vertex_is_acute[4], 1);
+  EXPECT_EQ(result.vertex_is_apex[4], 0);
+}
+
 class ChamferSamples : public testing::TestWithParam<double> {};
 
 TEST_P(ChamferSamples, AreValidSurfaces) {

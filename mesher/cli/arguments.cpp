@@ -22,7 +22,7 @@ struct Given {
   std::map<std::string, std::string> numbers;
   std::optional<bool> slivers;
   std::optional<Region> region;
-  bool approximate = false, no_bridges = false, paper = false;
+  bool approximate = false, gabriel = false, no_bridges = false, paper = false;
 };
 
 struct Bounds {
@@ -84,6 +84,10 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
              {0, 1, false});
   add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", {0, 90, false});
+  add_number(app, given, "corner", "the same for corners of one facet, degrees (20)",
+             {0, 90, false});
+  app.add_flag("--gabriel", given.gabriel,
+               "split constraints until their diametral balls are empty");
   app.add_option_function<std::string>(
          "--slivers", [&given](const std::string& text) { given.slivers = text == "on"; },
          "treat slivers: on or off (on)")
@@ -95,7 +99,8 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
-         "paper: delta 14.47, tau 1e-4, acute 90, region hull; other options override it")
+         "paper: delta 14.47, tau 1e-4, acute 90, corner 90, gabriel, region hull; other options "
+         "override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
 }
@@ -127,6 +132,8 @@ void apply(const Given& given, Command& command) {
     options.delta = 14.47;
     options.tau = 1e-4;
     options.acute = 90;
+    options.corner = 90;
+    options.gabriel = true;
     options.region = Region::hull;
   }
   if (given.paper && command.job == Job::plane) {
@@ -140,6 +147,8 @@ void apply(const Given& given, Command& command) {
   number("delta", options.delta);
   number("tau", options.tau);
   number("acute", options.acute);
+  number("corner", options.corner);
+  options.gabriel |= given.gabriel;
   number("chamfer-radius", options.chamfer_radius);
   number("max-edge", options.max_edge);
   number("time-limit", options.time_limit_seconds);
@@ -222,6 +231,8 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   add_common(*check, command);
   check->add_flag("--json", command.json, "report as JSON");
   add_number(*check, given, "acute", "corners below this angle are acute, degrees (60)",
+             {0, 90, false});
+  add_number(*check, given, "corner", "the same for corners of one facet, degrees (20)",
              {0, 90, false});
 
   default_to_mesh(arguments);

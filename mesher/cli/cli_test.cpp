@@ -327,7 +327,7 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
   EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");
-  EXPECT_EQ(keys(json["guarantee"]), "acute fallback_corners ");
+  EXPECT_EQ(keys(json["guarantee"]), "acute corner gabriel fallback_corners ");
   EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume ");
   EXPECT_EQ(keys(json["rounding"]), "inverted flat repaired max_surface_deviation ");
   EXPECT_EQ(json["status"], "ok");

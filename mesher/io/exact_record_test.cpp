@@ -20,7 +20,7 @@ ExactRecord sample() {
   r.facets = {{0, 7, false, {0, 2, 5}}, {1, -1, true, {}}};
   r.segments = {{false, 0, {0, 3, 1}}, {true, 1, {3, 4}}};
   r.corners = {{2, 60, 0.1}};
-  r.parameters = {14.5, 60, 0.25, Region::hull};
+  r.parameters = {14.5, 60, 20, 0.25, Region::hull, false};
   r.chamfer_points = {{3, 2}};
   r.balls = {{2, {0, 1, 3, 4}}};
   r.unrepaired = {{{4, 2, 3, 1}, false}};
@@ -47,10 +47,12 @@ std::string written(const ExactRecord& record) {
 TEST(ExactRecord, TextIsAsDocumented) {
   const std::string text = written(sample());
   EXPECT_TRUE(
-      text.starts_with("delmesher-exact 2\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1p-2 1\npoints 5\nE "
-                       "0x1.999999999999ap-4 -0x0p+0 0x0.01268af1fef2p-1022\n") ||
-      text.starts_with("delmesher-exact 2\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1p-2 1\npoints 5\nE "
-                       "0x1.999999999999ap-4 -0x0p+0 "))
+      text.starts_with(
+          "delmesher-exact 2\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0\npoints 5\nE "
+          "0x1.999999999999ap-4 -0x0p+0 0x0.01268af1fef2p-1022\n") ||
+      text.starts_with(
+          "delmesher-exact 2\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0\npoints 5\nE "
+          "0x1.999999999999ap-4 -0x0p+0 "))
       << text;
   EXPECT_NE(text.find("S 1 2 0x1.8p-2\nT 0 1 2 0x1p-2 0x1p-1\nfacets 2\n0 7 0 3 0 2 5\n1 -1 1 0\n"
                       "segments 2\nI - 3 0 3 1\nA 1 2 3 4\ncorners 1\n2 0x1.ep+5 0x1.9"),

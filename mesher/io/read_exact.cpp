@@ -154,8 +154,9 @@ ExactRecord ExactReader::read() {
   if (version >= 2) {
     items("parameters", [&] {
       auto& p = record_.parameters;
-      for (double* value : {&p.delta, &p.acute, &p.tolerance}) *value = number();
+      for (double* value : {&p.delta, &p.acute, &p.corner, &p.tolerance}) *value = number();
       p.region = flag() ? Region::hull : Region::interior;
+      p.gabriel = flag();
     });
   }
   items("points", [&] { read_point(); });

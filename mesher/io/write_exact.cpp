@@ -72,12 +72,13 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
   TextSink& out = *opened;
   section(out, "delmesher-exact", kExactVersion);
   section(out, "parameters", 1);
-  for (const double value :
-       {record.parameters.delta, record.parameters.acute, record.parameters.tolerance}) {
+  for (const double value : {record.parameters.delta, record.parameters.acute,
+                             record.parameters.corner, record.parameters.tolerance}) {
     out.hex(value);
     out.text(" ");
   }
-  out.text(record.parameters.region == Region::hull ? "1\n" : "0\n");
+  out.text(record.parameters.region == Region::hull ? "1 " : "0 ");
+  out.text(record.parameters.gabriel ? "1\n" : "0\n");
   section(out, "points", record.points.size());
   for (const ExactPoint& p : record.points) write_point(out, p);
   section(out, "facets", record.facets.size());

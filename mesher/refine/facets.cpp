@@ -184,7 +184,8 @@ void Refiner::check_subfacet(std::uint32_t s, std::uint32_t face) {
     subfacet_[t[k]][i[k]] = s;
     const VertexId v = dt_.vertex(t[k], i[k]);
     if (k == 1 && planted(Planted::facet_encroachment)) continue;
-    if (v != kInfinite && predicates_.in_diametral_ball(c[0], c[1], c[2], v) > 0) queue_subfacet(s);
+    if (!options_.gabriel || v == kInfinite) continue;
+    if (predicates_.in_diametral_ball(c[0], c[1], c[2], v) > 0) queue_subfacet(s);
   }
 }
 
@@ -264,7 +265,7 @@ void Refiner::split_subfacet(std::uint32_t s) {
   }
   ++on_facets_;
   on_facet_[facet].push_back(v);
-  queue_encroached_subfacets(v);
+  if (options_.gabriel) queue_encroached_subfacets(v);
   commit(v);
   new_subfacets_.clear();
   insert_in_facet(v, container, kNone, kNone, kNone);

@@ -110,7 +110,9 @@ bool Refiner::queue_encroached_subfacets(VertexId v) {
   bool any = false;
   for (const FoundSubfacet& found : found_subfacets_) {
     const auto& c = subfacets_[found.id].v;
-    if (predicates_.in_diametral_ball(c[0], c[1], c[2], v) > 0) {
+    // A subfacet inside the cavity would be lost: without the Gabriel property it may hide v from
+    // the tetrahedron that v was made for.
+    if (found.internal || predicates_.in_diametral_ball(c[0], c[1], c[2], v) > 0) {
       queue_subfacet(found.id);
       any = true;
     }

@@ -24,6 +24,12 @@ struct RefineOptions {
   // subsegment or volume edge below it means that acute corners feed each other for ever. 0: no
   // guard.
   double runaway_length = 0;
+  // Split subsegments and subfacets until their open diametral balls are empty. Otherwise one that
+  // is in the tetrahedrization is left alone until a volume point encroaches it.
+  bool gabriel = true;
+  // Per input vertex: 1 if segments meet there at an acute angle; they are split at equal distances
+  // from it (on concentric shells), so that they do not encroach each other. Empty: none.
+  std::vector<std::uint8_t> apex;
   // Boxes that cover the part of the input surface that the complex lacks.
   std::vector<Box> removed;
   bool want_balls = false;  // fill RefineResult::ball

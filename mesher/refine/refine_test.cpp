@@ -46,6 +46,20 @@ Surface wedge() {
   return prism({{0, 0}, {4, 0}, {4, 0.5}}, 1);
 }
 
+// A decagonal prism with a shallow conical roof: ten facets have corners of about 35 degrees at its
+// apex, vertex 20; nothing else is below 60 degrees.
+Surface tent() {
+  std::vector<std::array<double, 2>> outline;
+  for (int i = 0; i < 10; ++i) {
+    outline.push_back({std::cos(36 * i * kDegree), std::sin(36 * i * kDegree)});
+  }
+  Surface s = prism(outline, 1);
+  std::erase_if(s.triangles, [](const auto& t) { return std::ranges::min(t) >= 10; });
+  s.vertices.push_back({0, 0, 1.25});
+  for (std::uint32_t i = 0; i < 10; ++i) s.triangles.push_back({10 + i, 10 + (i + 1) % 10, 20});
+  return s;
+}
+
 struct Refinement {
   PointStore points;
   Predicates predicates{points};
@@ -55,9 +69,10 @@ struct Refinement {
   ChamferResult chamfered;
   RefineResult result;
 
-  Refinement(const Surface& surface, RefineOptions options) {
+  Refinement(const Surface& surface, RefineOptions options, double corner = 60) {
     topology = build_topology(surface, points, predicates);
     ChamferOptions chamfering;
+    chamfering.corner_cosine_squared = cosine_squared(corner);
     chamfered = chamfer(topology, points, predicates, chamfering, control);
     add_outer_box(topology, points, chamfered.plc);
     for (const auto& t : topology.triangles) {
@@ -65,6 +80,7 @@ struct Refinement {
       for (const VertexId v : t) all.extend({points.nearest(v), points.nearest(v)});
       if (chamfered.acute_vertices > 0) options.removed.push_back(all);
     }
+    options.apex = chamfered.vertex_is_apex;
     result = refine(chamfered.plc, topology, points, predicates, options, control);
   }
 
@@ -108,32 +124,9 @@ double volume(const PointStore& points, const std::array<VertexId, 4>& t) {
          6;
 }
 
-class Complexes : public testing::TestWithParam<std::pair<const char*, Surface>> {};
-
-TEST_P(Complexes, NothingIsEncroached) {
-  Refinement r(GetParam().second, {});
+void expect_constraints_present(Refinement& r) {
   ASSERT_FALSE(r.result.runaway);
-  const std::set<VertexId> all = r.vertices();
   ASSERT_GT(r.result.faces.size(), 10U);
-  for (const auto& chain : r.result.chain) {
-    ASSERT_GE(chain.size(), 2U);
-    for (std::size_t n = 0; n + 1 < chain.size(); ++n) {
-      for (const VertexId v : all) {
-        if (v == chain[n] || v == chain[n + 1]) continue;
-        EXPECT_GE(r.predicates.dot_sign(chain[n], v, chain[n + 1]), 0);
-      }
-    }
-  }
-  for (const RefinedFace& f : r.result.faces) {
-    for (const VertexId v : all) {
-      if (std::find(f.vertices.begin(), f.vertices.end(), v) != f.vertices.end()) continue;
-      EXPECT_LE(r.predicates.in_diametral_ball(f.vertices[0], f.vertices[1], f.vertices[2], v), 0);
-    }
-  }
-}
-
-TEST_P(Complexes, SubsegmentsAndSubfacetsAreInTheMesh) {
-  Refinement r(GetParam().second, {});
   std::set<std::array<VertexId, 2>> edges;
   std::set<std::array<VertexId, 3>> faces;
   for (const auto& t : r.result.tetrahedra) {
@@ -163,12 +156,55 @@ TEST_P(Complexes, SubsegmentsAndSubfacetsAreInTheMesh) {
   }
 }
 
+class Complexes : public testing::TestWithParam<std::pair<const char*, Surface>> {};
+
+TEST_P(Complexes, NothingIsEncroached) {
+  Refinement r(GetParam().second, {});
+  ASSERT_FALSE(r.result.runaway);
+  const std::set<VertexId> all = r.vertices();
+  ASSERT_GT(r.result.faces.size(), 10U);
+  for (const auto& chain : r.result.chain) {
+    ASSERT_GE(chain.size(), 2U);
+    for (std::size_t n = 0; n + 1 < chain.size(); ++n) {
+      for (const VertexId v : all) {
+        if (v == chain[n] || v == chain[n + 1]) continue;
+        EXPECT_GE(r.predicates.dot_sign(chain[n], v, chain[n + 1]), 0);
+      }
+    }
+  }
+  for (const RefinedFace& f : r.result.faces) {
+    for (const VertexId v : all) {
+      if (std::find(f.vertices.begin(), f.vertices.end(), v) != f.vertices.end()) continue;
+      EXPECT_LE(r.predicates.in_diametral_ball(f.vertices[0], f.vertices[1], f.vertices[2], v), 0);
+    }
+  }
+}
+
+TEST_P(Complexes, SubsegmentsAndSubfacetsAreInTheMesh) {
+  for (const bool gabriel : {true, false}) {
+    RefineOptions options;
+    options.gabriel = gabriel;
+    Refinement r(GetParam().second, options);
+    expect_constraints_present(r);
+  }
+}
+
+TEST_P(Complexes, TheGabrielPropertyTakesMoreVertices) {
+  RefineOptions options;
+  const Refinement strict(GetParam().second, options);
+  options.gabriel = false;
+  const Refinement lazy(GetParam().second, options);
+  EXPECT_LE(lazy.result.tetrahedra.size(), strict.result.tetrahedra.size());
+}
+
 TEST_P(Complexes, AnglesMeetTheBoundWhereItHolds) {
   for (const Region region : {Region::interior, Region::hull}) {
-    for (const double delta : {10.0, 14.47}) {
+    for (const auto& [delta, gabriel] :
+         {std::pair{10.0, true}, std::pair{14.47, true}, std::pair{14.47, false}}) {
       RefineOptions options;
       options.region = region;
       options.delta = delta;
+      options.gabriel = gabriel;
       Refinement r(GetParam().second, options);
       ASSERT_FALSE(r.result.runaway);
       std::size_t outside_bad = 0;
@@ -183,7 +219,7 @@ TEST_P(Complexes, AnglesMeetTheBoundWhereItHolds) {
       // Only a complex with small features leaves something bad outside; without it the modes would
       // not differ.
       const bool expected = region == Region::interior && r.chamfered.acute_vertices > 0;
-      EXPECT_EQ(outside_bad > 0, expected);
+      if (gabriel) EXPECT_EQ(outside_bad > 0, expected);
     }
   }
 }
@@ -246,6 +282,41 @@ TEST(Refine, SliverTreatmentRaisesTheSmallestDistanceOfOppositeEdges) {
   };
   EXPECT_LE(worst_ratio(true), 7.2 * (1 + 1e-9));
   EXPECT_GT(worst_ratio(false), 7.2);
+}
+
+// Segments are split at equal distances from an apex or at halves of them, whatever their lengths.
+TEST(Refine, SegmentsAtAnApexAreSplitOnConcentricShells) {
+  Surface surface = tent();
+  surface.vertices[20] = {0.05, 0.03, 1.25};  // spokes of different lengths
+  for (const bool gabriel : {true, false}) {
+    RefineOptions options;
+    options.gabriel = gabriel;
+    options.max_edge = 0.2;
+    Refinement r(surface, options, 20);
+    ASSERT_FALSE(r.result.runaway);
+    ASSERT_EQ(r.chamfered.acute_vertices, 0U);
+    ASSERT_EQ(r.chamfered.vertex_is_apex[20], 1);
+    expect_constraints_present(r);
+    const Vec3 apex = r.points.nearest(20);
+    double shell = 0;
+    int split = 0;
+    for (auto chain : r.result.chain) {
+      if (chain.back() == 20) std::reverse(chain.begin(), chain.end());
+      if (chain.front() != 20) continue;
+      ASSERT_GT(chain.size(), 2U);
+      const Vec3 d = minus(r.points.nearest(chain[1]), apex);
+      const double distance = std::sqrt(dot(d, d));
+      if (shell == 0) shell = distance;
+      const double halvings = std::log2(distance / shell);
+      EXPECT_NEAR(halvings, std::round(halvings), 0.02);
+      ++split;
+    }
+    EXPECT_EQ(split, 10);
+    for (std::size_t n = 0; n < r.result.tetrahedra.size(); ++n) {
+      if (r.result.side[n] == Side::outside) continue;
+      EXPECT_GE(smallest_angle(r.points, r.result.tetrahedra[n]), 14.47);
+    }
+  }
 }
 
 TEST(Refine, MaxEdgeBoundsEdgesInside) {

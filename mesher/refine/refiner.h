@@ -3,11 +3,10 @@
 // source file per step.
 //
 // Invariants between insertions, for elements that wait in no queue:
-//  - a live subsegment is an edge of the tetrahedrization and its open diametral ball is empty;
-//  every tetrahedron having that edge
+//  - a live subsegment is an edge of the tetrahedrization, and every tetrahedron having that edge
 //    carries the edge's bit;
-//  - a live subfacet is a face with empty open diametral ball; both tetrahedra (a ghost on the
-//  hull) carry its id;
+//  - a live subfacet is a face, and both its tetrahedra (a ghost on the hull) carry its id;
+//  - with options.gabriel, the open diametral balls of both are empty;
 //  - the live subfacets of a facet are the planar Delaunay triangulation of its vertices, bounded
 //  by its subsegments.
 #pragma once
@@ -76,6 +75,9 @@ class Refiner {
   void collect_segment_facets();
   void recover_segments();
   void split_subsegment(std::uint32_t s);
+  void find_shells();
+  double shell_fraction(VertexId v, double length) const;
+  double split_fraction(const Subsegment& s, double length) const;
   VertexId place_on(const Subsegment& s);
   bool subsegment_encroached(std::uint32_t s, TetId having_edge);
   void check_subsegment(std::uint32_t s);
@@ -151,6 +153,7 @@ class Refiner {
     bool reversed;
   };
   std::vector<std::array<FacetUse, 2>> segment_facets_;  // per segment of the complex; kNone unused
+  std::vector<double> shell_;  // per input vertex: largest radius of the shells around it; 0: none
   std::vector<Subsegment> subsegments_;
   std::vector<std::uint32_t> first_subsegment_;                // per segment of the complex
   std::unordered_map<std::uint64_t, std::uint32_t> edge_map_;  // looked up only, never iterated

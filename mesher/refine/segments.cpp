@@ -54,6 +54,7 @@ std::uint32_t Refiner::find_subsegment(VertexId a, VertexId b) const {
 
 void Refiner::recover_segments() {
   collect_segment_facets();
+  find_shells();
   first_subsegment_.resize(plc_.segments.size());
   for (std::uint32_t n = 0; n < plc_.segments.size(); ++n) {
     first_subsegment_[n] =
@@ -101,17 +102,49 @@ void Refiner::check_subsegment(std::uint32_t s) {
     return;
   }
   mark_edge(s, t);
-  if (subsegment_encroached(s, t)) queue_subsegment(s);
+  if (options_.gabriel && subsegment_encroached(s, t)) queue_subsegment(s);
+}
+
+// The shells around an apex have the radius of its shortest segment, halved again and again.
+void Refiner::find_shells() {
+  shell_.assign(options_.apex.size(), 0);
+  for (const PlcSegment& segment : plc_.segments) {
+    const Vec3 d = relative(segment.vertex[1], points_.nearest(segment.vertex[0]));
+    const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    for (const VertexId v : segment.vertex) {
+      if (v >= shell_.size() || options_.apex[v] == 0) continue;
+      if (shell_[v] == 0 || length < shell_[v]) shell_[v] = length;
+    }
+  }
+}
+
+// How far from its end v a subsegment of that length crosses a shell in its middle third, as a
+// fraction of the length; 0 if v is no apex.
+double Refiner::shell_fraction(VertexId v, double length) const {
+  if (v >= shell_.size() || shell_[v] == 0) return 0;
+  const double ratio = shell_[v] / length;
+  return std::ldexp(ratio, -1 - std::ilogb(ratio * 1.5));
+}
+
+// Where to split a subsegment of that length, as a fraction from its first end: in the middle, or
+// where it crosses an apex's shell.
+double Refiner::split_fraction(const Subsegment& s, double length) const {
+  const double from_a = shell_fraction(s.a, length), from_b = shell_fraction(s.b, length);
+  if (from_a == 0 && from_b == 0) return 0.5;
+  const bool at_a =
+      from_b == 0 || (from_a != 0 && std::abs(from_a - 0.5) <= std::abs(from_b - 0.5));
+  return at_a ? from_a : 1 - from_b;
 }
 
 VertexId Refiner::place_on(const Subsegment& s) {
   const PlcSegment& segment = plc_.segments[s.segment];
   const Vec3 a = points_.nearest(s.a);
   const Vec3 d = relative(s.b, a);
-  const Vec3 middle = {a[0] + d[0] / 2, a[1] + d[1] / 2, a[2] + d[2] / 2};
   const double length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
   guard(length2, a);
   const double length = std::sqrt(length2);
+  const double fraction = split_fraction(s, length);
+  const Vec3 middle = {a[0] + d[0] * fraction, a[1] + d[1] * fraction, a[2] + d[2] * fraction};
   const std::uint32_t facet = segment_facets_[s.segment][0].facet;
   const bool box = segment.input_edge == kNone && plc_.facets[facet].input_facet == kNone;
   if (segment.input_edge == kNone && !box) {
@@ -147,8 +180,10 @@ void Refiner::split_subsegment(std::uint32_t s) {
   collect_constraints();
   edge_map_.erase(edge_key(a, b));
   subsegments_[s].alive = false;
-  queue_encroached_subsegments(v);
-  queue_encroached_subfacets(v);
+  if (options_.gabriel) {
+    queue_encroached_subsegments(v);
+    queue_encroached_subfacets(v);
+  }
   commit(v);
 
   subsegments_[s].alive = true;
