@@ -102,10 +102,7 @@ class Job {
   // True once the row is complete.
   bool advance() {
     while (process_->advance()) {
-      if (step_ == Step::mesh && !after_mesh()) return true;
-      if (step_ == Step::measure && !after_measure()) return true;
-      if (step_ == Step::sidecar && !after_sidecar()) return true;
-      if (step_ == Step::verify && !after_verify()) return true;
+      if (!after(step_)) return true;
       step_ = static_cast<Step>(static_cast<int>(step_) + 1);
     }
     return false;
@@ -120,6 +117,20 @@ class Job {
   }
 
   // These return whether a further step has been started.
+  bool after(Step step) {
+    switch (step) {
+      case Step::mesh:
+        return after_mesh();
+      case Step::measure:
+        return after_measure();
+      case Step::sidecar:
+        return after_sidecar();
+      case Step::verify:
+        return after_verify();
+    }
+    return false;
+  }
+
   bool after_mesh() {
     const Outcome& outcome = process_->outcome();
     const Judgement judgement = judge(outcome, mesher_.exit_codes);

@@ -160,6 +160,47 @@ TEST_F(CampaignTest, MeshesAreKeptOnRequest) {
   EXPECT_TRUE(fs::exists(folder_ / "kept" / "k" / "m0.off.tet"));
 }
 
+// The oracles are asked once, with the sidecar of a second run where there is one, and that run has
+// to write the same bytes. `self` is a script here that notes what it is asked.
+TEST_F(CampaignTest, VerdictsAndSidecars) {
+  std::ofstream(folder_ / "models" / "m0.off")
+      << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  const fs::path script = folder_ / "self.sh";
+  std::ofstream(script) << "#!/bin/sh\necho \"$@\" >> " << calls().string() << "\nexec "
+                        << TETPROOF_PATH << " \"$@\"\n";
+  fs::permissions(script, fs::perms::owner_all);
+  options_.self = script;
+  options_.verify = options_.sidecars = true;
+  const auto with_sidecar = [](Mesher mesher, const std::string& line) {
+    mesher.sidecar_command = [line](const RunFiles& files) {
+      return std::vector<std::string>{"/bin/sh", "-c", line, files.again.string(),
+                                      files.exact.string()};
+    };
+    return mesher;
+  };
+  const std::string print = "printf '" + kCorner + "' > ";
+  const std::vector<Mesher> meshers = {
+      shell("plain", print + "mesh.tet"),
+      with_sidecar(shell("none", print + "mesh.tet"), print + "$0"),
+      with_sidecar(shell("other", print + "mesh.tet"), "echo > $0; echo nonsense > $1")};
+  run_campaign({models()[0]}, meshers, options_);
+  std::ifstream in(calls());
+  int verified = 0, exact = 0;
+  for (std::string line; std::getline(in, line);) {
+    verified += line.starts_with("verify ");
+    exact += line.find(" --exact ") != std::string::npos;
+  }
+  EXPECT_EQ(verified, 3);
+  EXPECT_EQ(exact, 1);
+  auto rows = rows_of_model(0);
+  EXPECT_EQ(rows["plain"].disposition, Disposition::ok) << rows["plain"].reason;
+  EXPECT_NE(rows["plain"].verdict_json.find("\"exact\""), std::string::npos);
+  EXPECT_EQ(rows["none"].disposition, Disposition::wrong_result);
+  EXPECT_TRUE(rows["none"].reason.starts_with("no sidecar")) << rows["none"].reason;
+  EXPECT_EQ(rows["other"].disposition, Disposition::wrong_result);
+  EXPECT_EQ(rows["other"].reason, "a second run wrote another mesh");
+}
+
 TEST_F(CampaignTest, NoFurtherModelIsBegunOnceTimeIsUp) {
   options_.stop_after_seconds = 0.2;
   const std::vector<Mesher> meshers = {shell("a", "sleep 0.3"), shell("b", "exit 4")};

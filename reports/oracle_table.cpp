@@ -67,24 +67,32 @@ Table oracle_table(const Selection& selection) {
       if (json.is_object()) add(json, row.model_name, meshers[mesher], order);
     }
   }
-  table.header = {"Mesher", "Files"};
-  table.header.insert(table.header.end(), kVerdicts.begin(), kVerdicts.end());
-  table.header.insert(table.header.end(), order.begin(), order.end());
+  std::vector<std::string> shown;
   for (const std::string& mesher : selection.meshers) {
-    if (!meshers.contains(mesher)) continue;
-    MesherVerdicts& sum = meshers[mesher];
-    std::vector<std::string> row = {mesher, std::to_string(sum.verified)};
-    for (const char* verdict : kVerdicts) row.push_back(std::to_string(sum.verdicts[verdict]));
-    for (const std::string& name : order) {
-      const OracleCount& count = sum.oracles[name];
-      row.push_back(count.asked == 0 ? "-"
-                                     : std::to_string(count.asked - count.failed) + " of " +
-                                           std::to_string(count.asked));
-      if (count.failed > 0) {
-        table.notes.push_back(mesher + ", " + name + ", for example " + shortened(count.example));
-      }
-    }
+    if (meshers.contains(mesher)) shown.push_back(mesher);
+  }
+  table.header = {"Verdict or oracle"};
+  table.header.insert(table.header.end(), shown.begin(), shown.end());
+  const auto add_row = [&](const std::string& name, const auto& cell) {
+    std::vector<std::string> row = {name};
+    for (const std::string& mesher : shown) row.push_back(cell(meshers[mesher]));
     table.rows.push_back(std::move(row));
+  };
+  add_row("files", [](const MesherVerdicts& sum) { return std::to_string(sum.verified); });
+  for (const char* verdict : kVerdicts) {
+    add_row(verdict, [&](MesherVerdicts& sum) { return std::to_string(sum.verdicts[verdict]); });
+  }
+  for (const std::string& name : order) {
+    add_row(name, [&](MesherVerdicts& sum) {
+      const OracleCount& count = sum.oracles[name];
+      if (count.asked == 0) return std::string("-");
+      return std::to_string(count.asked - count.failed) + " of " + std::to_string(count.asked);
+    });
+    for (const std::string& mesher : shown) {
+      const OracleCount& count = meshers[mesher].oracles[name];
+      if (count.failed == 0) continue;
+      table.notes.push_back(mesher + ", " + name + ", for example " + shortened(count.example));
+    }
   }
   table.notes.insert(table.notes.begin(),
                      "Of every oracle: how many of the files passed that it was asked about (run "
