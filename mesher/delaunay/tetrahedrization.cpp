@@ -267,31 +267,30 @@ bool Tetrahedrization::conflicts(TetId t, VertexId v) {
   return predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], v) > 0;
 }
 
-void Tetrahedrization::find_cavity(VertexId v, TetId start) {
+void Tetrahedrization::begin_cavity(TetId start) {
   epoch_ += 2;
   if (epoch_ >= 0xfffffff0U) {
     std::fill(mark_.begin(), mark_.end(), 0U);
     epoch_ = 2;
   }
-  cavity_.clear();
+  cavity_.assign(1, start);
   boundary_.clear();
-  cavity_.push_back(start);
   mark_[start] = epoch_;
-  for (std::size_t n = 0; n < cavity_.size(); ++n) {
-    const TetId t = cavity_[n];
-    for (int i = 0; i < 4; ++i) {
-      const TetId u = neighbor(t, i);
-      if (mark_[u] == epoch_) continue;
-      if (mark_[u] != epoch_ + 1) {
-        if (conflicts(u, v)) {
-          mark_[u] = epoch_;
-          cavity_.push_back(u);
-          continue;
-        }
-        mark_[u] = epoch_ + 1;
+}
+
+void Tetrahedrization::grow_across(TetId t, VertexId v) {
+  for (int i = 0; i < 4; ++i) {
+    const TetId u = neighbor(t, i);
+    if (mark_[u] == epoch_) continue;
+    if (mark_[u] != epoch_ + 1) {
+      if (conflicts(u, v)) {
+        mark_[u] = epoch_;
+        cavity_.push_back(u);
+        continue;
       }
-      boundary_.push_back({t, i});
+      mark_[u] = epoch_ + 1;
     }
+    boundary_.push_back({t, i});
   }
 }
 

@@ -71,7 +71,21 @@ class Tetrahedrization {
   // kNone).
   TetId locate(VertexId v, TetId hint, VertexId* duplicate = nullptr);
   // Finds all tetrahedra whose (perturbed) circumsphere contains v, starting at one that does.
-  void find_cavity(VertexId v, TetId start);
+  void find_cavity(VertexId v, TetId start) {
+    grow_cavity(v, start, [](TetId) { return true; });
+  }
+  // The same, nearest (in steps from face to face) first. visit(t) is told each tetrahedron of the
+  // cavity once it is known which of its neighbours belong to it too, and returns false to give up;
+  // so does grow_cavity then, and the cavity is incomplete.
+  template <class Visit>
+  bool grow_cavity(VertexId v, TetId start, Visit&& visit) {
+    begin_cavity(start);
+    for (std::size_t n = 0; n < cavity_.size(); ++n) {
+      grow_across(cavity_[n], v);
+      if (!visit(cavity_[n])) return false;
+    }
+    return true;
+  }
   std::span<const TetId> cavity() const { return cavity_; }
   bool in_cavity(TetId t) const { return mark_[t] == epoch_; }
   // Replaces the cavity by the star of v. The cavity's tetrahedra are dead afterwards but their
@@ -101,6 +115,8 @@ class Tetrahedrization {
   TetId allocate();
   void first_tetrahedron(std::span<VertexId> order);
   bool conflicts(TetId t, VertexId v);
+  void begin_cavity(TetId start);
+  void grow_across(TetId t, VertexId v);
   void collect_star(VertexId v);
   // Creates the tetrahedron of v over one cavity boundary face.
   TetId cone(const BoundaryFace& boundary, VertexId v);

@@ -256,9 +256,7 @@ void Refiner::split_subfacet(std::uint32_t s) {
   VertexId duplicate = kNone;
   const TetId start = dt_.locate(v, dt_.incident(subfacets_[container].v[0]), &duplicate);
   DELMESHER_CHECK(duplicate == kNone, "split point of a subfacet coincides with a vertex");
-  dt_.find_cavity(v, start);
-  collect_constraints();
-  if (queue_encroached_subsegments(v)) {
+  if (!find_free_cavity(v, start, false)) {
     points_.pop_back();
     queue_subfacet(s);
     return;

@@ -66,62 +66,98 @@ void Refiner::drain() {
 
 // Lists the subsegments and subfacets in and on the cavity: the only ones that its new vertex can
 // encroach upon, because the diametral ball of an edge or face is covered by the circumballs of the
-// tetrahedra around it.
-void Refiner::collect_constraints() {
+// tetrahedra around it (unless the centres of two are on one side, which without the Gabriel
+// property may be so).
+void Refiner::begin_constraints() {
   ++stamp_;
   subfacet_stamp_.resize(subfacets_.size(), 0);
   subsegment_stamp_.resize(subsegments_.size(), 0);
   found_subfacets_.clear();
   found_subsegments_.clear();
-  for (const TetId t : dt_.cavity()) {
-    if (t >= subfacet_.size()) continue;
-    for (const std::uint32_t s : subfacet_[t]) {
-      if (s == kNone || !subfacets_[s].alive) continue;
-      if (subfacet_stamp_[s] == stamp_) {
-        for (FoundSubfacet& found : found_subfacets_) found.internal |= found.id == s;
-        continue;
-      }
-      subfacet_stamp_[s] = stamp_;
-      found_subfacets_.push_back({s, false});
+}
+
+void Refiner::collect_constraints_of(TetId t) {
+  if (t >= subfacet_.size()) return;
+  for (const std::uint32_t s : subfacet_[t]) {
+    if (s == kNone || !subfacets_[s].alive) continue;
+    if (subfacet_stamp_[s] == stamp_) {
+      for (FoundSubfacet& found : found_subfacets_) found.internal |= found.id == s;
+      continue;
     }
-    for (int e = 0; e < 6; ++e) {
-      if ((edge_bits_[t] >> e & 1) == 0) continue;
-      const std::uint32_t s =
-          find_subsegment(dt_.vertex(t, kEdge[e][0]), dt_.vertex(t, kEdge[e][1]));
-      if (s == kNone || subsegment_stamp_[s] == stamp_) continue;
-      subsegment_stamp_[s] = stamp_;
-      found_subsegments_.push_back(s);
-    }
+    subfacet_stamp_[s] = stamp_;
+    found_subfacets_.push_back({s, false});
+  }
+  for (int e = 0; e < 6; ++e) {
+    if ((edge_bits_[t] >> e & 1) == 0) continue;
+    const std::uint32_t s = find_subsegment(dt_.vertex(t, kEdge[e][0]), dt_.vertex(t, kEdge[e][1]));
+    if (s == kNone || subsegment_stamp_[s] == stamp_) continue;
+    subsegment_stamp_[s] = stamp_;
+    found_subsegments_.push_back(s);
   }
 }
 
-bool Refiner::queue_encroached_subsegments(VertexId v) {
+void Refiner::find_cavity(VertexId v, TetId start) {
+  begin_constraints();
+  dt_.grow_cavity(v, start, [&](TetId t) {
+    collect_constraints_of(t);
+    return true;
+  });
+}
+
+// The same for a point that must not encroach: stops at the nearest constraint that it does
+// encroach and queues it, because the whole cavity of a point far outside can be most of the mesh.
+bool Refiner::find_free_cavity(VertexId v, TetId start, bool spare_subfacets) {
+  begin_constraints();
+  return dt_.grow_cavity(v, start, [&](TetId t) {
+    const std::size_t subsegments = found_subsegments_.size();
+    const std::size_t subfacets = found_subfacets_.size();
+    collect_constraints_of(t);
+    if (queue_encroached_subsegments(v, subsegments)) return false;
+    return !spare_subfacets ||
+           !(queue_lost_subfacets(t) || queue_encroached_subfacets(v, subfacets));
+  });
+}
+
+// A subfacet with both its tetrahedra in the cavity would be lost: without the Gabriel property it
+// may hide the new point from the tetrahedron that the point was made for. One that has a ghost
+// there is a side of the box, which only rounding can put the point beyond.
+bool Refiner::queue_lost_subfacets(TetId t) {
+  if (t >= subfacet_.size()) return false;
+  const bool ghost = dt_.is_ghost(t);
   bool any = false;
-  for (const std::uint32_t s : found_subsegments_) {
-    if (predicates_.dot_sign(subsegments_[s].a, v, subsegments_[s].b) < 0) {
-      queue_subsegment(s);
-      any = true;
-    }
+  for (int i = 0; i < 4; ++i) {
+    const std::uint32_t s = subfacet_[t][i];
+    if (s == kNone || !subfacets_[s].alive) continue;
+    if (!ghost && !dt_.in_cavity(dt_.neighbor(t, i))) continue;
+    queue_subfacet(s);
+    any = true;
   }
   return any;
 }
 
-bool Refiner::queue_encroached_subfacets(VertexId v) {
+bool Refiner::queue_encroached_subsegments(VertexId v, std::size_t first) {
   bool any = false;
-  for (const FoundSubfacet& found : found_subfacets_) {
-    const auto& c = subfacets_[found.id].v;
-    // A subfacet inside the cavity would be lost: without the Gabriel property it may hide v from
-    // the tetrahedron that v was made for.
-    if (found.internal || predicates_.in_diametral_ball(c[0], c[1], c[2], v) > 0) {
-      queue_subfacet(found.id);
-      any = true;
-    }
+  for (std::size_t n = first; n < found_subsegments_.size(); ++n) {
+    const Subsegment& s = subsegments_[found_subsegments_[n]];
+    if (!s.alive || predicates_.dot_sign(s.a, v, s.b) >= 0) continue;
+    queue_subsegment(found_subsegments_[n]);
+    any = true;
   }
   return any;
 }
 
-// Fills the cavity and carries over what is known of its tetrahedra. collect_constraints() must
-// have been called.
+bool Refiner::queue_encroached_subfacets(VertexId v, std::size_t first) {
+  bool any = false;
+  for (std::size_t n = first; n < found_subfacets_.size(); ++n) {
+    const auto& c = subfacets_[found_subfacets_[n].id].v;
+    if (predicates_.in_diametral_ball(c[0], c[1], c[2], v) <= 0) continue;
+    queue_subfacet(found_subfacets_[n].id);
+    any = true;
+  }
+  return any;
+}
+
+// Fills the cavity and carries over what is known of its tetrahedra.
 void Refiner::commit(VertexId v) {
   std::uint8_t side = kUnknown;
   bool first = true;

@@ -127,9 +127,16 @@ class Refiner {
   void guard(double squared_length, const Vec3& place) const;
   void queue_subsegment(std::uint32_t s);
   void queue_subfacet(std::uint32_t s);
-  void collect_constraints();
-  bool queue_encroached_subsegments(VertexId v);
-  bool queue_encroached_subfacets(VertexId v);
+  void begin_constraints();
+  void collect_constraints_of(TetId t);
+  // Find the cavity of v and the constraints in and on it; the second gives up, queues and returns
+  // false at the first subsegment (and subfacet, if these are to be spared) in the way.
+  void find_cavity(VertexId v, TetId start);
+  bool find_free_cavity(VertexId v, TetId start, bool spare_subfacets);
+  // Of the constraints found, from the given place on.
+  bool queue_encroached_subsegments(VertexId v, std::size_t first = 0);
+  bool queue_encroached_subfacets(VertexId v, std::size_t first = 0);
+  bool queue_lost_subfacets(TetId t);
   void commit(VertexId v);
   void requeue_lost();
   // Finds the new subfacets among the new tetrahedra, requeues what was lost, judges the new

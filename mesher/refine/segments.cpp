@@ -176,8 +176,7 @@ void Refiner::split_subsegment(std::uint32_t s) {
   const TetId start = dt_.locate(v, dt_.incident(a), &duplicate);
   DELMESHER_CHECK(duplicate == kNone, "split point of a subsegment coincides with a vertex");
   ++on_segments_;
-  dt_.find_cavity(v, start);
-  collect_constraints();
+  find_cavity(v, start);
   edge_map_.erase(edge_key(a, b));
   subsegments_[s].alive = false;
   if (options_.gabriel) {

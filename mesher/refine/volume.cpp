@@ -216,19 +216,7 @@ bool Refiner::try_volume_point(const BadTet& bad, const Vec3& center, double gri
     points_.pop_back();
     return false;
   }
-  dt_.find_cavity(v, bad.t);
-  collect_constraints();
-  bool rejected = queue_encroached_subsegments(v) || queue_encroached_subfacets(v);
-  if (!rejected) {
-    for (const TetId t : dt_.cavity()) {
-      const int i = dt_.index_of(t, kInfinite);
-      // Outside the box, which only rounding can bring about: the box gives way.
-      if (i < 0 || subfacet_[t][i] == kNone) continue;
-      queue_subfacet(subfacet_[t][i]);
-      rejected = true;
-    }
-  }
-  if (rejected) {
+  if (!find_free_cavity(v, bad.t, true)) {
     points_.pop_back();
     bad_.push(bad);
     return true;
