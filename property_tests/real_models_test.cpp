@@ -69,7 +69,8 @@ TEST_P(RealModels, KeepEveryPromiseWithTheDefaults) {
 
 TEST_P(RealModels, KeepEveryPromiseWithThePapersSettings) {
   delmesher::Options options;
-  options.acute = 90;
+  options.acute = options.corner = 90;
+  options.gabriel = true;
   options.region = delmesher::Region::hull;
   expect_every_promise_kept(oracles::read_surface(extracted(GetParam()).string()), options);
 }

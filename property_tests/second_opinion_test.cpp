@@ -16,6 +16,7 @@
 #include "oracles/cgal/surface_opinion.h"
 #include "oracles/delaunay.h"
 #include "oracles/mesh_file.h"
+#include "oracles/surface_file.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
@@ -188,6 +189,41 @@ TEST(SurfaceValidity, ThreeProgramsAgreeOnSurfacesThatMayOrMayNotCrossThemselves
   EXPECT_GT(valid, asked / 8);
   EXPECT_LT(valid, asked - asked / 8);
 }
+
+#ifdef CGAL_DATA
+// Models that come with CGAL, valid or not. Files that are no surfaces are left out.
+TEST(SurfaceValidity, ThreeProgramsAgreeOnCgalsModels) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(TETPROOF_SCRATCH) / "cgals_models";
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  const std::string command =
+      "tar -xzf " CGAL_DATA " -C '" + folder.string() + "' --wildcards 'data/meshes/*.off'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder / "data" / "meshes")) {
+    constexpr std::uintmax_t kLargest = 200000;
+    if (entry.path().extension() == ".off" && entry.file_size() < kLargest) {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  std::size_t valid = 0, asked = 0;
+  for (const fs::path& file : files) {
+    Polyhedron polyhedron;
+    try {
+      polyhedron = read_surface(file.string());
+    } catch (const std::exception&) {
+      continue;
+    }
+    ++asked;
+    valid += agreed_validity(file.filename().string(), samples::to_surface(polyhedron));
+  }
+  fs::remove_all(folder);
+  EXPECT_GT(valid, 15U);
+  EXPECT_GT(asked, valid + 5);
+}
+#endif
 
 // ---------------------------------------------------------------------------- meshes by others
 
