@@ -39,7 +39,7 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->required();
   app.add_option("--exact", arguments.exact, "sidecar with exact coordinates");
   app.add_option("--stage", arguments.stage,
-                 "what is checked (final; of a sidecar both, if not said otherwise)")
+                 "what is checked (final; with a sidecar, what it holds)")
       ->transform(one_of<Stage>({{"refined", Stage::refined}, {"final", Stage::final}}))
       ->type_name("STAGE");
   app.add_option("--delta", arguments.options.delta,
@@ -92,8 +92,10 @@ std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   delmesher::ExactRecord record;
   if (!arguments.exact.empty()) record = read_sidecar(arguments.exact);
   VerifyOptions options = arguments.options;
-  const bool refined_as_well = !record.refined.empty() && !record.final.empty();
-  options.stage = arguments.stage.value_or(refined_as_well ? Stage::both : Stage::final);
+  const Stage recorded = record.refined.empty() ? Stage::final
+                         : record.final.empty() ? Stage::refined
+                                                : Stage::both;
+  options.stage = arguments.stage.value_or(recorded);
   terminal.say(std::to_string(mesh.tetrahedra.size()) + " tetrahedra read");
   options.progress = [&](const OracleReport& oracle) {
     terminal.say(oracle.name + ": " + std::to_string(oracle.checked) + " " + oracle.checked_what);

@@ -86,6 +86,19 @@ TEST_F(Files, AllFormatsAndTheSidecarAreVerified) {
   }
 }
 
+// What is written is the refined mesh, of the chamfered wedge: with the sidecar it is taken for
+// that.
+TEST_F(Files, ApproximateMeshesAreVerifiedAsRefinedMeshes) {
+  for (const samples::NamedSurface& model : samples::surfaces(1)) {
+    if (model.name == "wedge") write_off("in.off", samples::to_polyhedron(model.surface));
+  }
+  ASSERT_EQ(run("mesh -q --approximate " + path("in.off") + " -o " + path("out.mesh") +
+                " --exact " + path("out.exact")),
+            0);
+  EXPECT_EQ(verify({path("in.off"), path("out.mesh"), "--exact", path("out.exact")}), 0);
+  EXPECT_EQ(verify({path("in.off"), path("out.mesh"), "--stage", "final"}), 1);
+}
+
 TEST_F(Files, HullsCarryTheirRegionsInAllFormats) {
   write_off("in.off", samples::hollow_cube().input);
   std::string outputs;
