@@ -99,8 +99,8 @@ Outline outline(const Plc& plc, const PlcFacet& facet, const PointStore& points)
   return result;
 }
 
-// A pyramid on a prism: its faces have corners of 43.6 and 95.9 degrees at the apex, vertex 8, where
-// nothing else is acute.
+// A pyramid on a prism: its faces have corners of 43.6 and 95.9 degrees at the apex, vertex 8,
+// where nothing else is acute.
 TEST(Corners, OfOneFacetHaveAThresholdOfTheirOwn) {
   Surface surface = test_polyhedra::prism({{0, 0}, {8, 0}, {8, 4}, {0, 4}}, 6);
   std::erase_if(surface.triangles, [&](const auto& t) {
