@@ -6,6 +6,7 @@
 
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/arithmetic/dyadic.h"
+#include "mesher/surface/approximate_plane.h"
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/tetrahedron_contact.h"
 #include "mesher/surface/triangle_contact.h"
@@ -100,6 +101,37 @@ bool exact_ray_crosses(const DyadicPoint& p, std::size_t axis, int direction,
   return -determinant.sign() * sign * direction < 0;
 }
 
+// The planes of a tetrahedron's faces, to reject triangles beyond one of them.
+class TetrahedronFaces {
+ public:
+  TetrahedronFaces(const PointStore& points, const Tetrahedron& tetrahedron)
+      : corner_(tetrahedron) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& face = kInwardFaces[k];
+      plane_[k] = {points.approximation(corner_[static_cast<std::size_t>(face[0])]),
+                   points.approximation(corner_[static_cast<std::size_t>(face[1])]),
+                   points.approximation(corner_[static_cast<std::size_t>(face[2])])};
+    }
+  }
+
+  // Is the triangle certainly not on the inner side of some face? Corners that it shares with the
+  // face are on its plane.
+  bool separate(const PointStore& points, const std::array<VertexId, 3>& triangle) const {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool beyond = std::ranges::all_of(triangle, [&](VertexId v) {
+        if (plane_[k].side(points.approximation(v)) < 0) return true;
+        return v != corner_[k] && std::ranges::find(corner_, v) != corner_.end();
+      });
+      if (beyond) return true;
+    }
+    return false;
+  }
+
+ private:
+  Tetrahedron corner_;
+  std::array<ApproximatePlane, 4> plane_;
+};
+
 // Is the double point certainly inside the tetrahedron? Running error bounds, no exact stage.
 bool certainly_inside(const PointStore& points, const Tetrahedron& tetrahedron, const Vec3& p) {
   std::array<std::array<Bounded, 3>, 4> r;
@@ -130,6 +162,11 @@ struct Solid::Impl {
       const Vec3 p = predicates.points().nearest(v);
       input.add_explicit(p[0], p[1], p[2]);
     }
+    plane.reserve(surface.triangles.size());
+    for (const auto& [a, b, c] : surface.triangles) {
+      const PointStore& points = mesh_predicates.points();
+      plane.emplace_back(points.approximation(a), points.approximation(b), points.approximation(c));
+    }
   }
 
   static std::vector<Box> boxes(const SurfaceTopology& surface, const Predicates& predicates) {
@@ -147,7 +184,9 @@ struct Solid::Impl {
     const PointStore& points = predicates.points();
     const Box box = interior_box(points, tetrahedron);
     if (bvh.empty() || !bvh.node(0).box.overlaps(box)) return Side::outside;
+    TetrahedronFaces faces(points, tetrahedron);
     const bool disjoint = bvh.query(box, [&](std::uint32_t t) {
+      if (on_one_side(tetrahedron, t) || faces.separate(points, topology.triangles[t])) return true;
       return !meets_interior(predicates, tetrahedron, topology.triangles[t]);
     });
     if (!disjoint) return Side::straddling;
@@ -160,6 +199,24 @@ struct Solid::Impl {
                             ? contains(center)
                             : contains_centroid(tetrahedron);
     return inside ? Side::inside : Side::outside;
+  }
+
+  // Is no corner of the tetrahedron off the triangle's plane on one of its sides? Without rounding;
+  // false if in doubt.
+  bool on_one_side(const Tetrahedron& tetrahedron, std::uint32_t t) const {
+    const PointStore& points = predicates.points();
+    int all = 0;
+    for (const VertexId v : tetrahedron) {
+      const int side = plane[t].side(points.approximation(v));
+      if (side == 0) {
+        const auto planes = points.planes(v);
+        const PlaneId own = topology.facet_plane[topology.facet_of[t]];
+        if (!std::binary_search(planes.begin(), planes.end(), own)) return false;
+      }
+      if (side * all < 0) return false;
+      if (side != 0) all = side;
+    }
+    return all != 0;
   }
 
   struct Ray {
@@ -235,6 +292,7 @@ struct Solid::Impl {
   const SurfaceTopology& topology;
   Predicates& predicates;  // of the mesh's points
   Bvh bvh;
+  std::vector<ApproximatePlane> plane;  // per input triangle
   // A copy of the input vertices, with room for the start of a ray.
   PointStore input;
   Predicates input_predicates{input};
