@@ -195,7 +195,7 @@ std::string Verification::check_file() {
     for (Index& v : tet) v = v < mesh_.vertices.size() ? v + offset : kNone;
   }
   Neighbours neighbours;
-  add(check_complex(complex, neighbours));
+  add(check_complex(complex, neighbours, options_.stage == Stage::refined));
   for (const Tet& tet : complex.tetrahedra) {
     if (*std::max_element(tet.begin(), tet.end()) == kNone)
       return {};  // said by the complex oracle
