@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <chrono>
 #include <ctime>
 #include <fstream>
@@ -67,6 +68,14 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
          read_if_there(a) == read_if_there(b);
 }
 
+// A mesher's name may be a command.
+std::string file_name_of(std::string name) {
+  for (char& c : name) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
+  }
+  return name.substr(0, 60);
+}
+
 // One model with one mesher: mesh, then measure, then perhaps write a sidecar, then verify, each in
 // a child of its own.
 class Job {
@@ -81,8 +90,9 @@ class Job {
     fs::create_directories(folder_);
     files_ = {model.path, folder_ / ("mesh" + mesher.mesh_extension), folder_ / "stats.json",
               folder_ / ("again" + mesher.mesh_extension), folder_ / "exact.txt"};
+    if (!options.keep.empty()) files_.chamfered = folder_ / "mesh.chamfered.off";
     const auto argv = mesher.command(files_);
-    row_.command = joined(argv);
+    row_.command = without_folder(joined(argv));
     row_.started = now();
     start(argv, options.limits);
   }
@@ -135,7 +145,7 @@ class Job {
     const Outcome& outcome = process_->outcome();
     const Judgement judgement = judge(outcome, mesher_.exit_codes);
     row_.disposition = judgement.disposition;
-    row_.reason = judgement.reason;
+    row_.reason = without_folder(judgement.reason);
     if (outcome.ending == Ending::exited) row_.exit_code = outcome.exit_code;
     if (outcome.ending == Ending::signalled) row_.signal = outcome.signal;
     row_.wall_seconds = outcome.wall_seconds;
@@ -209,7 +219,8 @@ class Job {
       wrong("verify: " + (said.starts_with(prefix) ? said.substr(prefix.size()) : said));
     } else if (!told || outcome.exit_code != 0) {
       // Not the mesher's fault; the row says that nobody vouches for the mesh.
-      row_.verdict_json = Json({{"error", judge(outcome, ExitCodes::ours).reason}}).dump();
+      const std::string reason = without_folder(judge(outcome, ExitCodes::ours).reason);
+      row_.verdict_json = Json({{"error", reason}}).dump();
     }
     return false;
   }
@@ -219,7 +230,16 @@ class Job {
 
   void wrong(const std::string& reason) {
     row_.disposition = Disposition::wrong_result;
-    row_.reason += (row_.reason.empty() ? "" : "; ") + reason;
+    row_.reason += (row_.reason.empty() ? "" : "; ") + without_folder(reason);
+  }
+
+  // Reasons must not tell two runs of the same model apart by the folder they were in.
+  std::string without_folder(std::string text) const {
+    const std::string prefix = folder_.string() + "/";
+    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) {
+      text.erase(at, prefix.size());
+    }
+    return text;
   }
 
   // Wrong results are found here, never by exit status alone.
@@ -235,11 +255,22 @@ class Job {
     if (crowded > 0) wrong(std::to_string(crowded) + " faces of more than two tetrahedra");
   }
 
-  void keep_mesh() const {
+  // The mesh, files that belong to it (.ele, .face), and the chamfered surface. The name holds
+  // digits of the hash, since models in different folders may have the same name.
+  void keep_mesh() {
     if (options_.keep.empty()) return;
-    const fs::path target = options_.keep / mesher_.name / (model_.name + mesher_.mesh_extension);
-    fs::create_directories(target.parent_path());
-    fs::copy_file(files_.mesh, target, fs::copy_options::overwrite_existing);
+    const std::uint64_t bound = options_.keep_tetrahedra;
+    if (bound > 0 && row_.mesh->tetrahedra > bound) return;
+    const fs::path stem = options_.keep / file_name_of(mesher_.name) /
+                          (model_.name + "-" + model_.sha256.substr(0, 8));
+    fs::create_directories(stem.parent_path());
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with("mesh.")) continue;
+      fs::copy_file(entry.path(), stem.string() + name.substr(4),
+                    fs::copy_options::overwrite_existing);
+    }
+    row_.mesh_path = fs::absolute(stem.string() + mesher_.mesh_extension).lexically_normal();
   }
 
   const Model& model_;
@@ -262,27 +293,31 @@ class Campaign {
         database_(options.database, ResultsDatabase::Mode::write),
         scratch_(fs::absolute(options.database).string() + ".scratch"),
         progress_(models.size() * meshers.size(), options.terminal) {
-    // The lock on the database makes this folder ours: what is in it was left by a killed run.
-    fs::remove_all(scratch_);
+    // The lock on the database makes this folder ours: what is in it was left by a killed run,
+    // whose last child may still be about to be killed, hence a folder of our own in it.
+    std::error_code ignored;
+    fs::remove_all(scratch_, ignored);
   }
 
   CampaignSummary run() {
-    fs::create_directories(scratch_);
-    while (interrupted == 0 && (start_jobs() || !running_.empty())) {
+    const fs::path own = scratch_ / std::to_string(getpid());
+    fs::create_directories(own);
+    while (interrupted == 0 && (start_jobs(own) || !running_.empty())) {
       wait();
       collect();
       show_progress();
     }
     summary_.interrupted = interrupted != 0;
     running_.clear();
-    fs::remove_all(scratch_);
+    std::error_code ignored;
+    fs::remove_all(scratch_, ignored);
     progress_.finish();
     return summary_;
   }
 
  private:
   // Fills the free places; false when there is nothing left to start.
-  bool start_jobs() {
+  bool start_jobs(const fs::path& folder) {
     while (running_.size() < options_.jobs && next_ < models_.size() * meshers_.size()) {
       if (next_ % meshers_.size() == 0 && out_of_time()) {
         summary_.models_left_out = models_.size() - next_ / meshers_.size();
@@ -294,10 +329,12 @@ class Campaign {
       RunRow row;
       row.key = {model.sha256, mesher.name, mesher.version, mesher.flags,
                  describe(options_.limits)};
-      if (database_.has(row.key)) {
+      const auto present = database_.find(row.key);
+      if (present && !options_.retry.contains(present->disposition)) {
         ++summary_.present;
+        ++summary_.counts[static_cast<std::size_t>(present->disposition)];
         ++next_;
-        progress_.already_done();
+        progress_.already_done(*present);
         continue;
       }
       row.model_name = model.name;
@@ -306,7 +343,7 @@ class Campaign {
       row.region = mesher.region;
       row.host = host_;
       running_.push_back(std::make_unique<Job>(model, mesher, std::move(row),
-                                               scratch_ / std::to_string(next_), options_));
+                                               folder / std::to_string(next_), options_));
       ++next_;
     }
     return !running_.empty();
@@ -368,6 +405,10 @@ CampaignSummary run_campaign(const std::vector<Model>& models, const std::vector
 
 void interrupt_campaign() {
   interrupted = 1;
+}
+
+bool campaign_interrupted() {
+  return interrupted != 0;
 }
 
 std::string describe(const Limits& limits) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,13 @@ struct CampaignOptions {
   std::filesystem::path supervisor;  // tetproof-supervise
   std::filesystem::path self;        // tetproof, whose `measure` looks at the meshes
   std::filesystem::path database;
-  std::filesystem::path keep;  // folder for the meshes; empty: they are not kept
+  std::filesystem::path keep;         // folder for the meshes; empty: they are not kept
+  std::uint64_t keep_tetrahedra = 0;  // keep none with more than this; 0: no bound
+  std::set<Disposition> retry;        // rows that ended so are run again
   Limits limits;
   unsigned jobs = 1;
   double stop_after_seconds = 0;  // begin no further model after this long; 0: no bound
-  bool verify = false;            // ask `tetproof verify` for a verdict on each mesh
+  bool verify = true;             // ask `tetproof verify` for a verdict on each mesh
   // With `verify`: meshers that know sidecars write one in a second run, which counts for nothing
   // else but has to write the same bytes, and the oracles that need one are asked as well.
   bool sidecars = false;
@@ -41,6 +44,7 @@ CampaignSummary run_campaign(const std::vector<Model>& models, const std::vector
 
 // To be called from a signal handler.
 void interrupt_campaign();
+bool campaign_interrupted();
 
 // The limits as part of a row's key.
 std::string describe(const Limits& limits);

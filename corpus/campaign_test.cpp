@@ -35,6 +35,7 @@ class CampaignTest : public testing::Test {
     options_.supervisor = TETPROOF_SUPERVISE_PATH;
     options_.self = TETPROOF_PATH;
     options_.database = folder_ / "run.sqlite";
+    options_.verify = false;  // the models are not even surfaces
     options_.limits = {.wall_seconds = 10, .cpu_seconds = 10, .memory_bytes = 300u << 20};
   }
   void TearDown() override { fs::remove_all(folder_); }
@@ -156,8 +157,45 @@ TEST_F(CampaignTest, StatisticsOfTheMesherAreStored) {
 
 TEST_F(CampaignTest, MeshesAreKeptOnRequest) {
   options_.keep = folder_ / "kept";
-  run_campaign({models()[0]}, {shell("k", "printf '" + kCorner + "' > mesh.tet")}, options_);
-  EXPECT_TRUE(fs::exists(folder_ / "kept" / "k" / "m0.off.tet"));
+  const auto mesher = shell("k", "printf '" + kCorner + "' > mesh.tet");
+  run_campaign({models()[0]}, {mesher}, options_);
+  const fs::path kept = rows_of_model(0)["k"].mesh_path;
+  EXPECT_EQ(kept, folder_ / "kept" / "k" / ("m0.off-" + models()[0].sha256.substr(0, 8) + ".tet"));
+  EXPECT_TRUE(fs::exists(kept));
+  options_.keep_tetrahedra = 1;
+  run_campaign({models()[1]}, {mesher}, options_);
+  EXPECT_NE(rows_of_model(1)["k"].mesh_path, "");
+  run_campaign({models()[2]}, {shell("k", "printf '" + kInverted + "' > mesh.tet")}, options_);
+  EXPECT_EQ(rows_of_model(2)["k"].mesh_path, "");  // three tetrahedra
+}
+
+TEST_F(CampaignTest, RowsAreRunAgainOnRequest) {
+  const std::vector<Mesher> meshers = {shell("a", "printf '" + kCorner + "' > mesh.tet"),
+                                       shell("b", "kill -9 $$"), shell("c", "exit 4")};
+  run_campaign({models()[0]}, meshers, options_);
+  EXPECT_EQ(call_count(), 3);
+  options_.retry = {Disposition::killed};
+  EXPECT_EQ(run_campaign({models()[0]}, meshers, options_).present, 2U);
+  EXPECT_EQ(call_count(), 4);
+  EXPECT_EQ(row_count(), 3U);
+}
+
+// The mesh of the corner against a real surface: a verdict is in each row.
+TEST_F(CampaignTest, TheOraclesAreAskedUnlessToldNotTo) {
+  EXPECT_TRUE(CampaignOptions().verify);
+  std::ofstream(folder_ / "models" / "m0.off")
+      << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  std::ofstream(folder_ / "models" / "m1.off")
+      << "OFF\n4 4 0\n0 0 0\n2 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  options_.verify = true;
+  run_campaign({models()[0], models()[1]}, {shell("v", "printf '" + kCorner + "' > mesh.tet")},
+               options_);
+  const RunRow right = rows_of_model(0)["v"], wrong = rows_of_model(1)["v"];
+  EXPECT_EQ(right.disposition, Disposition::ok) << right.reason;
+  EXPECT_EQ(verdict_of(right), "exact");
+  EXPECT_EQ(wrong.disposition, Disposition::wrong_result);
+  EXPECT_EQ(verdict_of(wrong), "broken");
+  EXPECT_EQ(wrong.reason.find("scratch"), std::string::npos) << wrong.reason;
 }
 
 // The oracles are asked once, with the sidecar of a second run where there is one, and that run has

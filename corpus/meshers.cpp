@@ -1,5 +1,9 @@
 #include "corpus/meshers.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -18,11 +22,13 @@ struct OwnVariant {
 
 // The paper's experiments by their names (design: "--preset paper" is delta 14.47, tau 1e-4,
 // corners below 90 degrees chamfered, and everything down to the outer box).
-constexpr OwnVariant kOwn[] = {{"delmesher", "mesh"},
-                               {"delmesher-e4", "mesh --preset paper"},
-                               {"safe-delmesher-e4", "mesh --preset paper --slivers off"},
-                               {"delmesher-nofilter", "mesh --preset paper --tau 0"},
-                               {"cdt", "cdt --region hull"}};
+constexpr OwnVariant kOwn[] = {
+    {"delmesher", "mesh"},
+    {"delmesher-e4", "mesh --preset paper"},
+    {"safe-delmesher-e4", "mesh --preset paper --slivers off"},
+    {"delmesher-nofilter", "mesh --preset paper --tau 0"},
+    {"delmesher-nobridges", "mesh --preset paper --no-bridge-simplification"},
+    {"cdt", "cdt --region hull"}};
 constexpr OwnVariant kTetgen[] = {{"tetgen", "zpcq"}, {"tetgen-T0", "zpcqT0"}};
 
 std::vector<std::string> words_of(const std::string& text) {
@@ -67,6 +73,9 @@ Mesher own_mesher(const std::string& name, const std::string& arguments,
          {files.input.string(), std::string("-o"), files.mesh.string(), std::string("--stats"),
           files.stats.string(), std::string("-q")}) {
       argv.push_back(word);
+    }
+    if (!files.chamfered.empty() && !words.empty() && words.front() == "mesh") {
+      argv.insert(argv.end(), {"--save-chamfered", files.chamfered.string()});
     }
     return argv;
   };
@@ -122,7 +131,48 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-Mesher command_mesher(const std::string& name, const std::string& line) {
+// The program that a command line begins with, if it is a file; shells may begin otherwise.
+std::optional<fs::path> program_of(const std::string& line) {
+  const auto words = words_of(line);
+  if (words.empty()) return std::nullopt;
+  const auto is_program = [](const fs::path& path) {
+    return fs::is_regular_file(path) && access(path.c_str(), X_OK) == 0;
+  };
+  if (words[0].find('/') != std::string::npos) {
+    return is_program(words[0]) ? std::optional<fs::path>(words[0]) : std::nullopt;
+  }
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    if (is_program(fs::path(folder) / words[0])) return fs::path(folder) / words[0];
+  }
+  return std::nullopt;
+}
+
+// "key=value" pieces between "cmd" and ':'.
+void take_declarations(const std::string& text, Mesher& mesher) {
+  std::istringstream pieces(text);
+  for (std::string piece; std::getline(pieces, piece, ',');) {
+    if (piece.empty()) continue;
+    const auto equals = piece.find('=');
+    const std::string key = piece.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : piece.substr(equals + 1);
+    char* end = nullptr;
+    if (key == "region" && (value == "hull" || value == "interior")) {
+      mesher.region = value;
+    } else if (key == "deviation" && !value.empty() &&
+               (mesher.declared_deviation = std::strtod(value.c_str(), &end)) >= 0 && *end == 0) {
+      continue;
+    } else {
+      throw std::runtime_error("cmd," + piece +
+                               ": region=hull, region=interior or deviation=FRACTION is expected");
+    }
+  }
+}
+
+Mesher command_mesher(const std::string& name, const std::string& text) {
+  const auto colon = text.find(':');
+  const std::string line = text.substr(colon + 1);
   const auto start = line.find("{out.");
   const auto end = start == std::string::npos ? start : line.find('}', start);
   if (line.find("{in}") == std::string::npos || end == std::string::npos) {
@@ -130,17 +180,24 @@ Mesher command_mesher(const std::string& name, const std::string& line) {
   }
   Mesher mesher;
   mesher.name = name;
-  mesher.version = "cmd";
+  take_declarations(text.substr(3, colon - 3), mesher);
+  const auto program = program_of(line);
+  mesher.version = program ? "cmd (build " + build_id(*program) + ")" : "cmd";
   mesher.flags = line;
   mesher.mesh_extension = line.substr(start + 4, end - start - 4);
   mesher.command = [line, place = line.substr(start, end + 1 - start)](const RunFiles& files) {
-    std::string text = line;
-    replace_all(text, place, quoted(files.mesh.string()));
-    replace_all(text, "{in}", quoted(files.input.string()));
-    replace_all(text, "{stats}", quoted(files.stats.string()));
-    return std::vector<std::string>{"/bin/sh", "-c", text};
+    std::string command = line;
+    replace_all(command, place, quoted(files.mesh.string()));
+    replace_all(command, "{in}", quoted(files.input.string()));
+    replace_all(command, "{stats}", quoted(files.stats.string()));
+    return std::vector<std::string>{"/bin/sh", "-c", command};
   };
   return mesher;
+}
+
+bool is_command(const std::string& text) {
+  return text.starts_with("cmd:") ||
+         (text.starts_with("cmd,") && text.find(':') != std::string::npos);
 }
 
 }  // namespace
@@ -152,11 +209,11 @@ Mesher make_mesher(const std::string& text, const MesherPrograms& programs) {
   for (const OwnVariant& tetgen : kTetgen) {
     if (text == tetgen.name) return tetgen_mesher(tetgen.name, tetgen.arguments, programs);
   }
-  if (text.starts_with("cmd:")) return command_mesher(text, text.substr(4));
+  if (is_command(text)) return command_mesher(text, text);
   const auto equals = text.find('=');
   if (equals != std::string::npos && equals > 0) {
     const std::string name = text.substr(0, equals), rest = text.substr(equals + 1);
-    if (rest.starts_with("cmd:")) return command_mesher(name, rest.substr(4));
+    if (is_command(rest)) return command_mesher(name, rest);
     if (rest.starts_with("delmesher:")) return own_mesher(name, rest.substr(10), programs);
   }
   throw std::runtime_error("unknown mesher: " + text);

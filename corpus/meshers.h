@@ -21,6 +21,7 @@ struct MesherPrograms {
 struct RunFiles {
   std::filesystem::path input, mesh, stats;
   std::filesystem::path again = {}, exact = {};
+  std::filesystem::path chamfered = {};  // for ours; empty: not wanted
 };
 
 struct Mesher {
@@ -39,7 +40,8 @@ struct Mesher {
 // Understands
 //   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter cdt tetgen tetgen-T0
 //   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options
-//   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it
+//   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it, and
+//   NAME=cmd,region=hull,deviation=1e-8:'...'   to say what it meshes and by how much it may miss
 // \throw std::runtime_error for an unknown name or a program that is missing.
 Mesher make_mesher(const std::string& name, const MesherPrograms& programs);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace tetproof {
@@ -75,6 +76,44 @@ TEST_F(Meshers, Commands) {
   EXPECT_EQ(mesher.command({"it's.off", "o.mesh", "s"})[2], "prog 'it'\\''s.off' 'o.mesh' 's'");
   EXPECT_EQ(make_mesher("no-slivers=delmesher:mesh --slivers off", programs_).flags,
             "mesh --slivers off");
+}
+
+TEST_F(Meshers, CommandsDeclareWhatTheyMesh) {
+  const Mesher mesher =
+      make_mesher("g=cmd,region=hull,deviation=1e-8:prog a:b {in} {out.msh}", programs_);
+  EXPECT_EQ(mesher.name, "g");
+  EXPECT_EQ(mesher.region, "hull");
+  EXPECT_EQ(mesher.declared_deviation, 1e-8);
+  EXPECT_EQ(mesher.flags, "prog a:b {in} {out.msh}");
+  EXPECT_EQ(make_mesher("cmd:prog {in} {out.msh}", programs_).declared_deviation, 0);
+  for (const char* text :
+       {"g=cmd,region=outside:p {in} {out.msh}", "cmd,deviation=:p {in} {out.msh}",
+        "cmd,deviation=-1:p {in} {out.msh}", "cmd,x:p {in} {out.msh}"}) {
+    EXPECT_THROW(make_mesher(text, programs_), std::runtime_error) << text;
+  }
+}
+
+TEST_F(Meshers, TheVersionOfACommandIsThatOfItsProgram) {
+  const std::string line = "cmd:" + script("prog", "true").string() + " {in} {out.msh}";
+  const std::string before = make_mesher(line, programs_).version;
+  EXPECT_TRUE(before.starts_with("cmd (build ")) << before;
+  script("prog", "false");
+  EXPECT_NE(make_mesher(line, programs_).version, before);
+  EXPECT_TRUE(make_mesher("cmd:sh -c x {in} {out.msh}", programs_).version.starts_with("cmd (b"));
+  EXPECT_EQ(make_mesher("cmd:no-such {in} {out.msh}", programs_).version, "cmd");
+}
+
+TEST_F(Meshers, TheChamferedSurfaceIsAskedForOnlyWhereThereIsOne) {
+  RunFiles files = {"in.off", "out.mesh", "stats.json"};
+  files.chamfered = "c.off";
+  const auto asks = [&](const std::string& name) {
+    const auto argv = make_mesher(name, programs_).command(files);
+    return std::find(argv.begin(), argv.end(), "--save-chamfered") != argv.end();
+  };
+  EXPECT_TRUE(asks("delmesher"));
+  EXPECT_TRUE(asks("safe-delmesher-e4"));
+  EXPECT_FALSE(asks("cdt"));
+  EXPECT_FALSE(asks("tetgen"));
 }
 
 TEST_F(Meshers, Errors) {

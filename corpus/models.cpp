@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -11,6 +12,9 @@ namespace tetproof {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kSmokeModels = 30, kNightlyModels = 300;
+constexpr std::uint64_t kSmokeBytes = 200'000, kNightlyBytes = 5'000'000;
 
 bool is_surface_file(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -31,6 +35,17 @@ std::vector<fs::path> surface_files_in(const fs::path& folder) {
 
 Model make_model(const fs::path& path, const std::string& name) {
   return {fs::absolute(path).lexically_normal(), name, sha256_of_file(path), fs::file_size(path)};
+}
+
+// The hashes of so many models of at most this size, in the order of the hashes.
+std::set<std::string> first_by_hash(const std::vector<Model>& models, std::size_t count,
+                                    std::uint64_t bytes) {
+  std::set<std::string> hashes;
+  for (const Model& model : models) {
+    if (model.bytes <= bytes) hashes.insert(model.sha256);
+  }
+  while (hashes.size() > count) hashes.erase(std::prev(hashes.end()));
+  return hashes;
 }
 
 }  // namespace
@@ -66,6 +81,23 @@ std::vector<Model> shard_of(const std::vector<Model>& models, unsigned index, un
       part.push_back(model);
     }
   }
+  return part;
+}
+
+Tier tier_from_name(const std::string& name) {
+  if (name == "smoke") return Tier::smoke;
+  if (name == "nightly") return Tier::nightly;
+  if (name == "weekly") return Tier::weekly;
+  throw std::runtime_error(name + ": smoke, nightly or weekly is expected");
+}
+
+std::vector<Model> tier_of(const std::vector<Model>& models, Tier tier) {
+  if (tier == Tier::weekly) return models;
+  std::set<std::string> chosen = first_by_hash(models, kSmokeModels, kSmokeBytes);
+  if (tier == Tier::nightly) chosen.merge(first_by_hash(models, kNightlyModels, kNightlyBytes));
+  std::vector<Model> part;
+  std::copy_if(models.begin(), models.end(), std::back_inserter(part),
+               [&](const Model& model) { return chosen.contains(model.sha256); });
   return part;
 }
 

@@ -27,4 +27,18 @@ ModelList collect_models(const std::vector<std::filesystem::path>& paths);
 // Part `index` of `count` (1-based) in a division by hash, the same whatever else is in the list.
 std::vector<Model> shard_of(const std::vector<Model>& models, unsigned index, unsigned count);
 
+// How much of a collection a campaign takes. Every tier is part of the next larger one.
+enum class Tier : std::uint8_t {
+  smoke,    // 30 models of at most 200 kB: minutes
+  nightly,  // 300 of at most 5 MB: a night
+  weekly    // all
+};
+
+// \throw std::runtime_error for anything but smoke, nightly and weekly.
+Tier tier_from_name(const std::string& name);
+
+// The first small enough models by hash, in the order of the list, so that a tier hardly changes
+// when the collection grows.
+std::vector<Model> tier_of(const std::vector<Model>& models, Tier tier);
+
 }  // namespace tetproof

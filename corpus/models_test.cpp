@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 
@@ -64,6 +65,31 @@ TEST_F(Models, ShardsPartition) {
     for (const Model& model : part) EXPECT_TRUE(seen.insert(model.sha256).second);
   }
   EXPECT_EQ(seen.size(), models.size());
+}
+
+TEST_F(Models, TiersAreNestedAndDoNotDependOnTheOrder) {
+  for (int i = 0; i < 400; ++i) write(std::to_string(i) + ".off", std::to_string(i));
+  write("large.off", std::string(300'000, 'x'));
+  write("huge.off", std::string(6'000'000, 'x'));
+  auto models = collect_models({folder_}).models;
+  const auto hashes = [](const std::vector<Model>& part) {
+    std::set<std::string> set;
+    for (const Model& model : part) set.insert(model.sha256);
+    return set;
+  };
+  const auto smoke = hashes(tier_of(models, Tier::smoke));
+  const auto nightly = hashes(tier_of(models, Tier::nightly));
+  EXPECT_EQ(smoke.size(), 30U);
+  EXPECT_GE(nightly.size(), 300U);
+  EXPECT_EQ(tier_of(models, Tier::weekly).size(), models.size());
+  EXPECT_TRUE(std::includes(nightly.begin(), nightly.end(), smoke.begin(), smoke.end()));
+  for (const Model& model : models) {
+    if (model.name == "huge.off") EXPECT_FALSE(nightly.contains(model.sha256));
+    if (model.name == "large.off") EXPECT_FALSE(smoke.contains(model.sha256));
+  }
+  std::reverse(models.begin(), models.end());
+  EXPECT_EQ(hashes(tier_of(models, Tier::smoke)), smoke);
+  EXPECT_THROW(tier_from_name("daily"), std::runtime_error);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ void Progress::done(const RunRow& row) {
 void Progress::running(const std::string& what) {
   if (!terminal_) return;
   const std::string line = fmt::format("{}/{} done, {} ok, {} not, {} left: {}", finished_, total_,
-                                       ok_, finished_ - present_ - ok_, eta(), what);
+                                       ok_, finished_ - ok_, eta(), what);
   fmt::print("\r\033[K{}", one_line(line, terminal_width() - 1));
   std::fflush(stdout);
 }

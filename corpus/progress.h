@@ -13,7 +13,10 @@ class Progress {
  public:
   Progress(std::size_t total, bool terminal) : total_(total), terminal_(terminal) {}
 
-  void already_done() { ++finished_, ++present_; }
+  void already_done(const RunRow& row) {
+    ++finished_, ++present_;
+    ok_ += row.disposition == Disposition::ok;
+  }
   void done(const RunRow& row);
   void running(const std::string& what);
   void finish();

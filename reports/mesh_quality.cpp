@@ -1,6 +1,8 @@
 #include "reports/mesh_quality.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
@@ -36,6 +38,31 @@ void measure_dihedrals(Vertices vertices, Tetrahedra tetrahedra, AngleStatistics
   }
   result.mean_min_dihedral = sum_min / static_cast<double>(tetrahedra.size());
   result.mean_max_dihedral = sum_max / static_cast<double>(tetrahedra.size());
+}
+
+double length(const Point& a, const Point& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+double volume(const Corners& c) {
+  const auto d = [&](int i, int j) { return c[static_cast<std::size_t>(i)][j] - c[0][j]; };
+  return (d(1, 0) * (d(2, 1) * d(3, 2) - d(2, 2) * d(3, 1)) -
+          d(1, 1) * (d(2, 0) * d(3, 2) - d(2, 2) * d(3, 0)) +
+          d(1, 2) * (d(2, 0) * d(3, 1) - d(2, 1) * d(3, 0))) /
+         6;
+}
+
+void measure_sizes(Vertices vertices, Tetrahedra tetrahedra, PartQuality& result) {
+  result.shortest_edge = std::numeric_limits<double>::infinity();
+  for (const auto& t : tetrahedra) {
+    const Corners c = corners(vertices, t);
+    result.volume += std::fabs(volume(c));
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        result.shortest_edge = std::min(result.shortest_edge, length(c[i], c[j]));
+      }
+    }
+  }
 }
 
 // The triangles of all tetrahedra, grouped by their smallest vertex: a bucket sort, because
@@ -161,6 +188,8 @@ nlohmann::ordered_json json_of(const PartQuality& part) {
           {"mean_max_face_angle", a.mean_max_face_angle},
           {"mean_min_dihedral", a.mean_min_dihedral},
           {"mean_max_dihedral", a.mean_max_dihedral},
+          {"shortest_edge", part.shortest_edge},
+          {"volume", part.volume},
           {"face_angle_histogram", a.face_angle_histogram},
           {"dihedral_histogram", a.dihedral_histogram}};
 }
@@ -173,6 +202,7 @@ PartQuality measure_part(Vertices vertices, Tetrahedra tetrahedra, std::uint64_t
   result.vertices = used_vertices(vertices.size(), tetrahedra);
   if (tetrahedra.empty()) return result;
   measure_dihedrals(vertices, tetrahedra, result.angles);
+  measure_sizes(vertices, tetrahedra, result);
   measure_faces(vertices, tetrahedra, result, crowded_faces);
   return result;
 }

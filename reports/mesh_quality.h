@@ -22,6 +22,7 @@ struct AngleStatistics {
 
 struct PartQuality {
   std::uint64_t tetrahedra = 0, vertices = 0, faces = 0;  // vertices in use
+  double shortest_edge = 0, volume = 0;                   // in units of the file
   AngleStatistics angles;
 };
 

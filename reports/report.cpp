@@ -5,6 +5,11 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "reports/compare.h"
+#include "reports/export.h"
+#include "reports/fidelity.h"
+#include "reports/figures.h"
+#include "reports/html.h"
 #include "reports/tables.h"
 
 namespace tetproof {
@@ -32,29 +37,127 @@ Table mesher_table(const Selection& selection) {
   return table;
 }
 
+// The hash of the model that Table 3 is about.
+std::string table_3_model(const Selection& selection, const std::string& name) {
+  if (name.empty()) {
+    std::string best;
+    std::size_t most = 0;
+    for (const std::string& model : selection.models) {
+      std::size_t successes = 0;
+      for (const std::string& mesher : selection.meshers) {
+        successes += selection.ok_run(mesher, model) != nullptr;
+      }
+      if (successes > most) {
+        most = successes;
+        best = model;
+      }
+    }
+    return best;
+  }
+  for (const std::string& model : selection.models) {
+    const std::string& full = selection.model_names.at(model);
+    if (full == name || short_name(full) == name) return model;
+  }
+  throw std::runtime_error(name + ": no run is of a model of this name");
+}
+
+std::vector<Chart> joined(std::vector<Chart> first, const std::vector<Chart>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+std::vector<Section> sections_of(const Selection& selection, const std::string& model) {
+  std::vector<Section> sections;
+  const auto add = [&](std::string id, std::string title, std::string text,
+                       std::vector<Table> tables, std::vector<Chart> charts) -> Section& {
+    return sections.emplace_back(Section{std::move(id), std::move(title), std::move(text),
+                                         std::move(tables), std::move(charts), false, false});
+  };
+  add("tables", "Tables 1 and 2", "", {table_1(selection), table_2(selection)}, {}).side_by_side =
+      true;
+  add("figures", "Angles (Figures 10, 11, 13)",
+      "Extreme angles of each model, average angles of each model, and all angles of all models. "
+      "Same bins for all meshers; each mesher's bars add up to 100 % of its own successes.",
+      {},
+      joined(joined(extreme_angle_charts(selection), average_angle_charts(selection)),
+             angle_charts(selection, "")));
+  add("success", "Success",
+      "What became of the runs, and what the oracles say of the files that were delivered.",
+      {disposition_table(selection), oracle_table(selection), failure_group_table(selection)},
+      {disposition_chart(selection), cactus_chart(selection), size_cactus_chart(selection)});
+  add("speed", "Time and memory", "",
+      {speed_table(selection), time_table(selection), phase_table(selection)},
+      {time_chart(selection), speed_chart(selection), phase_chart(selection)});
+  add("compare", "Comparison of two", "", {pairing_table(selection)}, {});
+  add("table3", "Table 3 and Figure 13", "", {table_3(selection, model)},
+      model.empty() ? std::vector<Chart>() : angle_charts(selection, model));
+  add("more", "Table 2, other ways", "", {table_2_all(selection), table_2_inside(selection)}, {})
+      .side_by_side = true;
+  add("chamfering", "Bridges and thin walls (section 4.4, Figure 8)", "",
+      {ablation_table(selection), figure_8_table(selection)}, {figure_8_chart(selection)});
+  add("fidelity", "Fidelity to the paper",
+      "What the paper states, what this campaign gives, and what differs.",
+      fidelity_tables(selection, model), {});
+  add("runs", "Slowest runs, failures, meshers", "",
+      {mesher_table(selection), slowest_table(selection)}, {});
+  add("failures", "Every failure", "", {failure_table(selection)}, {}).folded = true;
+  return sections;
+}
+
+std::vector<std::string> headline_of(const Selection& selection) {
+  std::vector<std::string> facts = {fmt::format("{} models", selection.models.size())};
+  for (const std::string& mesher : selection.meshers) {
+    facts.push_back(fmt::format("{}/{} {}", selection.ok_runs(mesher).size(),
+                                run_count(selection, mesher), mesher));
+  }
+  return facts;
+}
+
+std::vector<RunRow> all_rows(const Selection& selection) {
+  std::vector<RunRow> rows;
+  for (const auto& [mesher, runs] : selection.runs) {
+    for (const auto& [model, row] : runs) rows.push_back(row);
+  }
+  return rows;
+}
+
 }  // namespace
 
-ReportFiles write_report(const Selection& selection, const std::filesystem::path& folder) {
+ReportFiles write_report(const Selection& selection, const std::filesystem::path& folder,
+                         const ReportOptions& options) {
+  const std::string model = table_3_model(selection, options.model);
+  Page page;
+  page.title = "Meshing campaign";
+  page.headline = headline_of(selection);
+  page.sections = sections_of(selection, model);
+  page.notes = {
+      "CSV files of every table and figure, LaTeX (tables.tex) and Markdown (report.md) "
+      "stand beside this page."};
+  page.views = collect_views(selection, options.views, page.notes);
+
   std::filesystem::create_directories(folder);
-  const Table one = table_1(selection), two = table_2(selection);
-  const std::vector<Table> tables = {one,
-                                     two,
-                                     table_2_inside(selection),
-                                     disposition_table(selection),
-                                     oracle_table(selection),
-                                     speed_table(selection),
-                                     failure_table(selection),
-                                     mesher_table(selection)};
-  std::string text = fmt::format("# Meshing campaign\n\n{} models, {} meshers.\n\n",
-                                 selection.models.size(), selection.meshers.size());
-  for (const Table& table : tables) {
-    text += to_markdown(table);
-    write_file(folder / (table.name + ".csv"), to_csv(table));
+  std::string markdown = fmt::format("# Meshing campaign\n\n{} models, {} meshers.\n\n",
+                                     selection.models.size(), selection.meshers.size());
+  std::string latex = "% \\usepackage{booktabs}\n";
+  for (const Section& section : page.sections) {
+    markdown += "## " + section.title + "\n\n";
+    for (const Table& table : section.tables) {
+      markdown += to_markdown(table);
+      latex += to_latex(table);
+      write_file(folder / (table.name + ".csv"), to_csv(table));
+    }
+    for (const Chart& chart : section.charts) {
+      if (!chart.empty()) write_file(folder / (chart.name + ".csv"), to_csv(to_table(chart)));
+    }
   }
-  text += "Every run, one a line: [runs.csv](runs.csv).\n";
-  write_file(folder / "runs.csv", to_csv(run_table(selection)));
-  write_file(folder / "report.md", text);
-  return {folder / "report.md", to_markdown(one) + to_markdown(two)};
+  markdown += "Every run, one a line: [runs.csv](runs.csv). Figures: report.html.\n";
+  write_file(folder / "runs.csv", rows_to_csv(all_rows(selection)));
+  write_file(folder / "tables.tex", latex);
+  write_file(folder / "report.md", markdown);
+  write_file(folder / "report.html", to_html(page, selection));
+  const auto& first = page.sections.front().tables;
+  return {folder / "report.html", folder / "report.md",
+          to_markdown(first[0]) + to_markdown(first[1])};
 }
 
 }  // namespace tetproof

@@ -1,19 +1,27 @@
-// Writes a report: one Markdown file and a CSV file per table.
+// Writes a report: one self-contained HTML file, Markdown, LaTeX, and a CSV file per table and
+// figure.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
 #include "reports/selection.h"
+#include "reports/views.h"
 
 namespace tetproof {
 
+struct ReportOptions {
+  std::string model;  // of Table 3 and Figure 13, by name; empty: one on which most succeed
+  ViewOptions views;
+};
+
 struct ReportFiles {
-  std::filesystem::path markdown;
+  std::filesystem::path html, markdown;
   std::string headline;  // Tables 1 and 2 as Markdown, to be printed
 };
 
-// \throw std::runtime_error if the folder cannot be written.
-ReportFiles write_report(const Selection& selection, const std::filesystem::path& folder);
+// \throw std::runtime_error if the folder cannot be written, or if no model has the name.
+ReportFiles write_report(const Selection& selection, const std::filesystem::path& folder,
+                         const ReportOptions& options = {});
 
 }  // namespace tetproof

@@ -9,6 +9,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace tetproof {
@@ -16,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kSchemaVersion = 1;
+constexpr int kSchemaVersion = 2;
 constexpr int kApplicationId = 0x74657470;  // "tetp"
 constexpr std::array<const char*, 7> kDispositions = {
     "ok", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"};
@@ -38,6 +39,7 @@ CREATE TABLE IF NOT EXISTS runs (
   stats_json TEXT NOT NULL, mesh_json TEXT NOT NULL, verdict_json TEXT NOT NULL,
   stderr_tail TEXT NOT NULL, stdout_tail TEXT NOT NULL,
   command TEXT NOT NULL, host TEXT NOT NULL, started TEXT NOT NULL,
+  verdict TEXT NOT NULL DEFAULT '', mesh_path TEXT NOT NULL DEFAULT '',
   UNIQUE (model_sha256, mesher, version, flags, limits)))";
 
 constexpr const char* kColumns =
@@ -47,7 +49,11 @@ constexpr const char* kColumns =
     "max_face_angle, min_dihedral, max_dihedral, microseconds_per_tetrahedron, "
     "peak_bytes_per_tetrahedron, stats_json, mesh_json, verdict_json, stderr_tail, stdout_tail, "
     "command, host, started";
-constexpr int kColumnCount = 35;
+constexpr const char* kColumnsOfVersion2 = ", verdict, mesh_path";
+constexpr int kColumnCount = 37;
+
+constexpr const char* kWhereKey =
+    " WHERE model_sha256 = ? AND mesher = ? AND version = ? AND flags = ? AND limits = ?";
 
 // Binds values to consecutive parameters; absent ones become NULL.
 class Binder {
@@ -145,6 +151,8 @@ void bind_row(SQLite::Statement& statement, const RunRow& row) {
   bind(row.command);
   bind(row.host);
   bind(row.started);
+  bind(verdict_of(row));
+  bind(row.mesh_path);
 }
 
 RunRow read_row(SQLite::Statement& statement) {
@@ -177,6 +185,9 @@ RunRow read_row(SQLite::Statement& statement) {
   read(row.command);
   read(row.host);
   read(row.started);
+  std::string in_verdict;
+  read(in_verdict);
+  read(row.mesh_path);
   row.mesh = mesh_columns(row.mesh_json, "");
   row.inside = mesh_columns(row.mesh_json, "inside");
   row.refined = mesh_columns(row.stats_json, "refined");
@@ -226,6 +237,8 @@ std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std:
   columns.mean_max_face_angle = number("mean_max_face_angle");
   columns.mean_min_dihedral = number("mean_min_dihedral");
   columns.mean_max_dihedral = number("mean_max_dihedral");
+  columns.shortest_edge = number("shortest_edge");
+  columns.volume = number("volume");
   return columns;
 }
 
@@ -241,18 +254,13 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) {
     } else {
       database_ = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, 10000);
     }
-    const int version = database_->execAndGet("PRAGMA user_version").getInt();
+    version_ = database_->execAndGet("PRAGMA user_version").getInt();
     const bool empty = database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
-    if (version != kSchemaVersion && !(empty && mode == Mode::write)) {
+    const bool known = version_ == kSchemaVersion || version_ == 1;
+    if (!known && !(empty && mode == Mode::write)) {
       throw std::runtime_error(path.string() + ": not a results file of this version");
     }
-    if (mode == Mode::write) {
-      SQLite::Transaction transaction(*database_);
-      database_->exec(kSchema);
-      database_->exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
-      database_->exec("PRAGMA application_id = " + std::to_string(kApplicationId));
-      transaction.commit();
-    }
+    if (mode == Mode::write) prepare_for_writing();
   } catch (const SQLite::Exception& error) {
     if (lock_fd_ >= 0) close(lock_fd_);
     throw std::runtime_error(path.string() + ": " + error.what());
@@ -262,15 +270,28 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) {
   }
 }
 
+void ResultsDatabase::prepare_for_writing() {
+  SQLite::Transaction transaction(*database_);
+  database_->exec(kSchema);
+  if (version_ == 1) {
+    for (const char* column : {"verdict", "mesh_path"}) {
+      database_->exec(std::string("ALTER TABLE runs ADD COLUMN ") + column +
+                      " TEXT NOT NULL DEFAULT ''");
+    }
+  }
+  version_ = kSchemaVersion;
+  database_->exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
+  database_->exec("PRAGMA application_id = " + std::to_string(kApplicationId));
+  transaction.commit();
+}
+
 ResultsDatabase::~ResultsDatabase() {
   database_.reset();
   if (lock_fd_ >= 0) close(lock_fd_);
 }
 
 bool ResultsDatabase::has(const RunKey& key) {
-  SQLite::Statement query(*database_,
-                          "SELECT 1 FROM runs WHERE model_sha256 = ? AND mesher = ? AND "
-                          "version = ? AND flags = ? AND limits = ?");
+  SQLite::Statement query(*database_, std::string("SELECT 1 FROM runs") + kWhereKey);
   Binder bind(query);
   visit_key(bind, key);
   return query.executeStep();
@@ -280,16 +301,56 @@ void ResultsDatabase::store(const RunRow& row) {
   std::string places = "?";
   for (int i = 1; i < kColumnCount; ++i) places += ", ?";
   SQLite::Statement insert(*database_, std::string("INSERT OR REPLACE INTO runs (") + kColumns +
-                                           ") VALUES (" + places + ")");
+                                           kColumnsOfVersion2 + ") VALUES (" + places + ")");
   bind_row(insert, row);
   insert.exec();
 }
 
+std::string ResultsDatabase::selected_columns() const {
+  return std::string(kColumns) + (version_ == 1 ? ", '', ''" : kColumnsOfVersion2);
+}
+
+std::optional<RunRow> ResultsDatabase::find(const RunKey& key) {
+  SQLite::Statement query(*database_, "SELECT " + selected_columns() + " FROM runs" + kWhereKey);
+  Binder bind(query);
+  visit_key(bind, key);
+  if (!query.executeStep()) return std::nullopt;
+  return read_row(query);
+}
+
+bool ResultsDatabase::merge(const RunRow& row) {
+  const auto present = find(row.key);
+  if (present && !supersedes(row, *present)) return false;
+  store(row);
+  return true;
+}
+
 std::vector<RunRow> ResultsDatabase::rows() {
   std::vector<RunRow> result;
-  SQLite::Statement query(*database_, std::string("SELECT ") + kColumns + " FROM runs ORDER BY id");
+  SQLite::Statement query(*database_, "SELECT " + selected_columns() + " FROM runs ORDER BY id");
   while (query.executeStep()) result.push_back(read_row(query));
   return result;
+}
+
+std::string verdict_of(const RunRow& row) {
+  if (row.verdict_json.empty()) return "";
+  const Json json = Json::parse(row.verdict_json, nullptr, false);
+  const bool told = json.is_object() && json.contains("verdict") && json.at("verdict").is_string();
+  return told ? json.at("verdict").get<std::string>() : "unknown";
+}
+
+bool supersedes(const RunRow& row, const RunRow& other) {
+  const auto rank = [](const RunRow& r) {
+    return std::tuple(r.disposition != Disposition::killed, r.started, r.disposition,
+                      r.verdict_json, r.wall_seconds, r.cpu_seconds, r.peak_rss_bytes, r.host);
+  };
+  return rank(row) > rank(other);
+}
+
+void sort_rows(std::vector<RunRow>& rows) {
+  std::sort(rows.begin(), rows.end(), [](const RunRow& a, const RunRow& b) {
+    return std::tie(a.model_name, a.key) < std::tie(b.model_name, b.key);
+  });
 }
 
 }  // namespace tetproof

@@ -44,6 +44,7 @@ struct MeshColumns {
   double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
   double mean_min_face_angle = 0, mean_max_face_angle = 0;
   double mean_min_dihedral = 0, mean_max_dihedral = 0;
+  double shortest_edge = 0, volume = 0;  // 0 where a mesher's own statistics do not tell
 };
 
 struct RunRow {
@@ -66,7 +67,16 @@ struct RunRow {
   std::string verdict_json;  // the oracles', empty if not asked
   std::string stderr_tail, stdout_tail;
   std::string command, host, started;  // UTC, ISO 8601
+  std::string mesh_path;               // where the mesh was kept, empty if it was not
 };
+
+// The oracles' verdict: "exact", "rounded", "deviating", "broken"; "unknown" if they could not
+// decide, empty if they were not asked.
+std::string verdict_of(const RunRow& row);
+
+// Of two rows of one key the one that stays in a merge, whatever the order: a row that was killed
+// from outside gives way, then the earlier one.
+bool supersedes(const RunRow& row, const RunRow& other);
 
 // The columns found in a measured object (no member), or in its member `inside`, or in the member
 // `refined` of a mesher's statistics; a member without tetrahedra counts as absent.
@@ -84,11 +94,22 @@ class ResultsDatabase {
   bool has(const RunKey& key);
   // Durable against the death of this process once it returns. Replaces a row of the same key.
   void store(const RunRow& row);
+  // Stores the row unless one of the same key that stays is there; returns whether it did.
+  bool merge(const RunRow& row);
+  std::optional<RunRow> find(const RunKey& key);
   std::vector<RunRow> rows();  // in the order of storing
 
  private:
+  void prepare_for_writing();
+  // What stands between SELECT and FROM for read_row().
+  std::string selected_columns() const;
+
   std::unique_ptr<SQLite::Database> database_;
   int lock_fd_ = -1;
+  int version_ = 0;  // of the file's schema
 };
+
+// In an order that does not depend on how they came about: model name, then key.
+void sort_rows(std::vector<RunRow>& rows);
 
 }  // namespace tetproof

@@ -1,10 +1,12 @@
 #include "reports/results.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace tetproof {
@@ -115,6 +117,57 @@ TEST_F(Results, RowsSurviveTheDeathOfTheWriter) {
   ASSERT_TRUE(WIFSIGNALED(status));
   ResultsDatabase database(path_, Mode::write);  // the lock died with its owner
   EXPECT_EQ(database.rows().size(), 20u);
+}
+
+TEST_F(Results, MergingIsIdempotentAndWithoutOrder) {
+  RunRow early = sample(), late = sample(), killed = sample();
+  early.started = "2026-01-01T00:00:00Z";
+  late.started = "2026-01-02T00:00:00Z";
+  killed.started = "2026-01-03T00:00:00Z";
+  killed.disposition = Disposition::killed;
+  std::vector<RunRow> rows = {early, late, killed};
+  std::sort(rows.begin(), rows.end(),
+            [](const auto& a, const auto& b) { return a.started < b.started; });
+  do {
+    remove();
+    ResultsDatabase database(path_, Mode::write);
+    for (const RunRow& row : rows) database.merge(row);
+    for (const RunRow& row : rows) EXPECT_FALSE(database.merge(row));
+    ASSERT_EQ(database.rows().size(), 1U);
+    EXPECT_EQ(database.rows()[0].started, late.started);
+    EXPECT_TRUE(database.merge(sample("bb")));
+    EXPECT_EQ(database.rows().size(), 2U);
+  } while (std::next_permutation(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
+    return a.started < b.started;
+  }));
+}
+
+TEST_F(Results, VerdictsAreNamed) {
+  RunRow row;
+  EXPECT_EQ(verdict_of(row), "");
+  row.verdict_json = R"({"verdict": "rounded"})";
+  EXPECT_EQ(verdict_of(row), "rounded");
+  row.verdict_json = R"({"error": "too large"})";
+  EXPECT_EQ(verdict_of(row), "unknown");
+}
+
+// As a file of the first version, which had two columns less.
+TEST_F(Results, FilesOfTheFirstVersionAreReadAndUpgraded) {
+  ResultsDatabase(path_, Mode::write).store(sample());
+  {
+    SQLite::Database raw(path_.string(), SQLite::OPEN_READWRITE);
+    raw.exec("ALTER TABLE runs DROP COLUMN verdict");
+    raw.exec("ALTER TABLE runs DROP COLUMN mesh_path");
+    raw.exec("PRAGMA user_version = 1");
+  }
+  EXPECT_EQ(ResultsDatabase(path_, Mode::read).rows().at(0).stderr_tail, sample().stderr_tail);
+  RunRow second = sample("bb");
+  second.mesh_path = "kept.mesh";
+  ResultsDatabase(path_, Mode::write).store(second);
+  const auto rows = ResultsDatabase(path_, Mode::read).rows();
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].mesh_path, "");
+  EXPECT_EQ(rows[1].mesh_path, "kept.mesh");
 }
 
 TEST_F(Results, OtherFilesAreRefused) {

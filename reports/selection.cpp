@@ -4,12 +4,14 @@
 #include <iterator>
 #include <set>
 
+#include "reports/export.h"
+
 namespace tetproof {
 namespace {
 
-constexpr const char* kKnownOrder[] = {"tetgen-T0",         "tetgen",       "cdt",
-                                       "safe-delmesher-e4", "delmesher-e4", "delmesher-nofilter",
-                                       "delmesher"};
+constexpr const char* kKnownOrder[] = {"tetgen-T0",           "tetgen",       "cdt",
+                                       "safe-delmesher-e4",   "delmesher-e4", "delmesher-nofilter",
+                                       "delmesher-nobridges", "delmesher"};
 
 std::vector<std::string> ordered_meshers(
     const std::map<std::string, std::map<std::string, RunRow>>& runs) {
@@ -96,11 +98,18 @@ Selection select_runs(const std::vector<RunRow>& rows) {
   return selection;
 }
 
-Selection load_runs(const std::vector<std::filesystem::path>& databases) {
+Selection load_runs(const std::vector<std::filesystem::path>& databases,
+                    const std::vector<std::filesystem::path>& base) {
   std::vector<RunRow> rows;
   for (const auto& path : databases) {
-    auto more = ResultsDatabase(path, ResultsDatabase::Mode::read).rows();
+    auto more = read_rows(path);
     std::move(more.begin(), more.end(), std::back_inserter(rows));
+  }
+  for (const auto& path : base) {
+    for (RunRow& row : read_rows(path)) {
+      row.key.mesher += "@base";
+      rows.push_back(std::move(row));
+    }
   }
   return select_runs(rows);
 }

@@ -28,7 +28,9 @@ struct Selection {
 // Of several runs of a model with a mesher (other versions, flags or limits) the latest counts.
 Selection select_runs(const std::vector<RunRow>& rows);
 
-// \throw std::runtime_error if a file cannot be read.
-Selection load_runs(const std::vector<std::filesystem::path>& databases);
+// Rows of results files or of exports in JSON; those of `base`, if any, stand beside the others as
+// meshers NAME@base. \throw std::runtime_error if a file cannot be read.
+Selection load_runs(const std::vector<std::filesystem::path>& databases,
+                    const std::vector<std::filesystem::path>& base = {});
 
 }  // namespace tetproof

@@ -42,6 +42,50 @@ std::string csv_row(const std::vector<std::string>& cells) {
   return line + "\r\n";
 }
 
+std::string latex_cell(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+      case '%':
+      case '$':
+      case '#':
+      case '_':
+      case '{':
+      case '}':
+        result += '\\';
+        result += c;
+        break;
+      case '\\':
+        result += "\\textbackslash{}";
+        break;
+      case '~':
+        result += "\\textasciitilde{}";
+        break;
+      case '^':
+        result += "\\textasciicircum{}";
+        break;
+      case '<':
+        result += "\\textless{}";
+        break;
+      case '>':
+        result += "\\textgreater{}";
+        break;
+      default:
+        result += c == '\n' || c == '\r' ? ' ' : c;
+    }
+  }
+  return result;
+}
+
+std::string latex_row(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    line += (i == 0 ? "" : " & ") + latex_cell(cells[i]);
+  }
+  return line + " \\\\\n";
+}
+
 }  // namespace
 
 std::string to_markdown(const Table& table) {
@@ -70,6 +114,16 @@ std::string to_csv(const Table& table) {
   std::string text = csv_row(table.header);
   for (const auto& row : table.rows) text += csv_row(row);
   return text;
+}
+
+std::string to_latex(const Table& table) {
+  std::string text = "\\begin{table}\n\\centering\n\\caption{" + latex_cell(table.title);
+  for (const std::string& note : table.notes) text += ". " + latex_cell(note);
+  text += "}\n\\label{tab:" + table.name + "}\n\\begin{tabular}{l";
+  text += std::string(table.header.empty() ? 0 : table.header.size() - 1, 'r') + "}\n\\toprule\n";
+  text += latex_row(table.header) + "\\midrule\n";
+  for (const auto& row : table.rows) text += latex_row(row);
+  return text + "\\bottomrule\n\\end{tabular}\n\\end{table}\n\n";
 }
 
 }  // namespace tetproof

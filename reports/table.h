@@ -1,4 +1,4 @@
-// A table of text cells, written as Markdown and as CSV.
+// A table of text cells, written as Markdown, CSV and LaTeX.
 #pragma once
 
 #include <string>
@@ -15,6 +15,7 @@ struct Table {
 };
 
 std::string to_markdown(const Table& table);
-std::string to_csv(const Table& table);  // RFC 4180
+std::string to_csv(const Table& table);    // RFC 4180
+std::string to_latex(const Table& table);  // a table environment; needs the package booktabs
 
 }  // namespace tetproof

@@ -3,87 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numeric>
+
+#include "reports/measures.h"
+#include "reports/statistics.h"
 
 namespace tetproof {
 namespace {
 
-using Rows = std::vector<const RunRow*>;
-// Nothing where a run lacks the value.
-using Value = std::function<std::optional<double>(const RunRow&)>;
-
 constexpr std::uint64_t kLargeMesh = 10000;  // tetrahedra, where fixed costs of a process vanish
-
-std::string fixed(std::optional<double> value, int digits) {
-  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
-}
-
-// Small angles keep three significant digits.
-std::string degrees(std::optional<double> value) {
-  if (!value) return "-";
-  if (*value == 0 || std::fabs(*value) >= 0.1) return fmt::format("{:.2f}", *value);
-  return fmt::format("{:.2g}", *value);
-}
-
-std::vector<double> values_of(const Rows& rows, const Value& value) {
-  std::vector<double> values;
-  for (const RunRow* row : rows) {
-    if (const auto v = value(*row)) values.push_back(*v);
-  }
-  return values;
-}
-
-std::optional<double> mean(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-std::optional<double> minimum(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  return *std::min_element(values.begin(), values.end());
-}
-
-using Part = std::optional<MeshColumns> RunRow::*;
-
-template <typename T>
-Value of(Part part, T MeshColumns::*column) {
-  return [=](const RunRow& row) -> std::optional<double> {
-    if (!(row.*part)) return std::nullopt;
-    return static_cast<double>((*(row.*part)).*column);
-  };
-}
-
-Value wall_seconds() {
-  return [](const RunRow& row) { return row.wall_seconds; };
-}
-
-Value peak_megabytes() {
-  return [](const RunRow& row) { return static_cast<double>(row.peak_rss_bytes) / 1e6; };
-}
-
-std::optional<double> per_tetrahedron(const RunRow& row, std::optional<double> amount) {
-  if (!amount || !row.mesh || row.mesh->tetrahedra == 0) return std::nullopt;
-  return *amount / static_cast<double>(row.mesh->tetrahedra);
-}
-
-Value process_microseconds() {
-  return [](const RunRow& row) { return per_tetrahedron(row, 1e6 * row.wall_seconds); };
-}
-
-Value meshing_microseconds() {
-  return [](const RunRow& row) {
-    const auto seconds = row.mesh_seconds;
-    return per_tetrahedron(row, seconds ? std::optional(1e6 * *seconds) : std::nullopt);
-  };
-}
-
-Value peak_bytes() {
-  return [](const RunRow& row) {
-    return per_tetrahedron(row, static_cast<double>(row.peak_rss_bytes));
-  };
-}
 
 // Adds a row with one cell per mesher.
 template <typename Cell>
@@ -93,34 +20,14 @@ void add_row(Table& table, const std::string& label, const std::vector<Rows>& co
   table.rows.push_back(std::move(row));
 }
 
-std::vector<std::string> present(const Selection& selection,
-                                 const std::vector<std::string>& meshers) {
-  std::vector<std::string> found;
-  std::copy_if(meshers.begin(), meshers.end(), std::back_inserter(found),
-               [&](const auto& mesher) { return selection.has(mesher); });
-  return found;
-}
-
-std::size_t run_count(const Selection& selection, const std::string& mesher) {
-  const auto found = selection.runs.find(mesher);
-  return found == selection.runs.end() ? 0 : found->second.size();
-}
-
-struct AngleRow {
-  const char* label;
-  double MeshColumns::*column;
-};
-
-constexpr AngleRow kAngles[] = {{"Avg. min face angle", &MeshColumns::min_face_angle},
-                                {"Avg. max face angle", &MeshColumns::max_face_angle},
-                                {"Avg. min dihedral angle", &MeshColumns::min_dihedral},
-                                {"Avg. max dihedral angle", &MeshColumns::max_dihedral}};
-
 std::string with_refined(std::optional<double> value, std::optional<double> refined) {
   return refined ? degrees(value) + " (" + degrees(refined) + ")" : degrees(value);
 }
 
-Table comparison(const Selection& selection, const std::vector<std::string>& meshers, Part part) {
+enum class Over : std::uint8_t { common, own };  // models on which all succeed, or each
+
+Table comparison(const Selection& selection, const std::vector<std::string>& meshers, Part part,
+                 Over over = Over::common) {
   Table table;
   std::vector<std::string> common = selection.common_models(meshers);
   std::erase_if(common, [&](const auto& model) {
@@ -133,11 +40,13 @@ Table comparison(const Selection& selection, const std::vector<std::string>& mes
   for (const std::string& mesher : meshers) {
     table.header.push_back(mesher);
     Rows rows;
-    for (const auto& model : common) rows.push_back(selection.ok_run(mesher, model));
+    for (const auto& model : over == Over::common ? common : selection.models) {
+      if (const RunRow* row = selection.ok_run(mesher, model)) rows.push_back(row);
+    }
     columns.push_back(std::move(rows));
   }
-  for (const AngleRow& angle : kAngles) {
-    add_row(table, angle.label, columns, [&](const Rows& rows) {
+  for (const AngleMeasure& angle : kExtremeAngles) {
+    add_row(table, std::string("Avg. ") + angle.label, columns, [&](const Rows& rows) {
       return degrees(mean(values_of(rows, of(part, angle.column))));
     });
   }
@@ -154,28 +63,16 @@ Table comparison(const Selection& selection, const std::vector<std::string>& mes
   }
   table.rows.push_back(std::move(successes));
   table.notes.push_back(
-      fmt::format("Averages over the {} of {} models on which all {} meshers of the table succeed.",
-                  common.size(), selection.models.size(), meshers.size()));
+      over == Over::own
+          ? "Each column is averaged over the models on which that mesher succeeds: the columns "
+            "are not over the same models."
+          : fmt::format(
+                "Averages over the {} of {} models on which all {} meshers of the table succeed.",
+                common.size(), selection.models.size(), meshers.size()));
   return table;
 }
 
 }  // namespace
-
-std::optional<double> median(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-Interval wilson_interval(std::size_t successes, std::size_t total) {
-  if (total == 0) return {0, 1};
-  constexpr double kZ = 1.959963984540054;
-  const double n = static_cast<double>(total), p = static_cast<double>(successes) / n;
-  const double center = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
-  const double half = kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
-  return {std::max(0.0, center - half), std::min(1.0, center + half)};
-}
 
 Table table_1(const Selection& selection) {
   Table table;
@@ -197,8 +94,8 @@ Table table_1(const Selection& selection) {
   add_row(table, "Avg. # vertices", columns, [](const Rows& rows) {
     return fixed(mean(values_of(rows, of(&RunRow::mesh, &MeshColumns::vertices))), 0);
   });
-  for (const AngleRow& angle : kAngles) {
-    add_row(table, angle.label, columns, [&](const Rows& rows) {
+  for (const AngleMeasure& angle : kExtremeAngles) {
+    add_row(table, std::string("Avg. ") + angle.label, columns, [&](const Rows& rows) {
       return with_refined(mean(values_of(rows, of(&RunRow::mesh, angle.column))),
                           mean(values_of(rows, of(&RunRow::refined, angle.column))));
     });
@@ -234,6 +131,16 @@ Table table_2(const Selection& selection) {
       "All tetrahedra count, down to the convex hull (TetGen, CDT) or the outer box; cdt is our "
       "own "
       "constrained Delaunay tetrahedrization, not the published program.");
+  return table;
+}
+
+Table table_2_all(const Selection& selection) {
+  Table table = comparison(
+      selection,
+      present(selection, {"tetgen-T0", "tetgen", "cdt", "safe-delmesher-e4", "delmesher-e4"}),
+      &RunRow::mesh, Over::own);
+  table.name = "table2-all";
+  table.title = "Table 2 over all successes of each mesher";
   return table;
 }
 
@@ -330,96 +237,6 @@ Table speed_table(const Selection& selection) {
       "the others, which count everything.",
       fmt::format("Peak: largest resident set of the process. Large: at least {} tetrahedra.",
                   kLargeMesh)};
-  return table;
-}
-
-Table failure_table(const Selection& selection) {
-  Table table;
-  table.name = "not-ok";
-  table.title = "Runs that are not ok";
-  table.header = {"Model", "Mesher", "Disposition", "Wall s", "Reason"};
-  for (const std::string& model : selection.models) {
-    for (const std::string& mesher : selection.meshers) {
-      const RunRow* row = selection.run(mesher, model);
-      if (row == nullptr || row->disposition == Disposition::ok) continue;
-      table.rows.push_back({row->model_name, mesher, disposition_name(row->disposition),
-                            fixed(row->wall_seconds, 2), row->reason.substr(0, 300)});
-    }
-  }
-  if (table.rows.empty()) table.notes.push_back("None.");
-  return table;
-}
-
-Table run_table(const Selection& selection) {
-  Table table;
-  table.name = "runs";
-  table.title = "All runs";
-  table.header = {"model",
-                  "model_sha256",
-                  "mesher",
-                  "version",
-                  "flags",
-                  "limits",
-                  "disposition",
-                  "reason",
-                  "wall_seconds",
-                  "cpu_seconds",
-                  "mesh_seconds",
-                  "peak_rss_bytes",
-                  "region",
-                  "vertices",
-                  "tetrahedra",
-                  "inside_tetrahedra",
-                  "min_face_angle",
-                  "max_face_angle",
-                  "min_dihedral",
-                  "max_dihedral",
-                  "inside_min_face_angle",
-                  "refined_min_face_angle",
-                  "inverted",
-                  "flat",
-                  "us_per_tetrahedron",
-                  "peak_bytes_per_tetrahedron"};
-  const auto number = [](const std::optional<double>& value) {
-    return value ? fmt::format("{}", *value) : "";
-  };
-  for (const std::string& model : selection.models) {
-    for (const std::string& mesher : selection.meshers) {
-      const RunRow* found = selection.run(mesher, model);
-      if (found == nullptr) continue;
-      const RunRow& r = *found;
-      const auto get = [&](const Value& value) { return number(value(r)); };
-      const auto count = [](const std::optional<std::uint64_t>& value) {
-        return value ? std::to_string(*value) : "";
-      };
-      table.rows.push_back({r.model_name,
-                            r.key.model_sha256,
-                            mesher,
-                            r.key.version,
-                            r.key.flags,
-                            r.key.limits,
-                            disposition_name(r.disposition),
-                            r.reason,
-                            number(r.wall_seconds),
-                            number(r.cpu_seconds),
-                            number(r.mesh_seconds),
-                            std::to_string(r.peak_rss_bytes),
-                            r.region,
-                            get(of(&RunRow::mesh, &MeshColumns::vertices)),
-                            get(of(&RunRow::mesh, &MeshColumns::tetrahedra)),
-                            get(of(&RunRow::inside, &MeshColumns::tetrahedra)),
-                            get(of(&RunRow::mesh, &MeshColumns::min_face_angle)),
-                            get(of(&RunRow::mesh, &MeshColumns::max_face_angle)),
-                            get(of(&RunRow::mesh, &MeshColumns::min_dihedral)),
-                            get(of(&RunRow::mesh, &MeshColumns::max_dihedral)),
-                            get(of(&RunRow::inside, &MeshColumns::min_face_angle)),
-                            get(of(&RunRow::refined, &MeshColumns::min_face_angle)),
-                            count(r.inverted),
-                            count(r.flat),
-                            get(process_microseconds()),
-                            get(peak_bytes())});
-    }
-  }
   return table;
 }
 

@@ -1,7 +1,6 @@
 // The tables of a report. Every average says over how many models it is taken.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +16,28 @@ Table table_1(const Selection& selection);
 // The paper's Table 2: TetGen twice, CDT and our two, over the models on which all succeed.
 Table table_2(const Selection& selection);
 
+// The same over all models on which each mesher succeeds.
+Table table_2_all(const Selection& selection);
+
 // Table 2's measures over the tetrahedra inside the model only, with our default run beside them.
 Table table_2_inside(const Selection& selection);
+
+// The paper's Table 3: one model with TetGen, our mesher with and without the filter, and the rest.
+Table table_3(const Selection& selection, const std::string& model);
+
+// Section 4.4: delmesher-e4 with and without bridge simplification, over the models on which both
+// succeed. No rows if one of them was not run.
+Table ablation_table(const Selection& selection);
+
+// The paper's Figure 8: models named figure8-h*, with the estimate of the number of tetrahedra from
+// the volume and the shortest edge. No rows if there are none.
+Table figure_8_table(const Selection& selection);
+
+// How long runs took, in the paper's classes and shorter ones.
+Table time_table(const Selection& selection);
+
+// The mean share of each phase in the time of our runs, in percent.
+Table phase_table(const Selection& selection);
 
 // How many runs of each mesher ended how.
 Table disposition_table(const Selection& selection);
@@ -29,20 +48,13 @@ Table oracle_table(const Selection& selection);
 // Microseconds and bytes per tetrahedron, and paired ratios to TetGen.
 Table speed_table(const Selection& selection);
 
+// The 25 runs that took longest.
+Table slowest_table(const Selection& selection);
+
+// Runs that are not ok, by mesher, disposition and reason without names and numbers.
+Table failure_group_table(const Selection& selection);
+
 // Every run that is not ok.
 Table failure_table(const Selection& selection);
-
-// Every run, for other programs.
-Table run_table(const Selection& selection);
-
-// Of an even number of values the mean of the two in the middle; nothing of none.
-std::optional<double> median(std::vector<double> values);
-
-struct Interval {
-  double low, high;
-};
-
-// Wilson's 95 % interval of a proportion.
-Interval wilson_interval(std::size_t successes, std::size_t total);
 
 }  // namespace tetproof

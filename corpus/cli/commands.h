@@ -16,20 +16,60 @@ struct UsageError : std::runtime_error {
 
 struct RunArguments {
   std::vector<std::string> paths, meshers;
-  std::string database, shard, delmesher, keep;
+  std::string database, shard, tier, delmesher, keep;
+  std::vector<std::string> retry;                 // dispositions
   double timeout = 600, cpu = 0, stop_after = 0;  // seconds; cpu 0: as timeout
   std::uint64_t memory_mebibytes = 4096;
+  std::uint64_t keep_tetrahedra = 0;
   unsigned jobs = 1;
-  bool verify = false, sidecars = false;
+  bool verify = true, sidecars = false;
+};
+
+struct ExportArguments {
+  std::vector<std::string> databases;
+  std::string output;  // .csv, .json or .xml
+  bool brief = false, stable = false;
+};
+
+struct MergeArguments {
+  std::vector<std::string> databases;
+  std::string output;
+};
+
+struct ConvertArguments {
+  std::string input, output;  // surface files
 };
 
 struct ReportArguments {
-  std::vector<std::string> databases;
-  std::string folder;
+  std::vector<std::string> databases, base, show;
+  std::string folder, model;
+  std::size_t views = 10;
 };
 
 struct MeasureArguments {
   std::string mesh, output;  // no output: standard output
+};
+
+struct GateArguments {
+  std::vector<std::string> base, fresh;
+  double time_factor = 1.5, memory_factor = 1.3, size_factor = 1.05;
+  bool allow_missing = false;
+};
+
+struct ClassifyArguments {
+  std::vector<std::string> paths;
+  std::string output, licences;  // no output: standard output
+  bool json = false;
+  unsigned jobs = 1;
+  double timeout = 300;
+  std::uint64_t memory_mebibytes = 4096;
+};
+
+struct SlurmArguments {
+  RunArguments run;
+  unsigned shards = 0, retries = 3;
+  double task_minutes = 0;         // of a task; 0: the partition's limit
+  std::vector<std::string> sbatch;  // further options of sbatch
 };
 
 struct GenerateArguments {
@@ -46,9 +86,18 @@ struct ShrinkArguments {
   bool no_verify = false;
 };
 
+// Ctrl-C and the like end campaigns cleanly from now on.
+void handle_interrupts();
+
 int run_command(const RunArguments& arguments);
 int report_command(const ReportArguments& arguments);
 int measure_command(const MeasureArguments& arguments);
+int export_command(const ExportArguments& arguments);
+int merge_command(const MergeArguments& arguments);
+int convert_command(const ConvertArguments& arguments);
+int gate_command(const GateArguments& arguments);
+int classify_command(const ClassifyArguments& arguments);
+int slurm_command(const SlurmArguments& arguments);
 #ifdef TETPROOF_HAS_GENERATE
 int generate_command(const GenerateArguments& arguments);
 int shrink_command(const ShrinkArguments& arguments);

@@ -6,9 +6,14 @@
 namespace tetproof {
 
 int report_command(const ReportArguments& arguments) {
-  const Selection selection = load_runs({arguments.databases.begin(), arguments.databases.end()});
-  const ReportFiles files = write_report(selection, arguments.folder);
-  fmt::print("{}report: {}\n", files.headline, std::filesystem::absolute(files.markdown).string());
+  const Selection selection = load_runs({arguments.databases.begin(), arguments.databases.end()},
+                                        {arguments.base.begin(), arguments.base.end()});
+  ReportOptions options;
+  options.model = arguments.model;
+  options.views.models = arguments.views;
+  options.views.wanted = arguments.show;
+  const ReportFiles files = write_report(selection, arguments.folder, options);
+  fmt::print("{}report: {}\n", files.headline, std::filesystem::absolute(files.html).string());
   return 0;
 }
 

@@ -15,27 +15,21 @@ void on_interrupt(int) {
   interrupt_campaign();
 }
 
-void handle_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;  // without SA_RESTART, so that poll() returns
-  sigemptyset(&action.sa_mask);
-  for (const int s : {SIGINT, SIGTERM, SIGHUP}) sigaction(s, &action, nullptr);
-  signal(SIGPIPE, SIG_IGN);
-}
-
 std::vector<Model> chosen_models(const RunArguments& arguments) {
   const ModelList list = collect_models({arguments.paths.begin(), arguments.paths.end()});
   for (const auto& path : list.duplicates) {
     fmt::print("same content as another model, left out: {}\n", path.string());
   }
-  if (arguments.shard.empty()) return list.models;
+  std::vector<Model> models = list.models;
+  if (!arguments.tier.empty()) models = tier_of(models, tier_from_name(arguments.tier));
+  if (arguments.shard.empty()) return models;
   unsigned index = 0, count = 0;
   char rest = 0;
   if (std::sscanf(arguments.shard.c_str(), "%u/%u%c", &index, &count, &rest) != 2 || index < 1 ||
       index > count) {
     throw UsageError("--shard: I/N with 1 <= I <= N is expected");
   }
-  return shard_of(list.models, index, count);
+  return shard_of(models, index, count);
 }
 
 std::vector<Mesher> chosen_meshers(const RunArguments& arguments) {
@@ -65,17 +59,31 @@ CampaignOptions campaign_options(const RunArguments& arguments) {
   campaign.limits.cpu_seconds = arguments.cpu > 0 ? arguments.cpu : arguments.timeout;
   campaign.limits.memory_bytes = arguments.memory_mebibytes << 20;
   campaign.limits.file_bytes = 64ull << 30;
+  campaign.keep_tetrahedra = arguments.keep_tetrahedra;
+  for (const std::string& name : arguments.retry) {
+    campaign.retry.insert(disposition_from_name(name));
+  }
   campaign.stop_after_seconds = arguments.stop_after;
   campaign.jobs = std::max(1u, arguments.jobs);
 #ifdef TETPROOF_HAS_VERIFY
   campaign.verify = arguments.verify || arguments.sidecars;
   campaign.sidecars = arguments.sidecars;
+#else
+  campaign.verify = false;
 #endif
   campaign.terminal = isatty(STDOUT_FILENO) != 0;
   return campaign;
 }
 
 }  // namespace
+
+void handle_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;  // without SA_RESTART, so that poll() returns
+  sigemptyset(&action.sa_mask);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP}) sigaction(s, &action, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+}
 
 int run_command(const RunArguments& arguments) {
   const auto models = chosen_models(arguments);
@@ -87,7 +95,7 @@ int run_command(const RunArguments& arguments) {
   const auto folder = std::filesystem::absolute(arguments.database).parent_path();
   std::filesystem::create_directories(folder);
   const CampaignSummary summary = run_campaign(models, meshers, campaign_options(arguments));
-  std::string text = fmt::format("{} runs were there already", summary.present);
+  std::string text = fmt::format("{} of the runs were there already", summary.present);
   for (std::size_t d = 0; d < summary.counts.size(); ++d) {
     if (summary.counts[d] == 0) continue;
     text +=

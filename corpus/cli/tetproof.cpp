@@ -13,10 +13,11 @@
 namespace tetproof {
 namespace {
 
-CLI::App* declare_run(CLI::App& tetproof, RunArguments& a) {
-  CLI::App* app = tetproof.add_subcommand("run",
-                                          "Run meshers on models, each in a child process under "
-                                          "limits; resumes where it stopped");
+CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command = "run",
+                      const char* description =
+                          "Run meshers on models, each in a child process under limits; resumes "
+                          "where it stopped") {
+  CLI::App* app = tetproof.add_subcommand(command, description);
   std::string names;
   for (const std::string& name : mesher_names()) names += name + ", ";
   app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
@@ -33,17 +34,25 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a) {
   app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")->capture_default_str();
   app->add_option("--stop-after", a.stop_after,
                   "Begin no further model after this many seconds (exit 5 if some are left)");
+  app->add_option("--tier", a.tier,
+                  "How many of the models: smoke (30 small ones), nightly (300), "
+                  "weekly (all)")
+      ->check(CLI::IsMember({"smoke", "nightly", "weekly"}));
   app->add_option("--shard", a.shard, "I/N: only the I-th of N parts of the models");
+  app->add_option("--retry", a.retry,
+                  "Run those again that ended so: killed, timeout, out-of-memory, ...")
+      ->check(CLI::IsMember(
+          {"ok", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"}));
   app->add_option("--delmesher-binary", a.delmesher,
                   "Our mesher (default: the one beside this program)");
-  app->add_option("--keep", a.keep, "Folder in which to keep the meshes");
-#ifdef TETPROOF_HAS_VERIFY
-  app->add_flag("--verify", a.verify, "Ask the oracles about each mesh as well");
+  app->add_option("--keep", a.keep,
+                  "Folder in which to keep the meshes, and the chamfered surfaces of ours");
+  app->add_option("--keep-tetrahedra", a.keep_tetrahedra, "Keep no mesh with more than these");
+  app->add_flag("--verify,!--no-verify", a.verify, "Ask the oracles about each mesh (the default)");
   app->add_flag(
       "--exact", a.sidecars,
-      "With --verify: delmesher runs once more for its sidecar, and is asked for the same "
-      "bytes; all oracles are asked");
-#endif
+      "delmesher runs once more for its sidecar, and is asked for the same bytes; all oracles are "
+      "asked");
   return app;
 }
 
@@ -53,6 +62,42 @@ CLI::App* declare_report(CLI::App& tetproof, ReportArguments& a) {
       ->required()
       ->check(CLI::ExistingFile);
   app->add_option("-o,--output", a.folder, "Folder of the report")->required();
+  app->add_option("--base", a.base, "Results to compare with: meshers NAME@base")
+      ->check(CLI::ExistingFile);
+  app->add_option("--model", a.model, "Model of Table 3 and Figure 13, by name");
+  app->add_option("--views", a.views,
+                  "Models with pictures, if their meshes were kept (run --keep)")
+      ->capture_default_str();
+  app->add_option("--show", a.show, "Models to have pictures in any case, by name");
+  return app;
+}
+
+CLI::App* declare_export(CLI::App& tetproof, ExportArguments& a) {
+  CLI::App* app = tetproof.add_subcommand("export", "The rows as CSV, JSON or JUnit XML");
+  app->add_option("databases", a.databases, "Results of tetproof run")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app->add_option("-o,--output", a.output, "FILE.csv, FILE.json or FILE.xml (JUnit)")->required();
+  app->add_flag("--brief", a.brief,
+                "JSON without statistics, histograms, findings, host and paths");
+  app->add_flag("--stable", a.stable, "Without times, memory, host and paths");
+  return app;
+}
+
+CLI::App* declare_merge(CLI::App& tetproof, MergeArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "merge", "Rows of several results into one; merging again changes nothing");
+  app->add_option("databases", a.databases, "Results of tetproof run, for example of shards")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app->add_option("-o,--output", a.output, "SQLite file to merge into")->required();
+  return app;
+}
+
+CLI::App* declare_convert(CLI::App& tetproof, ConvertArguments& a) {
+  CLI::App* app = tetproof.add_subcommand("convert", "A surface in another format, exactly");
+  app->add_option("input", a.input, "A surface file")->required();
+  app->add_option("output", a.output, "FILE.off, FILE.mesh or FILE.stl")->required();
   return app;
 }
 
@@ -61,6 +106,63 @@ CLI::App* declare_measure(CLI::App& tetproof, MeasureArguments& a) {
       tetproof.add_subcommand("measure", "Angles, counts and orientation of a mesh file, as JSON");
   app->add_option("mesh", a.mesh, "A .mesh, .msh, .vtu, .node or .tet file")->required();
   app->add_option("-o,--output", a.output, "Where to write it (default: standard output)");
+  return app;
+}
+
+CLI::App* declare_gate(CLI::App& tetproof, GateArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "gate", "Compare with an earlier campaign; exit 1 and a line each if something got worse");
+  app->add_option("--base", a.base, "Results, or an export in JSON, to measure up to")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app->add_option("--new", a.fresh, "Results, or an export in JSON, to be judged")
+      ->required()
+      ->check(CLI::ExistingFile);
+  const auto factor = CLI::Range(1.0, 1e6);
+  app->add_option("--time-factor", a.time_factor, "Processor time this many times as long")
+      ->check(factor)
+      ->capture_default_str();
+  app->add_option("--memory-factor", a.memory_factor, "Peak memory")
+      ->check(factor)
+      ->capture_default_str();
+  app->add_option("--size-factor", a.size_factor, "Tetrahedra")
+      ->check(factor)
+      ->capture_default_str();
+  app->add_flag("--allow-missing", a.allow_missing, "Runs of the base may be missing");
+  return app;
+}
+
+CLI::App* declare_classify(CLI::App& tetproof, ClassifyArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "classify",
+      "Which files are valid surfaces: closed, manifold, oriented, not intersecting "
+      "themselves; writes the manifest of a collection");
+  app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
+      ->required();
+  app->add_option("-o,--output", a.output,
+                  "Manifest; files decided in an earlier one of this name (CSV) are not looked at "
+                  "again (default: standard output)");
+  app->add_flag("--json", a.json, "JSON rather than CSV");
+  app->add_option("--licences", a.licences, "CSV with columns file and licence")
+      ->check(CLI::ExistingFile);
+  app->add_option("-j,--jobs", a.jobs, "Files at a time")->capture_default_str();
+  app->add_option("--timeout", a.timeout, "Seconds per file")->capture_default_str();
+  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per file")->capture_default_str();
+  return app;
+}
+
+CLI::App* declare_slurm(CLI::App& tetproof, SlurmArguments& a) {
+  CLI::App* app = declare_run(
+      tetproof, a.run, "slurm",
+      "Run a campaign as a Slurm job array and merge when done; the same command again waits on");
+  app->add_option("--shards", a.shards, "Tasks of the array")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  app->add_option("--retries", a.retries, "How often lost tasks are submitted again")
+      ->capture_default_str();
+  app->add_option("--task-minutes", a.task_minutes, "Time limit of a task");
+  app->add_option("--sbatch", a.sbatch,
+                  "Further options of sbatch, such as --sbatch=--partition=x");
   return app;
 }
 
@@ -107,6 +209,18 @@ int parse_and_run(int argc, char** argv) {
   const CLI::App* run_app = declare_run(app, run);
   const CLI::App* report_app = declare_report(app, report);
   declare_measure(app, measure);
+  ExportArguments exporting;
+  const CLI::App* export_app = declare_export(app, exporting);
+  MergeArguments merging;
+  const CLI::App* merge_app = declare_merge(app, merging);
+  GateArguments gate;
+  const CLI::App* gate_app = declare_gate(app, gate);
+  ClassifyArguments classification;
+  const CLI::App* classify_app = declare_classify(app, classification);
+  SlurmArguments slurm;
+  const CLI::App* slurm_app = declare_slurm(app, slurm);
+  ConvertArguments conversion;
+  const CLI::App* convert_app = declare_convert(app, conversion);
 #ifdef TETPROOF_HAS_GENERATE
   GenerateArguments generate;
   const CLI::App* generate_app = declare_generate(app, generate);
@@ -123,6 +237,12 @@ int parse_and_run(int argc, char** argv) {
   }
   if (run_app->parsed()) return run_command(run);
   if (report_app->parsed()) return report_command(report);
+  if (export_app->parsed()) return export_command(exporting);
+  if (gate_app->parsed()) return gate_command(gate);
+  if (classify_app->parsed()) return classify_command(classification);
+  if (slurm_app->parsed()) return slurm_command(slurm);
+  if (merge_app->parsed()) return merge_command(merging);
+  if (convert_app->parsed()) return convert_command(conversion);
 #ifdef TETPROOF_HAS_GENERATE
   if (generate_app->parsed()) return generate_command(generate);
   if (shrink_app->parsed()) return shrink_command(shrink);

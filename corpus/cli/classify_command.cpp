@@ -1,0 +1,140 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <map>
+
+#include "corpus/campaign.h"
+#include "corpus/classify.h"
+#include "corpus/cli/commands.h"
+#include "corpus/csv.h"
+#include "corpus/process.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Scratch {
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "tetproof-classify-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
+    path = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  fs::path path;
+};
+
+void write_file(const fs::path& path, const std::string& text) {
+  const fs::path part = path.string() + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
+  fs::rename(part, path);
+}
+
+// What an earlier manifest of this name decided, by hash.
+std::map<std::string, Classification> decided_before(const std::string& output) {
+  std::map<std::string, Classification> known;
+  if (!fs::exists(output) || fs::path(output).extension() != ".csv") return known;
+  for (Classification& c : read_manifest(output)) {
+    if (c.validity != Validity::undecided) known.emplace(c.sha256, std::move(c));
+  }
+  return known;
+}
+
+std::map<std::string, std::string> licences_from(const std::string& path) {
+  std::map<std::string, std::string> licences;
+  if (path.empty()) return licences;
+  for (const CsvRecord& record : read_csv(path)) licences[record.at("file")] = record.at("licence");
+  return licences;
+}
+
+class Manifest {
+ public:
+  explicit Manifest(const ClassifyArguments& arguments)
+      : arguments_(arguments), licences_(licences_from(arguments.licences)) {}
+
+  void add(Classification c) {
+    const auto found = licences_.find(c.file);
+    if (found != licences_.end()) c.licence = found->second;
+    all_.push_back(std::move(c));
+  }
+
+  // From time to time, so that an end by force loses little.
+  void save() const {
+    if (!arguments_.output.empty()) write_file(arguments_.output, text());
+  }
+  std::string text() const { return arguments_.json ? manifest_json(all_) : manifest_csv(all_); }
+
+  std::string summary() const {
+    std::array<std::size_t, 4> counts{};
+    for (const Classification& c : all_) ++counts[static_cast<std::size_t>(c.validity)];
+    return fmt::format("{} files: {} valid, {} invalid, {} unreadable, {} undecided", all_.size(),
+                       counts[0], counts[1], counts[2], counts[3]);
+  }
+
+ private:
+  const ClassifyArguments& arguments_;
+  std::map<std::string, std::string> licences_;
+  std::vector<Classification> all_;
+};
+
+}  // namespace
+
+int classify_command(const ClassifyArguments& arguments) {
+  const ModelList list = collect_models({arguments.paths.begin(), arguments.paths.end()});
+  auto known = decided_before(arguments.output);
+  Manifest manifest(arguments);
+  std::vector<Model> open;
+  for (const Model& model : list.models) {
+    const auto found = known.find(model.sha256);
+    if (found == known.end()) {
+      open.push_back(model);
+    } else {
+      found->second.file = model.name;
+      manifest.add(found->second);
+    }
+  }
+  const Scratch scratch;
+  ClassifyOptions options;
+  options.supervisor = beside_this_program("tetproof-supervise");
+  options.delmesher = beside_this_program("delmesher");
+  options.scratch = scratch.path;
+  options.jobs = std::max(1u, arguments.jobs);
+  options.limits.wall_seconds = options.limits.cpu_seconds = arguments.timeout;
+  options.limits.memory_bytes = arguments.memory_mebibytes << 20;
+  handle_interrupts();
+  const bool quiet = arguments.output.empty();
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  std::size_t done = list.models.size() - open.size();
+  const auto tell = [&](const Classification& c) {
+    manifest.add(c);
+    if (++done % 100 == 0) manifest.save();
+    if (terminal) {
+      fmt::print(stderr, "\r\033[K{}/{} {}", done, list.models.size(), c.file);
+    } else if (!quiet) {
+      fmt::print("[{}/{}] {}: {}{}{}\n", done, list.models.size(), c.file,
+                 validity_name(c.validity), c.reason.empty() ? "" : ": ", c.reason);
+      std::fflush(stdout);
+    }
+  };
+  classify(open, options, tell);
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  manifest.save();
+  if (quiet) fmt::print("{}", manifest.text());
+  if (!quiet) {
+    for (const auto& path : list.duplicates) {
+      fmt::print("same content as another file, left out: {}\n", path.string());
+    }
+    fmt::print("{}{}\n", campaign_interrupted() ? "interrupted; " : "", manifest.summary());
+  }
+  return campaign_interrupted() ? 130 : 0;
+}
+
+}  // namespace tetproof

@@ -1,0 +1,100 @@
+#include <fmt/core.h>
+
+#include "corpus/cli/commands.h"
+#include "corpus/models.h"
+#include "corpus/sha256.h"
+#include "corpus/slurm.h"
+#include "reports/results.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the runner itself and its measuring children need besides the mesher.
+constexpr std::uint64_t kSpareMebibytes = 2048;
+
+// The request as arguments of `tetproof run`, with absolute paths since tasks start elsewhere.
+std::vector<std::string> task_of(const RunArguments& run) {
+  std::vector<std::string> words = {fs::read_symlink("/proc/self/exe").string(), "run"};
+  for (const std::string& path : run.paths) words.push_back(fs::absolute(path).string());
+  const auto option = [&](const char* name, const std::string& value) {
+    words.emplace_back(name);
+    words.push_back(value);
+  };
+  for (const std::string& mesher : run.meshers) option("--mesher", mesher);
+  for (const std::string& disposition : run.retry) option("--retry", disposition);
+  option("--jobs", std::to_string(run.jobs));
+  option("--timeout", fmt::format("{}", run.timeout));
+  if (run.cpu > 0) option("--cpu", fmt::format("{}", run.cpu));
+  option("--memory", std::to_string(run.memory_mebibytes));
+  if (!run.tier.empty()) option("--tier", run.tier);
+  if (!run.delmesher.empty()) option("--delmesher-binary", fs::absolute(run.delmesher).string());
+  if (!run.keep.empty()) option("--keep", fs::absolute(run.keep).string());
+  if (run.keep_tetrahedra > 0) {
+    option("--keep-tetrahedra", std::to_string(run.keep_tetrahedra));
+  }
+  if (run.sidecars) words.emplace_back("--exact");
+  if (!run.verify) words.emplace_back("--no-verify");
+  return words;
+}
+
+int merge(const SlurmCampaign& campaign, const std::string& database) {
+  ResultsDatabase target(database, ResultsDatabase::Mode::write);
+  std::size_t rows = 0, changed = 0;
+  for (unsigned shard = 1; shard <= campaign.shards; ++shard) {
+    // Shards may be empty, when there are more of them than models.
+    if (!fs::exists(shard_database(campaign, shard))) continue;
+    ResultsDatabase part(shard_database(campaign, shard), ResultsDatabase::Mode::read);
+    for (const RunRow& row : part.rows()) {
+      ++rows;
+      changed += target.merge(row);
+    }
+  }
+  fmt::print("{} rows of {} shards, {} new or newer in {}\n", rows, campaign.shards, changed,
+             database);
+  return 0;
+}
+
+}  // namespace
+
+int slurm_command(const SlurmArguments& arguments) {
+  const RunArguments& run = arguments.run;
+  if (!run.shard.empty() || run.stop_after > 0) {
+    throw UsageError("--shard and --stop-after make no sense here");
+  }
+  SlurmCampaign campaign;
+  Sha256 models;
+  for (const Model& model : collect_models({run.paths.begin(), run.paths.end()}).models) {
+    models.update(model.sha256.data(), model.sha256.size());
+  }
+  campaign.models = models.finish();
+  campaign.folder = fs::absolute(run.database).string() + ".slurm";
+  campaign.task = task_of(run);
+  campaign.shards = arguments.shards;
+  campaign.retries = arguments.retries;
+  campaign.processors = std::max(1u, run.jobs);
+  campaign.memory_mebibytes = run.memory_mebibytes * campaign.processors + kSpareMebibytes;
+  campaign.task_minutes = arguments.task_minutes;
+  campaign.sbatch = arguments.sbatch;
+  handle_interrupts();
+  const SlurmEnd end = run_slurm_campaign(campaign, [](const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  });
+  switch (end) {
+    case SlurmEnd::merged:
+      return merge(campaign, run.database);
+    case SlurmEnd::interrupted:
+      fmt::print("interrupted; the tasks go on, the same command waits for them again\n");
+      return 130;
+    case SlurmEnd::lost:
+      throw std::runtime_error("tasks were lost too often; see the logs in " +
+                               campaign.folder.string());
+    case SlurmEnd::failed:
+      break;
+  }
+  throw std::runtime_error("the job was not accepted");
+}
+
+}  // namespace tetproof

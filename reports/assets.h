@@ -1,0 +1,19 @@
+// The scripts and styles of the report, compiled into the program, so that it needs no files beside
+// itself and the report no network.
+#pragma once
+
+#include <string_view>
+
+namespace tetproof::assets {
+
+// Packaged: Chart.js (libjs-chart.js), three.js and its OrbitControls (libjs-three), both MIT.
+std::string_view chart_js();
+std::string_view three_js();
+std::string_view orbit_controls_js();
+// Ours, in page/.
+std::string_view page_css();
+std::string_view charts_js();
+std::string_view view_js();
+std::string_view page_js();
+
+}  // namespace tetproof::assets

@@ -1,0 +1,47 @@
+// A chart as data: what is to be seen, not how. The page draws it (page/charts.js), CSV repeats it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/table.h"
+
+namespace tetproof {
+
+struct Chart {
+  enum class Kind : std::uint8_t {
+    bars,          // one value per category and series
+    stacked_bars,  // likewise, on top of each other
+    lines,         // points in the order of x
+    steps,         // likewise, constant between points
+    points
+  };
+  struct Series {
+    std::string label;
+    std::vector<std::optional<double>> values;      // bars: one per category
+    std::vector<std::pair<double, double>> points;  // the others
+    std::vector<std::string> point_names;           // points: what to say about each; may be empty
+  };
+
+  std::string name;  // of the CSV file and of the element in the page
+  std::string title;
+  Kind kind = Kind::bars;
+  std::string x_title, y_title;
+  std::vector<std::string> categories;  // bars
+  std::vector<Series> series;
+  bool log_x = false, log_y = false;
+  bool diagonal = false;  // points: draw x = y
+  std::vector<std::string> notes;
+
+  bool empty() const;
+};
+
+// One object, as page/charts.js reads it.
+std::string to_json(const Chart& chart);
+
+// Bars: a row per category; else a row per point.
+Table to_table(const Chart& chart);
+
+}  // namespace tetproof

@@ -1,0 +1,350 @@
+#include "reports/html.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <nlohmann/json.hpp>
+
+#include "reports/assets.h"
+#include "reports/compare.h"
+#include "reports/measures.h"
+
+namespace tetproof {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array kPhases = {"read",   "check",  "filter", "chamfer",  "delaunay", "segments",
+                                "facets", "refine", "enrich", "classify", "round",    "write"};
+
+// Inside a script element only "</" and "<!--" matter.
+std::string for_script(std::string text) {
+  for (auto at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
+    if (at + 1 < text.size() && (text[at + 1] == '/' || text[at + 1] == '!')) {
+      text.replace(at, 1, "\\u003c");
+    }
+  }
+  return text;
+}
+
+std::string dump(const Json& json) {
+  return for_script(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+// Numbers stand on the right; words, which need room, on the left.
+bool is_words(const std::string& cell) {
+  const auto letters =
+      std::count_if(cell.begin(), cell.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+  return letters > 3 && 2 * static_cast<std::size_t>(letters) > cell.size();
+}
+
+std::string table_row(const std::vector<std::string>& cells, const char* tag) {
+  std::string row = "<tr>";
+  for (const std::string& cell : cells) {
+    const bool words = std::string_view(tag) == "td" && is_words(cell);
+    row += fmt::format("<{}{}>{}</{}>", tag, words ? " class=\"text\"" : "", html_text(cell), tag);
+  }
+  return row + "</tr>\n";
+}
+
+std::string notes_list(const std::vector<std::string>& notes) {
+  if (notes.empty()) return "";
+  std::string text = "<ul class=\"notes\">";
+  for (const std::string& note : notes) text += "<li>" + html_text(note) + "</li>\n";
+  return text + "</ul>\n";
+}
+
+std::string chart_html(const Chart& chart) {
+  if (chart.empty()) return "";
+  const bool tall = chart.kind != Chart::Kind::bars;
+  return fmt::format(
+      "<div class=\"chart{}\"><h3>{}</h3><div class=\"frame\" data-chart=\"{}\"></div></div>\n",
+      tall ? " tall" : "", html_text(chart.title), html_text(chart.name));
+}
+
+std::string section_html(const Section& section) {
+  std::string text =
+      fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, html_text(section.title));
+  if (!section.text.empty()) text += "<p class=\"faint\">" + html_text(section.text) + "</p>\n";
+  std::string tables;
+  for (const Table& table : section.tables) tables += to_html(table);
+  if (section.side_by_side) tables = "<div class=\"columns\">" + tables + "</div>\n";
+  if (section.folded) {
+    tables = "<details><summary>Show the tables</summary>" + tables + "</details>\n";
+  }
+  std::string charts, notes;
+  for (const Chart& chart : section.charts) charts += chart_html(chart);
+  if (!charts.empty()) charts = "<div class=\"columns\">" + charts + "</div>\n";
+  for (const Chart& chart : section.charts) {
+    if (!chart.notes.empty() && notes.empty()) notes = notes_list(chart.notes);
+  }
+  return text + tables + charts + notes + "</section>\n";
+}
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? Json(std::stod(fmt::format("{:.6g}", *value))) : Json();
+}
+
+Json phases_of(const RunRow& row) {
+  const Json json = Json::parse(row.stats_json, nullptr, false);
+  if (!json.is_object() || !json.contains("phases_seconds")) return {};
+  if (!json.at("phases_seconds").contains("refine")) return {};
+  Json seconds = Json::array();
+  for (const char* phase : kPhases) {
+    seconds.push_back(number_or_null(json.at("phases_seconds").value(phase, 0.0)));
+  }
+  return seconds;
+}
+
+// In percent, of the runs that have 3D parts only: for all of them the page would be large.
+Json histogram_of(const RunRow& row, const char* key) {
+  const Json json = Json::parse(row.mesh_json, nullptr, false);
+  if (!json.is_object() || !json.contains(key)) return {};
+  double total = 0;
+  for (const Json& count : json.at(key)) total += count.get<double>();
+  Json percent = Json::array();
+  for (const Json& count : json.at(key)) {
+    percent.push_back(number_or_null(total > 0 ? 100 * count.get<double>() / total : 0));
+  }
+  return percent;
+}
+
+// The verdict, and which oracles it failed.
+std::string verdict_text(const RunRow& row) {
+  std::string text = verdict_of(row);
+  const Json json = Json::parse(row.verdict_json, nullptr, false);
+  if (!json.is_object()) return text;
+  for (const Json& oracle : json.value("oracles", Json::array())) {
+    if (!oracle.value("passed", true)) text += ", not " + oracle.value("name", "?");
+  }
+  if (json.contains("error")) text += ": " + json.value("error", "");
+  return text;
+}
+
+Json run_json(const RunRow& row, std::size_t model, std::size_t mesher, bool histograms) {
+  const auto of_mesh = [&](auto member) -> Json {
+    return row.mesh ? number_or_null(static_cast<double>((*row.mesh).*member)) : Json();
+  };
+  return {model,
+          mesher,
+          disposition_name(row.disposition),
+          verdict_text(row),
+          row.reason.substr(0, 300),
+          number_or_null(row.wall_seconds),
+          number_or_null(static_cast<double>(row.peak_rss_bytes) / 1e6),
+          of_mesh(&MeshColumns::vertices),
+          of_mesh(&MeshColumns::tetrahedra),
+          of_mesh(&MeshColumns::min_face_angle),
+          of_mesh(&MeshColumns::max_face_angle),
+          of_mesh(&MeshColumns::min_dihedral),
+          of_mesh(&MeshColumns::max_dihedral),
+          of_mesh(&MeshColumns::mean_min_face_angle),
+          of_mesh(&MeshColumns::mean_min_dihedral),
+          phases_of(row),
+          histograms ? histogram_of(row, "face_angle_histogram") : Json(),
+          histograms ? histogram_of(row, "dihedral_histogram") : Json(),
+          row.command};
+}
+
+std::pair<std::string, std::string> first_pair(const Selection& selection) {
+  const auto all = pairs_of(selection);
+  for (const auto& [first, second] : all) {
+    if (first == "tetgen" && second.starts_with("delmesher")) return {first, second};
+  }
+  return all.empty() ? std::pair<std::string, std::string>() : all.front();
+}
+
+Json data_of(const Page& page, const Selection& selection) {
+  Json data;
+  data["columns"] = {"model",
+                     "mesher",
+                     "disposition",
+                     "verdict",
+                     "reason",
+                     "wall_seconds",
+                     "peak_mb",
+                     "vertices",
+                     "tetrahedra",
+                     "min_face_angle",
+                     "max_face_angle",
+                     "min_dihedral",
+                     "max_dihedral",
+                     "mean_min_face_angle",
+                     "mean_min_dihedral",
+                     "phases",
+                     "face_histogram",
+                     "dihedral_histogram",
+                     "command"};
+  data["meshers"] = selection.meshers;
+  data["phases"] = kPhases;
+  const auto [first, second] = first_pair(selection);
+  data["pair"] = {first, second};
+  data["models"] = Json::array();
+  data["runs"] = Json::array();
+  for (std::size_t m = 0; m < selection.models.size(); ++m) {
+    const std::string& model = selection.models[m];
+    const bool has_view = std::any_of(page.views.begin(), page.views.end(),
+                                      [&](const ViewPart& part) { return part.model == m; });
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < selection.meshers.size(); ++i) {
+      const RunRow* row = selection.run(selection.meshers[i], model);
+      if (row == nullptr) continue;
+      bytes = row->model_bytes;
+      data["runs"].push_back(run_json(*row, m, i, has_view));
+    }
+    data["models"].push_back(
+        {{"name", selection.model_names.at(model)}, {"sha256", model}, {"bytes", bytes}});
+  }
+  data["charts"] = Json::array();
+  for (const Section& section : page.sections) {
+    for (const Chart& chart : section.charts) {
+      if (!chart.empty()) data["charts"].push_back(Json::parse(to_json(chart)));
+    }
+  }
+  return data;
+}
+
+constexpr const char* kComparison = R"(
+<div class="controls">
+<label>First <select id="first"></select></label>
+<label>Second <select id="second"></select></label>
+<label>Measure <select id="measure"></select></label>
+<span id="common" class="faint"></span>
+</div>
+<div class="columns">
+<div class="chart tall"><h3>Each common model</h3><div class="frame" id="scatter"></div></div>
+<div class="chart tall"><h3>Second against first, quantiles</h3><div class="frame" id="quantiles"></div></div>
+</div>
+)";
+
+constexpr const char* kModels = R"(
+<section id="models">
+<h2>Model by model</h2>
+<div class="controls"><label>Model <select id="model"></select></label>
+<span class="faint">&#9670; with pictures</span></div>
+<h3 id="model-name"></h3><p class="faint"><code id="model-facts"></code></p>
+<div id="model-3d">
+<div class="controls">
+<label>Show <select id="part"></select></label>
+<label>Cut across <select id="axis"><option value="0">x</option><option value="1" selected>y</option>
+<option value="2">z</option></select></label>
+<label>at <input type="range" id="cut" min="0" max="100" value="52"></label>
+<label>Bad below <input type="range" id="bad" min="0" max="30" value="5"> <span id="bad-value"></span>&deg;</label>
+<label><input type="checkbox" id="inside"> inside only</label>
+<label><input type="checkbox" id="edges" checked> edges</label>
+<span class="faint">drag to turn, wheel to zoom</span>
+</div>
+<div class="view" id="view"></div>
+</div>
+<p class="faint" id="model-no-3d" hidden>No pictures: run with --keep, see also --views.</p>
+<div class="scroll"><table><thead><tr><th>Mesher</th><th>Disposition</th><th>Oracles</th><th>Wall s</th>
+<th>MB</th><th>Vertices</th><th>Tetrahedra</th><th>Min face</th><th>Max face</th><th>Min dihedral</th>
+<th>Max dihedral</th><th>Avg. min face</th><th>Avg. min dihedral</th><th>Reason; command</th></tr></thead>
+<tbody id="model-runs"></tbody></table></div>
+<div class="columns">
+<div class="chart"><h3>Seconds by phase</h3><div class="frame" id="model-phases"></div></div>
+<div class="chart"><h3>Face angles</h3><div class="frame" id="model-faces"></div></div>
+<div class="chart"><h3>Dihedral angles</h3><div class="frame" id="model-dihedrals"></div></div>
+</div>
+</section>
+)";
+
+constexpr const char* kGallery = R"(
+<section id="figure9">
+<h2>Gallery (Figure 9)</h2>
+<p class="faint">The input, the mesh cut open with all that was meshed, and the part inside the model. Red: a face
+angle below 5 degrees.</p>
+<div class="gallery" id="gallery"></div>
+</section>
+)";
+
+std::string script(std::string_view text) {
+  return "<script>" + std::string(text) + "</script>\n";
+}
+
+}  // namespace
+
+std::string html_text(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string to_html(const Table& table) {
+  std::string text = fmt::format("<div id=\"table-{}\"><h3>{}</h3>\n", html_text(table.name),
+                                 html_text(table.title));
+  if (!table.rows.empty()) {
+    text += "<div class=\"scroll\"><table><thead>" + table_row(table.header, "th") +
+            "</thead><tbody>\n";
+    for (const auto& row : table.rows) text += table_row(row, "td");
+    text += "</tbody></table></div>\n";
+  }
+  return text + notes_list(table.notes) + "</div>\n";
+}
+
+std::string to_html(const Page& page, const Selection& selection) {
+  std::string nav, body;
+  for (const Section& section : page.sections) {
+    nav += fmt::format("<a href=\"#{}\">{}</a>\n", section.id, html_text(section.title));
+    body += section_html(section);
+    if (section.id == "compare" && selection.meshers.size() > 1) {
+      body.insert(body.rfind("</section>"), kComparison);
+    }
+    if (section.id == "figures") {
+      if (!page.views.empty()) {
+        nav += "<a href=\"#figure9\">Gallery</a>\n";
+        body += kGallery;
+      }
+      nav += "<a href=\"#models\">Models</a>\n";
+      body += kModels;
+    }
+  }
+  std::string facts;
+  for (const std::string& fact : page.headline) {
+    const auto space = std::min(fact.find(' '), fact.size());
+    facts += "<li><b>" + html_text(fact.substr(0, space)) + "</b>" + html_text(fact.substr(space)) +
+             "</li>\n";
+  }
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
+      "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<nav>\n{}</nav>\n"
+      "<header><h1>{}</h1>\n<ul class=\"headline\">\n{}</ul>\n"
+      "<p class=\"not-ok\" id=\"trouble\" hidden></p></header>\n<main>\n{}{}</main>\n",
+      html_text(page.title), assets::page_css(), nav, html_text(page.title), facts, body,
+      notes_list(page.notes));
+  for (const ViewPart& part : page.views) {
+    text += "<script type=\"application/json\" class=\"part\">" + for_script(to_json(part)) +
+            "</script>\n";
+  }
+  text += "<script type=\"application/json\" id=\"data\">" + dump(data_of(page, selection)) +
+          "</script>\n";
+  for (const std::string_view code :
+       {assets::chart_js(), assets::three_js(), assets::orbit_controls_js(), assets::charts_js(),
+        assets::view_js(), assets::page_js()}) {
+    text += script(code);
+  }
+  return text + "</body>\n</html>\n";
+}
+
+}  // namespace tetproof

@@ -1,0 +1,65 @@
+// Measures of runs and their sums over models, shared by tables, figures and comparisons.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/selection.h"
+
+namespace tetproof {
+
+using Rows = std::vector<const RunRow*>;
+// Nothing where a run lacks the value.
+using Value = std::function<std::optional<double>(const RunRow&)>;
+// Which mesh of a run: RunRow::mesh, ::inside or ::refined.
+using Part = std::optional<MeshColumns> RunRow::*;
+
+template <typename T>
+Value of(Part part, T MeshColumns::*column) {
+  return [=](const RunRow& row) -> std::optional<double> {
+    if (!(row.*part)) return std::nullopt;
+    return static_cast<double>((*(row.*part)).*column);
+  };
+}
+
+struct AngleMeasure {
+  const char* label;
+  double MeshColumns::*column;
+};
+
+// The four extreme angles of the paper's tables and Figure 10, and the four averages of Figure 11.
+inline constexpr AngleMeasure kExtremeAngles[] = {
+    {"min face angle", &MeshColumns::min_face_angle},
+    {"max face angle", &MeshColumns::max_face_angle},
+    {"min dihedral angle", &MeshColumns::min_dihedral},
+    {"max dihedral angle", &MeshColumns::max_dihedral}};
+inline constexpr AngleMeasure kAverageAngles[] = {
+    {"average min face angle", &MeshColumns::mean_min_face_angle},
+    {"average max face angle", &MeshColumns::mean_max_face_angle},
+    {"average min dihedral angle", &MeshColumns::mean_min_dihedral},
+    {"average max dihedral angle", &MeshColumns::mean_max_dihedral}};
+
+Value wall_seconds();
+Value peak_megabytes();
+// Of the whole process, or of the meshing by the mesher's own account.
+Value process_microseconds();
+Value meshing_microseconds();
+Value peak_bytes();  // per tetrahedron
+
+std::vector<double> values_of(const Rows& rows, const Value& value);
+
+// "-" for nothing.
+std::string fixed(std::optional<double> value, int digits);
+std::string degrees(std::optional<double> value);  // small ones keep two significant digits
+
+// Of these meshers those that the selection has runs of, in the order given.
+std::vector<std::string> present(const Selection& selection,
+                                 const std::vector<std::string>& meshers);
+std::size_t run_count(const Selection& selection, const std::string& mesher);
+
+// The file's name without folders and extension.
+std::string short_name(const std::string& model_name);
+
+}  // namespace tetproof

@@ -1,0 +1,220 @@
+// Brings the page to life: charts, the comparison of two meshers, the page of a model, the gallery.
+"use strict";
+(() => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const columns = Object.fromEntries(data.columns.map((name, i) => [name, i]));
+  const $ = id => document.getElementById(id);
+  const get = (run, name) => run[columns[name]];
+  const runs = new Map();  // by model and mesher
+  for (const run of data.runs) runs.set(get(run, "model") + " " + get(run, "mesher"), run);
+  const runOf = (model, mesher) => runs.get(model + " " + mesher);
+  const isOk = run => run && get(run, "disposition") === "ok" && get(run, "tetrahedra") !== null;
+
+  function element(tag, text, attributes = {}) {
+    const e = document.createElement(tag);
+    if (text !== undefined && text !== null) e.textContent = text;
+    Object.assign(e, attributes);
+    return e;
+  }
+
+  function fill(select, items) {
+    select.replaceChildren(...items.map(([value, text]) => element("option", text, { value })));
+  }
+
+  // The charts that need nothing but their data. Those out of sight wait until they come near.
+  const specs = new Map(data.charts.map(c => [c.name, c]));
+  const near = new IntersectionObserver(entries => entries.forEach(e => {
+    if (!e.isIntersecting) return;
+    near.unobserve(e.target);
+    charts.draw(e.target, specs.get(e.target.dataset.chart));
+  }), { rootMargin: "1500px" });
+  data.meshers.forEach(charts.colourOf);
+  document.querySelectorAll(".frame[data-chart]").forEach(frame => near.observe(frame));
+  addEventListener("beforeprint", () => document.querySelectorAll(".frame[data-chart]").forEach(frame => {
+    if (frame.firstChild === null) charts.draw(frame, specs.get(frame.dataset.chart));
+  }));
+
+  // Two meshers against each other on their common models.
+  const measures = {
+    "wall_seconds": { text: "wall seconds", log: true },
+    "tetrahedra": { text: "tetrahedra", log: true },
+    "peak_mb": { text: "peak memory, MB", log: true },
+    "min_face_angle": { text: "smallest face angle, degrees", log: false },
+    "mean_min_face_angle": { text: "average smallest face angle, degrees", log: false },
+    "mean_min_dihedral": { text: "average smallest dihedral angle, degrees", log: false },
+  };
+
+  function compare() {
+    const first = Number($("first").value), second = Number($("second").value), what = $("measure").value;
+    const names = [first, second].map(i => data.meshers[i]), log = measures[what].log;
+    const points = [], labels = [], differences = [];
+    data.models.forEach((model, m) => {
+      const a = runOf(m, first), b = runOf(m, second);
+      if (!isOk(a) || !isOk(b)) return;
+      const x = get(a, what), y = get(b, what);
+      if (x === null || y === null || (log && (x <= 0 || y <= 0))) return;
+      points.push([x, y]);
+      labels.push(model.name);
+      differences.push(log ? y / x : y - x);
+    });
+    charts.draw($("scatter"), { title: measures[what].text, kind: "points", logX: log, logY: log, diagonal: true,
+      x: `${names[0]}: ${measures[what].text}`, y: `${names[1]}: ${measures[what].text}`,
+      series: [{ label: names[1], data: points, names: labels }] });
+    differences.sort((a, b) => a - b);
+    const quantiles = differences.map((d, i) => [100 * (i + 0.5) / differences.length, d]);
+    charts.draw($("quantiles"), { title: "quantiles", kind: "lines", logY: log, x: "% of the common models",
+      y: log ? `${names[1]} / ${names[0]}` : `${names[1]} - ${names[0]}`,
+      series: [{ label: names[1], data: quantiles },
+               { label: log ? "equal (1)" : "equal (0)", data: [[0, log ? 1 : 0], [100, log ? 1 : 0]] }] });
+    $("common").textContent = `${points.length} models on which both succeed`;
+  }
+
+  function startComparison() {
+    if (data.meshers.length < 2) return;
+    const meshers = data.meshers.map((name, i) => [i, name]);
+    fill($("first"), meshers);
+    fill($("second"), meshers);
+    fill($("measure"), Object.entries(measures).map(([key, m]) => [key, m.text]));
+    const preferred = data.pair.map(name => data.meshers.indexOf(name));
+    $("first").value = preferred[0];
+    $("second").value = preferred[1];
+    for (const id of ["first", "second", "measure"]) $(id).addEventListener("change", compare);
+    compare();
+  }
+
+  // One model: all its runs, and what can be seen of it.
+  const parts = new Map();  // by model, in the order of the page
+  document.querySelectorAll("script.part").forEach(script => {
+    const part = JSON.parse(script.textContent);
+    if (!parts.has(part.model)) parts.set(part.model, []);
+    parts.get(part.model).push(part);
+  });
+  let view = null, model = 0;
+
+  function number(value, digits) {
+    return value === null || value === undefined ? "-" : Number(value).toFixed(digits);
+  }
+
+  function runRow(mesher, run) {
+    const row = element("tr"), disposition = get(run, "disposition");
+    row.append(element("td", data.meshers[mesher]));
+    row.append(element("td", disposition, { className: "text " + (disposition === "ok" ? "ok" : "not-ok") }));
+    row.append(element("td", get(run, "verdict") || "-", { className: "text" }));
+    for (const [name, digits] of [["wall_seconds", 2], ["peak_mb", 0], ["vertices", 0], ["tetrahedra", 0],
+                                  ["min_face_angle", 3], ["max_face_angle", 2], ["min_dihedral", 3],
+                                  ["max_dihedral", 2], ["mean_min_face_angle", 1], ["mean_min_dihedral", 1]]) {
+      row.append(element("td", number(get(run, name), digits)));
+    }
+    const how = element("td", undefined, { className: "text" });
+    if (get(run, "reason")) how.append(element("div", get(run, "reason")));
+    how.append(element("code", get(run, "command")));
+    row.append(how);
+    return row;
+  }
+
+  function phaseChart() {
+    const names = data.phases, series = names.map(label => ({ label, data: [] })), categories = [];
+    data.meshers.forEach((mesher, i) => {
+      const run = runOf(model, i), seconds = run && get(run, "phases");
+      if (!seconds) return;
+      categories.push(mesher);
+      names.forEach((name, p) => series[p].data.push(seconds[p]));
+    });
+    const shown = series.filter(s => s.data.some(v => v > 0));
+    $("model-phases").parentElement.hidden = categories.length === 0;
+    if (categories.length > 0) {
+      charts.draw($("model-phases"), { title: "Seconds by phase", kind: "bars", x: "", y: "seconds", categories, series: shown });
+    }
+  }
+
+  function histogramChart(id, column, title) {
+    const series = [];
+    data.meshers.forEach((mesher, i) => {
+      const run = runOf(model, i), bins = run && get(run, column);
+      if (bins) series.push({ label: mesher, data: bins });
+    });
+    $(id).parentElement.hidden = series.length === 0;
+    if (series.length === 0) return;
+    const categories = series[0].data.map((_, i) => `${15 * i}-${15 * i + 15}`);
+    charts.draw($(id), { title, kind: "bars", x: "degrees", y: "% of angles", categories, series });
+  }
+
+  function showPart() {
+    const list = parts.get(model);
+    const part = list && list[Number($("part").value)];
+    if (!part) return;
+    const share = Number($("cut").value) / 100;
+    const look = { axis: Number($("axis").value), cut: 2.02 * share - 1.01, bad: Number($("bad").value),
+                   insideOnly: $("inside").checked, edges: $("edges").checked };
+    $("bad-value").textContent = look.bad;
+    view = view || views.open($("view"));
+    view.show(part, look);
+  }
+
+  function showModel(index) {
+    model = index;
+    const m = data.models[index];
+    $("model").value = index;
+    $("model-name").textContent = m.name;
+    $("model-facts").textContent = `SHA-256 ${m.sha256}, ${m.bytes} bytes`;
+    $("model-runs").replaceChildren(...data.meshers.flatMap((_, i) => runOf(index, i) ? [runRow(i, runOf(index, i))] : []));
+    phaseChart();
+    histogramChart("model-faces", "face_histogram", "Face angles");
+    histogramChart("model-dihedrals", "dihedral_histogram", "Dihedral angles");
+    const list = parts.get(index) || [];
+    $("model-3d").hidden = list.length === 0;
+    $("model-no-3d").hidden = list.length > 0;
+    if (list.length === 0) return;
+    fill($("part"), list.map((part, i) => [i, part.label]));
+    const mesh = list.findIndex(p => p.kind === "mesh");
+    $("part").value = mesh < 0 ? 0 : mesh;
+    showPart();
+  }
+
+  function startModels() {
+    if (data.models.length === 0) return;
+    fill($("model"), data.models.map((m, i) => [i, (parts.has(i) ? "◆ " : "") + m.name]));
+    $("model").addEventListener("change", () => { location.hash = "model=" + data.models[$("model").value].sha256.slice(0, 12); });
+    for (const id of ["part", "axis", "cut", "bad", "inside", "edges"]) $(id).addEventListener("input", showPart);
+    const follow = scroll => {
+      const wanted = /^#model=([0-9a-f]+)/.exec(location.hash);
+      const found = wanted ? data.models.findIndex(m => m.sha256.startsWith(wanted[1])) : -1;
+      if (found >= 0) showModel(found);
+      if (found >= 0 && scroll) $("models").scrollIntoView();
+      return found >= 0;
+    };
+    addEventListener("hashchange", () => follow(true));
+    if (!follow(true)) showModel(parts.size > 0 ? parts.keys().next().value : 0);
+  }
+
+  // Figure 9: input, mesh cut open, and what is inside.
+  function startGallery() {
+    const gallery = $("gallery");
+    if (gallery === null || parts.size === 0) return;
+    for (const [index, list] of parts) {
+      const input = list.find(p => p.label === "input");
+      const meshes = list.filter(p => p.kind === "mesh");
+      const whole = meshes.find(p => p.hull) || meshes[0], inner = meshes.find(p => !p.hull) || meshes[0];
+      const figure = element("figure"), caption = element("figcaption");
+      const link = element("a", data.models[index].name, { href: "#model=" + data.models[index].sha256.slice(0, 12) });
+      caption.append(link);
+      const shown = [[input, {}], [whole, { cut: 0.02 }], [inner, { cut: 0.02, insideOnly: true }]].filter(([p]) => p);
+      const canvases = shown.map(() => element("canvas"));
+      figure.append(...canvases, caption);
+      gallery.append(figure);
+      shown.forEach(([part, look], i) => views.picture(canvases[i], part, { bad: 5, ...look }));
+    }
+  }
+
+  function attempt(what) {
+    try {
+      what();
+    } catch (error) {
+      console.error(error);
+      $("trouble").hidden = false;
+      $("trouble").textContent = "A part of this page could not be drawn: " + error.message;
+    }
+  }
+  [startComparison, startGallery, startModels].forEach(attempt);
+  document.body.dataset.ready = "yes";
+})();

@@ -1,0 +1,245 @@
+#include "reports/views.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "oracles/mesh_file.h"
+#include "oracles/surface_file.h"
+#include "reports/angles.h"
+#include "reports/measures.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+static_assert(std::endian::native == std::endian::little);  // the page reads arrays as they are
+
+// Meshers whose meshes are shown, the most interesting first.
+constexpr std::array kShown = {"delmesher",         "delmesher-e4",       "tetgen",   "cdt",
+                               "safe-delmesher-e4", "delmesher-nofilter", "tetgen-T0"};
+
+// Moves a model's box to the middle of [-1, 1]^3; computed in double, shown in float.
+struct Frame {
+  std::array<double, 3> middle{};
+  double scale = 1;
+
+  explicit Frame(const std::vector<Point>& points) {
+    Point low = points.at(0), high = low;
+    for (const Point& p : points) {
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], p[k]);
+        high[k] = std::max(high[k], p[k]);
+      }
+    }
+    double size = 0;
+    for (int k = 0; k < 3; ++k) {
+      middle[k] = low[k] + (high[k] - low[k]) / 2;
+      size = std::max(size, (high[k] - low[k]) / 2);
+    }
+    scale = size > 0 ? 1 / size : 1;
+  }
+
+  void append(const Point& p, std::vector<float>& out) const {
+    for (int k = 0; k < 3; ++k) {
+      out.push_back(static_cast<float>((p[k] - middle[k]) * scale));
+    }
+  }
+};
+
+ViewPart surface_part(const oracles::Polyhedron& surface, const Frame& frame) {
+  ViewPart part;
+  for (const Point& p : surface.vertices) frame.append(p, part.vertices);
+  for (const auto& t : surface.triangles) part.cells.insert(part.cells.end(), t.begin(), t.end());
+  return part;
+}
+
+std::uint8_t quality_of(const Corners& c) {
+  double smallest = 60;
+  for (int skipped = 0; skipped < 4; ++skipped) {
+    const auto corner = [&](int i) { return c[static_cast<std::size_t>((skipped + i) % 4)]; };
+    for (const double angle : triangle_angles(corner(1), corner(2), corner(3))) {
+      smallest = std::min(smallest, angle);
+    }
+  }
+  return static_cast<std::uint8_t>(std::floor(4 * smallest));
+}
+
+ViewPart mesh_part(const oracles::MeshFile& mesh, const Frame& frame) {
+  ViewPart part;
+  part.mesh = true;
+  for (const Point& p : mesh.vertices) frame.append(p, part.vertices);
+  for (const auto& t : mesh.tetrahedra) {
+    part.cells.insert(part.cells.end(), t.begin(), t.end());
+    part.quality.push_back(quality_of({mesh.vertices.at(t[0]), mesh.vertices.at(t[1]),
+                                       mesh.vertices.at(t[2]), mesh.vertices.at(t[3])}));
+  }
+  if (mesh.regions.size() == mesh.tetrahedra.size()) {
+    for (const auto region : mesh.regions) part.inside.push_back(region == 1);
+    part.hull = std::find(part.inside.begin(), part.inside.end(), 0) != part.inside.end();
+  }
+  return part;
+}
+
+fs::path chamfered_beside(const RunRow& row) {
+  return fs::path(row.mesh_path).replace_extension().string() + ".chamfered.off";
+}
+
+bool can_be_shown(const RunRow* row, const ViewOptions& options) {
+  return row != nullptr && row->mesh && row->mesh->tetrahedra > 0 &&
+         row->mesh->tetrahedra <= options.tetrahedra && !row->mesh_path.empty() &&
+         fs::exists(row->mesh_path);
+}
+
+// Those asked for by name, then models spread evenly by size, so that the gallery shows all sorts.
+std::vector<std::size_t> chosen_models(const Selection& selection, const ViewOptions& options) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> candidates;
+  std::vector<std::size_t> chosen;
+  for (std::size_t m = 0; m < selection.models.size(); ++m) {
+    const std::string& model = selection.models[m];
+    std::uint64_t size = 0;
+    for (const std::string& mesher : selection.meshers) {
+      const RunRow* row = selection.run(mesher, model);
+      if (can_be_shown(row, options)) size = std::max(size, row->mesh->tetrahedra);
+    }
+    if (size == 0) continue;
+    const std::string name = short_name(selection.model_names.at(model));
+    if (std::find(options.wanted.begin(), options.wanted.end(), name) != options.wanted.end()) {
+      chosen.push_back(m);
+    } else {
+      candidates.emplace_back(size, m);
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  const std::size_t free = options.models - std::min(options.models, chosen.size());
+  const std::size_t count = std::min(free, candidates.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    chosen.push_back(candidates[(2 * i + 1) * candidates.size() / (2 * count)].second);
+  }
+  return chosen;
+}
+
+class Collector {
+ public:
+  Collector(const Selection& selection, const ViewOptions& options, std::vector<std::string>& notes)
+      : selection_(selection), options_(options), notes_(notes) {}
+
+  std::vector<ViewPart> collect() {
+    for (const std::size_t model : chosen_models(selection_, options_)) add_model(model);
+    return std::move(parts_);
+  }
+
+ private:
+  void add_model(std::size_t m) {
+    const std::string& model = selection_.models[m];
+    std::vector<const RunRow*> rows;
+    for (const char* mesher : kShown) {
+      if (can_be_shown(selection_.run(mesher, model), options_)) {
+        rows.push_back(selection_.run(mesher, model));
+      }
+    }
+    for (const std::string& mesher : selection_.meshers) {
+      const RunRow* row = selection_.run(mesher, model);
+      if (std::find(rows.begin(), rows.end(), row) == rows.end() && can_be_shown(row, options_)) {
+        rows.push_back(row);
+      }
+    }
+    guarded(rows.front()->model_path, [&] {
+      const auto input = oracles::read_surface(rows.front()->model_path);
+      const Frame frame(input.vertices);
+      add(surface_part(input, frame), m, "input");
+      for (const RunRow* row : rows) add_run(*row, m, frame);
+    });
+  }
+
+  void add_run(const RunRow& row, std::size_t m, const Frame& frame) {
+    guarded(row.mesh_path, [&] {
+      if (fs::exists(chamfered_beside(row))) {
+        add(surface_part(oracles::read_surface(chamfered_beside(row)), frame), m,
+            "chamfered, " + row.key.mesher);
+      }
+      add(mesh_part(oracles::read_mesh(row.mesh_path), frame), m, row.key.mesher);
+    });
+  }
+
+  template <typename Action>
+  void guarded(const std::string& file, const Action& action) {
+    try {
+      action();
+    } catch (const std::exception& error) {
+      notes_.push_back("not shown: " + file + ": " + error.what());
+    }
+  }
+
+  void add(ViewPart part, std::size_t model, const std::string& label) {
+    const std::uint64_t bytes = 4 * part.vertices.size() +
+                                (part.vertices.size() / 3 < 65536 ? 2 : 4) * part.cells.size() +
+                                part.quality.size() + part.inside.size();
+    const std::uint64_t text = bytes + bytes / 3;
+    if (used_ + text > options_.bytes) {
+      notes_.push_back(fmt::format("{}, {}: not shown, the page would be too large",
+                                   selection_.model_names.at(selection_.models[model]), label));
+      return;
+    }
+    used_ += text;
+    part.model = model;
+    part.label = label;
+    parts_.push_back(std::move(part));
+  }
+
+  const Selection& selection_;
+  const ViewOptions& options_;
+  std::vector<std::string>& notes_;
+  std::uint64_t used_ = 0;
+  std::vector<ViewPart> parts_;
+};
+
+}  // namespace
+
+std::vector<ViewPart> collect_views(const Selection& selection, const ViewOptions& options,
+                                    std::vector<std::string>& notes) {
+  return Collector(selection, options, notes).collect();
+}
+
+std::string base64(const void* data, std::size_t size) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  std::string text;
+  text.reserve((size + 2) / 3 * 4);
+  for (std::size_t i = 0; i < size; i += 3) {
+    const unsigned present = static_cast<unsigned>(std::min<std::size_t>(3, size - i));
+    unsigned word = 0;
+    for (unsigned k = 0; k < 3; ++k) word = word << 8 | (k < present ? bytes[i + k] : 0u);
+    for (unsigned k = 0; k < 4; ++k) {
+      text += k <= present ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+std::string to_json(const ViewPart& part) {
+  nlohmann::ordered_json json = {{"model", part.model},
+                                 {"label", part.label},
+                                 {"kind", part.mesh ? "mesh" : "surface"},
+                                 {"hull", part.hull}};
+  json["v"] = base64(part.vertices.data(), part.vertices.size() * sizeof(float));
+  const bool wide = part.vertices.size() / 3 >= 65536;
+  json["wide"] = wide;
+  if (wide) {
+    json["c"] = base64(part.cells.data(), part.cells.size() * sizeof(std::uint32_t));
+  } else {
+    const std::vector<std::uint16_t> narrow(part.cells.begin(), part.cells.end());
+    json["c"] = base64(narrow.data(), narrow.size() * sizeof(std::uint16_t));
+  }
+  if (!part.quality.empty()) json["q"] = base64(part.quality.data(), part.quality.size());
+  if (!part.inside.empty()) json["i"] = base64(part.inside.data(), part.inside.size());
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace tetproof
