@@ -41,7 +41,7 @@ std::optional<bool> without(const Classification& c, std::initializer_list<const
 class Check {
  public:
   Check(const Model& model, const ClassifyOptions& options, fs::path output)
-      : output_(std::move(output)) {
+      : output_(std::move(output)), path_(model.path.string()) {
     result_.file = model.name;
     result_.sha256 = model.sha256;
     result_.bytes = model.bytes;
@@ -76,7 +76,8 @@ class Check {
       result_.vertices = json.value("vertices", std::uint64_t{0});
       result_.triangles = json.value("triangles", std::uint64_t{0});
       result_.components = json.value("components", std::uint64_t{0});
-      for (const auto& [kind, count] : json.value("defect_counts", Json::object()).items()) {
+      const Json counts = json.value("defect_counts", Json::object());
+      for (const auto& [kind, count] : counts.items()) {
         result_.defects[kind] = count.get<std::uint64_t>();
       }
       if (result_.validity == Validity::invalid) result_.reason = json.value("message", "");
@@ -86,11 +87,15 @@ class Check {
     } else {
       result_.reason = judge(outcome, ExitCodes::ours).reason;
     }
-    const auto at = result_.reason.find(result_.file + ": ");
-    if (at != std::string::npos) result_.reason.erase(0, at + result_.file.size() + 2);
+    // "delmesher: FILE: reason" or "delmesher: FILE:LINE: reason"
+    const auto at = result_.reason.find(path_ + ":");
+    if (at == std::string::npos) return;
+    const std::string rest = result_.reason.substr(at + path_.size() + 1);
+    result_.reason = rest.starts_with(" ") ? rest.substr(1) : "line " + rest;
   }
 
   fs::path output_;
+  std::string path_;
   Classification result_;
   std::unique_ptr<SupervisedProcess> process_;
 };

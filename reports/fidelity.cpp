@@ -25,7 +25,12 @@ std::string ratio(std::optional<double> ours, double paper) {
 
 std::string plain(std::optional<double> value) {
   if (!value) return "-";
-  return *value >= 1000 ? fmt::format("{:.0f}", *value) : fmt::format("{:.3g}", *value);
+  return *value >= 1000 ? fmt::format("{:.0f}", *value) : fmt::format("{:.4g}", *value);
+}
+
+// With all digits that the paper prints.
+std::string printed(double value) {
+  return fmt::format("{:g}", value);
 }
 
 struct PaperRow {
@@ -59,8 +64,8 @@ Table table_1_fidelity(const Selection& selection) {
   for (const PaperRow& row : rows) {
     const auto safe = mean_of(selection, kSafe, row.value);
     const auto slivers = mean_of(selection, kSlivers, row.value);
-    table.rows.push_back({row.label, plain(row.safe), plain(safe), ratio(safe, row.safe),
-                          plain(row.slivers), plain(slivers), ratio(slivers, row.slivers)});
+    table.rows.push_back({row.label, printed(row.safe), plain(safe), ratio(safe, row.safe),
+                          printed(row.slivers), plain(slivers), ratio(slivers, row.slivers)});
   }
   table.notes = {
       fmt::format("Data: the paper's averages are over 3942 valid models of Thingi10K; here over "
@@ -112,7 +117,7 @@ Table table_2_fidelity(const Selection& selection) {
       for (const auto& model : common) {
         if (const RunRow* run = selection.ok_run(kMeshers[i], model)) runs.push_back(run);
       }
-      cells.push_back(plain(row.paper[i]));
+      cells.push_back(printed(row.paper[i]));
       cells.push_back(plain(mean(values_of(runs, row.value))));
     }
     table.rows.push_back(std::move(cells));
@@ -147,11 +152,11 @@ Table success_fidelity(const Selection& selection) {
     const std::size_t successes = selection.ok_runs(row.mesher).size();
     const Interval i = wilson_interval(successes, total);
     table.rows.push_back(
-        {row.mesher, plain(row.percent),
+        {row.mesher, printed(row.percent),
          total == 0 ? "-"
                     : fixed(100.0 * static_cast<double>(successes) / static_cast<double>(total), 1),
          total == 0 ? "-" : fmt::format("{:.1f} to {:.1f}", 100 * i.low, 100 * i.high),
-         plain(row.microseconds), plain(mean_of(selection, row.mesher, process_microseconds()))});
+         printed(row.microseconds), plain(mean_of(selection, row.mesher, process_microseconds()))});
   }
   table.notes = {
       "Success here is more than an exit status: the file must be readable, without inverted "
@@ -195,7 +200,7 @@ Table table_3_fidelity(const Selection& selection, const std::string& model) {
     std::vector<std::string> cells = {row.label};
     for (std::size_t i = 0; i < kMeshers.size(); ++i) {
       const RunRow* run = selection.ok_run(kMeshers[i], model);
-      cells.push_back(plain(row.paper[i]));
+      cells.push_back(printed(row.paper[i]));
       cells.push_back(run == nullptr ? "-" : plain(row.value(*run)));
     }
     table.rows.push_back(std::move(cells));

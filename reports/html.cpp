@@ -64,12 +64,25 @@ std::string chart_html(const Chart& chart) {
       tall ? " tall" : "", html_text(chart.title), html_text(chart.name));
 }
 
+// A table whose notes are there on request, so that more fits on a screen.
+std::string compact_html(const Table& table) {
+  Table bare = table;
+  bare.notes.clear();
+  std::string text = to_html(bare);
+  const std::string notes =
+      "<details><summary>Notes</summary>" + notes_list(table.notes) + "</details>\n";
+  if (!table.notes.empty()) text.insert(text.rfind("</div>"), notes);
+  return text;
+}
+
 std::string section_html(const Section& section) {
   std::string text =
       fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, html_text(section.title));
   if (!section.text.empty()) text += "<p class=\"faint\">" + html_text(section.text) + "</p>\n";
   std::string tables;
-  for (const Table& table : section.tables) tables += to_html(table);
+  for (const Table& table : section.tables) {
+    tables += section.side_by_side ? compact_html(table) : to_html(table);
+  }
   if (section.side_by_side) tables = "<div class=\"columns\">" + tables + "</div>\n";
   if (section.folded) {
     tables = "<details><summary>Show the tables</summary>" + tables + "</details>\n";

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "reports/selection.h"
+#include "reports/table.h"
 
 namespace tetproof {
 
@@ -76,7 +78,7 @@ inline Selection campaign() {
 }
 
 // Cells by row label and column header.
-std::map<std::string, std::map<std::string, std::string>> cells(const Table& table) {
+inline std::map<std::string, std::map<std::string, std::string>> cells(const Table& table) {
   std::map<std::string, std::map<std::string, std::string>> result;
   for (const auto& row : table.rows) {
     EXPECT_EQ(row.size(), table.header.size());

@@ -34,6 +34,8 @@
     if (frame.firstChild === null) charts.draw(frame, specs.get(frame.dataset.chart));
   }));
 
+  addEventListener("beforeprint", () => document.querySelectorAll("details").forEach(d => { d.open = true; }));
+
   // Two meshers against each other on their common models.
   const measures = {
     "wall_seconds": { text: "wall seconds", log: true },
