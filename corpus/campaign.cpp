@@ -16,6 +16,7 @@
 
 #include "corpus/process.h"
 #include "corpus/progress.h"
+#include "corpus/shell.h"
 
 namespace tetproof {
 namespace {
@@ -58,7 +59,7 @@ std::string joined(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     const bool plain =
         !word.empty() && word.find_first_of(" \t\n'\"\\$&|;<>(){}*?#~`") == std::string::npos;
-    text += (text.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+    text += (text.empty() ? "" : " ") + (plain ? word : shell_quoted(word));
   }
   return text;
 }

@@ -76,7 +76,7 @@ class CampaignTest : public testing::Test {
 };
 
 TEST_F(CampaignTest, DispositionsAreToldApart) {
-  options_.limits.wall_seconds = options_.limits.cpu_seconds = 1;
+  options_.limits.wall_seconds = options_.limits.cpu_seconds = 5;
   options_.jobs = 2;
   const std::string nasty = TETPROOF_NASTY_PATH;
   const std::vector<Mesher> meshers = {shell("good", "printf '" + kCorner + "' > mesh.tet"),

@@ -9,6 +9,7 @@
 
 #include "corpus/process.h"
 #include "corpus/sha256.h"
+#include "corpus/shell.h"
 
 namespace tetproof {
 namespace {
@@ -112,19 +113,6 @@ Mesher tetgen_mesher(const std::string& name, const std::string& switches,
   return mesher;
 }
 
-// For a shell, in single quotes.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      result += "'\\''";
-    } else {
-      result += c;
-    }
-  }
-  return result + "'";
-}
-
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
@@ -187,9 +175,9 @@ Mesher command_mesher(const std::string& name, const std::string& text) {
   mesher.mesh_extension = line.substr(start + 4, end - start - 4);
   mesher.command = [line, place = line.substr(start, end + 1 - start)](const RunFiles& files) {
     std::string command = line;
-    replace_all(command, place, quoted(files.mesh.string()));
-    replace_all(command, "{in}", quoted(files.input.string()));
-    replace_all(command, "{stats}", quoted(files.stats.string()));
+    replace_all(command, place, shell_quoted(files.mesh.string()));
+    replace_all(command, "{in}", shell_quoted(files.input.string()));
+    replace_all(command, "{stats}", shell_quoted(files.stats.string()));
     return std::vector<std::string>{"/bin/sh", "-c", command};
   };
   return mesher;

@@ -13,6 +13,7 @@
 
 #include "corpus/campaign.h"
 #include "corpus/disposition.h"
+#include "corpus/shell.h"
 
 namespace tetproof {
 namespace {
@@ -22,12 +23,6 @@ namespace fs = std::filesystem;
 constexpr int kPollMilliseconds = 2000;
 constexpr int kSilentPolls = 5;  // squeue may fail for a while, for example when slurmctld restarts
 
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
 struct Answer {
   bool ok = false;
   std::string text;  // standard output and errors
@@ -35,7 +30,7 @@ struct Answer {
 
 Answer ask(const std::vector<std::string>& words) {
   std::string line;
-  for (const std::string& word : words) line += quoted(word) + " ";
+  for (const std::string& word : words) line += shell_quoted(word) + " ";
   Answer answer;
   FILE* pipe = popen((line + "2>&1").c_str(), "r");
   if (pipe == nullptr) return answer;
@@ -170,8 +165,8 @@ fs::path shard_database(const SlurmCampaign& campaign, unsigned shard) {
 
 std::string task_script(const SlurmCampaign& campaign) {
   std::string command;
-  for (const std::string& word : campaign.task) command += quoted(word) + " ";
-  const std::string stem = quoted((campaign.folder / "shard-").string());
+  for (const std::string& word : campaign.task) command += shell_quoted(word) + " ";
+  const std::string stem = shell_quoted((campaign.folder / "shard-").string());
   // A task that ends without leaving its .done file is lost, whatever ended it.
   return fmt::format(
       "#!/bin/sh\n# models: {}\n"

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "reports/table.h"
+#include "reports/text.h"
 
 namespace tetproof {
 namespace {
@@ -143,41 +144,17 @@ RunRow from_object(const Json& json) {
   return row;
 }
 
-// Text for XML 1.0, which has no way to write most control characters.
-std::string xml(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 32 && c != '\n' && c != '\t' ? '?' : c;
-    }
-  }
-  return result;
-}
-
 std::string junit_case(const RunRow& row) {
   const std::string start =
       fmt::format("    <testcase classname=\"tetproof.{}\" name=\"{}\" time=\"{:.3f}\"",
-                  xml(row.key.mesher), xml(row.model_name), row.wall_seconds);
+                  markup_text(row.key.mesher), markup_text(row.model_name), row.wall_seconds);
   if (row.disposition == Disposition::ok) return start + "/>\n";
-  return start +
-         fmt::format(
-             ">\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n"
-             "    </testcase>\n",
-             disposition_name(row.disposition), xml(row.reason),
-             xml("model " + row.key.model_sha256 + "\n" + row.command + "\n" + row.stderr_tail));
+  return start + fmt::format(
+                     ">\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n"
+                     "    </testcase>\n",
+                     disposition_name(row.disposition), markup_text(row.reason),
+                     markup_text("model " + row.key.model_sha256 + "\n" + row.command + "\n" +
+                                 row.stderr_tail));
 }
 
 std::vector<std::string> csv_header(const ExportOptions& options) {
@@ -297,7 +274,7 @@ std::string rows_to_junit(std::vector<RunRow> rows) {
     text += fmt::format(
         "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" "
         "time=\"{:.3f}\">\n{}  </testsuite>\n",
-        xml(mesher), suite.tests, suite.failures, suite.seconds, suite.cases);
+        markup_text(mesher), suite.tests, suite.failures, suite.seconds, suite.cases);
   }
   return text + "</testsuites>\n";
 }

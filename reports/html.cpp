@@ -10,6 +10,7 @@
 #include "reports/assets.h"
 #include "reports/compare.h"
 #include "reports/measures.h"
+#include "reports/text.h"
 
 namespace tetproof {
 namespace {
@@ -44,7 +45,8 @@ std::string table_row(const std::vector<std::string>& cells, const char* tag) {
   std::string row = "<tr>";
   for (const std::string& cell : cells) {
     const bool words = std::string_view(tag) == "td" && is_words(cell);
-    row += fmt::format("<{}{}>{}</{}>", tag, words ? " class=\"text\"" : "", html_text(cell), tag);
+    row +=
+        fmt::format("<{}{}>{}</{}>", tag, words ? " class=\"text\"" : "", markup_text(cell), tag);
   }
   return row + "</tr>\n";
 }
@@ -52,7 +54,7 @@ std::string table_row(const std::vector<std::string>& cells, const char* tag) {
 std::string notes_list(const std::vector<std::string>& notes) {
   if (notes.empty()) return "";
   std::string text = "<ul class=\"notes\">";
-  for (const std::string& note : notes) text += "<li>" + html_text(note) + "</li>\n";
+  for (const std::string& note : notes) text += "<li>" + markup_text(note) + "</li>\n";
   return text + "</ul>\n";
 }
 
@@ -61,7 +63,7 @@ std::string chart_html(const Chart& chart) {
   const bool tall = chart.kind != Chart::Kind::bars;
   return fmt::format(
       "<div class=\"chart{}\"><h3>{}</h3><div class=\"frame\" data-chart=\"{}\"></div></div>\n",
-      tall ? " tall" : "", html_text(chart.title), html_text(chart.name));
+      tall ? " tall" : "", markup_text(chart.title), markup_text(chart.name));
 }
 
 // A table whose notes are there on request, so that more fits on a screen.
@@ -77,8 +79,8 @@ std::string compact_html(const Table& table) {
 
 std::string section_html(const Section& section) {
   std::string text =
-      fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, html_text(section.title));
-  if (!section.text.empty()) text += "<p class=\"faint\">" + html_text(section.text) + "</p>\n";
+      fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, markup_text(section.title));
+  if (!section.text.empty()) text += "<p class=\"faint\">" + markup_text(section.text) + "</p>\n";
   std::string tables;
   for (const Table& table : section.tables) {
     tables += section.side_by_side ? compact_html(table) : to_html(table);
@@ -279,32 +281,9 @@ std::string script(std::string_view text) {
 
 }  // namespace
 
-std::string html_text(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 std::string to_html(const Table& table) {
-  std::string text = fmt::format("<div id=\"table-{}\"><h3>{}</h3>\n", html_text(table.name),
-                                 html_text(table.title));
+  std::string text = fmt::format("<div id=\"table-{}\"><h3>{}</h3>\n", markup_text(table.name),
+                                 markup_text(table.title));
   if (!table.rows.empty()) {
     text += "<div class=\"scroll\"><table><thead>" + table_row(table.header, "th") +
             "</thead><tbody>\n";
@@ -317,7 +296,7 @@ std::string to_html(const Table& table) {
 std::string to_html(const Page& page, const Selection& selection) {
   std::string nav, body;
   for (const Section& section : page.sections) {
-    nav += fmt::format("<a href=\"#{}\">{}</a>\n", section.id, html_text(section.title));
+    nav += fmt::format("<a href=\"#{}\">{}</a>\n", section.id, markup_text(section.title));
     body += section_html(section);
     if (section.id == "compare" && selection.meshers.size() > 1) {
       body.insert(body.rfind("</section>"), kComparison);
@@ -334,8 +313,8 @@ std::string to_html(const Page& page, const Selection& selection) {
   std::string facts;
   for (const std::string& fact : page.headline) {
     const auto space = std::min(fact.find(' '), fact.size());
-    facts += "<li><b>" + html_text(fact.substr(0, space)) + "</b>" + html_text(fact.substr(space)) +
-             "</li>\n";
+    facts += "<li><b>" + markup_text(fact.substr(0, space)) + "</b>" +
+             markup_text(fact.substr(space)) + "</li>\n";
   }
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -344,7 +323,7 @@ std::string to_html(const Page& page, const Selection& selection) {
       "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<nav>\n{}</nav>\n"
       "<header><h1>{}</h1>\n<ul class=\"headline\">\n{}</ul>\n"
       "<p class=\"not-ok\" id=\"trouble\" hidden></p></header>\n<main>\n{}{}</main>\n",
-      html_text(page.title), assets::page_css(), nav, html_text(page.title), facts, body,
+      markup_text(page.title), assets::page_css(), nav, markup_text(page.title), facts, body,
       notes_list(page.notes));
   for (const ViewPart& part : page.views) {
     text += "<script type=\"application/json\" class=\"part\">" + for_script(to_json(part)) +

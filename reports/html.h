@@ -28,8 +28,6 @@ struct Page {
   std::vector<std::string> notes;
 };
 
-// Text for HTML, with all that has a meaning there escaped.
-std::string html_text(const std::string& text);
 std::string to_html(const Table& table);
 
 std::string to_html(const Page& page, const Selection& selection);

@@ -9,34 +9,13 @@
 #include "corpus/classify.h"
 #include "corpus/cli/commands.h"
 #include "corpus/csv.h"
+#include "corpus/files.h"
 #include "corpus/process.h"
 
 namespace tetproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Scratch {
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "tetproof-classify-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
-    path = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  fs::path path;
-};
-
-void write_file(const fs::path& path, const std::string& text) {
-  const fs::path part = path.string() + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
-  fs::rename(part, path);
-}
 
 // What an earlier manifest of this name decided, by hash.
 std::map<std::string, Classification> decided_before(const std::string& output) {
@@ -68,7 +47,7 @@ class Manifest {
 
   // From time to time, so that an end by force loses little.
   void save() const {
-    if (!arguments_.output.empty()) write_file(arguments_.output, text());
+    if (!arguments_.output.empty()) write_whole(arguments_.output, text());
   }
   std::string text() const { return arguments_.json ? manifest_json(all_) : manifest_csv(all_); }
 
@@ -101,11 +80,11 @@ int classify_command(const ClassifyArguments& arguments) {
       manifest.add(found->second);
     }
   }
-  const Scratch scratch;
+  const ScratchFolder scratch("classify");
   ClassifyOptions options;
   options.supervisor = beside_this_program("tetproof-supervise");
   options.delmesher = beside_this_program("delmesher");
-  options.scratch = scratch.path;
+  options.scratch = scratch.path();
   options.jobs = std::max(1u, arguments.jobs);
   options.limits.wall_seconds = options.limits.cpu_seconds = arguments.timeout;
   options.limits.memory_bytes = arguments.memory_mebibytes << 20;

@@ -68,7 +68,7 @@ struct ClassifyArguments {
 struct SlurmArguments {
   RunArguments run;
   unsigned shards = 0, retries = 3;
-  double task_minutes = 0;         // of a task; 0: the partition's limit
+  double task_minutes = 0;          // of a task; 0: the partition's limit
   std::vector<std::string> sbatch;  // further options of sbatch
 };
 

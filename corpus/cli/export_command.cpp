@@ -1,26 +1,14 @@
 #include <fmt/core.h>
 
-#include <fstream>
+#include <filesystem>
 
 #include "corpus/cli/commands.h"
+#include "corpus/files.h"
 #include "reports/export.h"
 
 namespace tetproof {
-namespace {
 
 namespace fs = std::filesystem;
-
-// Complete or not there.
-void write_file(const fs::path& path, const std::string& text) {
-  const fs::path part = path.string() + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
-  fs::rename(part, path);
-}
-
-}  // namespace
 
 int export_command(const ExportArguments& arguments) {
   std::vector<RunRow> rows;
@@ -31,11 +19,11 @@ int export_command(const ExportArguments& arguments) {
   const fs::path extension = fs::path(arguments.output).extension();
   const std::size_t count = rows.size();
   if (extension == ".csv") {
-    write_file(arguments.output, rows_to_csv(std::move(rows), options));
+    write_whole(arguments.output, rows_to_csv(std::move(rows), options));
   } else if (extension == ".json") {
-    write_file(arguments.output, rows_to_json(std::move(rows), options));
+    write_whole(arguments.output, rows_to_json(std::move(rows), options));
   } else if (extension == ".xml") {
-    write_file(arguments.output, rows_to_junit(std::move(rows)));
+    write_whole(arguments.output, rows_to_junit(std::move(rows)));
   } else {
     throw UsageError("-o: a name that ends in .csv, .json or .xml is expected");
   }

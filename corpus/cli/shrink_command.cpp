@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "corpus/cli/commands.h"
+#include "corpus/files.h"
 #include "corpus/generate/certify.h"
 #include "corpus/generate/generate.h"
 #include "corpus/generate/shrink.h"
@@ -15,19 +16,6 @@ namespace tetproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Scratch {
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "tetproof-shrink-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
-    path = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  fs::path path;
-};
 
 Prober prober_for(const ShrinkArguments& arguments, const fs::path& folder) {
   MesherPrograms programs;
@@ -52,8 +40,8 @@ Prober prober_for(const ShrinkArguments& arguments, const fs::path& folder) {
 }  // namespace
 
 int shrink_command(const ShrinkArguments& arguments) {
-  const Scratch scratch;
-  const Prober prober = prober_for(arguments, scratch.path);
+  const ScratchFolder scratch("shrink");
+  const Prober prober = prober_for(arguments, scratch.path());
   const oracles::Polyhedron read = oracles::read_surface(arguments.input);
   const delmesher::Surface surface = {read.vertices, read.triangles, {}};
   if (const auto defect = first_defect(surface)) {

@@ -1,0 +1,26 @@
+// Files that are complete or not there, and folders that go away.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace tetproof {
+
+// Written beside and renamed. \throw std::runtime_error if that fails.
+void write_whole(const std::filesystem::path& path, const std::string& text);
+
+// A new folder for temporary files, removed with all that is in it.
+class ScratchFolder {
+ public:
+  // \throw std::runtime_error if it cannot be made.
+  explicit ScratchFolder(const std::string& purpose);
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder();
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace tetproof
