@@ -42,6 +42,13 @@ Finding refinement_holds(const delmesher::Surface& surface);
 // The whole pipeline passes all oracles, exactly and as written.
 Finding pipeline_holds(const delmesher::Surface& surface);
 
+// A planar graph is refused exactly if it is invalid; else its mesh passes the oracles.
+Finding plane_holds(Bytes bytes);
+
+// A reader of planar graphs refuses in one line or delivers a consistent graph. `name` gives the
+// format by its extension.
+Finding plane_reader_holds(const std::string& text, const std::string& name);
+
 // Every format reads back what was written.
 Finding writers_hold(Bytes bytes);
 

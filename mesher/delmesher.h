@@ -277,7 +277,7 @@ struct PlanarGraph {
   std::vector<std::array<std::uint32_t, 2>> segments;
   std::vector<std::int32_t> markers;         // one per segment; empty means that all are 0
   std::vector<std::uint8_t> partitions;      // `nested`: 1 if a segment only divides (empty: none)
-  std::vector<std::array<double, 2>> holes;  // `enclosed`: a point in each face that is a hole
+  std::vector<std::array<double, 2>> holes;  // `enclosed`: a point in each hole, on no segment
   struct Region {
     std::array<double, 2> point;  // its face gets the attribute
     double attribute;

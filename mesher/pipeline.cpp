@@ -2,8 +2,6 @@
 // in assembly.cpp.
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
 #include <optional>
 #include <string>
 
@@ -13,6 +11,7 @@
 #include "mesher/cdt/cdt.h"
 #include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
+#include "mesher/guarded.h"
 #include "mesher/output/rounding.h"
 #include "mesher/output/statistics.h"
 #include "mesher/refine/refine.h"
@@ -24,44 +23,11 @@
 namespace delmesher {
 namespace {
 
-// Names the option whose value makes no sense; empty if all do.
-std::string options_defect(const Options& o) {
-  const auto bad = [](double x, double low, double high) { return !(x >= low && x <= high); };
-  if (bad(o.delta, 0, 30) || o.delta == 0) return "delta must be above 0 and at most 30 degrees";
-  if (bad(o.tau, 0, 1)) return "tau must be between 0 and 1";
-  if (bad(o.acute, 0, 90)) return "acute must be between 0 and 90 degrees";
-  if (bad(o.corner, 0, 90)) return "corner must be between 0 and 90 degrees";
-  if (bad(o.chamfer_radius, 0, HUGE_VAL)) return "chamfer radius must not be negative";
-  if (bad(o.max_edge, 0, HUGE_VAL)) return "max edge must not be negative";
-  if (bad(o.time_limit_seconds, 0, HUGE_VAL)) return "time limit must not be negative";
-  return {};
-}
-
 // The threshold for corners of one facet. The facet's triangle at a corner that is not chamfered
 // has its angle, so that has to exceed delta.
 double corner_threshold(const Options& o) {
   constexpr double kMargin = 5;
   return std::min(o.acute, std::max(o.corner, o.delta + kMargin));
-}
-
-// Runs `body` and turns everything it may throw into a status: the public API reports errors as
-// values.
-template <class Body>
-Status guarded(Control& control, Body&& body) {
-  try {
-    const Status status = body();
-    control.finish();
-    return status;
-  } catch (const Stopped& stopped) {
-    control.finish();
-    return stopped.status;
-  } catch (const InternalError& error) {
-    return {StatusCode::internal_error, error.what()};
-  } catch (const std::bad_alloc&) {
-    return {StatusCode::limit_reached, "out of memory"};
-  } catch (const std::exception& error) {
-    return {StatusCode::internal_error, error.what()};
-  }
 }
 
 // One run on one surface: the store, the predicates and the topology that all stages share.
@@ -104,7 +70,7 @@ class Run {
 
  private:
   Status prepare(const Surface& surface) {
-    if (const std::string defect = options_defect(options_); !defect.empty()) {
+    if (const std::string defect = options_defect(options_, 30, 0); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
     control_.enter(Phase::check);

@@ -1,13 +1,12 @@
 // The order of the stages in the plane (section 3).
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <new>
 #include <string>
 
 #include "mesher/base/check.h"
 #include "mesher/base/control.h"
 #include "mesher/delmesher.h"
+#include "mesher/guarded.h"
 #include "mesher/plane/chamfer.h"
 #include "mesher/plane/enrich.h"
 #include "mesher/plane/graph.h"
@@ -20,24 +19,13 @@ namespace {
 
 using plane::Side;
 
-std::string options_defect(const Options& o) {
-  const auto bad = [](double x, double low, double high) { return !(x >= low && x <= high); };
-  if (bad(o.delta, 0, 34) || o.delta == 0) return "delta must be above 0 and at most 34 degrees";
-  if (bad(o.tau, 0, 1)) return "tau must be between 0 and 1";
-  if (bad(o.acute, 60, 90)) return "acute must be between 60 and 90 degrees in the plane";
-  if (bad(o.chamfer_radius, 0, HUGE_VAL)) return "chamfer radius must not be negative";
-  if (bad(o.max_edge, 0, HUGE_VAL)) return "max edge must not be negative";
-  if (bad(o.time_limit_seconds, 0, HUGE_VAL)) return "time limit must not be negative";
-  return {};
-}
-
 class Run {
  public:
   Run(const PlanarGraph& input, const Options& options, Control& control, PlaneResult& result)
       : input_(input), options_(options), control_(control), result_(result) {}
 
   Status mesh() {
-    if (const std::string defect = options_defect(options_); !defect.empty()) {
+    if (const std::string defect = options_defect(options_, 34, 60); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
     control_.enter(Phase::check);
@@ -200,29 +188,13 @@ class Run {
   plane::PlanePredicates predicates_{points_};
 };
 
-// Turns everything that a run may throw into a status.
-Status guarded(Run& run) {
-  try {
-    return run.mesh();
-  } catch (const Stopped& stopped) {
-    return stopped.status;
-  } catch (const InternalError& error) {
-    return {StatusCode::internal_error, error.what()};
-  } catch (const std::bad_alloc&) {
-    return {StatusCode::limit_reached, "out of memory"};
-  } catch (const std::exception& error) {
-    return {StatusCode::internal_error, error.what()};
-  }
-}
-
 }  // namespace
 
 PlaneResult triangulate_polygon(const PlanarGraph& graph, const Options& options) {
   PlaneResult result;
   Control control(options);
   Run run(graph, options, control, result);
-  result.status = guarded(run);
-  control.finish();
+  result.status = guarded(control, [&run] { return run.mesh(); });
   run.finish();
   if (!result.status.ok()) result.mesh = {};
   return result;

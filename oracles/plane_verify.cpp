@@ -1,12 +1,13 @@
 #include "oracles/plane_verify.h"
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <map>
 #include <set>
+
+#include "oracles/plane_grid.h"
+#include "oracles/plane_points.h"
 
 namespace tetproof {
 namespace {
@@ -17,13 +18,9 @@ using delmesher::PlanarGraph;
 using delmesher::PlaneRecord;
 using delmesher::Region;
 using Side = PlaneRecord::Side;
-using Index = std::uint32_t;
+using Index = PlanePoints::Index;
+using Point = PlanePoints::Point;
 constexpr Index kNothing = 0xffffffffU;
-
-struct Point {
-  mpq_class x, y;
-  double dx, dy;  // rounded
-};
 
 class Verifier {
  public:
@@ -32,7 +29,15 @@ class Verifier {
       : graph_(graph), options_(options), result_(result), record_(result.exact) {}
 
   PlaneVerdict run() {
-    if (!read_points()) return verdict_;
+    check_all();
+    verdict_.checks = exact_.checks;
+    return verdict_;
+  }
+
+ private:
+  void check_all() {
+    if (!read_points()) return;
+    sort_into_cells();
     verify_corners();
     Mesh refined = index("refined", record_.refined, record_.refined_edges);
     verify_complex(refined);
@@ -49,10 +54,8 @@ class Verifier {
       verify_area(final);
     }
     verify_mesh();
-    return verdict_;
   }
 
- private:
   using Edge = std::pair<Index, Index>;
   struct Mesh {
     std::string name;
@@ -70,51 +73,6 @@ class Verifier {
   }
   static Edge undirected(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-  // ------------------------------------------------------------------------------ signs
-
-  int orient(const Point& a, const Point& b, const Point& c) {
-    ++verdict_.checks;
-    const double l = (b.dx - a.dx) * (c.dy - a.dy), r = (b.dy - a.dy) * (c.dx - a.dx);
-    const double m = std::fabs(b.dx - a.dx) + std::fabs(b.dy - a.dy) + std::fabs(c.dx - a.dx) +
-                     std::fabs(c.dy - a.dy);
-    const double bound = 1e-14 * (std::fabs(l) + std::fabs(r)) + 8 * error_ * (m + error_);
-    if (std::fabs(l - r) > bound && std::isfinite(bound)) return l > r ? 1 : -1;
-    return sgn((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
-  }
-  int orient(Index a, Index b, Index c) { return orient(points_[a], points_[b], points_[c]); }
-
-  // Positive if d is inside the circle of the counter-clockwise abc.
-  int in_circle(Index ia, Index ib, Index ic, Index id) {
-    ++verdict_.checks;
-    const Point &a = points_[ia], &b = points_[ib], &c = points_[ic], &d = points_[id];
-    double sum = 0, scale = 0, largest = 0;
-    const double ax = a.dx - d.dx, ay = a.dy - d.dy, bx = b.dx - d.dx, by = b.dy - d.dy,
-                 cx = c.dx - d.dx, cy = c.dy - d.dy;
-    const auto term = [&](double px, double py, double qx, double qy, double rx, double ry) {
-      sum += (px * px + py * py) * (qx * ry - qy * rx);
-      scale += (px * px + py * py) * (std::fabs(qx * ry) + std::fabs(qy * rx));
-      largest = std::max({largest, std::fabs(px), std::fabs(py)});
-    };
-    term(ax, ay, bx, by, cx, cy);
-    term(bx, by, cx, cy, ax, ay);
-    term(cx, cy, ax, ay, bx, by);
-    const double n = largest + 2 * error_;
-    const double bound = 1e-13 * scale + 200 * error_ * n * n * n;
-    if (std::fabs(sum) > bound && std::isfinite(bound) && bound > 1e-290) return sum > 0 ? 1 : -1;
-    const mpq_class px = a.x - d.x, py = a.y - d.y, qx = b.x - d.x, qy = b.y - d.y, rx = c.x - d.x,
-                    ry = c.y - d.y;
-    return sgn((px * px + py * py) * (qx * ry - qy * rx) +
-               (qx * qx + qy * qy) * (rx * py - ry * px) +
-               (rx * rx + ry * ry) * (px * qy - py * qx));
-  }
-
-  // Is p strictly inside the disc with diameter ab?
-  bool encroaches(Index a, Index p, Index b) {
-    ++verdict_.checks;
-    const Point &u = points_[a], &v = points_[p], &w = points_[b];
-    return sgn((u.x - v.x) * (w.x - v.x) + (u.y - v.y) * (w.y - v.y)) < 0;
-  }
-
   // ------------------------------------------------------------------------------ points
 
   bool read_points() {
@@ -123,7 +81,6 @@ class Verifier {
       fail("points", "fewer than input vertices");
       return false;
     }
-    double largest = 0;
     for (std::size_t i = 0; i < given.size(); ++i) {
       const ExactPoint& p = given[i];
       if (i < graph_.vertices.size()) {
@@ -148,26 +105,43 @@ class Verifier {
       }
       q.dx = q.x.get_d();
       q.dy = q.y.get_d();
-      largest = std::max({largest, std::fabs(q.dx), std::fabs(q.dy)});
-      points_.push_back(std::move(q));
+      exact_.add(std::move(q));
     }
-    error_ = 5e-16 * largest + 1e-320;
     return true;
   }
 
-  double distance(Index a, Index b) const {
-    return std::hypot(points_[a].dx - points_[b].dx, points_[a].dy - points_[b].dy);
+  // The segments, then the vertices.
+  void sort_into_cells() {
+    std::vector<PlaneGrid::Box> boxes;
+    const auto enter = [&](Index a, Index b) {
+      const Point &p = points_[a], &q = points_[b];
+      boxes.push_back({{std::min(p.dx, q.dx), std::min(p.dy, q.dy)},
+                       {std::max(p.dx, q.dx), std::max(p.dy, q.dy)}});
+    };
+    for (const auto& [a, b] : graph_.segments) enter(a, b);
+    for (Index v = 0; v < graph_.vertices.size(); ++v) enter(v, v);
+    near_ = PlaneGrid(boxes);
   }
 
-  double distance_to_segment(Index v, Index a, Index b) const {
-    const Point &p = points_[v], &q = points_[a], &r = points_[b];
-    const double x = r.dx - q.dx, y = r.dy - q.dy;
-    const double t =
-        std::clamp(((p.dx - q.dx) * x + (p.dy - q.dy) * y) / (x * x + y * y), 0.0, 1.0);
-    return std::hypot(p.dx - q.dx - t * x, p.dy - q.dy - t * y);
+  // A little larger than points, so that rounding hides nothing.
+  template <class Indices>
+  PlaneGrid::Box box(const Indices& indices, double margin = 0) const {
+    PlaneGrid::Box result{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
+    for (const Index v : indices) {
+      const Point& p = points_[v];
+      result.low = {std::min(result.low[0], p.dx), std::min(result.low[1], p.dy)};
+      result.high = {std::max(result.high[0], p.dx), std::max(result.high[1], p.dy)};
+    }
+    margin += 4 * exact_.error();
+    for (std::size_t k = 0; k < 2; ++k) {
+      result.low[k] -= margin;
+      result.high[k] += margin;
+    }
+    return result;
   }
 
   void verify_corners() {
+    const auto segments = static_cast<Index>(graph_.segments.size());
     for (const auto& corner : record_.corners) {
       radius_[corner.vertex] = corner.radius;
       const std::string what = "corner " + std::to_string(corner.vertex);
@@ -175,16 +149,18 @@ class Verifier {
       if (options_.chamfer_radius > 0 && corner.radius > options_.chamfer_radius * (1 + 1e-9)) {
         fail("chamfer", what + " is cut farther out than allowed");
       }
-      if (record_.corners.size() * graph_.segments.size() > 2000000) continue;
       double least = HUGE_VAL;
-      for (Index v = 0; v < graph_.vertices.size(); ++v) {
-        if (v != corner.vertex) least = std::min(least, distance(corner.vertex, v));
-      }
-      for (const auto& [a, b] : graph_.segments) {
-        if (a == corner.vertex || b == corner.vertex) continue;
-        if (orient(a, b, corner.vertex) == 0) continue;  // on it, or met by its ends
-        least = std::min(least, distance_to_segment(corner.vertex, a, b));
-      }
+      near_.visit(box(std::array{corner.vertex}, 3 * corner.radius), [&](Index item) {
+        if (item >= segments) {
+          const Index v = item - segments;
+          if (v != corner.vertex) least = std::min(least, exact_.distance(corner.vertex, v));
+          return;
+        }
+        const auto [a, b] = graph_.segments[item];
+        if (a == corner.vertex || b == corner.vertex) return;
+        if (exact_.orient(a, b, corner.vertex) == 0) return;  // on it, or met by its ends
+        least = std::min(least, exact_.distance_to_segment(corner.vertex, a, b));
+      });
       if (corner.radius > least / 3 * (1 + 1e-6)) {
         fail("chamfer", what + " is cut beyond a third of its feature size");
       }
@@ -219,7 +195,7 @@ class Verifier {
     bool first = true;
     for (Index t = 0; t < mesh.triangles->size(); ++t) {
       const auto& [a, b, c] = (*mesh.triangles)[t].vertices;
-      if (orient(a, b, c) <= 0) fail("orientation", name(mesh, t) + " is not positive");
+      if (exact_.orient(a, b, c) <= 0) fail("orientation", name(mesh, t) + " is not positive");
       for (const Index v : {a, b, c}) {
         const Point& p = points_[v];
         if (first || p.x < low_x) low_x = p.x;
@@ -243,13 +219,6 @@ class Verifier {
     }
   }
 
-  // Parameter of a point of the segment from a to b: 0 at a, 1 at b.
-  mpq_class parameter(Index v, Index a, Index b) const {
-    const Point &p = points_[v], &q = points_[a], &r = points_[b];
-    if (r.x != q.x) return (p.x - q.x) / (r.x - q.x);
-    return (p.y - q.y) / (r.y - q.y);
-  }
-
   void verify_tiling(const Mesh& mesh, bool complete) {
     std::vector<std::vector<std::pair<mpq_class, mpq_class>>> parts(graph_.segments.size());
     for (const auto& edge : *mesh.edges) {
@@ -260,11 +229,11 @@ class Verifier {
       }
       const auto [a, b] = graph_.segments[edge.segment];
       const auto [u, v] = edge.vertices;
-      if (orient(a, b, u) != 0 || orient(a, b, v) != 0) {
+      if (exact_.orient(a, b, u) != 0 || exact_.orient(a, b, v) != 0) {
         fail("tiling", mesh.name + " edge is not on segment " + std::to_string(edge.segment));
         continue;
       }
-      mpq_class s = parameter(u, a, b), t = parameter(v, a, b);
+      mpq_class s = exact_.parameter(u, a, b), t = exact_.parameter(v, a, b);
       if (t < s) std::swap(s, t);
       parts[edge.segment].push_back({s, t});
     }
@@ -275,7 +244,7 @@ class Verifier {
       if (!seen.insert(undirected(a, b)).second) continue;  // given twice: counted once
       std::sort(parts[i].begin(), parts[i].end());
       mpq_class at = 0;
-      const double length = distance(a, b);
+      const double length = exact_.distance(a, b);
       parts[i].push_back({1, 1});
       for (const auto& [s, t] : parts[i]) {
         const std::string what = mesh.name + " segment " + std::to_string(i);
@@ -285,12 +254,15 @@ class Verifier {
           // Only what lies around a chamfered corner may be missing (also vertices on the segment).
           const double from = at.get_d() * length, to = s.get_d() * length;
           bool explained = false;
-          for (const auto& [v, r] : radius_) {
-            if (orient(a, b, v) != 0) continue;
-            const double place = parameter(v, a, b).get_d() * length, reach = r * (1 + 1e-5);
+          near_.visit(box(std::array{a, b}), [&](Index item) {
+            const auto corner =
+                item < parts.size() ? radius_.end() : radius_.find(item - Index(parts.size()));
+            if (corner == radius_.end() || exact_.orient(a, b, corner->first) != 0) return;
+            const double place = exact_.parameter(corner->first, a, b).get_d() * length;
+            const double r = corner->second, reach = r * (1 + 1e-5);
             explained = explained || (place - reach <= from * (1 + 1e-12) + 1e-12 * r &&
                                       place + reach >= to * (1 - 1e-12) - 1e-12 * r);
-          }
+          });
           if (!explained) fail("tiling", what + " is missing away from chamfered corners");
         }
         if (t > at) at = t;
@@ -306,7 +278,7 @@ class Verifier {
       const auto& v = (*mesh.triangles)[t].vertices;
       for (const Index d : (*mesh.triangles)[other->second].vertices) {
         if (d == edge.first || d == edge.second) continue;
-        if (in_circle(v[0], v[1], v[2], d) > 0) fail("Delaunay", name(mesh, t));
+        if (exact_.in_circle(v[0], v[1], v[2], d) > 0) fail("Delaunay", name(mesh, t));
       }
     }
   }
@@ -332,21 +304,25 @@ class Verifier {
         const Point &p = points_[v[i]], &q = points_[v[(i + 1) % 3]];
         length[i] = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
         const Edge edge = undirected(v[i], v[(i + 1) % 3]);
-        if (mesh.segment.contains(edge) && encroaches(edge.first, v[(i + 2) % 3], edge.second)) {
+        if (mesh.segment.contains(edge) &&
+            exact_.encroaches(edge.first, v[(i + 2) % 3], edge.second)) {
           fail("encroached", name(mesh, t));
         }
       }
       std::sort(std::begin(length), std::end(length));
       const Point &p = points_[v[0]], &q = points_[v[1]], &r = points_[v[2]];
       const mpq_class area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-      ++verdict_.checks;
+      ++exact_.checks;
       if (area * area < sine_squared * length[1] * length[2]) fail("angle", name(mesh, t));
     }
-    if (mesh.triangles->size() * graph_.segments.size() > 3000000) return;
     for (Index t = 0; t < mesh.triangles->size(); ++t) {
       const PlaneRecord::Triangle& triangle = (*mesh.triangles)[t];
       bool crossed = false;
-      for (const auto& [a, b] : graph_.segments) crossed = crossed || crosses(a, b, triangle);
+      near_.visit(box(triangle.vertices), [&](Index i) {
+        if (i >= graph_.segments.size() || crossed) return;
+        const auto [a, b] = graph_.segments[i];
+        crossed = crosses(a, b, triangle);
+      });
       if (crossed != (triangle.side == Side::mixed)) {
         fail("side", name(mesh, t) + (crossed ? " is crossed by a segment" : " is not mixed"));
       } else if (!crossed && closed_rings() &&
@@ -363,15 +339,16 @@ class Verifier {
       const auto [low, high] = std::minmax({points_[v[0]].*x, points_[v[1]].*x, points_[v[2]].*x});
       const double lo = std::min(points_[a].*x, points_[b].*x),
                    hi = std::max(points_[a].*x, points_[b].*x);
-      return hi < low - 2 * error_ || lo > high + 2 * error_;
+      return hi < low - 2 * exact_.error() || lo > high + 2 * exact_.error();
     };
     if (outside_box(&Point::dx) || outside_box(&Point::dy)) return false;
-    const int s[] = {orient(a, b, v[0]), orient(a, b, v[1]), orient(a, b, v[2])};
+    const int s[] = {exact_.orient(a, b, v[0]), exact_.orient(a, b, v[1]),
+                     exact_.orient(a, b, v[2])};
     const auto [least, most] = std::minmax({s[0], s[1], s[2]});
     if (least >= 0 || most <= 0) return false;
     for (std::size_t i = 0; i < 3; ++i) {
       const Index p = v[i], q = v[(i + 1) % 3];
-      if (orient(p, q, a) <= 0 && orient(p, q, b) <= 0) return false;
+      if (exact_.orient(p, q, a) <= 0 && exact_.orient(p, q, b) <= 0) return false;
     }
     return true;
   }
@@ -433,13 +410,13 @@ class Verifier {
     c.dx = c.x.get_d();
     c.dy = c.y.get_d();
     bool inside = false;
-    for (Index i = 0; i < graph_.segments.size(); ++i) {
-      if (!separates(i)) continue;
+    near_.visit({{c.dx, c.dy}, {HUGE_VAL, c.dy}}, [&](Index i) {
+      if (i >= graph_.segments.size() || !separates(i)) return;
       const Point &a = points_[graph_.segments[i][0]], &b = points_[graph_.segments[i][1]];
       const bool below_a = a.y <= c.y, below_b = b.y <= c.y;
-      if (below_a == below_b) continue;
-      if ((orient(a, b, c) > 0) == below_a) inside = !inside;
-    }
+      if (below_a == below_b) return;
+      if ((exact_.orient(a, b, c) > 0) == below_a) inside = !inside;
+    });
     return inside;
   }
 
@@ -447,13 +424,26 @@ class Verifier {
     Point p{at[0], at[1], at[0], at[1]};
     for (Index t = 0; t < mesh.triangles->size(); ++t) {
       const auto& v = (*mesh.triangles)[t].vertices;
-      if (orient(points_[v[0]], points_[v[1]], p) >= 0 &&
-          orient(points_[v[1]], points_[v[2]], p) >= 0 &&
-          orient(points_[v[2]], points_[v[0]], p) >= 0) {
+      if (exact_.orient(points_[v[0]], points_[v[1]], p) >= 0 &&
+          exact_.orient(points_[v[1]], points_[v[2]], p) >= 0 &&
+          exact_.orient(points_[v[2]], points_[v[0]], p) >= 0) {
         return t;
       }
     }
     return kNothing;
+  }
+
+  // A hole point on a segment means no face.
+  bool on_segment(const std::array<double, 2>& at) {
+    const Point p{at[0], at[1], at[0], at[1]};
+    bool found = false;
+    near_.visit({at, at}, [&](Index i) {
+      if (found || i >= graph_.segments.size()) return;
+      const Point &a = points_[graph_.segments[i][0]], &b = points_[graph_.segments[i][1]];
+      found = exact_.orient(a, b, p) == 0 && std::min(a.x, b.x) <= p.x &&
+              p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
+    });
+    return found;
   }
 
   // A flood from the border, with the number of separating segments that have to be crossed.
@@ -470,6 +460,7 @@ class Verifier {
     }
     if (!nested) {
       for (const auto& hole : graph_.holes) {
+        if (on_segment(hole)) continue;
         const Index t = triangle_with(mesh, hole);
         if (t != kNothing && depth[t] < 0) start(t, 0);
       }
@@ -589,7 +580,7 @@ class Verifier {
     std::uint64_t bad = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
       if (!expected.contains({ids[a], ids[b], ids[c]})) fail("written", "an unknown triangle");
-      bad += orient(written[a], written[b], written[c]) <= 0;
+      bad += exact_.orient(written[a], written[b], written[c]) <= 0;
     }
     const auto& s = result_.statistics;
     if (bad != s.rounding_inverted + s.rounding_flat) {
@@ -603,9 +594,10 @@ class Verifier {
   const PlaneRecord& record_;
   PlaneVerdict verdict_;
   std::map<std::string, int> count_;
-  std::vector<Point> points_;
+  PlanePoints exact_;
+  const std::vector<Point>& points_ = exact_.all();
+  PlaneGrid near_;
   std::map<Index, double> radius_;
-  double error_ = 0;
   int rings_ = -1;
 };
 

@@ -9,7 +9,7 @@
 //    edges without segment are Delaunay; no segment that bounds a triangle in the region is
 //    encroached from there (open discs); the angle bound holds for every triangle that is not
 //    outside; triangles that are not mixed are met by no segment and lie where they claim;
-//  - chamfer distances are at most a third of the local feature size (small inputs: brute force);
+//  - chamfer distances are at most a third of the local feature size;
 //  - final: the segments are tiled completely; edges without segment are Delaunay; the sides agree
 //    with a flood of its own; all vertices of the input and of the refined mesh are there;
 //  - the area of the inside, and a ray from every triangle (inputs of closed rings);

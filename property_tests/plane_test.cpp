@@ -209,7 +209,12 @@ TEST(Plane, HolesAndRegions) {
   graph.holes = {{5, 5}, {0, 0.6}};
   const PlaneResult odd = triangulate_polygon(graph);
   ASSERT_EQ(odd.warnings.size(), 1U);
-  EXPECT_NE(odd.warnings[0].find("hole"), std::string::npos);
+  EXPECT_EQ(odd.warnings[0], "hole 0 ignored: it is not inside (numbered from 0)");
+  graph.holes = {{1, 1}, {0.5, 1}};  // a corner, a side
+  graph.regions.clear();
+  const PlaneResult on = expect_verified(graph);
+  ASSERT_EQ(on.warnings.size(), 2U);
+  EXPECT_EQ(on.warnings[1], "hole 1 ignored: it is on a segment (numbered from 0)");
 }
 
 TEST(Plane, BordersDivide) {

@@ -32,6 +32,7 @@ struct Measurement {
   double seconds = 0;        // processor time
   double peak_megabytes = 0;
   std::uint64_t acute = 0, dropped = 0;
+  std::uint64_t checks = 0;  // signs that the oracles decided
 };
 
 struct Mesher {
@@ -40,13 +41,19 @@ struct Mesher {
   std::function<void(const PlanarGraph&, Measurement&)> run;
 };
 
-Mesher delmesher_plane(const delmesher::Options& options);
+// `verified`: a second run has to pass the oracles, after the time was taken.
+Mesher delmesher_plane(const delmesher::Options& options, bool verified);
 Mesher cgal_mesh_2();
 // `command` with {in} for a .poly file.
 Mesher foreign_command(const std::string& command);
 
-// In a child process, which is killed after `timeout` seconds of processor time.
-Measurement measure(const Mesher& mesher, const PlanarGraph& graph, double timeout);
+struct Limits {
+  double seconds = 300;     // of processor time
+  double megabytes = 4000;  // of address space
+};
+
+// In a child process, which the limits end.
+Measurement measure(const Mesher& mesher, const PlanarGraph& graph, const Limits& limits);
 
 // Smallest and mean smallest angle.
 void count_angles(const std::vector<std::array<double, 2>>& vertices,
@@ -59,5 +66,9 @@ struct Row {
   Measurement measurement;
 };
 std::string markdown(const std::vector<Row>& rows, bool summary_only);
+
+// The paper's figure 2 on the family `figure`, or on a file: five pictures as one SVG, and its
+// numbers as a table. Throws std::runtime_error.
+void write_figure(const Input& input, const delmesher::Options& options, const std::string& folder);
 
 }  // namespace tetproof::plane_bench

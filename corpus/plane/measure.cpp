@@ -66,7 +66,7 @@ void count_angles(const std::vector<std::array<double, 2>>& vertices,
   m.mean_angle = triangles.empty() ? 0 : sum / static_cast<double>(triangles.size());
 }
 
-Measurement measure(const Mesher& mesher, const PlanarGraph& graph, double timeout) {
+Measurement measure(const Mesher& mesher, const PlanarGraph& graph, const Limits& limits) {
   Measurement m;
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
@@ -74,9 +74,12 @@ Measurement measure(const Mesher& mesher, const PlanarGraph& graph, double timeo
   if (child < 0) throw std::runtime_error("no child process");
   if (child == 0) {
     close(ends[0]);
-    const auto limit = static_cast<rlim_t>(std::ceil(timeout));
+    const auto limit = static_cast<rlim_t>(std::ceil(limits.seconds));
     const struct rlimit cpu = {limit, limit + 1};
     setrlimit(RLIMIT_CPU, &cpu);
+    const auto bytes = static_cast<rlim_t>(limits.megabytes * 1048576);
+    const struct rlimit memory = {bytes, bytes};
+    setrlimit(RLIMIT_AS, &memory);
     const struct rlimit core = {0, 0};
     setrlimit(RLIMIT_CORE, &core);
     const Measurement result = run_here(mesher, graph);

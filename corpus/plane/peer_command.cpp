@@ -10,6 +10,7 @@
 
 #include "corpus/plane/bench.h"
 #include "mesher/io/write_plane.h"
+#include "oracles/plane_verify.h"
 
 namespace tetproof::plane_bench {
 namespace {
@@ -55,10 +56,24 @@ void read_result(const std::string& stem, Measurement& m) {
   count_angles(vertices, triangles, m);
 }
 
+// The same run once more, with its record for the oracles.
+void verify(const PlanarGraph& graph, delmesher::Options options,
+            const delmesher::PlaneResult& plain, Measurement& m) {
+  options.want_exact = true;
+  const delmesher::PlaneResult result = delmesher::triangulate_polygon(graph, options);
+  if (result.mesh.vertices != plain.mesh.vertices ||
+      result.mesh.triangles != plain.mesh.triangles) {
+    throw std::runtime_error("two runs differ");
+  }
+  const PlaneVerdict verdict = verify_plane(graph, options, result);
+  if (!verdict.ok()) throw std::runtime_error(verdict.failures[0]);
+  m.checks = verdict.checks;
+}
+
 }  // namespace
 
-Mesher delmesher_plane(const delmesher::Options& options) {
-  return {"delmesher plane", [options](const PlanarGraph& graph, Measurement& m) {
+Mesher delmesher_plane(const delmesher::Options& options, bool verified) {
+  return {"delmesher plane", [options, verified](const PlanarGraph& graph, Measurement& m) {
             const std::clock_t start = std::clock();
             const delmesher::PlaneResult result = delmesher::triangulate_polygon(graph, options);
             m.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -71,6 +86,7 @@ Mesher delmesher_plane(const delmesher::Options& options) {
             m.mean_angle = s.final.mean_min_angle;
             m.acute = s.acute_vertices;
             m.dropped = s.dropped_segments;
+            if (verified) verify(graph, options, result, m);
           }};
 }
 

@@ -49,16 +49,22 @@ std::string markdown(const std::vector<Row>& rows, bool summary_only) {
   }
   // Where both succeeded only, or the harder inputs would count for one mesher alone.
   std::map<std::string, int> successes;
-  for (const Row& row : rows) successes[row.input] += row.measurement.ok;
+  std::map<std::string, double> first_time;
+  for (const Row& row : rows) {
+    successes[row.input] += row.measurement.ok;
+    if (row.mesher == rows[0].mesher) first_time[row.input] = per_triangle(row.measurement);
+  }
   std::map<std::string, std::vector<const Row*>> by_mesher;
   for (const Row& row : rows) by_mesher[row.mesher].push_back(&row);
   text +=
       "| mesher | succeeded | least min angle before | median min angle after | median mean min "
-      "angle | median us per triangle | median triangles |\n|---|---|---|---|---|---|---|\n";
+      "angle | median us per triangle | median of the time per triangle over that of " +
+      (rows.empty() ? "" : rows[0].mesher) +
+      " | median triangles |\n|---|---|---|---|---|---|---|---|\n";
   for (const auto& [mesher, own] : by_mesher) {
     std::size_t ok = 0;
     double before = 180;
-    std::vector<double> after, mean, time, triangles;
+    std::vector<double> after, mean, time, ratio, triangles;
     for (const Row* row : own) {
       const Measurement& m = row->measurement;
       if (!m.ok) continue;
@@ -68,12 +74,14 @@ std::string markdown(const std::vector<Row>& rows, bool summary_only) {
       after.push_back(m.final_angle);
       mean.push_back(m.mean_angle);
       time.push_back(per_triangle(m));
+      ratio.push_back(per_triangle(m) / first_time[row->input]);
       triangles.push_back(static_cast<double>(m.triangles));
     }
     text += "| " + mesher + " | " + std::to_string(ok) + " of " + std::to_string(own.size()) +
             " | " + (before < 0 || ok == 0 ? "-" : format("%.4f", before)) + " | " +
             angle(median(after)) + " | " + format("%.2f", median(mean)) + " | " +
-            format("%.2f", median(time)) + " | " + format("%.0f", median(triangles)) + " |\n";
+            format("%.2f", median(time)) + " | " + format("%.2f", median(ratio)) + " | " +
+            format("%.0f", median(triangles)) + " |\n";
   }
   return text;
 }

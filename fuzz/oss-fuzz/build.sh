@@ -16,7 +16,7 @@ while read -r target seeds; do
   [ -d "$root/fuzz/regressions/$target" ] && folders+=("$root/fuzz/regressions/$target")
   zip -q -j "$OUT/${target}_fuzzer_seed_corpus.zip" $(find "${folders[@]}" -type f)
   case $target in
-    reader_*) cp "$root/fuzz/dictionaries/surface.dict" "$OUT/${target}_fuzzer.dict" ;;
+    reader_* | plane_reader) cp "$root/fuzz/dictionaries/surface.dict" "$OUT/${target}_fuzzer.dict" ;;
     command_line) cp "$root/fuzz/dictionaries/command_line.dict" "$OUT/${target}_fuzzer.dict" ;;
   esac
 done <"$work/fuzz/targets.txt"

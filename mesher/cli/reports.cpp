@@ -30,6 +30,18 @@ Json mesh_json(const MeshStatistics& s) {
           {"dihedral_histogram", s.dihedral_histogram}};
 }
 
+Json mesh_json(const PlaneMeshStatistics& s) {
+  return {{"vertices", s.vertices},
+          {"triangles", s.triangles},
+          {"interior_triangles", s.interior_triangles},
+          {"edges", s.edges},
+          {"min_angle", s.min_angle},
+          {"max_angle", s.max_angle},
+          {"mean_min_angle", s.mean_min_angle},
+          {"mean_max_angle", s.mean_max_angle},
+          {"angle_histogram", s.angle_histogram}};
+}
+
 Json parameters_json(const Command& command) {
   static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check"};
   const Options& o = command.options;
@@ -47,6 +59,35 @@ Json parameters_json(const Command& command) {
           {"region", o.region == Region::hull ? "hull" : "interior"},
           {"max_vertices", o.max_vertices},
           {"time_limit", o.time_limit_seconds}};
+}
+
+// What the statistics of every job begin with.
+template <class AnyResult>
+Json run_json(const Command& command, const AnyResult& result, const RunFacts& facts,
+              const char* cell_name) {
+  Json phases;
+  for (std::size_t i = 0; i < kPhaseCount; ++i) {
+    const Phase phase = static_cast<Phase>(i);
+    phases[phase_name(phase)] = seconds_of(phase, result.statistics.phase_seconds, facts);
+  }
+  return {{"input",
+           {{"file", command.input},
+            {"vertices", facts.input_vertices},
+            {cell_name, facts.input_cells},
+            {"bbox_diagonal", result.statistics.bbox_diagonal}}},
+          {"parameters", parameters_json(command)},
+          {"status", status_name(result.status.code)},
+          {"phases_seconds", phases},
+          {"wall_seconds", facts.wall_seconds},
+          {"cpu_seconds", facts.cpu_seconds},
+          {"peak_rss_bytes", facts.peak_rss_bytes}};
+}
+
+template <class AnyStatistics>
+Json rounding_json(const AnyStatistics& s) {
+  return {{"inverted", s.rounding_inverted},
+          {"flat", s.rounding_flat},
+          {"repaired", s.rounding_repaired}};
 }
 
 std::string dump(const Json& json) {
@@ -79,46 +120,48 @@ int exit_code_of(StatusCode code) {
   return kCodes[static_cast<std::size_t>(code)];
 }
 
+double seconds_of(Phase phase, const std::array<double, kPhaseCount>& phase_seconds,
+                  const RunFacts& facts) {
+  if (phase == Phase::read) return facts.read_seconds;
+  if (phase == Phase::write) return facts.write_seconds;
+  return phase_seconds[static_cast<std::size_t>(phase)];
+}
+
 std::string stats_json(const Command& command, const Result& result, const RunFacts& facts) {
   const Statistics& s = result.statistics;
-  Json phases;
-  for (std::size_t i = 0; i < kPhaseCount; ++i) {
-    const Phase phase = static_cast<Phase>(i);
-    double seconds = s.phase_seconds[i];
-    if (phase == Phase::read) seconds = facts.read_seconds;
-    if (phase == Phase::write) seconds = facts.write_seconds;
-    phases[phase_name(phase)] = seconds;
+  Json json = run_json(command, result, facts, "triangles");
+  json["refined"] = mesh_json(s.refined);
+  json["final"] = mesh_json(s.final);
+  json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
+  json["chamfer"] = {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}};
+  json["guarantee"] = {{"acute", s.guaranteed_acute},
+                       {"corner", s.guaranteed_corner},
+                       {"gabriel", s.gabriel},
+                       {"fallback_corners", s.fallback_corners}};
+  json["steiner"] = {{"on_segments", s.steiner_on_segments},
+                     {"on_facets", s.steiner_on_facets},
+                     {"in_volume", s.steiner_in_volume}};
+  json["rounding"] = rounding_json(s);
+  json["rounding"]["max_surface_deviation"] = s.max_surface_deviation;
+  return dump(json);
+}
+
+std::string plane_stats_json(const Command& command, const PlaneResult& result,
+                             const RunFacts& facts) {
+  const PlaneStatistics& s = result.statistics;
+  Json json = run_json(command, result, facts, "segments");
+  for (const char* key : {"corner", "gabriel", "slivers", "bridge_simplification"}) {
+    json["parameters"].erase(key);
   }
-  const Json json = {
-      {"input",
-       {{"file", command.input},
-        {"vertices", facts.input_vertices},
-        {"triangles", facts.input_triangles},
-        {"bbox_diagonal", s.bbox_diagonal}}},
-      {"parameters", parameters_json(command)},
-      {"status", status_name(result.status.code)},
-      {"phases_seconds", phases},
-      {"wall_seconds", facts.wall_seconds},
-      {"cpu_seconds", facts.cpu_seconds},
-      {"peak_rss_bytes", facts.peak_rss_bytes},
-      {"refined", mesh_json(s.refined)},
-      {"final", mesh_json(s.final)},
-      {"filter", {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}}},
-      {"chamfer", {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}}},
-      {"guarantee",
-       {{"acute", s.guaranteed_acute},
-        {"corner", s.guaranteed_corner},
-        {"gabriel", s.gabriel},
-        {"fallback_corners", s.fallback_corners}}},
-      {"steiner",
-       {{"on_segments", s.steiner_on_segments},
-        {"on_facets", s.steiner_on_facets},
-        {"in_volume", s.steiner_in_volume}}},
-      {"rounding",
-       {{"inverted", s.rounding_inverted},
-        {"flat", s.rounding_flat},
-        {"repaired", s.rounding_repaired},
-        {"max_surface_deviation", s.max_surface_deviation}}}};
+  json["refined"] = mesh_json(s.refined);
+  json["final"] = mesh_json(s.final);
+  json["filter"] = {{"dropped_segments", s.dropped_segments}, {"rounds", s.filter_rounds}};
+  json["chamfer"] = {{"acute_vertices", s.acute_vertices},
+                     {"chamfered_segments", s.chamfered_segments}};
+  json["guarantee"] = {{"acute", command.options.acute}, {"delta", s.guaranteed_delta}};
+  json["steiner"] = {{"on_segments", s.steiner_on_segments}, {"in_faces", s.steiner_in_faces}};
+  json["rounding"] = rounding_json(s);
+  json["rounding"]["max_segment_deviation"] = s.max_segment_deviation;
   return dump(json);
 }
 

@@ -1,6 +1,7 @@
 // What the command line prints and writes about a run: statistics, and the report of `check`.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "mesher/cli/arguments.h"
@@ -13,13 +14,19 @@ const char* status_name(StatusCode code);
 int exit_code_of(StatusCode code);
 
 struct RunFacts {
-  std::uint64_t input_vertices = 0, input_triangles = 0;
+  std::uint64_t input_vertices = 0, input_cells = 0;  // triangles, or segments in the plane
   double read_seconds = 0, write_seconds = 0, wall_seconds = 0, cpu_seconds = 0;
   std::uint64_t peak_rss_bytes = 0;
 };
 
+// What a phase took: the library does not read or write.
+double seconds_of(Phase phase, const std::array<double, kPhaseCount>& phase_seconds,
+                  const RunFacts& facts);
+
 // The JSON of --stats; its keys are stable.
 std::string stats_json(const Command& command, const Result& result, const RunFacts& facts);
+std::string plane_stats_json(const Command& command, const PlaneResult& result,
+                             const RunFacts& facts);
 
 // The report of `check`.
 std::string check_text(const std::string& file, const SurfaceReport& report);

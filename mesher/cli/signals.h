@@ -14,6 +14,15 @@ void begin_deferring();
 void end_deferring();
 bool interrupted();
 
+// Lets a signal ask the library to stop instead of ending the program.
+class Deferring {
+ public:
+  Deferring() { begin_deferring(); }
+  ~Deferring() { end_deferring(); }
+  Deferring(const Deferring&) = delete;
+  Deferring& operator=(const Deferring&) = delete;
+};
+
 // The files to remove should a signal end the program.
 void set_temporaries(const std::vector<std::string>& paths);
 

@@ -79,6 +79,7 @@ void TextSink::point(const std::array<double, 3>& p) {
 bool TextSink::flush() {
   if (!failed_ && std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size()) {
     failed_ = true;
+    failure_ = errno;
   }
   buffer_.clear();
   return !failed_;
@@ -135,11 +136,11 @@ WriteStatus OutputSet::commit() {
   for (File& file : files_) {
     errno = 0;
     const bool flushed = file.sink->flush();
-    const int flush_error = errno;
     const bool closed = std::fclose(file.file) == 0;
     file.file = nullptr;
     if (status.ok() && (!flushed || !closed)) {
-      status.error = file.path + ": cannot write: " + reason(flushed ? errno : flush_error);
+      status.error =
+          file.path + ": cannot write: " + reason(flushed ? errno : file.sink->failure());
     }
   }
   for (File& file : files_) {

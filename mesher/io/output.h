@@ -45,6 +45,8 @@ class TextSink {
   void point(const std::array<double, 3>& p);
 
   bool flush();
+  // errno of the first write that failed, or 0.
+  int failure() const { return failure_; }
 
  private:
   static constexpr std::size_t kBufferSize = std::size_t{1} << 18;
@@ -54,6 +56,7 @@ class TextSink {
   std::FILE* file_;
   std::string buffer_;
   bool failed_ = false;
+  int failure_ = 0;
 };
 
 class OutputSet {

@@ -87,6 +87,15 @@ TEST(ReadPlane, FlatSurfaces) {
   EXPECT_EQ(obj.graph.segments.size(), 5U);  // but it is where labels change
   EXPECT_NE(error_of("OFF\n3 1 0\n0 0 0\n1 0 1\n1 1 0\n3 0 1 2\n", "f.off").find("vertex 1"),
             std::string::npos);
+  const char* overlapping = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n.2 .2 0\n3 0 1 2\n3 0 1 3\n";
+  EXPECT_EQ(error_of(overlapping, "f.off"), "f.off: triangles 0 and 1 overlap");
+}
+
+TEST(ReadPlane, SaysWhatItIgnores) {
+  const PlaneReadResult columns = parse("0 0 7\n1 0 7\n1 1 7\n", "f.txt");
+  ASSERT_EQ(columns.warnings.size(), 1U);
+  EXPECT_EQ(columns.warnings[0], "columns after x and y ignored");
+  EXPECT_TRUE(parse("0 0 # a comment\n1 0\n1 1 \n", "f.txt").warnings.empty());
 }
 
 PlaneMesh two_triangles() {
@@ -175,6 +184,17 @@ TEST_F(WritePlane, GraphsComeBack) {
   EXPECT_EQ(back.graph.markers, graph.markers);
   EXPECT_EQ(back.graph.holes, graph.holes);
   EXPECT_EQ(back.graph.regions[0].attribute, graph.regions[0].attribute);
+}
+
+TEST_F(WritePlane, AFullDiskIsSaid) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
+  PlaneMesh mesh = two_triangles();
+  mesh.vertices.resize(200000);  // more than is buffered
+  OutputSet outputs;
+  std::filesystem::create_symlink("/dev/full", folder_ / "full.off");
+  const std::string path = (folder_ / "full.off").string();
+  ASSERT_TRUE(write_plane(outputs, path, mesh).ok());
+  EXPECT_EQ(outputs.commit().error, path + ": cannot write: No space left on device");
 }
 
 }  // namespace

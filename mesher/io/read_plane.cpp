@@ -5,6 +5,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "mesher/io/exact_sign.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::io {
@@ -259,6 +260,7 @@ void read_polygons(std::string_view text, PlaneReadResult& result) {
   const auto close = [&] {
     if (points.size() > (ends.empty() ? 0 : ends.back())) ends.push_back(points.size());
   };
+  bool more_columns = false;
   while (in.next_raw_line()) {
     const std::string_view rest = in.rest_of_line();
     if (rest.empty() || rest[0] == '>') {
@@ -267,10 +269,12 @@ void read_polygons(std::string_view text, PlaneReadResult& result) {
     }
     const double x = need_number(in, "x");
     points.push_back({x, need_number(in, "y")});
+    more_columns = more_columns || !in.rest_of_line().empty();
     if (points.size() >= kMaxVertices) fail(at_line(in.line()), "too many points");
   }
   close();
   if (ends.empty()) fail({}, "no points");
+  if (more_columns) result.warnings.push_back("columns after x and y ignored");
   PlanarGraph& graph = result.graph;
   graph.insideness = Insideness::nested;
   const std::vector<std::uint32_t> number = weld(points, graph.vertices);
@@ -311,6 +315,17 @@ PlanarGraph outline(const Surface& surface) {
     at.push_back({{std::min(edges[i][0], edges[i][1]), std::max(edges[i][0], edges[i][1])}, i / 3});
   }
   std::sort(at.begin(), at.end());
+  // On which side of the edge the triangle lies.
+  const auto side = [&](std::uint32_t t, const CountedEdge& edge) {
+    const auto [a, b] = edge.ends;
+    int sign = 0;
+    for (const std::uint32_t v : surface.triangles[t]) {
+      if (v != a && v != b) {
+        sign = orient2d_sign(graph.vertices[a], graph.vertices[b], graph.vertices[v]);
+      }
+    }
+    return sign;
+  };
   for (const CountedEdge& edge : count_edges(edges)) {
     const auto [a, b] = edge.ends;
     if (edge.count > 2) {
@@ -318,6 +333,10 @@ PlanarGraph outline(const Surface& surface) {
                    std::to_string(edge.count) + " triangles");
     }
     const auto first = std::lower_bound(at.begin(), at.end(), std::pair(edge.ends, 0U));
+    if (edge.count == 2 && side(first->second, edge) * side((first + 1)->second, edge) > 0) {
+      fail({}, "triangles " + std::to_string(first->second) + " and " +
+                   std::to_string((first + 1)->second) + " overlap");
+    }
     if (edge.count == 2 && label(first->second) == label((first + 1)->second)) continue;
     graph.segments.push_back(edge.ends);
     graph.partitions.push_back(edge.count == 2);

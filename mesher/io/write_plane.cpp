@@ -328,7 +328,9 @@ void write_svg(TextSink& out, const PlaneMesh& mesh) {
   decimal(fraction(high[0], low[0]) + 10);
   out.text(" ");
   decimal(fraction(high[1], low[1]) + 10);
-  out.text("\">\n<style>path{stroke:#333;stroke-width:.3;stroke-linejoin:round}</style>\n");
+  out.text(
+      "\">\n<style>path{stroke:#333;stroke-width:.3;stroke-linejoin:round;stroke-linecap:round}"
+      "</style>\n");
   std::vector<std::vector<std::size_t>> of_colour(kColours + 1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto k =
@@ -358,7 +360,7 @@ void write_svg(TextSink& out, const PlaneMesh& mesh) {
     }
     out.text("\"/>\n");
   }
-  out.text("<path style=\"stroke:#000;stroke-width:1\" fill=\"none\" d=\"");
+  out.text("<path style=\"stroke:#000;stroke-width:1.5\" fill=\"none\" d=\"");
   for (const auto& [a, b] : mesh.edges) {
     out.text("M");
     place(mesh.vertices[a]);

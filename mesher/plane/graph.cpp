@@ -1,6 +1,7 @@
 #include "mesher/plane/graph.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 
@@ -19,6 +20,17 @@ std::string both(const char* what, std::uint32_t i, std::uint32_t j) {
 }
 
 constexpr const char* kCounting = " (numbered from 0)";
+
+// As short as reads back as the same doubles.
+std::string at(const std::array<double, 2>& p) {
+  std::string text = "(";
+  for (std::size_t k = 0; k < 2; ++k) {
+    char digits[40];
+    const auto end = std::to_chars(digits, digits + sizeof digits, p[k]).ptr;
+    text.append(digits, end).append(k == 0 ? ", " : ")");
+  }
+  return text;
+}
 
 void check_sizes(const PlanarGraph& g) {
   const auto n = g.vertices.size();
@@ -134,7 +146,9 @@ class Builder {
     for (const VertexId v : order) {
       control_.poll(points_.size());
       const VertexId there = graph_.base.insert(v, hint);
-      if (there != v) refuse(both("vertices", v, there) + " coincide" + kCounting);
+      if (there != v) {
+        refuse(both("vertices", v, there) + " coincide at " + at(input().vertices[v]) + kCounting);
+      }
       hint = graph_.base.around(v);
     }
   }
@@ -147,11 +161,11 @@ class Builder {
       const std::uint32_t other = graph_.pieces[obstacle.piece].segment;
       DELMESHER_CHECK(other != kNone, "a segment meets the outer box");
       if (obstacle.kind == Triangulation::Obstacle::Kind::crossing) {
-        refuse(both("segments", i, other) + " cross" + kCounting);
+        refuse(both("segments", i, other) + " cross: " + where(i, other) + kCounting);
       }
       const auto [c, d] = input().segments[other];
       if (std::minmax(a, b) != std::minmax(c, d)) {
-        refuse(both("segments", i, other) + " overlap" + kCounting);
+        refuse(both("segments", i, other) + " overlap: " + where(i, other) + kCounting);
       }
       ++duplicates_;
       return;
@@ -164,6 +178,15 @@ class Builder {
       graph_.base.set_piece(e, static_cast<PieceId>(graph_.pieces.size()));
       graph_.pieces.push_back({chain_[k], chain_[k + 1], i});
     }
+  }
+
+  // Files of rings do not number their segments: where they are tells.
+  std::string where(std::uint32_t i, std::uint32_t j) const {
+    const auto ends = [&](std::uint32_t segment) {
+      const auto [a, b] = input().segments[segment];
+      return at(input().vertices[a]) + " to " + at(input().vertices[b]);
+    };
+    return i < j ? ends(i) + " and " + ends(j) : ends(j) + " and " + ends(i);
   }
 
   void classify() {
@@ -200,13 +223,9 @@ class FaceFinder {
     } else {
       faces_.inside.assign(mesh_.size(), 1);
       empty(outermost());
-      for (const auto& hole : input.holes) {
-        const TriangleId t = triangle_at(hole);
-        if (t == kNone || (faces_.inside[t] == 0)) {
-          note("a hole point that is not inside");
-        } else {
-          empty(t);
-        }
+      for (std::size_t i = 0; i < input.holes.size(); ++i) {
+        const TriangleId t = triangle_inside(input.holes[i], "hole " + std::to_string(i));
+        if (t != kNone) empty(t);
       }
     }
     if (!input.regions.empty()) attribute();
@@ -217,24 +236,52 @@ class FaceFinder {
   TriangleId outermost() const { return mesh_.around(graph_.vertices); }  // at a box corner
 
   void note(const std::string& text) {
-    if (notes_ != nullptr) notes_->push_back(text);
+    if (notes_ != nullptr) notes_->push_back(text + kCounting);
   }
 
-  // kNone if the point is not in the box.
-  TriangleId triangle_at(const std::array<double, 2>& point) {
+  // kNone, and a note, if the point is outside, or on a segment, where it means no face.
+  TriangleId triangle_inside(const std::array<double, 2>& point, const std::string& name) {
+    const Location at = locate(point);
+    if (at.triangle != kNone && on_segment(at)) {
+      note(name + " ignored: it is on a segment");
+      return kNone;
+    }
+    if (at.triangle == kNone || faces_.inside[at.triangle] == 0) {
+      note(name + " ignored: it is not inside");
+      return kNone;
+    }
+    return at.triangle;
+  }
+
+  // No triangle if the point is not in the box.
+  Location locate(const std::array<double, 2>& point) {
     const auto p = to_store(graph_, point);
     const auto low = points_.nearest(graph_.vertices);
     const auto high = points_.nearest(graph_.vertices + 2);
-    if (!(p[0] >= low[0] && p[0] <= high[0] && p[1] >= low[1] && p[1] <= high[1])) return kNone;
+    if (!(p[0] >= low[0] && p[0] <= high[0] && p[1] >= low[1] && p[1] <= high[1]))
+      return {kNone, 0};
     const VertexId v = points_.add_explicit(p[0], p[1], 0);
     const Location at = mesh_.locate(v, outermost());
     points_.pop_back();
+    return at;
+  }
+
+  bool on_segment(const Location& at) const {
     for (int i = 0; i < 3; ++i) {
-      if ((at.zeros >> i & 1) != 0 && mesh_.piece(edge_of(at.triangle, i)) != kNone) {
-        note("a hole or region point on a segment");
-      }
+      const unsigned others = 7U & ~(1U << i);
+      if (at.zeros == others) return has_segment(mesh_.apex(edge_of(at.triangle, i)));
+      if (at.zeros == 1U << i) return mesh_.piece(edge_of(at.triangle, i)) != kNone;
     }
-    return at.triangle;
+    return false;
+  }
+
+  bool has_segment(VertexId v) const {
+    std::vector<EdgeId> star;
+    mesh_.star(v, star);
+    return std::any_of(star.begin(), star.end(), [&](EdgeId e) {
+      return mesh_.piece(edge_of(triangle_of(e), next(index_of(e)))) != kNone ||
+             mesh_.piece(edge_of(triangle_of(e), previous(index_of(e)))) != kNone;
+    });
   }
 
   // Calls visit(triangle) for all triangles of the face of t that `accept` accepts.
@@ -308,11 +355,8 @@ class FaceFinder {
     std::vector<std::uint32_t> done(mesh_.size(), kNone);
     const auto& regions = graph_.input->regions;
     for (std::uint32_t r = 0; r < regions.size(); ++r) {
-      const TriangleId t = triangle_at(regions[r].point);
-      if (t == kNone || faces_.inside[t] == 0) {
-        note("a region point that is not inside");
-        continue;
-      }
+      const TriangleId t = triangle_inside(regions[r].point, "region " + std::to_string(r));
+      if (t == kNone) continue;
       flood(t, [&](TriangleId u) {
         if (done[u] == r) return false;
         done[u] = r;

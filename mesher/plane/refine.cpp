@@ -303,6 +303,10 @@ class Refiner {
     const VertexId p = points_.add_explicit(place[0], place[1], 0);
     const Triangulation::Sight sight = mesh_.look(p, t);
     EdgeId blocked = sight.blocked;
+    if (blocked == kNone && std::popcount(sight.location.zeros) > 1) {  // there is a vertex already
+      points_.pop_back();
+      return crowd(t);
+    }
     if (blocked == kNone) {
       for (int i = 0; i < 3; ++i) {
         const EdgeId e = edge_of(sight.location.triangle, i);
@@ -323,8 +327,7 @@ class Refiner {
     }
     if (encroached_.empty()) {
       const auto& cavity = mesh_.cavity();
-      if (std::popcount(sight.location.zeros) < 2 &&
-          std::find(cavity.begin(), cavity.end(), t) != cavity.end()) {
+      if (std::find(cavity.begin(), cavity.end(), t) != cavity.end()) {
         ++result_.in_faces;
         return fill(p);
       }

@@ -1,0 +1,137 @@
+#include "mesher/cli/run_steps.h"
+
+#include <cstdio>
+
+namespace delmesher::cli {
+namespace {
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  }
+  return text;
+}
+
+}  // namespace
+
+int RunSteps::fail(int code, const std::string& reason) const {
+  streams_.error("delmesher: " + one_line(reason) + "\n");
+  return code;
+}
+
+int RunSteps::fail_input(int code, const std::string& reason) const {
+  return fail(code, command_.input + ": " + reason);
+}
+
+void RunSteps::warn(const std::string& reason) const {
+  if (command_.quiet) return;
+  streams_.error("delmesher: " + one_line(command_.input + ": warning: " + reason) + "\n");
+}
+
+void RunSteps::tell(const std::string& text) const {
+  if (command_.verbose) streams_.error(one_line(text) + "\n");
+}
+
+double RunSteps::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
+int RunSteps::check_outputs(std::vector<std::string> (*files_of)(const std::string&)) const {
+  std::vector<std::string> files;
+  for (const std::string& output : command_.outputs) {
+    for (const std::string& file : files_of(output)) files.push_back(file);
+  }
+  for (const std::string* file :
+       {&command_.stats_file, &command_.chamfered_file, &command_.exact_file}) {
+    if (!file->empty()) files.push_back(*file);
+  }
+  for (const std::string& file : files) {
+    const io::WriteStatus status = io::check_writable(file);
+    if (!status.ok()) return fail(kUnreadable, status.error);
+  }
+  return kDone;
+}
+
+void RunSteps::note_input(const std::string& format, std::uint64_t vertices, std::uint64_t cells,
+                          const char* cell_name) {
+  facts_.input_vertices = vertices;
+  facts_.input_cells = cells;
+  facts_.read_seconds = seconds();
+  tell(command_.input + ": " + format + ", " + std::to_string(vertices) + " vertices, " +
+       std::to_string(cells) + " " + cell_name);
+}
+
+Options RunSteps::options_with_progress(ProgressLine& line) const {
+  Options options = command_.options;
+  options.progress = [&line](const Progress& progress) {
+    line.show(progress);
+    return !interrupted();
+  };
+  return options;
+}
+
+io::WriteStatus RunSteps::put_in_place(const Outcome& outcome) {
+  const double start = seconds();
+  io::OutputSet outputs(set_temporaries);
+  io::WriteStatus status = outcome.write(outputs);
+  if (!status.ok()) return status;
+  const Deferring deferring;  // all files or none
+  status = outputs.commit();
+  facts_.write_seconds = seconds() - start;
+  return status;
+}
+
+io::WriteStatus RunSteps::write_stats(const Outcome& outcome) {
+  io::WriteStatus status;
+  if (command_.stats_file.empty()) return status;
+  facts_.wall_seconds = seconds();
+  measure_process(facts_);
+  io::OutputSet outputs(set_temporaries);
+  io::TextSink* sink = outputs.open(command_.stats_file, status);
+  if (sink == nullptr) return status;
+  sink->text(outcome.json());
+  const Deferring deferring;
+  return outputs.commit();
+}
+
+int RunSteps::finish(const Outcome& outcome) {
+  for (const std::string& warning : outcome.warnings) warn(warning);
+  if (!outcome.status.ok()) {
+    const io::WriteStatus stats = write_stats(outcome);
+    const int code = fail_input(exit_code_of(outcome.status.code), outcome.status.message);
+    if (!stats.ok()) fail(code, stats.error);
+    return code;
+  }
+  io::WriteStatus status = put_in_place(outcome);
+  if (status.ok()) status = write_stats(outcome);
+  if (!status.ok()) return fail(kUnreadable, status.error);
+  return interrupted() ? fail_input(kInterrupted, "interrupted") : outcome.conclude();
+}
+
+int RunSteps::conclude(const std::array<double, kPhaseCount>& phase_seconds,
+                       const Written& written) const {
+  for (std::size_t i = 0; i < kPhaseCount; ++i) {
+    const Phase phase = static_cast<Phase>(i);
+    char text[64];
+    std::snprintf(text, sizeof text, "%-10s %9.3f s", phase_name(phase),
+                  seconds_of(phase, phase_seconds, facts_));
+    tell(text);
+  }
+  const std::string cells = std::string(" ") + written.cell_name;
+  if (command_.verbose || (streams_.terminal && !command_.quiet)) {
+    char time[32];
+    std::snprintf(time, sizeof time, ", %.1f s", seconds());
+    streams_.error(one_line(command_.outputs.front() + ": " + std::to_string(written.vertices) +
+                            " vertices, " + std::to_string(written.cells) + cells + time) +
+                   "\n");
+  }
+  const std::string left =
+      std::to_string(written.flat) + " flat" + cells + " left in the written mesh";
+  if (written.inverted > 0) {
+    return fail_input(kFailed, std::to_string(written.inverted) + " inverted and " + left);
+  }
+  if (written.flat > 0) warn(left);
+  return kDone;
+}
+
+}  // namespace delmesher::cli

@@ -1,0 +1,81 @@
+// What the jobs have in common: what is said and where, outputs, statistics, how a run ends.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "mesher/cli/progress.h"
+#include "mesher/cli/reports.h"
+#include "mesher/cli/run.h"
+#include "mesher/cli/signals.h"
+#include "mesher/io/output.h"
+
+namespace delmesher::cli {
+
+class RunSteps {
+ protected:
+  RunSteps(const Command& command, const Library& library, const Streams& streams)
+      : command_(command), library_(library), streams_(streams) {}
+
+  // Prints one line and returns the code.
+  int fail(int code, const std::string& reason) const;
+  int fail_input(int code, const std::string& reason) const;
+  void warn(const std::string& reason) const;
+  void tell(const std::string& text) const;  // with -v
+
+  // Can all files be written? `files_of` names those that an output makes.
+  int check_outputs(std::vector<std::string> (*files_of)(const std::string&)) const;
+
+  // Says what was read and how long it took.
+  void note_input(const std::string& format, std::uint64_t vertices, std::uint64_t cells,
+                  const char* cell_name);
+
+  // Calls the library with the options, progress on a terminal, and signals that ask it to stop.
+  template <class Call>
+  auto call(Call&& library_call) const {
+    ProgressLine line(stderr, streams_.terminal && !command_.quiet, streams_.escapes);
+    const Deferring deferring;
+    return library_call(options_with_progress(line));
+  }
+
+  // From a result to the exit code: warnings, files (by `write`, whose outputs are then put in
+  // place all at once), statistics (`json`, written whatever became of the run: campaigns want to
+  // know how the others ended), `conclude`.
+  struct Outcome {
+    Status status;
+    const std::vector<std::string>& warnings;
+    std::function<io::WriteStatus(io::OutputSet&)> write;
+    std::function<std::string()> json;
+    std::function<int()> conclude;
+  };
+  int finish(const Outcome& outcome);
+  static void note_interruption(Status& status) {
+    if (status.ok() && interrupted()) status = {StatusCode::interrupted, "interrupted"};
+  }
+
+  // The common end of every `conclude`.
+  struct Written {
+    std::uint64_t vertices, cells, inverted, flat;
+    const char* cell_name;  // "tetrahedra"
+  };
+  int conclude(const std::array<double, kPhaseCount>& phase_seconds, const Written& written) const;
+
+  const Command& command_;
+  const Library& library_;
+  const Streams& streams_;
+  RunFacts facts_;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Options options_with_progress(ProgressLine& line) const;
+  io::WriteStatus put_in_place(const Outcome& outcome);
+  io::WriteStatus write_stats(const Outcome& outcome);
+  double seconds() const;  // since the start
+
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace delmesher::cli

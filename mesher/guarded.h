@@ -1,0 +1,37 @@
+// What the pipelines in space and in the plane begin and end with.
+#pragma once
+
+#include <exception>
+#include <new>
+#include <string>
+
+#include "mesher/base/check.h"
+#include "mesher/base/control.h"
+#include "mesher/delmesher.h"
+
+namespace delmesher {
+
+// Names the option whose value makes no sense; empty if all do. Degrees.
+std::string options_defect(const Options& options, int most_delta, int least_acute);
+
+// Runs `body` and turns everything it may throw into a status: the public API reports errors as
+// values.
+template <class Body>
+Status guarded(Control& control, Body&& body) {
+  try {
+    const Status status = body();
+    control.finish();
+    return status;
+  } catch (const Stopped& stopped) {
+    control.finish();
+    return stopped.status;
+  } catch (const InternalError& error) {
+    return {StatusCode::internal_error, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {StatusCode::limit_reached, "out of memory"};
+  } catch (const std::exception& error) {
+    return {StatusCode::internal_error, error.what()};
+  }
+}
+
+}  // namespace delmesher

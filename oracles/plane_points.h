@@ -1,0 +1,45 @@
+// Points of the plane as rationals, and the signs that decide the checks: rationals decide, a plain
+// floating-point bound only skips what is obvious.
+#pragma once
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace tetproof {
+
+class PlanePoints {
+ public:
+  using Index = std::uint32_t;
+  struct Point {
+    mpq_class x, y;
+    double dx, dy;  // rounded
+  };
+
+  void add(Point point);
+  const std::vector<Point>& all() const { return points_; }
+  // Largest error of the rounded coordinates.
+  double error() const { return error_; }
+
+  int orient(const Point& a, const Point& b, const Point& c);
+  int orient(Index a, Index b, Index c) { return orient(points_[a], points_[b], points_[c]); }
+  // Positive if d is inside the circle of the counter-clockwise abc.
+  int in_circle(Index a, Index b, Index c, Index d);
+  // Is p strictly inside the disc with diameter ab?
+  bool encroaches(Index a, Index p, Index b);
+  // Parameter of a point of the segment from a to b: 0 at a, 1 at b.
+  mpq_class parameter(Index v, Index a, Index b) const;
+
+  // Of the rounded coordinates.
+  double distance(Index a, Index b) const;
+  double distance_to_segment(Index v, Index a, Index b) const;
+
+  std::uint64_t checks = 0;  // signs that were decided
+
+ private:
+  std::vector<Point> points_;
+  double error_ = 1e-320;
+};
+
+}  // namespace tetproof
