@@ -41,8 +41,9 @@ std::vector<std::uint64_t> mesh_edges(const TetComplex& complex);
 // one or two with opposite orientation, no vertex unused, boundary closed; and the Euler
 // characteristic is half that of the boundary, as it is of every manifold of odd dimension: solids
 // that hang together at a vertex or an edge only fail. Fills `neighbours` as far as the complex
-// allows. `is_part`: the inside of a refined mesh, without what lies across the chamfered or dropped
-// part of the surface, need be no manifold and may be nothing; its characteristic is told only.
+// allows. `is_part`: the inside of a refined mesh, without what lies across the chamfered or
+// dropped part of the surface, need be no manifold and may be nothing; its characteristic is told
+// only.
 OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours, bool is_part = false);
 
 // Orientation oracle: the exact sign of every tetrahedron. `inverted` and `flat` are figures of the
