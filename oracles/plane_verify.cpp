@@ -240,7 +240,8 @@ class Verifier {
     const std::set<Index> dropped(record_.dropped.begin(), record_.dropped.end());
     std::set<Edge> seen;
     for (Index i = 0; i < parts.size(); ++i) {
-      const auto [a, b] = graph_.segments[i];
+      // No structured binding: clang 14 cannot capture one.
+      const Index a = graph_.segments[i][0], b = graph_.segments[i][1];
       if (!seen.insert(undirected(a, b)).second) continue;  // given twice: counted once
       std::sort(parts[i].begin(), parts[i].end());
       mpq_class at = 0;
