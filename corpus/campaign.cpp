@@ -69,6 +69,14 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
          read_if_there(a) == read_if_there(b);
 }
 
+std::string without(const fs::path& folder, std::string text) {
+  const std::string prefix = folder.string() + "/";
+  for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) {
+    text.erase(at, prefix.size());
+  }
+  return text;
+}
+
 // A mesher's name may be a command.
 std::string file_name_of(std::string name) {
   for (char& c : name) {
@@ -93,7 +101,7 @@ class Job {
               folder_ / ("again" + mesher.mesh_extension), folder_ / "exact.txt"};
     if (!options.keep.empty()) files_.chamfered = folder_ / "mesh.chamfered.off";
     const auto argv = mesher.command(files_);
-    row_.command = without_folder(joined(argv));
+    row_.command = without(folder_, joined(argv));
     row_.started = now();
     start(argv, options.limits);
   }
@@ -234,13 +242,9 @@ class Job {
     row_.reason += (row_.reason.empty() ? "" : "; ") + without_folder(reason);
   }
 
-  // Reasons must not tell two runs of the same model apart by the folder they were in.
+  // Reasons must not tell two runs of the same model apart by where they or the model were.
   std::string without_folder(std::string text) const {
-    const std::string prefix = folder_.string() + "/";
-    for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at)) {
-      text.erase(at, prefix.size());
-    }
-    return text;
+    return without(model_.path.parent_path(), without(folder_, std::move(text)));
   }
 
   // Wrong results are found here, never by exit status alone.

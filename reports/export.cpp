@@ -37,14 +37,17 @@ Json brief_verdict(const std::string& text) {
   return result;
 }
 
+void drop_histograms(Json& part) {
+  part.erase("face_angle_histogram");
+  part.erase("dihedral_histogram");
+}
+
 Json brief_mesh(const std::string& text) {
   Json mesh = parsed(text);
   if (!mesh.is_object()) return nullptr;
-  for (Json* part : {&mesh, mesh.contains("inside") ? &mesh["inside"] : nullptr}) {
-    if (part == nullptr) continue;
-    part->erase("face_angle_histogram");
-    part->erase("dihedral_histogram");
-  }
+  // The inner part first: erasing moves the members behind.
+  if (mesh.contains("inside")) drop_histograms(mesh["inside"]);
+  drop_histograms(mesh);
   return mesh;
 }
 

@@ -22,7 +22,8 @@ RunRow sample(const std::string& model, const std::string& mesher, Disposition d
   row.host = "here";
   if (disposition == Disposition::ok) {
     row.mesh_json =
-        R"({"tetrahedra":10,"vertices":7,"min_face_angle":0.1,"dihedral_histogram":[1,2]})";
+        R"({"tetrahedra":10,"vertices":7,"face_angle_histogram":[3],"min_face_angle":0.1,
+            "dihedral_histogram":[1,2],"inside":{"tetrahedra":4,"dihedral_histogram":[1]},"flat":0})";
     row.mesh = mesh_columns(row.mesh_json, "");
     row.verdict_json =
         R"({"verdict":"exact","oracles":[{"name":"volume","passed":true,"findings":["long"]}]})";
@@ -78,6 +79,8 @@ TEST(Export, JsonIsReadBack) {
   const auto brief = rows_from_json(rows_to_json(campaign(), {.brief = true, .stable = false}));
   EXPECT_EQ(verdict_of(brief[0]), "exact");
   EXPECT_EQ(brief[0].mesh->tetrahedra, 10U);
+  EXPECT_EQ(brief[0].inside->tetrahedra, 4U);
+  EXPECT_EQ(brief[0].mesh_json.find("histogram"), std::string::npos);
 }
 
 TEST(Export, OtherTextIsRefused) {
