@@ -65,7 +65,10 @@ struct Row {
   std::string mesher;
   Measurement measurement;
 };
-std::string markdown(const std::vector<Row>& rows, bool summary_only);
+// Markdown.
+std::string table_head();
+std::string table_row(const Row& row);
+std::string summary(const std::vector<Row>& rows);
 
 // The paper's figure 2 on the family `figure`, or on a file: five pictures as one SVG, and its
 // numbers as a table. Throws std::runtime_error.

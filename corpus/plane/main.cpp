@@ -88,15 +88,18 @@ int run(const Arguments& arguments) {
   std::vector<Row> rows;
   bool all = true;
   const std::vector<Input> given = inputs(arguments);
+  if (!arguments.summary) std::fputs(table_head().c_str(), stdout);
   for (const Input& input : given) {
     show_progress(rows.size() / meshers.size(), given.size());
     for (Row& row : measured(input, meshers, arguments)) {
       all = all && (row.measurement.ok || row.mesher != meshers[0].name);
+      if (!arguments.summary) std::fputs(table_row(row).c_str(), stdout);
       rows.push_back(std::move(row));
     }
+    std::fflush(stdout);  // long runs can be watched, and are not lost when they are stopped
   }
   show_progress(given.size(), given.size());
-  std::fputs(markdown(rows, arguments.summary).c_str(), stdout);
+  std::fputs(summary(rows).c_str(), stdout);
   return rows.empty() ? 2 : all ? 0 : 1;
 }
 

@@ -30,23 +30,23 @@ double per_triangle(const Measurement& m) {
 
 }  // namespace
 
-std::string markdown(const std::vector<Row>& rows, bool summary_only) {
-  std::string text;
-  if (!summary_only) {
-    text +=
-        "| input | vertices | mesher | triangles | min angle before | after | mean min angle | us "
-        "per triangle | MB |\n|---|---|---|---|---|---|---|---|---|\n";
-    for (const Row& row : rows) {
-      const Measurement& m = row.measurement;
-      text += "| " + row.input + " | " + std::to_string(row.vertices) + " | " + row.mesher + " | ";
-      text += m.ok ? std::to_string(m.triangles) + " | " + angle(m.refined_angle) + " | " +
-                         angle(m.final_angle) + " | " + format("%.2f", m.mean_angle) + " | " +
-                         format("%.2f", per_triangle(m)) + " | " +
-                         format("%.0f", m.peak_megabytes) + " |\n"
-                   : std::string("failed: ") + m.reason + " | | | | | |\n";
-    }
-    text += "\n";
-  }
+std::string table_head() {
+  return "| input | vertices | mesher | triangles | min angle before | after | mean min angle | us "
+         "per triangle | MB |\n|---|---|---|---|---|---|---|---|---|\n";
+}
+
+std::string table_row(const Row& row) {
+  const Measurement& m = row.measurement;
+  const std::string text =
+      "| " + row.input + " | " + std::to_string(row.vertices) + " | " + row.mesher + " | ";
+  if (!m.ok) return text + "failed: " + m.reason + " | | | | | |\n";
+  return text + std::to_string(m.triangles) + " | " + angle(m.refined_angle) + " | " +
+         angle(m.final_angle) + " | " + format("%.2f", m.mean_angle) + " | " +
+         format("%.2f", per_triangle(m)) + " | " + format("%.0f", m.peak_megabytes) + " |\n";
+}
+
+std::string summary(const std::vector<Row>& rows) {
+  std::string text = "\n";
   // Where both succeeded only, or the harder inputs would count for one mesher alone.
   std::map<std::string, int> successes;
   std::map<std::string, double> first_time;
