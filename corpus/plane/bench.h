@@ -37,9 +37,16 @@ struct Measurement {
 
 struct Mesher {
   std::string name;
-  // Fills in all but the time; throws to fail.
+  // Fills in all but the memory; the time is that of meshing alone, without reading, writing and
+  // counting. Throws to fail.
   std::function<void(const PlanarGraph&, Measurement&)> run;
+  // After the time was taken, if wanted; throws to fail.
+  std::function<void(const PlanarGraph&, Measurement&)> verify = nullptr;
 };
+
+// Processor seconds of this thread. Not std::clock(): under a limit of processor time (RLIMIT_CPU)
+// Linux counts those of a process by ticks of milliseconds.
+double thread_seconds();
 
 // `verified`: a second run has to pass the oracles, after the time was taken.
 Mesher delmesher_plane(const delmesher::Options& options, bool verified);
