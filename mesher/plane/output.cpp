@@ -50,7 +50,7 @@ class Repairer {
       for (const std::uint32_t t : bad) {
         control.poll();
         if (sign(t) > 0) continue;
-        if (repair(t, 1 << round)) {
+        if (repair(t, 1 << round, still)) {
           ++result.repaired;
         } else {
           still.push_back(t);
@@ -58,6 +58,8 @@ class Repairer {
       }
       bad = std::move(still);
     }
+    std::sort(bad.begin(), bad.end());
+    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     for (const std::uint32_t t : bad) {
       const int s = sign(t);
       result.flat += s == 0;
@@ -98,7 +100,8 @@ class Repairer {
   }
 
   // Moves a corner to a double nearby with which fewer triangles around it fail, and t does not.
-  bool repair(std::uint32_t t, int reach) {
+  // Those that do then, perhaps others than before, are added to `failing`.
+  bool repair(std::uint32_t t, int reach, std::vector<std::uint32_t>& failing) {
     for (const std::uint32_t v : mesh_.triangles[t]) {
       if (movable_[v] == 0) continue;
       const Point old = mesh_.vertices[v];
@@ -108,7 +111,11 @@ class Repairer {
           for (int dy = -size; dy <= size; ++dy) {
             if (std::max(std::abs(dx), std::abs(dy)) != size) continue;
             mesh_.vertices[v] = {stepped(old[0], dx), stepped(old[1], dy)};
-            if (sign(t) > 0 && failures(v) < before) return true;
+            if (!(sign(t) > 0) || failures(v) >= before) continue;
+            for (std::uint32_t k = first_[v]; k < first_[v + 1]; ++k) {
+              if (sign(at_[k]) <= 0) failing.push_back(at_[k]);
+            }
+            return true;
           }
         }
       }
@@ -128,7 +135,8 @@ struct Angles {
   std::array<double, 3> all;
 };
 
-Angles angles_of(const std::array<Point, 3>& p) {
+// For any coordinates.
+Angles careful_angles(const std::array<Point, 3>& p) {
   Angles result{180, 0, {}};
   for (std::size_t i = 0; i < 3; ++i) {
     const Point &o = p[i], &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
@@ -149,6 +157,36 @@ Angles angles_of(const std::array<Point, 3>& p) {
     result.largest = std::max(result.largest, angle);
   }
   return result;
+}
+
+Angles angles_of(const std::array<Point, 3>& p) {
+  struct Side {
+    double x, y, squared;
+  };
+  const auto side = [&](std::size_t i, std::size_t j) {
+    const double x = p[j][0] - p[i][0], y = p[j][1] - p[i][1];
+    return Side{x, y, x * x + y * y};
+  };
+  // With the sides in the order of their lengths, the angle opposite the longest is what the two
+  // others leave: one arc tangent less.
+  Side a = side(1, 2), b = side(2, 0), c = side(0, 1);
+  double sense = 1;
+  const auto order = [&](Side& s, Side& t) {
+    if (s.squared <= t.squared) return;
+    std::swap(s, t);
+    sense = -sense;
+  };
+  order(a, b);
+  order(b, c);
+  order(a, b);
+  if (!(a.squared > 0x1p-500 && c.squared < 0x1p500)) return careful_angles(p);
+  // All run around the triangle, so the cross product of any two is its doubled area; the shorter
+  // ones make the most of it.
+  const double area = std::max(0.0, sense * (a.x * b.y - a.y * b.x));
+  const double least = std::atan2(area, -(b.x * c.x + b.y * c.y)) * kDegrees;
+  const double middle = std::atan2(area, -(a.x * c.x + a.y * c.y)) * kDegrees;
+  const double largest = 180 - least - middle;
+  return {least, largest, {least, middle, largest}};
 }
 
 class Accumulator {

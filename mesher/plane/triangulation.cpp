@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "mesher/base/check.h"
+#include "mesher/base/control.h"
 
 namespace delmesher::plane {
 namespace {
@@ -61,18 +62,16 @@ class Fan {
   bool clockwise_ = false;
 };
 
+// Without branches: where a point lies is random.
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int bits) {
   std::uint64_t key = 0;
-  for (std::uint32_t s = 1U << (bits - 1); s != 0; s >>= 1) {
-    const bool right = (x & s) != 0, upper = (y & s) != 0;
-    key = 4 * key + ((right ? 3U : 0U) ^ (upper ? 1U : 0U));
-    if (!upper) {
-      if (right) {
-        x = ~x;
-        y = ~y;
-      }
-      std::swap(x, y);
-    }
+  for (int b = bits - 1; b >= 0; --b) {
+    const std::uint32_t right = x >> b & 1, upper = y >> b & 1;
+    key = 4 * key + ((3 * right) ^ upper);
+    const std::uint32_t mirror = (upper ^ 1) & right;
+    const std::uint32_t turn = (x ^ y) & (upper - 1);
+    x ^= turn ^ (0 - mirror);
+    y ^= turn ^ (0 - mirror);
   }
   return key;
 }
@@ -266,8 +265,10 @@ void Triangulation::fill_cavity(VertexId p) {
     created_.push_back(static_cast<TriangleId>(triangles_.size()));
     triangles_.emplace_back();
   }
-  DELMESHER_CHECK(created_.size() == n && triangles_.size() < (std::size_t{1} << 30),
-                  "a cavity of the wrong size");
+  DELMESHER_CHECK(created_.size() == n, "a cavity of the wrong size");
+  if (triangles_.size() >= std::size_t{1} << 30) {  // edges have no more numbers
+    throw Stopped{{StatusCode::limit_reached, "more than 2^30 triangles"}};
+  }
   for (std::size_t k = 0; k < n; ++k) {
     const BoundaryEdge& b = boundary_[k];
     const TriangleId t = created_[k];
