@@ -359,7 +359,7 @@ struct PlaneResult {
 
 // Options with the defaults of the plane: delta is 20.7, which is guaranteed. In the plane, tau is
 // the narrowest channel between two segments, as a fraction of its length, that is refined;
-// slivers and simplify_bridges mean nothing.
+// slivers and simplify_bridges mean nothing; max_vertices 0 is 1e7 and 64 more per input vertex.
 Options plane_options();
 
 // Meshes the inside of a planar straight-line graph (section 3). An invalid graph is

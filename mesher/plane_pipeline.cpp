@@ -19,6 +19,12 @@ namespace {
 
 using plane::Side;
 
+// Narrow channels and extreme scales may ask for any number of triangles. Unless told otherwise,
+// nobody shall wait for a machine that runs out of memory.
+std::uint64_t default_limit(const PlanarGraph& graph) {
+  return 10'000'000 + 64 * static_cast<std::uint64_t>(graph.vertices.size());
+}
+
 class Run {
  public:
   Run(const PlanarGraph& input, const Options& options, Control& control, PlaneResult& result)
@@ -190,8 +196,10 @@ class Run {
 
 }  // namespace
 
-PlaneResult triangulate_polygon(const PlanarGraph& graph, const Options& options) {
+PlaneResult triangulate_polygon(const PlanarGraph& graph, const Options& given) {
   PlaneResult result;
+  Options options = given;
+  if (options.max_vertices == 0) options.max_vertices = default_limit(graph);
   Control control(options);
   Run run(graph, options, control, result);
   result.status = guarded(control, [&run] { return run.mesh(); });

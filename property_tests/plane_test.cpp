@@ -298,6 +298,25 @@ TEST(Plane, NoRoomBetweenDoubles) {
   EXPECT_GT(result.statistics.dropped_segments, 0U);
 }
 
+TEST(Plane, ExtremeScales) {
+  // Squares and fourth powers of the small lengths vanish beside the large ones; what is good must
+  // not be taken for bad, or there is no end.
+  Options options = exact_options();
+  options.max_vertices = 50000;
+  const double up = std::nextafter(6.0, 7.0);
+  expect_verified(shapes::polygon({{1e151, -2.7e28}, {6, 6}, {up, up}}), options);
+  for (const double size : {1e-70, 1e-130, 1e-250}) {
+    PlanarGraph graph = shapes::square();  // with a small one in a corner, cut out
+    const double a = size, b = 2 * size;
+    graph.insideness = Insideness::nested;
+    graph.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {a, a}, {b, a}, {b, b}, {a, b}};
+    graph.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}};
+    const PlaneResult result = expect_verified(graph, options);
+    EXPECT_EQ(result.statistics.dropped_segments, 0U) << size;
+    EXPECT_GE(result.statistics.refined.min_angle, 20.7) << size;
+  }
+}
+
 TEST(Plane, LimitsAndOptions) {
   Options options = plane_options();
   options.max_vertices = 50;

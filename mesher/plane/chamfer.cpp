@@ -5,6 +5,7 @@
 #include <map>
 
 #include "mesher/base/check.h"
+#include "mesher/plane/shape.h"
 #include "mesher/predicates/placement.h"
 #include "mesher/predicates/predicates.h"
 
@@ -14,8 +15,7 @@ namespace {
 using Point = std::array<double, 2>;
 
 double distance(const Point& a, const Point& b) {
-  const double x = b[0] - a[0], y = b[1] - a[1];
-  return std::sqrt(x * x + y * y);
+  return norm(b[0] - a[0], b[1] - a[1]);
 }
 
 struct Line {
@@ -24,10 +24,13 @@ struct Line {
   Point at(double t) const { return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])}; }
   // Parameter of the point nearest to p.
   double nearest(const Point& p) const {
-    const double x = b[0] - a[0], y = b[1] - a[1];
+    double x = b[0] - a[0], y = b[1] - a[1], u = p[0] - a[0], v = p[1] - a[1];
+    if (!(x * x + y * y > 0x1p-900)) {
+      for (double* d : {&x, &y, &u, &v}) *d *= 0x1p600;  // so that squares do not vanish
+    }
     const double square = x * x + y * y;
     if (!(square > 0)) return 0;
-    return std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0);
+    return std::clamp((u * x + v * y) / square, 0.0, 1.0);
   }
   double distance_to(const Point& p) const { return distance(at(nearest(p)), p); }
   double distance_to_line(const Line& l) const {  // that does not cross it
@@ -191,10 +194,12 @@ class Chamferer {
          {0.0, 1.0, s.nearest(t.at(x0)), s.nearest(t.at(x1)), s.nearest(t.a), s.nearest(t.b)}) {
       consider(x);
     }
-    const double far =
-        std::max({std::fabs(s.a[0]), std::fabs(s.a[1]), std::fabs(t.a[0]), std::fabs(t.a[1])});
-    if (!(width > kFloor * far)) return HUGE_VAL;
+    const auto size = [](const Point& p) { return std::max(std::fabs(p[0]), std::fabs(p[1])); };
+    if (!(width > kFloor * size(s.at(best)))) return HUGE_VAL;
     const double length = s.length();
+    // What has ends far away is known to no more than this.
+    const double blur = kFloor * std::max({size(s.a), size(s.b), size(t.a), size(t.b)});
+    if (!(width > blur)) return length * options_.tau > blur ? HUGE_VAL : 0;
     if (length * options_.tau <= width) return length / width;  // not narrow, whatever it is
     // The distance from a line to a convex set is convex along the line: bisection.
     const auto end = [&](double x) {
@@ -238,9 +243,10 @@ class Chamferer {
         const VertexId u = base_.origin(e), w = base_.target(e);
         const EdgeId f = base_.twin(e);
         if (f == kNone || seen_[triangle_of(f)] == epoch_) continue;
-        if (!near(u, w) && !near(w, u) && side.distance_to_line({point(u), point(w)}) > reach)
-          continue;
-        if ((u == a || u == b || w == a || w == b) && !near(u, w) && !near(w, u)) continue;
+        if (!near(u, w) && !near(w, u)) {
+          if (u == a || u == b || w == a || w == b) continue;
+          if (side.distance_to_line({point(u), point(w)}) > reach) continue;
+        }
         seen_[triangle_of(f)] = epoch_;
         stack.push_back(f);
       }

@@ -12,6 +12,10 @@
 namespace delmesher::plane {
 namespace {
 
+double square(double x) {
+  return x * x;
+}
+
 // Worst first, in the order of arrival among equally bad ones: buckets by the leading bits of the
 // squared sine of the smallest angle.
 class BadTriangles {
@@ -191,7 +195,7 @@ class Refiner {
     const Approximation& pa = points_.approximation(a);
     const Approximation& pb = points_.approximation(b);
     const double dx = pb.x - pa.x, dy = pb.y - pa.y;
-    const double length = std::sqrt(dx * dx + dy * dy);
+    const double length = norm(dx, dy);
     if (!(length > 2 * kFloor * std::max(magnitude(points_, a), magnitude(points_, b)))) {
       crowd(a, b);
       return false;
@@ -244,7 +248,7 @@ class Refiner {
     const Shape shape = shape_of(points_, v[0], v[1], v[2]);
     if (shape.sine_squared < sine_squared_) {
       bad_.push(shape.sine_squared, {t, v});
-    } else if (shape.longest_squared > max_edge_squared_) {
+    } else if (shape.longest_squared > square(max_edge_ * shape.scale)) {
       bad_.push(1, {t, v});
     }
   }
@@ -254,7 +258,7 @@ class Refiner {
     // The computed squared sine is off by less than 1e-14 of itself; doubles as written may be off
     // more.
     sine_squared_ = (1 - cosine_squared(degrees)) * (1 + 1e-9);
-    max_edge_squared_ = options_.max_edge > 0 ? options_.max_edge * options_.max_edge : HUGE_VAL;
+    max_edge_ = options_.max_edge > 0 ? options_.max_edge : HUGE_VAL;
     const double cosine = std::sqrt(cosine_squared(degrees));
     // Half the cotangent of half the angle, less five percent so that rounding makes no new one.
     off_centre_ = 0.475 * std::sqrt((1 + cosine) / (1 - cosine));
@@ -292,9 +296,11 @@ class Refiner {
   void split_triangle(TriangleId t) {
     const std::array<VertexId, 3> v = mesh_[t].vertex;
     const Shape shape = shape_of(points_, v[0], v[1], v[2]);
-    double least = 0;
-    for (const VertexId u : v) least = std::max(least, magnitude(points_, u));
-    if (!(shape.shortest_squared > least * kFloor * (least * kFloor))) return crowd(t);
+    // The new point comes near the shortest edge: only there room between doubles is needed.
+    const double size =
+        std::max(magnitude(points_, v[static_cast<std::size_t>(next(shape.apex))]),
+                 magnitude(points_, v[static_cast<std::size_t>(previous(shape.apex))]));
+    if (!(shape.shortest_squared > square(size * kFloor * shape.scale))) return crowd(t);
     const double reach = shape.sine_squared < sine_squared_
                              ? std::min(shape.circumcentre, off_centre_)
                              : shape.circumcentre;
@@ -385,7 +391,7 @@ class Refiner {
   BadTriangles bad_;
   bool refining_ = false, hopeless_ = false;
   std::vector<std::uint64_t> splits_;  // per piece
-  double sine_squared_ = 0, max_edge_squared_ = 0, off_centre_ = 0;
+  double sine_squared_ = 0, max_edge_ = 0, off_centre_ = 0;
 };
 
 }  // namespace

@@ -40,15 +40,17 @@ double to_grid(double x, double spacing) {
   return std::fabs(x) < spacing * 0x1p51 ? (x + bias) - bias : x;
 }
 
-}  // namespace
+double larger_coordinate(const Vector& v) {
+  return std::max(std::fabs(v.x), std::fabs(v.y));
+}
 
-Shape shape_of(const PointStore& points, VertexId a, VertexId b, VertexId c) {
-  const Vector ab = difference(points, a, b), bc = difference(points, b, c),
-               ca = difference(points, c, a);
+// The sides times `scale`.
+Shape measure(const Vector& ab, const Vector& bc, const Vector& ca, double scale) {
   // Squared lengths opposite the corners.
   const double squared[3] = {dot(bc, bc), dot(ca, ca), dot(ab, ab)};
   const double area = ab.y * ca.x - ab.x * ca.y;  // ab x ac, twice the area
   Shape shape;
+  shape.scale = scale;
   shape.apex = squared[0] <= squared[1] ? (squared[0] <= squared[2] ? 0 : 2)
                                         : (squared[1] <= squared[2] ? 1 : 2);
   shape.shortest_squared = squared[shape.apex];
@@ -63,6 +65,25 @@ Shape shape_of(const PointStore& points, VertexId a, VertexId b, VertexId c) {
   return shape;
 }
 
+}  // namespace
+
+Shape shape_of(const PointStore& points, VertexId a, VertexId b, VertexId c) {
+  Vector ab = difference(points, a, b), bc = difference(points, b, c),
+         ca = difference(points, c, a);
+  const Shape shape = measure(ab, bc, ca, 1);
+  if (shape.shortest_squared > 0x1p-500) return shape;
+  const double sizes[3] = {larger_coordinate(ab), larger_coordinate(bc), larger_coordinate(ca)};
+  const double largest = std::max({sizes[0], sizes[1], sizes[2]});
+  const double smallest = std::min({sizes[0], sizes[1], sizes[2]});
+  if (!(smallest > 0)) return shape;
+  // The fourth powers of the longest have to stay finite.
+  const double scale =
+      std::min(0x1p900, std::min(1 / power_below(smallest), 0x1p200 / power_below(largest)));
+  if (!(scale > 1)) return shape;
+  for (Vector* v : {&ab, &bc, &ca}) *v = {v->x * scale, v->y * scale};
+  return measure(ab, bc, ca, scale);
+}
+
 Vec3 Shape::place(const PointStore& points, const std::array<VertexId, 3>& corner,
                   double height) const {
   const VertexId a = corner[static_cast<std::size_t>((apex + 1) % 3)];
@@ -71,7 +92,7 @@ Vec3 Shape::place(const PointStore& points, const std::array<VertexId, 3>& corne
   const Vector d = difference(points, a, b);
   const double x = p.x + (d.x / 2 - height * d.y);
   const double y = p.y + (d.y / 2 + height * d.x);
-  const double spacing = power_below(std::sqrt(shortest_squared)) * 0x1p-20;
+  const double spacing = power_below(std::sqrt(shortest_squared) / scale) * 0x1p-20;
   return {to_grid(x, spacing), to_grid(y, spacing), 0};
 }
 

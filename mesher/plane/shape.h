@@ -2,14 +2,25 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "mesher/predicates/points.h"
 
 namespace delmesher::plane {
 
+// Length of a vector between points of the store, also where its square vanishes.
+inline double norm(double x, double y) {
+  const double square = x * x + y * y;
+  if (square > 0x1p-900) return std::sqrt(square);
+  x *= 0x1p600;
+  y *= 0x1p600;
+  return std::sqrt(x * x + y * y) * 0x1p-600;
+}
+
 struct Shape {
   double sine_squared;  // of the smallest angle; 0 if it is flat or worse
-  double shortest_squared, longest_squared;
+  // Of the edges times `scale`, a power of two: 1 but for triangles whose squares would vanish.
+  double shortest_squared, longest_squared, scale;
   int apex;             // corner opposite the shortest edge: that of the smallest angle
   double circumcentre;  // its distance from the shortest edge, over the length of that edge
 
