@@ -289,17 +289,28 @@ CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::u
   return input;
 }
 
+namespace {
+
+// Of a tetrahedron's repeated faces, those repeated within the region.
+std::uint8_t within(Region region, std::uint8_t repeated) {
+  return static_cast<std::uint8_t>(region == Region::interior ? repeated >> 4U : repeated & 15U);
+}
+
+}  // namespace
+
 MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,
                             const PointStore& points, Region region) {
-  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}};
+  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
   RoundingInput& input = mesh.rounding;
   const auto inside = static_cast<std::size_t>(std::count(cdt.inside.begin(), cdt.inside.end(), 1));
   input.tetrahedra.reserve(region == Region::interior ? inside : cdt.tetrahedra.size());
   input.inside.reserve(input.tetrahedra.capacity());
+  mesh.repeated_faces.reserve(input.tetrahedra.capacity());
   for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
     if (region == Region::interior && cdt.inside[n] == 0) continue;
     input.tetrahedra.push_back(cdt.tetrahedra[n]);
     input.inside.push_back(cdt.inside[n]);
+    mesh.repeated_faces.push_back(within(region, cdt.repeated_faces[n]));
   }
   for (const SurfaceFace& face : cdt.boundary) {
     input.boundary.push_back(face.vertices);
@@ -311,7 +322,7 @@ MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,
 MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult& refined,
                              const SurfaceTopology& topology, const PointStore& points,
                              Region region) {
-  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}};
+  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
   RoundingInput& input = mesh.rounding;
   std::vector<FaceKey> written;
   for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
@@ -341,6 +352,7 @@ MeshStatistics refined_statistics(const RefineResult& refined, const PointStore&
   std::vector<std::array<double, 3>> coordinates(points.size());
   for (VertexId v = 0; v < points.size(); ++v) coordinates[v] = points.nearest(v);
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+  std::vector<std::uint8_t> repeated;
   std::vector<std::uint8_t> used(points.size(), 0);
   std::uint64_t interior = 0;
   for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
@@ -348,10 +360,11 @@ MeshStatistics refined_statistics(const RefineResult& refined, const PointStore&
     interior += inside ? 1 : 0;
     if (region == Region::interior && !inside) continue;
     tetrahedra.push_back(refined.tetrahedra[n]);
+    repeated.push_back(within(region, refined.repeated_faces[n]));
     for (const VertexId v : refined.tetrahedra[n]) used[v] = 1;
   }
   const auto vertices = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), 1));
-  return mesh_statistics(coordinates, tetrahedra, vertices, interior);
+  return mesh_statistics(coordinates, tetrahedra, repeated, vertices, interior);
 }
 
 Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& refined,

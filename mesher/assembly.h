@@ -40,6 +40,8 @@ CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::u
 struct MeshToWrite {
   RoundingInput rounding;
   std::vector<FacetId> boundary_facet;  // per face of rounding.boundary
+  // Per tetrahedron: bit i if an earlier one has face i too. May be empty.
+  std::vector<std::uint8_t> repeated_faces;
 };
 
 MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,

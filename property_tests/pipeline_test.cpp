@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "mesher/delmesher.h"
+#include "mesher/output/statistics.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
@@ -66,6 +67,19 @@ void expect_right(const NamedSurface& model, const Options& options) {
   EXPECT_NE(refined_report.find("refined-delaunay"), nullptr);
 }
 
+// That every face counts once although the pipeline does not compare the faces.
+void expect_faces_counted_once(const NamedSurface& model, const Options& options) {
+  SCOPED_TRACE(model.name);
+  const Result result = delmesher::tetrahedralize(model.surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const delmesher::MeshStatistics compared = delmesher::mesh_statistics(
+      result.mesh.vertices, result.mesh.tetrahedra, {}, result.mesh.vertices.size(), 0);
+  const delmesher::MeshStatistics& told = result.statistics.final;
+  EXPECT_EQ(told.face_angle_histogram, compared.face_angle_histogram);
+  EXPECT_EQ(told.dihedral_histogram, compared.dihedral_histogram);
+  EXPECT_NEAR(told.mean_min_face_angle, compared.mean_min_face_angle, 1e-9);
+}
+
 class Models : public testing::TestWithParam<NamedSurface> {};
 
 std::string model_name(const testing::TestParamInfo<NamedSurface>& info) {
@@ -74,6 +88,11 @@ std::string model_name(const testing::TestParamInfo<NamedSurface>& info) {
 
 TEST_P(Models, AreMeshedExactlyWithTheDefaults) {
   expect_right(GetParam(), default_options());
+}
+
+TEST_P(Models, CountEveryFaceOnce) {
+  expect_faces_counted_once(GetParam(), default_options());
+  expect_faces_counted_once(GetParam(), paper_options());
 }
 
 TEST_P(Models, AreMeshedExactlyWithThePapersSettings) {

@@ -89,11 +89,14 @@ class CdtBuilder {
     const std::size_t count = mesh.tetrahedra();
     result_.tetrahedra.reserve(count);
     result_.inside.reserve(count);
+    result_.repeated_faces.reserve(count);
     for (TetId t = 0; t < mesh.capacity(); ++t) {
       if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
       const VertexId* v = mesh.vertices(t);
       result_.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
       result_.inside.push_back(inside_[t]);
+      result_.repeated_faces.push_back(
+          mesh.repeated_faces(t, [&](TetId u) { return inside_[u] == inside_[t]; }));
     }
     result_.boundary = std::move(surface_);
     result_.steiner = std::move(steiner_);

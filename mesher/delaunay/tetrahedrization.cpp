@@ -94,13 +94,11 @@ TetId Tetrahedrization::allocate() {
   if (!free_.empty()) {
     const TetId t = free_.back();
     free_.pop_back();
-    dead_[t] = 0;
     mark_[t] = 0;
     return t;
   }
-  const auto t = static_cast<TetId>(dead_.size());
+  const auto t = static_cast<TetId>(cell_.size());
   DELMESHER_CHECK(t < (1U << 30), "too many tetrahedra for 32-bit adjacency");
-  dead_.push_back(0);
   mark_.push_back(0);
   star_mark_.push_back(0);
   cell_.push_back({});
@@ -121,7 +119,7 @@ TetId Tetrahedrization::create(VertexId a, VertexId b, VertexId c, VertexId d) {
 }
 
 void Tetrahedrization::destroy(TetId t) {
-  dead_[t] = 1;
+  mark_[t] = kDead;
   free_.push_back(t);
 }
 
@@ -270,7 +268,7 @@ bool Tetrahedrization::conflicts(TetId t, VertexId v) {
 void Tetrahedrization::begin_cavity(TetId start) {
   epoch_ += 2;
   if (epoch_ >= 0xfffffff0U) {
-    std::fill(mark_.begin(), mark_.end(), 0U);
+    for (std::uint32_t& mark : mark_) mark = mark == kDead ? kDead : 0;
     epoch_ = 2;
   }
   cavity_.assign(1, start);

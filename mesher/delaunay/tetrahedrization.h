@@ -40,8 +40,8 @@ class Tetrahedrization {
   void build(std::span<const VertexId> vertices, Control& control);
 
   // --- queries
-  std::size_t capacity() const { return dead_.size(); }  // tet ids are below this
-  bool alive(TetId t) const { return dead_[t] == 0; }
+  std::size_t capacity() const { return cell_.size(); }  // tet ids are below this
+  bool alive(TetId t) const { return mark_[t] != kDead; }
   std::size_t tetrahedra() const;  // alive and finite
   bool is_ghost(TetId t) const;
   const VertexId* vertices(TetId t) const { return cell_[t].vertex; }
@@ -49,6 +49,19 @@ class Tetrahedrization {
   // Neighbour across face i, and the same face's index over there.
   TetId neighbor(TetId t, int i) const { return cell_[t].neighbor[i] >> 2; }
   int mirror(TetId t, int i) const { return cell_[t].neighbor[i] & 3; }
+  // Of the faces of t, those that a finite tetrahedron with a smaller id has too: bit i for face i,
+  // and bit 4 + i if that tetrahedron is also alike.
+  template <class Alike>
+  std::uint8_t repeated_faces(TetId t, Alike&& alike) const {
+    unsigned bits = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+      const TetId u = cell_[t].neighbor[i] >> 2;
+      if (u > t || is_ghost(u)) continue;
+      bits |= 1U << i;
+      if (alike(u)) bits |= 16U << i;
+    }
+    return static_cast<std::uint8_t>(bits);
+  }
   // Some tetrahedron (never a ghost if avoidable) with vertex v; kNone if v is not a vertex.
   TetId incident(VertexId v) const { return v < incident_.size() ? incident_[v] : kNone; }
   // Index of vertex v in tetrahedron t, -1 if absent.
@@ -130,8 +143,9 @@ class Tetrahedrization {
     std::uint32_t neighbor[4] = {kNone, kNone, kNone, kNone};  // 4 * tet + face over there
   };
   GrowingArray<Cell> cell_;
-  GrowingArray<std::uint8_t> dead_;
-  GrowingArray<std::uint32_t> mark_;  // epoch_: in the cavity; epoch_ + 1: visited, not in it
+  static constexpr std::uint32_t kDead = 0xffffffffU;
+  // kDead; epoch_: in the cavity; epoch_ + 1: visited, not in it.
+  GrowingArray<std::uint32_t> mark_;
   std::vector<TetId> free_;
   std::vector<TetId> incident_;  // per point of the store
   std::uint32_t epoch_ = 0;

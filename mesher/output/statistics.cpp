@@ -182,10 +182,85 @@ std::array<double, 6> incomparable_dihedrals(const Shape& shape) {
   return result;
 }
 
-// For each tetrahedron, which of its faces are to be counted with it (bit i: face i): every face
-// once, in the first tetrahedron that has it. Faces are bucketed by smallest vertex, so that this
-// takes 16 bytes per tetrahedron and time linear but for sorting the small buckets.
-std::vector<std::uint8_t> owned_faces(std::span<const Tet> tetrahedra, std::size_t vertices) {
+// Angles by 15 degrees, from their cosines: no cell of width 1/32 has two of the bounds.
+class CosineBins {
+ public:
+  CosineBins() {
+    // cos 15, 30, ... 165 degrees.
+    constexpr double kBound[11] = {0.9659258262890683,  0.8660254037844387,
+                                   0.7071067811865476,  0.5,
+                                   0.2588190451025208,  0,
+                                   -0.2588190451025208, -0.5,
+                                   -0.7071067811865476, -0.8660254037844387,
+                                   -0.9659258262890683};
+    for (int cell = 0; cell < kCells; ++cell) {
+      const double top = (cell + 1) / 32.0 - 1;
+      while (below_[cell] < 11 && kBound[below_[cell]] >= top) ++below_[cell];
+      bound_[cell] = below_[cell] < 11 ? kBound[below_[cell]] : -2;
+    }
+  }
+  std::size_t operator()(double cosine) const {
+    const auto cell = static_cast<std::size_t>((cosine + 1) * 32);
+    return below_[cell] + (cosine <= bound_[cell] ? 1 : 0);
+  }
+
+ private:
+  static constexpr int kCells = 65;
+  std::array<std::uint8_t, kCells> below_{};
+  std::array<double, kCells> bound_{};
+};
+
+// The cosines of the angles of a tetrahedron without very long or short edges and without angles
+// near 0 or 180, where cosines do as well as the robust formulas, in a fraction of their time.
+struct Cosines {
+  std::array<std::array<double, 3>, 4> face;
+  std::array<double, 6> dihedral;
+};
+
+bool ordinary_cosines(const Vec3& origin, const Vec3& p1, const Vec3& p2, const Vec3& p3,
+                      Cosines& result) {
+  constexpr double kMaxSquared = 1e60, kMaxRatioSquared = 1e8, kMaxCosine = 0.999;
+  const auto difference = [](const Vec3& a, const Vec3& b) {
+    return Vec3{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+  };
+  const Vec3 e[6] = {difference(origin, p1), difference(origin, p2), difference(origin, p3),
+                     difference(p1, p2),     difference(p1, p3),     difference(p2, p3)};
+  double squared[6], inverse[6];
+  for (int i = 0; i < 6; ++i) squared[i] = dot(e[i], e[i]);
+  const auto [shortest, longest] = std::minmax_element(squared, squared + 6);
+  if (!(*longest<kMaxSquared&& * shortest> 1 / kMaxSquared &&
+        *longest < kMaxRatioSquared * *shortest)) {
+    return false;
+  }
+  for (int i = 0; i < 6; ++i) inverse[i] = 1 / std::sqrt(squared[i]);
+  // Of edges i and j at their common end; the sign is negative if one of them starts there.
+  const auto cosine = [&](int i, int j) { return dot(e[i], e[j]) * (inverse[i] * inverse[j]); };
+  result.face = {{{cosine(3, 4), -cosine(3, 5), cosine(4, 5)},
+                  {cosine(1, 2), -cosine(1, 5), cosine(2, 5)},
+                  {cosine(0, 2), -cosine(0, 4), cosine(2, 4)},
+                  {cosine(0, 1), -cosine(0, 3), cosine(1, 3)}}};
+  const Vec3 normal[4] = {cross(e[3], e[4]), cross(e[2], e[1]), cross(e[0], e[2]),
+                          cross(e[1], e[0])};
+  double inverse_area[4];
+  for (int f = 0; f < 4; ++f) inverse_area[f] = 1 / std::sqrt(dot(normal[f], normal[f]));
+  double largest = 0;
+  for (int i = 0; i < 6; ++i) {
+    const auto [f, g] = kEdges[5 - i];
+    result.dihedral[i] = -dot(normal[f], normal[g]) * (inverse_area[f] * inverse_area[g]);
+    largest = std::max(largest, std::fabs(result.dihedral[i]));
+  }
+  // A face angle near 0 or 180 need not come with such a dihedral angle.
+  for (const auto& face : result.face) {
+    for (const double c : face) largest = std::max(largest, std::fabs(c));
+  }
+  return largest < kMaxCosine;  // not if NaN: an area may have vanished
+}
+
+// For each tetrahedron, which of its faces an earlier one has (bit i: face i). Faces are bucketed
+// by smallest vertex, so that this takes 16 bytes per tetrahedron and time linear but for sorting
+// the small buckets.
+std::vector<std::uint8_t> find_repeated_faces(std::span<const Tet> tetrahedra,
+                                              std::size_t vertices) {
   const auto face = [&](std::uint32_t id) {
     const Tet& t = tetrahedra[id / 4];
     const auto& f = kFaces[id % 4];
@@ -202,7 +277,7 @@ std::vector<std::uint8_t> owned_faces(std::span<const Tet> tetrahedra, std::size
   std::vector<std::uint32_t> order(count);
   for (std::uint32_t id = 0; id < count; ++id) order[end[face(id)[0]]++] = id;
 
-  std::vector<std::uint8_t> owned(tetrahedra.size(), 0);
+  std::vector<std::uint8_t> repeated(tetrahedra.size(), 0);
   std::vector<std::pair<std::array<std::uint32_t, 2>, std::uint32_t>> bucket;
   std::uint32_t begin = 0;
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -214,11 +289,11 @@ std::vector<std::uint8_t> owned_faces(std::span<const Tet> tetrahedra, std::size
     begin = end[v];
     std::sort(bucket.begin(), bucket.end());
     for (std::size_t i = 0; i < bucket.size(); ++i) {
-      if (i > 0 && bucket[i].first == bucket[i - 1].first) continue;
-      owned[bucket[i].second / 4] |= static_cast<std::uint8_t>(1U << (bucket[i].second % 4));
+      if (i == 0 || bucket[i].first != bucket[i - 1].first) continue;
+      repeated[bucket[i].second / 4] |= static_cast<std::uint8_t>(1U << (bucket[i].second % 4));
     }
   }
-  return owned;
+  return repeated;
 }
 
 class Accumulator {
@@ -229,23 +304,28 @@ class Accumulator {
 
   void add_face(const std::array<double, 3>& angles) {
     const auto [low, high] = std::minmax({angles[0], angles[1], angles[2]});
-    s_.min_face_angle = std::min(s_.min_face_angle, low);
-    s_.max_face_angle = std::max(s_.max_face_angle, high);
-    s_.mean_min_face_angle += low;
-    s_.mean_max_face_angle += high;
+    add_face_extremes(low, high);
     for (const double a : angles) ++s_.face_angle_histogram[bin(a)];
-    ++faces_;
+  }
+
+  void add_face_cosines(const std::array<double, 3>& cosines) {
+    const auto [low, high] = std::minmax({cosines[0], cosines[1], cosines[2]});
+    add_face_extremes(std::acos(high) * kDegrees, std::acos(low) * kDegrees);
+    for (const double c : cosines) ++s_.face_angle_histogram[cosine_bin_(c)];
   }
 
   void add_dihedrals(const std::array<double, 6>& angles, bool flat) {
     // A flat tetrahedron with a degenerate face has edges without a dihedral angle.
     const double low = flat ? 0 : *std::min_element(angles.begin(), angles.end());
     const double high = flat ? 180 : *std::max_element(angles.begin(), angles.end());
-    s_.min_dihedral = std::min(s_.min_dihedral, low);
-    s_.max_dihedral = std::max(s_.max_dihedral, high);
-    s_.mean_min_dihedral += low;
-    s_.mean_max_dihedral += high;
+    add_dihedral_extremes(low, high);
     for (const double a : angles) ++s_.dihedral_histogram[bin(a)];
+  }
+
+  void add_dihedral_cosines(const std::array<double, 6>& cosines) {
+    const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
+    add_dihedral_extremes(std::acos(*high) * kDegrees, std::acos(*low) * kDegrees);
+    for (const double c : cosines) ++s_.dihedral_histogram[cosine_bin_(c)];
   }
 
   void finish() {
@@ -260,6 +340,22 @@ class Accumulator {
   }
 
  private:
+  void add_face_extremes(double low, double high) {
+    s_.min_face_angle = std::min(s_.min_face_angle, low);
+    s_.max_face_angle = std::max(s_.max_face_angle, high);
+    s_.mean_min_face_angle += low;
+    s_.mean_max_face_angle += high;
+    ++faces_;
+  }
+
+  void add_dihedral_extremes(double low, double high) {
+    s_.min_dihedral = std::min(s_.min_dihedral, low);
+    s_.max_dihedral = std::max(s_.max_dihedral, high);
+    s_.mean_min_dihedral += low;
+    s_.mean_max_dihedral += high;
+  }
+
+  const CosineBins cosine_bin_;
   MeshStatistics& s_;
   std::uint64_t faces_ = 0;
 };
@@ -267,17 +363,31 @@ class Accumulator {
 }  // namespace
 
 MeshStatistics mesh_statistics(std::span<const Vec3> coordinates, std::span<const Tet> tetrahedra,
-                               std::uint64_t vertices, std::uint64_t interior) {
+                               std::span<const std::uint8_t> repeated_faces, std::uint64_t vertices,
+                               std::uint64_t interior) {
   MeshStatistics statistics;
   statistics.vertices = vertices;
   statistics.tetrahedra = tetrahedra.size();
   statistics.interior_tetrahedra = interior;
-  const std::vector<std::uint8_t> owned = owned_faces(tetrahedra, coordinates.size());
+  std::vector<std::uint8_t> found;
+  if (repeated_faces.size() != tetrahedra.size()) {
+    found = find_repeated_faces(tetrahedra, coordinates.size());
+    repeated_faces = found;
+  }
   Accumulator accumulator(statistics);
+  Cosines cosines;
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    const auto& [a, b, c, d] = tetrahedra[t];
+    if (ordinary_cosines(coordinates[a], coordinates[b], coordinates[c], coordinates[d], cosines)) {
+      for (int f = 0; f < 4; ++f) {
+        if ((repeated_faces[t] >> f & 1) == 0) accumulator.add_face_cosines(cosines.face[f]);
+      }
+      accumulator.add_dihedral_cosines(cosines.dihedral);
+      continue;
+    }
     const Shape shape = make_shape(coordinates, tetrahedra[t]);
     for (int f = 0; f < 4; ++f) {
-      if ((owned[t] >> f & 1) != 0) accumulator.add_face(face_angles(shape, f));
+      if ((repeated_faces[t] >> f & 1) == 0) accumulator.add_face(face_angles(shape, f));
     }
     const double volume = volume_term(shape);
     accumulator.add_dihedrals(

@@ -10,10 +10,13 @@
 namespace delmesher {
 
 // Statistics over the tetrahedra given; `interior` is only reported, `vertices` likewise. A face
-// shared by two of the tetrahedra counts once in the face angles' means and histogram. Flat
+// shared by two of the tetrahedra counts once in the face angles' means and histogram: bit i of
+// `repeated_faces` tells that face i (opposite vertex i) is one of an earlier tetrahedron; if that
+// is empty, the faces are compared. Flat
 // tetrahedra count with dihedral angles 0 and 180.
 MeshStatistics mesh_statistics(std::span<const std::array<double, 3>> coordinates,
                                std::span<const std::array<std::uint32_t, 4>> tetrahedra,
-                               std::uint64_t vertices, std::uint64_t interior);
+                               std::span<const std::uint8_t> repeated_faces, std::uint64_t vertices,
+                               std::uint64_t interior);
 
 }  // namespace delmesher

@@ -14,7 +14,7 @@ using Points = std::vector<std::array<double, 3>>;
 using Tets = std::vector<std::array<std::uint32_t, 4>>;
 
 MeshStatistics of(const Points& points, const Tets& tets = {{0, 1, 2, 3}}) {
-  return mesh_statistics(points, tets, points.size(), tets.size());
+  return mesh_statistics(points, tets, {}, points.size(), tets.size());
 }
 
 std::uint64_t total(const std::array<std::uint64_t, 12>& histogram) {
@@ -121,6 +121,11 @@ TEST(Statistics, ScaleDoesNotMatter) {
       EXPECT_NEAR(s.min_face_angle, t.min_face_angle, 1e-9);
       EXPECT_NEAR(s.min_dihedral, t.min_dihedral, 1e-9);
       EXPECT_NEAR(s.max_dihedral, t.max_dihedral, 1e-9);
+      // Far from ordinary sizes every angle is computed in another way.
+      EXPECT_NEAR(s.mean_min_face_angle, t.mean_min_face_angle, 1e-9);
+      EXPECT_NEAR(s.mean_max_face_angle, t.mean_max_face_angle, 1e-9);
+      EXPECT_EQ(s.face_angle_histogram, t.face_angle_histogram);
+      EXPECT_EQ(s.dihedral_histogram, t.dihedral_histogram);
     }
   }
   for (const double factor : {1e-200, 1e200, 1e-307, 1.7e308}) {
@@ -194,7 +199,7 @@ TEST(Statistics, DegenerateButNoNaN) {
 }
 
 TEST(Statistics, EmptyMesh) {
-  const MeshStatistics s = mesh_statistics({}, {}, 0, 0);
+  const MeshStatistics s = mesh_statistics({}, {}, {}, 0, 0);
   EXPECT_EQ(s.tetrahedra, 0U);
   expect_finite(s);
   EXPECT_EQ(s.max_face_angle, 0);

@@ -77,8 +77,10 @@ void Refiner::begin_constraints() {
 }
 
 void Refiner::collect_constraints_of(TetId t) {
-  if (t >= subfacet_.size()) return;
-  for (const std::uint32_t s : subfacet_[t]) {
+  if (t >= marks_.size()) return;
+  const Marks marks = marks_[t];
+  for (int i = 0; i < 4; ++i) {
+    const std::uint32_t s = subfacet_on(t, i);
     if (s == kNone || !subfacets_[s].alive) continue;
     if (subfacet_stamp_[s] == stamp_) {
       for (FoundSubfacet& found : found_subfacets_) found.internal |= found.id == s;
@@ -88,7 +90,7 @@ void Refiner::collect_constraints_of(TetId t) {
     found_subfacets_.push_back({s, false});
   }
   for (int e = 0; e < 6; ++e) {
-    if ((edge_bits_[t] >> e & 1) == 0) continue;
+    if ((marks.edges >> e & 1) == 0) continue;
     const std::uint32_t s = find_subsegment(dt_.vertex(t, kEdge[e][0]), dt_.vertex(t, kEdge[e][1]));
     if (s == kNone || subsegment_stamp_[s] == stamp_) continue;
     subsegment_stamp_[s] = stamp_;
@@ -122,11 +124,11 @@ bool Refiner::find_free_cavity(VertexId v, TetId start, bool spare_subfacets) {
 // may hide the new point from the tetrahedron that the point was made for. One that has a ghost
 // there is a side of the box, which only rounding can put the point beyond.
 bool Refiner::queue_lost_subfacets(TetId t) {
-  if (t >= subfacet_.size()) return false;
+  if (t >= marks_.size() || marks_[t].faces == 0) return false;
   const bool ghost = dt_.is_ghost(t);
   bool any = false;
   for (int i = 0; i < 4; ++i) {
-    const std::uint32_t s = subfacet_[t][i];
+    const std::uint32_t s = subfacet_on(t, i);
     if (s == kNone || !subfacets_[s].alive) continue;
     if (!ghost && !dt_.in_cavity(dt_.neighbor(t, i))) continue;
     queue_subfacet(s);
@@ -163,7 +165,7 @@ void Refiner::commit(VertexId v) {
   bool first = true;
   for (const TetId t : dt_.cavity()) {
     if (dt_.is_ghost(t)) continue;
-    const std::uint8_t known = side_[t];
+    const std::uint8_t known = marks_[t].side;
     if (first) side = known;
     if (known != side) side = kUnknown;
     first = false;
@@ -171,20 +173,21 @@ void Refiner::commit(VertexId v) {
   if (side == kStraddling) side = kUnknown;
   dt_.fill_cavity(v);
   const std::size_t capacity = dt_.capacity();
-  if (capacity > subfacet_.size()) {
-    subfacet_.resize(capacity, {kNone, kNone, kNone, kNone});
-    edge_bits_.resize(capacity, 0);
-    side_.resize(capacity, kUnknown);
+  if (capacity > marks_.size()) {
+    subfacet_.resize(capacity);
+    marks_.resize(capacity);
   }
   const auto created = dt_.created();
   const auto boundary = dt_.cavity_boundary();
   for (std::size_t n = 0; n < created.size(); ++n) {
     const TetId t = created[n];
     const int face = boundary[n].face;
-    subfacet_[t] = {kNone, kNone, kNone, kNone};
-    subfacet_[t][face] = subfacet_[boundary[n].inner][face];
-    edge_bits_[t] = edge_bits_[boundary[n].inner] & kEdgesWithout[face];
-    side_[t] = side;
+    const Marks& inner = marks_[boundary[n].inner];
+    Marks& marks = marks_[t];
+    marks.edges = inner.edges & kEdgesWithout[face];
+    marks.faces = inner.faces & static_cast<std::uint8_t>(1U << face);
+    if (marks.faces != 0) subfacet_[t][face] = subfacet_[boundary[n].inner][face];
+    marks.side = side;
   }
 }
 
@@ -197,7 +200,7 @@ void Refiner::requeue_lost() {
   ++stamp_;
   for (const TetId t : dt_.created()) {
     for (int e = 0; e < 6; ++e) {
-      if ((edge_bits_[t] >> e & 1) == 0) continue;
+      if ((marks_[t].edges >> e & 1) == 0) continue;
       const std::uint32_t s =
           find_subsegment(dt_.vertex(t, kEdge[e][0]), dt_.vertex(t, kEdge[e][1]));
       if (s != kNone && s < subsegment_stamp_.size()) subsegment_stamp_[s] = stamp_;
@@ -227,10 +230,9 @@ void Refiner::after_insertion() {
   }
   requeue_lost();
   if (!refining_) return;
-  is_fresh_.resize(dt_.capacity(), 0);
   for (const TetId t : dt_.created()) {
-    if (is_fresh_[t] != 0) continue;
-    is_fresh_[t] = 1;
+    if (marks_[t].waiting == kFresh) continue;
+    marks_[t].waiting = kFresh;
     fresh_.push_back(t);
   }
 }

@@ -20,9 +20,8 @@ void Refiner::run() {
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   dt_.build(vertices, control_);
-  subfacet_.assign(dt_.capacity(), {kNone, kNone, kNone, kNone});
-  edge_bits_.assign(dt_.capacity(), 0);
-  side_.assign(dt_.capacity(), kUnknown);
+  subfacet_.resize(dt_.capacity());
+  marks_.resize(dt_.capacity());
 
   control_.enter(Phase::segments);
   recover_segments();
@@ -43,20 +42,22 @@ RefineResult Refiner::result() {
     ++count;
   }
   // The memory of the queues and marks goes before that of the result comes.
-  bad_ = {};
+  clear_bad();
   subfacet_.release();
-  edge_bits_.release();
-  is_fresh_.release();
   edge_map_ = {};
   r.tetrahedra.reserve(count);
   r.side.reserve(count);
+  r.repeated_faces.reserve(count);
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
     const VertexId* v = dt_.vertices(t);
     r.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
-    r.side.push_back(side_[t] == kInside    ? Side::inside
-                     : side_[t] == kOutside ? Side::outside
-                                            : Side::straddling);
+    r.side.push_back(marks_[t].side == kInside    ? Side::inside
+                     : marks_[t].side == kOutside ? Side::outside
+                                                  : Side::straddling);
+    const bool inside = marks_[t].side == kInside;
+    r.repeated_faces.push_back(
+        dt_.repeated_faces(t, [&](TetId u) { return (marks_[u].side == kInside) == inside; }));
   }
   for (const Subfacet& f : subfacets_) {
     if (f.alive) r.faces.push_back({f.v, f.facet});

@@ -45,6 +45,9 @@ struct RefineResult {
   std::optional<Vec3> runaway;
   std::vector<std::array<VertexId, 4>> tetrahedra;  // all of them down to the outer box
   std::vector<Side> side;                           // per tetrahedron
+  // Per tetrahedron: which faces earlier ones have too (bits 0 to 3), and which of these are inside
+  // or not alike (bits 4 to 7).
+  std::vector<std::uint8_t> repeated_faces;
   std::vector<RefinedFace> faces;
   std::vector<std::vector<VertexId>> chain;     // per segment of the complex, end to end
   std::vector<std::vector<VertexId>> on_facet;  // per facet: points inserted inside it

@@ -13,7 +13,6 @@
 
 #include <cmath>
 #include <deque>
-#include <queue>
 #include <unordered_map>
 
 #include "mesher/base/growing_array.h"
@@ -62,15 +61,6 @@ class Refiner {
     double max_cosine_squared;  // a face angle is too small if its squared cosine exceeds this
     bool slivers;
   };
-  struct BadTet {
-    double key;  // squared radius-edge ratio
-    TetId t;
-    std::array<VertexId, 4> v;
-    bool operator<(const BadTet& other) const {
-      return key != other.key ? key < other.key : t > other.t;
-    }
-  };
-
   // segments.cpp
   void collect_segment_facets();
   void recover_segments();
@@ -111,8 +101,13 @@ class Refiner {
   bool reach(const Goal& goal, std::size_t cap);
   void judge_fresh();
   void queue_if_bad(TetId t);
-  void split_tetrahedron(const BadTet& bad);
-  bool try_volume_point(const BadTet& bad, const Vec3& center, double grid);
+  void queue_tetrahedron(TetId t, std::uint8_t level);
+  // The last queued of the worst ones, or kNone.
+  TetId next_bad();
+  void sort_level(std::size_t n);
+  void clear_bad();
+  void split_tetrahedron(TetId t);
+  bool try_volume_point(TetId t, const Vec3& center, double grid);
 
   // sides.cpp
   bool near_removed(TetId t) const;
@@ -128,6 +123,10 @@ class Refiner {
   void queue_subsegment(std::uint32_t s);
   void queue_subfacet(std::uint32_t s);
   void begin_constraints();
+  // The subfacet on face i of a tetrahedron, or kNone.
+  std::uint32_t subfacet_on(TetId t, int i) const {
+    return (marks_[t].faces >> i & 1) != 0 ? subfacet_[t][i] : kNone;
+  }
   void collect_constraints_of(TetId t);
   // Find the cavity of v and the constraints in and on it; the second gives up, queues and returns
   // false at the first subsegment (and subfacet, if these are to be spared) in the way.
@@ -173,20 +172,29 @@ class Refiner {
   std::uint64_t on_segments_ = 0, on_facets_ = 0;
 
   // Per tetrahedron.
-  GrowingArray<std::array<std::uint32_t, 4>> subfacet_;  // on each face, or kNone
-  GrowingArray<std::uint8_t> edge_bits_;                 // bit e: kEdge[e] is a subsegment
   enum : std::uint8_t { kUnknown, kOutside, kInside, kStraddling, kAsked };
-  GrowingArray<std::uint8_t> side_;
+  struct Marks {
+    std::uint8_t edges = 0;  // bit e: kEdge[e] is a subsegment
+    std::uint8_t faces = 0;  // bit i: face i is a subfacet, subfacet_[t][i]
+    std::uint8_t side = kUnknown;
+    std::uint8_t waiting = 0;  // its level in bad_, kFresh, or 0
+  };
+  GrowingArray<Marks> marks_;
+  GrowingArray<std::array<std::uint32_t, 4>> subfacet_;
 
   std::deque<std::uint32_t> subsegment_queue_, subfacet_queue_;
   Goal goal_{};
   // Squared height, per squared base, of a triangle whose apex angle just meets the goal.
   double offcentre2_ = 0;
-  std::priority_queue<BadTet> bad_;
+  // Bad tetrahedra by level, that is by radius-edge ratio, worst last. Entries are not removed when
+  // their tetrahedron dies: one counts only if the tetrahedron is alive and waits at this level.
+  std::array<std::vector<TetId>, 255> bad_;
+  std::size_t worst_ = 0;   // no level above has entries
+  std::size_t sorted_ = 0;  // the lowest level that has been brought into spatial order
+  static constexpr std::uint8_t kFresh = 255;
   // Tetrahedra created since the last judge_fresh(), some dead again: most of those that appear
   // while subsegments and subfacets are split do not live to be judged.
   std::vector<TetId> fresh_;
-  GrowingArray<std::uint8_t> is_fresh_;  // per tetrahedron
   bool facets_built_ = false;
   bool refining_ = false;
 

@@ -72,7 +72,7 @@ void Refiner::mark_edge(std::uint32_t s, TetId having_edge) {
     for (int e = 0; e < 6; ++e) {
       const VertexId x = dt_.vertex(t, kEdge[e][0]);
       const VertexId y = dt_.vertex(t, kEdge[e][1]);
-      if ((x == a && y == b) || (x == b && y == a)) edge_bits_[t] |= std::uint8_t(1U << e);
+      if ((x == a && y == b) || (x == b && y == a)) marks_[t].edges |= std::uint8_t(1U << e);
     }
   }
 }

@@ -45,9 +45,9 @@ std::uint8_t Refiner::classify_exactly(TetId t) {
 // neighbour cannot tell.
 std::uint8_t Refiner::side_through(TetId t, int i) const {
   const TetId u = dt_.neighbor(t, i);
-  const std::uint8_t beyond = dt_.is_ghost(u) ? std::uint8_t{kOutside} : side_[u];
+  const std::uint8_t beyond = dt_.is_ghost(u) ? std::uint8_t{kOutside} : marks_[u].side;
   if (beyond == kUnknown || beyond == kStraddling) return kUnknown;
-  const std::uint32_t s = subfacet_[t][i];
+  const std::uint32_t s = subfacet_on(t, i);
   const bool crosses =
       s != kNone && subfacets_[s].alive && plc_.facets[subfacets_[s].facet].input_facet != kNone;
   if (!crosses) return beyond;
@@ -56,23 +56,23 @@ std::uint8_t Refiner::side_through(TetId t, int i) const {
 
 // Requires empty queues: every subfacet is a face of the tetrahedrization.
 std::uint8_t Refiner::side_of(TetId start) {
-  if (side_[start] != kUnknown) return side_[start];
-  if (near_removed(start)) return side_[start] = classify_exactly(start);
+  if (marks_[start].side != kUnknown) return marks_[start].side;
+  if (near_removed(start)) return marks_[start].side = classify_exactly(start);
   // Search for a tetrahedron that knows, through those that do not, then tell all that were asked.
   std::vector<TetId> asked = {start};
-  side_[start] = kAsked;
+  marks_[start].side = kAsked;
   std::uint8_t found = kUnknown;
   std::size_t n = 0;
   for (; n < asked.size() && found == kUnknown; ++n) {
     const TetId t = asked[n];
     for (int i = 0; i < 4 && found == kUnknown; ++i) {
       const TetId u = dt_.neighbor(t, i);
-      if (!dt_.is_ghost(u) && side_[u] == kAsked) continue;
-      if (!dt_.is_ghost(u) && side_[u] == kUnknown) {
+      if (!dt_.is_ghost(u) && marks_[u].side == kAsked) continue;
+      if (!dt_.is_ghost(u) && marks_[u].side == kUnknown) {
         if (near_removed(u)) {
-          side_[u] = classify_exactly(u);
+          marks_[u].side = classify_exactly(u);
         } else {
-          side_[u] = kAsked;
+          marks_[u].side = kAsked;
           asked.push_back(u);
           continue;
         }
@@ -83,20 +83,20 @@ std::uint8_t Refiner::side_of(TetId start) {
   // Nobody knows (an island among straddling ones): the test on one of them serves all.
   const TetId source = asked[n - 1];
   if (found == kUnknown) found = classify_exactly(source);
-  for (const TetId t : asked) side_[t] = kUnknown;
-  side_[source] = found;
+  for (const TetId t : asked) marks_[t].side = kUnknown;
+  marks_[source].side = found;
   std::vector<TetId> tell = {source};
   while (!tell.empty()) {
     const TetId t = tell.back();
     tell.pop_back();
     for (int i = 0; i < 4; ++i) {
       const TetId u = dt_.neighbor(t, i);
-      if (dt_.is_ghost(u) || side_[u] != kUnknown || near_removed(u)) continue;
-      side_[u] = side_through(u, dt_.mirror(t, i));
+      if (dt_.is_ghost(u) || marks_[u].side != kUnknown || near_removed(u)) continue;
+      marks_[u].side = side_through(u, dt_.mirror(t, i));
       tell.push_back(u);
     }
   }
-  return side_[start];
+  return marks_[start].side;
 }
 
 }  // namespace delmesher

@@ -1,9 +1,11 @@
 // Refinement of tetrahedra by largest radius-edge ratio (section 5.4), with off-centres and sliver
 // treatment (5.7).
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "mesher/base/check.h"
+#include "mesher/base/spatial_sort.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
@@ -92,20 +94,29 @@ double opposite_edges_distance2(const Shape& s) {
   return smallest;
 }
 
+// 1 to 254, growing with the squared radius-edge ratio by kLevels per doubling: within a level the
+// last queued goes first, so that successive insertions share what is in the processor's caches.
+constexpr int kLevelBits = 2;
+std::uint8_t level_of(double ratio2) {
+  const auto bits = std::bit_cast<std::uint64_t>(ratio2) >> (52 - kLevelBits);
+  constexpr std::uint64_t kLowest = std::uint64_t{1023 - 2} << kLevelBits;  // a quarter
+  if (!(ratio2 > 0.25)) return ratio2 <= 0.25 ? 1 : 254;
+  return static_cast<std::uint8_t>(std::min<std::uint64_t>(bits - kLowest + 1, 254));
+}
+
 }  // namespace
 
 // Judged in doubles; when in doubt a tetrahedron is bad, which costs at most a split.
 void Refiner::queue_if_bad(TetId t) {
   if (dt_.is_ghost(t)) return;
-  if (options_.region == Region::interior && side_[t] == kOutside) return;
-  std::array<VertexId, 4> v;
+  if (options_.region == Region::interior && marks_[t].side == kOutside) return;
   std::array<Vec3, 4> p;
   double error = 0;
   const Vec3 origin = points_.nearest(dt_.vertex(t, 0));
   for (int i = 0; i < 4; ++i) {
-    v[i] = dt_.vertex(t, i);
-    p[i] = relative(v[i], origin);
-    error = std::max(error, points_.approximation(v[i]).error);
+    const VertexId v = dt_.vertex(t, i);
+    p[i] = relative(v, origin);
+    error = std::max(error, points_.approximation(v).error);
   }
   const Shape s = shape_of(p);
   const double shortest2 = s.length2[s.shortest];
@@ -119,14 +130,56 @@ void Refiner::queue_if_bad(TetId t) {
           options_.max_edge * options_.max_edge;
   }
   if (!bad) return;
-  double key = s.radius2 / shortest2;
-  if (!std::isfinite(key)) key = HUGE_VAL;
-  bad_.push({key, t, v});
+  queue_tetrahedron(t, level_of(s.radius2 / shortest2));
+}
+
+void Refiner::queue_tetrahedron(TetId t, std::uint8_t level) {
+  marks_[t].waiting = level;
+  bad_[level].push_back(t);
+  worst_ = std::max(worst_, std::size_t{level});
+}
+
+TetId Refiner::next_bad() {
+  for (; worst_ > 0; --worst_) {
+    if (worst_ < sorted_) {
+      sorted_ = worst_;
+      sort_level(sorted_);
+    }
+    std::vector<TetId>& level = bad_[worst_];
+    while (!level.empty()) {
+      const TetId t = level.back();
+      if (dt_.alive(t) && marks_[t].waiting == worst_) return t;
+      level.pop_back();
+    }
+  }
+  return kNone;
+}
+
+// In a spatial order, without the dead.
+void Refiner::sort_level(std::size_t n) {
+  std::vector<TetId>& level = bad_[n];
+  std::vector<TetId> waiting;
+  std::vector<Vec3> place;
+  for (const TetId t : level) {
+    if (!dt_.alive(t) || marks_[t].waiting != n) continue;
+    waiting.push_back(t);
+    place.push_back(points_.nearest(dt_.vertex(t, 0)));
+  }
+  std::vector<std::uint32_t> order(waiting.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  spatial_sort(order, place);
+  level.clear();
+  for (const std::uint32_t i : order) level.push_back(waiting[i]);
+}
+
+void Refiner::clear_bad() {
+  for (std::vector<TetId>& level : bad_) level = {};
+  worst_ = 0;
 }
 
 void Refiner::judge_fresh() {
   for (const TetId t : fresh_) {
-    is_fresh_[t] = 0;
+    marks_[t].waiting = 0;
     if (dt_.alive(t)) queue_if_bad(t);
   }
   fresh_.clear();
@@ -138,23 +191,26 @@ bool Refiner::reach(const Goal& goal, std::size_t cap) {
   // cot^2(delta / 2) = (1 + cos delta) / (1 - cos delta).
   const double cosine = std::sqrt(goal.max_cosine_squared);
   offcentre2_ = (1 + cosine) / (1 - cosine) / 4;
+  sorted_ = bad_.size();
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     control_.poll(points_.size());
+    marks_[t].waiting = 0;
     if (dt_.alive(t)) queue_if_bad(t);
   }
   for (;;) {
     control_.poll(points_.size());
     drain();
     judge_fresh();
-    if (bad_.empty()) return true;
+    const TetId t = next_bad();
+    if (t == kNone) return true;
     if (points_.size() > cap) break;
-    const BadTet bad = bad_.top();
-    bad_.pop();
-    if (!dt_.alive(bad.t) || !std::equal(bad.v.begin(), bad.v.end(), dt_.vertices(bad.t))) continue;
-    if (options_.region == Region::interior && side_of(bad.t) == kOutside) continue;
-    split_tetrahedron(bad);
+    if (options_.region == Region::interior && side_of(t) == kOutside) {
+      marks_[t].waiting = 0;
+    } else {
+      split_tetrahedron(t);
+    }
   }
-  bad_ = {};
+  clear_bad();
   return false;
 }
 
@@ -172,10 +228,10 @@ void Refiner::refine_tetrahedra() {
   if (!reach(wanted, kCapFactor * points_.size())) reach(guaranteed, kUnlimited);
 }
 
-void Refiner::split_tetrahedron(const BadTet& bad) {
-  const Vec3 origin = points_.nearest(bad.v[0]);
+void Refiner::split_tetrahedron(TetId t) {
+  const Vec3 origin = points_.nearest(dt_.vertex(t, 0));
   std::array<Vec3, 4> p;
-  for (int i = 0; i < 4; ++i) p[i] = relative(bad.v[i], origin);
+  for (int i = 0; i < 4; ++i) p[i] = relative(dt_.vertex(t, i), origin);
   const Shape s = shape_of(p);
   guard(s.length2[s.shortest], origin);
   const double grid = std::sqrt(s.length2[s.shortest]) * kGridFraction;
@@ -194,35 +250,35 @@ void Refiner::split_tetrahedron(const BadTet& bad) {
     if (reach2 < far2) {
       const double f = std::sqrt(reach2 / far2);
       const Vec3 off = {middle[0] + f * d[0], middle[1] + f * d[1], middle[2] + f * d[2]};
-      if (try_volume_point(bad, absolute(off), grid)) return;
+      if (try_volume_point(t, absolute(off), grid)) return;
     }
-    if (try_volume_point(bad, absolute(s.center), grid)) return;
+    if (try_volume_point(t, absolute(s.center), grid)) return;
   }
   // Too flat for its circumcentre to be computed: its centroid is inside the circumball.
   Vec3 centroid{};
   for (const Vec3& q : s.p) {
     for (int k = 0; k < 3; ++k) centroid[k] += q[k] / 4;
   }
-  if (try_volume_point(bad, absolute(centroid), grid)) return;
+  if (try_volume_point(t, absolute(centroid), grid)) return;
   DELMESHER_CHECK(false, "no point found in the circumball of a tetrahedron");
 }
 
 // Inserts the snapped point unless it encroaches, in which case what it encroaches upon is queued.
 // False if the point is not inside the circumball.
-bool Refiner::try_volume_point(const BadTet& bad, const Vec3& center, double grid) {
+bool Refiner::try_volume_point(TetId t, const Vec3& center, double grid) {
   const Vec3 p = snap_to_grid(center, grid);
   const VertexId v = points_.add_explicit(p[0], p[1], p[2]);
-  if (predicates_.insphere_perturbed(bad.v[0], bad.v[1], bad.v[2], bad.v[3], v) <= 0) {
+  const VertexId* w = dt_.vertices(t);
+  if (predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], v) <= 0) {
     points_.pop_back();
     return false;
   }
-  if (!find_free_cavity(v, bad.t, true)) {
-    points_.pop_back();
-    bad_.push(bad);
+  if (!find_free_cavity(v, t, true)) {
+    points_.pop_back();  // t waits on
     return true;
   }
   in_volume_.push_back(v);
-  if (options_.want_balls) ball_.push_back(bad.v);
+  if (options_.want_balls) ball_.push_back({w[0], w[1], w[2], w[3]});
   commit(v);
   new_subfacets_.clear();
   after_insertion();
