@@ -143,6 +143,11 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                      {"in_volume", s.steiner_in_volume}};
   json["rounding"] = rounding_json(s);
   json["rounding"]["max_surface_deviation"] = s.max_surface_deviation;
+  json["predicates"] = {{"filter", s.predicate_filter},
+                        {"support", s.predicate_by_support},
+                        {"extended", s.predicate_extended},
+                        {"exact", s.predicate_exact},
+                        {"symbolic", s.predicate_symbolic}};
   return dump(json);
 }
 

@@ -1,0 +1,40 @@
+// Plain Delaunay of given points: by CGAL, the floor that the mesher's times are compared with, and
+// by the mesher's own kernel.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "mesher/delmesher.h"
+
+namespace tetproof::benchmark {
+
+struct Timing {
+  std::size_t tetrahedra = 0;  // finite ones
+  double seconds = 0;          // processor time of this thread
+};
+
+// The points with their exact definitions, as a run of the mesher made them.
+using Points = std::vector<delmesher::ExactPoint>;
+
+double thread_seconds();
+
+// Delaunay_triangulation_3 (EPICK, in CGAL's spatial order) of the nearest doubles; coincident ones
+// once.
+Timing cgal_delaunay(const std::vector<std::array<double, 3>>& points);
+
+// The mesher's kernel on doubles, and on the points as they are defined.
+Timing own_delaunay(const std::vector<std::array<double, 3>>& points);
+
+// Those of `points` that the final mesh uses, as points of one kind or mixed.
+struct FinalPoints {
+  explicit FinalPoints(const delmesher::ExactRecord& record);
+  Timing own_delaunay() const;
+
+  Points all;                                  // with the corners that definitions refer to
+  std::vector<std::uint32_t> used;             // ascending
+  std::vector<std::array<double, 3>> nearest;  // of those used, each position once
+};
+
+}  // namespace tetproof::benchmark
