@@ -94,12 +94,12 @@ TetId Tetrahedrization::allocate() {
   if (!free_.empty()) {
     const TetId t = free_.back();
     free_.pop_back();
-    mark_[t] = 0;
+    state_[t].mark = 0;
     return t;
   }
   const auto t = static_cast<TetId>(cell_.size());
   DELMESHER_CHECK(t < (1U << 30), "too many tetrahedra for 32-bit adjacency");
-  mark_.push_back(0);
+  state_.push_back({});
   star_mark_.push_back(0);
   cell_.push_back({});
   return t;
@@ -119,7 +119,7 @@ TetId Tetrahedrization::create(VertexId a, VertexId b, VertexId c, VertexId d) {
 }
 
 void Tetrahedrization::destroy(TetId t) {
-  mark_[t] = kDead;
+  state_[t].mark = kDead;
   free_.push_back(t);
 }
 
@@ -136,19 +136,8 @@ std::size_t Tetrahedrization::tetrahedra() const {
   return count;
 }
 
-bool Tetrahedrization::is_ghost(TetId t) const {
-  return index_of(t, kInfinite) >= 0;
-}
-
-int Tetrahedrization::index_of(TetId t, VertexId v) const {
-  const VertexId* w = vertices(t);
-  for (int i = 0; i < 4; ++i) {
-    if (w[i] == v) return i;
-  }
-  return -1;
-}
-
-void Tetrahedrization::collect_star(VertexId v) {
+template <class Visit>
+void Tetrahedrization::walk_star(VertexId v, Visit&& visit) {
   star_.clear();
   const TetId first = incident(v);
   if (first == kNone) return;
@@ -157,6 +146,7 @@ void Tetrahedrization::collect_star(VertexId v) {
   star_.push_back(first);
   for (std::size_t n = 0; n < star_.size(); ++n) {
     const TetId t = star_[n];
+    if (!visit(t)) return;
     const int own = index_of(t, v);
     for (int i = 0; i < 4; ++i) {
       const TetId u = neighbor(t, i);
@@ -168,29 +158,28 @@ void Tetrahedrization::collect_star(VertexId v) {
 }
 
 std::span<const TetId> Tetrahedrization::star(VertexId v) {
-  collect_star(v);
+  walk_star(v, [](TetId) { return true; });
   return star_;
 }
 
 TetId Tetrahedrization::find_edge(VertexId a, VertexId b) {
-  collect_star(a);
-  for (const TetId t : star_) {
-    if (index_of(t, b) >= 0) return t;
-  }
-  return kNone;
+  TetId found = kNone;
+  walk_star(a, [&](TetId t) {
+    if (index_of(t, b) >= 0) found = t;
+    return found == kNone;
+  });
+  return found;
 }
 
 std::uint32_t Tetrahedrization::find_face(VertexId a, VertexId b, VertexId c) {
-  collect_star(a);
   std::uint32_t found = kNone;
-  for (const TetId t : star_) {
-    if (index_of(t, b) < 0 || index_of(t, c) < 0) continue;
-    for (int i = 0; i < 4; ++i) {
-      const VertexId w = vertex(t, i);
-      if (w != a && w != b && w != c) found = 4 * t + static_cast<std::uint32_t>(i);
-    }
-    if (!is_ghost(t)) return found;
-  }
+  walk_star(a, [&](TetId t) {
+    const int j = index_of(t, b);
+    const int k = j < 0 ? -1 : index_of(t, c);
+    if (k < 0) return true;
+    found = 4 * t + static_cast<std::uint32_t>(6 - index_of(t, a) - j - k);
+    return is_ghost(t);
+  });
   return found;
 }
 
@@ -268,25 +257,34 @@ bool Tetrahedrization::conflicts(TetId t, VertexId v) {
 void Tetrahedrization::begin_cavity(TetId start) {
   epoch_ += 2;
   if (epoch_ >= 0xfffffff0U) {
-    for (std::uint32_t& mark : mark_) mark = mark == kDead ? kDead : 0;
+    for (State& state : state_) state.mark = state.mark == kDead ? kDead : 0;
     epoch_ = 2;
   }
   cavity_.assign(1, start);
   boundary_.clear();
-  mark_[start] = epoch_;
+  state_[start].mark = epoch_;
 }
 
 void Tetrahedrization::grow_across(TetId t, VertexId v) {
+  const PointStore& points = predicates_.points();
+  for (const std::uint32_t across : cell_[t].neighbor) {
+    const VertexId apex = cell_[across >> 2].vertex[across & 3U];
+    if (apex != kInfinite) points.prefetch(apex);
+  }
   for (int i = 0; i < 4; ++i) {
     const TetId u = neighbor(t, i);
-    if (mark_[u] == epoch_) continue;
-    if (mark_[u] != epoch_ + 1) {
+    if (state_[u].mark == epoch_) continue;
+    if (state_[u].mark != epoch_ + 1) {
       if (conflicts(u, v)) {
-        mark_[u] = epoch_;
+        state_[u].mark = epoch_;
         cavity_.push_back(u);
+        // Their turn comes when u's does; by then they have arrived from memory.
+        for (const std::uint32_t next : cell_[u].neighbor) {
+          prefetch(next >> 2);
+        }
         continue;
       }
-      mark_[u] = epoch_ + 1;
+      state_[u].mark = epoch_ + 1;
     }
     boundary_.push_back({t, i});
   }
@@ -326,7 +324,7 @@ void Tetrahedrization::glue_around(TetId created, const BoundaryFace& boundary) 
     for (;;) {
       const std::uint32_t next = cell_[c].neighbor[cross];
       const TetId u = next >> 2;
-      if (mark_[u] != epoch_) {
+      if (state_[u].mark != epoch_) {
         glue(created, j, u, stay);
         break;
       }

@@ -33,6 +33,10 @@ class Tetrahedrization {
     int face;     // of `inner`
   };
 
+  // Four bytes per tetrahedron for the caller's own purposes, where they cost no extra access to
+  // memory. Zero in a slot that is used for the first time, else what was there.
+  using Notes = std::array<std::uint8_t, 4>;
+
   explicit Tetrahedrization(Predicates& predicates);
 
   // Builds the tetrahedrization of the given points (at least four not coplanar; distinct),
@@ -41,11 +45,18 @@ class Tetrahedrization {
 
   // --- queries
   std::size_t capacity() const { return cell_.size(); }  // tet ids are below this
-  bool alive(TetId t) const { return mark_[t] != kDead; }
+  bool alive(TetId t) const { return state_[t].mark != kDead; }
   std::size_t tetrahedra() const;  // alive and finite
-  bool is_ghost(TetId t) const;
+  bool is_ghost(TetId t) const { return index_of(t, kInfinite) >= 0; }
   const VertexId* vertices(TetId t) const { return cell_[t].vertex; }
   VertexId vertex(TetId t, int i) const { return cell_[t].vertex[i]; }
+  Notes& notes(TetId t) { return state_[t].notes; }
+  const Notes& notes(TetId t) const { return state_[t].notes; }
+  // Asks memory for what notes() and vertices() will read soon.
+  void prefetch(TetId t) const {
+    __builtin_prefetch(&cell_[t]);
+    __builtin_prefetch(&state_[t]);
+  }
   // Neighbour across face i, and the same face's index over there.
   TetId neighbor(TetId t, int i) const { return cell_[t].neighbor[i] >> 2; }
   int mirror(TetId t, int i) const { return cell_[t].neighbor[i] & 3; }
@@ -65,7 +76,10 @@ class Tetrahedrization {
   // Some tetrahedron (never a ghost if avoidable) with vertex v; kNone if v is not a vertex.
   TetId incident(VertexId v) const { return v < incident_.size() ? incident_[v] : kNone; }
   // Index of vertex v in tetrahedron t, -1 if absent.
-  int index_of(TetId t, VertexId v) const;
+  int index_of(TetId t, VertexId v) const {
+    const VertexId* w = cell_[t].vertex;
+    return w[0] == v ? 0 : w[1] == v ? 1 : w[2] == v ? 2 : w[3] == v ? 3 : -1;
+  }
   // Tetrahedra (ghosts included) around a vertex, in a deterministic order; valid until the next
   // call.
   std::span<const TetId> star(VertexId v);
@@ -100,7 +114,7 @@ class Tetrahedrization {
     return true;
   }
   std::span<const TetId> cavity() const { return cavity_; }
-  bool in_cavity(TetId t) const { return mark_[t] == epoch_; }
+  bool in_cavity(TetId t) const { return state_[t].mark == epoch_; }
   // Replaces the cavity by the star of v. The cavity's tetrahedra are dead afterwards but their
   // vertices stay readable until the next insertion; `created()` lists the new ones.
   void fill_cavity(VertexId v);
@@ -130,7 +144,9 @@ class Tetrahedrization {
   bool conflicts(TetId t, VertexId v);
   void begin_cavity(TetId start);
   void grow_across(TetId t, VertexId v);
-  void collect_star(VertexId v);
+  // Walks the star of v, collecting it in star_, until visit(t) returns false.
+  template <class Visit>
+  void walk_star(VertexId v, Visit&& visit);
   // Creates the tetrahedron of v over one cavity boundary face.
   TetId cone(const BoundaryFace& boundary, VertexId v);
   void glue_around(TetId created, const BoundaryFace& boundary);
@@ -144,8 +160,11 @@ class Tetrahedrization {
   };
   GrowingArray<Cell> cell_;
   static constexpr std::uint32_t kDead = 0xffffffffU;
-  // kDead; epoch_: in the cavity; epoch_ + 1: visited, not in it.
-  GrowingArray<std::uint32_t> mark_;
+  struct State {
+    std::uint32_t mark;  // kDead; epoch_: in the cavity; epoch_ + 1: visited, not in it
+    Notes notes;
+  };
+  GrowingArray<State> state_;
   std::vector<TetId> free_;
   std::vector<TetId> incident_;  // per point of the store
   std::uint32_t epoch_ = 0;

@@ -76,6 +76,7 @@ class PointStore {
   std::size_t size() const { return approximations_.size(); }
   void reserve(std::size_t n);
   const Approximation& approximation(VertexId v) const { return approximations_[v]; }
+  void prefetch(VertexId v) const { __builtin_prefetch(&approximations_[v]); }
   Vec3 nearest(VertexId v) const {
     const Approximation& a = approximations_[v];
     return {a.x, a.y, a.z};

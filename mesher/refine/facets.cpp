@@ -182,7 +182,7 @@ void Refiner::check_subfacet(std::uint32_t s, std::uint32_t face) {
                     dt_.mirror(face >> 2, static_cast<int>(face & 3U))};
   for (int k = 0; k < 2; ++k) {
     subfacet_[t[k]][i[k]] = s;
-    marks_[t[k]].faces |= static_cast<std::uint8_t>(1U << i[k]);
+    note(t[k], kFaces) |= static_cast<std::uint8_t>(1U << i[k]);
     const VertexId v = dt_.vertex(t[k], i[k]);
     if (k == 1 && planted(Planted::facet_encroachment)) continue;
     if (!options_.gabriel || v == kInfinite) continue;
@@ -388,13 +388,13 @@ void Refiner::compact_subfacets() {
     if (!s.alive) continue;
     for (std::uint32_t& handle : s.side) renumber(handle);
   }
-  for (TetId t = 0; t < marks_.size(); ++t) {
-    if (marks_[t].faces == 0 || !dt_.alive(t)) continue;
+  for (TetId t = 0; t < dt_.capacity(); ++t) {
+    if (note(t, kFaces) == 0 || !dt_.alive(t)) continue;
     for (int i = 0; i < 4; ++i) {
-      if ((marks_[t].faces >> i & 1) == 0) continue;
+      if ((note(t, kFaces) >> i & 1) == 0) continue;
       std::uint32_t& s = subfacet_[t][i];
       s = renumbered[s];
-      if (s == kNone) marks_[t].faces &= static_cast<std::uint8_t>(~(1U << i));
+      if (s == kNone) note(t, kFaces) &= static_cast<std::uint8_t>(~(1U << i));
     }
   }
   std::deque<std::uint32_t> queue;

@@ -77,8 +77,8 @@ void Refiner::begin_constraints() {
 }
 
 void Refiner::collect_constraints_of(TetId t) {
-  if (t >= marks_.size()) return;
-  const Marks marks = marks_[t];
+  const std::uint8_t edges = note(t, kEdges);
+  if ((edges | note(t, kFaces)) == 0) return;
   for (int i = 0; i < 4; ++i) {
     const std::uint32_t s = subfacet_on(t, i);
     if (s == kNone || !subfacets_[s].alive) continue;
@@ -90,7 +90,7 @@ void Refiner::collect_constraints_of(TetId t) {
     found_subfacets_.push_back({s, false});
   }
   for (int e = 0; e < 6; ++e) {
-    if ((marks.edges >> e & 1) == 0) continue;
+    if ((edges >> e & 1) == 0) continue;
     const std::uint32_t s = find_subsegment(dt_.vertex(t, kEdge[e][0]), dt_.vertex(t, kEdge[e][1]));
     if (s == kNone || subsegment_stamp_[s] == stamp_) continue;
     subsegment_stamp_[s] = stamp_;
@@ -124,7 +124,7 @@ bool Refiner::find_free_cavity(VertexId v, TetId start, bool spare_subfacets) {
 // may hide the new point from the tetrahedron that the point was made for. One that has a ghost
 // there is a side of the box, which only rounding can put the point beyond.
 bool Refiner::queue_lost_subfacets(TetId t) {
-  if (t >= marks_.size() || marks_[t].faces == 0) return false;
+  if (note(t, kFaces) == 0) return false;
   const bool ghost = dt_.is_ghost(t);
   bool any = false;
   for (int i = 0; i < 4; ++i) {
@@ -165,29 +165,25 @@ void Refiner::commit(VertexId v) {
   bool first = true;
   for (const TetId t : dt_.cavity()) {
     if (dt_.is_ghost(t)) continue;
-    const std::uint8_t known = marks_[t].side;
+    const std::uint8_t known = note(t, kSide);
     if (first) side = known;
     if (known != side) side = kUnknown;
     first = false;
   }
   if (side == kStraddling) side = kUnknown;
   dt_.fill_cavity(v);
-  const std::size_t capacity = dt_.capacity();
-  if (capacity > marks_.size()) {
-    subfacet_.resize(capacity);
-    marks_.resize(capacity);
-  }
+  if (dt_.capacity() > subfacet_.size()) subfacet_.resize(dt_.capacity());
   const auto created = dt_.created();
   const auto boundary = dt_.cavity_boundary();
   for (std::size_t n = 0; n < created.size(); ++n) {
     const TetId t = created[n];
     const int face = boundary[n].face;
-    const Marks& inner = marks_[boundary[n].inner];
-    Marks& marks = marks_[t];
-    marks.edges = inner.edges & kEdgesWithout[face];
-    marks.faces = inner.faces & static_cast<std::uint8_t>(1U << face);
-    if (marks.faces != 0) subfacet_[t][face] = subfacet_[boundary[n].inner][face];
-    marks.side = side;
+    const TetId inner = boundary[n].inner;
+    const auto face_bit = static_cast<std::uint8_t>(1U << face);
+    note(t, kEdges) = note(inner, kEdges) & kEdgesWithout[face];
+    note(t, kFaces) = note(inner, kFaces) & face_bit;
+    if (note(t, kFaces) != 0) subfacet_[t][face] = subfacet_[inner][face];
+    note(t, kSide) = side;
   }
 }
 
@@ -200,7 +196,7 @@ void Refiner::requeue_lost() {
   ++stamp_;
   for (const TetId t : dt_.created()) {
     for (int e = 0; e < 6; ++e) {
-      if ((marks_[t].edges >> e & 1) == 0) continue;
+      if ((note(t, kEdges) >> e & 1) == 0) continue;
       const std::uint32_t s =
           find_subsegment(dt_.vertex(t, kEdge[e][0]), dt_.vertex(t, kEdge[e][1]));
       if (s != kNone && s < subsegment_stamp_.size()) subsegment_stamp_[s] = stamp_;
@@ -231,8 +227,8 @@ void Refiner::after_insertion() {
   requeue_lost();
   if (!refining_) return;
   for (const TetId t : dt_.created()) {
-    if (marks_[t].waiting == kFresh) continue;
-    marks_[t].waiting = kFresh;
+    if (note(t, kWaiting) == kFresh) continue;
+    note(t, kWaiting) = kFresh;
     fresh_.push_back(t);
   }
 }

@@ -21,7 +21,6 @@ void Refiner::run() {
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   dt_.build(vertices, control_);
   subfacet_.resize(dt_.capacity());
-  marks_.resize(dt_.capacity());
 
   control_.enter(Phase::segments);
   recover_segments();
@@ -52,12 +51,12 @@ RefineResult Refiner::result() {
     if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
     const VertexId* v = dt_.vertices(t);
     r.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
-    r.side.push_back(marks_[t].side == kInside    ? Side::inside
-                     : marks_[t].side == kOutside ? Side::outside
+    r.side.push_back(note(t, kSide) == kInside    ? Side::inside
+                     : note(t, kSide) == kOutside ? Side::outside
                                                   : Side::straddling);
-    const bool inside = marks_[t].side == kInside;
+    const bool inside = note(t, kSide) == kInside;
     r.repeated_faces.push_back(
-        dt_.repeated_faces(t, [&](TetId u) { return (marks_[u].side == kInside) == inside; }));
+        dt_.repeated_faces(t, [&](TetId u) { return (note(u, kSide) == kInside) == inside; }));
   }
   for (const Subfacet& f : subfacets_) {
     if (f.alive) r.faces.push_back({f.v, f.facet});

@@ -13,8 +13,8 @@
 
 #include <cmath>
 #include <deque>
-#include <unordered_map>
 
+#include "mesher/base/flat_map.h"
 #include "mesher/base/growing_array.h"
 #include "mesher/delaunay/planar.h"
 #include "mesher/delaunay/tetrahedrization.h"
@@ -70,7 +70,8 @@ class Refiner {
   double split_fraction(const Subsegment& s, double length) const;
   VertexId place_on(const Subsegment& s);
   bool subsegment_encroached(std::uint32_t s, TetId having_edge);
-  void check_subsegment(std::uint32_t s);
+  void check_subsegment(std::uint32_t s, TetId t);
+  TetId created_with(VertexId v) const;
   std::uint32_t find_subsegment(VertexId a, VertexId b) const;
   std::uint32_t new_subsegment(VertexId a, VertexId b, std::uint32_t segment);
   void mark_edge(std::uint32_t s, TetId having_edge);
@@ -125,7 +126,7 @@ class Refiner {
   void begin_constraints();
   // The subfacet on face i of a tetrahedron, or kNone.
   std::uint32_t subfacet_on(TetId t, int i) const {
-    return (marks_[t].faces >> i & 1) != 0 ? subfacet_[t][i] : kNone;
+    return (note(t, kFaces) >> i & 1) != 0 ? subfacet_[t][i] : kNone;
   }
   void collect_constraints_of(TetId t);
   // Find the cavity of v and the constraints in and on it; the second gives up, queues and returns
@@ -161,8 +162,8 @@ class Refiner {
   std::vector<std::array<FacetUse, 2>> segment_facets_;  // per segment of the complex; kNone unused
   std::vector<double> shell_;  // per input vertex: largest radius of the shells around it; 0: none
   std::vector<Subsegment> subsegments_;
-  std::vector<std::uint32_t> first_subsegment_;                // per segment of the complex
-  std::unordered_map<std::uint64_t, std::uint32_t> edge_map_;  // looked up only, never iterated
+  std::vector<std::uint32_t> first_subsegment_;  // per segment of the complex
+  FlatMap edge_map_;                             // of live subsegments, by their ends
   GrowingArray<Subfacet> subfacets_;
   std::size_t dead_subfacets_ = 0;
   std::vector<FacetPlane> planes_;               // per facet
@@ -173,13 +174,15 @@ class Refiner {
 
   // Per tetrahedron.
   enum : std::uint8_t { kUnknown, kOutside, kInside, kStraddling, kAsked };
-  struct Marks {
-    std::uint8_t edges = 0;  // bit e: kEdge[e] is a subsegment
-    std::uint8_t faces = 0;  // bit i: face i is a subfacet, subfacet_[t][i]
-    std::uint8_t side = kUnknown;
-    std::uint8_t waiting = 0;  // its level in bad_, kFresh, or 0
+  // The notes of a tetrahedron in dt_.
+  enum Note : std::uint8_t {
+    kEdges,   // bit e: kEdge[e] is a subsegment
+    kFaces,   // bit i: face i is a subfacet, subfacet_[t][i]
+    kSide,    // kUnknown, ...
+    kWaiting  // its level in bad_, kFresh, or 0
   };
-  GrowingArray<Marks> marks_;
+  std::uint8_t& note(TetId t, Note kind) { return dt_.notes(t)[kind]; }
+  std::uint8_t note(TetId t, Note kind) const { return dt_.notes(t)[kind]; }
   GrowingArray<std::array<std::uint32_t, 4>> subfacet_;
 
   std::deque<std::uint32_t> subsegment_queue_, subfacet_queue_;

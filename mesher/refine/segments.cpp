@@ -43,13 +43,12 @@ void Refiner::collect_segment_facets() {
 std::uint32_t Refiner::new_subsegment(VertexId a, VertexId b, std::uint32_t segment) {
   const auto s = static_cast<std::uint32_t>(subsegments_.size());
   subsegments_.push_back({a, b, segment, kNone, {kNone, kNone}});
-  edge_map_[edge_key(a, b)] = s;
+  edge_map_.set(edge_key(a, b), s);
   return s;
 }
 
 std::uint32_t Refiner::find_subsegment(VertexId a, VertexId b) const {
-  const auto found = edge_map_.find(edge_key(a, b));
-  return found == edge_map_.end() ? kNone : found->second;
+  return edge_map_.get(edge_key(a, b), kNone);
 }
 
 void Refiner::recover_segments() {
@@ -60,7 +59,9 @@ void Refiner::recover_segments() {
     first_subsegment_[n] =
         new_subsegment(plc_.segments[n].vertex[0], plc_.segments[n].vertex[1], n);
   }
-  for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) check_subsegment(s);
+  for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
+    check_subsegment(s, dt_.find_edge(subsegments_[s].a, subsegments_[s].b));
+  }
   drain();
 }
 
@@ -72,7 +73,7 @@ void Refiner::mark_edge(std::uint32_t s, TetId having_edge) {
     for (int e = 0; e < 6; ++e) {
       const VertexId x = dt_.vertex(t, kEdge[e][0]);
       const VertexId y = dt_.vertex(t, kEdge[e][1]);
-      if ((x == a && y == b) || (x == b && y == a)) marks_[t].edges |= std::uint8_t(1U << e);
+      if ((x == a && y == b) || (x == b && y == a)) note(t, kEdges) |= std::uint8_t(1U << e);
     }
   }
 }
@@ -94,9 +95,9 @@ bool Refiner::subsegment_encroached(std::uint32_t s, TetId having_edge) {
   return false;
 }
 
-// Marks the subsegment in the tetrahedrization; queues it if it is missing there or encroached.
-void Refiner::check_subsegment(std::uint32_t s) {
-  const TetId t = dt_.find_edge(subsegments_[s].a, subsegments_[s].b);
+// Marks the subsegment in the tetrahedrization, where t has its edge; queues it if it is missing
+// there (t is kNone) or encroached.
+void Refiner::check_subsegment(std::uint32_t s, TetId t) {
   if (t == kNone) {
     queue_subsegment(s);
     return;
@@ -168,6 +169,15 @@ VertexId Refiner::place_on(const Subsegment& s) {
   return kNone;
 }
 
+// A tetrahedron that the last insertion created, all of which have its vertex, with the edge from
+// there to v; or kNone.
+TetId Refiner::created_with(VertexId v) const {
+  for (const TetId t : dt_.created()) {
+    if (dt_.index_of(t, v) >= 0) return t;
+  }
+  return kNone;
+}
+
 void Refiner::split_subsegment(std::uint32_t s) {
   const VertexId a = subsegments_[s].a;
   const VertexId b = subsegments_[s].b;
@@ -187,7 +197,7 @@ void Refiner::split_subsegment(std::uint32_t s) {
 
   subsegments_[s].alive = true;
   subsegments_[s].b = v;
-  edge_map_[edge_key(a, v)] = s;
+  edge_map_.set(edge_key(a, v), s);
   const std::uint32_t half = new_subsegment(v, b, subsegments_[s].segment);
   subsegments_[half].next = subsegments_[s].next;
   subsegments_[s].next = half;
@@ -198,8 +208,8 @@ void Refiner::split_subsegment(std::uint32_t s) {
     subsegments_[s].side[k] = kNone;
     insert_in_facet(v, sides[k] / 3, sides[k], s, half);
   }
-  check_subsegment(s);
-  check_subsegment(half);
+  check_subsegment(s, created_with(a));
+  check_subsegment(half, created_with(b));
   after_insertion();
 }
 

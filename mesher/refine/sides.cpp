@@ -45,7 +45,7 @@ std::uint8_t Refiner::classify_exactly(TetId t) {
 // neighbour cannot tell.
 std::uint8_t Refiner::side_through(TetId t, int i) const {
   const TetId u = dt_.neighbor(t, i);
-  const std::uint8_t beyond = dt_.is_ghost(u) ? std::uint8_t{kOutside} : marks_[u].side;
+  const std::uint8_t beyond = dt_.is_ghost(u) ? std::uint8_t{kOutside} : note(u, kSide);
   if (beyond == kUnknown || beyond == kStraddling) return kUnknown;
   const std::uint32_t s = subfacet_on(t, i);
   const bool crosses =
@@ -56,23 +56,23 @@ std::uint8_t Refiner::side_through(TetId t, int i) const {
 
 // Requires empty queues: every subfacet is a face of the tetrahedrization.
 std::uint8_t Refiner::side_of(TetId start) {
-  if (marks_[start].side != kUnknown) return marks_[start].side;
-  if (near_removed(start)) return marks_[start].side = classify_exactly(start);
+  if (note(start, kSide) != kUnknown) return note(start, kSide);
+  if (near_removed(start)) return note(start, kSide) = classify_exactly(start);
   // Search for a tetrahedron that knows, through those that do not, then tell all that were asked.
   std::vector<TetId> asked = {start};
-  marks_[start].side = kAsked;
+  note(start, kSide) = kAsked;
   std::uint8_t found = kUnknown;
   std::size_t n = 0;
   for (; n < asked.size() && found == kUnknown; ++n) {
     const TetId t = asked[n];
     for (int i = 0; i < 4 && found == kUnknown; ++i) {
       const TetId u = dt_.neighbor(t, i);
-      if (!dt_.is_ghost(u) && marks_[u].side == kAsked) continue;
-      if (!dt_.is_ghost(u) && marks_[u].side == kUnknown) {
+      if (!dt_.is_ghost(u) && note(u, kSide) == kAsked) continue;
+      if (!dt_.is_ghost(u) && note(u, kSide) == kUnknown) {
         if (near_removed(u)) {
-          marks_[u].side = classify_exactly(u);
+          note(u, kSide) = classify_exactly(u);
         } else {
-          marks_[u].side = kAsked;
+          note(u, kSide) = kAsked;
           asked.push_back(u);
           continue;
         }
@@ -83,20 +83,20 @@ std::uint8_t Refiner::side_of(TetId start) {
   // Nobody knows (an island among straddling ones): the test on one of them serves all.
   const TetId source = asked[n - 1];
   if (found == kUnknown) found = classify_exactly(source);
-  for (const TetId t : asked) marks_[t].side = kUnknown;
-  marks_[source].side = found;
+  for (const TetId t : asked) note(t, kSide) = kUnknown;
+  note(source, kSide) = found;
   std::vector<TetId> tell = {source};
   while (!tell.empty()) {
     const TetId t = tell.back();
     tell.pop_back();
     for (int i = 0; i < 4; ++i) {
       const TetId u = dt_.neighbor(t, i);
-      if (dt_.is_ghost(u) || marks_[u].side != kUnknown || near_removed(u)) continue;
-      marks_[u].side = side_through(u, dt_.mirror(t, i));
+      if (dt_.is_ghost(u) || note(u, kSide) != kUnknown || near_removed(u)) continue;
+      note(u, kSide) = side_through(u, dt_.mirror(t, i));
       tell.push_back(u);
     }
   }
-  return marks_[start].side;
+  return note(start, kSide);
 }
 
 }  // namespace delmesher

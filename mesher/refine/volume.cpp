@@ -54,32 +54,35 @@ Shape shape_of(const std::array<Vec3, 4>& p) {
     s.length2[e] = dot(d, d);
     if (s.length2[e] < s.length2[s.shortest]) s.shortest = e;
   }
-  const Vec3 bc = cross(p[2], p[3]);
-  const Vec3 ca = cross(p[3], p[1]);
-  const Vec3 ab = cross(p[1], p[2]);
-  s.volume6 = dot(p[1], bc);
+  return s;
+}
+
+// Fills in center, radius2 and volume6.
+void add_circumsphere(Shape& s) {
+  const Vec3 bc = cross(s.p[2], s.p[3]);
+  const Vec3 ca = cross(s.p[3], s.p[1]);
+  const Vec3 ab = cross(s.p[1], s.p[2]);
+  s.volume6 = dot(s.p[1], bc);
   const double scale = 0.5 / s.volume6;
   for (int k = 0; k < 3; ++k) {
     s.center[k] = scale * (s.length2[0] * bc[k] + s.length2[1] * ca[k] + s.length2[2] * ab[k]);
   }
   s.radius2 = dot(s.center, s.center);
-  return s;
 }
 
-// Largest squared cosine among the faces' smallest angles, each opposite its shortest edge.
-double worst_cosine_squared(const Shape& s) {
+// Is the squared cosine of every face's smallest angle, opposite its shortest edge, below the
+// bound? Not if NaN. Without branches on the order of lengths, which is random.
+bool angles_above(const Shape& s, double max_cosine_squared) {
   constexpr int kFaceEdges[4][3] = {{3, 4, 5}, {1, 2, 5}, {0, 2, 4}, {0, 1, 3}};
-  double worst = 0;
+  bool above = true;
   for (const auto& face : kFaceEdges) {
-    double a = s.length2[face[0]];
-    double b = s.length2[face[1]];
-    double c = s.length2[face[2]];
-    if (b < a) std::swap(a, b);
-    if (c < a) std::swap(a, c);
-    const double sum = b + c - a;
-    worst = std::max(worst, sum * sum / (4 * b * c));
+    const double a = s.length2[face[0]], b = s.length2[face[1]], c = s.length2[face[2]];
+    const double low = std::min(a, b), high = std::max(a, b);
+    const double shortest = std::min(low, c), other = std::max(low, c);
+    const double sum = high + other - shortest;
+    above &= sum * sum < 4 * max_cosine_squared * high * other;
   }
-  return worst;
+  return above;
 }
 
 // Smallest squared distance between the lines of opposite edges.
@@ -109,7 +112,7 @@ std::uint8_t level_of(double ratio2) {
 // Judged in doubles; when in doubt a tetrahedron is bad, which costs at most a split.
 void Refiner::queue_if_bad(TetId t) {
   if (dt_.is_ghost(t)) return;
-  if (options_.region == Region::interior && marks_[t].side == kOutside) return;
+  if (options_.region == Region::interior && note(t, kSide) == kOutside) return;
   std::array<Vec3, 4> p;
   double error = 0;
   const Vec3 origin = points_.nearest(dt_.vertex(t, 0));
@@ -118,11 +121,12 @@ void Refiner::queue_if_bad(TetId t) {
     p[i] = relative(v, origin);
     error = std::max(error, points_.approximation(v).error);
   }
-  const Shape s = shape_of(p);
+  Shape s = shape_of(p);
   const double shortest2 = s.length2[s.shortest];
   const double slack = kSlack + 32 * error / std::sqrt(shortest2);
-  bool bad = !(worst_cosine_squared(s) < goal_.max_cosine_squared - slack);
+  bool bad = !angles_above(s, goal_.max_cosine_squared - slack);
   if (!bad && goal_.slivers) {
+    s.volume6 = dot(p[1], cross(p[2], p[3]));
     bad = shortest2 > kSliverRatio * kSliverRatio * opposite_edges_distance2(s);
   }
   if (!bad && options_.max_edge > 0) {
@@ -130,16 +134,18 @@ void Refiner::queue_if_bad(TetId t) {
           options_.max_edge * options_.max_edge;
   }
   if (!bad) return;
+  add_circumsphere(s);
   queue_tetrahedron(t, level_of(s.radius2 / shortest2));
 }
 
 void Refiner::queue_tetrahedron(TetId t, std::uint8_t level) {
-  marks_[t].waiting = level;
+  note(t, kWaiting) = level;
   bad_[level].push_back(t);
   worst_ = std::max(worst_, std::size_t{level});
 }
 
 TetId Refiner::next_bad() {
+  constexpr std::size_t kAhead = 8;  // entries, of which nine in ten are dead
   for (; worst_ > 0; --worst_) {
     if (worst_ < sorted_) {
       sorted_ = worst_;
@@ -148,7 +154,8 @@ TetId Refiner::next_bad() {
     std::vector<TetId>& level = bad_[worst_];
     while (!level.empty()) {
       const TetId t = level.back();
-      if (dt_.alive(t) && marks_[t].waiting == worst_) return t;
+      if (level.size() > kAhead) dt_.prefetch(level[level.size() - 1 - kAhead]);
+      if (dt_.alive(t) && note(t, kWaiting) == worst_) return t;
       level.pop_back();
     }
   }
@@ -161,7 +168,7 @@ void Refiner::sort_level(std::size_t n) {
   std::vector<TetId> waiting;
   std::vector<Vec3> place;
   for (const TetId t : level) {
-    if (!dt_.alive(t) || marks_[t].waiting != n) continue;
+    if (!dt_.alive(t) || note(t, kWaiting) != n) continue;
     waiting.push_back(t);
     place.push_back(points_.nearest(dt_.vertex(t, 0)));
   }
@@ -179,7 +186,7 @@ void Refiner::clear_bad() {
 
 void Refiner::judge_fresh() {
   for (const TetId t : fresh_) {
-    marks_[t].waiting = 0;
+    note(t, kWaiting) = 0;
     if (dt_.alive(t)) queue_if_bad(t);
   }
   fresh_.clear();
@@ -194,7 +201,7 @@ bool Refiner::reach(const Goal& goal, std::size_t cap) {
   sorted_ = bad_.size();
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     control_.poll(points_.size());
-    marks_[t].waiting = 0;
+    note(t, kWaiting) = 0;
     if (dt_.alive(t)) queue_if_bad(t);
   }
   for (;;) {
@@ -205,7 +212,7 @@ bool Refiner::reach(const Goal& goal, std::size_t cap) {
     if (t == kNone) return true;
     if (points_.size() > cap) break;
     if (options_.region == Region::interior && side_of(t) == kOutside) {
-      marks_[t].waiting = 0;
+      note(t, kWaiting) = 0;
     } else {
       split_tetrahedron(t);
     }
@@ -232,7 +239,8 @@ void Refiner::split_tetrahedron(TetId t) {
   const Vec3 origin = points_.nearest(dt_.vertex(t, 0));
   std::array<Vec3, 4> p;
   for (int i = 0; i < 4; ++i) p[i] = relative(dt_.vertex(t, i), origin);
-  const Shape s = shape_of(p);
+  Shape s = shape_of(p);
+  add_circumsphere(s);
   guard(s.length2[s.shortest], origin);
   const double grid = std::sqrt(s.length2[s.shortest]) * kGridFraction;
   const auto absolute = [&](const Vec3& x) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/arithmetic/dyadic.h"
@@ -22,11 +23,14 @@ using DyadicPoint = std::array<Dyadic, 3>;
 // The faces of a positive tetrahedron, seen from inside counter-clockwise.
 constexpr int kInwardFaces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 
+// At least one unit in the last place beyond, whatever the rounding of the first operation.
 double lower(double x, double error) {
-  return std::nextafter(x - error, -kInfinity);
+  const double y = x - error;
+  return y - (std::fabs(y) * 0x1p-51 + 0x1p-1050);
 }
 double upper(double x, double error) {
-  return std::nextafter(x + error, kInfinity);
+  const double y = x + error;
+  return y + (std::fabs(y) * 0x1p-51 + 0x1p-1050);
 }
 
 // The closed boxes of doubles that overlap this box are those that meet the interior of the
@@ -184,9 +188,11 @@ struct Solid::Impl {
     const PointStore& points = predicates.points();
     const Box box = interior_box(points, tetrahedron);
     if (bvh.empty() || !bvh.node(0).box.overlaps(box)) return Side::outside;
-    TetrahedronFaces faces(points, tetrahedron);
+    std::optional<TetrahedronFaces> faces;
     const bool disjoint = bvh.query(box, [&](std::uint32_t t) {
-      if (on_one_side(tetrahedron, t) || faces.separate(points, topology.triangles[t])) return true;
+      if (on_one_side(tetrahedron, t)) return true;
+      if (!faces) faces.emplace(points, tetrahedron);
+      if (faces->separate(points, topology.triangles[t])) return true;
       return !meets_interior(predicates, tetrahedron, topology.triangles[t]);
     });
     if (!disjoint) return Side::straddling;
