@@ -1,5 +1,5 @@
 // End-to-end properties of triangulate_polygon, judged by the exact oracles of the plane.
-// TETPROOF_ITERATIONS widens the generated inputs (the table in reports/plane.md used 1000).
+// TETPROOF_ITERATIONS widens the generated inputs; the long run is tetproof-plane --tiny 1000.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -153,6 +153,20 @@ TEST_F(WritePlane, TriangleFilesComeBack) {
   EXPECT_EQ(read_text(folder_ / "s.ele"), "2 3 1\n0 0 1 2 1\n1 0 2 3 2\n");
 }
 
+TEST_F(WritePlane, PolyKeepsHolesAndRegions) {
+  PlanarGraph graph;
+  graph.holes = {{0.5, 0.25}};
+  graph.regions = {{{0.25, 0.5}, 7}};
+  OutputSet outputs;
+  ASSERT_TRUE(write_plane(outputs, (folder_ / "h.node").string(), two_triangles(), &graph).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  const PlaneReadResult back = read_plane((folder_ / "h.poly").string());
+  ASSERT_TRUE(back.ok()) << back.error;
+  EXPECT_EQ(back.graph.holes, graph.holes);
+  ASSERT_EQ(back.graph.regions.size(), 1U);
+  EXPECT_EQ(back.graph.regions[0].attribute, 7);
+}
+
 TEST_F(WritePlane, OtherFormats) {
   EXPECT_EQ(written(two_triangles(), "m.off"),
             "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 0.1 0\n3 0 1 2\n3 0 2 3\n");

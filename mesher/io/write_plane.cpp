@@ -45,7 +45,29 @@ void line(TextSink& out) {
 }
 
 // A region attribute if the input has regions, else 1 inside and 2 outside if there are both.
-void write_triangle(TextSink& node, TextSink& ele, TextSink& poly, const PlaneMesh& mesh) {
+// The last sections of a .poly.
+void write_holes_and_regions(TextSink& out, const PlanarGraph& graph) {
+  out.integer(graph.holes.size());
+  line(out);
+  for (std::size_t i = 0; i < graph.holes.size(); ++i) {
+    out.integers(i);
+    point(out, graph.holes[i]);
+    line(out);
+  }
+  if (graph.regions.empty()) return;
+  out.integer(graph.regions.size());
+  line(out);
+  for (std::size_t i = 0; i < graph.regions.size(); ++i) {
+    out.integers(i);
+    point(out, graph.regions[i].point);
+    out.text(" ");
+    out.number(graph.regions[i].attribute);
+    line(out);
+  }
+}
+
+void write_triangle(TextSink& node, TextSink& ele, TextSink& poly, const PlaneMesh& mesh,
+                    const PlanarGraph* graph) {
   node.integer(mesh.vertices.size());
   node.text(" 2 0 0\n");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -75,7 +97,7 @@ void write_triangle(TextSink& node, TextSink& ele, TextSink& poly, const PlaneMe
     poly.integer(mesh.edge_markers[i]);
     line(poly);
   }
-  poly.text("0\n");
+  write_holes_and_regions(poly, graph != nullptr ? *graph : PlanarGraph{});
 }
 
 void write_off(TextSink& out, const PlaneMesh& mesh) {
@@ -416,7 +438,8 @@ std::vector<std::string> plane_files_of(const std::string& path) {
   return {path, with_extension(path, ".ele"), with_extension(path, ".poly")};
 }
 
-WriteStatus write_plane(OutputSet& outputs, const std::string& path, const PlaneMesh& mesh) {
+WriteStatus write_plane(OutputSet& outputs, const std::string& path, const PlaneMesh& mesh,
+                        const PlanarGraph* graph) {
   WriteStatus status;
   const auto format = plane_format_of(path);
   if (!format) return {path + ": unknown mesh format (.node, .vtu, .off, .msh or .svg)"};
@@ -428,7 +451,7 @@ WriteStatus write_plane(OutputSet& outputs, const std::string& path, const Plane
   }
   switch (*format) {
     case PlaneFormat::triangle:
-      write_triangle(*sinks[0], *sinks[1], *sinks[2], mesh);
+      write_triangle(*sinks[0], *sinks[1], *sinks[2], mesh, graph);
       break;
     case PlaneFormat::vtu:
       write_vtu(*sinks[0], mesh);
@@ -464,23 +487,7 @@ WriteStatus write_poly(OutputSet& outputs, const std::string& path, const Planar
     if (!graph.markers.empty()) out->integer(graph.markers[i]);
     line(*out);
   }
-  out->integer(graph.holes.size());
-  line(*out);
-  for (std::size_t i = 0; i < graph.holes.size(); ++i) {
-    out->integers(i);
-    point(*out, graph.holes[i]);
-    line(*out);
-  }
-  if (graph.regions.empty()) return status;
-  out->integer(graph.regions.size());
-  line(*out);
-  for (std::size_t i = 0; i < graph.regions.size(); ++i) {
-    out->integers(i);
-    point(*out, graph.regions[i].point);
-    out->text(" ");
-    out->number(graph.regions[i].attribute);
-    line(*out);
-  }
+  write_holes_and_regions(*out, graph);
   return status;
 }
 

@@ -18,8 +18,10 @@ std::optional<PlaneFormat> plane_format_of(const std::string& path);
 // The files that writing to `path` makes: itself, and .ele and .poly beside a .node.
 std::vector<std::string> plane_files_of(const std::string& path);
 
-// Adds the mesh to a set of outputs; nothing is in place before its commit().
-WriteStatus write_plane(OutputSet& outputs, const std::string& path, const PlaneMesh& mesh);
+// Adds the mesh to a set of outputs; nothing is in place before its commit(). The holes and regions
+// of `graph`, if any, go into a .poly, so that it means the same as the input.
+WriteStatus write_plane(OutputSet& outputs, const std::string& path, const PlaneMesh& mesh,
+                        const PlanarGraph* graph = nullptr);
 
 // A .poly file (Shewchuk's Triangle).
 WriteStatus write_poly(OutputSet& outputs, const std::string& path, const PlanarGraph& graph);

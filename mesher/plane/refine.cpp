@@ -157,7 +157,14 @@ class Refiner {
 
   struct Subsegment {
     VertexId a, b;
+    EdgeId edge;  // where it was: mostly it still is
   };
+
+  // The edge of a subsegment, or kNone if it is no more.
+  EdgeId find(const Subsegment& s) const {
+    if (mesh_.origin(s.edge) == s.a && mesh_.target(s.edge) == s.b) return s.edge;
+    return mesh_.find_edge(s.a, s.b);
+  }
 
   bool encroached(EdgeId e) {
     const VertexId a = mesh_.origin(e), b = mesh_.target(e);
@@ -173,7 +180,7 @@ class Refiner {
       for (int i = 0; i < 3; ++i) {
         const EdgeId e = edge_of(t, i), f = mesh_.twin(e);
         if (mesh_.piece(e) == kNone || (f != kNone && f < e)) continue;
-        if (encroached(e)) segments_.push_back({mesh_.origin(e), mesh_.target(e)});
+        if (encroached(e)) segments_.push_back({mesh_.origin(e), mesh_.target(e), e});
       }
     }
   }
@@ -181,7 +188,7 @@ class Refiner {
   void split_segments() {
     for (; segment_head_ < segments_.size() && !hopeless_; ++segment_head_) {
       const Subsegment s = segments_[segment_head_];
-      const EdgeId e = mesh_.find_edge(s.a, s.b);
+      const EdgeId e = find(s);
       if (e != kNone && mesh_.piece(e) != kNone && encroached(e)) split_segment(e);
     }
     segments_.clear();
@@ -224,7 +231,7 @@ class Refiner {
         const EdgeId f = edge_of(t, i);
         if (mesh_.piece(f) == kNone || !counts(t)) continue;
         const VertexId u = mesh_.origin(f), w = mesh_.target(f);
-        if (predicates_.dot(u, mesh_.apex(f), w) < 0) segments_.push_back({u, w});
+        if (predicates_.dot(u, mesh_.apex(f), w) < 0) segments_.push_back({u, w, f});
       }
     }
     return true;
@@ -268,7 +275,8 @@ class Refiner {
     const std::size_t limit = points_.size() + most;
     BadTriangles::Entry entry;
     while (!hopeless_ && bad_.pop(entry)) {
-      if (mesh_[entry.triangle].vertex != entry.vertex) continue;
+      const std::array<VertexId, 3>& v = mesh_[entry.triangle].vertex;
+      if (v[0] != entry.vertex[0] || v[1] != entry.vertex[1] || v[2] != entry.vertex[2]) continue;
       if (most > 0 && points_.size() > limit) {
         bad_ = {};
         return false;
@@ -321,13 +329,15 @@ class Refiner {
     }
     encroached_.clear();
     if (blocked != kNone) {
-      encroached_.push_back({mesh_.origin(blocked), mesh_.target(blocked)});
+      encroached_.push_back({mesh_.origin(blocked), mesh_.target(blocked), blocked});
     } else {
       mesh_.find_cavity(p, sight.location.triangle, kNone);
       for (const auto& edge : mesh_.boundary()) {
         if (edge.piece != kNone && counts(edge.inner) &&
             predicates_.dot(edge.from, p, edge.to) < 0) {
-          encroached_.push_back({edge.from, edge.to});
+          // For the sides of the box, any edge will do: they are looked up.
+          const EdgeId inner = edge.outer != kNone ? mesh_.twin(edge.outer) : 0;
+          encroached_.push_back({edge.from, edge.to, inner});
         }
       }
     }
@@ -343,7 +353,7 @@ class Refiner {
     points_.pop_back();
     bool progress = false;
     for (const Subsegment& s : encroached_) {
-      const EdgeId e = mesh_.find_edge(s.a, s.b);
+      const EdgeId e = find(s);
       if (e == kNone || split_segment(e)) progress = true;
     }
     if (mesh_[t].vertex != v) return;

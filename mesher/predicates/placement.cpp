@@ -22,6 +22,11 @@ double round_up(double x, int bits) {
   return std::ldexp(static_cast<double>(mantissa), parts.exponent + drop);
 }
 
+// For exponents of normal numbers.
+double power_of_two(int exponent) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+}
+
 double dot(const Vec3& a, const Vec3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -36,6 +41,10 @@ double largest(const Vec3& a) {
 
 // Exact unless tiny numbers underflow.
 Vec3 scaled(const Vec3& a, int exponent) {
+  if (exponent > -1000 && exponent < 1000) {
+    const double factor = power_of_two(exponent);
+    return {a[0] * factor, a[1] * factor, a[2] * factor};
+  }
   return {std::ldexp(a[0], exponent), std::ldexp(a[1], exponent), std::ldexp(a[2], exponent)};
 }
 
@@ -98,6 +107,15 @@ double shortest_dyadic(double lo, double hi) {
   DELMESHER_CHECK(lo <= hi, "empty interval");
   if (lo <= 0 && hi >= 0) return 0;
   if (hi < 0) return -shortest_dyadic(-hi, -lo);
+  constexpr std::uint64_t kFraction = (std::uint64_t{1} << 52) - 1;
+  const auto low = std::bit_cast<std::uint64_t>(lo), high = std::bit_cast<std::uint64_t>(hi);
+  if (low > kFraction) {  // not subnormal
+    if ((low & kFraction) == 0) return lo;
+    // The power of two between them, or what both have in common down to the first difference.
+    if (high >> 52 != low >> 52) return std::bit_cast<double>(((low >> 52) + 1) << 52);
+    const int equal = std::countl_zero((low - 1) ^ high);
+    return std::bit_cast<double>(high >> (63 - equal) << (63 - equal));
+  }
   for (int bits = 1; bits <= 53; ++bits) {
     const double candidate = round_up(lo, bits);
     if (candidate <= hi) return candidate;

@@ -20,6 +20,11 @@ Dyadic exact_coordinate(const PointStore& points, const PointDefinition& d, std:
   };
   const std::size_t last = d.kind == PointKind::on_segment ? 1 : 2;
   const Dyadic anchor = of(last);
+  // What all corners have in common, so does the point: parallel to an axis, or in the plane z = 0.
+  const auto same = [&](std::size_t i) {
+    return points.nearest(d.corner[i])[axis] == points.nearest(d.corner[last])[axis];
+  };
+  if (same(0) && same(1)) return anchor;
   Dyadic sum = anchor + Dyadic::from_double(d.u) * (of(0) - anchor);
   if (last == 2) sum = sum + Dyadic::from_double(d.v) * (of(1) - anchor);
   return sum;
