@@ -103,6 +103,11 @@ class Run {
           plane::refine(graph, chamfered, points_, predicates_, refining, control_);
       if (!refined.crowded) {
         result_.statistics.guaranteed_delta = refined.delta;
+        if (refined.delta < options_.delta) {
+          result_.warnings.push_back(
+              "the angle bound asked for was not reached within the limit of points; 20.7 degrees "
+              "are kept");
+        }
         record_spared(graph, spared);
         return refined;
       }

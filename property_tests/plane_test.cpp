@@ -100,6 +100,7 @@ TEST(Plane, BeyondTheProvenBound) {
   options.delta = 34;  // may not end: then the proven bound holds
   const PlaneResult most = expect_verified(shapes::koch(2), options);
   EXPECT_GE(most.statistics.guaranteed_delta, 20.7);
+  EXPECT_EQ(most.warnings.empty(), most.statistics.guaranteed_delta == 34);
 }
 
 TEST(Plane, TinyAngles) {
