@@ -7,7 +7,7 @@
 
 namespace delmesher {
 
-double distance(const Vec3& a, const Vec3& b) {
+double safe_distance(const Vec3& a, const Vec3& b) {
   const Vec3 d = {std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])};
   const double m = std::max({d[0], d[1], d[2]});
   if (m == 0) return 0;
@@ -55,13 +55,14 @@ std::array<double, 2> Chains::fractions(std::uint32_t edge, VertexId v) const {
     if (d.corner[0] == end[0] && d.corner[1] == end[1]) return {1 - d.u, d.u};
   }
   const Vec3 p = points_.nearest(v);
-  const double a = distance(p, points_.nearest(end[0])), b = distance(p, points_.nearest(end[1]));
+  const double a = safe_distance(p, points_.nearest(end[0])),
+               b = safe_distance(p, points_.nearest(end[1]));
   return {a / (a + b), b / (a + b)};
 }
 
 double Chains::length(std::uint32_t edge) const {
   const std::array<VertexId, 2> end = topology_->edge_vertices(edge);
-  return distance(points_.nearest(end[0]), points_.nearest(end[1]));
+  return safe_distance(points_.nearest(end[0]), points_.nearest(end[1]));
 }
 
 std::vector<VertexId> Chains::vertices(std::uint32_t edge) const {

@@ -59,6 +59,6 @@ TetId find_edge(Tetrahedrization& mesh, const Chains& chains, VertexId a, Vertex
 std::uint32_t find_face(Tetrahedrization& mesh, const Chains& chains, std::array<VertexId, 3> face);
 
 // Distance of two points given by their coordinates, without overflow or underflow of squares.
-double distance(const Vec3& a, const Vec3& b);
+double safe_distance(const Vec3& a, const Vec3& b);
 
 }  // namespace delmesher

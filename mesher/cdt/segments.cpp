@@ -259,8 +259,8 @@ class SegmentRecovery {
     const double length = chains_.length(u.edge);
     const Vec3 r = points_.nearest(reference);
     if (centre == kNoCentre) {
-      const double to_u = distance(r, points_.nearest(u.vertex)) / length;
-      const double to_w = distance(r, points_.nearest(w.vertex)) / length;
+      const double to_u = safe_distance(r, points_.nearest(u.vertex)) / length;
+      const double to_w = safe_distance(r, points_.nearest(w.vertex)) / length;
       const double step = std::min(to_u, to_w);
       // Written so that a NaN means the middle, here and below.
       if (!(step > 0 && step <= width / 2)) return middle;
@@ -291,7 +291,7 @@ class SegmentRecovery {
     const Vec3 p = points_.nearest(near.vertex), q = points_.nearest(far.vertex);
     Vec3 x;
     for (int k = 0; k < 3; ++k) x[k] = p[k] + (q[k] - p[k]) * (step / width);
-    if (rest * length < distance(x, points_.nearest(reference))) return middle;
+    if (rest * length < safe_distance(x, points_.nearest(reference))) return middle;
     return t;
   }
 
@@ -305,7 +305,7 @@ class SegmentRecovery {
         if (end[k] == apex) return chains_.node(n).from[k] * chains_.length(edge);
       }
     }
-    return distance(points_.nearest(apex), points_.nearest(v));
+    return safe_distance(points_.nearest(apex), points_.nearest(v));
   }
 
   // At angles below 2^-40 a radius of 53 bits is not enough for two points to be on the same sphere
@@ -374,7 +374,7 @@ class SegmentRecovery {
   // ball, the one that sees it under the largest circumcircle. In doubles: it only guides.
   VertexId find_reference(VertexId a, VertexId b) {
     const Vec3 p = points_.nearest(a), q = points_.nearest(b);
-    const double length = distance(p, q);
+    const double length = safe_distance(p, q);
     VertexId best = kNone;
     double best_sine = 2;
     if (mark_.size() < mesh_.capacity()) mark_.resize(mesh_.capacity() * 3 / 2, 0);

@@ -117,11 +117,11 @@ class IsolatedVertices {
 
   void find_influences(FacetId f) {
     influences_.clear();
-    std::vector<Box> boxes;
+    std::vector<ItemBox> boxes;
     const auto add = [&](const Vec3& a, const Vec3& b, double radius) {
       if (!(radius > 0)) return;
       const std::array<Vec3, 2> ends = {a, b};
-      Box box = Box::around(ends);
+      ItemBox box = ItemBox::around(ends);
       for (int i = 0; i < 3; ++i) {
         box.low[i] -= radius;
         box.high[i] += radius;
@@ -143,7 +143,7 @@ class IsolatedVertices {
     const Vec3& p = surface_.position(v);
     bool near = false;
     const std::array<Vec3, 1> query = {p};
-    tree_.for_each_within(Box::around(query), 0, [&](std::uint32_t i) {
+    tree_.for_each_within(ItemBox::around(query), 0, [&](std::uint32_t i) {
       const Influence& zone = influences_[i];
       const double there = closest_on_segment(p, zone.a, zone.b).squared_distance;
       near = near || there < zone.radius * zone.radius;
@@ -157,10 +157,10 @@ class IsolatedVertices {
 
   // Of vertices closer than the clearance, the one with the smallest id stays.
   void drop_crowded(std::vector<VertexId>& vertices) const {
-    std::vector<Box> boxes;
+    std::vector<ItemBox> boxes;
     for (VertexId v : vertices) {
       const std::array<Vec3, 1> point = {surface_.position(v)};
-      boxes.push_back(Box::around(point));
+      boxes.push_back(ItemBox::around(point));
     }
     const BoxTree tree(boxes);
     std::vector<std::uint8_t> dropped(vertices.size());

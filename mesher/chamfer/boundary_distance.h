@@ -29,7 +29,7 @@ class BoundaryDistance {
 
   // measure(half-edge, from, to) returns a squared distance; gives the smallest one.
   template <class Measure>
-  double smallest(FacetId f, const Box& query, Measure measure);
+  double smallest(FacetId f, const ItemBox& query, Measure measure);
 
   const KeptSurface& surface_;
   std::vector<std::unique_ptr<BoxTree>> tree_;  // per facet, when first needed

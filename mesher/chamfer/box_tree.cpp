@@ -7,7 +7,7 @@
 
 namespace delmesher {
 
-BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
+BoxTree::BoxTree(std::vector<ItemBox> boxes) : boxes_(std::move(boxes)) {
   if (boxes_.empty()) return;
   items_.resize(boxes_.size());
   std::iota(items_.begin(), items_.end(), 0U);

@@ -11,14 +11,14 @@
 
 namespace delmesher {
 
-struct Box {
+struct ItemBox {
   Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
            std::numeric_limits<double>::infinity()};
   Vec3 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
             -std::numeric_limits<double>::infinity()};
 
-  static Box around(std::span<const Vec3> points) {
-    Box box;
+  static ItemBox around(std::span<const Vec3> points) {
+    ItemBox box;
     for (const Vec3& p : points) box.extend(p, p);
     return box;
   }
@@ -30,7 +30,7 @@ struct Box {
   }
 };
 
-inline double squared_distance(const Box& a, const Box& b) {
+inline double squared_distance(const ItemBox& a, const ItemBox& b) {
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
     const double gap = std::max({0.0, a.low[i] - b.high[i], b.low[i] - a.high[i]});
@@ -42,7 +42,7 @@ inline double squared_distance(const Box& a, const Box& b) {
 class BoxTree {
  public:
   BoxTree() = default;
-  explicit BoxTree(std::vector<Box> boxes);
+  explicit BoxTree(std::vector<ItemBox> boxes);
 
   bool empty() const { return nodes_.empty(); }
   // The item is no longer found.
@@ -51,19 +51,19 @@ class BoxTree {
   // Calls measure(item) for items in about ascending distance of their boxes from `query`, as long
   // as that squared distance is below `bound`; measure returns the new bound.
   template <class Measure>
-  double nearest(const Box& query, double bound, Measure measure) const {
+  double nearest(const ItemBox& query, double bound, Measure measure) const {
     if (!nodes_.empty()) descend(0, query, bound, measure);
     return bound;
   }
   // Calls visit(item) for every item whose box is at a squared distance <= bound.
   template <class Visit>
-  void for_each_within(const Box& query, double bound, Visit visit) const {
+  void for_each_within(const ItemBox& query, double bound, Visit visit) const {
     if (!nodes_.empty()) visit_within(0, query, bound, visit);
   }
 
  private:
   struct Node {
-    Box box;
+    ItemBox box;
     std::uint32_t begin, end;  // range of items_
     std::uint32_t left;        // children left, left + 1; 0: leaf
     std::uint32_t parent;
@@ -74,7 +74,7 @@ class BoxTree {
   void split(std::uint32_t node);
 
   template <class Measure>
-  void descend(std::uint32_t index, const Box& query, double& bound, Measure& measure) const {
+  void descend(std::uint32_t index, const ItemBox& query, double& bound, Measure& measure) const {
     const Node& node = nodes_[index];
     if (node.left == 0) {
       for (std::uint32_t i = node.begin; i < node.end; ++i) {
@@ -96,7 +96,7 @@ class BoxTree {
   }
 
   template <class Visit>
-  void visit_within(std::uint32_t index, const Box& query, double bound, Visit& visit) const {
+  void visit_within(std::uint32_t index, const ItemBox& query, double bound, Visit& visit) const {
     const Node& node = nodes_[index];
     if (node.alive == 0 || !(squared_distance(node.box, query) <= bound)) return;
     if (node.left != 0) {
@@ -111,7 +111,7 @@ class BoxTree {
     }
   }
 
-  std::vector<Box> boxes_;
+  std::vector<ItemBox> boxes_;
   std::vector<std::uint32_t> items_;
   std::vector<std::uint32_t> leaf_of_;
   std::vector<std::uint8_t> removed_;

@@ -45,10 +45,10 @@ class FeatureFinder {
         for (VertexId v : segment.vertex) facet_of_point_[v] = facet.input_facet;
       }
     }
-    std::vector<Box> boxes;
+    std::vector<ItemBox> boxes;
     for (const PlcSegment& segment : plc_.segments) {
       for (VertexId v : segment.vertex) is_vertex_[v] = 1;
-      boxes.push_back(Box::around(ends(segment)));
+      boxes.push_back(ItemBox::around(ends(segment)));
     }
     segment_tree_ = BoxTree(std::move(boxes));
     find_triangles();
@@ -110,12 +110,12 @@ class FeatureFinder {
 
   // Triangles of the facets at acute vertices: elsewhere the input's own distances hold.
   void find_triangles() {
-    std::vector<Box> boxes;
+    std::vector<ItemBox> boxes;
     for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
       if (chamfered_.plc_facet[topology_.facet_of[t]] == kNone) continue;
       std::array<Vec3, 3> corner;
       for (int k = 0; k < 3; ++k) corner[k] = surface_.position(topology_.triangles[t][k]);
-      boxes.push_back(Box::around(corner));
+      boxes.push_back(ItemBox::around(corner));
       triangles_.push_back(t);
     }
     triangle_tree_ = BoxTree(std::move(boxes));
@@ -126,7 +126,7 @@ class FeatureFinder {
     const std::array<Vec3, 2> here = ends(segment);
     const double length = squared_norm(subtract(here[0], here[1]));
     if (length < bound_) found_.push_back({length, segment_culprit(s), {}});
-    segment_tree_.for_each_within(Box::around(here), bound_, [&](std::uint32_t other) {
+    segment_tree_.for_each_within(ItemBox::around(here), bound_, [&](std::uint32_t other) {
       const auto [a, b] = segment.vertex;
       const auto [c, d] = plc_.segments[other].vertex;
       if (a == c || a == d || b == c || b == d) return;
@@ -150,7 +150,7 @@ class FeatureFinder {
   void check_point(VertexId v) {
     const Vec3 p = position(v);
     const std::array<Vec3, 1> query = {p};
-    triangle_tree_.for_each_within(Box::around(query), bound_, [&](std::uint32_t item) {
+    triangle_tree_.for_each_within(ItemBox::around(query), bound_, [&](std::uint32_t item) {
       const std::uint32_t t = triangles_[item];
       const FacetId f = topology_.facet_of[t];
       const auto& corner = topology_.triangles[t];
