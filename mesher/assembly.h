@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/cdt/cdt.h"
-#include "mesher/chamfer/chamfer.h"
+#include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
 #include "mesher/output/rounding.h"
 #include "mesher/refine/refine.h"
@@ -64,7 +64,8 @@ Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& re
 
 // --- the exact record; point indices are ids of the store until record_points renumbers them
 void record_parameters(const Options& options, double diagonal, ExactRecord& record);
-void record_facets(const SurfaceTopology& topology, const std::vector<std::uint8_t>& kept,
+// `filter` is null if nothing was filtered.
+void record_facets(const SurfaceTopology& topology, const FilterResult* filter,
                    ExactRecord& record);
 void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
                     const std::vector<double>& vertex_cosine_squared, ExactRecord& record);

@@ -144,7 +144,9 @@ struct ExactRecord {
   struct Facet {
     std::uint32_t id;  // smallest input triangle index
     std::int32_t label;
-    bool filtered;                         // dropped by the filter
+    // 0: kept. Dropped by the filter: 1 for what is too close in the input, 2 for what chamfering
+    // made of that, after all of 1.
+    std::uint8_t filtered;
     std::vector<std::uint32_t> triangles;  // input triangles
   };
   std::vector<Facet> facets;

@@ -177,7 +177,7 @@ class Run {
         static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
     if (!options_.want_exact) return;
     record_parameters(options_, result_.statistics.bbox_diagonal, result_.exact);
-    record_facets(topology_, filter_.facet_kept, result_.exact);
+    record_facets(topology_, &filter_, result_.exact);
     record_chamfer(chamfered, s.guaranteed_acute, tightened, result_.exact);
     result_.exact.parameters.acute = s.guaranteed_acute;
     result_.exact.parameters.corner = s.guaranteed_corner;
@@ -199,7 +199,7 @@ class Run {
   void record_cdt(const CdtResult& cdt) {
     result_.statistics.steiner_on_segments += cdt.steiner.size();
     if (!options_.want_exact) return;
-    if (result_.exact.facets.empty()) record_facets(topology_, {}, result_.exact);
+    if (result_.exact.facets.empty()) record_facets(topology_, nullptr, result_.exact);
     record_final(cdt, topology_, result_.exact);
   }
 

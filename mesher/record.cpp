@@ -39,12 +39,15 @@ void record_parameters(const Options& options, double diagonal, ExactRecord& rec
   record.parameters.region = options.region;
 }
 
-void record_facets(const SurfaceTopology& topology, const std::vector<std::uint8_t>& kept,
+void record_facets(const SurfaceTopology& topology, const FilterResult* filter,
                    ExactRecord& record) {
   for (FacetId f = 0; f < topology.facet_triangles.size(); ++f) {
     const auto& triangles = topology.facet_triangles[f];
-    record.facets.push_back(
-        {triangles[0], topology.labels[triangles[0]], !kept.empty() && kept[f] == 0, triangles});
+    std::uint8_t filtered = 0;
+    if (filter != nullptr && filter->facet_kept[f] == 0) {
+      filtered = filter->kept_at_first[f] == 0 ? 1 : 2;
+    }
+    record.facets.push_back({triangles[0], topology.labels[triangles[0]], filtered, triangles});
   }
 }
 

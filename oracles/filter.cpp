@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <numbers>
 
 namespace tetproof::oracles {
 namespace {
@@ -20,6 +22,56 @@ BoxTree::Box enlarged(BoxTree::Box box, double by) {
   return box;
 }
 
+struct Element {
+  enum class Kind : std::uint8_t { vertex, edge, facet };
+  Kind kind;
+  Index id;
+  auto operator<=>(const Element&) const = default;
+};
+
+// Angles below a threshold. Says yes too often, never too rarely: facets and edges at a vertex
+// count as neighbours, whatever lies between them.
+class Sharpness {
+ public:
+  explicit Sharpness(double degrees) {
+    const double cosine = std::cos(std::min(degrees, 90.0) * (std::numbers::pi / 180));
+    cosine_squared_ = cosine * cosine * (1 - 1e-9);
+    sine_squared_ = (1 - cosine * cosine) * (1 + 1e-9);
+  }
+
+  bool among(const std::vector<IntegerVector>& edges,
+             const std::vector<IntegerVector>& normals) const {
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const mpz_class dot = exact::dot(edges[i], edges[j]);
+        if (dot > 0 && squared_cosine(dot, edges[i], edges[j]) > cosine_squared_) return true;
+      }
+      for (const IntegerVector& normal : normals) {
+        const mpz_class dot = exact::dot(edges[i], normal);
+        if (dot != 0 && squared_cosine(dot, edges[i], normal) < sine_squared_) return true;
+      }
+    }
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        // The normals of a sharp wedge point away from each other, inside and outside.
+        const mpz_class dot = exact::dot(normals[i], normals[j]);
+        if (dot < 0 && squared_cosine(dot, normals[i], normals[j]) > cosine_squared_) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static mpq_class squared_cosine(const mpz_class& dot, const IntegerVector& a,
+                                  const IntegerVector& b) {
+    mpq_class result(mpz_class(dot * dot), mpz_class(exact::squared(a) * exact::squared(b)));
+    result.canonicalize();
+    return result;
+  }
+
+  mpq_class cosine_squared_, sine_squared_;
+};
+
 // The constrained edges and facets of the input, some of them present.
 class Features {
  public:
@@ -37,9 +89,12 @@ class Features {
       edges_at_[edge.to].push_back(e);
     }
     edge_tree_ = std::make_unique<BoxTree>(std::move(boxes));
+    triangles_of_.resize(surface.facets().size());
     for (Index t = 0; t < surface.triangles().size(); ++t) {
+      const Index f = surface.facet_of_triangle()[t];
+      triangles_of_[f].push_back(t);
       for (const Index v : surface.triangles()[t]) {
-        facets_at_[v].push_back(surface.facet_of_triangle()[t]);
+        if (!touches(v, f)) facets_at_[v].push_back(f);
       }
     }
   }
@@ -54,11 +109,21 @@ class Features {
                        [&](Index e) { return edge_present(e); });
   }
 
+  bool absent(const Element& element) const {
+    const std::vector<Index> facets = facets_of(element);
+    return std::none_of(facets.begin(), facets.end(), [&](Index f) { return present_[f]; });
+  }
+  std::vector<Index> facets_of(const Element& element) const;
+  // A facet, its vertices that are on constrained edges, and its edges.
+  std::vector<Element> elements_of(Index facet) const;
+
   // These name something present that is closer, in square, than the bound; empty if nothing is.
+  std::string near(const Element& element, double reach, const mpq_class& bound);
   std::string near_vertex(Index v, double reach, const mpq_class& bound);
   std::string near_edge(Index e, double reach, const mpq_class& bound);
-  std::string near_facet(Index facet, double reach, const mpq_class& bound);
-  std::string near_any_of(Index facet, double reach, const mpq_class& bound);
+
+  // Does anything present at a vertex of the facet meet at a sharp angle?
+  bool meets_sharply(Index facet, const Sharpness& sharp) const;
 
  private:
   bool touches(Index v, Index facet) const {
@@ -68,7 +133,8 @@ class Features {
     return "edge " + std::to_string(surface_.edges()[e].from) + "-" +
            std::to_string(surface_.edges()[e].to);
   }
-  std::vector<Index> vertices_of(Index facet) const;
+  std::string vertex_near_edge(Index e, double reach, const mpq_class& bound);
+  std::string near_facet(Index facet, double reach, const mpq_class& bound);
 
   const ExactPoints& points_;
   const InputSurface& surface_;
@@ -76,7 +142,7 @@ class Features {
   std::vector<std::vector<Index>> edges_at_, facets_at_;
   std::unique_ptr<BoxTree> edge_tree_;
   std::vector<Index> found_;
-  mutable std::vector<std::vector<Index>> triangles_of_;
+  std::vector<std::vector<Index>> triangles_of_;
 };
 
 std::string Features::near_vertex(Index v, double reach, const mpq_class& bound) {
@@ -120,25 +186,23 @@ std::string Features::near_edge(Index e, double reach, const mpq_class& bound) {
   return {};
 }
 
-std::vector<Index> Features::vertices_of(Index facet) const {
-  if (triangles_of_.empty()) {
-    triangles_of_.resize(surface_.facets().size());
-    for (Index t = 0; t < surface_.triangles().size(); ++t) {
-      triangles_of_[surface_.facet_of_triangle()[t]].push_back(t);
+// The end of an edge that is present, beside the inside of this one.
+std::string Features::vertex_near_edge(Index e, double reach, const mpq_class& bound) {
+  const Index a = surface_.edges()[e].from, b = surface_.edges()[e].to;
+  found_.clear();
+  edge_tree_->query(enlarged(box_around(points_, std::array{a, b}), reach), found_);
+  for (const Index other : found_) {
+    if (!edge_present(other)) continue;
+    for (const Index v : {surface_.edges()[other].from, surface_.edges()[other].to}) {
+      if (v == a || v == b || squared_distance_to_segment(points_, v, a, b) >= bound) continue;
+      return "vertex " + std::to_string(v) + " and " + edge_name(e);
     }
   }
-  std::vector<Index> vertices;
-  for (const Index t : triangles_of_[facet]) {
-    vertices.insert(vertices.end(), surface_.triangles()[t].begin(), surface_.triangles()[t].end());
-  }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
+  return {};
 }
 
 // A vertex, on some edge that is present, above or below a triangle of the facet.
 std::string Features::near_facet(Index facet, double reach, const mpq_class& bound) {
-  vertices_of(facet);
   for (const Index t : triangles_of_[facet]) {
     std::vector<Index> edges;
     edge_tree_->query(enlarged(box_around(points_, surface_.triangles()[t]), reach), edges);
@@ -157,16 +221,67 @@ std::string Features::near_facet(Index facet, double reach, const mpq_class& bou
   return {};
 }
 
-std::string Features::near_any_of(Index facet, double reach, const mpq_class& bound) {
-  for (const Index v : vertices_of(facet)) {
-    if (std::string pair = near_vertex(v, reach, bound); !pair.empty()) return pair;
-    for (const Index e : edges_at_[v]) {
-      const InputSurface::Edge& edge = surface_.edges()[e];
-      if (edge.left != facet && edge.right != facet) continue;
-      if (std::string pair = near_edge(e, reach, bound); !pair.empty()) return pair;
+std::string Features::near(const Element& element, double reach, const mpq_class& bound) {
+  switch (element.kind) {
+    case Element::Kind::vertex:
+      return near_vertex(element.id, reach, bound);
+    case Element::Kind::edge: {
+      std::string pair = near_edge(element.id, reach, bound);
+      return pair.empty() ? vertex_near_edge(element.id, reach, bound) : pair;
+    }
+    default:
+      return near_facet(element.id, reach, bound);
+  }
+}
+
+std::vector<Index> Features::facets_of(const Element& element) const {
+  switch (element.kind) {
+    case Element::Kind::vertex:
+      return facets_at_[element.id];
+    case Element::Kind::edge:
+      return {surface_.edges()[element.id].left, surface_.edges()[element.id].right};
+    default:
+      return {element.id};
+  }
+}
+
+std::vector<Element> Features::elements_of(Index facet) const {
+  std::vector<Element> elements = {{Element::Kind::facet, facet}};
+  for (const Index t : triangles_of_[facet]) {
+    for (const Index v : surface_.triangles()[t]) {
+      if (edges_at_[v].empty()) continue;
+      elements.push_back({Element::Kind::vertex, v});
+      for (const Index e : edges_at_[v]) {
+        const InputSurface::Edge& edge = surface_.edges()[e];
+        if (edge.from == v && (edge.left == facet || edge.right == facet)) {
+          elements.push_back({Element::Kind::edge, e});
+        }
+      }
     }
   }
-  return near_facet(facet, reach, bound);
+  std::sort(elements.begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  return elements;
+}
+
+bool Features::meets_sharply(Index facet, const Sharpness& sharp) const {
+  std::vector<IntegerVector> edges, normals;
+  for (const Index t : triangles_of_[facet]) {
+    for (const Index v : surface_.triangles()[t]) {
+      edges.clear();
+      normals.clear();
+      for (const Index e : edges_at_[v]) {
+        const InputSurface::Edge& edge = surface_.edges()[e];
+        if (!edge_present(e)) continue;
+        edges.push_back(exact::difference(points_, v, edge.from == v ? edge.to : edge.from));
+      }
+      for (const Index f : facets_at_[v]) {
+        if (present_[f]) normals.push_back(surface_.facets()[f].normal);
+      }
+      if (sharp.among(edges, normals)) return true;
+    }
+  }
+  return false;
 }
 
 class FilterCheck {
@@ -182,7 +297,13 @@ class FilterCheck {
     const double tolerance = record_.parameters.tolerance;
     const double low = tolerance * (1 - kSlack), high = tolerance * (1 + kSlack);
     check_kept(low, bound(low));
-    check_dropped(high, bound(high));
+    const std::vector<Index> first = dropped_in(1), second = dropped_in(2);
+    count_returnable(first, high, bound(high));
+    for (const Index f : second) features_.set_present(f, true);
+    check_second_step(second);
+    check_first_step(first, high, bound(high));
+    report_.figures.emplace_back("dropped facets", first.size() + second.size());
+    report_.figures.emplace_back("dropped for what chamfering made of them", second.size());
     report_.figures.emplace_back("tolerance", tolerance);
     return std::move(report_);
   }
@@ -213,28 +334,75 @@ class FilterCheck {
     }
   }
 
-  void check_dropped(double reach, const mpq_class& squared) {
+  std::vector<Index> dropped_in(int step) const {
     std::vector<Index> dropped;
-    for (Index f = 0; f < surface_.facets().size(); ++f) {
-      if (!facets_.kept(f)) dropped.push_back(f);
+    for (const ExactRecord::Facet& facet : record_.facets) {
+      const Index f = facets_.find(facet.id);
+      if (facet.filtered == step && f != kNone) dropped.push_back(f);
     }
-    std::uint64_t could_return = 0, by_chamfering = 0;
+    return dropped;
+  }
+
+  void count_returnable(const std::vector<Index>& dropped, double reach, const mpq_class& squared) {
+    std::uint64_t could_return = 0;
     for (const Index f : dropped) {
       features_.set_present(f, true);
-      could_return += features_.near_any_of(f, reach, squared).empty();
+      const std::vector<Element> elements = features_.elements_of(f);
+      could_return += std::none_of(elements.begin(), elements.end(), [&](const Element& e) {
+        return !features_.near(e, reach, squared).empty();
+      });
       features_.set_present(f, false);
     }
-    for (const Index f : dropped) features_.set_present(f, true);
+    report_.figures.emplace_back("dropped that could return", could_return);
+  }
+
+  void check_second_step(const std::vector<Index>& dropped) {
+    double threshold = record_.parameters.acute;
+    for (const auto& corner : record_.corners) threshold = std::max(threshold, corner.threshold);
+    const Sharpness sharp(threshold);
     for (const Index f : dropped) {
       ++report_.checked;
-      by_chamfering += features_.near_any_of(f, reach, squared).empty();
+      if (!features_.meets_sharply(f, sharp)) {
+        report_.fail(name(f) + " was dropped for its chamfers, and nothing at it is chamfered");
+      }
     }
-    if (by_chamfering > 0 && record_.corners.empty()) {
-      report_.fail("facets were dropped that are near nothing, and nothing was chamfered");
+  }
+
+  // What was dropped last was close to something kept, what was dropped before to something that
+  // was kept or dropped later, and so on.
+  void check_first_step(const std::vector<Index>& dropped, double reach, const mpq_class& squared) {
+    std::vector<Element> candidates;
+    for (const Index f : dropped) {
+      for (const Element& element : features_.elements_of(f)) {
+        if (features_.absent(element)) candidates.push_back(element);
+      }
     }
-    report_.figures.emplace_back("dropped facets", dropped.size());
-    report_.figures.emplace_back("dropped for what chamfering made of them", by_chamfering);
-    report_.figures.emplace_back("dropped that could return", could_return);
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+    for (std::size_t before = candidates.size() + 1; candidates.size() < before;) {
+      before = candidates.size();
+      std::erase_if(candidates,
+                    [&](const Element& element) { return put_back(element, reach, squared); });
+    }
+    for (const Index f : dropped) {
+      ++report_.checked;
+      if (!features_.present(f)) report_.fail(name(f) + " was dropped and was near nothing");
+    }
+  }
+
+  // Is the element back, with all its facets? Puts it back if that makes a pair too close.
+  bool put_back(const Element& element, double reach, const mpq_class& squared) {
+    std::vector<Index> missing = features_.facets_of(element);
+    std::erase_if(missing, [&](Index f) { return features_.present(f); });
+    if (missing.empty()) return true;
+    for (const Index f : missing) features_.set_present(f, true);
+    if (!features_.near(element, reach, squared).empty()) return true;
+    for (const Index f : missing) features_.set_present(f, false);
+    return false;
+  }
+
+  std::string name(Index facet) const {
+    return "facet " + std::to_string(surface_.facets()[facet].id);
   }
 
   const ExactRecord& record_;

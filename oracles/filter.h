@@ -6,9 +6,19 @@
 namespace tetproof::oracles {
 
 // No two vertices, edges or facets that the filter kept, and that do not touch, are closer than the
-// tolerance; distances are rational. A facet that was dropped has an element closer than that in
-// the input; or else (the filter's second step) chamfering made something smaller of it, which the
-// report counts. It counts as well what could be put back after all, because the filter is greedy.
+// tolerance; distances are rational.
+//
+// Nothing was dropped without need, as far as that can be said of a greedy filter:
+// - First step. There is an order in which every drop was forced: the facets dropped can be put
+// back
+//   one element (vertex, edge or facet, none of whose facets was kept) after the other, each
+//   of them closer than the tolerance to something present that it does not touch. Read backwards
+//   that is what the filter may do, so a facet that never comes back was dropped for nothing.
+// - Second step, which only says that chamfering made something too small: the facet has a vertex
+// at
+//   which something present after the first step meets at less than the largest threshold in force.
+// Counted: facets that could be put back alone after all. The order of the drops matters, so a
+// facet dropped early may have become harmless.
 OracleReport check_filter(const RefinedMesh& mesh);
 
 // Squared distances, exact, in integer units.

@@ -23,7 +23,7 @@ class SidecarReader {
     list("facets", record_.facets, [&](auto& facet) {
       facet.id = number();
       facet.label = static_cast<std::int32_t>(reader_.integer());
-      facet.filtered = number() != 0;
+      facet.filtered = static_cast<std::uint8_t>(reader_.index(0, 3));
       numbers(facet.triangles);
     });
     list("segments", record_.segments, [&](auto& chain) {

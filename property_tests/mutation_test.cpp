@@ -524,6 +524,12 @@ const RecordDamage kRefinedDamages[] = {
      [](auto& r) {
        for (auto& facet : r.facets) facet.filtered = false;
      }},
+    {"facet called dropped that is near nothing", "refined-filter",
+     [](auto& r) { std::ranges::find(r.facets, 0, &ExactRecord::Facet::filtered)->filtered = 1; }},
+    {"facets called dropped for chamfers where nothing is sharp", "refined-filter",
+     [](auto& r) {
+       for (auto& facet : r.facets) facet.filtered *= 2;
+     }},
     {"promise of a larger tolerance", "refined-filter",
      [](auto& r) { r.parameters.tolerance *= 256; }},
     {"facet called dropped that was not", "refined-facets",

@@ -31,12 +31,12 @@ class InputFilter {
         topology_(surface.topology()),
         bound_(tolerance * tolerance),
         facets_(surface) {
-    std::vector<Box> edge_boxes(topology_.edge_count());
+    std::vector<ItemBox> edge_boxes(topology_.edge_count());
     for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) edge_boxes[e] = edge_box(e);
     edge_tree_ = BoxTree(std::move(edge_boxes));
-    std::vector<Box> triangle_boxes(topology_.triangles.size());
+    std::vector<ItemBox> triangle_boxes(topology_.triangles.size());
     for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
-      triangle_boxes[t] = Box::around(triangle(t));
+      triangle_boxes[t] = ItemBox::around(triangle(t));
     }
     triangle_tree_ = BoxTree(std::move(triangle_boxes));
     for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
@@ -69,7 +69,7 @@ class InputFilter {
       }
       ask(pair.first);
     }
-    result.facet_kept = facets_.kept();
+    result.facet_kept = result.kept_at_first = facets_.kept();
     return result;
   }
 
@@ -86,10 +86,10 @@ class InputFilter {
     return {surface_.position(corner[0]), surface_.position(corner[1]),
             surface_.position(corner[2])};
   }
-  Box edge_box(std::uint32_t e) const {
+  ItemBox edge_box(std::uint32_t e) const {
     const auto [v, w] = topology_.edge_vertices(e);
     const std::array<Vec3, 2> ends = {surface_.position(v), surface_.position(w)};
-    return Box::around(ends);
+    return ItemBox::around(ends);
   }
 
   // Queues the element with what is closest to it.
@@ -109,7 +109,7 @@ class InputFilter {
     const VertexId x = closest.first.id;
     const Vec3& p = surface_.position(x);
     const std::array<Vec3, 1> query = {p};
-    edge_tree_.nearest(Box::around(query), closest.squared_distance, [&](std::uint32_t e) {
+    edge_tree_.nearest(ItemBox::around(query), closest.squared_distance, [&](std::uint32_t e) {
       const auto [v, w] = topology_.edge_vertices(e);
       ClosestOnSegment there = closest_on_segment(p, surface_.position(v), surface_.position(w));
       // An edge at the vertex counts with its other end: it may be too short.
@@ -133,7 +133,7 @@ class InputFilter {
     const Vec3& p = surface_.position(x);
     const std::vector<FacetId> incident = facets_.facets_at(x);
     const std::array<Vec3, 1> query = {p};
-    triangle_tree_.nearest(Box::around(query), closest.squared_distance, [&](std::uint32_t t) {
+    triangle_tree_.nearest(ItemBox::around(query), closest.squared_distance, [&](std::uint32_t t) {
       const FacetId f = topology_.facet_of[t];
       if (std::binary_search(incident.begin(), incident.end(), f)) return closest.squared_distance;
       const ClosestOnTriangle there = closest_on_triangle(p, triangle(t));
@@ -156,7 +156,7 @@ class InputFilter {
     const auto ends = topology_.edge_vertices(closest.first.id);
     const VertexId a = ends[0], b = ends[1];
     const Vec3 &p = surface_.position(a), &q = surface_.position(b);
-    const Box query = edge_box(closest.first.id);
+    const ItemBox query = edge_box(closest.first.id);
     edge_tree_.nearest(query, closest.squared_distance, [&](std::uint32_t e) {
       const auto [c, d] = topology_.edge_vertices(e);
       if (a == c || a == d || b == c || b == d) return closest.squared_distance;
@@ -199,7 +199,8 @@ FilterResult filter_input(const SurfaceTopology& topology, const PointStore& poi
                           double tolerance, Control& control) {
   const KeptSurface surface(topology, points, {});
   if (!(tolerance > 0)) {
-    return {std::vector<std::uint8_t>(topology.facet_triangles.size(), 1), 0, 0};
+    const std::vector<std::uint8_t> all(topology.facet_triangles.size(), 1);
+    return {all, all, 0, 0};
   }
   return InputFilter(surface, tolerance * surface.scale()).run(control);
 }

@@ -7,7 +7,8 @@
 namespace delmesher {
 
 struct FilterResult {
-  std::vector<std::uint8_t> facet_kept;  // per facet
+  std::vector<std::uint8_t> facet_kept;     // per facet
+  std::vector<std::uint8_t> kept_at_first;  // the same after the first step
   std::uint64_t dropped_triangles = 0;
   std::uint64_t rounds = 0;
 };

@@ -1,6 +1,7 @@
 #include "mesher/io/exact_record.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -33,8 +34,9 @@ ExactRecord sample() {
 }
 
 std::string written(const ExactRecord& record) {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / "delmesher_exact_test.txt").string();
+  const std::string path = (std::filesystem::temp_directory_path() /
+                            ("delmesher_exact_test_" + std::to_string(getpid()) + ".txt"))
+                               .string();
   OutputSet outputs;
   EXPECT_TRUE(write_exact(outputs, path, record).ok());
   EXPECT_TRUE(outputs.commit().ok());

@@ -165,7 +165,9 @@ ExactRecord ExactReader::read() {
     ExactRecord::Facet facet{};
     facet.id = integer<std::uint32_t>();
     facet.label = integer<std::int32_t>();
-    facet.filtered = flag();
+    const auto filtered = integer<std::uint32_t>();
+    if (filtered > 2) fail(here(), "a facet is filtered in neither step");
+    facet.filtered = static_cast<std::uint8_t>(filtered);
     facet.triangles = list(false);
     record_.facets.push_back(std::move(facet));
   });

@@ -1,6 +1,7 @@
 #include "mesher/io/read_surface.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -257,7 +258,8 @@ TEST(ReadTetgen, FacetsWithHolesAndNodeFiles) {
   expect_error("2 3\n0 0 0 0\n2 0 0 0\n", "x.smesh", "x.smesh:3: point number 2 where 1");
   expect_error("0 3\n1 0\n3 0 1 2\n", "x.smesh", "no .node file");
 
-  const auto folder = std::filesystem::temp_directory_path() / "delmesher_read_test";
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("delmesher_read_test_" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "t.node") << "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
   std::ofstream(folder / "t.smesh") << "0 3\n4 0\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n0\n0\n";

@@ -83,7 +83,7 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
   for (const ExactPoint& p : record.points) write_point(out, p);
   section(out, "facets", record.facets.size());
   for (const auto& facet : record.facets) {
-    out.integers(facet.id, facet.label, facet.filtered ? 1 : 0);
+    out.integers(facet.id, facet.label, static_cast<int>(facet.filtered));
     write_list(out, facet.triangles);
   }
   section(out, "segments", record.segments.size());

@@ -7,8 +7,6 @@
 namespace delmesher::plane {
 namespace {
 
-constexpr std::uint8_t kOutside = static_cast<std::uint8_t>(Side::outside);
-constexpr std::uint8_t kInside = static_cast<std::uint8_t>(Side::inside);
 constexpr std::uint8_t kMixed = static_cast<std::uint8_t>(Side::mixed);
 constexpr std::uint8_t kUnknown = 3;
 
