@@ -15,7 +15,8 @@
 
 namespace tetproof::oracles {
 
-// As read from a file: triangles, where polygons of more corners are fans of one `polygon`.
+// As read from a file: triangles; what is left of faces of more corners (polygon.h) are fans of one
+// `polygon`.
 struct Polyhedron {
   std::vector<Position> vertices;
   std::vector<std::array<Index, 3>> triangles;

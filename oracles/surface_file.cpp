@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "oracles/polygon.h"
 #include "oracles/text_reader.h"
 
 namespace tetproof::oracles {
@@ -352,9 +353,8 @@ bool is_binary_stl(std::string_view text) {
          text.size() == 84 + 50 * static_cast<std::uint64_t>(binary<std::uint32_t>(text, 80));
 }
 
-}  // namespace
-
-Polyhedron read_surface(const std::string& path) {
+// Faces of more than three corners are fans.
+Polyhedron read_any(const std::string& path) {
   const std::string text = read_whole_file(path);
   const std::string_view start = std::string_view(text).substr(0, 200);
   std::string extension = path.substr(std::min(path.size(), path.rfind('.') + 1));
@@ -370,6 +370,14 @@ Polyhedron read_surface(const std::string& path) {
     return is_binary_stl(text) ? read_binary_stl(path, text) : read_text_stl(path, text);
   }
   return read_off(path, text);
+}
+
+}  // namespace
+
+Polyhedron read_surface(const std::string& path) {
+  Polyhedron surface = read_any(path);
+  cut_polygons(surface);
+  return surface;
 }
 
 }  // namespace tetproof::oracles

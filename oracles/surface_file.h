@@ -8,7 +8,8 @@
 
 namespace tetproof::oracles {
 
-// Throws ReadError. Polygons become fans; an STL soup is welded by equal coordinates (-0 = +0).
+// Throws ReadError. Faces of more corners are cut as polygon.h says; an STL soup is welded by equal
+// coordinates (-0 = +0).
 Polyhedron read_surface(const std::string& path);
 
 }  // namespace tetproof::oracles

@@ -13,7 +13,7 @@ OracleReport check_surface_validity(const Polyhedron& surface) {
   std::sort(polygons.begin(), polygons.end());
   const bool fans = std::adjacent_find(polygons.begin(), polygons.end()) != polygons.end();
   const SurfaceOpinion cgal = cgal_surface_opinion(surface, {.intersections = !fans});
-  if (fans) report.notes.push_back("intersections are not looked for: there are polygons");
+  if (fans) report.notes.push_back("intersections are not looked for: a face is not simple");
   const bool valid = cgal.manifold && cgal.closed && (fans || cgal.free_of_intersections);
   if (!valid) report.fail("CGAL: " + cgal.reason);
   const SurfaceOpinion openmesh = openmesh_surface_opinion(surface);

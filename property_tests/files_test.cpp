@@ -2,12 +2,17 @@
 // verify` reads and accepts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
+#include <random>
 
+#include "mesher/io/read_surface.h"
 #include "oracles/mesh_file.h"
 #include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
@@ -64,6 +69,12 @@ class Files : public testing::Test {
 
   fs::path folder_;
 };
+
+template <class Triangle>
+Triangle smallest_first(Triangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
 
 constexpr const char* kFormats[] = {"mesh", "msh", "vtu", "node", "tet"};
 
@@ -213,6 +224,47 @@ TEST_F(Files, SurfacesReadTheSameInEveryFormat) {
       }
     }
   }
+}
+
+// The reader of the oracles and that of the mesher cut faces by the same rule: random star-shaped
+// faces of 4 to 12 corners, off their plane or on a grid where diagonals are equal, along all axes.
+TEST_F(Files, FacesThatAreNotPlanarAreCutAlikeByBothReaders) {
+  std::mt19937_64 random(20);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  int bent = 0;
+  for (int round = 0; round < samples::iterations(300); ++round) {
+    const int corners = 4 + static_cast<int>(random() % 9), axis = static_cast<int>(random() % 3);
+    const bool grid = random() % 2 == 0, backwards = random() % 2 == 0;
+    std::string points, face = std::to_string(corners);
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * (backwards ? corners - i : i) / corners;
+      const double radius = uniform(0.3, 1);
+      std::array<double, 3> p = {radius * std::cos(angle), radius * std::sin(angle),
+                                 uniform(-0.1, 0.1)};
+      if (grid) {
+        for (double& x : p) x = std::round(x * 16) / 16;
+      }
+      std::rotate(p.begin(), p.begin() + axis, p.end());
+      char line[128];
+      std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", p[0], p[1], p[2]);
+      points += line;
+      face += " " + std::to_string(i);
+    }
+    write("face.off", "OFF\n" + std::to_string(corners) + " 1 0\n" + points + face + "\n");
+    const delmesher::io::ReadResult mine = delmesher::io::read_surface(path("face.off"));
+    const oracles::Polyhedron theirs = oracles::read_surface(path("face.off"));
+    ASSERT_TRUE(mine.ok()) << mine.error;
+    ASSERT_EQ(theirs.triangles.size(), corners - 2U);
+    if (theirs.polygons[0] == theirs.polygons[1]) continue;  // not simple in any projection
+    ++bent;
+    for (std::size_t t = 0; t < theirs.triangles.size(); ++t) {
+      EXPECT_EQ(smallest_first(theirs.triangles[t]), smallest_first(mine.surface.triangles[t]))
+          << points << face;
+    }
+  }
+  EXPECT_GT(bent, 100);
 }
 
 }  // namespace
