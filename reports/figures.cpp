@@ -209,7 +209,7 @@ Chart time_chart(const Selection& selection) {
   Chart chart = distribution(selection, wall_seconds());
   chart.name = "time-distribution";
   chart.title = "Meshed within this time";
-  chart.x_title = "wall seconds";
+  chart.x_title = selection.clock + " seconds";
   return chart;
 }
 
@@ -230,7 +230,7 @@ Chart cactus_chart(const Selection& selection) {
   Chart chart = cactus(selection, wall_seconds());
   chart.name = "cactus-time";
   chart.title = "Survival: models meshed when each may take so long";
-  chart.y_title = "wall seconds";
+  chart.y_title = selection.clock + " seconds";
   return chart;
 }
 

@@ -254,7 +254,7 @@ constexpr const char* kModels = R"(
 <div class="view" id="view"></div>
 </div>
 <p class="faint" id="model-no-3d" hidden>No pictures: run with --keep, see also --views.</p>
-<div class="scroll"><table><thead><tr><th>Mesher</th><th>Disposition</th><th>Oracles</th><th>Wall s</th>
+<div class="scroll"><table><thead><tr><th>Mesher</th><th>Disposition</th><th>Oracles</th><th>Seconds</th>
 <th>MB</th><th>Vertices</th><th>Tetrahedra</th><th>Min face</th><th>Max face</th><th>Min dihedral</th>
 <th>Max dihedral</th><th>Avg. min face</th><th>Avg. min dihedral</th><th>Reason; command</th></tr></thead>
 <tbody id="model-runs"></tbody></table></div>

@@ -60,7 +60,7 @@ Table table_3(const Selection& selection, const std::string& model) {
       add(angles[i].label, [&](const RunRow& r) { return precise((*r.mesh).*(angles[i].column)); });
     }
   }
-  add("Wall time (s)", [](const RunRow& r) { return fixed(r.wall_seconds, 2); });
+  add("Time (s)", [](const RunRow& r) { return fixed(r.wall_seconds, 2); });
   table.notes = {
       "Only meshers that succeed on the model. Averages are over faces and over tetrahedra; "
       "delmesher is our default run, which writes the inside only.",
@@ -113,7 +113,7 @@ Table figure_8_table(const Selection& selection) {
   table.header = {"h",
                   "Mesher",
                   "Tetrahedra",
-                  "Wall s",
+                  "Seconds",
                   "Shortest edge L",
                   "V / L^3",
                   "K = tetrahedra L^3 / V"};

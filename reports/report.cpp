@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 
@@ -41,14 +42,16 @@ Table mesher_table(const Selection& selection) {
 std::string table_3_model(const Selection& selection, const std::string& name) {
   if (name.empty()) {
     std::string best;
-    std::size_t most = 0;
+    std::pair<std::size_t, std::uint64_t> most;
     for (const std::string& model : selection.models) {
-      std::size_t successes = 0;
+      std::pair<std::size_t, std::uint64_t> here;  // successes, tetrahedra
       for (const std::string& mesher : selection.meshers) {
-        successes += selection.ok_run(mesher, model) != nullptr;
+        const RunRow* row = selection.ok_run(mesher, model);
+        here.first += row != nullptr;
+        if (row != nullptr) here.second = std::max(here.second, row->mesh->tetrahedra);
       }
-      if (successes > most) {
-        most = successes;
+      if (here > most) {
+        most = here;
         best = model;
       }
     }

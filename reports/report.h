@@ -11,7 +11,7 @@
 namespace tetproof {
 
 struct ReportOptions {
-  std::string model;  // of Table 3 and Figure 13, by name; empty: one on which most succeed
+  std::string model;  // of Table 3 and Figure 13, by name; empty: the largest on which most succeed
   ViewOptions views;
 };
 

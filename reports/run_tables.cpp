@@ -135,7 +135,7 @@ Table slowest_table(const Selection& selection) {
   Table table;
   table.name = "slowest";
   table.title = fmt::format("The {} slowest runs", rows.size());
-  table.header = {"Model", "Mesher", "Disposition", "Wall s", "Peak MB", "Tetrahedra"};
+  table.header = {"Model", "Mesher", "Disposition", "Seconds", "Peak MB", "Tetrahedra"};
   for (const RunRow* row : rows) {
     table.rows.push_back({row->model_name, row->key.mesher, disposition_name(row->disposition),
                           fixed(row->wall_seconds, 2), fixed(peak_megabytes()(*row), 0),
@@ -173,7 +173,7 @@ Table failure_table(const Selection& selection) {
   Table table;
   table.name = "not-ok";
   table.title = "Runs that are not ok";
-  table.header = {"Model", "Mesher", "Disposition", "Wall s", "Reason"};
+  table.header = {"Model", "Mesher", "Disposition", "Seconds", "Reason"};
   for (const std::string& model : selection.models) {
     for (const std::string& mesher : selection.meshers) {
       const RunRow* row = selection.run(mesher, model);

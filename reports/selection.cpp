@@ -98,6 +98,19 @@ Selection select_runs(const std::vector<RunRow>& rows) {
   return selection;
 }
 
+void use_processor_time(Selection& selection) {
+  for (auto& [mesher, runs] : selection.runs) {
+    for (auto& [model, row] : runs) {
+      if (row.mesh_seconds && row.wall_seconds > 0) {
+        *row.mesh_seconds *= std::min(1.0, row.cpu_seconds / row.wall_seconds);
+      }
+      row.wall_seconds = row.cpu_seconds;
+    }
+  }
+  selection.clock = "processor";
+  selection.notes.emplace_back("Times are processor seconds.");
+}
+
 Selection load_runs(const std::vector<std::filesystem::path>& databases,
                     const std::vector<std::filesystem::path>& base) {
   std::vector<RunRow> rows;

@@ -115,8 +115,8 @@ Table table_1(const Selection& selection) {
       "statistics. All else is measured on the file as written.",
       "The two e4 experiments count every tetrahedron down to the outer box, as the paper does; "
       "delmesher is our default run, which writes and counts the inside of the model only.",
-      "Time is the wall time of the whole process, memory its peak resident set, 1 MB = 10^6 "
-      "bytes."};
+      "Time is the " + selection.clock +
+          " time of the whole process, memory its peak resident set, 1 MB = 10^6 bytes."};
   return table;
 }
 
@@ -229,9 +229,10 @@ Table speed_table(const Selection& selection) {
          fmt::format("{} ({})", fixed(median(values_of(large, peak_bytes())), 0), large.size())});
   }
   table.notes = {
-      "us/tet: wall time of the whole process over the tetrahedra written; \"all tets\" is total "
-      "time over total tetrahedra. Meshing only: without reading, checking and writing, by the "
-      "mesher's own account (for TetGen the call of tetrahedralize()).",
+      "us/tet: " + selection.clock +
+          " time of the whole process over the tetrahedra written; \"all tets\" is total "
+          "time over total tetrahedra. Meshing only: without reading, checking and writing, by the "
+          "mesher's own account (for TetGen the call of tetrahedralize()).",
       "Ratios are paired per model, over the models on which both succeed. delmesher writes the "
       "inside only but works on the outside too, so its figures per tetrahedron are not those of "
       "the others, which count everything.",

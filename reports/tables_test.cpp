@@ -33,6 +33,20 @@ TEST(Tables, Table1) {
   EXPECT_EQ(t["Average memory (MB)"]["delmesher-e4"], "2");       // 1.575
 }
 
+TEST(Tables, ProcessorTimeTakesThePlaceOfWallTimeOnRequest) {
+  Selection selection = campaign();
+  for (auto& [mesher, runs] : selection.runs) {
+    for (auto& [model, row] : runs) row.cpu_seconds = row.wall_seconds / 4;
+  }
+  use_processor_time(selection);
+  const Table table = table_1(selection);
+  auto t = cells(table);
+  EXPECT_EQ(t["Average time (s)"]["safe-delmesher-e4"], "0.30");  // 3.6 / 3 / 4
+  EXPECT_NE(table.notes.back().find("processor time"), std::string::npos);
+  const RunRow& row = *selection.ok_run("safe-delmesher-e4", "hash-a");
+  EXPECT_DOUBLE_EQ(*row.mesh_seconds, row.wall_seconds / 2);
+}
+
 TEST(Tables, Table2IsOverTheCommonSubset) {
   const Table table = table_2(campaign());
   auto t = cells(table);

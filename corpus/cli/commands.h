@@ -44,6 +44,7 @@ struct ReportArguments {
   std::vector<std::string> databases, base, show;
   std::string folder, model;
   std::size_t views = 10;
+  bool processor_time = false;
 };
 
 struct MeasureArguments {

@@ -6,8 +6,9 @@
 namespace tetproof {
 
 int report_command(const ReportArguments& arguments) {
-  const Selection selection = load_runs({arguments.databases.begin(), arguments.databases.end()},
-                                        {arguments.base.begin(), arguments.base.end()});
+  Selection selection = load_runs({arguments.databases.begin(), arguments.databases.end()},
+                                  {arguments.base.begin(), arguments.base.end()});
+  if (arguments.processor_time) use_processor_time(selection);
   ReportOptions options;
   options.model = arguments.model;
   options.views.models = arguments.views;

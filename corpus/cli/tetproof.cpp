@@ -65,6 +65,8 @@ CLI::App* declare_report(CLI::App& tetproof, ReportArguments& a) {
   app->add_option("--base", a.base, "Results to compare with: meshers NAME@base")
       ->check(CLI::ExistingFile);
   app->add_option("--model", a.model, "Model of Table 3 and Figure 13, by name");
+  app->add_flag("--processor-time", a.processor_time,
+                "All times are processor seconds: for campaigns on a busy machine");
   app->add_option("--views", a.views,
                   "Models with pictures, if their meshes were kept (run --keep)")
       ->capture_default_str();

@@ -38,7 +38,7 @@
 
   // Two meshers against each other on their common models.
   const measures = {
-    "wall_seconds": { text: "wall seconds", log: true },
+    "wall_seconds": { text: "seconds", log: true },
     "tetrahedra": { text: "tetrahedra", log: true },
     "peak_mb": { text: "peak memory, MB", log: true },
     "min_face_angle": { text: "smallest face angle, degrees", log: false },

@@ -2,6 +2,7 @@
 "use strict";
 const views = (() => {
   const kTetFaces = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+  const kSeen = 1.5;  // radius around the origin that the camera below has in view
   let shared = null;  // one renderer for the view and for all pictures of the gallery
 
   function bytes(text) {
@@ -16,6 +17,10 @@ const views = (() => {
     part.vertices = new Float32Array(bytes(part.v));
     part.cells = part.wide ? new Uint32Array(bytes(part.c)) : new Uint16Array(bytes(part.c));
     part.extent = part.vertices.reduce((most, x) => Math.max(most, Math.abs(x)), 1);
+    part.radius = 1e-9;
+    for (let i = 0; i < part.vertices.length; i += 3) {
+      part.radius = Math.max(part.radius, Math.hypot(part.vertices[i], part.vertices[i + 1], part.vertices[i + 2]));
+    }
     if (part.q) part.quality = new Uint8Array(bytes(part.q));
     if (part.i) part.inside = new Uint8Array(bytes(part.i));
     delete part.v, delete part.c, delete part.q, delete part.i;
@@ -108,7 +113,7 @@ const views = (() => {
       lines.setAttribute("position", new THREE.BufferAttribute(edges, 3));
       group.add(new THREE.LineSegments(lines, new THREE.LineBasicMaterial({ color: 0x202830, transparent: true, opacity: 0.45 })));
     }
-    group.scale.setScalar(1 / part.extent);
+    group.scale.setScalar(kSeen / part.radius);
     group.userData = { bad: seen.bad, faces: seen.faces.length / 3 };
     return group;
   }
