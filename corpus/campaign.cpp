@@ -26,8 +26,10 @@ using Json = nlohmann::json;
 
 volatile sig_atomic_t interrupted = 0;
 
-// Looking at a mesh must not hang or eat the machine either, whatever a mesher wrote.
-constexpr Limits kMeasureLimits = {.wall_seconds = 900, .memory_bytes = 8ull << 30};
+// Looking at a mesh must not hang or eat the machine either, whatever a mesher wrote. Processor
+// time decides, so that a busy machine changes no verdict.
+constexpr Limits kMeasureLimits = {
+    .wall_seconds = 7200, .cpu_seconds = 900, .memory_bytes = 8ull << 30};
 
 std::string read_if_there(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -75,6 +77,12 @@ std::string without(const fs::path& folder, std::string text) {
     text.erase(at, prefix.size());
   }
   return text;
+}
+
+// Says nothing about the mesher: with more time or memory it might have ended otherwise.
+bool is_limit(Disposition disposition) {
+  return disposition == Disposition::timeout || disposition == Disposition::out_of_memory ||
+         disposition == Disposition::killed;
 }
 
 // A mesher's name may be a command.
@@ -197,7 +205,13 @@ class Job {
   bool after_sidecar() {
     const bool wanted = options_.sidecars && mesher_.sidecar_command;
     if (wanted && !fs::exists(files_.exact)) {
-      wrong("no sidecar: " + judge(process_->outcome(), mesher_.exit_codes).reason);
+      const Judgement judgement = judge(process_->outcome(), mesher_.exit_codes);
+      const std::string reason = without_folder(judgement.reason);
+      if (is_limit(judgement.disposition)) {
+        no_sidecar_ = reason;
+      } else {
+        wrong("no sidecar: " + reason);
+      }
     } else if (wanted && !same_bytes(files_.mesh, files_.again)) {
       wrong("a second run wrote another mesh");
     }
@@ -230,6 +244,11 @@ class Job {
       // Not the mesher's fault; the row says that nobody vouches for the mesh.
       const std::string reason = without_folder(judge(outcome, ExitCodes::ours).reason);
       row_.verdict_json = Json({{"error", reason}}).dump();
+    }
+    if (!no_sidecar_.empty()) {
+      Json verdict = Json::parse(row_.verdict_json);
+      verdict["no_sidecar"] = no_sidecar_;
+      row_.verdict_json = verdict.dump();
     }
     return false;
   }
@@ -285,6 +304,7 @@ class Job {
   RunFiles files_;
   RunRow row_;
   Step step_ = Step::mesh;
+  std::string no_sidecar_;  // the limit that kept the second run from writing one
   std::unique_ptr<SupervisedProcess> process_;
 };
 

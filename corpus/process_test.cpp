@@ -121,6 +121,7 @@ TEST(Process, MemoryLimitByTouching) {
 }
 
 TEST(Process, OneHugeAllocationFailsInTheChild) {
+  if (!kMemoryBackstop) GTEST_SKIP() << "a build with a sanitizer sets no RLIMIT_DATA";
   const Outcome o =
       nasty({"allocate-at-once", "50000"}, {.wall_seconds = 20, .memory_bytes = 200u << 20});
   EXPECT_EQ(o.ending, Ending::signalled);

@@ -1,6 +1,7 @@
 #include "corpus/sha256.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -30,7 +31,8 @@ TEST(Sha256, AnySplittingOfTheMessageGivesTheSame) {
 }
 
 TEST(Sha256, FilesAndMissingFiles) {
-  const auto path = std::filesystem::path(testing::TempDir()) / "sha256_test.bin";
+  const auto path = std::filesystem::path(testing::TempDir()) /
+                    ("sha256_test_" + std::to_string(getpid()) + ".bin");
   std::ofstream(path, std::ios::binary) << "abc";
   EXPECT_EQ(sha256_of_file(path), sha256_of("abc"));
   std::filesystem::remove(path);

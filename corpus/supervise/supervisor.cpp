@@ -209,7 +209,7 @@ class Job {
       const auto whole = static_cast<std::uint64_t>(std::ceil(limits_.cpu_seconds)) + 2;
       set_limit(RLIMIT_CPU, whole, whole + 2);
     }
-    if (limits_.memory_bytes > 0) {
+    if (limits_.memory_bytes > 0 && kMemoryBackstop) {
       // Also a backstop, for allocations faster than polling; a little above the polled limit so
       // that the usual case is a clear verdict rather than whatever the command does without
       // memory. Not RLIMIT_AS: allocators and thread pools reserve address space freely.

@@ -15,6 +15,17 @@
 
 namespace tetproof {
 
+// Is RLIMIT_DATA set besides polling? Not in builds with a sanitizer, whose shadow memory alone is
+// beyond any limit.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kMemoryBackstop = false;
+#elif defined(__has_feature)
+inline constexpr bool kMemoryBackstop =
+    !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
+#else
+inline constexpr bool kMemoryBackstop = true;
+#endif
+
 // Limits of one child; 0 means none.
 struct Limits {
   double wall_seconds = 0;
