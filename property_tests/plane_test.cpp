@@ -103,6 +103,22 @@ TEST(Plane, BeyondTheProvenBound) {
   EXPECT_EQ(most.warnings.empty(), most.statistics.guaranteed_delta == 34);
 }
 
+TEST(Plane, CornersComeBackWithoutNeedles) {
+  // The cut points around a corner lie on a circle: the corner is its centre, and what the
+  // refinement puts there.
+  const PlanarGraph graph = shapes::archipelago(500, 55, 1);
+  const PlaneResult result = expect_verified(graph);
+  EXPECT_GT(result.exact.corners.size(), 10U);
+  for (const PlaneRecord::Corner& corner : result.exact.corners) {
+    const auto& a = graph.vertices[corner.vertex];
+    for (const auto& p : result.mesh.vertices) {
+      if (p == a) continue;
+      EXPECT_GT(std::hypot(p[0] - a[0], p[1] - a[1]), corner.radius / 10) << corner.vertex;
+    }
+  }
+  EXPECT_GT(result.statistics.final.min_angle, 2);
+}
+
 TEST(Plane, TinyAngles) {
   std::uint64_t chamfered = 0, dropped = 0;
   const int n = iterations(96);

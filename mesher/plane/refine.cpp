@@ -121,6 +121,10 @@ class Refiner {
       mesh_ = graph_.base;
       return;
     }
+    corner_of_.assign(points_.size(), kNone);
+    for (const Gap& gap : chamfered_.gaps) {
+      if (gap.b >= graph_.vertices) corner_of_[gap.b] = gap.a;
+    }
     std::vector<VertexId> order;
     for (VertexId v = 0; v < graph_.vertices; ++v) {
       if (chamfered_.vertex_kept[v] != 0) order.push_back(v);
@@ -301,6 +305,23 @@ class Refiner {
     refine_to(kProvenDelta, 0);
   }
 
+  // The chamfered corner that a new point would come close to, if any: the cut points around one
+  // lie on a circle, whose centre it is. The corner itself instead makes no needles when its
+  // segments come back, and happens once per corner, so that it does not touch termination.
+  VertexId corner_near(const std::array<VertexId, 3>& v, const Vec3& place, const Shape& shape) {
+    for (const VertexId u : v) {
+      const VertexId corner = u < corner_of_.size() ? corner_of_[u] : kNone;
+      if (corner == kNone || mesh_.has_vertex(corner)) continue;
+      const Approximation& a = points_.approximation(corner);
+      const double distance = norm(place[0] - a.x, place[1] - a.y) * shape.scale;
+      if (square(distance) < shape.shortest_squared &&
+          predicates_.in_circle(v[0], v[1], v[2], corner) > 0) {
+        return corner;
+      }
+    }
+    return kNone;
+  }
+
   void split_triangle(TriangleId t) {
     const std::array<VertexId, 3> v = mesh_[t].vertex;
     const Shape shape = shape_of(points_, v[0], v[1], v[2]);
@@ -314,11 +335,16 @@ class Refiner {
                              : shape.circumcentre;
     const Vec3 place = shape.place(points_, v, reach);
     if (!std::isfinite(place[0]) || !std::isfinite(place[1])) return crowd(t);
-    const VertexId p = points_.add_explicit(place[0], place[1], 0);
+    const VertexId corner = corner_near(v, place, shape);
+    const bool restored = corner != kNone;
+    const VertexId p = restored ? corner : points_.add_explicit(place[0], place[1], 0);
+    const auto withdraw = [&] {
+      if (!restored) points_.pop_back();
+    };
     const Triangulation::Sight sight = mesh_.look(p, t);
     EdgeId blocked = sight.blocked;
     if (blocked == kNone && std::popcount(sight.location.zeros) > 1) {  // there is a vertex already
-      points_.pop_back();
+      withdraw();
       return crowd(t);
     }
     if (blocked == kNone) {
@@ -344,13 +370,13 @@ class Refiner {
     if (encroached_.empty()) {
       const auto& cavity = mesh_.cavity();
       if (std::find(cavity.begin(), cavity.end(), t) != cavity.end()) {
-        ++result_.in_faces;
+        if (!restored) ++result_.in_faces;
         return fill(p);
       }
-      points_.pop_back();
+      withdraw();
       return crowd(t);
     }
-    points_.pop_back();
+    withdraw();
     bool progress = false;
     for (const Subsegment& s : encroached_) {
       const EdgeId e = find(s);
@@ -396,6 +422,7 @@ class Refiner {
   RefinedMesh result_;
   Triangulation& mesh_;
   Sides sides_;
+  std::vector<VertexId> corner_of_;  // of cut points, by id; kNone for others
   std::vector<Subsegment> segments_, encroached_;
   std::size_t segment_head_ = 0;
   BadTriangles bad_;
