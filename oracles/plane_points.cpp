@@ -53,11 +53,17 @@ double PlanePoints::distance(Index a, Index b) const {
   return std::hypot(points_[a].dx - points_[b].dx, points_[a].dy - points_[b].dy);
 }
 
+// Exact but for the root: an end that is far away would blur doubles.
 double PlanePoints::distance_to_segment(Index v, Index a, Index b) const {
   const Point &p = points_[v], &q = points_[a], &r = points_[b];
-  const double x = r.dx - q.dx, y = r.dy - q.dy;
-  const double t = std::clamp(((p.dx - q.dx) * x + (p.dy - q.dy) * y) / (x * x + y * y), 0.0, 1.0);
-  return std::hypot(p.dx - q.dx - t * x, p.dy - q.dy - t * y);
+  const mpq_class x = r.x - q.x, y = r.y - q.y, u = p.x - q.x, w = p.y - q.y;
+  const mpq_class square = x * x + y * y, along = u * x + w * y;
+  mpq_class t = along / square;
+  if (t < 0) t = 0;
+  if (t > 1) t = 1;
+  const mpq_class dx = u - t * x, dy = w - t * y;
+  const mpf_class distance(dx * dx + dy * dy, 128);  // no square is too small for its exponent
+  return mpf_class(sqrt(distance)).get_d();
 }
 
 mpq_class PlanePoints::parameter(Index v, Index a, Index b) const {

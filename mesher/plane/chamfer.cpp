@@ -32,7 +32,13 @@ struct Line {
     if (!(square > 0)) return 0;
     return std::clamp((u * x + v * y) / square, 0.0, 1.0);
   }
-  double distance_to(const Point& p) const { return distance(at(nearest(p)), p); }
+  // From the nearer end, so that one that is far away does not blur it.
+  double distance_to(const Point& p) const {
+    const bool at_a = distance(a, p) <= distance(b, p);
+    const Point &from = at_a ? a : b, &to = at_a ? b : a;
+    const double t = Line{from, to}.nearest(p);
+    return norm(p[0] - from[0] - t * (to[0] - from[0]), p[1] - from[1] - t * (to[1] - from[1]));
+  }
   double distance_to_line(const Line& l) const {  // that does not cross it
     return std::min(std::min(distance_to(l.a), distance_to(l.b)),
                     std::min(l.distance_to(a), l.distance_to(b)));

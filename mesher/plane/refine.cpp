@@ -241,6 +241,16 @@ class Refiner {
     return true;
   }
 
+  // Gaps may make triangles count that did not before: their segments were not asked about.
+  void queue_beside_created() {
+    for (const TriangleId t : mesh_.created()) {
+      const EdgeId e = edge_of(t, 0);
+      if (mesh_.piece(e) == kNone || !counts(t)) continue;
+      const VertexId a = mesh_.origin(e), b = mesh_.target(e);
+      if (predicates_.dot(a, mesh_.apex(e), b) < 0) segments_.push_back({a, b, e});
+    }
+  }
+
   void fill(VertexId p) {
     sides_.before_fill();
     mesh_.fill_cavity(p);
@@ -371,7 +381,8 @@ class Refiner {
       const auto& cavity = mesh_.cavity();
       if (std::find(cavity.begin(), cavity.end(), t) != cavity.end()) {
         if (!restored) ++result_.in_faces;
-        return fill(p);
+        fill(p);
+        return queue_beside_created();
       }
       withdraw();
       return crowd(t);
