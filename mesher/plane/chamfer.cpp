@@ -200,7 +200,7 @@ class Chamferer {
          {0.0, 1.0, s.nearest(t.at(x0)), s.nearest(t.at(x1)), s.nearest(t.a), s.nearest(t.b)}) {
       consider(x);
     }
-    const auto size = [](const Point& p) { return std::max(std::fabs(p[0]), std::fabs(p[1])); };
+    const auto size = [](const Point& x) { return std::max(std::fabs(x[0]), std::fabs(x[1])); };
     if (!(width > kFloor * size(s.at(best)))) return HUGE_VAL;
     const double length = s.length();
     // What has ends far away is known to no more than this.
