@@ -5,13 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "corpus/generate/certify.h"
 #include "corpus/generate/edits.h"
 #include "corpus/generate/generate.h"
 #include "corpus/generate/shrink.h"
 #include "corpus/generate/twins.h"
+#include "fuzz/properties.h"
 #include "mesher/delmesher.h"
+#include "mesher/io/read_surface.h"
 
 namespace tetproof {
 namespace {
@@ -115,6 +120,31 @@ TEST(Shrink, KeepsWhatMatters) {
   EXPECT_LE(small.triangles.size(), 8U);
   EXPECT_GT(progress.runs, 0U);
 }
+
+std::vector<std::string> tetgen_failures() {
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(TETPROOF_TETGEN_FAILURES)) {
+    if (file.path().extension() == ".off") names.push_back(file.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// Small surfaces on which TetGen fails (corpus/tetgen_failures/README.md).
+class TetgenFailures : public testing::TestWithParam<std::string> {};
+
+TEST_P(TetgenFailures, AreMeshed) {
+  const std::string path = TETPROOF_TETGEN_FAILURES "/" + GetParam() + ".off";
+  std::ifstream in(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  const auto read = delmesher::io::parse_surface(text, path);
+  ASSERT_TRUE(read.ok()) << read.error;
+  EXPECT_TRUE(certified_valid(read.surface));
+  EXPECT_LE(read.surface.triangles.size(), 60U);
+  EXPECT_EQ(fuzz::default_pipeline_holds(read.surface), "");
+}
+INSTANTIATE_TEST_SUITE_P(All, TetgenFailures, testing::ValuesIn(tetgen_failures()),
+                         [](const auto& name) { return name.param; });
 
 // Lengths whose fourth powers are no doubles.
 TEST(Scale, ExtremeSizesGiveTheSameMesh) {

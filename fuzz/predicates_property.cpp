@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 
 #include "fuzz/properties.h"
@@ -35,6 +37,25 @@ Points read_points(Bytes& bytes) {
   return p;
 }
 
+// Nearest doubles and remainders are as near as they say: what the filters rest on.
+Finding approximations_hold(const PointStore& store) {
+  for (VertexId v = 0; v < store.size(); ++v) {
+    const reference::Point exact = reference::point(store, v);
+    const Approximation near = store.approximation(v), rest = store.remainder(v);
+    const Vec3 first = {near.x, near.y, near.z}, second = {rest.x, rest.y, rest.z};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!std::isfinite(near.error)) continue;
+      const mpq_class left = exact[i] - reference::rational(first[i]);
+      if (abs(left) > reference::rational(near.error)) return "approximation: farther than it says";
+      if (!std::isfinite(rest.error)) continue;
+      if (abs(mpq_class(left - reference::rational(second[i]))) > reference::rational(rest.error)) {
+        return "remainder: farther than it says";
+      }
+    }
+  }
+  return {};
+}
+
 // One call of a predicate with the ids it gets.
 class Call {
  public:
@@ -43,7 +64,7 @@ class Call {
     for (std::size_t i = 0; i < id_.size(); ++i) at_[i] = reference::point(points.store, id_[i]);
     axis_ = static_cast<int>(bytes.below(3));
     cosine_squared_ = bytes.below(2) == 0 ? 0.25 : bytes.parameter();
-    predicate_ = bytes.below(11);
+    predicate_ = bytes.below(13);
   }
 
   Finding compare() {
@@ -87,6 +108,25 @@ class Call {
     return 0;
   }
 
+  // By the definition: heights |p|^2 + eps_i, eps of smaller ids infinitely larger.
+  int perturbed() const {
+    std::array<std::size_t, 5> order = {0, 1, 2, 3, 4};
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t i, std::size_t j) { return id_[i] < id_[j]; });
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (id_[order[i]] == id_[order[i + 1]]) return 0;
+    }
+    if (const int s = reference::insphere(at_.data()); s != 0) return s;
+    for (const std::size_t raised : order) {
+      std::vector<std::vector<mpq_class>> m;
+      for (std::size_t i = 0; i < 5; ++i) {
+        m.push_back({1, at_[i][0], at_[i][1], at_[i][2], i == raised ? 1 : 0});
+      }
+      if (const int s = sgn(reference::determinant(m)); s != 0) return -s;
+    }
+    return 0;
+  }
+
   Answers answers() {
     const auto [a, b, c, d, e] = id_;
     const reference::Point* p = at_.data();
@@ -117,6 +157,12 @@ class Call {
         return {"angle below", predicates_.angle_below(a, b, c, cosine_squared_),
                 reference::below(reference::minus(p[0], p[1]), reference::minus(p[2], p[1]),
                                  cosine_squared_)};
+      case 10:
+        return {"perturbed insphere", predicates_.insphere_perturbed(a, b, c, d, e), perturbed()};
+      case 11:
+        if (reference::collinear(p[1], p[2], p[3])) return {"edge and plane", 0, 0};
+        return {"edge and plane", predicates_.edge_plane_angle_below(a, b, c, d, cosine_squared_),
+                reference::edge_plane_angle_below(p, cosine_squared_)};
       default:
         return {"dihedral below", predicates_.dihedral_below(a, b, c, d, cosine_squared_),
                 reference::dihedral_below(p, cosine_squared_)};
@@ -136,6 +182,7 @@ class Call {
 
 Finding predicates_agree(Bytes bytes) {
   Points points = read_points(bytes);
+  if (Finding finding = approximations_hold(points.store); !finding.empty()) return finding;
   for (int calls = 0; calls < 24 && !bytes.empty(); ++calls) {
     if (Finding finding = Call(points, bytes).compare(); !finding.empty()) return finding;
   }

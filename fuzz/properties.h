@@ -42,6 +42,9 @@ Finding refinement_holds(const delmesher::Surface& surface);
 // The whole pipeline passes all oracles, exactly and as written.
 Finding pipeline_holds(const delmesher::Surface& surface);
 
+// The same with the options that are the default: the surface is meshed and passes all oracles.
+Finding default_pipeline_holds(const delmesher::Surface& surface);
+
 // A planar graph is refused exactly if it is invalid; else its mesh passes the oracles.
 Finding plane_holds(Bytes bytes);
 

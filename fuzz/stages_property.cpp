@@ -39,9 +39,10 @@ Finding distances_fit(const Stages& s, const delmesher::ChamferResult& result) {
   for (std::uint32_t e = 0; e < s.topology.edge_count(); ++e) {
     if (s.topology.edge_is_flat[e] != 0) continue;
     const auto ends = s.topology.edge_vertices(e);
-    const double whole = length(s.points, ends);
-    const double cut = result.vertex_distance[ends[0]] + result.vertex_distance[ends[1]];
-    if (cut > whole * (2.0 / 3 + 1e-6)) return "chamfer distance: more than a third of an edge";
+    const double most = length(s.points, ends) * (1.0 / 3 + 1e-6);
+    if (result.vertex_distance[ends[0]] > most || result.vertex_distance[ends[1]] > most) {
+      return "chamfer distance: more than a third of an edge";
+    }
   }
   return {};
 }
@@ -111,10 +112,16 @@ Finding filter_holds(const Surface& surface) {
       }
     }
     const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+    const double apart = smallest_local_feature_size(s.topology, s.points, s.control);
     for (const double tau : {1e-4, 0.02}) {
       const auto result = filter_input(s.topology, s.points, tau * diagonal, s.control);
       if (result.facet_kept.size() != s.topology.facet_triangles.size()) {
         return "filter result: wrong size";
+      }
+      const bool all = std::all_of(result.facet_kept.begin(), result.facet_kept.end(),
+                                   [](std::uint8_t kept) { return kept != 0; });
+      if (!all && apart > tau * diagonal * (1 + 1e-9)) {
+        return "filter reason: drops facets although no features are closer than the tolerance";
       }
       if (Finding f = kept_is_apart(s, result.facet_kept, tau * diagonal); !f.empty()) return f;
     }

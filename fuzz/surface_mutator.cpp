@@ -34,7 +34,8 @@ Surface fresh(Random& random) {
 
 void move_everything(Surface& surface, Random& random) {
   Surface moved = surface;
-  const double scale = std::ldexp(random.sign(), random.integer(-40, 40));
+  const int most = random.chance(0.1) ? 350 : 40;
+  const double scale = std::ldexp(random.sign(), random.integer(-most, most));
   std::array<double, 3> shift{};
   if (random.chance(0.5)) {
     for (double& x : shift) x = random.sign() * random.tiny(20) * (random.chance(0.3) ? 0x1p30 : 1);

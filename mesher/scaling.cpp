@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/base/planted.h"
+
 namespace delmesher {
 namespace {
 
@@ -34,6 +36,7 @@ void scale(ExactRecord& record, int exponent) {
   }
   record.parameters.tolerance = std::ldexp(record.parameters.tolerance, exponent);
   for (ExactRecord::Corner& corner : record.corners) {
+    if (planted(Planted::unscaled_radius)) continue;
     corner.radius = std::ldexp(corner.radius, exponent);
   }
 }

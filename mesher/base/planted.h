@@ -10,7 +10,7 @@ namespace delmesher {
 
 enum class Planted : std::uint8_t {
   none,
-  implicit_error,        // the error bound of implicit points is a quarter of what it should be
+  implicit_error,        // the error bound of implicit points is 10 % too small
   perturbed_tie,         // the second tie-break of the perturbation has the wrong sign
   rounded_coordinate,    // rounded coordinates count as exact when they are equal
   obtuse_dihedral,       // an obtuse dihedral angle is compared as if it were acute
@@ -21,10 +21,15 @@ enum class Planted : std::uint8_t {
   coplanar,              // what the filter cannot decide counts as coplanar
   nesting,               // components two levels deep are left as if they were one level deep
   edge_distance,         // local feature size forgets about pairs of edges
-  chamfer_distance,      // chamfers are more than twice as wide as allowed
+  chamfer_distance,      // chamfers are up to 3 % wider than allowed
   filter_worklist,       // an element whose neighbour was dropped is not looked at again
   written_digits,        // numbers are written with 16 digits
-  shared_vertex          // triangles that share a vertex are never compared
+  shared_vertex,         // triangles that share a vertex are never compared
+  decided_zero,          // the filter takes a value equal to its error bound for positive
+  stale_incident,        // only the new vertex learns which tetrahedra are new
+  coplanar_ghost,        // a point in the plane of a hull face never conflicts with its ghost
+  merged_facet,          // merging two sets of coplanar triangles leaves part of one behind
+  unscaled_radius        // radii stay in the small units of a model of extreme size
 };
 
 #ifdef DELMESHER_PLANTED_BUGS

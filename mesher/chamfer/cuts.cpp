@@ -52,7 +52,7 @@ class Cutter {
  private:
   void bound_distance(std::uint32_t index) {
     const Corner& corner = surface_.corners()[index];
-    const double share = planted(Planted::chamfer_distance) ? 1.25 : 3;
+    const double share = planted(Planted::chamfer_distance) ? 2.9 : 3;
     double bound = boundary_.from_vertex(corner.facet, corner.vertex) / share;
     const double step = cuts_.split[index].step;
     // The inner points of a bridge are farther away than its ends.

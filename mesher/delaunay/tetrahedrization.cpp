@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/planted.h"
 #include "mesher/base/spatial_sort.h"
 
 namespace delmesher {
@@ -247,7 +248,7 @@ bool Tetrahedrization::conflicts(TetId t, VertexId v) {
     VertexId x[4] = {w[0], w[1], w[2], w[3]};
     x[i] = v;
     const int side = predicates_.orient3d(x[0], x[1], x[2], x[3]);
-    if (side != 0) return side > 0;
+    if (side != 0 || planted(Planted::coplanar_ghost)) return side > 0;
     w = vertices(neighbor(t, i));
     break;
   }
@@ -302,7 +303,10 @@ TetId Tetrahedrization::cone(const BoundaryFace& boundary, VertexId v) {
     ghost = ghost || cell.vertex[i] == kInfinite;
   }
   if (!ghost) {
-    for (int i = 0; i < 4; ++i) incident_[cell.vertex[i]] = t;
+    for (int i = 0; i < 4; ++i) {
+      if (planted(Planted::stale_incident) && i != face) continue;
+      incident_[cell.vertex[i]] = t;
+    }
   }
   const std::uint32_t own = 4 * t + static_cast<std::uint32_t>(face);
   const std::uint32_t outside = inner.neighbor[face];

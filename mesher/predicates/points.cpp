@@ -87,7 +87,7 @@ VertexId PointStore::add_implicit(const PointDefinition& definition) {
   }
   const auto combined = [](const std::array<Rounded, 3>& r) -> Approximation {
     double error = std::max({r[0].error, r[1].error, r[2].error});
-    if (planted(Planted::implicit_error)) error /= 4;
+    if (planted(Planted::implicit_error)) error *= 0.9;
     return {r[0].value, r[1].value, r[2].value, error};
   };
   approximations_.push_back(combined(nearest));
