@@ -51,6 +51,8 @@ double thread_seconds();
 // `verified`: a second run has to pass the oracles, after the time was taken.
 Mesher delmesher_plane(const delmesher::Options& options, bool verified);
 Mesher cgal_mesh_2();
+// The graph as Triangle wants it: with a point in each hole.
+PlanarGraph with_hole_points(const PlanarGraph& graph);
 // `command` with {in} for a .poly file.
 Mesher foreign_command(const std::string& command);
 

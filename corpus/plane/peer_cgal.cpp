@@ -7,6 +7,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <map>
+#include <set>
 
 #include "corpus/plane/bench.h"
 
@@ -35,67 +36,74 @@ std::list<Kernel::Point_2> seeds(const PlanarGraph& graph, Cdt& cdt,
     const auto [a, b] = graph.segments[i];
     separates[std::minmax(a, b)] = graph.partitions.empty() || graph.partitions[i] == 0;
   }
-  std::map<Cdt::Face_handle, int> depth;
-  std::list<Cdt::Face_handle> present = {cdt.infinite_face()}, deeper;
-  depth[cdt.infinite_face()] = 0;
+  const auto wall = [&](Cdt::Face_handle face, int i) {
+    if (!face->is_constrained(i)) return false;
+    const auto a = number.find(face->vertex(Cdt::cw(i)));
+    const auto b = number.find(face->vertex(Cdt::ccw(i)));
+    if (a == number.end() || b == number.end()) return true;
+    const auto found = separates.find(std::minmax(a->second, b->second));
+    return found == separates.end() || found->second;
+  };
+  std::set<Cdt::Face_handle> seen;
+  std::vector<Cdt::Face_handle> present = {cdt.infinite_face()}, deeper;
   for (int d = 0; !present.empty(); ++d) {
-    Cdt::Face_handle largest;
-    double area = -1;
-    while (!present.empty()) {
-      const Cdt::Face_handle face = present.front();
-      present.pop_front();
-      if (d % 2 == 0 && d > 0 && !cdt.is_infinite(face)) {
-        const double own = cdt.triangle(face).area();
+    for (const Cdt::Face_handle start : present) {
+      if (!seen.insert(start).second) continue;
+      // One face of the graph; its largest triangle stands for it.
+      Cdt::Face_handle largest;
+      double area = -1;
+      std::vector<Cdt::Face_handle> stack = {start};
+      while (!stack.empty()) {
+        const Cdt::Face_handle face = stack.back();
+        stack.pop_back();
+        const double own = cdt.is_infinite(face) ? -1 : cdt.triangle(face).area();
         if (own > area) largest = face;
         area = std::max(area, own);
-        result.push_back(CGAL::centroid(cdt.triangle(face)));
-      }
-      for (int i = 0; i < 3; ++i) {
-        const Cdt::Face_handle other = face->neighbor(i);
-        if (depth.contains(other)) continue;
-        bool wall = false;
-        if (face->is_constrained(i)) {
-          const auto a = number.find(face->vertex(Cdt::cw(i)));
-          const auto b = number.find(face->vertex(Cdt::ccw(i)));
-          const auto found = a == number.end() || b == number.end()
-                                 ? separates.end()
-                                 : separates.find(std::minmax(a->second, b->second));
-          wall = found == separates.end() || found->second;
-        }
-        if (wall) {
-          deeper.push_back(other);
-        } else {
-          depth[other] = d;
-          present.push_back(other);
+        for (int i = 0; i < 3; ++i) {
+          const Cdt::Face_handle other = face->neighbor(i);
+          if (wall(face, i)) {
+            deeper.push_back(other);
+          } else if (seen.insert(other).second) {
+            stack.push_back(other);
+          }
         }
       }
+      if (d % 2 == 0 && d > 0 && area > 0) result.push_back(CGAL::centroid(cdt.triangle(largest)));
     }
-    for (const Cdt::Face_handle face : deeper) {
-      if (depth.emplace(face, d + 1).second) present.push_back(face);
-    }
+    present.swap(deeper);
     deeper.clear();
   }
   return result;
 }
 
-void run(const PlanarGraph& graph, Measurement& m) {
-  double spent = -thread_seconds();
+void insert(const PlanarGraph& graph, Cdt& cdt) {
   std::vector<Kernel::Point_2> points;
   for (const auto& [x, y] : graph.vertices) points.emplace_back(x, y);
-  Cdt cdt;
   // All at once: CGAL sorts them along a curve.
   std::vector<std::pair<std::size_t, std::size_t>> segments;
   for (const auto& [a, b] : graph.segments) segments.emplace_back(a, b);
   cdt.insert_constraints(points.begin(), points.end(), segments.begin(), segments.end());
-  spent += thread_seconds();
+}
+
+std::map<Cdt::Vertex_handle, std::uint32_t> numbers(const PlanarGraph& graph, const Cdt& cdt) {
   std::map<Kernel::Point_2, std::uint32_t> place;
+  for (std::uint32_t i = 0; i < graph.vertices.size(); ++i) {
+    place[Kernel::Point_2(graph.vertices[i][0], graph.vertices[i][1])] = i;
+  }
   std::map<Cdt::Vertex_handle, std::uint32_t> number;
-  for (std::uint32_t i = 0; i < points.size(); ++i) place[points[i]] = i;
-  for (auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v) {
+  for (const Cdt::Vertex_handle v : cdt.finite_vertex_handles()) {
     const auto found = place.find(v->point());
     if (found != place.end()) number[v] = found->second;
   }
-  const std::list<Kernel::Point_2> holes = seeds(graph, cdt, number);
+  return number;
+}
+
+void run(const PlanarGraph& graph, Measurement& m) {
+  double spent = -thread_seconds();
+  Cdt cdt;
+  insert(graph, cdt);
+  spent += thread_seconds();
+  const std::list<Kernel::Point_2> holes = seeds(graph, cdt, numbers(graph, cdt));
   spent -= thread_seconds();
   CGAL::Delaunay_mesher_2<Cdt, Criteria> mesher(cdt, Criteria(0.125, 0));
   if (!holes.empty()) mesher.set_seeds(holes.begin(), holes.end(), false);
@@ -121,6 +129,19 @@ void run(const PlanarGraph& graph, Measurement& m) {
 }
 
 }  // namespace
+
+PlanarGraph with_hole_points(const PlanarGraph& graph) {
+  if (graph.insideness == delmesher::Insideness::enclosed) return graph;
+  Cdt cdt;
+  insert(graph, cdt);
+  PlanarGraph result = graph;
+  result.insideness = delmesher::Insideness::enclosed;
+  result.partitions.clear();
+  for (const Kernel::Point_2& p : seeds(graph, cdt, numbers(graph, cdt))) {
+    result.holes.push_back({p.x(), p.y()});
+  }
+  return result;
+}
 
 Mesher cgal_mesh_2() {
   return {"CGAL Mesh_2", run};

@@ -1,5 +1,6 @@
 // Ours through the public header, and foreign programs through files in Triangle's format.
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -54,6 +55,11 @@ void read_result(const std::string& stem, Measurement& m) {
   }
   if (!node || !ele || n == 0) throw std::runtime_error("no result");
   count_angles(vertices, triangles, m);
+}
+
+std::string ending(int status) {
+  return WIFEXITED(status) ? "exit code " + std::to_string(WEXITSTATUS(status))
+                           : "ended by a signal";
 }
 
 double seconds_of_children() {
@@ -114,7 +120,7 @@ Mesher foreign_command(const std::string& command) {
             const std::string stem = (folder / "input").string();
             delmesher::io::OutputSet outputs;
             delmesher::io::WriteStatus status =
-                delmesher::io::write_poly(outputs, stem + ".poly", graph);
+                delmesher::io::write_poly(outputs, stem + ".poly", with_hole_points(graph));
             if (status.ok()) status = outputs.commit();
             if (!status.ok()) throw std::runtime_error(status.error);
             const double before = seconds_of_children();
@@ -122,7 +128,7 @@ Mesher foreign_command(const std::string& command) {
             m.seconds = seconds_of_children() - before;  // with its reading and writing
             std::exception_ptr failure;
             try {
-              if (code != 0) throw std::runtime_error("exit status " + std::to_string(code));
+              if (code != 0) throw std::runtime_error(ending(code));
               read_result(stem, m);
             } catch (...) {
               failure = std::current_exception();
