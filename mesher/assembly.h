@@ -63,7 +63,8 @@ Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& re
                           const SurfaceTopology& topology, const PointStore& points);
 
 // --- the exact record; point indices are ids of the store until record_points renumbers them
-void record_parameters(const Options& options, double diagonal, ExactRecord& record);
+// `tolerance`: the filter's, in input units.
+void record_parameters(const Options& options, double tolerance, ExactRecord& record);
 // `filter` is null if nothing was filtered.
 void record_facets(const SurfaceTopology& topology, const FilterResult* filter,
                    ExactRecord& record);

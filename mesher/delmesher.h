@@ -50,8 +50,9 @@ const char* phase_name(Phase phase);
 
 struct Progress {
   Phase phase;
-  double done;             // fraction of the phase in [0, 1]; negative if unknown
-  std::uint64_t vertices;  // present number of mesh vertices, 0 if not meaningful
+  double done;                      // fraction of the phase in [0, 1]; negative if unknown
+  std::uint64_t vertices;           // present number of mesh vertices, 0 if not meaningful
+  double predicted_tetrahedra = 0;  // of the final mesh, known before refinement begins; 0: not yet
 };
 
 struct Options {
@@ -61,6 +62,10 @@ struct Options {
   // Input filter (section 7): facets closer than this fraction of the bounding-box diagonal are
   // left to the final step. 0 turns the filter off.
   double tau = 1e-4;
+  // Tetrahedra that the user can do with: if more are predicted, tau is doubled until it fits. The
+  // final mesh conforms all the same, and may still be larger, because it is predicted within a
+  // factor of 3 only (of nine models in ten). 0: no budget.
+  std::uint64_t budget = 0;
   // Corners with an angle below this (degrees) are chamfered; 90 is the paper's, with its proof.
   double acute = 60;
   // The same, if smaller, for the corner of one facet between two neighbouring edges: segments that
@@ -197,6 +202,8 @@ struct Statistics {
   std::array<double, kPhaseCount> phase_seconds{};
   double bbox_diagonal = 0;
   MeshStatistics refined, final;
+  double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement
+  double tau = 0;                   // in force: Options::tau, or more for the budget
   std::uint64_t dropped_triangles = 0, filter_rounds = 0;
   std::uint64_t acute_vertices = 0, acute_edges = 0;
   double guaranteed_acute = 0;         // threshold in force away from the fallback corners

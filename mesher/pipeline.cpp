@@ -14,6 +14,7 @@
 #include "mesher/guarded.h"
 #include "mesher/output/rounding.h"
 #include "mesher/output/statistics.h"
+#include "mesher/refine/prediction.h"
 #include "mesher/refine/refine.h"
 #include "mesher/scaling.h"
 #include "mesher/surface/feature_size.h"
@@ -111,7 +112,7 @@ class Run {
     for (int fallbacks = 0;; ++fallbacks) {
       const bool strictest =
           gabriel_ && options.cosine_squared == 0 && options.corner_cosine_squared == 0;
-      chamfered = filter_and_chamfer_input(options);
+      chamfered = fallbacks == 0 ? fit_budget(options) : filter_and_chamfer_input(options);
       RefineResult refined = refine_complex(chamfered, !strictest);
       if (!refined.runaway) {
         record_corners(chamfered, options);
@@ -131,9 +132,47 @@ class Run {
     }
   }
 
+  // Chamfers and filters with the smallest of tau, 2 tau, 4 tau ... that the budget allows.
+  ChamferResult fit_budget(const ChamferOptions& chamfering) {
+    // Beyond this, whole features of the model go.
+    constexpr double kLargestTau = 0.05, kLeastTau = 1e-5;
+    const std::size_t input_points = points_.size();
+    for (;;) {
+      ChamferResult chamfered = filter_and_chamfer_input(chamfering);
+      const double predicted = predict(chamfered);
+      result_.statistics.predicted_tetrahedra = predicted;
+      if (options_.budget == 0 || predicted <= static_cast<double>(options_.budget)) {
+        control_.predict(predicted);
+        return chamfered;
+      }
+      if (tau_ > kLargestTau) {
+        throw Stopped{{StatusCode::limit_reached, over_budget(predicted)}};
+      }
+      tau_ = std::max(2 * tau_, kLeastTau);
+      while (points_.size() > input_points) points_.pop_back();
+    }
+  }
+
+  double predict(const ChamferResult& chamfered) {
+    PredictionOptions options;
+    options.region = options_.region;
+    options.max_edge = options_.max_edge;
+    // What the filter drops comes back in the final step, as at least a tetrahedron and a half
+    // each.
+    return 1.5 * static_cast<double>(filter_.dropped_triangles) +
+           predict_tetrahedra(chamfered.plc, topology_, filter_.facet_kept, points_, options,
+                              control_);
+  }
+
+  std::string over_budget(double predicted) const {
+    return "about " + std::to_string(static_cast<std::uint64_t>(predicted)) +
+           " tetrahedra are predicted even with tau " + std::to_string(tau_) +
+           ", more than the budget of " + std::to_string(options_.budget);
+  }
+
   // The smallest distance that chamfering and filtering leave between features, roughly.
   double feature_length() {
-    if (options_.tau > 0) return options_.tau * result_.statistics.bbox_diagonal;
+    if (tau_ > 0) return tau_ * result_.statistics.bbox_diagonal;
     if (feature_length_ < 0) {
       feature_length_ = smallest_local_feature_size(topology_, points_, control_);
     }
@@ -141,7 +180,7 @@ class Run {
   }
 
   ChamferResult filter_and_chamfer_input(const ChamferOptions& options) {
-    const double tolerance = options_.tau * result_.statistics.bbox_diagonal;
+    const double tolerance = tau_ * result_.statistics.bbox_diagonal;
     return filter_and_chamfer(topology_, points_, predicates_, options, tolerance, control_,
                               filter_);
   }
@@ -164,6 +203,7 @@ class Run {
 
   void record_corners(const ChamferResult& chamfered, const ChamferOptions& options) {
     Statistics& s = result_.statistics;
+    s.tau = tau_;
     s.dropped_triangles = filter_.dropped_triangles;
     s.filter_rounds = filter_.rounds;
     s.acute_vertices = chamfered.acute_vertices;
@@ -176,7 +216,7 @@ class Run {
     s.fallback_corners =
         static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
     if (!options_.want_exact) return;
-    record_parameters(options_, result_.statistics.bbox_diagonal, result_.exact);
+    record_parameters(options_, tau_ * result_.statistics.bbox_diagonal, result_.exact);
     record_facets(topology_, &filter_, result_.exact);
     record_chamfer(chamfered, s.guaranteed_acute, tightened, result_.exact);
     result_.exact.parameters.acute = s.guaranteed_acute;
@@ -242,7 +282,8 @@ class Run {
   SurfaceTopology topology_;
   FilterResult filter_;
   double feature_length_ = -1;
-  bool gabriel_ = false;  // in force: options_.gabriel, or a fallback
+  double tau_ = options_.tau;  // in force
+  bool gabriel_ = false;       // in force: options_.gabriel, or a fallback
 };
 
 template <class Body>

@@ -31,11 +31,11 @@ void for_each_point(ExactRecord& record, Visit&& visit) {
 
 }  // namespace
 
-void record_parameters(const Options& options, double diagonal, ExactRecord& record) {
+void record_parameters(const Options& options, double tolerance, ExactRecord& record) {
   // Above a radius-edge ratio of 2 the bound is best effort.
   constexpr double kGuaranteedDelta = 14.4775;
   record.parameters.delta = std::min(options.delta, kGuaranteedDelta);
-  record.parameters.tolerance = options.tau * diagonal;
+  record.parameters.tolerance = tolerance;
   record.parameters.region = options.region;
 }
 

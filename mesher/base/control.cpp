@@ -41,7 +41,7 @@ void Control::poll_now(std::uint64_t vertices, double done) {
       seconds_between(start_, Clock::now()) > options_.time_limit_seconds) {
     throw Stopped{{StatusCode::limit_reached, "time limit reached, see --time-limit"}};
   }
-  if (options_.progress && !options_.progress(Progress{phase_, done, vertices})) {
+  if (options_.progress && !options_.progress(Progress{phase_, done, vertices, predicted_})) {
     throw Stopped{{StatusCode::interrupted, "interrupted"}};
   }
 }

@@ -30,6 +30,9 @@ class Control {
   // Consults clock and callback now, whatever the counter says.
   void poll_now(std::uint64_t vertices, double done);
 
+  // Reported with the progress from now on.
+  void predict(double tetrahedra) { predicted_ = tetrahedra; }
+
   // Seconds spent in each phase so far, indexed by Phase.
   const std::array<double, kPhaseCount>& phase_seconds() const { return seconds_; }
   void finish();
@@ -43,6 +46,7 @@ class Control {
   Phase phase_ = Phase::check;
   bool in_phase_ = false;
   std::uint32_t calls_ = 0;
+  double predicted_ = 0;
   std::array<double, kPhaseCount> seconds_{};
 };
 

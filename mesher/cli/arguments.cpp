@@ -83,6 +83,8 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_number(app, given, "delta", "smallest face angle, degrees (14.47)", {0, 60, true});
   add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
              {0, 1, false});
+  add_number(app, given, "budget", "raise tau until no more tetrahedra than this are predicted",
+             {0, 1e15, true});
   add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", {0, 90, false});
   add_number(app, given, "corner", "the same for corners of one facet, degrees (20)",
              {0, 90, false});
@@ -152,8 +154,10 @@ void apply(const Given& given, Command& command) {
   number("chamfer-radius", options.chamfer_radius);
   number("max-edge", options.max_edge);
   number("time-limit", options.time_limit_seconds);
-  double vertices = 0;
+  double vertices = 0, budget = 0;
   number("max-vertices", vertices);
+  number("budget", budget);
+  options.budget = static_cast<std::uint64_t>(budget);
   options.max_vertices = static_cast<std::uint64_t>(vertices);
   options.slivers = given.slivers.value_or(options.slivers);
   options.region = given.region.value_or(options.region);

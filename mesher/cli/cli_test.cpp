@@ -313,7 +313,7 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(
       keys(json),
       "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes refined "
-      "final filter chamfer guarantee steiner rounding predicates ");
+      "final filter prediction chamfer guarantee steiner rounding predicates ");
   EXPECT_EQ(keys(json["predicates"]), "filter support extended exact symbolic ");
   EXPECT_EQ(keys(json["input"]), "file vertices triangles bbox_diagonal ");
   EXPECT_EQ(
@@ -327,6 +327,7 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["final"]), mesh);
   EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
   EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
+  EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");
   EXPECT_EQ(keys(json["guarantee"]), "acute corner gabriel fallback_corners ");
   EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume ");
@@ -394,6 +395,8 @@ TEST_F(Run, TheSecondSignalDoesNotWait) {
 TEST(ProgressText, SaysWhatIsKnown) {
   EXPECT_EQ(progress_text({Phase::refine, 0.456, 123}), "refine    45 %  123 vertices");
   EXPECT_EQ(progress_text({Phase::check, -1, 0}), "check");
+  EXPECT_EQ(progress_text({Phase::refine, -1, 7, 123456}),
+            "refine  7 vertices  (about 120000 tetrahedra predicted)");
   EXPECT_EQ(progress_text({Phase::check, 7, 0}), "check     100 %");
 }
 

@@ -2,10 +2,22 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 
 namespace delmesher::cli {
+
+namespace {
+
+// A number rounded to two significant digits: more would pretend to precision.
+std::string two_digits(double value) {
+  double unit = 1;
+  while (value / unit >= 100) unit *= 10;
+  return std::to_string(static_cast<std::uint64_t>(std::round(value / unit) * unit));
+}
+
+}  // namespace
 
 std::string progress_text(const Progress& progress) {
   std::string text = phase_name(progress.phase);
@@ -15,6 +27,9 @@ std::string progress_text(const Progress& progress) {
     text += std::to_string(percent) + " %";
   }
   if (progress.vertices > 0) text += "  " + std::to_string(progress.vertices) + " vertices";
+  if (progress.predicted_tetrahedra > 0) {
+    text += "  (about " + two_digits(progress.predicted_tetrahedra) + " tetrahedra predicted)";
+  }
   return text;
 }
 

@@ -48,6 +48,7 @@ Json parameters_json(const Command& command) {
   return {{"job", kJobs[static_cast<std::size_t>(command.job)]},
           {"delta", o.delta},
           {"tau", o.tau},
+          {"budget", o.budget},
           {"acute", o.acute},
           {"corner", o.corner},
           {"gabriel", o.gabriel},
@@ -133,6 +134,7 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
   json["refined"] = mesh_json(s.refined);
   json["final"] = mesh_json(s.final);
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
+  json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};
   json["chamfer"] = {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}};
   json["guarantee"] = {{"acute", s.guaranteed_acute},
                        {"corner", s.guaranteed_corner},
@@ -155,7 +157,7 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts) {
   const PlaneStatistics& s = result.statistics;
   Json json = run_json(command, result, facts, "segments");
-  for (const char* key : {"corner", "gabriel", "slivers", "bridge_simplification"}) {
+  for (const char* key : {"budget", "corner", "gabriel", "slivers", "bridge_simplification"}) {
     json["parameters"].erase(key);
   }
   json["refined"] = mesh_json(s.refined);

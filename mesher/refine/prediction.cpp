@@ -1,0 +1,330 @@
+#include "mesher/refine/prediction.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "mesher/base/flat_map.h"
+#include "mesher/surface/bvh.h"
+
+namespace delmesher {
+namespace {
+
+// A cell of the octree is split while its side exceeds this multiple of the local feature size at
+// its centre.
+constexpr double kCellSize = 1.5;
+// Candidates of a cell: what is nearer to its centre than this multiple of its side; a larger local
+// feature size counts as that; more for large cells, of which simple models have no others. The
+// ball of a child's candidates is within its parent's.
+constexpr double kReach = 1, kFarReach = 4;
+// Tetrahedra per integral of 1 / lfs^3, measured.
+constexpr double kPerUnit[2] = {1.26, 1.5};  // inside; down to the outer box
+constexpr int kMinDepth = 3, kMaxDepth = 60;
+// From this depth on, four children of eight stand for all: every other one, as on a chessboard.
+constexpr int kSampledDepth = 4;
+
+// A segment of the complex, a triangle of a kept facet, or a vertex by itself.
+struct Element {
+  std::array<VertexId, 3> corner;  // the third is kNone for a segment, the second too for a vertex
+  std::uint32_t owner;             // the segment; after these the facets, then the vertices
+};
+
+struct Candidate {
+  std::uint32_t element;
+  double distance;
+};
+
+struct Cell {
+  Vec3 center;
+  double side;
+  int depth;
+  double weight;  // how many it stands for
+};
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Squared distances from the origin.
+double origin_segment2(const Vec3& a, const Vec3& b) {
+  const Vec3 u = minus(b, a);
+  const double all = dot(u, u);
+  const double t = all > 0 ? std::clamp(-dot(a, u) / all, 0.0, 1.0) : 0;
+  const Vec3 foot = {a[0] + t * u[0], a[1] + t * u[1], a[2] + t * u[2]};
+  return dot(foot, foot);
+}
+
+double origin_triangle2(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 n = cross(minus(b, a), minus(c, a));
+  const double ab = dot(n, cross(a, b)), bc = dot(n, cross(b, c)), ca = dot(n, cross(c, a));
+  const double square = dot(n, n);
+  if (square > 0 && ab >= 0 && bc >= 0 && ca >= 0) {
+    const double height = dot(n, a);
+    return height * height / square;
+  }
+  double best = HUGE_VAL;
+  if (!(ab > 0)) best = std::min(best, origin_segment2(a, b));
+  if (!(bc > 0)) best = std::min(best, origin_segment2(b, c));
+  if (!(ca > 0)) best = std::min(best, origin_segment2(c, a));
+  return best;
+}
+
+class Predictor {
+ public:
+  Predictor(const Plc& plc, const SurfaceTopology& topology,
+            const std::vector<std::uint8_t>& facet_kept, const PointStore& points,
+            const PredictionOptions& options, Control& control)
+      : plc_(plc),
+        topology_(topology),
+        points_(points),
+        options_(options),
+        control_(control),
+        surface_(triangle_boxes(topology, points)) {
+    for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
+      elements_.push_back({{plc.segments[s].vertex[0], plc.segments[s].vertex[1], kNone}, s});
+    }
+    vertices_.resize(plc.segments.size() + topology.facet_triangles.size());
+    for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
+      const FacetId f = topology.facet_of[t];
+      if (!facet_kept.empty() && facet_kept[f] == 0) continue;
+      const auto owner = static_cast<std::uint32_t>(plc.segments.size() + f);
+      elements_.push_back({topology.triangles[t], owner});
+      auto& own = vertices_[owner];
+      own.insert(own.end(), topology.triangles[t].begin(), topology.triangles[t].end());
+    }
+    for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
+      vertices_[s].assign(plc.segments[s].vertex.begin(), plc.segments[s].vertex.end());
+    }
+    for (const PlcFacet& facet : plc.facets) {
+      if (facet.input_facet == kNone) continue;
+      auto& own = vertices_[plc.segments.size() + facet.input_facet];
+      for (const PlcFacet::Side& side : facet.boundary) {
+        const auto& ends = plc.segments[side.segment].vertex;
+        own.insert(own.end(), ends.begin(), ends.end());
+      }
+    }
+    for (const PlcFacet& facet : plc.facets) {
+      if (facet.input_facet == kNone) continue;
+      auto& own = vertices_[plc.segments.size() + facet.input_facet];
+      own.insert(own.end(), facet.isolated.begin(), facet.isolated.end());
+      for (const VertexId v : facet.isolated) add_vertex(v);
+    }
+    for (const VertexId v : plc.free_vertices) add_vertex(v);
+    for (const Element& e : elements_) {
+      Box box = Box::empty();
+      for (const VertexId v : e.corner) {
+        if (v != kNone) box.extend({points.nearest(v), points.nearest(v)});
+      }
+      boxes_.push_back(box);
+    }
+    for (auto& own : vertices_) {
+      std::sort(own.begin(), own.end());
+      own.erase(std::unique(own.begin(), own.end()), own.end());
+    }
+  }
+
+  double run() {
+    if (surface_.empty()) return 0;
+    const Box all = surface_.node(0).box;
+    Cell root{{}, 0, 0, 1};
+    for (std::size_t k = 0; k < 3; ++k) {
+      root.center[k] = 0.5 * all.lo[k] + 0.5 * all.hi[k];
+      root.side = std::max(root.side, all.hi[k] - all.lo[k]);
+    }
+    if (options_.region == Region::hull) root.side *= 2;  // the outer box (section 5.1)
+    for (std::uint32_t e = 0; e < elements_.size(); ++e) candidates_[0].push_back({e, 0});
+    visit(root, Where::unknown);
+    return sum_ * per_unit();
+  }
+
+ private:
+  void add_vertex(VertexId v) {
+    elements_.push_back({{v, kNone, kNone}, static_cast<std::uint32_t>(vertices_.size())});
+    vertices_.push_back({v});
+  }
+
+  enum class Where : std::uint8_t { unknown, inside, outside };
+
+  double per_unit() const { return kPerUnit[options_.region == Region::hull ? 1 : 0]; }
+
+  static std::vector<Box> triangle_boxes(const SurfaceTopology& topology,
+                                         const PointStore& points) {
+    std::vector<Box> boxes;
+    boxes.reserve(topology.triangles.size());
+    for (const auto& [a, b, c] : topology.triangles) {
+      boxes.push_back(
+          Box::around(std::array{points.nearest(a), points.nearest(b), points.nearest(c)}));
+    }
+    return boxes;
+  }
+
+  // Squared distance, as good as an estimate needs it.
+  double distance2(const Vec3& p, const Element& e) const {
+    const Vec3 a = minus(points_.nearest(e.corner[0]), p);
+    if (e.corner[1] == kNone) return dot(a, a);
+    const Vec3 b = minus(points_.nearest(e.corner[1]), p);
+    if (e.corner[2] == kNone) return origin_segment2(a, b);
+    return origin_triangle2(a, b, minus(points_.nearest(e.corner[2]), p));
+  }
+
+  static double box_distance2(const Vec3& p, const Box& box) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double d = std::max({box.lo[k] - p[k], p[k] - box.hi[k], 0.0});
+      sum += d * d;
+    }
+    return sum;
+  }
+
+  // Do the two elements of the complex share a point (or did they, before chamfering)?
+  bool touch(std::uint32_t a, std::uint32_t b) {
+    if (a == b) return true;
+    if (a > b) std::swap(a, b);
+    const std::uint64_t key = std::uint64_t{a} << 32U | b;
+    const std::uint32_t known = touching_.get(key, 2);
+    if (known != 2) return known != 0;
+    const auto& s = vertices_[a];
+    const auto& l = vertices_[b];
+    bool result = false;
+    for (auto i = s.begin(), j = l.begin(); !result && i != s.end() && j != l.end();) {
+      result = *i == *j;
+      (*i < *j ? i : j)++;
+    }
+    touching_.set(key, result ? 1 : 0);
+    return result;
+  }
+
+  // The local feature size at the centre of a cell, if below the given bound.
+  double feature_size(const std::vector<Candidate>& candidates, double bound) {
+    const auto nearer = [](const Candidate& a, const Candidate& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.element < b.element;
+    };
+    if (candidates.empty()) return bound;
+    // What does not touch the nearest element gives a bound: few are nearer than that.
+    const std::uint32_t nearest =
+        elements_[std::min_element(candidates.begin(), candidates.end(), nearer)->element].owner;
+    for (const Candidate& c : candidates) {
+      if (c.distance < bound && !touch(nearest, elements_[c.element].owner)) bound = c.distance;
+    }
+    near_.clear();
+    for (const Candidate& c : candidates) {
+      if (c.distance < bound) near_.push_back(c);
+    }
+    std::sort(near_.begin(), near_.end(), nearer);
+    owners_.clear();
+    for (const Candidate& c : near_) {
+      const std::uint32_t owner = elements_[c.element].owner;
+      if (std::find(owners_.begin(), owners_.end(), owner) != owners_.end()) continue;
+      for (const std::uint32_t other : owners_) {
+        if (!touch(owner, other)) return c.distance;
+      }
+      owners_.push_back(owner);
+    }
+    return bound;
+  }
+
+  // Parity of the crossings of a ray with the surface, in doubles: good enough for an estimate.
+  bool inside(const Vec3& p) const {
+    Box ray{p, p};
+    ray.hi[0] = surface_.node(0).box.hi[0];
+    bool odd = false;
+    surface_.query(ray, [&](std::uint32_t t) {
+      const auto& v = topology_.triangles[t];
+      double area[3];
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 a = points_.nearest(v[i]), b = points_.nearest(v[(i + 1) % 3]);
+        area[i] = (a[1] - p[1]) * (b[2] - p[2]) - (a[2] - p[2]) * (b[1] - p[1]);
+      }
+      const bool hit = (area[0] > 0) == (area[1] > 0) && (area[1] > 0) == (area[2] > 0);
+      const double total = area[0] + area[1] + area[2];
+      if (!hit || total == 0) return true;
+      double x = 0;
+      for (std::size_t i = 0; i < 3; ++i) x += area[(i + 1) % 3] / total * points_.nearest(v[i])[0];
+      odd ^= x > p[0];
+      return true;
+    });
+    return odd;
+  }
+
+  std::uint32_t next_random() { return (random_ = random_ * 1664525U + 1013904223U) >> 16U; }
+
+  void visit(const Cell& cell, Where where) {
+    if (sum_ * per_unit() > options_.enough) return;
+    control_.poll();
+    const double reach =
+        cell.depth == 0 ? HUGE_VAL : cell.side * (cell.depth <= kMinDepth ? kFarReach : kReach);
+    std::vector<Candidate>& candidates = candidates_[static_cast<std::size_t>(cell.depth) + 1];
+    candidates.clear();
+    double nearest = HUGE_VAL;
+    for (const Candidate& c : candidates_[static_cast<std::size_t>(cell.depth)]) {
+      if (box_distance2(cell.center, boxes_[c.element]) > reach * reach) continue;
+      const double d = std::sqrt(distance2(cell.center, elements_[c.element]));
+      if (d < reach) candidates.push_back({c.element, d});
+      nearest = std::min(nearest, d);
+    }
+    const bool crossed = nearest < 0.8660254 * cell.side;
+    const bool interior = options_.region == Region::interior;
+    if (where == Where::unknown && interior && !crossed) {
+      where = inside(cell.center) ? Where::inside : Where::outside;
+    }
+    if (where == Where::outside) return;
+    const double size = feature_size(candidates, reach);
+    if (cell.depth < kMinDepth || (cell.side > kCellSize * size && cell.depth < kMaxDepth)) {
+      divide(cell, where);
+      return;
+    }
+    const double target = options_.max_edge > 0 ? std::min(size, options_.max_edge) : size;
+    const double ratio = cell.side / target;
+    const bool half = crossed && interior;
+    sum_ += (half ? 0.5 : 1) * cell.weight * ratio * ratio * ratio;
+  }
+
+  void divide(const Cell& cell, Where where) {
+    const bool sampled = cell.depth >= kSampledDepth;
+    const unsigned colour = next_random() & 1U;
+    for (unsigned child = 0; child < 8; ++child) {
+      if (sampled && (std::popcount(child) & 1U) != colour) continue;
+      Cell next{cell.center, cell.side / 2, cell.depth + 1,
+                sampled ? 2 * cell.weight : cell.weight};
+      for (std::size_t k = 0; k < 3; ++k) {
+        next.center[k] += ((child >> k & 1) != 0 ? 0.25 : -0.25) * cell.side;
+      }
+      visit(next, where);
+    }
+  }
+
+  const Plc& plc_;
+  const SurfaceTopology& topology_;
+  const PointStore& points_;
+  const PredictionOptions& options_;
+  Control& control_;
+  Bvh surface_;
+  std::vector<Element> elements_;
+  std::vector<Box> boxes_;                       // of the elements
+  std::vector<std::vector<VertexId>> vertices_;  // per owner, ascending
+  FlatMap touching_;
+  // Of the cells from the root to the present one; before them, all elements.
+  std::array<std::vector<Candidate>, kMaxDepth + 2> candidates_;
+  std::vector<Candidate> near_;  // scratch of feature_size()
+  std::vector<std::uint32_t> owners_;
+  double sum_ = 0;
+  std::uint32_t random_ = 1;
+};
+
+}  // namespace
+
+double predict_tetrahedra(const Plc& plc, const SurfaceTopology& topology,
+                          const std::vector<std::uint8_t>& facet_kept, const PointStore& points,
+                          const PredictionOptions& options, Control& control) {
+  return Predictor(plc, topology, facet_kept, points, options, control).run();
+}
+
+}  // namespace delmesher

@@ -1,0 +1,119 @@
+// Laws of the predicted size and of the budget.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesher/delmesher.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using delmesher::Options;
+using delmesher::Result;
+using delmesher::StatusCode;
+using delmesher::Surface;
+
+void add_box(Surface& surface, const std::array<double, 3>& lo, const std::array<double, 3>& hi) {
+  const auto base = static_cast<std::uint32_t>(surface.vertices.size());
+  for (unsigned i = 0; i < 8; ++i) {
+    surface.vertices.push_back({(i & 4U) != 0 ? hi[0] : lo[0], (i & 2U) != 0 ? hi[1] : lo[1],
+                                (i & 1U) != 0 ? hi[2] : lo[2]});
+  }
+  constexpr std::uint32_t kFaces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5},
+                                           {0, 4, 5}, {0, 5, 1}, {2, 3, 7}, {2, 7, 6},
+                                           {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+  for (const auto& f : kFaces) {
+    surface.triangles.push_back({base + f[0], base + f[1], base + f[2]});
+  }
+}
+
+// Two facets of 0.3 diagonals at a gap, in a model of diagonal 1: of one plate, or of two boxes.
+Surface thin(double gap, bool plate) {
+  Surface surface;
+  if (plate) {
+    add_box(surface, {0, 0, 0}, {0.3, 0.3, gap});
+  } else {
+    add_box(surface, {0, 0, 0}, {0.3, 0.3, 0.2});
+    add_box(surface, {0, 0, 0.2 + gap}, {0.3, 0.3, 0.4});
+  }
+  add_box(surface, {0.5, 0.5, 0.5}, {0.577, 0.577, 0.577});
+  return surface;
+}
+
+TEST(Budget, ThinPlatesAndGapsEndWithinIt) {
+  constexpr std::uint64_t kBudget = 20000;
+  for (const delmesher::Region region : {delmesher::Region::interior, delmesher::Region::hull}) {
+    for (const double gap : {1e-3, 1e-4, 1e-5}) {
+      for (const bool plate : {true, false}) {
+        SCOPED_TRACE(gap);
+        const Surface surface = thin(gap, plate);
+        Options options;
+        options.budget = kBudget;
+        options.region = region;
+        options.want_exact = true;
+        const Result result = delmesher::tetrahedralize(surface, options);
+        ASSERT_TRUE(result.status.ok()) << result.status.message;
+        EXPECT_LE(result.statistics.predicted_tetrahedra, kBudget);
+        EXPECT_LE(result.mesh.tetrahedra.size(), kBudget);
+        // The gap is filtered; what is written conforms to it all the same.
+        EXPECT_GT(result.statistics.tau, gap / 2);
+        EXPECT_GT(result.statistics.dropped_triangles, 0U);
+        oracles::VerifyReport report;
+        EXPECT_EQ(oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh),
+                                  &result.exact, {}, report),
+                  "");
+        EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
+      }
+    }
+  }
+}
+
+// Without a budget the plate is filled with tetrahedra of its own thickness: a hundred times as
+// many for a tenth of it, by the integral over the local feature size.
+TEST(Budget, PredictionsGrowAsTheIntegralSays) {
+  const auto predicted = [](double gap) {
+    Options options;
+    options.progress = [](const delmesher::Progress& progress) {
+      return progress.predicted_tetrahedra == 0;
+    };
+    options.max_vertices = 10000;  // enough to have begun
+    return delmesher::tetrahedralize(thin(gap, true), options).statistics.predicted_tetrahedra;
+  };
+  const double coarse = predicted(0.01), fine = predicted(0.001);
+  EXPECT_GT(coarse, 1000);
+  EXPECT_GT(fine / coarse, 50);
+  EXPECT_LT(fine / coarse, 200);
+}
+
+TEST(Budget, WhatCannotFitIsRefusedWithAReason) {
+  Surface surface;
+  add_box(surface, {0, 0, 0}, {1, 1, 1});
+  Options options;
+  options.max_edge = 0.01;  // no filter helps against this
+  options.budget = 1000;
+  const Result result = delmesher::tetrahedralize(surface, options);
+  EXPECT_EQ(result.status.code, StatusCode::limit_reached);
+  EXPECT_NE(result.status.message.find("budget of 1000"), std::string::npos);
+  EXPECT_TRUE(result.mesh.tetrahedra.empty());
+}
+
+TEST(Budget, PredictionDoesNotDependOnTheScale) {
+  for (const auto& model : samples::surfaces(20261121)) {
+    SCOPED_TRACE(model.name);
+    Options options;
+    const Result result = delmesher::tetrahedralize(model.surface, options);
+    ASSERT_TRUE(result.status.ok());
+    Surface scaled = model.surface;
+    for (auto& p : scaled.vertices) {
+      for (double& x : p) x = std::ldexp(x, 20);
+    }
+    const Result other = delmesher::tetrahedralize(scaled, options);
+    EXPECT_EQ(result.statistics.predicted_tetrahedra, other.statistics.predicted_tetrahedra);
+    EXPECT_GT(result.statistics.predicted_tetrahedra, 0);
+  }
+}
+
+}  // namespace
+}  // namespace tetproof
