@@ -76,7 +76,7 @@ class CampaignTest : public testing::Test {
 };
 
 TEST_F(CampaignTest, DispositionsAreToldApart) {
-  options_.limits.wall_seconds = options_.limits.cpu_seconds = 5;
+  options_.limits.wall_seconds = options_.limits.cpu_seconds = 120;
   options_.jobs = 2;
   const std::string nasty = TETPROOF_NASTY_PATH;
   const std::vector<Mesher> meshers = {shell("good", "printf '" + kCorner + "' > mesh.tet"),
@@ -85,13 +85,15 @@ TEST_F(CampaignTest, DispositionsAreToldApart) {
                                        shell("nothing", "true"),
                                        shell("refuses", "echo 'bad facet 7' >&2; exit 3"),
                                        shell("aborts", nasty + " raise 6"),
-                                       shell("sleeps", "sleep 30"),
                                        shell("eats", nasty + " allocate 3000"),
                                        shell("suicide", "kill -9 $$")};
   const auto summary = run_campaign({models()[0]}, meshers, options_);
   EXPECT_FALSE(summary.interrupted);
+  // Only this one is to reach the limit, however busy the machine is.
+  options_.limits.wall_seconds = 1;
+  run_campaign({models()[0]}, {shell("sleeps", "sleep 300")}, options_);
   auto rows = rows_of_model(0);
-  ASSERT_EQ(rows.size(), meshers.size());
+  ASSERT_EQ(rows.size(), meshers.size() + 1);
 
   EXPECT_EQ(rows["good"].disposition, Disposition::ok) << rows["good"].reason;
   ASSERT_TRUE(rows["good"].mesh.has_value());
@@ -220,7 +222,8 @@ TEST_F(CampaignTest, VerdictsAndSidecars) {
   const std::vector<Mesher> meshers = {
       shell("plain", print + "mesh.tet"),
       with_sidecar(shell("none", print + "mesh.tet"), print + "$0"),
-      with_sidecar(shell("other", print + "mesh.tet"), "echo > $0; echo nonsense > $1")};
+      with_sidecar(shell("other", print + "mesh.tet"), "echo > $0; echo nonsense > $1"),
+      with_sidecar(shell("ended", print + "mesh.tet"), "kill -9 $$")};
   run_campaign({models()[0]}, meshers, options_);
   std::ifstream in(calls());
   int verified = 0, exact = 0;
@@ -228,7 +231,7 @@ TEST_F(CampaignTest, VerdictsAndSidecars) {
     verified += line.starts_with("verify ");
     exact += line.find(" --exact ") != std::string::npos;
   }
-  EXPECT_EQ(verified, 3);
+  EXPECT_EQ(verified, 4);
   EXPECT_EQ(exact, 1);
   auto rows = rows_of_model(0);
   EXPECT_EQ(rows["plain"].disposition, Disposition::ok) << rows["plain"].reason;
@@ -237,6 +240,10 @@ TEST_F(CampaignTest, VerdictsAndSidecars) {
   EXPECT_TRUE(rows["none"].reason.starts_with("no sidecar")) << rows["none"].reason;
   EXPECT_EQ(rows["other"].disposition, Disposition::wrong_result);
   EXPECT_EQ(rows["other"].reason, "a second run wrote another mesh");
+  // A limit met by the second run says nothing about the mesh of the first.
+  EXPECT_EQ(rows["ended"].disposition, Disposition::ok) << rows["ended"].reason;
+  EXPECT_NE(rows["ended"].verdict_json.find("no_sidecar"), std::string::npos);
+  EXPECT_EQ(rows["plain"].verdict_json.find("no_sidecar"), std::string::npos);
 }
 
 TEST_F(CampaignTest, NoFurtherModelIsBegunOnceTimeIsUp) {
