@@ -45,16 +45,16 @@ def main():
     memory = os.path.join(build, "names_checked")
     os.makedirs(memory, exist_ok=True)
     marks = {f: os.path.join(memory, hashlib.sha256((common + digest([f])).encode()).hexdigest()) for f in files}
-    todo = [f for f in files if not os.path.exists(marks[f])]
+    unread = [f for f in files if not os.path.exists(marks[f])]
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for path, (code, output) in zip(todo, pool.map(lambda f: tidy(build, f), todo)):
+        for path, (code, output) in zip(unread, pool.map(lambda f: tidy(build, f), unread)):
             if code == 0:
                 open(marks[path], "w", encoding="utf-8").close()
             else:
                 failed += 1
                 print(output.strip())
-    print("names: %d files, %d unchanged, %d with violations" % (len(files), len(files) - len(todo), failed))
+    print("names: %d files, %d unchanged, %d with violations" % (len(files), len(files) - len(unread), failed))
     return 1 if failed or not files else 0
 
 

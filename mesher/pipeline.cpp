@@ -254,10 +254,9 @@ class Run {
     s.max_surface_deviation = rounded.max_surface_deviation;
     std::uint64_t interior = 0;
     for (const std::uint8_t inside : rounded.inside) interior += inside;
-    s.final = mesh_statistics(
-        rounded.coordinates, rounded.tetrahedra,
-        rounded.operations == 0 ? exact.repeated_faces : std::vector<std::uint8_t>{},
-        rounded.vertices.size(), interior);
+    if (rounded.operations > 0) exact.repeated_faces.clear();  // they are other tetrahedra now
+    s.final = mesh_statistics(rounded.coordinates, rounded.tetrahedra, exact.repeated_faces,
+                              rounded.vertices.size(), interior);
     if (options_.want_exact) {
       // Repairs by local operations have changed tetrahedra: the record holds what is written.
       if (rounded.operations > 0) record_repaired(rounded, options_.region, result_.exact);

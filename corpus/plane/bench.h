@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
+#include "reports/thread_seconds.h"
 
 namespace tetproof::plane_bench {
 
@@ -43,10 +44,6 @@ struct Mesher {
   // After the time was taken, if wanted; throws to fail.
   std::function<void(const PlanarGraph&, Measurement&)> verify = nullptr;
 };
-
-// Processor seconds of this thread. Not std::clock(): under a limit of processor time (RLIMIT_CPU)
-// Linux counts those of a process by ticks of milliseconds.
-double thread_seconds();
 
 // `verified`: a second run has to pass the oracles, after the time was taken.
 Mesher delmesher_plane(const delmesher::Options& options, bool verified);

@@ -7,7 +7,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <stdexcept>
 
 #include "corpus/plane/bench.h"
@@ -51,12 +50,6 @@ Measurement run_here(const Mesher& mesher, const PlanarGraph& graph) {
 }
 
 }  // namespace
-
-double thread_seconds() {
-  timespec time = {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 void count_angles(const std::vector<std::array<double, 2>>& vertices,
                   const std::vector<std::array<std::uint32_t, 3>>& triangles, Measurement& m) {

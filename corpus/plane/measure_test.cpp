@@ -10,6 +10,7 @@
 namespace {
 
 using namespace tetproof::plane_bench;
+using tetproof::thread_seconds;
 
 volatile double sink;
 

@@ -1,4 +1,5 @@
 #include "mesher/cdt/segments.h"
+#include "mesher/predicates/vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,13 +19,6 @@ constexpr double kPlacementTolerance = 0x1p-20;
 Vec3 scaled_difference(const Vec3& a, const Vec3& b, double scale) {
   return {(a[0] - b[0]) / scale, (a[1] - b[1]) / scale, (a[2] - b[2]) / scale};
 }
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 // ------------------------------------------------------------------------------ placing a point
 
 // Where to split: fractions of the edge from both its ends; the point is anchored at `anchor`.

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "mesher/chamfer/vector.h"
+#include "mesher/predicates/vector.h"
 
 namespace delmesher {
 

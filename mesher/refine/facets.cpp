@@ -4,6 +4,7 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/planted.h"
+#include "mesher/predicates/vector.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
@@ -11,14 +12,6 @@ namespace {
 
 // A facet's Steiner point keeps within this fraction of the circumradius of the circumcentre.
 constexpr double kCenterTolerance = 1.0 / 1024;
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 struct DirectedSide {
   VertexId from, to;

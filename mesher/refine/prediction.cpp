@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesher/base/flat_map.h"
+#include "mesher/predicates/vector.h"
 #include "mesher/surface/bvh.h"
 
 namespace delmesher {
@@ -41,21 +42,9 @@ struct Cell {
   double weight;  // how many it stands for
 };
 
-Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 // Squared distances from the origin.
 double origin_segment2(const Vec3& a, const Vec3& b) {
-  const Vec3 u = minus(b, a);
+  const Vec3 u = subtract(b, a);
   const double all = dot(u, u);
   const double t = all > 0 ? std::clamp(-dot(a, u) / all, 0.0, 1.0) : 0;
   const Vec3 foot = {a[0] + t * u[0], a[1] + t * u[1], a[2] + t * u[2]};
@@ -63,7 +52,7 @@ double origin_segment2(const Vec3& a, const Vec3& b) {
 }
 
 double origin_triangle2(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 n = cross(minus(b, a), minus(c, a));
+  const Vec3 n = cross(subtract(b, a), subtract(c, a));
   const double ab = dot(n, cross(a, b)), bc = dot(n, cross(b, c)), ca = dot(n, cross(c, a));
   const double square = dot(n, n);
   if (square > 0 && ab >= 0 && bc >= 0 && ca >= 0) {
@@ -88,10 +77,12 @@ class Predictor {
         options_(options),
         control_(control),
         surface_(triangle_boxes(topology, points)) {
-    for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
-      elements_.push_back({{plc.segments[s].vertex[0], plc.segments[s].vertex[1], kNone}, s});
-    }
     vertices_.resize(plc.segments.size() + topology.facet_triangles.size());
+    for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
+      const auto& ends = plc.segments[s].vertex;
+      elements_.push_back({{ends[0], ends[1], kNone}, s});
+      vertices_[s].assign(ends.begin(), ends.end());
+    }
     for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
       const FacetId f = topology.facet_of[t];
       if (!facet_kept.empty() && facet_kept[f] == 0) continue;
@@ -100,9 +91,6 @@ class Predictor {
       auto& own = vertices_[owner];
       own.insert(own.end(), topology.triangles[t].begin(), topology.triangles[t].end());
     }
-    for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
-      vertices_[s].assign(plc.segments[s].vertex.begin(), plc.segments[s].vertex.end());
-    }
     for (const PlcFacet& facet : plc.facets) {
       if (facet.input_facet == kNone) continue;
       auto& own = vertices_[plc.segments.size() + facet.input_facet];
@@ -110,10 +98,6 @@ class Predictor {
         const auto& ends = plc.segments[side.segment].vertex;
         own.insert(own.end(), ends.begin(), ends.end());
       }
-    }
-    for (const PlcFacet& facet : plc.facets) {
-      if (facet.input_facet == kNone) continue;
-      auto& own = vertices_[plc.segments.size() + facet.input_facet];
       own.insert(own.end(), facet.isolated.begin(), facet.isolated.end());
       for (const VertexId v : facet.isolated) add_vertex(v);
     }
@@ -142,7 +126,7 @@ class Predictor {
     if (options_.region == Region::hull) root.side *= 2;  // the outer box (section 5.1)
     for (std::uint32_t e = 0; e < elements_.size(); ++e) candidates_[0].push_back({e, 0});
     visit(root, Where::unknown);
-    return sum_ * per_unit();
+    return sum_ * kPerUnit[options_.region == Region::hull ? 1 : 0];
   }
 
  private:
@@ -153,26 +137,13 @@ class Predictor {
 
   enum class Where : std::uint8_t { unknown, inside, outside };
 
-  double per_unit() const { return kPerUnit[options_.region == Region::hull ? 1 : 0]; }
-
-  static std::vector<Box> triangle_boxes(const SurfaceTopology& topology,
-                                         const PointStore& points) {
-    std::vector<Box> boxes;
-    boxes.reserve(topology.triangles.size());
-    for (const auto& [a, b, c] : topology.triangles) {
-      boxes.push_back(
-          Box::around(std::array{points.nearest(a), points.nearest(b), points.nearest(c)}));
-    }
-    return boxes;
-  }
-
   // Squared distance, as good as an estimate needs it.
   double distance2(const Vec3& p, const Element& e) const {
-    const Vec3 a = minus(points_.nearest(e.corner[0]), p);
+    const Vec3 a = subtract(points_.nearest(e.corner[0]), p);
     if (e.corner[1] == kNone) return dot(a, a);
-    const Vec3 b = minus(points_.nearest(e.corner[1]), p);
+    const Vec3 b = subtract(points_.nearest(e.corner[1]), p);
     if (e.corner[2] == kNone) return origin_segment2(a, b);
-    return origin_triangle2(a, b, minus(points_.nearest(e.corner[2]), p));
+    return origin_triangle2(a, b, subtract(points_.nearest(e.corner[2]), p));
   }
 
   static double box_distance2(const Vec3& p, const Box& box) {
@@ -257,7 +228,6 @@ class Predictor {
   std::uint32_t next_random() { return (random_ = random_ * 1664525U + 1013904223U) >> 16U; }
 
   void visit(const Cell& cell, Where where) {
-    if (sum_ * per_unit() > options_.enough) return;
     control_.poll();
     const double reach =
         cell.depth == 0 ? HUGE_VAL : cell.side * (cell.depth <= kMinDepth ? kFarReach : kReach);

@@ -18,8 +18,6 @@ namespace delmesher {
 struct PredictionOptions {
   Region region = Region::interior;
   double max_edge = 0;  // of the mesh to come; 0: no bound
-  // Stop where the prediction exceeds this: the result is then some number above it.
-  double enough = 1e12;
 };
 
 // Tetrahedra of the mesh that refining the complex (without the outer box) will lead to: those

@@ -1,6 +1,7 @@
 // Laws of the refinement, checked by brute force on small complexes: nothing is encroached, angles
 // are bounded, the pieces add up.
 #include "mesher/refine/refine.h"
+#include "mesher/predicates/vector.h"
 
 #include <gtest/gtest.h>
 
@@ -91,24 +92,14 @@ struct Refinement {
   }
 };
 
-Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 double smallest_angle(const PointStore& points, const std::array<VertexId, 4>& t) {
   double smallest = 180;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j) {
       for (int k = j + 1; k < 4; ++k) {
         if (i == j || i == k) continue;
-        const Vec3 u = minus(points.nearest(t[j]), points.nearest(t[i]));
-        const Vec3 v = minus(points.nearest(t[k]), points.nearest(t[i]));
+        const Vec3 u = subtract(points.nearest(t[j]), points.nearest(t[i]));
+        const Vec3 v = subtract(points.nearest(t[k]), points.nearest(t[i]));
         const Vec3 n = cross(u, v);
         smallest = std::min(smallest, std::atan2(std::sqrt(dot(n, n)), dot(u, v)) / kDegree);
       }
@@ -119,8 +110,8 @@ double smallest_angle(const PointStore& points, const std::array<VertexId, 4>& t
 
 double volume(const PointStore& points, const std::array<VertexId, 4>& t) {
   const Vec3 o = points.nearest(t[0]);
-  return dot(minus(points.nearest(t[1]), o),
-             cross(minus(points.nearest(t[2]), o), minus(points.nearest(t[3]), o))) /
+  return dot(subtract(points.nearest(t[1]), o),
+             cross(subtract(points.nearest(t[2]), o), subtract(points.nearest(t[3]), o))) /
          6;
 }
 
@@ -219,7 +210,9 @@ TEST_P(Complexes, AnglesMeetTheBoundWhereItHolds) {
       // Only a complex with small features leaves something bad outside; without it the modes would
       // not differ.
       const bool expected = region == Region::interior && r.chamfered.acute_vertices > 0;
-      if (gabriel) EXPECT_EQ(outside_bad > 0, expected);
+      if (gabriel) {
+        EXPECT_EQ(outside_bad > 0, expected);
+      }
     }
   }
 }
@@ -269,9 +262,9 @@ TEST(Refine, SliverTreatmentRaisesTheSmallestDistanceOfOppositeEdges) {
       double shortest2 = HUGE_VAL;
       double distance = HUGE_VAL;
       for (int e = 0; e < 6; ++e) {
-        const Vec3 u = minus(r.points.nearest(t[kEdge[e][1]]), r.points.nearest(t[kEdge[e][0]]));
+        const Vec3 u = subtract(r.points.nearest(t[kEdge[e][1]]), r.points.nearest(t[kEdge[e][0]]));
         const Vec3 w =
-            minus(r.points.nearest(t[kEdge[5 - e][1]]), r.points.nearest(t[kEdge[5 - e][0]]));
+            subtract(r.points.nearest(t[kEdge[5 - e][1]]), r.points.nearest(t[kEdge[5 - e][0]]));
         const Vec3 n2 = cross(u, w);
         shortest2 = std::min(shortest2, dot(u, u));
         distance = std::min(distance, 6 * volume(r.points, t) / std::sqrt(dot(n2, n2)));
@@ -304,7 +297,7 @@ TEST(Refine, SegmentsAtAnApexAreSplitOnConcentricShells) {
       if (chain.back() == 20) std::reverse(chain.begin(), chain.end());
       if (chain.front() != 20) continue;
       ASSERT_GT(chain.size(), 2U);
-      const Vec3 d = minus(r.points.nearest(chain[1]), apex);
+      const Vec3 d = subtract(r.points.nearest(chain[1]), apex);
       const double distance = std::sqrt(dot(d, d));
       if (shell == 0) shell = distance;
       const double halvings = std::log2(distance / shell);
@@ -327,8 +320,8 @@ TEST(Refine, MaxEdgeBoundsEdgesInside) {
   for (std::size_t n = 0; n < r.result.tetrahedra.size(); ++n) {
     if (r.result.side[n] == Side::outside) continue;
     for (const auto& e : kEdge) {
-      const Vec3 d = minus(r.points.nearest(r.result.tetrahedra[n][e[1]]),
-                           r.points.nearest(r.result.tetrahedra[n][e[0]]));
+      const Vec3 d = subtract(r.points.nearest(r.result.tetrahedra[n][e[1]]),
+                              r.points.nearest(r.result.tetrahedra[n][e[0]]));
       EXPECT_LE(std::sqrt(dot(d, d)), 0.3 * (1 + 1e-12));
       ++checked;
     }

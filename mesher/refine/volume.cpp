@@ -6,6 +6,7 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/spatial_sort.h"
+#include "mesher/predicates/vector.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
@@ -25,18 +26,6 @@ constexpr double kSlack = 1e-12;
 // margin.
 constexpr double kOffcentreFactor = 0.95;
 
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 minus(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 struct Shape {
   std::array<Vec3, 4> p;          // relative to vertex 0
   std::array<double, 6> length2;  // squared, by kEdge
@@ -50,7 +39,7 @@ Shape shape_of(const std::array<Vec3, 4>& p) {
   Shape s;
   s.p = p;
   for (int e = 0; e < 6; ++e) {
-    const Vec3 d = minus(p[kEdge[e][1]], p[kEdge[e][0]]);
+    const Vec3 d = subtract(p[kEdge[e][1]], p[kEdge[e][0]]);
     s.length2[e] = dot(d, d);
     if (s.length2[e] < s.length2[s.shortest]) s.shortest = e;
   }
@@ -89,8 +78,8 @@ bool angles_above(const Shape& s, double max_cosine_squared) {
 double opposite_edges_distance2(const Shape& s) {
   double smallest = HUGE_VAL;
   for (int e = 0; e < 3; ++e) {
-    const Vec3 u = minus(s.p[kEdge[e][1]], s.p[kEdge[e][0]]);
-    const Vec3 v = minus(s.p[kEdge[5 - e][1]], s.p[kEdge[5 - e][0]]);
+    const Vec3 u = subtract(s.p[kEdge[e][1]], s.p[kEdge[e][0]]);
+    const Vec3 v = subtract(s.p[kEdge[5 - e][1]], s.p[kEdge[5 - e][0]]);
     const Vec3 n = cross(u, v);
     smallest = std::min(smallest, s.volume6 * s.volume6 / dot(n, n));
   }
@@ -252,7 +241,7 @@ void Refiner::split_tetrahedron(TetId t) {
     const Vec3& a = s.p[kEdge[s.shortest][0]];
     const Vec3& b = s.p[kEdge[s.shortest][1]];
     const Vec3 middle = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
-    const Vec3 d = minus(s.center, middle);
+    const Vec3 d = subtract(s.center, middle);
     const double far2 = dot(d, d);
     const double reach2 = kOffcentreFactor * kOffcentreFactor * offcentre2_ * s.length2[s.shortest];
     if (reach2 < far2) {

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "mesher/surface/topology.h"
+
 namespace delmesher {
 namespace {
 
@@ -42,6 +44,16 @@ Box Box::around(std::span<const Vec3> points) {
   Box box = empty();
   for (const Vec3& p : points) box.extend({p, p});
   return box;
+}
+
+std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points) {
+  std::vector<Box> boxes;
+  boxes.reserve(topology.triangles.size());
+  for (const auto& [a, b, c] : topology.triangles) {
+    boxes.push_back(
+        Box::around(std::array{points.nearest(a), points.nearest(b), points.nearest(c)}));
+  }
+  return boxes;
 }
 
 void Box::extend(const Box& other) {

@@ -26,6 +26,11 @@ struct Box {
   }
 };
 
+struct SurfaceTopology;
+
+// Of the input triangles, in their order.
+std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points);
+
 // Immutable; every traversal is deterministic. Visitors return false to end a traversal, which
 // then returns false as well.
 class Bvh {

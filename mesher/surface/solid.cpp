@@ -159,7 +159,9 @@ bool certainly_inside(const PointStore& points, const Tetrahedron& tetrahedron, 
 
 struct Solid::Impl {
   Impl(const SurfaceTopology& surface, Predicates& mesh_predicates)
-      : topology(surface), predicates(mesh_predicates), bvh(boxes(surface, mesh_predicates)) {
+      : topology(surface),
+        predicates(mesh_predicates),
+        bvh(triangle_boxes(surface, mesh_predicates.points())) {
     const std::size_t n = surface.vertex_half_edge.size();
     input.reserve(n + 1);
     for (VertexId v = 0; v < n; ++v) {
@@ -171,17 +173,6 @@ struct Solid::Impl {
       const PointStore& points = mesh_predicates.points();
       plane.emplace_back(points.approximation(a), points.approximation(b), points.approximation(c));
     }
-  }
-
-  static std::vector<Box> boxes(const SurfaceTopology& surface, const Predicates& predicates) {
-    std::vector<Box> result;
-    result.reserve(surface.triangles.size());
-    for (const auto& t : surface.triangles) {
-      const PointStore& points = predicates.points();
-      const std::array<Vec3, 3> p{points.nearest(t[0]), points.nearest(t[1]), points.nearest(t[2])};
-      result.push_back(Box::around(p));
-    }
-    return result;
   }
 
   Side classify(const Tetrahedron& tetrahedron) {

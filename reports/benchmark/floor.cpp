@@ -4,11 +4,11 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
-#include <ctime>
 #include <numeric>
 
 #include "mesher/base/control.h"
 #include "mesher/delaunay/tetrahedrization.h"
+#include "reports/thread_seconds.h"
 
 namespace tetproof::benchmark {
 namespace {
@@ -52,12 +52,6 @@ PointStore store_of(const Points& all) {
 }
 
 }  // namespace
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 Timing cgal_delaunay(const std::vector<std::array<double, 3>>& points) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

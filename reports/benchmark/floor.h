@@ -18,8 +18,6 @@ struct Timing {
 // The points with their exact definitions, as a run of the mesher made them.
 using Points = std::vector<delmesher::ExactPoint>;
 
-double thread_seconds();
-
 // Delaunay_triangulation_3 (EPICK, in CGAL's spatial order) of the nearest doubles; coincident ones
 // once.
 Timing cgal_delaunay(const std::vector<std::array<double, 3>>& points);
