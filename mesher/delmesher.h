@@ -68,9 +68,8 @@ struct Options {
   std::uint64_t budget = 0;
   // Corners with an angle below this (degrees) are chamfered; 90 is the paper's, with its proof.
   double acute = 60;
-  // The same, if smaller, for the corner of one facet between two neighbouring edges: segments that
-  // are split at equal distances from their common end do not encroach each other, however acute
-  // their angle.
+  // The same, if smaller, for the angle of two edges, of one facet or not: segments that are split
+  // at equal distances from their common end do not encroach each other, however acute their angle.
   double corner = 20;
   // Split constraints until their open diametral balls are empty, as the paper does (sections 5.2
   // and 5.3). Otherwise they are split where the Delaunay tetrahedrization lacks them and where
@@ -138,8 +137,7 @@ struct ExactRecord {
   struct Parameters {  // what the run promised
     double delta = 0;  // face angles of the refined mesh, degrees; 0: not recorded
     double acute = 0;  // corners are chamfered below this, where none of `corners` says otherwise
-    // The same for two neighbouring edges of a facet at a vertex that is not chamfered; 0: as
-    // acute.
+    // The same for two edges at a vertex that is not chamfered; 0: as acute.
     double corner = 0;
     double tolerance = 0;  // of the filter, in input units
     Region region = Region::interior;
@@ -207,7 +205,7 @@ struct Statistics {
   std::uint64_t dropped_triangles = 0, filter_rounds = 0;
   std::uint64_t acute_vertices = 0, acute_edges = 0;
   double guaranteed_acute = 0;         // threshold in force away from the fallback corners
-  double guaranteed_corner = 0;        // the same for corners of one facet
+  double guaranteed_corner = 0;        // the same for the angle of two edges
   bool gabriel = false;                // the constraints of the refined mesh have empty balls
   std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
   std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;

@@ -63,7 +63,7 @@ class ChamferedSurface {
         surface_(*mesh.surface),
         facets_(surface_, record_),
         default_(record_.parameters.acute),
-        facet_corner_(record_.parameters.corner) {
+        of_edges_(record_.parameters.corner) {
     for (const auto& corner : record_.corners) corner_[corner.vertex] = &corner;
     for (const auto& [point, vertex] : record_.chamfer_points) made_for_[point] = vertex;
     collect_segments();
@@ -83,11 +83,11 @@ class ChamferedSurface {
     const auto made = made_for_.find(p);
     return at_input_vertex(made != made_for_.end() ? made->second : p);
   }
-  // For two neighbouring edges of a facet.
-  Threshold in_facet(Index p) const {
+  // For the angle of two edges.
+  Threshold of_edges(Index p) const {
     const bool chamfered = made_for_.contains(p) || corner_.contains(p);
-    if (chamfered || facet_corner_ == 0 || facet_corner_ > default_) return at_vertex(p);
-    return Threshold(facet_corner_);
+    if (chamfered || of_edges_ == 0 || of_edges_ > default_) return at_vertex(p);
+    return Threshold(of_edges_);
   }
   // The stricter of the ends of the input edge.
   Threshold at_edge(Index e) const {
@@ -105,7 +105,7 @@ class ChamferedSurface {
   const ExactPoints& points_;
   const InputSurface& surface_;
   const FacetIndex facets_;
-  double default_, facet_corner_;
+  double default_, of_edges_;
   std::unordered_map<Index, const ExactRecord::Corner*> corner_;
   std::unordered_map<Index, Index> made_for_;
   std::vector<Segment> segments_;
@@ -234,8 +234,7 @@ class ChamferAngles {
  private:
   void check_dihedral(const Segment& s);
   void check_vertex(std::size_t slot);
-  bool bound_a_sector(std::size_t slot, const Segment& s, const Segment& t) const;
-  void check_pair(std::size_t slot, const Segment& s, const Segment& t);
+  void check_pair(Index v, const Segment& s, const Segment& t);
   void check_sector(Index v, const Segment& s, const Sector& sector, const Threshold& threshold);
   void judge(const mpz_class& cosine, const mpz_class& norms, const mpz_class& sine_squared,
              const Threshold& threshold, bool rounded, const std::string& what);
@@ -295,7 +294,7 @@ void ChamferAngles::check_vertex(std::size_t slot) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Segment& s = chamfered_.segments()[at[i]];
     for (std::size_t j = 0; j < i; ++j) {
-      check_pair(slot, s, chamfered_.segments()[at[j]]);
+      check_pair(v, s, chamfered_.segments()[at[j]]);
     }
     for (const Sector& sector : chamfered_.sectors(slot)) {
       if (sector.facet != s.left && sector.facet != s.right) check_sector(v, s, sector, threshold);
@@ -303,26 +302,13 @@ void ChamferAngles::check_vertex(std::size_t slot) {
   }
 }
 
-bool ChamferAngles::bound_a_sector(std::size_t slot, const Segment& s, const Segment& t) const {
-  const Index v = chamfered_.vertices()[slot];
-  const Index p = s.from == v ? s.to : s.from, q = t.from == v ? t.to : t.from;
-  return std::ranges::any_of(chamfered_.sectors(slot), [&](const Sector& sector) {
-    return (sector.out == p && sector.in == q) || (sector.out == q && sector.in == p);
-  });
-}
-
-void ChamferAngles::check_pair(std::size_t slot, const Segment& s, const Segment& t) {
+void ChamferAngles::check_pair(Index v, const Segment& s, const Segment& t) {
   ++report_.checked;
-  const Index v = chamfered_.vertices()[slot];
   const Index p = s.from == v ? s.to : s.from, q = t.from == v ? t.to : t.from;
   if (exact::dot_sign(points_, v, p, q) <= 0) return;
   const IntegerVector a = exact::difference(points_, v, p), b = exact::difference(points_, v, q);
   const mpz_class cosine = exact::dot(a, b), norms = exact::squared(a) * exact::squared(b);
-  const Threshold threshold = chamfered_.at_vertex(v);
-  // Few pairs get here, so the sectors may be searched.
-  if (!threshold.above(cosine, norms)) return;
-  judge(cosine, norms, exact::squared(exact::cross(a, b)),
-        bound_a_sector(slot, s, t) ? chamfered_.in_facet(v) : threshold,
+  judge(cosine, norms, exact::squared(exact::cross(a, b)), chamfered_.of_edges(v),
         s.artificial || t.artificial, segment_name(s) + " and " + segment_name(t));
 }
 

@@ -38,17 +38,6 @@ class AcuteFinder {
   bool apex() const { return apex_; }  // of the last vertex
 
  private:
-  // Do two edges bound a sector of one facet?
-  bool neighbours_in_facet(std::uint32_t h, std::uint32_t g) const {
-    for (const std::uint32_t outgoing : {h, g}) {
-      const std::uint32_t index = surface_.corner_of_outgoing(outgoing);
-      if (index == kNone) continue;
-      const std::uint32_t other = topology_.edge_of[outgoing == h ? g : h];
-      if (topology_.edge_of[surface_.corners()[index].incoming] == other) return true;
-    }
-    return false;
-  }
-
   // Few directions fit into space without an acute pair, so this ends soon however many edges there
   // are.
   bool two_edges_are_acute(VertexId v, const std::vector<std::uint32_t>& spokes) {
@@ -58,10 +47,7 @@ class AcuteFinder {
         const VertexId p = topology_.to(spokes[i]);
         const VertexId q = topology_.to(spokes[j]);
         if (!predicates_.angle_below(p, v, q, limit)) continue;
-        if (!neighbours_in_facet(spokes[i], spokes[j]) ||
-            predicates_.angle_below(p, v, q, thresholds_.at_corner(v))) {
-          return true;
-        }
+        if (predicates_.angle_below(p, v, q, thresholds_.at_corner(v))) return true;
         apex_ = true;
       }
     }

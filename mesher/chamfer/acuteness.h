@@ -18,7 +18,7 @@ class Thresholds {
     return options_.vertex_cosine_squared.empty() ? options_.cosine_squared
                                                   : options_.vertex_cosine_squared[v];
   }
-  // For two neighbouring edges of a facet's boundary.
+  // For two edges, of one facet or not.
   double at_corner(VertexId v) const {
     const bool tightened = !options_.vertex_cosine_squared.empty() && at_vertex(v) == 0;
     return tightened ? 0 : std::max(at_vertex(v), options_.corner_cosine_squared);

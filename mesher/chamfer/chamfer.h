@@ -14,9 +14,8 @@ namespace delmesher {
 
 struct ChamferOptions {
   double cosine_squared = 0.25;  // corners with a smaller angle are acute (0.25: 60 degrees)
-  // The same for two neighbouring edges of one facet's boundary; 0: as above. Segments that are
-  // split at equal distances from their common end do not encroach each other, however acute their
-  // angle.
+  // The same for the angle of two edges; 0: as above. Segments that are split at equal distances
+  // from their common end do not encroach each other, however acute their angle.
   double corner_cosine_squared = 0;
   // Per input vertex, overriding cosine_squared; empty: none. The runaway guard sets 0 (90 degrees)
   // here.

@@ -121,18 +121,22 @@ TEST(Corners, OfOneFacetHaveAThresholdOfTheirOwn) {
   EXPECT_EQ(acute(40, 30), std::pair(false, false));
 }
 
-// Edges that bound no common facet obey the stricter threshold: opposite edges of a tall pyramid.
-TEST(Corners, OfDifferentFacetsHaveTheCommonThreshold) {
-  Surface surface;
-  surface.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 3}};
-  surface.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
-  ChamferOptions options =
-      below(55);  // 50.5 degrees between opposite edges, 35.1 between neighbours
-  options.corner_cosine_squared = cosine_squared(30);
-  Model model(surface);
-  const ChamferResult result = model.run(options);
-  EXPECT_EQ(result.vertex_is_acute[4], 1);
-  EXPECT_EQ(result.vertex_is_apex[4], 0);
+// So have edges that bound no common facet: every other edge of a low pyramid, 58 degrees apart
+// where neighbours are 30.
+TEST(Corners, OfDifferentFacetsHaveItToo) {
+  const test_polyhedra::Polygon base = {{20, 0},    {17, 10},  {10, 17},  {0, 20},
+                                        {-10, 17},  {-17, 10}, {-20, 0},  {-17, -10},
+                                        {-10, -17}, {0, -20},  {10, -17}, {17, -10}};
+  const Surface surface = test_polyhedra::pyramid(base, {0, 0, 4});
+  const auto acute = [&](double corner) {
+    ChamferOptions options = below(60);
+    options.corner_cosine_squared = cosine_squared(corner);
+    Model model(surface);
+    const ChamferResult result = model.run(options);
+    return std::pair(result.vertex_is_acute[12] != 0, result.vertex_is_apex[12] != 0);
+  };
+  EXPECT_EQ(acute(25), std::pair(false, true));
+  EXPECT_EQ(acute(35), std::pair(true, false));
 }
 
 class ChamferSamples : public testing::TestWithParam<double> {};

@@ -86,7 +86,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_number(app, given, "budget", "raise tau until no more tetrahedra than this are predicted",
              {0, 1e15, true});
   add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", {0, 90, false});
-  add_number(app, given, "corner", "the same for corners of one facet, degrees (20)",
+  add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",
              {0, 90, false});
   app.add_flag("--gabriel", given.gabriel,
                "split constraints until their diametral balls are empty");
@@ -236,7 +236,7 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   check->add_flag("--json", command.json, "report as JSON");
   add_number(*check, given, "acute", "corners below this angle are acute, degrees (60)",
              {0, 90, false});
-  add_number(*check, given, "corner", "the same for corners of one facet, degrees (20)",
+  add_number(*check, given, "corner", "the same for the angle of two edges, degrees (20)",
              {0, 90, false});
 
   default_to_mesh(arguments);
