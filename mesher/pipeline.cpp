@@ -24,8 +24,8 @@
 namespace delmesher {
 namespace {
 
-// The threshold for the angle of two edges. A facet's triangle at a corner that is not chamfered has
-// its angle, so that has to exceed delta.
+// The threshold for the angle of two edges. A facet's triangle at a corner that is not chamfered
+// has its angle, so that has to exceed delta.
 double corner_threshold(const Options& o) {
   constexpr double kMargin = 5;
   return std::min(o.acute, std::max(o.corner, o.delta + kMargin));
