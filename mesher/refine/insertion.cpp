@@ -21,7 +21,7 @@ Refiner::Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& po
       options_(options),
       control_(control),
       dt_(predicates),
-      solid_(topology, predicates),
+      solid_(topology, predicates, options.removed),
       locator_(topology, points),
       removed_(options.removed) {}
 

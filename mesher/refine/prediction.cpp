@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "mesher/base/flat_map.h"
 #include "mesher/predicates/vector.h"
@@ -14,10 +15,10 @@ namespace {
 // A cell of the octree is split while its side exceeds this multiple of the local feature size at
 // its centre.
 constexpr double kCellSize = 1.5;
-// Candidates of a cell: what is nearer to its centre than this multiple of its side; a larger local
-// feature size counts as that; more for large cells, of which simple models have no others. The
-// ball of a child's candidates is within its parent's.
-constexpr double kReach = 1, kFarReach = 4;
+// Candidates of a cell: what is nearer to its centre than its side; a larger local feature size
+// counts as that; a few times more for large cells, of which simple models have no others. The ball
+// of a child's candidates is within its parent's.
+constexpr double kFarReach = 4;
 // Tetrahedra per integral of 1 / lfs^3, measured.
 constexpr double kPerUnit[2] = {1.26, 1.5};  // inside; down to the outer box
 constexpr int kMinDepth = 3, kMaxDepth = 60;
@@ -109,6 +110,7 @@ class Predictor {
       }
       boxes_.push_back(box);
     }
+    elements_bvh_.emplace(boxes_);
     for (auto& own : vertices_) {
       std::sort(own.begin(), own.end());
       own.erase(std::unique(own.begin(), own.end()), own.end());
@@ -124,7 +126,6 @@ class Predictor {
       root.side = std::max(root.side, all.hi[k] - all.lo[k]);
     }
     if (options_.region == Region::hull) root.side *= 2;  // the outer box (section 5.1)
-    for (std::uint32_t e = 0; e < elements_.size(); ++e) candidates_[0].push_back({e, 0});
     visit(root, Where::unknown);
     return sum_ * kPerUnit[options_.region == Region::hull ? 1 : 0];
   }
@@ -229,27 +230,47 @@ class Predictor {
 
   void visit(const Cell& cell, Where where) {
     control_.poll();
-    const double reach =
-        cell.depth == 0 ? HUGE_VAL : cell.side * (cell.depth <= kMinDepth ? kFarReach : kReach);
-    std::vector<Candidate>& candidates = candidates_[static_cast<std::size_t>(cell.depth) + 1];
+    if (cell.depth < kMinDepth) return divide(cell, where);
+    std::vector<Candidate>& candidates = candidates_[static_cast<std::size_t>(cell.depth)];
     candidates.clear();
-    double nearest = HUGE_VAL;
-    for (const Candidate& c : candidates_[static_cast<std::size_t>(cell.depth)]) {
-      if (box_distance2(cell.center, boxes_[c.element]) > reach * reach) continue;
-      const double d = std::sqrt(distance2(cell.center, elements_[c.element]));
-      if (d < reach) candidates.push_back({c.element, d});
-      nearest = std::min(nearest, d);
+    const auto consider = [&](std::uint32_t e, double reach) {
+      if (box_distance2(cell.center, boxes_[e]) > reach * reach) return;
+      const double d = std::sqrt(distance2(cell.center, elements_[e]));
+      if (d < reach) candidates.push_back({e, d});
+    };
+    const auto consider_all = [&](double reach) {
+      Box box{cell.center, cell.center};
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.lo[k] -= reach;
+        box.hi[k] += reach;
+      }
+      elements_bvh_->query(box, [&](std::uint32_t e) {
+        consider(e, reach);
+        return true;
+      });
+    };
+    if (cell.depth == kMinDepth) {
+      consider_all(cell.side);
+    } else {
+      for (const Candidate& c : candidates_[static_cast<std::size_t>(cell.depth) - 1]) {
+        consider(c.element, cell.side);
+      }
     }
+    double nearest = HUGE_VAL;
+    for (const Candidate& c : candidates) nearest = std::min(nearest, c.distance);
     const bool crossed = nearest < 0.8660254 * cell.side;
     const bool interior = options_.region == Region::interior;
     if (where == Where::unknown && interior && !crossed) {
       where = inside(cell.center) ? Where::inside : Where::outside;
     }
     if (where == Where::outside) return;
-    const double size = feature_size(candidates, reach);
-    if (cell.depth < kMinDepth || (cell.side > kCellSize * size && cell.depth < kMaxDepth)) {
-      divide(cell, where);
-      return;
+    double size = feature_size(candidates, cell.side);
+    if (cell.side > kCellSize * size && cell.depth < kMaxDepth) return divide(cell, where);
+    for (double reach = 1; cell.depth == kMinDepth && reach < kFarReach; reach *= 2) {
+      if (size < reach * cell.side) break;
+      candidates.clear();
+      consider_all(2 * reach * cell.side);
+      size = feature_size(candidates, 2 * reach * cell.side);
     }
     const double target = options_.max_edge > 0 ? std::min(size, options_.max_edge) : size;
     const double ratio = cell.side / target;
@@ -278,12 +299,12 @@ class Predictor {
   Control& control_;
   Bvh surface_;
   std::vector<Element> elements_;
-  std::vector<Box> boxes_;                       // of the elements
+  std::vector<Box> boxes_;  // of the elements
+  std::optional<Bvh> elements_bvh_;
   std::vector<std::vector<VertexId>> vertices_;  // per owner, ascending
   FlatMap touching_;
-  // Of the cells from the root to the present one; before them, all elements.
-  std::array<std::vector<Candidate>, kMaxDepth + 2> candidates_;
-  std::vector<Candidate> near_;  // scratch of feature_size()
+  std::array<std::vector<Candidate>, kMaxDepth + 1> candidates_;  // of the cells around this one
+  std::vector<Candidate> near_;                                   // scratch of feature_size()
   std::vector<std::uint32_t> owners_;
   double sum_ = 0;
   std::uint32_t random_ = 1;

@@ -5,10 +5,36 @@
 // tetrahedron: kept across an ordinary face, changed across a subfacet of the input. Only
 // tetrahedra near the removed part need the exact test against the whole surface.
 #include <algorithm>
+#include <cmath>
 
+#include "mesher/predicates/vector.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
+namespace {
+
+// Is the box certainly beyond the plane of a face of the tetrahedron, whose corners are known up to
+// an error per coordinate?
+bool beyond_a_face(const std::array<Vec3, 4>& corner, double error, const Box& box) {
+  constexpr double kRounding = 0x1p-48;  // more than enough for these few operations
+  for (const auto& [i, j, k] : kFace) {
+    const Vec3 u = subtract(corner[j], corner[i]), v = subtract(corner[k], corner[i]);
+    const Vec3 n = cross(u, v);
+    // The least of n . (x - corner i) over the box, and the greatest magnitudes that enter it.
+    double least = 0, reach = 0, size = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double lo = box.lo[a] - corner[i][a], hi = box.hi[a] - corner[i][a];
+      least += n[a] > 0 ? n[a] * lo : n[a] * hi;
+      reach = std::max({reach, std::fabs(lo), std::fabs(hi), std::fabs(corner[i][a])});
+      size = std::max({size, std::fabs(u[a]), std::fabs(v[a])});
+    }
+    const double off = error + kRounding * reach;  // of any difference of coordinates
+    if (least > 16 * size * size * off + 32 * size * reach * (off + kRounding * size)) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 // May the tetrahedron touch the removed part? Conservative.
 bool Refiner::near_removed(TetId t) const {
@@ -25,7 +51,8 @@ bool Refiner::near_removed(TetId t) const {
     box.lo[k] -= error;
     box.hi[k] += error;
   }
-  return !removed_.query(box, [](std::uint32_t) { return false; });
+  return !removed_.query(
+      box, [&](std::uint32_t i) { return beyond_a_face(corner, error, options_.removed[i]); });
 }
 
 std::uint8_t Refiner::classify_exactly(TetId t) {

@@ -155,21 +155,44 @@ bool certainly_inside(const PointStore& points, const Tetrahedron& tetrahedron, 
   return true;
 }
 
+// Those that meet one of the boxes; all if there are no boxes.
+std::vector<std::uint32_t> cutting_triangles(std::span<const Box> triangles,
+                                             std::span<const Box> open) {
+  const Bvh where(open);
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const bool elsewhere = where.query(triangles[t], [](std::uint32_t) { return false; });
+    if (open.empty() || !elsewhere) result.push_back(t);
+  }
+  return result;
+}
+
+std::vector<Box> boxes_of(std::span<const std::uint32_t> items, std::span<const Box> boxes) {
+  std::vector<Box> result;
+  result.reserve(items.size());
+  for (const std::uint32_t i : items) result.push_back(boxes[i]);
+  return result;
+}
+
 }  // namespace
 
 struct Solid::Impl {
-  Impl(const SurfaceTopology& surface, Predicates& mesh_predicates)
+  Impl(const SurfaceTopology& surface, Predicates& mesh_predicates, std::span<const Box> boxes,
+       std::span<const Box> open)
       : topology(surface),
         predicates(mesh_predicates),
-        bvh(triangle_boxes(surface, mesh_predicates.points())) {
+        bvh(boxes),
+        cutting(cutting_triangles(boxes, open)),
+        cutting_bvh(boxes_of(cutting, boxes)) {
     const std::size_t n = surface.vertex_half_edge.size();
     input.reserve(n + 1);
     for (VertexId v = 0; v < n; ++v) {
       const Vec3 p = predicates.points().nearest(v);
       input.add_explicit(p[0], p[1], p[2]);
     }
-    plane.reserve(surface.triangles.size());
-    for (const auto& [a, b, c] : surface.triangles) {
+    plane.reserve(cutting.size());
+    for (const std::uint32_t t : cutting) {
+      const auto& [a, b, c] = surface.triangles[t];
       const PointStore& points = mesh_predicates.points();
       plane.emplace_back(points.approximation(a), points.approximation(b), points.approximation(c));
     }
@@ -180,8 +203,9 @@ struct Solid::Impl {
     const Box box = interior_box(points, tetrahedron);
     if (bvh.empty() || !bvh.node(0).box.overlaps(box)) return Side::outside;
     std::optional<TetrahedronFaces> faces;
-    const bool disjoint = bvh.query(box, [&](std::uint32_t t) {
-      if (on_one_side(tetrahedron, t)) return true;
+    const bool disjoint = cutting_bvh.query(box, [&](std::uint32_t n) {
+      const std::uint32_t t = cutting[n];
+      if (on_one_side(tetrahedron, t, plane[n])) return true;
       if (!faces) faces.emplace(points, tetrahedron);
       if (faces->separate(points, topology.triangles[t])) return true;
       return !meets_interior(predicates, tetrahedron, topology.triangles[t]);
@@ -200,11 +224,12 @@ struct Solid::Impl {
 
   // Is no corner of the tetrahedron off the triangle's plane on one of its sides? Without rounding;
   // false if in doubt.
-  bool on_one_side(const Tetrahedron& tetrahedron, std::uint32_t t) const {
+  bool on_one_side(const Tetrahedron& tetrahedron, std::uint32_t t,
+                   const ApproximatePlane& triangle_plane) const {
     const PointStore& points = predicates.points();
     int all = 0;
     for (const VertexId v : tetrahedron) {
-      const int side = plane[t].side(points.approximation(v));
+      const int side = triangle_plane.side(points.approximation(v));
       if (side == 0) {
         const auto planes = points.planes(v);
         const PlaneId own = topology.facet_plane[topology.facet_of[t]];
@@ -287,16 +312,19 @@ struct Solid::Impl {
   }
 
   const SurfaceTopology& topology;
-  Predicates& predicates;  // of the mesh's points
-  Bvh bvh;
-  std::vector<ApproximatePlane> plane;  // per input triangle
+  Predicates& predicates;               // of the mesh's points
+  Bvh bvh;                              // of all triangles
+  std::vector<std::uint32_t> cutting;   // triangles that may meet the interior of a tetrahedron
+  Bvh cutting_bvh;                      // of these
+  std::vector<ApproximatePlane> plane;  // of these
   // A copy of the input vertices, with room for the start of a ray.
   PointStore input;
   Predicates input_predicates{input};
 };
 
-Solid::Solid(const SurfaceTopology& topology, Predicates& predicates)
-    : impl_(std::make_unique<Impl>(topology, predicates)) {}
+Solid::Solid(const SurfaceTopology& topology, Predicates& predicates, std::span<const Box> open)
+    : impl_(std::make_unique<Impl>(topology, predicates,
+                                   triangle_boxes(topology, predicates.points()), open)) {}
 
 Solid::~Solid() = default;
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "mesher/predicates/predicates.h"
+#include "mesher/surface/bvh.h"
 #include "mesher/surface/topology.h"
 
 namespace delmesher {
@@ -16,7 +17,10 @@ enum class Side : std::uint8_t { outside, inside, straddling };
 // Bounding-volume hierarchy over the input triangles with exact queries. Not thread-safe.
 class Solid {
  public:
-  Solid(const SurfaceTopology& topology, Predicates& predicates);
+  // `open`: if not empty, only triangles that meet one of these boxes are looked at to tell whether
+  // a tetrahedron is cut: the caller knows that no other triangle meets the interior of any that it
+  // asks about.
+  Solid(const SurfaceTopology& topology, Predicates& predicates, std::span<const Box> open = {});
   ~Solid();
 
   // Side of the open tetrahedron abcd (orient3d > 0; any point kinds): outside or inside if no
