@@ -49,13 +49,13 @@ Vec3 scaled(const Vec3& a, int exponent) {
 }
 
 // Corners and target relative to the anchor (the last corner), scaled by a power of two so that no
-// product overflows and none that matters underflows.
+// product overflows and none that matters underflows. Returns the exponent of that power.
 template <std::size_t N>
-void localise(std::array<Vec3, N>& vectors, const Vec3& anchor, double& tolerance) {
+int localise(std::array<Vec3, N>& vectors, const Vec3& anchor, double& tolerance) {
   double size = largest(anchor);
   for (const Vec3& v : vectors) size = std::max(size, largest(v));
   // Twice: differences of the largest doubles would overflow, and may be much smaller.
-  int shift = size > 0 ? -std::ilogb(size) - 2 : 0;
+  const int shift = size > 0 ? -std::ilogb(size) - 2 : 0;
   const Vec3 origin = scaled(anchor, shift);
   double extent = 0;
   for (Vec3& v : vectors) {
@@ -63,9 +63,10 @@ void localise(std::array<Vec3, N>& vectors, const Vec3& anchor, double& toleranc
     extent = std::max(extent, largest(v));
   }
   tolerance = std::ldexp(tolerance, shift);
-  shift = extent > 0 ? -std::ilogb(extent) : 0;
-  for (Vec3& v : vectors) v = scaled(v, shift);
-  tolerance = std::ldexp(tolerance, shift);
+  const int more = extent > 0 ? -std::ilogb(extent) : 0;
+  for (Vec3& v : vectors) v = scaled(v, more);
+  tolerance = std::ldexp(tolerance, more);
+  return shift + more;
 }
 
 // Numerators and denominator of the coordinates (u, v) of w in the basis e, f of a plane:
@@ -157,7 +158,7 @@ PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId 
 }
 
 PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId q, VertexId r,
-                                  const Vec3& target, double tolerance) {
+                                  const Vec3& target, double tolerance, const Vec3& rest) {
   std::array<VertexId, 3> corner = {p, q, r};
   std::array<Vec3, 3> ends = {points.nearest(p), points.nearest(q), points.nearest(r)};
   double unused = 0;
@@ -169,7 +170,9 @@ PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId
   std::rotate(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>((nearest + 1) % 3),
               corner.end());
   std::array<Vec3, 3> local = {points.nearest(corner[0]), points.nearest(corner[1]), target};
-  localise(local, points.nearest(corner[2]), tolerance);
+  const int shift = localise(local, points.nearest(corner[2]), tolerance);
+  const Vec3 added = scaled(rest, shift);
+  for (std::size_t i = 0; i < 3; ++i) local[2][i] += added[i];
   const auto [u, v] = solve(local[0], local[1], local[2]);
   const auto shortest = [&](double x, const Vec3& edge) {
     const double slack = tolerance / 2 / std::sqrt(dot(edge, edge));

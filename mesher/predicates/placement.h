@@ -16,10 +16,13 @@ double shortest_dyadic(double lo, double hi);
 PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId q,
                                  const Vec3& target, double tolerance, bool inside = true);
 
-// A point of the plane of the explicit points p, q, r within about `tolerance` of `target`'s
-// projection onto it, anchored at the nearest corner. Not confined to the triangle.
+// A point of the plane of the explicit points p, q, r within about `tolerance` of the projection of
+// `target` + `rest` onto it, anchored at the nearest corner. Not confined to the triangle. `rest`
+// is what the doubles of the target leave over: far from the origin they are coarser than a
+// tolerance that small distances ask for.
 PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId q, VertexId r,
-                                  const Vec3& target, double tolerance);
+                                  const Vec3& target, double tolerance,
+                                  const Vec3& rest = {0, 0, 0});
 
 // Rounds each coordinate to the power-of-two grid with spacing at most `tolerance`, so that points
 // in the volume have short coordinates. Scales with the input: snapping commutes with 2^k.

@@ -214,6 +214,33 @@ INSTANTIATE_TEST_SUITE_P(Shapes, Triangles,
                                            TriangleCase{1e-6, 1}, TriangleCase{1e-9, 1},
                                            TriangleCase{1, 0x1p-900}, TriangleCase{1e-6, 0x1p900}));
 
+// Far from the origin, where the doubles of a target are coarser than the tolerance.
+TEST(Placement, WhatDoublesLeaveOverCounts) {
+  Random random(10);
+  for (int i = 0; i < 300; ++i) {
+    const double far = 0x1p40;
+    PointStore store;
+    for (const Vec3& x : {Vec3{0, 0, 0}, Vec3{0.5, 0.0625, 0}, Vec3{0.125, 0.375, 0.25}}) {
+      store.add_explicit(far + x[0], x[1] - far, x[2] + far);
+    }
+    const double u = random.unit() / 2, v = random.unit() / 2;
+    const VertexId aim = store.add_on_triangle(0, 1, 2, u, v);
+    const Approximation rest = store.remainder(aim);
+    const PointDefinition d =
+        place_on_triangle(store, 0, 1, 2, store.nearest(aim), 0x1p-30, {rest.x, rest.y, rest.z});
+    const VertexId placed = store.add(d);
+    const reference::Point w = minus(reference::point(store, placed), reference::point(store, aim));
+    ASSERT_LE(dot(w, w), mpq_class(0x1.01p-60));
+    // A difference has the digits that the doubles do not.
+    const Vec3 from_corner = store.difference(0, placed);
+    const reference::Point exact =
+        minus(reference::point(store, placed), reference::point(store, 0));
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_NEAR(from_corner[k], exact[k].get_d(), 0x1p-48) << k;
+    }
+  }
+}
+
 // Scaling by a power of two changes nothing but the scale.
 TEST(Placement, CommutesWithPowersOfTwo) {
   Random random(9);

@@ -167,6 +167,17 @@ Approximation PointStore::remainder(VertexId v) const {
   return details_[detail_of_[v]].remainder;
 }
 
+Vec3 PointStore::difference(VertexId a, VertexId b) const {
+  const Approximation &p = approximations_[a], &q = approximations_[b];
+  Vec3 d = {q.x - p.x, q.y - p.y, q.z - p.z};
+  const double error = std::max(p.error, q.error);
+  if (error == 0 || error < 0x1p-40 * (std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]))) {
+    return d;
+  }
+  const Approximation r = remainder(a), s = remainder(b);
+  return {d[0] + (s.x - r.x), d[1] + (s.y - r.y), d[2] + (s.z - r.z)};
+}
+
 void PointStore::exact(VertexId v, ExactPosition& out) const {
   if (is_explicit(v)) {
     const Vec3 x = nearest(v);

@@ -90,6 +90,9 @@ class PointStore {
   // The nearest doubles of what approximation() leaves over, with the error that remains: the sum
   // of both is a double-double approximation. Zero for explicit points.
   Approximation remainder(VertexId v) const;
+  // b - a. Where the points are known to few digits compared with their distance, with the digits
+  // that the nearest doubles leave over.
+  Vec3 difference(VertexId a, VertexId b) const;
   void exact(VertexId v, ExactPosition& out) const;
 
  private:

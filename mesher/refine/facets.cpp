@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/arithmetic/bounded.h"
 #include "mesher/base/check.h"
 #include "mesher/base/planted.h"
 #include "mesher/predicates/vector.h"
@@ -183,14 +184,21 @@ void Refiner::check_subfacet(std::uint32_t s, std::uint32_t face) {
   }
 }
 
-VertexId Refiner::place_in(std::uint32_t facet, const Vec3& target, double tolerance) {
+VertexId Refiner::place_in(std::uint32_t facet, VertexId origin, const Vec3& offset,
+                           double tolerance) {
   const PlcFacet& f = plc_.facets[facet];
+  const Approximation &near = points_.approximation(origin), left = points_.remainder(origin);
+  Vec3 target{}, rest{};
+  two_sum(near.x, offset[0], target[0], rest[0]);
+  two_sum(near.y, offset[1], target[1], rest[1]);
+  two_sum(near.z, offset[2], target[2], rest[2]);
+  rest = {rest[0] + left.x, rest[1] + left.y, rest[2] + left.z};
   std::array<VertexId, 3> frame = f.frame;
   if (f.input_facet != kNone) {
     frame = topology_.triangles[locator_.triangle_at(f.input_facet, target)];
   }
   const PointDefinition p =
-      place_on_triangle(points_, frame[0], frame[1], frame[2], target, tolerance);
+      place_on_triangle(points_, frame[0], frame[1], frame[2], target, tolerance, rest);
   const VertexId v = points_.add_on_triangle(p.corner[0], p.corner[1], p.corner[2], p.u, p.v);
   const PlaneId plane = f.input_facet != kNone
                             ? topology_.facet_plane[f.input_facet]
@@ -222,9 +230,9 @@ std::uint32_t Refiner::locate_subfacet(VertexId v, std::uint32_t start, std::uin
 }
 
 void Refiner::split_subfacet(std::uint32_t s) {
-  const Vec3 origin = points_.nearest(subfacets_[s].v[0]);
-  const Vec3 a = relative(subfacets_[s].v[1], origin);
-  const Vec3 b = relative(subfacets_[s].v[2], origin);
+  const VertexId origin = subfacets_[s].v[0];
+  const Vec3 a = points_.difference(origin, subfacets_[s].v[1]);
+  const Vec3 b = points_.difference(origin, subfacets_[s].v[2]);
   const Vec3 n = cross(a, b);
   const double aa = dot(a, a);
   const double bb = dot(b, b);
@@ -235,9 +243,7 @@ void Refiner::split_subfacet(std::uint32_t s) {
   const double radius = std::sqrt(dot(offset, offset));
   DELMESHER_CHECK(std::isfinite(radius), "subfacet too flat for its circumcentre");
   const std::uint32_t facet = subfacets_[s].facet;
-  const VertexId v =
-      place_in(facet, {origin[0] + offset[0], origin[1] + offset[1], origin[2] + offset[2]},
-               radius * kCenterTolerance);
+  const VertexId v = place_in(facet, origin, offset, radius * kCenterTolerance);
   std::uint32_t blocked = kNone;
   const std::uint32_t container = locate_subfacet(v, s, &blocked);
   if (container == kNone) {

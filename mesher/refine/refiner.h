@@ -81,7 +81,8 @@ class Refiner {
   void build_facet(std::uint32_t f);
   void recover_facets();
   void split_subfacet(std::uint32_t s);
-  VertexId place_in(std::uint32_t facet, const Vec3& target, double tolerance);
+  // A new point in the plane of the facet, within about `tolerance` of `origin` + `offset`.
+  VertexId place_in(std::uint32_t facet, VertexId origin, const Vec3& offset, double tolerance);
   // The subfacet of the facet that contains v, walking from `start`; if a subsegment is in the way,
   // kNone and that subsegment.
   std::uint32_t locate_subfacet(VertexId v, std::uint32_t start, std::uint32_t* blocked);

@@ -10,9 +10,11 @@ namespace {
 
 // Split points keep within this fraction of the subsegment of its midpoint. On input lines a point
 // is exactly on the line wherever it is, so a coarse tolerance gives short parameters; a point of
-// an artificial edge bends it, so it is placed finely.
+// an artificial edge bends it, so it is placed finely: a point of the n-th generation adds at most
+// (2/3)^n of the tolerance to what its neighbours are off the segment, all of them together at most
+// 3 times the tolerance, which is below 2^-20 of the segment.
 constexpr double kLineTolerance = 1.0 / 256;
-constexpr double kBendTolerance = 1.0 / (1 << 20);
+constexpr double kBendTolerance = 1.0 / (1 << 22);
 
 std::uint64_t edge_key(VertexId a, VertexId b) {
   return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
@@ -140,17 +142,18 @@ double Refiner::split_fraction(const Subsegment& s, double length) const {
 VertexId Refiner::place_on(const Subsegment& s) {
   const PlcSegment& segment = plc_.segments[s.segment];
   const Vec3 a = points_.nearest(s.a);
-  const Vec3 d = relative(s.b, a);
+  const Vec3 d = points_.difference(s.a, s.b);
   const double length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
   guard(length2, a);
   const double length = std::sqrt(length2);
   const double fraction = split_fraction(s, length);
-  const Vec3 middle = {a[0] + d[0] * fraction, a[1] + d[1] * fraction, a[2] + d[2] * fraction};
+  const Vec3 offset = {d[0] * fraction, d[1] * fraction, d[2] * fraction};
   const std::uint32_t facet = segment_facets_[s.segment][0].facet;
   const bool box = segment.input_edge == kNone && plc_.facets[facet].input_facet == kNone;
   if (segment.input_edge == kNone && !box) {
-    return place_in(facet, middle, length * kBendTolerance);
+    return place_in(facet, s.a, offset, length * kBendTolerance);
   }
+  const Vec3 middle = {a[0] + offset[0], a[1] + offset[1], a[2] + offset[2]};
   const std::array<VertexId, 2> line =
       box ? segment.vertex : topology_.edge_vertices(segment.input_edge);
   for (double tolerance = length * kLineTolerance; tolerance > 0; tolerance /= 1 << 12) {
