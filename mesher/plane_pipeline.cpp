@@ -166,8 +166,10 @@ class Run {
     result_.exact.delta = refined.delta;
     result_.exact.acute = options_.acute;
     result_.exact.corners = chamfered.corners;
-    for (auto& corner : result_.exact.corners)
+    for (auto& corner : result_.exact.corners) {
+      corner.vertex = graph.number_of(corner.vertex);
       corner.radius = std::ldexp(corner.radius, graph.scale);
+    }
     plane::record_triangles(graph, refined.mesh, refined.side, result_.exact.refined,
                             result_.exact.refined_edges);
   }
@@ -186,7 +188,10 @@ class Run {
         std::count(rounded.mesh.inside.begin(), rounded.mesh.inside.end(), 1));
     if (options_.want_exact) {
       plane::record_points(graph, points_, result_.exact);
-      result_.exact.mesh_vertices = rounded.vertices;
+      result_.exact.mesh_vertices.clear();
+      for (const VertexId v : rounded.vertices) {
+        result_.exact.mesh_vertices.push_back(graph.number_of(v));
+      }
     }
     result_.mesh = std::move(rounded.mesh);
   }

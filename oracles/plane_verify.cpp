@@ -493,7 +493,7 @@ class Verifier {
     }
     for (Index t = 0; t < depth.size(); ++t) {
       const bool inside = nested ? depth[t] % 2 != 0 : depth[t] != 0;
-      if (inside != ((*mesh.triangles)[t].side == Side::inside)) {
+      if ((*mesh.triangles)[t].side != (inside ? Side::inside : Side::outside)) {
         fail("side", name(mesh, t) + (inside ? " should be inside" : " should be outside"));
       }
     }

@@ -374,7 +374,14 @@ TEST(PlaneOracle, NoticesWhatIsWrong) {
   noticed("area", [](PlaneResult& r) { r.exact.refined.pop_back(); });
   noticed("tiling", [](PlaneResult& r) { r.exact.final_edges.erase(r.exact.final_edges.begin()); });
   noticed("angle", [](PlaneResult& r) { r.exact.delta = 33; });
-  noticed("side", [](PlaneResult& r) { r.exact.final[7].side = PlaneRecord::Side::mixed; });
+  for (const auto side : {PlaneRecord::Side::inside, PlaneRecord::Side::outside}) {
+    noticed("side", [side](PlaneResult& r) {
+      auto& final = r.exact.final;
+      std::find_if(final.begin(), final.end(), [&](const auto& t) {
+        return t.side == side;
+      })->side = PlaneRecord::Side::mixed;
+    });
+  }
   noticed("side", [](PlaneResult& r) {
     for (auto& t : r.exact.refined) t.side = PlaneRecord::Side::inside;
   });

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "mesher/base/check.h"
+#include "mesher/plane/spatial_order.h"
 
 namespace delmesher::plane {
 
@@ -15,7 +16,7 @@ void enrich(const InputGraph& graph, const Chamfered& chamfered, Triangulation& 
   for (const Gap& gap : chamfered.gaps) {
     if (gap.b >= graph.vertices) near[gap.a] = gap.b;  // a cut point
   }
-  sort_for_insertion(points, missing);
+  arrange_in_rounds(missing);
   TriangleId hint = mesh.around(graph.vertices);
   for (const VertexId v : missing) {
     control.poll(points.size());

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "mesher/base/check.h"
+#include "mesher/plane/spatial_order.h"
 
 namespace delmesher::plane {
 namespace {
@@ -81,14 +82,21 @@ class Builder {
  public:
   Builder(const PlanarGraph& input, PointStore& points, PlanePredicates& predicates,
           Control& control)
-      : points_(points), control_(control), graph_{&input, 0,  0, {}, Triangulation(predicates),
-                                                   {},     {}, 0} {}
+      : points_(points),
+        control_(control),
+        graph_{.input = &input,
+               .id = {},
+               .number = {},
+               .pieces = {},
+               .base = Triangulation(predicates),
+               .inside = {},
+               .warnings = {}} {}
 
   InputGraph run() {
     check_sizes(input());
     add_points();
     insert_vertices();
-    for (std::uint32_t i = 0; i < input().segments.size(); ++i) {
+    for (const std::uint32_t i : order_of_segments()) {
       control_.poll(points_.size());
       insert_segment(i);
     }
@@ -111,9 +119,15 @@ class Builder {
     graph_.scale = choose_scale(input());
     graph_.vertices = static_cast<VertexId>(input().vertices.size());
     points_.reserve(2 * input().vertices.size());
-    std::array<double, 2> low = to_store(graph_, input().vertices[0]), high = low;
-    for (const auto& p : input().vertices) {
-      const auto x = to_store(graph_, p);
+    std::vector<std::array<double, 2>> scaled;
+    scaled.reserve(input().vertices.size());
+    for (const auto& p : input().vertices) scaled.push_back(to_store(graph_, p));
+    graph_.number = order_along_curve(scaled);
+    graph_.id.resize(graph_.vertices);
+    std::array<double, 2> low = scaled[0], high = low;
+    for (VertexId v = 0; v < graph_.vertices; ++v) {
+      graph_.id[graph_.number[v]] = v;
+      const auto& x = scaled[graph_.number[v]];
       points_.add_explicit(x[0], x[1], 0);
       for (std::size_t k = 0; k < 2; ++k) {
         low[k] = std::min(low[k], x[k]);
@@ -141,20 +155,37 @@ class Builder {
   void insert_vertices() {
     std::vector<VertexId> order(graph_.vertices);
     std::iota(order.begin(), order.end(), VertexId{0});
-    sort_for_insertion(points_, order);
+    arrange_in_rounds(order);
     TriangleId hint = 0;
     for (const VertexId v : order) {
       control_.poll(points_.size());
       const VertexId there = graph_.base.insert(v, hint);
       if (there != v) {
-        refuse(both("vertices", v, there) + " coincide at " + at(input().vertices[v]) + kCounting);
+        const VertexId i = graph_.number[v], j = graph_.number[there];
+        refuse(both("vertices", i, j) + " coincide at " + at(input().vertices[i]) + kCounting);
       }
       hint = graph_.base.around(v);
     }
+    graph_.base.renumber();
+  }
+
+  // By the smaller ids of their ends: along the curve as well.
+  std::vector<std::uint32_t> order_of_segments() const {
+    const auto& segments = input().segments;
+    const auto end = [&](const std::array<std::uint32_t, 2>& s) {
+      return std::min(graph_.id[s[0]], graph_.id[s[1]]);
+    };
+    std::vector<std::uint32_t> next_place(std::size_t{graph_.vertices} + 1, 0);
+    for (const auto& s : segments) ++next_place[std::size_t{end(s)} + 1];
+    for (std::size_t v = 1; v < next_place.size(); ++v) next_place[v] += next_place[v - 1];
+    std::vector<std::uint32_t> order(segments.size());
+    for (std::uint32_t i = 0; i < segments.size(); ++i) order[next_place[end(segments[i])]++] = i;
+    return order;
   }
 
   void insert_segment(std::uint32_t i) {
-    const auto [a, b] = input().segments[i];
+    const auto [first, last] = input().segments[i];
+    const VertexId a = graph_.id[first], b = graph_.id[last];
     const auto id = static_cast<PieceId>(graph_.pieces.size());
     const auto obstacle = graph_.base.insert_segment(a, b, id, chain_);
     if (obstacle.kind != Triangulation::Obstacle::Kind::none) {
@@ -164,7 +195,7 @@ class Builder {
         refuse(both("segments", i, other) + " cross: " + where(i, other) + kCounting);
       }
       const auto [c, d] = input().segments[other];
-      if (std::minmax(a, b) != std::minmax(c, d)) {
+      if (std::minmax(first, last) != std::minmax(c, d)) {
         refuse(both("segments", i, other) + " overlap: " + where(i, other) + kCounting);
       }
       ++duplicates_;
@@ -309,15 +340,16 @@ class FaceFinder {
     });
   }
 
-  // Fewest separating segments between each triangle and the outside, breadth first.
+  // Fewest separating segments between each triangle and the outside.
   void nest() {
     std::vector<std::uint32_t> depth(mesh_.size(), kNone);
     std::vector<TriangleId> present = {outermost()}, deeper;
     depth[outermost()] = 0;
     for (std::uint32_t d = 0; !present.empty(); ++d) {
       deeper.clear();
-      for (std::size_t k = 0; k < present.size(); ++k) {  // grows
-        const TriangleId t = present[k];
+      while (!present.empty()) {
+        const TriangleId t = present.back();
+        present.pop_back();
         for (int i = 0; i < 3; ++i) {
           const EdgeId e = edge_of(t, i), f = mesh_.twin(e);
           if (f == kNone || depth[triangle_of(f)] != kNone) continue;
@@ -329,7 +361,6 @@ class FaceFinder {
           }
         }
       }
-      present.clear();
       for (const TriangleId t : deeper) {
         if (depth[t] == kNone) {
           depth[t] = d + 1;

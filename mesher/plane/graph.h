@@ -26,12 +26,17 @@ struct InputGraph {
   // Coordinates are multiplied by 2^-scale, so that the largest is around 1.
   int scale = 0;
   VertexId vertices = 0;  // ids of the input vertices are below; the corners of the box follow
+  // Ids follow a curve that fills the plane, so that what is close together in the plane mostly is
+  // in memory: what each number in the input became, and the other way round.
+  std::vector<VertexId> id, number;
   std::vector<Piece> pieces;
   Triangulation base;  // constrained Delaunay triangulation of everything, with the box
   std::vector<std::uint8_t> inside;  // per triangle of the base
   std::vector<std::string> warnings;
   double diagonal = 0;  // of the bounding box, in input units
 
+  // The number that callers know a point by.
+  VertexId number_of(VertexId v) const { return v < vertices ? number[v] : v; }
   bool is_box_corner(VertexId v) const { return v >= vertices && v < vertices + 4; }
 };
 

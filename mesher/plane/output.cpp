@@ -245,7 +245,9 @@ RoundedPlane round_plane(const InputGraph& graph, const MeshToWrite& exact,
   }
   std::vector<std::uint8_t> movable;
   std::uint32_t count = 0;
-  for (VertexId v = 0; v < points.size(); ++v) {
+  // The input vertices in the order of the input, the others in that in which they were made.
+  for (VertexId n = 0; n < points.size(); ++n) {
+    const VertexId v = n < graph.vertices ? graph.id[n] : n;
     if (number[v] == kNone) continue;
     number[v] = count++;
     result.vertices.push_back(v);
@@ -315,7 +317,8 @@ PlaneMeshStatistics refined_statistics(const RefinedMesh& refined, const PointSt
 
 void record_points(const InputGraph& graph, const PointStore& points, PlaneRecord& record) {
   record.points.reserve(points.size());
-  for (VertexId v = 0; v < points.size(); ++v) {
+  for (VertexId n = 0; n < points.size(); ++n) {
+    const VertexId v = n < graph.vertices ? graph.id[n] : n;
     const PointDefinition d = points.definition(v);
     ExactPoint p;
     if (d.kind == PointKind::explicit_point) {
@@ -324,8 +327,8 @@ void record_points(const InputGraph& graph, const PointStore& points, PlaneRecor
       p.y = x[1];
     } else {
       p.kind = ExactPoint::Kind::on_segment;
-      p.i = d.corner[0];
-      p.j = d.corner[1];
+      p.i = graph.number_of(d.corner[0]);
+      p.j = graph.number_of(d.corner[1]);
       p.x = d.u;
     }
     record.points.push_back(p);
@@ -336,11 +339,14 @@ void record_triangles(const InputGraph& graph, const Triangulation& mesh,
                       const std::vector<Side>& side, std::vector<PlaneRecord::Triangle>& triangles,
                       std::vector<PlaneRecord::Edge>& edges) {
   for (TriangleId t = 0; t < mesh.size(); ++t) {
-    triangles.push_back({mesh[t].vertex, side[t]});
+    const auto& [a, b, c] = mesh[t].vertex;
+    triangles.push_back({{graph.number_of(a), graph.number_of(b), graph.number_of(c)}, side[t]});
     for (int i = 0; i < 3; ++i) {
       const EdgeId e = edge_of(t, i), f = mesh.twin(e);
       if (mesh.piece(e) == kNone || (f != kNone && f < e)) continue;
-      edges.push_back({{mesh.origin(e), mesh.target(e)}, graph.pieces[mesh.piece(e)].segment});
+      const std::uint32_t segment = graph.pieces[mesh.piece(e)].segment;
+      edges.push_back(
+          {{graph.number_of(mesh.origin(e)), graph.number_of(mesh.target(e))}, segment});
     }
   }
 }

@@ -6,7 +6,9 @@
 #include <numeric>
 
 #include "mesher/base/check.h"
+#include "mesher/plane/bad_triangles.h"
 #include "mesher/plane/shape.h"
+#include "mesher/plane/spatial_order.h"
 #include "mesher/predicates/placement.h"
 
 namespace delmesher::plane {
@@ -15,56 +17,6 @@ namespace {
 double square(double x) {
   return x * x;
 }
-
-// Worst first, in the order of arrival among equally bad ones: buckets by the leading bits of the
-// squared sine of the smallest angle.
-class BadTriangles {
- public:
-  struct Entry {
-    TriangleId triangle;
-    std::array<VertexId, 3> vertex;  // as it was: it may be gone by the time of its turn
-  };
-  static constexpr std::size_t kBuckets = 256;
-
-  void push(double badness, const Entry& entry) {
-    const std::size_t b = bucket(badness);
-    queue_[b].entries.push_back(entry);
-    lowest_ = std::min(lowest_, b);
-  }
-  bool pop(Entry& entry) {
-    for (; lowest_ < kBuckets; ++lowest_) {
-      Queue& q = queue_[lowest_];
-      if (q.head == q.entries.size()) {
-        q.entries.clear();
-        q.head = 0;
-        continue;
-      }
-      entry = q.entries[q.head++];
-      if (q.head >= 1024 && 2 * q.head > q.entries.size()) {
-        q.entries.erase(q.entries.begin(), q.entries.begin() + static_cast<std::ptrdiff_t>(q.head));
-        q.head = 0;
-      }
-      return true;
-    }
-    return false;
-  }
-
- private:
-  struct Queue {
-    std::vector<Entry> entries;
-    std::size_t head = 0;
-  };
-  // Monotone in `badness`; four buckets for each factor of two below 1, the last for all above.
-  static std::size_t bucket(double badness) {
-    const auto bits = std::bit_cast<std::uint64_t>(std::max(badness, 0.0)) >> 50;
-    constexpr std::uint64_t kTop = std::uint64_t{1023} << 2;  // of 1.0
-    const std::uint64_t below = bits >= kTop ? 0 : kTop - bits;
-    return below >= kBuckets ? 0 : kBuckets - 1 - static_cast<std::size_t>(below);
-  }
-
-  std::array<Queue, kBuckets> queue_;
-  std::size_t lowest_ = kBuckets;
-};
 
 class Refiner {
  public:
@@ -82,7 +34,8 @@ class Refiner {
                 .crowded_pieces = {},
                 .crowded_vertices = {}},
         mesh_(result_.mesh),
-        sides_(graph, result_.mesh, points, predicates, chamfered.gaps) {}
+        sides_(graph, result_.mesh, points, predicates, chamfered.gaps),
+        bad_(points, box(graph, points)) {}
 
   RefinedMesh run() {
     control_.enter(Phase::delaunay);
@@ -104,11 +57,33 @@ class Refiner {
   }
 
  private:
+  static SpatialKey box(const InputGraph& graph, const PointStore& points) {
+    const Vec3 low = points.nearest(graph.vertices), high = points.nearest(graph.vertices + 2);
+    return {{low[0], low[1]}, {high[0], high[1]}};
+  }
+
   bool counts(TriangleId t) const { return options_.everywhere || sides_.of(t) != Side::outside; }
 
   void carry(VertexId v, PieceId piece) {
     if (v >= result_.carrier.size()) result_.carrier.resize(std::size_t{v} + 1, kNone);
     result_.carrier[v] = piece;
+  }
+
+  // The vertices of the chamfered graph: those of the input as they come, cut points where their
+  // corners would be.
+  std::vector<VertexId> along_curve() const {
+    std::vector<std::pair<VertexId, VertexId>> cuts;
+    for (const Gap& gap : chamfered_.gaps) {
+      if (gap.b >= graph_.vertices) cuts.emplace_back(gap.a, gap.b);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    std::vector<VertexId> order;
+    auto cut = cuts.begin();
+    for (VertexId v = 0; v < graph_.vertices; ++v) {
+      if (chamfered_.vertex_kept[v] != 0) order.push_back(v);
+      for (; cut != cuts.end() && cut->first == v; ++cut) order.push_back(cut->second);
+    }
+    return order;
   }
 
   // The chamfered graph, triangulated.
@@ -125,27 +100,23 @@ class Refiner {
     for (const Gap& gap : chamfered_.gaps) {
       if (gap.b >= graph_.vertices) corner_of_[gap.b] = gap.a;
     }
-    std::vector<VertexId> order;
-    for (VertexId v = 0; v < graph_.vertices; ++v) {
-      if (chamfered_.vertex_kept[v] != 0) order.push_back(v);
-    }
     for (PieceId id = kBoxPieces; id < graph_.pieces.size(); ++id) {
       for (const VertexId v : chamfered_.ends[id]) {
-        if (v == kNone || v < graph_.vertices) continue;
-        order.push_back(v);
-        carry(v, id);
+        if (v != kNone && v >= graph_.vertices) carry(v, id);
       }
     }
+    std::vector<VertexId> order = along_curve();
     mesh_.reserve(2 * points_.size());
     const VertexId c = graph_.vertices;
     mesh_.start({c, c + 1, c + 2, c + 3}, {0, 1, 2, 3});
-    sort_for_insertion(points_, order);
+    arrange_in_rounds(order);
     TriangleId hint = 0;
     for (const VertexId v : order) {
       control_.poll(points_.size());
       DELMESHER_CHECK(mesh_.insert(v, hint) == v, "chamfering made vertices coincide");
       hint = mesh_.around(v);
     }
+    mesh_.renumber();
     std::vector<VertexId> chain;
     for (PieceId id = kBoxPieces; id < graph_.pieces.size(); ++id) {
       const auto [a, b] = chamfered_.ends[id];
@@ -285,14 +256,16 @@ class Refiner {
     off_centre_ = 0.475 * std::sqrt((1 + cosine) / (1 - cosine));
     split_segments();
     refining_ = true;
+    bad_.gather();
     for (TriangleId t = 0; t < mesh_.size(); ++t) judge(t);
+    bad_.sort();
     const std::size_t limit = points_.size() + most;
     BadTriangles::Entry entry;
     while (!hopeless_ && bad_.pop(entry)) {
       const std::array<VertexId, 3>& v = mesh_[entry.triangle].vertex;
       if (v[0] != entry.vertex[0] || v[1] != entry.vertex[1] || v[2] != entry.vertex[2]) continue;
       if (most > 0 && points_.size() > limit) {
-        bad_ = {};
+        bad_.clear();
         return false;
       }
       split_triangle(entry.triangle);
@@ -307,7 +280,7 @@ class Refiner {
     if (result_.crowded) return;
     const std::uint64_t most = 8 * points_.size() + 1000;
     if (refine_to(degrees, most) && !result_.crowded) return;
-    bad_ = {};
+    bad_.clear();
     hopeless_ = result_.crowded = false;  // not what was asked to be certain
     result_.crowded_pieces.clear();
     result_.crowded_vertices.clear();

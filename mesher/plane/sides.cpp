@@ -80,8 +80,18 @@ Side Sides::beside(EdgeId e) {
   return (along ? piece.inside_left : piece.inside_right) ? Side::inside : Side::outside;
 }
 
+// A vertex of the input that is not far, to begin a search from.
+VertexId Sides::near(TriangleId t) const {
+  if (!list_of_.empty() && list_of_[t] != kNone) return gaps_[lists_[list_of_[t]].front()].a;
+  for (const VertexId v : mesh_[t].vertex) {
+    if (v < graph_.vertices) return v;
+    if (!points_.is_explicit(v)) return points_.definition(v).corner[0];
+  }
+  return graph_.vertices;  // a corner of the box
+}
+
 // By location of a point inside it, where no neighbour tells.
-Side Sides::resolve(TriangleId t, VertexId near) {
+Side Sides::resolve(TriangleId t, VertexId from) {
   const auto& v = mesh_[t].vertex;
   double x = 0, y = 0;
   for (const VertexId corner : v) {
@@ -92,7 +102,7 @@ Side Sides::resolve(TriangleId t, VertexId near) {
   Side side = Side::mixed;
   if (predicates_.orient(v[0], v[1], p) > 0 && predicates_.orient(v[1], v[2], p) > 0 &&
       predicates_.orient(v[2], v[0], p) > 0) {
-    const Location at = graph_.base.locate(p, graph_.base.around(near));
+    const Location at = graph_.base.locate(p, graph_.base.around(from));
     side = graph_.inside[at.triangle] != 0 ? Side::inside : Side::outside;
   }
   points_.pop_back();
@@ -136,11 +146,7 @@ void Sides::flood() {
   }
   for (TriangleId t = 0; t < mesh_.size(); ++t) {
     if (side_[t] != kUnknown) continue;
-    VertexId near = graph_.vertices;
-    for (const VertexId v : mesh_[t].vertex) {
-      if (v < graph_.vertices) near = v;
-    }
-    side_[t] = static_cast<std::uint8_t>(resolve(t, near));
+    side_[t] = static_cast<std::uint8_t>(resolve(t, near(t)));
     if (side_[t] != kMixed) spread(t, stack);
   }
 }
@@ -197,8 +203,8 @@ void Sides::after_fill() {
     } else if (side_[triangle_of(f)] != kMixed) {
       side_[t] = side_[triangle_of(f)];
     } else {
-      const VertexId near = candidates_.empty() ? graph_.vertices : gaps_[candidates_[0]].a;
-      side_[t] = static_cast<std::uint8_t>(resolve(t, near));
+      const VertexId from = candidates_.empty() ? near(t) : gaps_[candidates_[0]].a;
+      side_[t] = static_cast<std::uint8_t>(resolve(t, from));
     }
   }
 }
@@ -218,7 +224,7 @@ void Sides::settle() {
         crossed = crossed || zeros < 2;  // not just along an edge
       }
     }
-    if (!crossed) side_[t] = static_cast<std::uint8_t>(resolve(t, graph_.vertices));
+    if (!crossed) side_[t] = static_cast<std::uint8_t>(resolve(t, near(t)));
   }
 }
 

@@ -45,7 +45,8 @@ class Sides {
   Contact contact(TriangleId t, const Gap& gap);
   void trace(std::uint32_t gap);
   Side beside(EdgeId e);
-  Side resolve(TriangleId t, VertexId near);
+  VertexId near(TriangleId t) const;
+  Side resolve(TriangleId t, VertexId from);
   void flood();
   void spread(TriangleId t, std::vector<TriangleId>& stack);
 

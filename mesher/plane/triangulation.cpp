@@ -1,7 +1,6 @@
 #include "mesher/plane/triangulation.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 #include "mesher/base/check.h"
@@ -62,28 +61,6 @@ class Fan {
   bool clockwise_ = false;
 };
 
-// Without branches: where a point lies is random.
-std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int bits) {
-  std::uint64_t key = 0;
-  for (int b = bits - 1; b >= 0; --b) {
-    const std::uint32_t right = x >> b & 1, upper = y >> b & 1;
-    key = 4 * key + ((3 * right) ^ upper);
-    const std::uint32_t mirror = (upper ^ 1) & right;
-    const std::uint32_t turn = (x ^ y) & (upper - 1);
-    x ^= turn ^ (0 - mirror);
-    y ^= turn ^ (0 - mirror);
-  }
-  return key;
-}
-
-std::uint32_t hash(std::uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352dU;
-  x ^= x >> 15;
-  x *= 0x846ca68bU;
-  return x ^ (x >> 16);
-}
-
 }  // namespace
 
 void Triangulation::reserve(std::size_t vertices) {
@@ -108,6 +85,31 @@ void Triangulation::start(const std::array<VertexId, 4>& c, const std::array<Pie
   for (std::size_t i = 0; i < 4; ++i) {
     grow_around(c[i]);
     around_[c[i]] = i == 3 ? 1 : 0;
+  }
+}
+
+void Triangulation::renumber() {
+  const auto smallest = [](const Triangle& t) {
+    return std::min(t.vertex[0], std::min(t.vertex[1], t.vertex[2]));
+  };
+  std::vector<TriangleId> next_number(around_.size() + 1, 0), number(triangles_.size());
+  for (const Triangle& t : triangles_) ++next_number[std::size_t{smallest(t)} + 1];
+  for (std::size_t v = 1; v < next_number.size(); ++v) next_number[v] += next_number[v - 1];
+  for (std::size_t t = 0; t < number.size(); ++t)
+    number[t] = next_number[smallest(triangles_[t])]++;
+  std::vector<Triangle> ordered;
+  ordered.reserve(triangles_.capacity());
+  ordered.resize(triangles_.size());
+  for (std::size_t t = 0; t < number.size(); ++t) {
+    Triangle& moved = ordered[number[t]];
+    moved = triangles_[t];
+    for (EdgeId& f : moved.neighbor) {
+      if (f != kNone) f = edge_of(number[triangle_of(f)], index_of(f));
+    }
+  }
+  triangles_ = std::move(ordered);
+  for (TriangleId& t : around_) {
+    if (t != kNone) t = number[t];
   }
 }
 
@@ -504,45 +506,6 @@ const char* Triangulation::check(bool delaunay) const {
     if (std::find(corners.begin(), corners.end(), v) == corners.end()) return "a stray vertex";
   }
   return nullptr;
-}
-
-void sort_for_insertion(const PointStore& points, std::span<VertexId> order) {
-  if (order.size() < 2) return;
-  constexpr int kBits = 28;
-  std::array<double, 2> low = {points.nearest(order[0])[0], points.nearest(order[0])[1]};
-  std::array<double, 2> high = low;
-  for (const VertexId v : order) {
-    const Vec3 x = points.nearest(v);
-    for (std::size_t k = 0; k < 2; ++k) {
-      low[k] = std::min(low[k], x[k]);
-      high[k] = std::max(high[k], x[k]);
-    }
-  }
-  const double extent = std::max(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2);
-  const auto cells = static_cast<double>((1U << kBits) - 1);
-  // Rounds of doubling size, drawn by a hash of the position; below 64 points a round is not worth
-  // its scatter.
-  const int rounds = std::max(0, static_cast<int>(std::bit_width(order.size())) - 6);
-  struct Item {
-    std::uint64_t key;
-    std::uint32_t position;
-    VertexId vertex;
-  };
-  std::vector<Item> items(order.size());
-  for (std::uint32_t n = 0; n < order.size(); ++n) {
-    const Vec3 x = points.nearest(order[n]);
-    std::array<std::uint32_t, 2> cell = {0, 0};
-    for (std::size_t k = 0; k < 2 && extent > 0; ++k) {
-      cell[k] = static_cast<std::uint32_t>((x[k] / 2 - low[k] / 2) / extent * cells);
-    }
-    const int round = std::max(0, rounds - std::countr_zero(hash(n) | (1U << 31)));
-    const auto group = static_cast<std::uint64_t>(std::clamp(round - rounds + 15, 0, 15));
-    items[n] = {(group << 60) | hilbert_key(cell[0], cell[1], kBits), n, order[n]};
-  }
-  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-    return a.key != b.key ? a.key < b.key : a.position < b.position;
-  });
-  for (std::size_t n = 0; n < items.size(); ++n) order[n] = items[n].vertex;
 }
 
 }  // namespace delmesher::plane

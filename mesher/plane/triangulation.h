@@ -135,6 +135,8 @@ class Triangulation {
   const char* check(bool delaunay) const;
 
   void reserve(std::size_t vertices);
+  // Numbers the triangles anew, in the order of their smallest vertices.
+  void renumber();
 
  private:
   const Triangle& triangle(EdgeId e) const { return triangles_[triangle_of(e)]; }
@@ -164,8 +166,5 @@ class Triangulation {
   PieceId split_piece_ = kNone;
   std::uint32_t random_ = 1;  // a fixed sequence: which side a walk tries first
 };
-
-// A biased randomized order along a Hilbert curve (Amenta, Choi, Rote 2003) of some points.
-void sort_for_insertion(const PointStore& points, std::span<VertexId> order);
 
 }  // namespace delmesher::plane

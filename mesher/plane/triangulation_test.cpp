@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 
+#include "mesher/plane/spatial_order.h"
+
 namespace delmesher::plane {
 namespace {
 
@@ -60,8 +62,14 @@ TEST(Triangulation, UniqueWhateverTheOrder) {
     second.point(x, y);
   }
   for (const VertexId v : ids) first.mesh.insert(v, 0);
-  sort_for_insertion(second.points, ids);
+  arrange_in_rounds(ids);
   for (const VertexId v : ids) second.mesh.insert(v, 0);
+  second.mesh.renumber();
+  EXPECT_EQ(second.mesh.check(true), nullptr);
+  for (TriangleId t = 1; t < second.mesh.size(); ++t) {
+    const auto &v = second.mesh[t - 1].vertex, &w = second.mesh[t].vertex;
+    ASSERT_LE(*std::min_element(v.begin(), v.end()), *std::min_element(w.begin(), w.end()));
+  }
   const auto triangles = [](const Triangulation& mesh) {
     std::set<std::array<VertexId, 3>> result;
     for (const Triangle& t : mesh.triangles()) {
