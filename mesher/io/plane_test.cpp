@@ -91,6 +91,43 @@ TEST(ReadPlane, FlatSurfaces) {
   EXPECT_EQ(error_of(overlapping, "f.off"), "f.off: triangles 0 and 1 overlap");
 }
 
+TEST(ReadPlane, PolylinesOfObj) {
+  // A ring and one in it, as a drawing program exports them; vertices may come later.
+  const PlaneReadResult rings = parse(
+      "o drawing\nv 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nl 1 2 3 4 1\nl 5 6 7\nl 7/1 -5\n"
+      "v 3 3 0\nv 6 3 0\nv 3 6 0\n",
+      "f.obj");
+  EXPECT_EQ(rings.error, "f.obj:8: vertex index out of range: -5");  // of the four before it
+  const PlaneReadResult good = parse(
+      "v 0 0\nv 9 0 0\nv 9 9 0\nv 0 9 0\nl 1 2 3 4 1\nl 5 6 \\\n7\nl 2 1\n"
+      "v 3 3 0\nv 6 3 0\nv 3 6 0\nl 7/1 -3/2\n",
+      "f.obj");
+  ASSERT_TRUE(good.ok()) << good.error;
+  EXPECT_EQ(good.graph.insideness, Insideness::nested);
+  EXPECT_EQ(good.graph.vertices.size(), 7U);
+  EXPECT_EQ(good.graph.segments.size(), 7U);  // 2-1 is there already
+  EXPECT_EQ(std::count(good.graph.partitions.begin(), good.graph.partitions.end(), 1), 0);
+  EXPECT_TRUE(good.warnings.empty());
+  // Beside faces they only divide.
+  const PlaneReadResult divided =
+      parse("v 0 0\nv 1 0\nv 1 1\nv 0 1\nf 1 2 3 4\nl 1 3\nl 1 2\n", "f.obj");
+  ASSERT_TRUE(divided.ok()) << divided.error;
+  EXPECT_EQ(divided.graph.segments.size(), 5U);
+  EXPECT_EQ(divided.graph.partitions, (std::vector<std::uint8_t>{0, 0, 0, 0, 1}));
+  EXPECT_EQ(error_of("v 0 0\nv 1 0\nl 1\n", "f.obj"),
+            "f.obj:3: a line needs at least 2 vertices, this one has 1");
+  EXPECT_EQ(error_of("v 0 0\nv 1 0\nl\n", "f.obj"),
+            "f.obj:3: a line needs at least 2 vertices, this one has 0");
+  EXPECT_EQ(error_of("v 0 0\nv 1 0\nl 1 2 2\n", "f.obj"),
+            "f.obj:3: a line from vertex 2 to itself");
+  EXPECT_EQ(error_of("v 0 0\nv 1 0\nl 1 3\n", "f.obj"),
+            "f.obj:3: vertex index out of range: 3 of 2");
+  EXPECT_EQ(error_of("v 0 0\nl 1 x\n", "f.obj"), "f.obj:2: bad corner 'x'");
+  EXPECT_EQ(error_of("v 0 0 1\nv 1 0\nl 1 2\n", "f.obj"),
+            "f.obj: vertex 0 is not in the plane z = 0");
+  EXPECT_EQ(error_of("v 0 0\nv 1 0\n", "f.obj"), "f.obj: no faces");
+}
+
 TEST(ReadPlane, SaysWhatItIgnores) {
   const PlaneReadResult columns = parse("0 0 7\n1 0 7\n1 1 7\n", "f.txt");
   ASSERT_EQ(columns.warnings.size(), 1U);

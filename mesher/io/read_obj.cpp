@@ -1,4 +1,5 @@
-// Wavefront OBJ: v and f; labels from materials, groups or objects (see formats.md).
+// Wavefront OBJ: v and f, and l where wanted; labels from materials, groups or objects (see
+// formats.md).
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -62,7 +63,10 @@ class ObjReader {
   void read_face();
   std::uint32_t read_corner(std::string_view token) const;
   void check_reference(std::string_view reference, std::string_view token) const;
+  void read_line();
+  void check_range(std::uint32_t corner, std::uint64_t line) const;
   void add_faces();
+  void add_lines();
 
   TextLines in_;
   bool planar_;
@@ -70,6 +74,11 @@ class ObjReader {
   Names materials_, groups_, objects_;
   std::vector<std::uint32_t> corners_;
   std::vector<Face> faces_;
+  struct Line {
+    std::array<std::uint32_t, 2> ends;
+    std::uint64_t line;
+  };
+  std::vector<Line> lines_;
 };
 
 // The next token of a line, which a backslash at its end continues on the next one.
@@ -147,6 +156,37 @@ void ObjReader::read_face() {
   faces_.push_back({corners_.size(), {materials_.use(), groups_.use(), objects_.use()}, line});
 }
 
+void ObjReader::read_line() {
+  const std::uint64_t line = in_.line();
+  std::string_view token;
+  std::size_t count = 0;
+  std::uint32_t last = 0;
+  for (; next(token); ++count) {
+    const std::uint32_t corner = read_corner(token);
+    if (count > 0 && corner == last) {
+      fail(at_line(line), "a line from vertex " + std::to_string(corner + 1ULL) + " to itself");
+    }
+    if (count > 0) lines_.push_back({{last, corner}, line});
+    last = corner;
+  }
+  if (count < 2) {
+    fail(at_line(line), "a line needs at least 2 vertices, this one has " + std::to_string(count));
+  }
+}
+
+void ObjReader::check_range(std::uint32_t corner, std::uint64_t line) const {
+  if (corner < builder_.vertex_count()) return;
+  fail(at_line(line), "vertex index out of range: " + std::to_string(corner + 1ULL) + " of " +
+                          std::to_string(builder_.vertex_count()));
+}
+
+void ObjReader::add_lines() {
+  for (const Line& line : lines_) {
+    for (const std::uint32_t end : line.ends) check_range(end, line.line);
+    builder_.add_line(line.ends);
+  }
+}
+
 void ObjReader::add_faces() {
   // Materials say most about what a face is for; then groups; then objects.
   const std::array<const Names*, 3> sources = {&materials_, &groups_, &objects_};
@@ -160,12 +200,7 @@ void ObjReader::add_faces() {
   for (const Face& face : faces_) {
     const std::span<const std::uint32_t> corners(corners_.data() + begin, face.end - begin);
     begin = face.end;
-    for (std::uint32_t corner : corners) {
-      if (corner >= builder_.vertex_count()) {
-        fail(at_line(face.line), "vertex index out of range: " + std::to_string(corner + 1ULL) +
-                                     " of " + std::to_string(builder_.vertex_count()));
-      }
-    }
+    for (const std::uint32_t corner : corners) check_range(corner, face.line);
     builder_.add_polygon(corners, chosen < 3 ? face.names[chosen] : 0, at_line(face.line));
   }
 }
@@ -179,6 +214,8 @@ void ObjReader::read() {
       read_vertex();
     } else if (keyword == "f" || keyword == "fo") {
       read_face();
+    } else if (keyword == "l" && planar_) {
+      read_line();
     } else if (keyword == "usemtl") {
       materials_.set(in_.rest_of_line());
     } else if (keyword == "g") {
@@ -201,6 +238,7 @@ void ObjReader::read() {
   }
   if (curves) builder_.warn("free-form curves and surfaces ignored");
   add_faces();
+  add_lines();
 }
 
 }  // namespace

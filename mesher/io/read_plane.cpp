@@ -207,6 +207,22 @@ std::vector<CountedEdge> count_edges(std::vector<std::array<std::uint32_t, 2>> e
   return result;
 }
 
+// Those that are not there yet, in either direction.
+void add_lines(const std::vector<std::array<std::uint32_t, 2>>& lines, bool bounding,
+               PlanarGraph& graph) {
+  const auto sorted = [](const std::array<std::uint32_t, 2>& s) {
+    return std::array{std::min(s[0], s[1]), std::max(s[0], s[1])};
+  };
+  std::vector<std::array<std::uint32_t, 2>> there;
+  for (const auto& segment : graph.segments) there.push_back(sorted(segment));
+  std::sort(there.begin(), there.end());
+  for (const CountedEdge& line : count_edges(lines)) {
+    if (std::binary_search(there.begin(), there.end(), line.ends)) continue;
+    graph.segments.push_back(line.ends);
+    graph.partitions.push_back(!bounding);
+  }
+}
+
 bool has_extension(const std::string& path, std::string_view extension) {
   return equal_ignoring_case(std::filesystem::path(path).extension().string(), extension);
 }
@@ -221,7 +237,7 @@ void read_by_format(std::string_view bytes, const std::string& path, const NodeF
     result.error = surface.error;
     result.format = surface.format;
     result.warnings = surface.warnings;
-    if (surface.ok()) result.graph = outline(surface.surface);
+    if (surface.ok()) result.graph = outline(surface.surface, surface.lines);
   } else if (has_extension(path, ".poly")) {
     result.format = "poly";
     read_triangle_poly(bytes, node_file, result);
@@ -294,7 +310,8 @@ void read_polygons(std::string_view text, PlaneReadResult& result) {
   }
 }
 
-PlanarGraph outline(const Surface& surface) {
+PlanarGraph outline(const Surface& surface,
+                    const std::vector<std::array<std::uint32_t, 2>>& lines) {
   PlanarGraph graph;
   graph.insideness = Insideness::nested;
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
@@ -341,6 +358,7 @@ PlanarGraph outline(const Surface& surface) {
     graph.segments.push_back(edge.ends);
     graph.partitions.push_back(edge.count == 2);
   }
+  add_lines(lines, surface.triangles.empty(), graph);
   return graph;
 }
 

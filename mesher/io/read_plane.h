@@ -33,7 +33,9 @@ void read_triangle_poly(std::string_view text, const NodeFile& node_file, PlaneR
 // Rings of "x y" lines, separated by blank lines or lines that begin with '>' (GMT). Equal points
 // are one vertex. An edge that occurs an even number of times divides what is inside (a border).
 void read_polygons(std::string_view text, PlaneReadResult& result);
-// The outline of a flat surface, and the edges where its labels change.
-PlanarGraph outline(const Surface& surface);
+// The outline of a flat surface, and the edges where its labels change. Lines divide what is
+// inside; if there are no faces, they bound it.
+PlanarGraph outline(const Surface& surface,
+                    const std::vector<std::array<std::uint32_t, 2>>& lines = {});
 
 }  // namespace delmesher::io

@@ -81,6 +81,7 @@ ReadResult parse(std::string_view bytes, const std::string& path, const NodeFile
     result.format = kNames[static_cast<std::size_t>(format)];
     read(bytes, format, node_file, options, builder);
     result.surface = builder.finish();
+    result.lines = builder.lines();
     result.warnings = builder.warnings();
     result.notes = builder.notes();
   } catch (const ParseError& error) {

@@ -16,14 +16,16 @@ struct ReadResult {
   ReadCode code = ReadCode::ok;
   std::string error;  // "file:line: reason", "file: byte N: reason" or "file: reason"
   Surface surface;
-  std::string format;                 // "OFF", "OBJ", "STL", "PLY", "smesh", "poly"
-  std::vector<std::string> warnings;  // what the user should know
-  std::vector<std::string> notes;     // what a log may tell
+  std::string format;                               // "OFF", "OBJ", "STL", "PLY", "smesh", "poly"
+  std::vector<std::string> warnings;                // what the user should know
+  std::vector<std::string> notes;                   // what a log may tell
+  std::vector<std::array<std::uint32_t, 2>> lines;  // ReadOptions::planar: edges of polylines
   bool ok() const { return code == ReadCode::ok; }
 };
 
 struct ReadOptions {
-  bool planar = false;  // OBJ vertices may have two coordinates
+  // OBJ vertices may have two coordinates, and polylines are read; there may be no faces then.
+  bool planar = false;
 };
 
 // Larger files are refused.

@@ -11,7 +11,7 @@
 namespace delmesher::io {
 
 void read_off(std::string_view text, SurfaceBuilder& builder);
-// `planar`: a vertex may have two coordinates, the third is then 0.
+// `planar`: a vertex may have two coordinates, the third is then 0; polylines become lines.
 void read_obj(std::string_view text, bool planar, SurfaceBuilder& builder);
 void read_stl(std::string_view data, SurfaceBuilder& builder);
 void read_ply(std::string_view data, SurfaceBuilder& builder);

@@ -147,6 +147,9 @@ void SurfaceBuilder::report_unused_vertices() {
   for (const auto& triangle : surface_.triangles) {
     for (std::uint32_t v : triangle) used[v] = 1;
   }
+  for (const auto& line : lines_) {
+    for (std::uint32_t v : line) used[v] = 1;
+  }
   const auto unused = std::count(used.begin(), used.end(), std::uint8_t{0});
   if (unused == 0) return;
   const auto first = std::find(used.begin(), used.end(), std::uint8_t{0}) - used.begin();
@@ -170,7 +173,7 @@ Surface SurfaceBuilder::finish() {
     loop[0].assign(corners.begin(), corners.end());
     triangulate(loop, polygon.label, polygon.position);
   }
-  if (surface_.triangles.empty()) fail({}, "no faces");
+  if (surface_.triangles.empty() && lines_.empty()) fail({}, "no faces");
   report_polygons();
   report_unused_vertices();
   if (!labelled_) surface_.labels.clear();

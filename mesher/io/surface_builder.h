@@ -1,6 +1,7 @@
 // Collects what a reader finds and makes a Surface of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -52,6 +53,10 @@ class SurfaceBuilder {
   void add_polygon_with_holes(std::span<const std::vector<std::uint32_t>> loops, std::int32_t label,
                               Position position);
 
+  // An edge between vertices that have been added: for outlines in the plane, not of the surface.
+  void add_line(const std::array<std::uint32_t, 2>& ends) { lines_.push_back(ends); }
+  const std::vector<std::array<std::uint32_t, 2>>& lines() const { return lines_; }
+
   // Something the user should know; each text once.
   void warn(const std::string& text);
   // Something worth telling in a log.
@@ -60,7 +65,7 @@ class SurfaceBuilder {
   // Replaces vertices of equal coordinates by the first of them (-0 = +0, written as +0).
   void weld();
 
-  // Triangulates and checks; throws ParseError.
+  // Triangulates and checks; throws ParseError, also if there are neither faces nor lines.
   Surface finish();
   const std::vector<std::string>& warnings() const { return warnings_; }
   const std::vector<std::string>& notes() const { return notes_; }
@@ -83,6 +88,7 @@ class SurfaceBuilder {
   bool labelled_ = false;
   std::vector<std::uint32_t> corners_;
   std::vector<Polygon> polygons_;
+  std::vector<std::array<std::uint32_t, 2>> lines_;
   std::vector<std::string> warnings_, notes_;
 
   std::uint64_t triangulated_ = 0, non_planar_ = 0, non_simple_ = 0;
