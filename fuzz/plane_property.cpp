@@ -113,11 +113,22 @@ Options options_for(Bytes& bytes) {
   return options;
 }
 
+double extent(const PlanarGraph& graph) {
+  double result = 0;
+  for (const Point& p : graph.vertices) {
+    for (const Point& q : graph.vertices) {
+      result = std::max({result, p[0] - q[0], p[1] - q[1]});
+    }
+  }
+  return result;
+}
+
 // Refused although no two segments conflict: the reasons that are left.
 bool other_reason(const PlanarGraph& graph, const std::string& message) {
   double largest = 0;
   for (const Point& p : graph.vertices) largest = std::max({largest, p[0], -p[0], p[1], -p[1]});
   return message == "no segments" || message == "the segments enclose nothing" ||
+         (message.find("no room for a mesh") != std::string::npos && extent(graph) < 0x1p-1044) ||
          (message.find("orders of magnitude") != std::string::npos && largest > 0x1p200);
 }
 

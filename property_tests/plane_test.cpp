@@ -334,6 +334,36 @@ TEST(Plane, ExtremeScales) {
   }
 }
 
+TEST(Plane, SubnormalSizes) {
+  // Below the normal doubles there is less and less room for points, in the end none.
+  int refused = 0, dropped = 0;
+  for (const Region region : {Region::interior, Region::hull}) {
+    for (const int k : {-1074, -1070, -1050, -1045, -1043, -1038, -1028, -1020, -1000, -960}) {
+      PlanarGraph graph = shapes::square();
+      graph.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.25, 0.5}, {0.25 + 0x1p-16, 0.5}};
+      graph.segments.push_back({4, 5});
+      graph.segments.push_back({0, 4});
+      if (k < -1072) graph = shapes::polygon({{0, 0}, {1, 0}, {0, 1}});
+      graph.vertices = doubled(graph.vertices, k);
+      Options options = exact_options();
+      options.region = region;
+      const PlaneResult result = triangulate_polygon(graph, options);
+      EXPECT_EQ(result.status.ok(), k > -1044) << k << " " << result.status.message;
+      if (!result.status.ok()) {
+        EXPECT_EQ(result.status.code, StatusCode::invalid_surface);
+        EXPECT_NE(result.status.message.find("extent"), std::string::npos);
+        ++refused;
+        continue;
+      }
+      const tetproof::PlaneVerdict verdict = tetproof::verify_plane(graph, options, result);
+      EXPECT_TRUE(verdict.ok()) << k << " " << verdict.text();
+      dropped += result.statistics.dropped_segments > 0;
+    }
+  }
+  EXPECT_EQ(refused, 8);
+  EXPECT_GT(dropped, 0);
+}
+
 TEST(Plane, LimitsAndOptions) {
   Options options = plane_options();
   options.max_vertices = 50;

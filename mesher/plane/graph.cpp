@@ -117,6 +117,7 @@ class Builder {
 
   void add_points() {
     graph_.scale = choose_scale(input());
+    graph_.unit = std::ldexp(1.0, std::min(-1074 - graph_.scale, 0));
     graph_.vertices = static_cast<VertexId>(input().vertices.size());
     points_.reserve(2 * input().vertices.size());
     std::vector<std::array<double, 2>> scaled;
@@ -137,9 +138,13 @@ class Builder {
     graph_.diagonal = std::ldexp(std::hypot(high[0] - low[0], high[1] - low[1]), graph_.scale);
     // The box is grown by half the larger side, as in space (section 5.1).
     double extent = std::max(high[0] - low[0], high[1] - low[1]);
+    if (extent > 0 && extent < 0x1p30 * graph_.unit) {
+      refuse("the extent of the graph is below 5.3e-315, where doubles leave no room for a mesh");
+    }
     if (extent == 0) extent = std::max({std::fabs(low[0]), std::fabs(low[1]), 0x1p-1000});
-    const std::array<double, 2> l = {low[0] - extent / 2, low[1] - extent / 2};
-    const std::array<double, 2> h = {high[0] + extent / 2, high[1] + extent / 2};
+    const auto grown = [&](double x, double by) { return to_unit(graph_, x + by); };
+    const std::array<double, 2> l = {grown(low[0], -extent / 2), grown(low[1], -extent / 2)};
+    const std::array<double, 2> h = {grown(high[0], extent / 2), grown(high[1], extent / 2)};
     std::array<VertexId, 4> corner;
     corner[0] = points_.add_explicit(l[0], l[1], 0);
     corner[1] = points_.add_explicit(h[0], l[1], 0);

@@ -25,6 +25,9 @@ struct InputGraph {
   const PlanarGraph* input;
   // Coordinates are multiplied by 2^-scale, so that the largest is around 1.
   int scale = 0;
+  // Smallest positive double of the input, in the units of the store. New points are multiples of
+  // it, or they could not be given back exactly.
+  double unit = 0;
   VertexId vertices = 0;  // ids of the input vertices are below; the corners of the box follow
   // Ids follow a curve that fills the plane, so that what is close together in the plane mostly is
   // in memory: what each number in the input became, and the other way round.
@@ -53,6 +56,11 @@ struct Faces {
 // `notes`, if any, receives what is odd about the hole and region points.
 Faces find_faces(const InputGraph& graph, Triangulation& mesh, PointStore& points,
                  std::vector<std::string>* notes);
+
+// The nearest coordinate that the input could have.
+inline double to_unit(const InputGraph& graph, double x) {
+  return graph.scale < 0 ? std::ldexp(std::ldexp(x, graph.scale), -graph.scale) : x;
+}
 
 // The coordinates of an input point as the store has them.
 inline std::array<double, 2> to_store(const InputGraph& graph, const std::array<double, 2>& p) {

@@ -178,14 +178,16 @@ class Refiner {
     const Approximation& pb = points_.approximation(b);
     const double dx = pb.x - pa.x, dy = pb.y - pa.y;
     const double length = norm(dx, dy);
-    if (!(length > 2 * kFloor * std::max(magnitude(points_, a), magnitude(points_, b)))) {
+    const double room = kFloor * std::max(magnitude(points_, a), magnitude(points_, b));
+    if (!(length > 2 * std::max(room, graph_.unit * 0x1p21))) {
       crowd(a, b);
       return false;
     }
     const Vec3 middle = {pa.x + dx / 2, pa.y + dy / 2, 0};
     VertexId p;
     if (id < kBoxPieces) {
-      p = points_.add_explicit(middle[0], middle[1], 0);  // on the side: one coordinate is constant
+      // On the side: one coordinate is constant.
+      p = points_.add_explicit(to_unit(graph_, middle[0]), to_unit(graph_, middle[1]), 0);
     } else {
       const Piece& piece = graph_.pieces[id];
       p = points_.add(place_on_segment(points_, piece.a, piece.b, middle, length * 0x1p-21));
@@ -312,7 +314,9 @@ class Refiner {
     const double size =
         std::max(magnitude(points_, v[static_cast<std::size_t>(next(shape.apex))]),
                  magnitude(points_, v[static_cast<std::size_t>(previous(shape.apex))]));
-    if (!(shape.shortest_squared > square(size * kFloor * shape.scale))) return crowd(t);
+    // It is placed on a grid of a millionth of that edge or two.
+    const double room = std::max(size * kFloor, graph_.unit * 0x1p22);
+    if (!(shape.shortest_squared > square(room * shape.scale))) return crowd(t);
     const double reach = shape.sine_squared < sine_squared_
                              ? std::min(shape.circumcentre, off_centre_)
                              : shape.circumcentre;
