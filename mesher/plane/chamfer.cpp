@@ -18,6 +18,15 @@ double distance(const Point& a, const Point& b) {
   return norm(b[0] - a[0], b[1] - a[1]);
 }
 
+// Divides a vector by the power of two of its size, and returns the exponent.
+int to_size_one(double& x, double& y) {
+  const double size = std::max(std::fabs(x), std::fabs(y));
+  const int power = size > 0 ? std::ilogb(size) : 0;
+  x = std::ldexp(x, -power);
+  y = std::ldexp(y, -power);
+  return power;
+}
+
 struct Line {
   Point a, b;
   double length() const { return distance(a, b); }
@@ -25,12 +34,14 @@ struct Line {
   // Parameter of the point nearest to p.
   double nearest(const Point& p) const {
     double x = b[0] - a[0], y = b[1] - a[1], u = p[0] - a[0], v = p[1] - a[1];
-    if (!(x * x + y * y > 0x1p-900)) {
-      for (double* d : {&x, &y, &u, &v}) *d *= 0x1p600;  // so that squares do not vanish
+    int power = 0;
+    if (!(x * x + y * y > 0x1p-500 && u * u + v * v > 0x1p-500)) {
+      power = to_size_one(u, v) - to_size_one(x, y);  // so that products do not vanish
     }
     const double square = x * x + y * y;
     if (!(square > 0)) return 0;
-    return std::clamp((u * x + v * y) / square, 0.0, 1.0);
+    const double t = (u * x + v * y) / square;
+    return std::clamp(power == 0 ? t : std::ldexp(t, power), 0.0, 1.0);
   }
   // From the nearer end, so that one that is far away does not blur it.
   double distance_to(const Point& p) const {
