@@ -125,6 +125,7 @@ Finding compare_with_cgal(const Points& coordinates, const std::set<Cell>& cells
 }  // namespace
 
 Finding delaunay_agrees(Bytes bytes) {
+  if (bytes.below(8) != 7) bytes.narrow();
   const Points coordinates = read_points(bytes);
   oracles::ExactPoints p;
   if (coordinates.size() < 4 || !p.assign(coordinates).empty() || !span_space(p)) return {};

@@ -42,6 +42,15 @@ int on_any_surface(const std::uint8_t* data, std::size_t size,
   return 0;
 }
 
+namespace {
+
+// With the exponent modulo 32.
+double narrowed(double x) {
+  return x == 0 ? x : std::ldexp(x, std::ilogb(x) % 32 - std::ilogb(x));
+}
+
+}  // namespace
+
 double Bytes::coordinate() {
   switch (below(8)) {
     case 0:
@@ -57,11 +66,12 @@ double Bytes::coordinate() {
       return last_;
     case 6: {
       const int power = static_cast<std::int8_t>(byte());
-      return last_ = std::ldexp(static_cast<std::int8_t>(byte()), power);
+      return last_ = std::ldexp(static_cast<std::int8_t>(byte()), narrow_ ? power / 4 : power);
     }
     default: {
       const double any = std::bit_cast<double>(word());
-      return last_ = std::isfinite(any) ? any : 1;
+      last_ = std::isfinite(any) ? any : 1;
+      return last_ = narrow_ ? narrowed(last_) : last_;
     }
   }
 }

@@ -48,6 +48,9 @@ class Bytes {
   // One byte says of which kind: a small integer, a simple fraction, a neighbour of the last one,
   // the last one again, any finite double.
   double coordinate();
+  // Coordinates keep their exponents below 2^5 from here on: exact arithmetic takes its time where
+  // they differ by hundreds of binary digits.
+  void narrow() { narrow_ = true; }
   // In [0, 1], often simple.
   double parameter();
 
@@ -55,6 +58,7 @@ class Bytes {
   const std::uint8_t* data_;
   std::size_t size_, at_ = 0;
   double last_ = 1;
+  bool narrow_ = false;
 };
 
 }  // namespace tetproof::fuzz

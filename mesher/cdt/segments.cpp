@@ -15,6 +15,10 @@ namespace {
 // Relative to the shorter part of a split: how far a point may be from its target so that its
 // parameter is short.
 constexpr double kPlacementTolerance = 0x1p-20;
+// Relative to the distance of the reference vertex from the edge: on another edge that runs along
+// this one, it is as near to the new point's place as the edges are to each other. Farther from it
+// the new point would encroach that edge in turn, and so on.
+constexpr double kBesideTolerance = 0x1p-4;
 
 Vec3 scaled_difference(const Vec3& a, const Vec3& b, double scale) {
   return {(a[0] - b[0]) / scale, (a[1] - b[1]) / scale, (a[2] - b[2]) / scale};
@@ -258,9 +262,19 @@ class SegmentRecovery {
       const double step = std::min(to_u, to_w);
       // Written so that a NaN means the middle, here and below.
       if (!(step > 0 && step <= width / 2)) return middle;
-      return target_behind(u, w, to_u <= to_w ? step : width - step);
+      Target t = target_behind(u, w, to_u <= to_w ? step : width - step);
+      t.tolerance = std::min(t.tolerance, kBesideTolerance * distance_beside(u, w, r) / length);
+      return t;
     }
     return on_sphere(u, w, centre, reference, middle);
+  }
+
+  // How far a point is from the line through two nodes.
+  double distance_beside(const ChainNode& u, const ChainNode& w, const Vec3& r) const {
+    const Vec3 p = points_.nearest(u.vertex), q = points_.nearest(w.vertex);
+    const double size = safe_distance(p, q);
+    const Vec3 d = scaled_difference(q, p, size), f = scaled_difference(r, p, size);
+    return size * std::sqrt(dot(cross(d, f), cross(d, f)));
   }
 
   // Where the sphere around the acute end through the reference meets the subsegment. All points
