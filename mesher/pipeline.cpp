@@ -39,9 +39,11 @@ class Run {
 
   Status mesh(const Surface& surface) {
     if (Status status = prepare(surface); !status.ok()) return status;
-    std::optional<CdtInput> input = refined_input();
+    std::unique_ptr<Tetrahedrization> delaunay;
+    std::optional<CdtInput> input = refined_input(delaunay);
     if (!input) return {};
-    CdtResult cdt = constrained_delaunay_tetrahedrization(*input, points_, predicates_, control_);
+    CdtResult cdt = constrained_delaunay_tetrahedrization(*input, points_, predicates_, control_,
+                                                          std::move(delaunay));
     input.reset();
     record_cdt(cdt);
     write(conforming_mesh(std::move(cdt), topology_, points_, options_.region));
@@ -85,14 +87,15 @@ class Run {
 
   // What the last step restores the surface in; none if the refined mesh was to be written itself.
   // The refined mesh goes before the last step needs the memory.
-  std::optional<CdtInput> refined_input() {
+  std::optional<CdtInput> refined_input(std::unique_ptr<Tetrahedrization>& delaunay) {
     ChamferResult chamfered;
-    const RefineResult refined = chamfer_and_refine(chamfered);
+    RefineResult refined = chamfer_and_refine(chamfered);
     if (options_.approximate) {
       write(approximate_mesh(chamfered, refined, topology_, points_, options_.region));
       return {};
     }
     control_.enter(Phase::enrich);
+    delaunay = std::move(refined.delaunay);
     return enriched_input(chamfered, filter_.facet_kept, refined, topology_, points_, predicates_,
                           control_);
   }

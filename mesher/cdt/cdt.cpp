@@ -14,22 +14,25 @@ namespace {
 
 class CdtBuilder {
  public:
-  CdtBuilder(const CdtInput& input, PointStore& points, Predicates& predicates, Control& control)
+  CdtBuilder(const CdtInput& input, PointStore& points, Predicates& predicates, Control& control,
+             std::unique_ptr<Tetrahedrization> delaunay)
       : input_(input),
         topology_(*input.topology),
         points_(points),
         predicates_(predicates),
         control_(control),
-        chains_(input, points) {}
+        chains_(input, points),
+        delaunay_(std::move(delaunay)) {}
 
   CdtResult run() {
     // Facet recovery cannot fail by the theory; should it, a few more points on the facet's
     // boundary give it another configuration to work on.
     constexpr int kAttempts = 8;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      Tetrahedrization mesh(predicates_);
-      const FacetId failed = constrain(mesh);
-      if (failed == kNone) return result(mesh);
+      if (!delaunay_) delaunay_ = std::make_unique<Tetrahedrization>(predicates_);
+      const FacetId failed = constrain(*delaunay_);
+      if (failed == kNone) return result(*delaunay_);
+      delaunay_.reset();
       ++restarts_;
       split_boundary(failed);
     }
@@ -43,7 +46,7 @@ class CdtBuilder {
     std::vector<VertexId> vertices = input_.vertices;
     vertices.insert(vertices.end(), steiner_.begin(), steiner_.end());
     enter(Phase::delaunay);
-    mesh.build(vertices, control_);
+    mesh.change_to(vertices, control_);
     enter(Phase::segments);
     const std::vector<VertexId> added = recover_segments(mesh, chains_, points_, control_);
     steiner_.insert(steiner_.end(), added.begin(), added.end());
@@ -113,6 +116,7 @@ class CdtBuilder {
   Predicates& predicates_;
   Control& control_;
   Chains chains_;
+  std::unique_ptr<Tetrahedrization> delaunay_;
   std::vector<VertexId> steiner_;
   std::vector<SurfaceFace> surface_;
   std::vector<std::uint8_t> inside_;
@@ -123,8 +127,9 @@ class CdtBuilder {
 }  // namespace
 
 CdtResult constrained_delaunay_tetrahedrization(const CdtInput& input, PointStore& points,
-                                                Predicates& predicates, Control& control) {
-  return CdtBuilder(input, points, predicates, control).run();
+                                                Predicates& predicates, Control& control,
+                                                std::unique_ptr<Tetrahedrization> delaunay) {
+  return CdtBuilder(input, points, predicates, control, std::move(delaunay)).run();
 }
 
 }  // namespace delmesher

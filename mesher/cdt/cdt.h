@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -59,8 +60,11 @@ struct CdtResult {
   CdtCounters counters;
 };
 
-// Never fails on a valid surface; throws Stopped when the control says so.
-CdtResult constrained_delaunay_tetrahedrization(const CdtInput& input, PointStore& points,
-                                                Predicates& predicates, Control& control);
+// Never fails on a valid surface; throws Stopped when the control says so. `delaunay`, if not null,
+// is the Delaunay tetrahedrization of nearly the same vertices, all of its hull among the input's;
+// it saves time and does not matter for the result.
+CdtResult constrained_delaunay_tetrahedrization(
+    const CdtInput& input, PointStore& points, Predicates& predicates, Control& control,
+    std::unique_ptr<Tetrahedrization> delaunay = nullptr);
 
 }  // namespace delmesher

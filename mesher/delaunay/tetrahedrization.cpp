@@ -16,20 +16,22 @@ Tetrahedrization::Tetrahedrization(Predicates& predicates) : predicates_(predica
 
 // ------------------------------------------------------------------------------------- building
 
+std::vector<VertexId> Tetrahedrization::in_spatial_order(std::span<const VertexId> vertices) const {
+  std::vector<std::array<double, 3>> coordinates(vertices.size());
+  std::vector<std::uint32_t> position(vertices.size());
+  for (std::uint32_t n = 0; n < vertices.size(); ++n) {
+    coordinates[n] = predicates_.points().nearest(vertices[n]);
+    position[n] = n;
+  }
+  spatial_sort(position, coordinates);
+  std::vector<VertexId> order(vertices.size());
+  for (std::size_t n = 0; n < order.size(); ++n) order[n] = vertices[position[n]];
+  return order;
+}
+
 void Tetrahedrization::build(std::span<const VertexId> vertices, Control& control) {
   DELMESHER_CHECK(cell_.empty(), "tetrahedrization built twice");
-  const PointStore& points = predicates_.points();
-  std::vector<VertexId> order(vertices.begin(), vertices.end());
-  {
-    std::vector<std::array<double, 3>> coordinates(vertices.size());
-    std::vector<std::uint32_t> position(vertices.size());
-    for (std::uint32_t n = 0; n < vertices.size(); ++n) {
-      coordinates[n] = points.nearest(vertices[n]);
-      position[n] = n;
-    }
-    spatial_sort(position, coordinates);
-    for (std::size_t n = 0; n < order.size(); ++n) order[n] = vertices[position[n]];
-  }
+  std::vector<VertexId> order = in_spatial_order(vertices);
   cell_.reserve(order.size() * 7);
   first_tetrahedron(order);
   TetId hint = 0;

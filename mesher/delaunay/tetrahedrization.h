@@ -43,6 +43,14 @@ class Tetrahedrization {
   // inserted in a spatial order. Must be empty before.
   void build(std::span<const VertexId> vertices, Control& control);
 
+  // Removes vertices that are not on the hull and leaves the Delaunay tetrahedrization of the
+  // others.
+  void remove(std::span<const VertexId> vertices, Control& control);
+
+  // From the Delaunay tetrahedrization of some vertices, all of its hull among these, to that of
+  // these: the same as build(), faster if they are nearly the same vertices.
+  void change_to(std::span<const VertexId> vertices, Control& control);
+
   // --- queries
   std::size_t capacity() const { return cell_.size(); }  // tet ids are below this
   bool alive(TetId t) const { return state_[t].mark != kDead; }
@@ -139,6 +147,10 @@ class Tetrahedrization {
   Predicates& predicates() { return predicates_; }
 
  private:
+  void clear();
+  std::vector<VertexId> in_spatial_order(std::span<const VertexId> vertices) const;
+  void collect_hole(VertexId v, std::span<const std::uint8_t> goes);
+  void fill_hole(Tetrahedrization& patch);
   TetId allocate();
   void first_tetrahedron(std::span<VertexId> order);
   bool conflicts(TetId t, VertexId v);

@@ -93,6 +93,59 @@ TEST(Tetrahedrization, GridFillsItsCube) {
   EXPECT_EQ(volume6, 6.0 * 8 * 8 * 8);  // small integers: exact in doubles
 }
 
+// Few vertices go and come, alone and in clusters: what is left is what build() makes of them. On a
+// grid every choice is a tie.
+TEST(Tetrahedrization, ChangedToOtherVerticesIsThatOfThese) {
+  int changed = 0;
+  for (const bool grid : {false, true}) {
+    Fixture f;
+    f.points.add_explicit(-1, -1, -1);  // a hull that stays
+    f.points.add_explicit(30, -1, -1);
+    f.points.add_explicit(-1, 30, -1);
+    f.points.add_explicit(-1, -1, 30);
+    if (grid) {
+      add_grid(f.points, 7);
+    } else {
+      add_random(f.points, 400, 5);
+    }
+    std::mt19937 random(6);
+    for (int round = 0; round < 12; ++round) {
+      const auto size = static_cast<VertexId>(f.points.size());
+      std::vector<VertexId> before, after;
+      // Neighbours in the order of a grid, so that holes have several vertices; the last round
+      // changes so much that the tetrahedrization is built anew.
+      const VertexId run = round == 11 ? size / 3 : 1 + round % 4;
+      const VertexId goes = 4 + random() % (size - run - 4),
+                     comes = 4 + random() % (size - run - 4);
+      for (VertexId v = 0; v < size; ++v) {
+        if (v < comes || v >= comes + run) before.push_back(v);
+        if (v < goes || v >= goes + run) after.push_back(v);
+      }
+      Tetrahedrization dt(f.predicates), expected(f.predicates);
+      dt.build(before, f.control);
+      dt.change_to(after, f.control);
+      dt.validate(true);
+      expected.build(after, f.control);
+      EXPECT_EQ(tets(dt), tets(expected)) << round;
+      for (const VertexId v : before) {
+        const bool stays = std::binary_search(after.begin(), after.end(), v);
+        EXPECT_EQ(dt.incident(v) != kNone, stays) << v;
+      }
+      changed += before != after;
+    }
+  }
+  EXPECT_GT(changed, 20);
+}
+
+TEST(Tetrahedrization, VerticesOfTheHullAreNotRemoved) {
+  Fixture f;
+  add_random(f.points, 50, 7);
+  f.points.add_explicit(9, 9, 9);
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  EXPECT_THROW(dt.remove(std::array<VertexId, 1>{50}, f.control), InternalError);
+}
+
 TEST(Tetrahedrization, IndependentOfInsertionOrder) {
   for (const bool grid : {false, true}) {
     Fixture f;

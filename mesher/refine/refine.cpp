@@ -68,6 +68,7 @@ RefineResult Refiner::result() {
       r.chain[n].push_back(subsegments_[s].b);
     }
   }
+  r.delaunay = std::make_unique<Tetrahedrization>(std::move(dt_));
   r.on_facet = std::move(on_facet_);
   r.in_volume = std::move(in_volume_);
   r.ball = std::move(ball_);

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/plc.h"
@@ -48,6 +50,7 @@ struct RefineResult {
   // Per tetrahedron: which faces earlier ones have too (bits 0 to 3), and which of these are inside
   // or not alike (bits 4 to 7).
   std::vector<std::uint8_t> repeated_faces;
+  std::unique_ptr<Tetrahedrization> delaunay;  // the tetrahedra once more, with their neighbours
   std::vector<RefinedFace> faces;
   std::vector<std::vector<VertexId>> chain;     // per segment of the complex, end to end
   std::vector<std::vector<VertexId>> on_facet;  // per facet: points inserted inside it

@@ -1,0 +1,170 @@
+// Removal of vertices. The tetrahedra that have only vertices that stay are Delaunay as before.
+// What is between them is filled with tetrahedra of the Delaunay tetrahedrization of the vertices
+// around it: those are Delaunay among all vertices too if they lie there, and the perturbation
+// makes the answer unique, so that the faces around fit.
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/delaunay/tetrahedrization.h"
+
+namespace delmesher {
+
+namespace {
+
+// Are the corners of face f of t, in the order of kFace, this triangle, as oriented?
+bool is_face(const VertexId* t, int f, const std::array<VertexId, 3>& triangle) {
+  for (int k = 0; k < 3; ++k) {
+    if (t[kFace[f][k]] != triangle[0]) continue;
+    return t[kFace[f][(k + 1) % 3]] == triangle[1] && t[kFace[f][(k + 2) % 3]] == triangle[2];
+  }
+  return false;
+}
+
+}  // namespace
+
+void Tetrahedrization::clear() {
+  for (const Cell& cell : cell_) {
+    for (const VertexId v : cell.vertex) {
+      if (v < incident_.size()) incident_[v] = kNone;
+    }
+  }
+  cell_.clear();
+  state_.clear();
+  star_mark_.clear();
+  free_.clear();
+  epoch_ = star_epoch_ = 0;
+}
+
+void Tetrahedrization::remove(std::span<const VertexId> vertices, Control& control) {
+  std::vector<std::uint8_t> goes(incident_.size(), 0);
+  for (const VertexId v : vertices) goes[v] = 1;
+  Tetrahedrization patch(predicates_);
+  for (const VertexId v : vertices) {
+    control.poll(vertices.size());
+    if (incident(v) == kNone) continue;  // went with another
+    collect_hole(v, goes);
+    std::vector<VertexId> around;
+    for (const TetId t : cavity_) {
+      for (int i = 0; i < 4; ++i) {
+        const VertexId w = vertex(t, i);
+        DELMESHER_CHECK(w != kInfinite, "a vertex of the hull cannot be removed");
+        if (goes[w] == 0) around.push_back(w);
+      }
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    patch.clear();
+    patch.first_tetrahedron(around);
+    for (std::size_t n = 4; n < around.size(); ++n) {
+      DELMESHER_CHECK(patch.insert(around[n], patch.incident(around[n - 1])),
+                      "coincident vertices in a tetrahedrization");
+    }
+    fill_hole(patch);
+    for (const TetId t : cavity_) {
+      for (int i = 0; i < 4; ++i) {
+        if (goes[vertex(t, i)] != 0) incident_[vertex(t, i)] = kNone;
+      }
+      destroy(t);
+    }
+  }
+}
+
+// The stars of v and of all vertices to go that are connected with it by tetrahedra, as cavity.
+void Tetrahedrization::collect_hole(VertexId v, std::span<const std::uint8_t> goes) {
+  begin_cavity(incident(v));
+  for (std::size_t n = 0; n < cavity_.size(); ++n) {
+    const TetId t = cavity_[n];
+    for (int i = 0; i < 4; ++i) {
+      // Face i has the three other vertices: if one of them goes, so does what is beyond.
+      const TetId u = neighbor(t, i);
+      bool beyond = false;
+      for (int k = 0; k < 4; ++k) {
+        const VertexId w = vertex(t, k);
+        beyond = beyond || (k != i && w != kInfinite && goes[w] != 0);
+      }
+      if (!beyond || state_[u].mark == epoch_) continue;
+      state_[u].mark = epoch_;
+      cavity_.push_back(u);
+    }
+  }
+  for (const TetId t : cavity_) {
+    for (int i = 0; i < 4; ++i) {
+      if (!in_cavity(neighbor(t, i))) boundary_.push_back({t, i});
+    }
+  }
+}
+
+// Fills the cavity with the tetrahedra of the patch that are in it.
+void Tetrahedrization::fill_hole(Tetrahedrization& patch) {
+  std::vector<std::uint32_t> outside(4 * patch.capacity(), kNone);  // beyond faces on the boundary
+  std::vector<TetId> copy(patch.capacity(), kNone), inside;
+  for (const auto& [t, i] : boundary_) {
+    const std::array<VertexId, 3> face = {vertex(t, kFace[i][0]), vertex(t, kFace[i][1]),
+                                          vertex(t, kFace[i][2])};
+    std::uint32_t found = patch.find_face(face[0], face[1], face[2]);
+    DELMESHER_CHECK(found != kNone, "a face around removed vertices is not Delaunay");
+    if (!is_face(patch.vertices(found >> 2), static_cast<int>(found & 3U), face)) {
+      found = patch.cell_[found >> 2].neighbor[found & 3U];
+    }
+    outside[found] = cell_[t].neighbor[i];
+    if (copy[found >> 2] != kNone) continue;
+    copy[found >> 2] = 0;
+    inside.push_back(found >> 2);
+  }
+  for (std::size_t n = 0; n < inside.size(); ++n) {
+    const TetId t = inside[n];
+    DELMESHER_CHECK(!patch.is_ghost(t), "the patch for removed vertices has a gap");
+    const VertexId* v = patch.vertices(t);
+    copy[t] = create(v[0], v[1], v[2], v[3]);
+    for (int i = 0; i < 4; ++i) {
+      incident_[v[i]] = copy[t];
+      const std::uint32_t side = 4 * t + static_cast<std::uint32_t>(i);
+      const TetId u = patch.neighbor(t, i);
+      if (outside[side] != kNone || copy[u] != kNone) continue;
+      copy[u] = 0;
+      inside.push_back(u);
+    }
+  }
+  for (const TetId t : inside) {
+    for (int i = 0; i < 4; ++i) {
+      const std::uint32_t out = outside[4 * t + static_cast<std::uint32_t>(i)];
+      if (out != kNone) {
+        glue(copy[t], i, out >> 2, static_cast<int>(out & 3U));
+      } else {
+        glue(copy[t], i, copy[patch.neighbor(t, i)], patch.mirror(t, i));
+      }
+    }
+  }
+}
+
+void Tetrahedrization::change_to(std::span<const VertexId> vertices, Control& control) {
+  // Building anew takes as long as removing about this part of the vertices.
+  constexpr std::size_t kWorthwhile = 8;
+  std::vector<VertexId> missing, surplus;
+  std::vector<std::uint8_t> stays(incident_.size(), 0);
+  for (const VertexId v : vertices) {
+    if (incident(v) == kNone) {
+      missing.push_back(v);
+    } else {
+      stays[v] = 1;
+    }
+  }
+  for (VertexId v = 0; v < incident_.size(); ++v) {
+    if (incident_[v] != kNone && stays[v] == 0) surplus.push_back(v);
+  }
+  if ((missing.size() + surplus.size()) * kWorthwhile > vertices.size()) {
+    clear();
+    build(vertices, control);
+    return;
+  }
+  remove(surplus, control);
+  TetId hint = kNone;
+  for (const VertexId v : in_spatial_order(missing)) {
+    control.poll(vertices.size());
+    for (TetId t = 0; hint == kNone; ++t) hint = alive(t) ? t : kNone;
+    DELMESHER_CHECK(insert(v, hint), "coincident vertices in a tetrahedrization");
+    hint = incident_[v];
+  }
+}
+
+}  // namespace delmesher
