@@ -124,13 +124,18 @@ void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingRe
   }
 }
 
-}  // namespace
-
-RoundingResult round_mesh(RoundingInput input, Control& control) {
+// The tetrahedra of the input are there again afterwards if there was something to repair.
+RoundingResult round_once(RoundingInput& input, Control& control) {
   RoundedMesh mesh(input, control);
   RoundingResult result;
   const std::size_t bad_before = mesh.bad().size();
   if (bad_before != 0 || !mesh.coincident().empty()) {
+    for (std::uint32_t t = 0; t < mesh.slots(); ++t) {
+      const auto& [a, b, c, d] = mesh.tet(t);
+      input.tetrahedra.push_back(
+          {mesh.store_id(a), mesh.store_id(b), mesh.store_id(c), mesh.store_id(d)});
+      input.inside.push_back(mesh.inside(t) ? 1 : 0);
+    }
     mesh.prepare_repairs();
     Repair(mesh, *input.points, control, result).run();
   }
@@ -139,6 +144,36 @@ RoundingResult round_mesh(RoundingInput input, Control& control) {
   for (const auto& group : mesh.coincident()) result.coincident += group.size() - 1;
   export_mesh(mesh, input, result);
   return result;
+}
+
+std::uint64_t defects(const RoundingResult& result) {
+  return result.inverted + result.flat + result.coincident;
+}
+
+// The same order for every run: the state is the only source of it.
+void shuffle_tetrahedra(RoundingInput& input, std::uint32_t& state) {
+  for (std::size_t n = input.tetrahedra.size(); n > 1; --n) {
+    state = state * 1664525U + 1013904223U;
+    const std::size_t m = (std::uint64_t{state} * n) >> 32U;
+    std::swap(input.tetrahedra[n - 1], input.tetrahedra[m]);
+    std::swap(input.inside[n - 1], input.inside[m]);
+  }
+}
+
+}  // namespace
+
+RoundingResult round_mesh(RoundingInput input, Control& control) {
+  // Which repairs are possible depends on those done before: where one order of the tetrahedra ends
+  // in a dead end, another may not.
+  constexpr int kOrders = 8;
+  RoundingResult best = round_once(input, control);
+  std::uint32_t state = 1;
+  for (int order = 1; order < kOrders && defects(best) > 0; ++order) {
+    shuffle_tetrahedra(input, state);
+    RoundingResult other = round_once(input, control);
+    if (defects(other) < defects(best)) best = std::move(other);
+  }
+  return best;
 }
 
 }  // namespace delmesher
