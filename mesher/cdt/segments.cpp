@@ -15,10 +15,9 @@ namespace {
 // Relative to the shorter part of a split: how far a point may be from its target so that its
 // parameter is short.
 constexpr double kPlacementTolerance = 0x1p-20;
-// Relative to the distance of the reference vertex from the edge: on another edge that runs along
-// this one, it is as near to the new point's place as the edges are to each other. Farther from it
-// the new point would encroach that edge in turn, and so on.
-constexpr double kBesideTolerance = 0x1p-4;
+// Edges are only said to run along each other up to this distance, relative to the length of a
+// part.
+constexpr double kBeside = 0x1p-6;
 
 Vec3 scaled_difference(const Vec3& a, const Vec3& b, double scale) {
   return {(a[0] - b[0]) / scale, (a[1] - b[1]) / scale, (a[2] - b[2]) / scale};
@@ -257,24 +256,88 @@ class SegmentRecovery {
     const double length = chains_.length(u.edge);
     const Vec3 r = points_.nearest(reference);
     if (centre == kNoCentre) {
+      if (Target t{}; target_opposite(u, w, reference, t)) return t;
       const double to_u = safe_distance(r, points_.nearest(u.vertex)) / length;
       const double to_w = safe_distance(r, points_.nearest(w.vertex)) / length;
       const double step = std::min(to_u, to_w);
       // Written so that a NaN means the middle, here and below.
       if (!(step > 0 && step <= width / 2)) return middle;
-      Target t = target_behind(u, w, to_u <= to_w ? step : width - step);
-      t.tolerance = std::min(t.tolerance, kBesideTolerance * distance_beside(u, w, r) / length);
-      return t;
+      return target_behind(u, w, to_u <= to_w ? step : width - step);
     }
     return on_sphere(u, w, centre, reference, middle);
   }
 
-  // How far a point is from the line through two nodes.
-  double distance_beside(const ChainNode& u, const ChainNode& w, const Vec3& r) const {
-    const Vec3 p = points_.nearest(u.vertex), q = points_.nearest(w.vertex);
-    const double size = safe_distance(p, q);
-    const Vec3 d = scaled_difference(q, p, size), f = scaled_difference(r, p, size);
-    return size * std::sqrt(dot(cross(d, f), cross(d, f)));
+  // Opposite a reference on an edge that runs along this one. By their distances from different
+  // ends, points of edges at a distance d would not face each other: each new point would be the
+  // reference of the next one on the other edge, a distance d farther on. Facing each other they
+  // are done with, if they do so up to d^2 / L: farther from its place, a point is in the diametral
+  // ball of a part of length L of the other edge, and a part between two other edges may be missing
+  // for good. Hence the reference's projection, with twice as many bits where it takes them, and
+  // only where the edges are parallel enough for the projection back to be as near.
+  bool target_opposite(const ChainNode& u, const ChainNode& w, VertexId reference,
+                       Target& t) const {
+    const Vec3 along = points_.difference(u.vertex, w.vertex);
+    const double part = std::hypot(along[0], along[1], along[2]);
+    const Vec3 to_reference = points_.difference(u.vertex, reference);
+    const Vec3 d = scaled_difference(along, {}, part),
+               f = scaled_difference(to_reference, {}, part);
+    const double place = dot(d, f), squared_off = dot(cross(d, f), cross(d, f));
+    if (!(place > 0 && place < 1 && squared_off < kBeside * kBeside)) return false;
+    if (!runs_along(u.edge, reference, std::sqrt(squared_off) / 16)) return false;
+    const std::array<VertexId, 2> end = chains_.topology().edge_vertices(u.edge);
+    t = target_behind(u, w, place * fraction_between(u, w));
+    const VertexId apex = end[t.anchor], other = end[1 - t.anchor];
+    // In units of a power of two near the length: squares may overflow otherwise.
+    int exponent = 0;
+    std::frexp(chains_.length(u.edge), &exponent);
+    Dyadic whole = squared_distance(apex, other), share = product(apex, reference, other);
+    if (share.sign() <= 0) return false;
+    whole.exponent -= 2 * exponent;
+    share.exponent -= 2 * exponent;
+    double& fraction = t.from[t.anchor];
+    fraction = round_to_double(share).value / round_to_double(whole).value;
+    t.from[1 - t.anchor] = 1 - fraction;
+    t.tolerance = std::min(t.tolerance, squared_off / 16 * part / chains_.length(u.edge));
+    if (t.tolerance > fraction * 0x1p-50) return true;
+    t.tolerance = 0;
+    t.low = round_to_double(share - whole * Dyadic::from_double(fraction)).value /
+            round_to_double(whole).value;
+    return true;
+  }
+  // Is v on another edge whose direction differs by at most this sine?
+  bool runs_along(std::uint32_t edge, VertexId v, double sine) const {
+    const SurfaceTopology& s = chains_.topology();
+    if (const std::uint32_t n = chains_.node_of(v); n != kNone) {
+      return sine_between(edge, chains_.node(n).edge) <= sine;
+    }
+    const std::uint32_t start = v < s.vertex_half_edge.size() ? s.vertex_half_edge[v] : kNone;
+    if (start == kNone) return false;
+    std::uint32_t h = start;
+    do {
+      const std::uint32_t other = s.edge_of[h];
+      if (s.edge_is_flat[other] == 0 && sine_between(edge, other) <= sine) return true;
+      h = s.opposite[SurfaceTopology::previous(h)];
+    } while (h != start);
+    return false;
+  }
+  double sine_between(std::uint32_t e, std::uint32_t f) const {
+    const auto direction = [&](std::uint32_t edge) {
+      const std::array<VertexId, 2> end = chains_.topology().edge_vertices(edge);
+      return scaled_difference(points_.nearest(end[1]), points_.nearest(end[0]),
+                               chains_.length(edge));
+    };
+    const Vec3 normal = cross(direction(e), direction(f));
+    return std::sqrt(dot(normal, normal));
+  }
+
+  // (v - a) . (b - a)
+  Dyadic product(VertexId a, VertexId v, VertexId b) const {
+    Dyadic sum;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Dyadic origin = exact_coordinate(a, axis);
+      sum = sum + (exact_coordinate(v, axis) - origin) * (exact_coordinate(b, axis) - origin);
+    }
+    return sum;
   }
 
   // Where the sphere around the acute end through the reference meets the subsegment. All points
