@@ -146,8 +146,8 @@ TEST_P(TetgenFailures, AreMeshed) {
 INSTANTIATE_TEST_SUITE_P(All, TetgenFailures, testing::ValuesIn(tetgen_failures()),
                          [](const auto& name) { return name.param; });
 
-// Boxes inside each other with walls of 1e-12 and 1e-7: edges that run along each other that closely
-// were split at different places, each of which asked for one more on the other edge.
+// Boxes inside each other with walls of 1e-12 and 1e-7: edges that run along each other that
+// closely were split at different places, each of which asked for one more on the other edge.
 TEST(Regressions, ThinWallsEnd) {
   for (const std::uint64_t member : {103, 107}) {
     const Surface surface = *generate(*find_family("cavities"), 1, member);

@@ -21,9 +21,14 @@ struct Points {
 Points read_points(Bytes& bytes) {
   Points p;
   p.corners = 3 + bytes.below(6);
+  // Every second set is nearly in an axis-parallel plane: a corner is in it or an ulp beside it, so
+  // that points between corners are rounded into it.
+  const std::uint32_t flat = bytes.below(6);
+  const double level = flat < 3 ? bytes.coordinate() : 0;
   for (VertexId i = 0; i < p.corners; ++i) {
-    const double x = bytes.coordinate(), y = bytes.coordinate(), z = bytes.coordinate();
-    p.store.add_explicit(x, y, z);
+    Vec3 x = {bytes.coordinate(), bytes.coordinate(), bytes.coordinate()};
+    if (flat < 3) x[flat] = bytes.below(4) == 0 ? std::nextafter(level, HUGE_VAL) : level;
+    p.store.add_explicit(x[0], x[1], x[2]);
   }
   for (std::uint32_t n = bytes.below(8); n > 0; --n) {
     const VertexId a = bytes.below(p.corners), b = bytes.below(p.corners),
