@@ -1,0 +1,35 @@
+// Where the smallest angles of a final mesh come from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "mesher/delmesher.h"
+
+namespace tetproof::benchmark {
+
+// Of faces of the final mesh with an angle below delta, in this order of precedence.
+enum class AngleCause : std::uint8_t {
+  input_corner,  // the angle is at a chamfered input vertex
+  cdt_steiner,   // a vertex was added by the last step
+  filtered,      // a vertex lies on a facet that the filter dropped
+  refill,  // another vertex was chamfered, or no vertex is new: the region cut off, filled again
+  count
+};
+inline constexpr std::array<const char*, 4> kAngleCauseNames = {"input_corner", "cdt_steiner",
+                                                                "filtered", "refill"};
+
+struct AngleCauses {
+  // Smallest angle of a facet (coplanar triangles) at an input vertex, degrees: no mesh that
+  // conforms has a larger smallest angle.
+  double bound = 180;
+  double smallest = 180;  // face angle of the final mesh, over the tetrahedra inside
+  AngleCause cause = AngleCause::refill;  // of that
+  std::uint64_t faces = 0;                // inside, each counted once per tetrahedron
+  std::array<std::uint64_t, 4> below{};   // with an angle below delta, by cause
+};
+
+// `result` must be that of tetrahedralize() with Options::want_exact on this surface.
+AngleCauses find_angle_causes(const delmesher::Surface& surface, const delmesher::Result& result);
+
+}  // namespace tetproof::benchmark
