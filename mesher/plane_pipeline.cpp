@@ -177,6 +177,7 @@ class Run {
   void write(const plane::InputGraph& graph, const plane::MeshToWrite& exact) {
     control_.enter(Phase::round);
     plane::RoundedPlane rounded = plane::round_plane(graph, exact, points_, control_);
+    control_.poll_now(rounded.mesh.vertices.size(), 1);  // small meshes are hardly asked before
     PlaneStatistics& s = result_.statistics;
     s.rounding_inverted = rounded.inverted;
     s.rounding_flat = rounded.flat;

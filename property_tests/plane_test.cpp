@@ -366,6 +366,10 @@ TEST(Plane, SubnormalSizes) {
 
 TEST(Plane, LimitsAndOptions) {
   Options options = plane_options();
+  options.max_vertices = 3;
+  EXPECT_EQ(triangulate_polygon(shapes::square(), options).status.code, StatusCode::limit_reached);
+  options.max_vertices = 4;
+  EXPECT_TRUE(triangulate_polygon(shapes::square(), options).status.ok());
   options.max_vertices = 50;
   EXPECT_EQ(triangulate_polygon(shapes::koch(4), options).status.code, StatusCode::limit_reached);
   options = plane_options();

@@ -3,7 +3,8 @@
 
 Usage: real_inputs.py FOLDER [FONT.ttf]. Downloads world-atlas once with npm; nothing of it is kept in the project.
 An edge that two rings share is a border. Rings across the antimeridian are laid out beyond it, the one around the pole
-is closed below. Corners where rings cross others or themselves are left out, and counted.
+is closed below. Corners where rings cross others or themselves are left out, and counted; where many in a row would
+be, the ring is closed there and another one begins.
 """
 import json
 import os
@@ -13,8 +14,8 @@ import sys
 import tarfile
 
 ATLAS = "world-atlas@2.0.2"
-LAYERS = (("countries-110m.json", "countries"), ("countries-50m.json", "countries"),
-          ("land-110m.json", "land"), ("land-50m.json", "land"), ("land-10m.json", "land"))
+LAYERS = tuple(("%s-%s.json" % (layer, size), layer) for layer in ("countries", "land")
+               for size in ("110m", "50m", "10m"))
 
 
 def atlas(folder):
@@ -208,7 +209,7 @@ def conflict(p, q, r, s):
 def clean(rings):
     """Rings that meet at most in vertices and edges: corners that lead to anything else are left out, longest ring first."""
     rings = [r for r in map(without_spikes, rings) if r]
-    cell = 1 + max(max(abs(x) for x, _ in r) for r in rings) // 1000
+    cell = 1 + max(max(abs(x) for x, _ in r) for r in rings) // 4000
     grid, kept, lost = {}, [], 0
 
     def cells(p, q):
@@ -226,14 +227,8 @@ def clean(rings):
         for at in cells(p, q):
             grid[at].remove((p, q))
 
-    for ring in sorted(rings, key=len, reverse=True):
-        path = ring[:1]
-        for q in ring[1:]:
-            if free(path[-1], q):
-                enter(path[-1], q)
-                path.append(q)
-            else:
-                lost += 1
+    def close(path):
+        nonlocal lost
         while len(path) > 2 and not free(path[-1], path[0]):
             leave(path[-2], path[-1])
             path.pop()
@@ -244,6 +239,21 @@ def clean(rings):
         else:
             for p, q in zip(path, path[1:]):
                 leave(p, q)
+
+    for ring in sorted(rings, key=len, reverse=True):
+        path, missed = ring[:1], 0
+        for q in ring[1:]:
+            if free(path[-1], q):
+                enter(path[-1], q)
+                path.append(q)
+                missed = 0
+                continue
+            lost += 1
+            missed += 1
+            if missed == 16:  # no way on from here: what follows is a ring of its own
+                close(path)
+                path, missed = [q], 0
+        close(path)
     if lost:
         print("%d corners left out where rings cross others or themselves" % lost)
     return kept
