@@ -213,8 +213,16 @@ def clean(rings):
     grid, kept, lost = {}, [], 0
 
     def cells(p, q):
-        return [(x, y) for x in range(int(min(p[0], q[0]) // cell), int(max(p[0], q[0]) // cell) + 1)
-                for y in range(int(min(p[1], q[1]) // cell), int(max(p[1], q[1]) // cell) + 1)]
+        """Column by column, with a margin for rounding."""
+        (ax, ay), (bx, by) = sorted((p, q))
+        result = []
+        for x in range(int(ax // cell), int(bx // cell) + 1):
+            ends = (ay, by)
+            if ax < bx:
+                ends = [ay + (by - ay) * (min(max(at, ax), bx) - ax) / (bx - ax) for at in (x * cell, (x + 1) * cell)]
+            first, last = (int((y + margin) // cell) for y, margin in ((min(ends), -cell / 1000), (max(ends), cell / 1000)))
+            result += [(x, y) for y in range(first, last + 1)]
+        return result
 
     def free(p, q):
         return not any(conflict(p, q, *other) for at in cells(p, q) for other in grid.get(at, ()))
