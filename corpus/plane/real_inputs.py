@@ -3,8 +3,7 @@
 
 Usage: real_inputs.py FOLDER [FONT.ttf]. Downloads world-atlas once with npm; nothing of it is kept in the project.
 An edge that two rings share is a border. Rings across the antimeridian are laid out beyond it, the one around the pole
-is closed below. Corners where rings cross others or themselves are left out, and counted; where many in a row would
-be, the ring is closed there and another one begins.
+is closed below. Corners where rings cross others or themselves are left out, and counted.
 """
 import json
 import os
@@ -235,19 +234,6 @@ def clean(rings):
         for at in cells(p, q):
             grid[at].remove((p, q))
 
-    def close(path):
-        nonlocal lost
-        while len(path) > 2 and not free(path[-1], path[0]):
-            leave(path[-2], path[-1])
-            path.pop()
-            lost += 1
-        if len(path) > 2:
-            enter(path[-1], path[0])
-            kept.append(path)
-        else:
-            for p, q in zip(path, path[1:]):
-                leave(p, q)
-
     for ring in sorted(rings, key=len, reverse=True):
         path, missed = ring[:1], 0
         for q in ring[1:]:
@@ -258,10 +244,23 @@ def clean(rings):
                 continue
             lost += 1
             missed += 1
-            if missed == 16:  # no way on from here: what follows is a ring of its own
-                close(path)
+            while missed == 16 and len(path) > 1:  # no way on from here: from farther back
+                leave(path[-2], path[-1])
+                path.pop()
+                lost += 1
+                missed = 16 if len(path) % 8 else 0
+            if len(path) == 1 and missed >= 16:
                 path, missed = [q], 0
-        close(path)
+        while len(path) > 2 and not free(path[-1], path[0]):
+            leave(path[-2], path[-1])
+            path.pop()
+            lost += 1
+        if len(path) > 2:
+            enter(path[-1], path[0])
+            kept.append(path)
+        else:
+            for p, q in zip(path, path[1:]):
+                leave(p, q)
     if lost:
         print("%d corners left out where rings cross others or themselves" % lost)
     return kept
