@@ -113,7 +113,9 @@ void sort_unique(std::vector<VertexId>& v) {
 }
 
 // Points of the refined complex on input edges and inside input facets; everything else on the
-// complex (the box) goes to `vertices`.
+// complex (the box) goes to `vertices`. Not those on artificial segments: beside the edges of the
+// corner that was cut off, inside their diametral balls, they would have these edges split once
+// more, next to the corner, and three of four small angles came from there.
 void add_complex_points(const ChamferResult& chamfered, const RefineResult& refined,
                         const SurfaceTopology& topology, const PointStore& points,
                         Predicates& predicates, CdtInput& input) {
@@ -129,13 +131,10 @@ void add_complex_points(const ChamferResult& chamfered, const RefineResult& refi
     const FacetId facet = plc.facets[f].input_facet;
     std::vector<VertexId>& inside = facet == kNone ? input.vertices : input.on_facet[facet];
     inside.insert(inside.end(), refined.on_facet[f].begin(), refined.on_facet[f].end());
+    if (facet != kNone) continue;
     for (const PlcFacet::Side& side : plc.facets[f].boundary) {
-      if (plc.segments[side.segment].input_edge != kNone) continue;
-      for (const VertexId v : refined.chain[side.segment]) {
-        if (facet == kNone || points.definition(v).kind == PointKind::on_triangle) {
-          inside.push_back(v);
-        }
-      }
+      const std::vector<VertexId>& chain = refined.chain[side.segment];
+      inside.insert(inside.end(), chain.begin(), chain.end());
     }
   }
   for (std::uint32_t e = 0; e < input.on_edge.size(); ++e) {
