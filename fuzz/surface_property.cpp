@@ -59,6 +59,21 @@ double smallest_distance(const delmesher::SurfaceTopology& topology,
   return smallest;
 }
 
+// The volume of a valid surface is that of the oracles, who look on their own which components are
+// cavities.
+Finding volume_agrees(const Surface& surface, double ours) {
+  oracles::ExactPoints points;
+  oracles::InputSurface judge;
+  const oracles::Polyhedron polyhedron = {surface.vertices, surface.triangles, surface.labels, {}};
+  if (!points.assign(surface.vertices).empty() || !judge.assign(polyhedron, points).empty()) {
+    return "check input: the oracles cannot read a valid surface";
+  }
+  const double theirs = oracles::to_double(judge.volume6(), 3 * points.exponent()) / 6;
+  const double box = std::pow(judge.diagonal(), 3);
+  if (!std::isfinite(box) || std::fabs(ours - theirs) <= 1e-9 * theirs + 1e-12 * box) return {};
+  return "check volume: ours " + std::to_string(ours) + ", oracles " + std::to_string(theirs);
+}
+
 }  // namespace
 
 Finding check_agrees(const Surface& surface) {
@@ -78,7 +93,7 @@ Finding check_agrees(const Surface& surface) {
     return std::string("check reason: ours does not count any ") + delmesher::defect_name(*defect) +
            " but says " + report.status.message;
   }
-  return {};
+  return ours ? volume_agrees(surface, report.volume) : "";
 }
 
 Finding features_agree(const Surface& surface) {
