@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/cdt/flat_map.h"
+#include "mesher/cdt/key_table.h"
 #include "mesher/cdt/separation.h"
 
 namespace delmesher {
@@ -123,7 +123,7 @@ class GiftWrapper {
   std::vector<VertexId> vertices_;
   std::vector<Tetrahedron>& tetrahedra_;
   FillCounters& counters_;
-  FlatMap is_open_;
+  KeyTable is_open_;
   std::size_t open_count_ = 0;
   std::vector<Triangle> front_;
   std::vector<VertexId> candidates_;

@@ -199,13 +199,13 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
   std::vector<Tetrahedron> all = upper;
   all.insert(all.end(), lower.begin(), lower.end());
   // Directed face, counter-clockwise seen from outside its new tetrahedron -> 4 * index + face.
-  FlatMap owner(4 * all.size());
+  KeyTable owner(4 * all.size());
   std::vector<Triangle> face(4 * all.size());
   for (std::uint32_t n = 0; n < all.size(); ++n) {
     for (std::uint32_t i = 0; i < 4; ++i) {
       const Tetrahedron& t = all[n];
       face[4 * n + i] = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
-      if (owner.get(face_key(face[4 * n + i])) != FlatMap::kAbsent) return false;
+      if (owner.get(face_key(face[4 * n + i])) != KeyTable::kAbsent) return false;
       owner.set(face_key(face[4 * n + i]), 4 * n + i);
     }
   }
@@ -216,7 +216,7 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
   for (const std::vector<ShellFace>* shell : {&upper_shell_, &lower_shell_}) {
     for (const ShellFace& s : *shell) {
       const std::uint32_t f = owner.get(face_key(s.vertices));
-      if (f == FlatMap::kAbsent) return false;
+      if (f == KeyTable::kAbsent) return false;
       const TetId t = s.inner >> 2;
       const int i = static_cast<int>(s.inner & 3);
       const TetId beyond = mesh_.neighbor(t, i);
@@ -229,7 +229,7 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
   for (std::uint32_t f = 0; f < face.size(); ++f) {
     if (outer[f] != kUnmatched) continue;
     partner[f] = owner.get(face_key(reversed(face[f])));
-    if (partner[f] == FlatMap::kAbsent) return false;
+    if (partner[f] == KeyTable::kAbsent) return false;
   }
   for (const TetId t : cavity_) mesh_.destroy(t);
   std::vector<TetId> id(all.size());

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "mesher/cdt/facet_triangles.h"
-#include "mesher/cdt/flat_map.h"
+#include "mesher/cdt/key_table.h"
 #include "mesher/cdt/polyhedron.h"
 
 namespace delmesher {

@@ -6,7 +6,7 @@
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
-#include "mesher/cdt/flat_map.h"
+#include "mesher/cdt/key_table.h"
 #include "mesher/predicates/placement.h"
 
 namespace delmesher {
@@ -238,7 +238,7 @@ class SegmentRecovery {
         const std::uint64_t key = pair_key(a, b);
         if (std::binary_search(kept_.begin(), kept_.end(), key)) continue;
         const std::uint32_t n = subsegments_.get(key);
-        if (n == FlatMap::kAbsent) continue;
+        if (n == KeyTable::kAbsent) continue;
         if (queue_.back() != n) queue_.push_back(n);
       }
     }
@@ -493,7 +493,7 @@ class SegmentRecovery {
   PointStore& points_;
   Control& control_;
   Placer placer_;
-  FlatMap subsegments_;               // end vertices -> node
+  KeyTable subsegments_;              // end vertices -> node
   std::vector<std::uint8_t> acute_;   // per input vertex
   std::vector<std::uint8_t> centre_;  // per node
   std::vector<std::uint32_t> queue_;  // nodes whose subsegment may be missing

@@ -7,12 +7,12 @@
 
 namespace delmesher {
 
-class FlatMap {
+class KeyTable {
  public:
   static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};
   static constexpr std::uint32_t kAbsent = 0xffffffffU;
 
-  explicit FlatMap(std::size_t expected = 0) { allocate(expected); }
+  explicit KeyTable(std::size_t expected = 0) { allocate(expected); }
 
   void clear(std::size_t expected = 0) {
     size_ = 0;
