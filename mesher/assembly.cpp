@@ -347,7 +347,7 @@ MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult&
 }
 
 MeshStatistics refined_statistics(const RefineResult& refined, const PointStore& points,
-                                  Region region) {
+                                  Region region, Control& control) {
   std::vector<std::array<double, 3>> coordinates(points.size());
   for (VertexId v = 0; v < points.size(); ++v) coordinates[v] = points.nearest(v);
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
@@ -363,7 +363,7 @@ MeshStatistics refined_statistics(const RefineResult& refined, const PointStore&
     for (const VertexId v : refined.tetrahedra[n]) used[v] = 1;
   }
   const auto vertices = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), 1));
-  return mesh_statistics(coordinates, tetrahedra, repeated, vertices, interior);
+  return mesh_statistics(coordinates, tetrahedra, repeated, vertices, interior, control);
 }
 
 Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& refined,

@@ -55,7 +55,7 @@ MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult&
 // --- towards the caller
 
 MeshStatistics refined_statistics(const RefineResult& refined, const PointStore& points,
-                                  Region region);
+                                  Region region, Control& control);
 
 // The chamfered surface with rounded coordinates, for display, in the triangulation that the
 // refinement gave it.

@@ -83,8 +83,11 @@ struct Options {
   Region region = Region::interior;
   std::uint64_t max_vertices = 0;  // 0: no limit
   double time_limit_seconds = 0;   // 0: no limit
-  bool want_exact = false;         // fill Result::exact
-  bool want_chamfered = false;     // fill Result::chamfered
+  // Threads that share what can be shared: checks, filter, classification of the refined mesh and
+  // statistics; the result is the same for every number. 0: as many as the machine has cores.
+  unsigned threads = 1;
+  bool want_exact = false;      // fill Result::exact
+  bool want_chamfered = false;  // fill Result::chamfered
   // Called several times a second from the calling thread; returning false cancels the run.
   std::function<bool(const Progress&)> progress;
 };

@@ -232,7 +232,7 @@ class Run {
     s.steiner_on_segments = refined.on_segments;
     s.steiner_on_facets = refined.on_facets;
     s.steiner_in_volume = refined.in_volume.size();
-    s.refined = refined_statistics(refined, points_, options_.region);
+    s.refined = refined_statistics(refined, points_, options_.region, control_);
     if (options_.want_exact) record_refined(chamfered, refined, topology_, result_.exact);
     if (options_.want_chamfered) {
       result_.chamfered = chamfered_surface(chamfered, refined, topology_, points_);
@@ -259,7 +259,7 @@ class Run {
     for (const std::uint8_t inside : rounded.inside) interior += inside;
     if (rounded.operations > 0) exact.repeated_faces.clear();  // they are other tetrahedra now
     s.final = mesh_statistics(rounded.coordinates, rounded.tetrahedra, exact.repeated_faces,
-                              rounded.vertices.size(), interior);
+                              rounded.vertices.size(), interior, control_);
     if (options_.want_exact) {
       // Repairs by local operations have changed tetrahedra: the record holds what is written.
       if (rounded.operations > 0) record_repaired(rounded, options_.region, result_.exact);

@@ -72,8 +72,9 @@ void expect_faces_counted_once(const NamedSurface& model, const Options& options
   SCOPED_TRACE(model.name);
   const Result result = delmesher::tetrahedralize(model.surface, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
+  delmesher::Control control(options);
   const delmesher::MeshStatistics compared = delmesher::mesh_statistics(
-      result.mesh.vertices, result.mesh.tetrahedra, {}, result.mesh.vertices.size(), 0);
+      result.mesh.vertices, result.mesh.tetrahedra, {}, result.mesh.vertices.size(), 0, control);
   const delmesher::MeshStatistics& told = result.statistics.final;
   EXPECT_EQ(told.face_angle_histogram, compared.face_angle_histogram);
   EXPECT_EQ(told.dihedral_histogram, compared.dihedral_histogram);
@@ -221,6 +222,28 @@ TEST(Threads, TwoMeshesInTwoThreadsAreThoseOfOneThread) {
   for (std::size_t i = 0; i < models.size(); ++i) {
     EXPECT_EQ(alone[i].mesh.tetrahedra, together[i].mesh.tetrahedra) << models[i].name;
     EXPECT_EQ(alone[i].mesh.vertices, together[i].mesh.vertices) << models[i].name;
+  }
+}
+
+TEST(Threads, AnyNumberInOneRunGivesTheSameMeshStatisticsAndPredicateCalls) {
+  for (const NamedSurface& model : samples::surfaces(kSeed)) {
+    for (Options options : {default_options(), paper_options()}) {
+      options.tau = 0.03;
+      const Result alone = delmesher::tetrahedralize(model.surface, options);
+      ASSERT_TRUE(alone.status.ok()) << model.name;
+      for (const unsigned threads : {2U, 3U, 8U}) {
+        SCOPED_TRACE(model.name + ", " + std::to_string(threads) + " threads");
+        options.threads = threads;
+        const Result shared = delmesher::tetrahedralize(model.surface, options);
+        EXPECT_EQ(alone.mesh.vertices, shared.mesh.vertices);
+        EXPECT_EQ(alone.mesh.tetrahedra, shared.mesh.tetrahedra);
+        EXPECT_EQ(alone.mesh.inside, shared.mesh.inside);
+        EXPECT_EQ(alone.statistics.refined.mean_min_dihedral,
+                  shared.statistics.refined.mean_min_dihedral);
+        EXPECT_EQ(alone.statistics.predicate_filter, shared.statistics.predicate_filter);
+        EXPECT_EQ(alone.statistics.predicate_exact, shared.statistics.predicate_exact);
+      }
+    }
   }
 }
 

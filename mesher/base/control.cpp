@@ -1,5 +1,8 @@
 #include "mesher/base/control.h"
 
+#include <algorithm>
+#include <thread>
+
 namespace delmesher {
 namespace {
 
@@ -11,7 +14,11 @@ double seconds_between(std::chrono::steady_clock::time_point a,
 }  // namespace
 
 Control::Control(const Options& options)
-    : options_(options), start_(Clock::now()), phase_start_(start_) {}
+    : options_(options),
+      threads_(std::max(
+          1U, options.threads == 0 ? std::thread::hardware_concurrency() : options.threads)),
+      start_(Clock::now()),
+      phase_start_(start_) {}
 
 void Control::enter(Phase phase) {
   finish();

@@ -37,10 +37,14 @@ class Control {
   const std::array<double, kPhaseCount>& phase_seconds() const { return seconds_; }
   void finish();
 
+  // How many threads may share the work: Options::threads, at least 1 (see base/parallel.h).
+  unsigned threads() const { return threads_; }
+
  private:
   using Clock = std::chrono::steady_clock;
 
   const Options& options_;
+  unsigned threads_;
   Clock::time_point start_;
   Clock::time_point phase_start_;
   Phase phase_ = Phase::check;

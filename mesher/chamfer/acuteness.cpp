@@ -1,15 +1,17 @@
 #include "mesher/chamfer/acuteness.h"
 
+#include "mesher/base/parallel.h"
+
 namespace delmesher {
 
 namespace {
 
 class AcuteFinder {
  public:
-  AcuteFinder(const KeptSurface& surface, Predicates& predicates, const Thresholds& thresholds)
+  AcuteFinder(const KeptSurface& surface, const PointStore& points, const Thresholds& thresholds)
       : surface_(surface),
         topology_(surface.topology()),
-        predicates_(predicates),
+        predicates_(points),
         thresholds_(thresholds) {}
 
   // The dihedral angle of two kept facets.
@@ -36,6 +38,7 @@ class AcuteFinder {
   }
 
   bool apex() const { return apex_; }  // of the last vertex
+  const PredicateCounters& counters() const { return predicates_.counters; }
 
  private:
   // Few directions fit into space without an acute pair, so this ends soon however many edges there
@@ -87,7 +90,7 @@ class AcuteFinder {
 
   const KeptSurface& surface_;
   const SurfaceTopology& topology_;
-  Predicates& predicates_;
+  Predicates predicates_;
   const Thresholds& thresholds_;
   bool apex_ = false;
 };
@@ -106,24 +109,26 @@ bool projects_into_wedge(Predicates& predicates, VertexId q, VertexId a, VertexI
 Acuteness find_acute(const KeptSurface& surface, Predicates& predicates,
                      const Thresholds& thresholds, const std::vector<std::uint8_t>& active,
                      Control& control) {
-  AcuteFinder finder(surface, predicates, thresholds);
+  constexpr std::size_t kChunk = 256;
+  PerWorker<AcuteFinder> finders(control, surface, predicates.points(), thresholds);
   const auto is_active = [&active](VertexId v) { return active.empty() || active[v] != 0; };
   Acuteness result;
   result.edge.resize(surface.topology().edge_count());
-  for (std::uint32_t e = 0; e < result.edge.size(); ++e) {
+  for_items(control, result.edge.size(), kChunk, [&](Worker& worker, std::size_t n) {
+    const auto e = static_cast<std::uint32_t>(n);
     const auto [v, w] = surface.topology().edge_vertices(e);
-    if (!is_active(v) || !is_active(w)) continue;
-    control.poll();
-    result.edge[e] = finder.edge_is_acute(e);
-  }
+    if (is_active(v) && is_active(w)) result.edge[e] = finders[worker].edge_is_acute(e);
+  });
   result.vertex.resize(surface.vertex_count());
   result.apex.resize(surface.vertex_count());
-  for (VertexId v = 0; v < result.vertex.size(); ++v) {
-    if (!is_active(v)) continue;
-    control.poll();
+  for_items(control, result.vertex.size(), kChunk, [&](Worker& worker, std::size_t n) {
+    const auto v = static_cast<VertexId>(n);
+    if (!is_active(v)) return;
+    AcuteFinder& finder = finders[worker];
     result.vertex[v] = finder.vertex_is_acute(v, result.edge);
     result.apex[v] = result.vertex[v] == 0 && finder.apex();
-  }
+  });
+  finders.for_each([&](const AcuteFinder& f) { predicates.counters += f.counters(); });
   return result;
 }
 

@@ -1,9 +1,11 @@
 #include "mesher/chamfer/filter.h"
 
 #include <algorithm>
+#include <optional>
 #include <queue>
 #include <tuple>
 
+#include "mesher/base/parallel.h"
 #include "mesher/base/planted.h"
 #include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/chamfer_surface.h"
@@ -26,36 +28,19 @@ struct ClosePair {
 // only elements whose partner disappeared are asked again.
 class InputFilter {
  public:
-  InputFilter(const KeptSurface& surface, double tolerance)
+  InputFilter(const KeptSurface& surface, double tolerance, Control& control)
       : surface_(surface),
         topology_(surface.topology()),
         bound_(tolerance * tolerance),
         facets_(surface) {
-    std::vector<ItemBox> edge_boxes(topology_.edge_count());
-    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) edge_boxes[e] = edge_box(e);
-    edge_tree_ = BoxTree(std::move(edge_boxes));
-    std::vector<ItemBox> triangle_boxes(topology_.triangles.size());
-    for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
-      triangle_boxes[t] = ItemBox::around(triangle(t));
-    }
-    triangle_tree_ = BoxTree(std::move(triangle_boxes));
-    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
-      if (!facets_.alive({Element::Kind::edge, e})) edge_tree_.remove(e);
-    }
-    for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
-      if (!facets_.kept()[topology_.facet_of[t]]) triangle_tree_.remove(t);
-    }
+    for_items(control, 2, 1, [this](Worker&, std::size_t n) {
+      n == 0 ? build_edge_tree() : build_triangle_tree();
+    });
   }
 
   FilterResult run(Control& control) {
-    for (VertexId v = 0; v < surface_.vertex_count(); ++v) {
-      control.poll();
-      ask({Element::Kind::vertex, v});
-    }
-    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
-      control.poll();
-      ask({Element::Kind::edge, e});
-    }
+    ask_all(Element::Kind::vertex, surface_.vertex_count(), control);
+    ask_all(Element::Kind::edge, topology_.edge_count(), control);
     FilterResult result;
     while (!queue_.empty()) {
       control.poll();
@@ -67,7 +52,7 @@ class InputFilter {
         ++result.rounds;
         if (planted(Planted::filter_worklist)) continue;
       }
-      ask(pair.first);
+      if (const auto next = closest_to(pair.first)) queue_.push(*next);
     }
     result.facet_kept = result.kept_at_first = facets_.kept();
     return result;
@@ -92,9 +77,40 @@ class InputFilter {
     return ItemBox::around(ends);
   }
 
-  // Queues the element with what is closest to it.
-  void ask(const Element& element) {
-    if (!facets_.alive(element)) return;
+  void build_edge_tree() {
+    std::vector<ItemBox> boxes(topology_.edge_count());
+    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) boxes[e] = edge_box(e);
+    edge_tree_ = BoxTree(std::move(boxes));
+    for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
+      if (!facets_.alive({Element::Kind::edge, e})) edge_tree_.remove(e);
+    }
+  }
+
+  void build_triangle_tree() {
+    std::vector<ItemBox> boxes(topology_.triangles.size());
+    for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
+      boxes[t] = ItemBox::around(triangle(t));
+    }
+    triangle_tree_ = BoxTree(std::move(boxes));
+    for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
+      if (!facets_.kept()[topology_.facet_of[t]]) triangle_tree_.remove(t);
+    }
+  }
+
+  // Queues every element of a kind with what is closest to it.
+  void ask_all(Element::Kind kind, std::size_t count, Control& control) {
+    constexpr std::size_t kChunk = 256;
+    const auto ask = [&](Worker&, std::size_t n, std::vector<ClosePair>& found) {
+      if (const auto pair = closest_to({kind, static_cast<std::uint32_t>(n)})) {
+        found.push_back(*pair);
+      }
+    };
+    for (const ClosePair& pair : gather<ClosePair>(control, count, kChunk, ask)) queue_.push(pair);
+  }
+
+  // The element with what is closest to it, if that is too close.
+  std::optional<ClosePair> closest_to(const Element& element) const {
+    if (!facets_.alive(element)) return {};
     ClosePair closest{bound_, element, {}};
     if (element.kind == Element::Kind::vertex) {
       find_edge_near_vertex(closest);
@@ -102,7 +118,8 @@ class InputFilter {
     } else {
       find_edge_near_edge(closest);
     }
-    if (closest.second.id != kNone) queue_.push(closest);
+    if (closest.second.id == kNone) return {};
+    return closest;
   }
 
   void find_edge_near_vertex(ClosePair& closest) const {
@@ -202,7 +219,7 @@ FilterResult filter_input(const SurfaceTopology& topology, const PointStore& poi
     const std::vector<std::uint8_t> all(topology.facet_triangles.size(), 1);
     return {all, all, 0, 0};
   }
-  return InputFilter(surface, tolerance * surface.scale()).run(control);
+  return InputFilter(surface, tolerance * surface.scale(), control).run(control);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mesher/base/parallel.h"
 #include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/closest.h"
 
@@ -55,20 +56,25 @@ class FeatureFinder {
   }
 
   std::vector<Violation> run(Control& control) {
-    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
-      if (!is_changed(segment_vertices(s))) continue;
-      control.poll();
-      check_segment(s);
-    }
-    for (VertexId v = 0; v < is_vertex_.size(); ++v) {
-      if (!is_vertex_[v] || !changed_[made_for(v)]) continue;
-      control.poll();
-      check_point(v);
-    }
-    std::stable_sort(found_.begin(), found_.end(), [](const Violation& a, const Violation& b) {
+    constexpr std::size_t kChunk = 256;
+    using Violations = std::vector<Violation>;
+    Violations found = gather<Violation>(control, plc_.segments.size(), kChunk,
+                                         [this](Worker&, std::size_t n, Violations& list) {
+                                           const auto s = static_cast<std::uint32_t>(n);
+                                           if (is_changed(segment_vertices(s)))
+                                             check_segment(s, list);
+                                         });
+    Violations of_points = gather<Violation>(control, is_vertex_.size(), kChunk,
+                                             [this](Worker&, std::size_t n, Violations& list) {
+                                               const auto v = static_cast<VertexId>(n);
+                                               if (is_vertex_[v] && changed_[made_for(v)])
+                                                 check_point(v, list);
+                                             });
+    std::move(of_points.begin(), of_points.end(), std::back_inserter(found));
+    std::stable_sort(found.begin(), found.end(), [](const Violation& a, const Violation& b) {
       return a.squared_distance < b.squared_distance;
     });
-    return std::move(found_);
+    return found;
   }
 
  private:
@@ -121,11 +127,11 @@ class FeatureFinder {
     triangle_tree_ = BoxTree(std::move(boxes));
   }
 
-  void check_segment(std::uint32_t s) {
+  void check_segment(std::uint32_t s, std::vector<Violation>& found) const {
     const PlcSegment& segment = plc_.segments[s];
     const std::array<Vec3, 2> here = ends(segment);
     const double length = squared_norm(subtract(here[0], here[1]));
-    if (length < bound_) found_.push_back({length, segment_culprit(s), {}});
+    if (length < bound_) found.push_back({length, segment_culprit(s), {}});
     segment_tree_.for_each_within(ItemBox::around(here), bound_, [&](std::uint32_t other) {
       const auto [a, b] = segment.vertex;
       const auto [c, d] = plc_.segments[other].vertex;
@@ -135,7 +141,7 @@ class FeatureFinder {
       const std::array<Vec3, 2> there = ends(plc_.segments[other]);
       const ClosestOfSegments closest = closest_of_segments(here[0], here[1], there[0], there[1]);
       if (!(closest.squared_distance < bound_)) return;
-      found_.push_back(
+      found.push_back(
           {closest.squared_distance, side_culprit(s, closest.s), side_culprit(other, closest.t)});
     });
   }
@@ -147,7 +153,7 @@ class FeatureFinder {
     return segment_culprit(s);
   }
 
-  void check_point(VertexId v) {
+  void check_point(VertexId v, std::vector<Violation>& found) const {
     const Vec3 p = position(v);
     const std::array<Vec3, 1> query = {p};
     triangle_tree_.for_each_within(ItemBox::around(query), bound_, [&](std::uint32_t item) {
@@ -162,7 +168,7 @@ class FeatureFinder {
       if (std::binary_search(culprit.facets.begin(), culprit.facets.end(), f)) return;
       if (cut_off(f, p)) return;
       std::vector<VertexId> vertices = {made_for(v)};
-      found_.push_back({closest.squared_distance, std::move(culprit), {{f}, std::move(vertices)}});
+      found.push_back({closest.squared_distance, std::move(culprit), {{f}, std::move(vertices)}});
     });
   }
 
@@ -194,7 +200,6 @@ class FeatureFinder {
   std::vector<std::uint8_t> is_vertex_;
   BoxTree segment_tree_, triangle_tree_;
   std::vector<std::uint32_t> triangles_;
-  std::vector<Violation> found_;
 };
 
 }  // namespace

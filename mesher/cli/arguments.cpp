@@ -61,6 +61,11 @@ void add_common(CLI::App& app, Command& command, const char* input = kSurfaces) 
   app.add_flag("-v,--verbose", command.verbose, "say what each phase did")->excludes(quiet);
 }
 
+void add_threads(CLI::App& app, Given& given) {
+  add_number(app, given, "threads", "threads that share the work, 0: one per core (1)",
+             {0, 1024, false});
+}
+
 void add_run(CLI::App& app, Command& command, Given& given, const char* outputs = kMeshes) {
   app.add_option("-o,--output", command.outputs, outputs)->required()->expected(1)->take_all();
   app.add_option_function<std::string>(
@@ -105,6 +110,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
          "override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
+  add_threads(app, given);
 }
 
 void add_plane(CLI::App& app, Command& command, Given& given) {
@@ -154,9 +160,11 @@ void apply(const Given& given, Command& command) {
   number("chamfer-radius", options.chamfer_radius);
   number("max-edge", options.max_edge);
   number("time-limit", options.time_limit_seconds);
-  double vertices = 0, budget = 0;
+  double vertices = 0, budget = 0, threads = 1;
   number("max-vertices", vertices);
   number("budget", budget);
+  number("threads", threads);
+  options.threads = static_cast<unsigned>(threads);
   options.budget = static_cast<std::uint64_t>(budget);
   options.max_vertices = static_cast<std::uint64_t>(vertices);
   options.slivers = given.slivers.value_or(options.slivers);
@@ -231,6 +239,7 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   add_mesh(*mesh, command, given);
   add_common(*cdt, command);
   add_run(*cdt, command, given);
+  add_threads(*cdt, given);
   add_plane(*plane, command, given);
   add_common(*check, command);
   check->add_flag("--json", command.json, "report as JSON");
@@ -238,6 +247,7 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
              {0, 90, false});
   add_number(*check, given, "corner", "the same for the angle of two edges, degrees (20)",
              {0, 90, false});
+  add_threads(*check, given);
 
   default_to_mesh(arguments);
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them

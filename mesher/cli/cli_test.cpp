@@ -73,6 +73,8 @@ TEST(Arguments, AllOptions) {
                                "1000",
                                "--time-limit",
                                "2.5",
+                               "--threads",
+                               "3",
                                "--stats",
                                "s.json",
                                "--save-chamfered",
@@ -94,6 +96,7 @@ TEST(Arguments, AllOptions) {
   EXPECT_EQ(o.region, Region::hull);
   EXPECT_EQ(o.max_vertices, 1000U);
   EXPECT_EQ(o.time_limit_seconds, 2.5);
+  EXPECT_EQ(o.threads, 3U);
   EXPECT_FALSE(o.simplify_bridges);
   EXPECT_TRUE(o.want_exact && o.want_chamfered);
   EXPECT_TRUE(parsed.command.verbose);
@@ -101,6 +104,7 @@ TEST(Arguments, AllOptions) {
 
 TEST(Arguments, ExplicitOptionsOverrideThePresetInAnyOrder) {
   const Options paper = parse({"i.off", "-o", "o.mesh", "--preset", "paper"}).command.options;
+  EXPECT_EQ(paper.threads, 1U);
   EXPECT_EQ(paper.acute, 90);
   EXPECT_EQ(paper.tau, 1e-4);
   EXPECT_EQ(paper.delta, 14.47);
@@ -176,6 +180,9 @@ TEST(Arguments, MistakesAreTwo) {
   expect_usage_error({"in.off", "-o", "a.mesh", "--preset=mine"});
   expect_usage_error({"in.off", "-o", "a.mesh", "--max-vertices=0"});
   expect_usage_error({"in.off", "-o", "a.mesh", "--time-limit=0"});
+  for (const char* bad : {"-1", "2000", "many"}) {
+    expect_usage_error({"in.off", "-o", "a.mesh", std::string("--threads=") + bad});
+  }
   expect_usage_error({"in.off", "-o", "a.mesh", "-q", "-v"});
 }
 

@@ -4,12 +4,15 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <ostream>
+#include <sstream>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -176,14 +179,87 @@ TEST_F(Program, LimitsAreFive) {
   expect_no_output();
 }
 
+// A ball with spikes, as a graph over the sphere: acute corners, and many facets that are close.
+std::string spiky_ball() {
+  constexpr int kRings = 14, kSlices = 24;
+  std::ostringstream off;
+  off.precision(17);
+  off << "OFF\n" << kRings * kSlices + 2 << " " << 2 * kRings * kSlices << " 0\n0 0 1\n0 0 -1\n";
+  for (int r = 0; r < kRings; ++r) {
+    for (int s = 0; s < kSlices; ++s) {
+      const double polar = 3.14159 * (r + 1) / (kRings + 1), around = 6.28318 * s / kSlices;
+      const double radius = 1 + 0.1 * ((7 * r + 13 * s) % 8);
+      off << radius * std::sin(polar) * std::cos(around) << " "
+          << radius * std::sin(polar) * std::sin(around) << " " << radius * std::cos(polar) << "\n";
+    }
+  }
+  const auto at = [](int r, int s) { return 2 + r * kSlices + s % kSlices; };
+  for (int s = 0; s < kSlices; ++s) {
+    off << "3 0 " << at(0, s) << " " << at(0, s + 1) << "\n";
+    off << "3 1 " << at(kRings - 1, s + 1) << " " << at(kRings - 1, s) << "\n";
+    for (int r = 0; r + 1 < kRings; ++r) {
+      off << "3 " << at(r, s) << " " << at(r + 1, s) << " " << at(r + 1, s + 1) << "\n";
+      off << "3 " << at(r, s) << " " << at(r + 1, s + 1) << " " << at(r, s + 1) << "\n";
+    }
+  }
+  return off.str();
+}
+
+// The lines of statistics that are the same for every run.
+std::string lasting(const std::string& statistics) {
+  std::istringstream in(statistics);
+  std::string line, all;
+  for (bool in_phases = false; std::getline(in, line);) {
+    const auto has = [&](const char* key) { return line.find(key) != std::string::npos; };
+    in_phases = has("\"phases_seconds\"") || (in_phases && !has("}"));
+    if (in_phases || has("_seconds\"") || has("\"peak_rss_bytes\"") || has("\"threads\"")) continue;
+    all += line + "\n";
+  }
+  return all;
+}
+
+// Numbers of a key of the statistics that occurs once.
+double number_of(const std::string& statistics, const std::string& key) {
+  const std::size_t at = statistics.find("\"" + key + "\": ");
+  EXPECT_NE(at, std::string::npos) << key;
+  return at == std::string::npos ? 0 : std::strtod(&statistics[at + key.size() + 4], nullptr);
+}
+
+TEST_F(Program, AnyNumberOfThreadsWritesTheSameBytes) {
+  write("in.off", spiky_ball());
+  for (const char* options : {"--tau 0.03 --acute 80", "--preset paper --tau 0.02"}) {
+    std::string mesh, exact, statistics;
+    for (const int threads : {1, 2, 3, 8}) {
+      ASSERT_EQ(run("mesh in.off -o mesh.mesh --exact exact.txt --stats stats.json --threads " +
+                    std::to_string(threads) + " " + options),
+                0)
+          << text("err.txt");
+      EXPECT_EQ(number_of(text("stats.json"), "threads"), threads);
+      if (threads == 1) {
+        mesh = text("mesh.mesh");
+        exact = text("exact.txt");
+        statistics = lasting(text("stats.json"));
+        // Enough for several threads to have something to do in every shared loop.
+        EXPECT_GT(number_of(statistics, "dropped_triangles"), 0);
+        EXPECT_GT(number_of(statistics, "acute_vertices"), 10);
+        EXPECT_GT(std::count(mesh.begin(), mesh.end(), '\n'), 10000);
+        EXPECT_NE(statistics.find("\"mean_min_face_angle\""), std::string::npos);
+      }
+      EXPECT_TRUE(text("mesh.mesh") == mesh) << threads << " threads, " << options;
+      EXPECT_TRUE(text("exact.txt") == exact) << threads << " threads, " << options;
+      EXPECT_EQ(lasting(text("stats.json")), statistics) << threads << " threads, " << options;
+    }
+  }
+}
+
 // Late enough for the handlers to be there on a busy machine; --foreground, because a signal to the
 // process group too may arrive as a second one, which ends the program at once.
 TEST_F(Program, SignalsEndIt) {
   write("in.off", cube());
-  for (const char* signal : {"INT", "TERM"}) {
-    EXPECT_EQ(
-        run(kEndless, std::string("timeout --foreground --preserve-status -s ") + signal + " 2"),
-        130);
+  for (const auto& [signal, threads] : {std::pair("INT", "1"), std::pair("TERM", "3")}) {
+    EXPECT_EQ(run(std::string(kEndless) + " --threads " + threads,
+                  std::string("timeout --foreground --preserve-status -s ") + signal + " 2"),
+              130);
     expect_error("in.off", "interrupted");
   }
   expect_no_output();

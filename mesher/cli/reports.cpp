@@ -59,7 +59,8 @@ Json parameters_json(const Command& command) {
           {"max_edge", o.max_edge},
           {"region", o.region == Region::hull ? "hull" : "interior"},
           {"max_vertices", o.max_vertices},
-          {"time_limit", o.time_limit_seconds}};
+          {"time_limit", o.time_limit_seconds},
+          {"threads", o.threads}};
 }
 
 // What the statistics of every job begin with.
@@ -157,7 +158,8 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts) {
   const PlaneStatistics& s = result.statistics;
   Json json = run_json(command, result, facts, "segments");
-  for (const char* key : {"budget", "corner", "gabriel", "slivers", "bridge_simplification"}) {
+  for (const char* key :
+       {"budget", "corner", "gabriel", "slivers", "bridge_simplification", "threads"}) {
     json["parameters"].erase(key);
   }
   json["refined"] = mesh_json(s.refined);

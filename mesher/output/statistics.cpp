@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "mesher/base/parallel.h"
+
 namespace delmesher {
 namespace {
 
@@ -296,75 +298,103 @@ std::vector<std::uint8_t> find_repeated_faces(std::span<const Tet> tetrahedra,
   return repeated;
 }
 
-class Accumulator {
+using Extremes = std::array<double, 2>;  // the smallest and the largest angle
+
+// The angles of consecutive tetrahedra, which need no others.
+class Angles {
  public:
-  explicit Accumulator(MeshStatistics& statistics) : s_(statistics) {
-    s_.min_face_angle = s_.min_dihedral = 180;
+  void measure(std::span<const Vec3> coordinates, const Tet& tet, unsigned repeated,
+               const CosineBins& bins) {
+    const auto& [a, b, c, d] = tet;
+    Cosines cosines;
+    if (ordinary_cosines(coordinates[a], coordinates[b], coordinates[c], coordinates[d], cosines)) {
+      for (int f = 0; f < 4; ++f) {
+        if ((repeated >> f & 1U) == 0) add_face_cosines(cosines.face[f], bins);
+      }
+      add_dihedral_cosines(cosines.dihedral, bins);
+      return;
+    }
+    const Shape shape = make_shape(coordinates, tet);
+    for (int f = 0; f < 4; ++f) {
+      if ((repeated >> f & 1U) == 0) add_face(face_angles(shape, f));
+    }
+    const double volume = volume_term(shape);
+    add_dihedrals(
+        shape.comparable ? comparable_dihedrals(shape, volume) : incomparable_dihedrals(shape),
+        shape.comparable && volume == 0);
   }
 
+  // Adds up, one by one: the sums do not depend on where chunks end. Then empty.
+  void move_to(MeshStatistics& s, std::uint64_t& faces) {
+    faces += face_.size();
+    for (const auto& [low, high] : face_) {
+      s.min_face_angle = std::min(s.min_face_angle, low);
+      s.max_face_angle = std::max(s.max_face_angle, high);
+      s.mean_min_face_angle += low;
+      s.mean_max_face_angle += high;
+    }
+    for (const auto& [low, high] : dihedral_) {
+      s.min_dihedral = std::min(s.min_dihedral, low);
+      s.max_dihedral = std::max(s.max_dihedral, high);
+      s.mean_min_dihedral += low;
+      s.mean_max_dihedral += high;
+    }
+    for (std::size_t n = 0; n < face_histogram_.size(); ++n) {
+      s.face_angle_histogram[n] += face_histogram_[n];
+      s.dihedral_histogram[n] += dihedral_histogram_[n];
+    }
+    face_.clear();
+    dihedral_.clear();
+    face_histogram_ = dihedral_histogram_ = {};
+  }
+
+ private:
   void add_face(const std::array<double, 3>& angles) {
     const auto [low, high] = std::minmax({angles[0], angles[1], angles[2]});
-    add_face_extremes(low, high);
-    for (const double a : angles) ++s_.face_angle_histogram[bin(a)];
+    face_.push_back({low, high});
+    for (const double a : angles) ++face_histogram_[bin(a)];
   }
 
-  void add_face_cosines(const std::array<double, 3>& cosines) {
+  void add_face_cosines(const std::array<double, 3>& cosines, const CosineBins& bins) {
     const auto [low, high] = std::minmax({cosines[0], cosines[1], cosines[2]});
-    add_face_extremes(std::acos(high) * kDegrees, std::acos(low) * kDegrees);
-    for (const double c : cosines) ++s_.face_angle_histogram[cosine_bin_(c)];
+    face_.push_back({std::acos(high) * kDegrees, std::acos(low) * kDegrees});
+    for (const double c : cosines) ++face_histogram_[bins(c)];
   }
 
   void add_dihedrals(const std::array<double, 6>& angles, bool flat) {
     // A flat tetrahedron with a degenerate face has edges without a dihedral angle.
     const double low = flat ? 0 : *std::min_element(angles.begin(), angles.end());
     const double high = flat ? 180 : *std::max_element(angles.begin(), angles.end());
-    add_dihedral_extremes(low, high);
-    for (const double a : angles) ++s_.dihedral_histogram[bin(a)];
+    dihedral_.push_back({low, high});
+    for (const double a : angles) ++dihedral_histogram_[bin(a)];
   }
 
-  void add_dihedral_cosines(const std::array<double, 6>& cosines) {
+  void add_dihedral_cosines(const std::array<double, 6>& cosines, const CosineBins& bins) {
     const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
-    add_dihedral_extremes(std::acos(*high) * kDegrees, std::acos(*low) * kDegrees);
-    for (const double c : cosines) ++s_.dihedral_histogram[cosine_bin_(c)];
+    dihedral_.push_back({std::acos(*high) * kDegrees, std::acos(*low) * kDegrees});
+    for (const double c : cosines) ++dihedral_histogram_[bins(c)];
   }
 
-  void finish() {
-    if (faces_ == 0) {
-      s_.min_face_angle = s_.min_dihedral = 0;
-      return;
-    }
-    s_.mean_min_face_angle /= static_cast<double>(faces_);
-    s_.mean_max_face_angle /= static_cast<double>(faces_);
-    s_.mean_min_dihedral /= static_cast<double>(s_.tetrahedra);
-    s_.mean_max_dihedral /= static_cast<double>(s_.tetrahedra);
-  }
-
- private:
-  void add_face_extremes(double low, double high) {
-    s_.min_face_angle = std::min(s_.min_face_angle, low);
-    s_.max_face_angle = std::max(s_.max_face_angle, high);
-    s_.mean_min_face_angle += low;
-    s_.mean_max_face_angle += high;
-    ++faces_;
-  }
-
-  void add_dihedral_extremes(double low, double high) {
-    s_.min_dihedral = std::min(s_.min_dihedral, low);
-    s_.max_dihedral = std::max(s_.max_dihedral, high);
-    s_.mean_min_dihedral += low;
-    s_.mean_max_dihedral += high;
-  }
-
-  const CosineBins cosine_bin_;
-  MeshStatistics& s_;
-  std::uint64_t faces_ = 0;
+  std::vector<Extremes> face_, dihedral_;
+  std::array<std::uint64_t, 12> face_histogram_{}, dihedral_histogram_{};
 };
+
+void finish(MeshStatistics& s, std::uint64_t faces) {
+  if (faces == 0) {
+    s.min_face_angle = s.min_dihedral = 0;
+    return;
+  }
+  s.mean_min_face_angle /= static_cast<double>(faces);
+  s.mean_max_face_angle /= static_cast<double>(faces);
+  s.mean_min_dihedral /= static_cast<double>(s.tetrahedra);
+  s.mean_max_dihedral /= static_cast<double>(s.tetrahedra);
+}
 
 }  // namespace
 
 MeshStatistics mesh_statistics(std::span<const Vec3> coordinates, std::span<const Tet> tetrahedra,
                                std::span<const std::uint8_t> repeated_faces, std::uint64_t vertices,
-                               std::uint64_t interior) {
+                               std::uint64_t interior, Control& control) {
   MeshStatistics statistics;
   statistics.vertices = vertices;
   statistics.tetrahedra = tetrahedra.size();
@@ -374,27 +404,24 @@ MeshStatistics mesh_statistics(std::span<const Vec3> coordinates, std::span<cons
     found = find_repeated_faces(tetrahedra, coordinates.size());
     repeated_faces = found;
   }
-  Accumulator accumulator(statistics);
-  Cosines cosines;
-  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
-    const auto& [a, b, c, d] = tetrahedra[t];
-    if (ordinary_cosines(coordinates[a], coordinates[b], coordinates[c], coordinates[d], cosines)) {
-      for (int f = 0; f < 4; ++f) {
-        if ((repeated_faces[t] >> f & 1) == 0) accumulator.add_face_cosines(cosines.face[f]);
+  // What is kept of the angles of one batch takes a few megabytes.
+  constexpr std::size_t kChunk = 1024, kBatch = 32 * kChunk;
+  statistics.min_face_angle = statistics.min_dihedral = 180;
+  const CosineBins bins;
+  std::vector<Angles> angles(kBatch / kChunk);
+  std::uint64_t faces = 0;
+  for (std::size_t begin = 0; begin < tetrahedra.size(); begin += kBatch) {
+    const std::size_t count = std::min(kBatch, tetrahedra.size() - begin);
+    for_chunks(control, count, kChunk, [&](Worker& worker, const Chunk& chunk) {
+      worker.poll();
+      for (std::size_t t = begin + chunk.begin; t < begin + chunk.end; ++t) {
+        angles[chunk.index].measure(coordinates, tetrahedra[t], repeated_faces[t], bins);
       }
-      accumulator.add_dihedral_cosines(cosines.dihedral);
-      continue;
-    }
-    const Shape shape = make_shape(coordinates, tetrahedra[t]);
-    for (int f = 0; f < 4; ++f) {
-      if ((repeated_faces[t] >> f & 1) == 0) accumulator.add_face(face_angles(shape, f));
-    }
-    const double volume = volume_term(shape);
-    accumulator.add_dihedrals(
-        shape.comparable ? comparable_dihedrals(shape, volume) : incomparable_dihedrals(shape),
-        shape.comparable && volume == 0);
+      return true;
+    });
+    for (Angles& chunk : angles) chunk.move_to(statistics, faces);
   }
-  accumulator.finish();
+  finish(statistics, faces);
   return statistics;
 }
 

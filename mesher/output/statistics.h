@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "mesher/base/control.h"
 #include "mesher/delmesher.h"
 
 namespace delmesher {
@@ -17,6 +18,6 @@ namespace delmesher {
 MeshStatistics mesh_statistics(std::span<const std::array<double, 3>> coordinates,
                                std::span<const std::array<std::uint32_t, 4>> tetrahedra,
                                std::span<const std::uint8_t> repeated_faces, std::uint64_t vertices,
-                               std::uint64_t interior);
+                               std::uint64_t interior, Control& control);
 
 }  // namespace delmesher

@@ -14,7 +14,9 @@ using Points = std::vector<std::array<double, 3>>;
 using Tets = std::vector<std::array<std::uint32_t, 4>>;
 
 MeshStatistics of(const Points& points, const Tets& tets = {{0, 1, 2, 3}}) {
-  return mesh_statistics(points, tets, {}, points.size(), tets.size());
+  const Options options;
+  Control control(options);
+  return mesh_statistics(points, tets, {}, points.size(), tets.size(), control);
 }
 
 std::uint64_t total(const std::array<std::uint64_t, 12>& histogram) {
@@ -199,7 +201,7 @@ TEST(Statistics, DegenerateButNoNaN) {
 }
 
 TEST(Statistics, EmptyMesh) {
-  const MeshStatistics s = mesh_statistics({}, {}, {}, 0, 0);
+  const MeshStatistics s = of({}, {});
   EXPECT_EQ(s.tetrahedra, 0U);
   expect_finite(s);
   EXPECT_EQ(s.max_face_angle, 0);

@@ -21,6 +21,15 @@ struct PredicateCounters {
   std::uint64_t extended = 0;  // decided by the extended-precision stage
   std::uint64_t exact = 0;     // decided by big integers
   std::uint64_t symbolic = 0;  // ties broken by symbolic perturbation
+
+  PredicateCounters& operator+=(const PredicateCounters& other) {
+    filter += other.filter;
+    support += other.support;
+    extended += other.extended;
+    exact += other.exact;
+    symbolic += other.symbolic;
+    return *this;
+  }
 };
 
 // One object per thread: it owns scratch memory and counters. The points must outlive it; points

@@ -33,6 +33,7 @@ void Refiner::run() {
 
 RefineResult Refiner::result() {
   RefineResult r;
+  classify_near_removed();
   std::size_t count = 0;
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     if (!dt_.alive(t) || dt_.is_ghost(t)) continue;

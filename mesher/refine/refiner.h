@@ -113,7 +113,8 @@ class Refiner {
 
   // sides.cpp
   bool near_removed(TetId t) const;
-  std::uint8_t classify_exactly(TetId t);
+  static std::uint8_t classify_exactly(Solid& solid, const VertexId* v);
+  void classify_near_removed();
   std::uint8_t side_through(TetId t, int i) const;
   std::uint8_t side_of(TetId start);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/base/parallel.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/refiner.h"
 
@@ -55,9 +56,8 @@ bool Refiner::near_removed(TetId t) const {
       box, [&](std::uint32_t i) { return beyond_a_face(corner, error, options_.removed[i]); });
 }
 
-std::uint8_t Refiner::classify_exactly(TetId t) {
-  const VertexId* v = dt_.vertices(t);
-  switch (solid_.classify({v[0], v[1], v[2], v[3]})) {
+std::uint8_t Refiner::classify_exactly(Solid& solid, const VertexId* v) {
+  switch (solid.classify({v[0], v[1], v[2], v[3]})) {
     case Side::outside:
       return kOutside;
     case Side::inside:
@@ -66,6 +66,26 @@ std::uint8_t Refiner::classify_exactly(TetId t) {
       break;
   }
   return kStraddling;
+}
+
+// What side_of() would do for each of them, shared among threads. The notes of a tetrahedron are
+// written by one of them and read by no other.
+void Refiner::classify_near_removed() {
+  constexpr std::size_t kChunk = 256;
+  if (control_.threads() == 1 || removed_.empty()) return;
+  struct Mine {
+    Mine(const PointStore& points, const Solid& solid)
+        : predicates(points), own(solid, predicates) {}
+    Predicates predicates;
+    Solid own;
+  };
+  PerWorker<Mine> mine(control_, points_, solid_);
+  for_items(control_, dt_.capacity(), kChunk, [&](Worker& worker, std::size_t n) {
+    const auto t = static_cast<TetId>(n);
+    if (!dt_.alive(t) || dt_.is_ghost(t) || note(t, kSide) != kUnknown || !near_removed(t)) return;
+    note(t, kSide) = classify_exactly(mine[worker].own, dt_.vertices(t));
+  });
+  mine.for_each([&](const Mine& m) { predicates_.counters += m.predicates.counters; });
 }
 
 // The side seen through face i of a tetrahedron away from the removed part, kUnknown if the
@@ -84,7 +104,8 @@ std::uint8_t Refiner::side_through(TetId t, int i) const {
 // Requires empty queues: every subfacet is a face of the tetrahedrization.
 std::uint8_t Refiner::side_of(TetId start) {
   if (note(start, kSide) != kUnknown) return note(start, kSide);
-  if (near_removed(start)) return note(start, kSide) = classify_exactly(start);
+  if (near_removed(start))
+    return note(start, kSide) = classify_exactly(solid_, dt_.vertices(start));
   // Search for a tetrahedron that knows, through those that do not, then tell all that were asked.
   std::vector<TetId> asked = {start};
   note(start, kSide) = kAsked;
@@ -97,7 +118,7 @@ std::uint8_t Refiner::side_of(TetId start) {
       if (!dt_.is_ghost(u) && note(u, kSide) == kAsked) continue;
       if (!dt_.is_ghost(u) && note(u, kSide) == kUnknown) {
         if (near_removed(u)) {
-          note(u, kSide) = classify_exactly(u);
+          note(u, kSide) = classify_exactly(solid_, dt_.vertices(u));
         } else {
           note(u, kSide) = kAsked;
           asked.push_back(u);
@@ -109,7 +130,7 @@ std::uint8_t Refiner::side_of(TetId start) {
   }
   // Nobody knows (an island among straddling ones): the test on one of them serves all.
   const TetId source = asked[n - 1];
-  if (found == kUnknown) found = classify_exactly(source);
+  if (found == kUnknown) found = classify_exactly(solid_, dt_.vertices(source));
   for (const TetId t : asked) note(t, kSide) = kUnknown;
   note(source, kSide) = found;
   std::vector<TetId> tell = {source};

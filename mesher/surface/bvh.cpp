@@ -63,6 +63,33 @@ void Box::extend(const Box& other) {
   }
 }
 
+// Splits as pairs_within() and pairs_between() do.
+void Bvh::add_tasks(const PairTask& task, std::vector<PairTask>& tasks) const {
+  constexpr std::uint32_t kSmall = 256;
+  const auto [m, n] = task;
+  const Node &a = nodes_[m], &b = nodes_[n];
+  if (!a.box.overlaps(b.box)) return;
+  if (std::max(a.size(), b.size()) <= kSmall) {
+    tasks.push_back(task);
+  } else if (m == n) {
+    add_tasks({m + 1, m + 1}, tasks);
+    add_tasks({a.right, a.right}, tasks);
+    add_tasks({m + 1, a.right}, tasks);
+  } else if (b.is_leaf() || (!a.is_leaf() && a.size() >= b.size())) {
+    add_tasks({m + 1, n}, tasks);
+    add_tasks({a.right, n}, tasks);
+  } else {
+    add_tasks({m, n + 1}, tasks);
+    add_tasks({m, b.right}, tasks);
+  }
+}
+
+std::vector<Bvh::PairTask> Bvh::pair_tasks() const {
+  std::vector<PairTask> tasks;
+  if (!nodes_.empty()) add_tasks({0, 0}, tasks);
+  return tasks;
+}
+
 Bvh::Bvh(std::span<const Box> boxes) : items_(boxes.size()) {
   std::iota(items_.begin(), items_.end(), 0U);
   if (boxes.empty()) return;

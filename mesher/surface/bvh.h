@@ -63,6 +63,18 @@ class Bvh {
     return nodes_.empty() || pairs_within(0, visit);
   }
 
+  // The pairs within one node (second is the same), or between two that have no item in common.
+  struct PairTask {
+    std::uint32_t first, second;
+  };
+  // Tasks that make up pairs(), in its order, each of a few hundred items.
+  std::vector<PairTask> pair_tasks() const;
+  template <class Visit>
+  bool pairs(const PairTask& task, Visit&& visit) const {
+    return task.first == task.second ? pairs_within(task.first, visit)
+                                     : pairs_between(task.first, task.second, visit);
+  }
+
  private:
   template <class Visit>
   bool query(std::uint32_t n, const Box& box, Visit& visit) const;
@@ -70,6 +82,7 @@ class Bvh {
   bool pairs_within(std::uint32_t n, Visit& visit) const;
   template <class Visit>
   bool pairs_between(std::uint32_t m, std::uint32_t n, Visit& visit) const;
+  void add_tasks(const PairTask& task, std::vector<PairTask>& tasks) const;
   std::uint32_t build(std::span<const Box> boxes, std::uint32_t begin, std::uint32_t end);
 
   std::vector<Node> nodes_;

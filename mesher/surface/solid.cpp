@@ -176,25 +176,36 @@ std::vector<Box> boxes_of(std::span<const std::uint32_t> items, std::span<const 
 
 }  // namespace
 
-struct Solid::Impl {
-  Impl(const SurfaceTopology& surface, Predicates& mesh_predicates, std::span<const Box> boxes,
-       std::span<const Box> open)
+// What never changes, for all threads.
+struct Solid::Shared {
+  Shared(const SurfaceTopology& surface, const PointStore& points, std::span<const Box> boxes,
+         std::span<const Box> open)
       : topology(surface),
-        predicates(mesh_predicates),
         bvh(boxes),
         cutting(cutting_triangles(boxes, open)),
         cutting_bvh(boxes_of(cutting, boxes)) {
-    const std::size_t n = surface.vertex_half_edge.size();
+    plane.reserve(cutting.size());
+    for (const std::uint32_t t : cutting) {
+      const auto& [a, b, c] = surface.triangles[t];
+      plane.emplace_back(points.approximation(a), points.approximation(b), points.approximation(c));
+    }
+  }
+
+  const SurfaceTopology& topology;
+  Bvh bvh;                              // of all triangles
+  std::vector<std::uint32_t> cutting;   // triangles that may meet the interior of a tetrahedron
+  Bvh cutting_bvh;                      // of these
+  std::vector<ApproximatePlane> plane;  // of these
+};
+
+struct Solid::Impl {
+  Impl(std::shared_ptr<const Shared> data, Predicates& mesh_predicates)
+      : shared(std::move(data)), predicates(mesh_predicates) {
+    const std::size_t n = topology.vertex_half_edge.size();
     input.reserve(n + 1);
     for (VertexId v = 0; v < n; ++v) {
       const Vec3 p = predicates.points().nearest(v);
       input.add_explicit(p[0], p[1], p[2]);
-    }
-    plane.reserve(cutting.size());
-    for (const std::uint32_t t : cutting) {
-      const auto& [a, b, c] = surface.triangles[t];
-      const PointStore& points = mesh_predicates.points();
-      plane.emplace_back(points.approximation(a), points.approximation(b), points.approximation(c));
     }
   }
 
@@ -203,9 +214,9 @@ struct Solid::Impl {
     const Box box = interior_box(points, tetrahedron);
     if (bvh.empty() || !bvh.node(0).box.overlaps(box)) return Side::outside;
     std::optional<TetrahedronFaces> faces;
-    const bool disjoint = cutting_bvh.query(box, [&](std::uint32_t n) {
-      const std::uint32_t t = cutting[n];
-      if (on_one_side(tetrahedron, t, plane[n])) return true;
+    const bool disjoint = shared->cutting_bvh.query(box, [&](std::uint32_t n) {
+      const std::uint32_t t = shared->cutting[n];
+      if (on_one_side(tetrahedron, t, shared->plane[n])) return true;
       if (!faces) faces.emplace(points, tetrahedron);
       if (faces->separate(points, topology.triangles[t])) return true;
       return !meets_interior(predicates, tetrahedron, topology.triangles[t]);
@@ -311,20 +322,23 @@ struct Solid::Impl {
     return inside;
   }
 
-  const SurfaceTopology& topology;
-  Predicates& predicates;               // of the mesh's points
-  Bvh bvh;                              // of all triangles
-  std::vector<std::uint32_t> cutting;   // triangles that may meet the interior of a tetrahedron
-  Bvh cutting_bvh;                      // of these
-  std::vector<ApproximatePlane> plane;  // of these
+  const std::shared_ptr<const Shared> shared;
+  const SurfaceTopology& topology = shared->topology;
+  const Bvh& bvh = shared->bvh;
+  Predicates& predicates;  // of the mesh's points
   // A copy of the input vertices, with room for the start of a ray.
   PointStore input;
   Predicates input_predicates{input};
 };
 
 Solid::Solid(const SurfaceTopology& topology, Predicates& predicates, std::span<const Box> open)
-    : impl_(std::make_unique<Impl>(topology, predicates,
-                                   triangle_boxes(topology, predicates.points()), open)) {}
+    : impl_(std::make_unique<Impl>(
+          std::make_shared<const Shared>(topology, predicates.points(),
+                                         triangle_boxes(topology, predicates.points()), open),
+          predicates)) {}
+
+Solid::Solid(const Solid& other, Predicates& predicates)
+    : impl_(std::make_unique<Impl>(other.impl_->shared, predicates)) {}
 
 Solid::~Solid() = default;
 

@@ -14,13 +14,17 @@ namespace delmesher {
 
 enum class Side : std::uint8_t { outside, inside, straddling };
 
-// Bounding-volume hierarchy over the input triangles with exact queries. Not thread-safe.
+// Bounding-volume hierarchy over the input triangles with exact queries. One object per thread.
 class Solid {
  public:
   // `open`: if not empty, only triangles that meet one of these boxes are looked at to tell whether
   // a tetrahedron is cut: the caller knows that no other triangle meets the interior of any that it
   // asks about.
   Solid(const SurfaceTopology& topology, Predicates& predicates, std::span<const Box> open = {});
+  // The same solid for another thread, with its own predicates on the same points.
+  Solid(const Solid& other, Predicates& predicates);
+  Solid(const Solid&) = delete;
+  Solid& operator=(const Solid&) = delete;
   ~Solid();
 
   // Side of the open tetrahedron abcd (orient3d > 0; any point kinds): outside or inside if no
@@ -28,6 +32,7 @@ class Solid {
   Side classify(const std::array<VertexId, 4>& tetrahedron);
 
  private:
+  struct Shared;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

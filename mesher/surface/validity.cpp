@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "mesher/base/parallel.h"
 #include "mesher/base/planted.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/bvh.h"
@@ -112,8 +113,6 @@ class Checker {
       result_.report.defects.push_back({kind, std::move(vertices), std::move(triangles), message});
     }
   }
-
-  void count(Kind kind) { ++result_.report.defect_counts[static_cast<std::size_t>(kind)]; }
 
   std::string at(VertexId v) const { return text(surface_.vertices[v]); }
 
@@ -271,22 +270,47 @@ class Checker {
   // Degenerate triangles and duplicates are reported already and take no part.
   void check_intersections() {
     bvh_.emplace(boxes_);
-    std::set<std::array<std::uint32_t, 2>> found;  // the first few
-    bvh_->pairs([&](std::uint32_t t, std::uint32_t u) {
-      control_.poll();
-      if (t > u) std::swap(t, u);
-      if (projections_[t].sign == 0 || projections_[u].sign == 0 || same_corners(t, u)) return true;
-      if (planted(Planted::shared_vertex) && share_a_corner(t, u)) return true;
-      if (!meet_outside_shared(predicates_, triangles_[t], triangles_[u], projections_[t],
-                               projections_[u])) {
-        return true;
-      }
-      count(Kind::self_intersection);
-      found.insert({t, u});
-      if (found.size() > kListed) found.erase(std::prev(found.end()));
-      return !stop_at_first_;
+    const std::vector<Bvh::PairTask> tasks = bvh_->pair_tasks();
+    std::vector<Intersections> of_task(tasks.size());
+    PerWorker<Predicates> predicates(control_, points_);
+    for_chunks(control_, tasks.size(), 1, [&](Worker& worker, const Chunk& chunk) {
+      return bvh_->pairs(tasks[chunk.index], [&](std::uint32_t t, std::uint32_t u) {
+        worker.poll();
+        if (t > u) std::swap(t, u);
+        if (!intersect(predicates[worker], t, u)) return true;
+        of_task[chunk.index].add({t, u});
+        return !stop_at_first_;
+      });
     });
-    for (const auto [t, u] : found) describe_intersection(t, u);
+    Intersections all;
+    for (const Intersections& found : of_task) {
+      all.add(found);
+      if (stop_at_first_ && all.count > 0) break;  // what other threads found later
+    }
+    result_.report.defect_counts[static_cast<std::size_t>(Kind::self_intersection)] += all.count;
+    for (const auto [t, u] : all.first) describe_intersection(t, u);
+  }
+
+  struct Intersections {
+    std::uint64_t count = 0;
+    std::set<std::array<std::uint32_t, 2>> first;  // the few with the smallest indices
+
+    void add(const std::array<std::uint32_t, 2>& pair) {
+      ++count;
+      first.insert(pair);
+      if (first.size() > kListed) first.erase(std::prev(first.end()));
+    }
+    void add(const Intersections& others) {
+      for (const auto& pair : others.first) add(pair);
+      count += others.count - others.first.size();
+    }
+  };
+
+  bool intersect(Predicates& predicates, std::uint32_t t, std::uint32_t u) const {
+    if (projections_[t].sign == 0 || projections_[u].sign == 0 || same_corners(t, u)) return false;
+    if (planted(Planted::shared_vertex) && share_a_corner(t, u)) return false;
+    return meet_outside_shared(predicates, triangles_[t], triangles_[u], projections_[t],
+                               projections_[u]);
   }
 
   bool same_corners(std::uint32_t t, std::uint32_t u) const {
