@@ -1,13 +1,16 @@
 #include "oracles/verify.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
+#include <mutex>
 
 #include "oracles/chamfer.h"
 #include "oracles/delaunay.h"
 #include "oracles/filter.h"
 #include "oracles/hull.h"
+#include "oracles/parallel.h"
 #include "oracles/refinement.h"
 #include "oracles/surface_validity.h"
 
@@ -103,26 +106,89 @@ TetComplex complex_of(const std::vector<ExactRecord::Tet>& tets, const ExactPoin
   return complex;
 }
 
+// What several parts of a verification ask, made by the first that does.
+class Shared {
+ public:
+  struct Sidecar {
+    ExactPoints points;
+    InputSurface surface;
+    OracleReport report{"sidecar", "input vertices"};
+    std::string why;      // the input bounds no solid
+    bool usable = false;  // points and surface are there
+  };
+  struct Refined {
+    TetComplex complex;
+    Neighbours neighbours;
+    OracleReport shape{"complex"};
+  };
+
+  Shared(const Polyhedron& input, const ExactRecord* exact) : input_(input), exact_(exact) {}
+
+  const Sidecar& sidecar() {
+    std::call_once(sidecar_once_, [this] { read_sidecar(); });
+    return sidecar_;
+  }
+  // Of a usable sidecar.
+  const Refined& refined() {
+    std::call_once(refined_once_, [this] {
+      refined_.complex = complex_of(exact_->refined, sidecar().points);
+      refined_.shape = check_complex(refined_.complex, refined_.neighbours);
+    });
+    return refined_;
+  }
+  std::mutex progress;
+
+ private:
+  void read_sidecar();
+
+  const Polyhedron& input_;
+  const ExactRecord* exact_;
+  std::once_flag sidecar_once_, refined_once_;
+  Sidecar sidecar_;
+  Refined refined_;
+};
+
+void Shared::read_sidecar() {
+  Sidecar& s = sidecar_;
+  if (const std::string why = s.points.assign(exact_->points); !why.empty()) {
+    s.report.checked_what = "points";
+    s.report.checked = exact_->points.size();
+    s.report.fail("the sidecar's " + why);
+    return;
+  }
+  for (Index v = 0; v < input_.vertices.size(); ++v) {
+    ++s.report.checked;
+    if (v >= s.points.size() ||
+        exact_->points[v].kind != delmesher::ExactPoint::Kind::explicit_point ||
+        s.points.nearest(v) != input_.vertices[v]) {
+      s.report.fail("input vertex " + std::to_string(v) + " is not point " + std::to_string(v));
+    }
+  }
+  if (!s.report.passed()) return;
+  s.why = s.surface.assign(input_, s.points);
+  s.usable = s.why.empty();
+}
+
+// One part of a verification, with a report of its own. Each check gives why the input bounds no
+// solid, or null.
 class Verification {
  public:
-  Verification(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
-               const VerifyOptions& options, VerifyReport& report)
-      : input_(input), mesh_(mesh), exact_(exact), options_(options), report_(report) {}
+  using Check = std::string (Verification::*)();
 
-  std::string run() {
-    // The file of a run that had a final stage is not the refined mesh.
-    const bool other_file = options_.stage == Stage::refined && exact_ && !exact_->final.empty();
-    std::string why = other_file ? "" : check_file();
-    if (why.empty()) add(check_surface_validity(input_));
-    if (why.empty() && exact_) why = check_sidecar();
-    if (why.empty()) conclude();
-    return why;
-  }
+  Verification(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
+               const VerifyOptions& options, Shared& shared)
+      : input_(input), mesh_(mesh), exact_(exact), options_(options), shared_(shared) {}
+
+  // Those that make up a verification, in the order of their reports.
+  static std::vector<Check> checks(const ExactRecord* exact, Stage stage);
+  // Appends this part's report; the last part that knows them tells the measures of the input.
+  void move_to(VerifyReport& report, double& ulp, double& diagonal);
 
  private:
   // The mesh as written, on its doubles.
   bool check_finite();
   std::string check_file();
+  std::string check_input();
   void check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface);
   void check_file_hull(const TetComplex& complex, const Neighbours& neighbours);
@@ -130,8 +196,12 @@ class Verification {
                           const InputSurface& surface, const ConformityResult& conformity);
   void turn_all(TetComplex& complex) const;
   std::string check_sidecar();
-  void check_exact_final(const ExactPoints& points, const InputSurface& surface);
-  void check_exact_refined(const ExactPoints& points, const InputSurface& surface);
+  std::string check_exact_final();
+  void check_final_complex(const ExactPoints& points, const InputSurface& surface);
+  std::string check_refined_complex();
+  std::string check_refined_angles();
+  std::string check_refined_inside();
+  std::string check_refined_promises();
   OracleReport check_rounding(const ExactPoints& points) const;
   OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
                                const InputSurface& surface) const;
@@ -141,10 +211,12 @@ class Verification {
   OracleReport check_contained(const TetComplex& complex, const InputSurface& surface) const;
   double delta() const;
   AngleScope scope() const;
-  void conclude();
   void add(OracleReport oracle, const std::string& prefix = {}) {
     oracle.name = prefix + oracle.name;
-    if (options_.progress) options_.progress(oracle);
+    if (options_.progress) {
+      const std::lock_guard<std::mutex> lock(shared_.progress);
+      options_.progress(oracle);
+    }
     report_.oracles.push_back(std::move(oracle));
   }
 
@@ -152,9 +224,36 @@ class Verification {
   const MeshFile& mesh_;
   const ExactRecord* exact_;
   const VerifyOptions& options_;
-  VerifyReport& report_;
+  Shared& shared_;
+  VerifyReport report_;
   double ulp_ = 0, diagonal_ = 0;
 };
+
+std::vector<Verification::Check> Verification::checks(const ExactRecord* exact, Stage stage) {
+  std::vector<Check> list;
+  // The file of a run that had a final stage is not the refined mesh.
+  const bool other_file = stage == Stage::refined && exact != nullptr && !exact->final.empty();
+  if (!other_file) list.push_back(&Verification::check_file);
+  list.push_back(&Verification::check_input);
+  if (exact == nullptr) return list;
+  list.push_back(&Verification::check_sidecar);
+  if (stage != Stage::refined) list.push_back(&Verification::check_exact_final);
+  if (stage != Stage::final) {
+    list.insert(list.end(),
+                {&Verification::check_refined_complex, &Verification::check_refined_angles,
+                 &Verification::check_refined_inside, &Verification::check_refined_promises});
+  }
+  return list;
+}
+
+void Verification::move_to(VerifyReport& report, double& ulp, double& diagonal) {
+  report.deviation += report_.deviation;  // only the file has them
+  report.inverted += report_.inverted;
+  report.flat += report_.flat;
+  std::move(report_.oracles.begin(), report_.oracles.end(), std::back_inserter(report.oracles));
+  if (ulp_ > 0) ulp = ulp_;
+  if (diagonal_ > 0) diagonal = diagonal_;
+}
 
 // Some formats have no convention: there the sign of the majority is the right one.
 void Verification::turn_all(TetComplex& complex) const {
@@ -273,41 +372,30 @@ void Verification::check_file_hull(const TetComplex& complex, const Neighbours& 
                                        options_.declared_deviation * diagonal_})}));
 }
 
-std::string Verification::check_sidecar() {
-  ExactPoints points;
-  if (std::string why = points.assign(exact_->points); !why.empty()) {
-    OracleReport report("sidecar", "points");
-    report.checked = exact_->points.size();
-    report.fail("the sidecar's " + why);
-    add(std::move(report));
-    return {};
-  }
-  OracleReport same("sidecar", "input vertices");
-  for (Index v = 0; v < input_.vertices.size(); ++v) {
-    ++same.checked;
-    if (v >= points.size() ||
-        exact_->points[v].kind != delmesher::ExactPoint::Kind::explicit_point ||
-        points.nearest(v) != input_.vertices[v]) {
-      same.fail("input vertex " + std::to_string(v) + " is not point " + std::to_string(v));
-    }
-  }
-  const bool usable = same.passed();
-  add(std::move(same));
-  if (!usable) return {};
-  InputSurface surface;
-  if (std::string why = surface.assign(input_, points); !why.empty()) return why;
-  ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
-  diagonal_ = surface.diagonal();
-
-  if (options_.stage != Stage::refined) {
-    check_exact_final(points, surface);
-    add(check_rounding(points));
-  }
-  if (options_.stage != Stage::final) check_exact_refined(points, surface);
+std::string Verification::check_input() {
+  add(check_surface_validity(input_));
   return {};
 }
 
-void Verification::check_exact_final(const ExactPoints& points, const InputSurface& surface) {
+std::string Verification::check_sidecar() {
+  const Shared::Sidecar& sidecar = shared_.sidecar();
+  add(sidecar.report);
+  if (!sidecar.usable) return sidecar.why;
+  ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);
+  diagonal_ = sidecar.surface.diagonal();
+  return {};
+}
+
+std::string Verification::check_exact_final() {
+  const auto& [points, surface, report, why, sidecar_usable] = shared_.sidecar();
+  if (!sidecar_usable) return {};
+  ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
+  check_final_complex(points, surface);
+  add(check_rounding(points));
+  return {};
+}
+
+void Verification::check_final_complex(const ExactPoints& points, const InputSurface& surface) {
   const TetComplex complex = complex_of(exact_->final, points);
   Neighbours neighbours;
   OracleReport shape = check_complex(complex, neighbours);
@@ -374,19 +462,36 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
   add(check_constrained_delaunay(before, neighbours_before, surface, constraints), "unrepaired-");
 }
 
-void Verification::check_exact_refined(const ExactPoints& points, const InputSurface& surface) {
-  const TetComplex complex = complex_of(exact_->refined, points);
-  Neighbours neighbours;
-  OracleReport shape = check_complex(complex, neighbours);
-  const bool usable = shape.passed();
-  add(std::move(shape), "refined-");
-  if (!usable) return;
+std::string Verification::check_refined_complex() {
+  if (!shared_.sidecar().usable) return {};
+  const auto& [complex, neighbours, shape] = shared_.refined();
+  add(shape, "refined-");
+  if (!shape.passed()) return {};
   add(check_orientation(complex), "refined-");
   add(check_hull(complex, neighbours), "refined-");
   add(check_delaunay(complex, neighbours), "refined-");
-  add(check_angles(complex, neighbours, surface, delta(), scope()), "refined-");
-  add(check_contained(complex, surface), "refined-");
-  check_promises({exact_, &points, &surface, &complex, &neighbours});
+  return {};
+}
+
+std::string Verification::check_refined_angles() {
+  if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
+  const auto& [complex, neighbours, shape] = shared_.refined();
+  add(check_angles(complex, neighbours, shared_.sidecar().surface, delta(), scope()), "refined-");
+  return {};
+}
+
+std::string Verification::check_refined_inside() {
+  if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
+  add(check_contained(shared_.refined().complex, shared_.sidecar().surface), "refined-");
+  return {};
+}
+
+std::string Verification::check_refined_promises() {
+  if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
+  const auto& [complex, neighbours, shape] = shared_.refined();
+  const Shared::Sidecar& sidecar = shared_.sidecar();
+  check_promises({exact_, &sidecar.points, &sidecar.surface, &complex, &neighbours});
+  return {};
 }
 
 // What only a record with facets and segments can be asked.
@@ -463,16 +568,15 @@ OracleReport Verification::check_rounding(const ExactPoints& points) const {
   return report;
 }
 
-void Verification::conclude() {
-  report_.deviation_ulps = ulp_ > 0 ? report_.deviation / ulp_ : 0;
-  report_.deviation_share = diagonal_ > 0 ? report_.deviation / diagonal_ : 0;
-  if (!report_.all_passed()) {
-    report_.verdict = Verdict::broken;
-  } else if (report_.deviation == 0) {
-    report_.verdict = Verdict::exact;
+void conclude(double ulp, double diagonal, VerifyReport& report) {
+  report.deviation_ulps = ulp > 0 ? report.deviation / ulp : 0;
+  report.deviation_share = diagonal > 0 ? report.deviation / diagonal : 0;
+  if (!report.all_passed()) {
+    report.verdict = Verdict::broken;
+  } else if (report.deviation == 0) {
+    report.verdict = Verdict::exact;
   } else {
-    report_.verdict =
-        report_.deviation_ulps <= kRoundedUlps ? Verdict::rounded : Verdict::deviating;
+    report.verdict = report.deviation_ulps <= kRoundedUlps ? Verdict::rounded : Verdict::deviating;
   }
 }
 
@@ -481,7 +585,23 @@ void Verification::conclude() {
 std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
                    const VerifyOptions& options, VerifyReport& report) {
   report = {};
-  return Verification(input, mesh, exact, options, report).run();
+  Shared shared(input, exact);
+  const std::vector<Verification::Check> checks = Verification::checks(exact, options.stage);
+  std::vector<Verification> parts(checks.size(), {input, mesh, exact, options, shared});
+  std::vector<std::string> why(checks.size());
+  std::atomic<bool> no_solid = false;
+  run_tasks(options.threads, checks.size(), [&](std::size_t n) {
+    if (no_solid) return;
+    why[n] = (parts[n].*checks[n])();
+    if (!why[n].empty()) no_solid = true;
+  });
+  for (const std::string& reason : why) {
+    if (!reason.empty()) return reason;
+  }
+  double ulp = 0, diagonal = 0;
+  for (Verification& part : parts) part.move_to(report, ulp, diagonal);
+  conclude(ulp, diagonal, report);
+  return {};
 }
 
 bool failed(const VerifyReport& report, const VerifyOptions& options) {

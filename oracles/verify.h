@@ -26,7 +26,10 @@ struct VerifyOptions {
   // Largest deviation that is no failure, as a fraction of the diagonal; beyond 4 ulp the verdict
   // says "deviating" in any case.
   double declared_deviation = 0;
-  // Called with the report of every oracle as soon as it has one.
+  // Threads that share the oracles; the report is the same for every number. 0: one per core.
+  unsigned threads = 1;
+  // Called with the report of every oracle as soon as it has one; with more threads by any of them,
+  // but never by two at a time.
   std::function<void(const OracleReport&)> progress = nullptr;
 };
 

@@ -50,6 +50,9 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->type_name("REGION");
   app.add_option("--declared-deviation", arguments.options.declared_deviation,
                  "deviation that is no failure, as a fraction of the diagonal (0)");
+  app.add_option("--threads", arguments.options.threads,
+                 "threads that share the checks, 0: one per core (1)")
+      ->check(CLI::Range(0, 1024));
   app.add_flag("--json", arguments.json, "report as JSON");
 }
 

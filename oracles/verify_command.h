@@ -1,4 +1,4 @@
-// tetproof verify INPUT MESH [--exact FILE] [--stage refined|final] [--json]
+// tetproof verify INPUT MESH [--exact FILE] [--stage refined|final] [--threads N] [--json]
 #pragma once
 
 namespace tetproof {

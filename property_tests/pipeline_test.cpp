@@ -247,6 +247,30 @@ TEST(Threads, AnyNumberInOneRunGivesTheSameMeshStatisticsAndPredicateCalls) {
   }
 }
 
+// What is right, and findings in what was made wrong.
+TEST(Threads, AnyNumberGivesTheSameReport) {
+  for (const NamedSurface& model : samples::surfaces(kSeed)) {
+    Result result = delmesher::tetrahedralize(model.surface, default_options());
+    ASSERT_TRUE(result.status.ok()) << model.name;
+    for (const bool wrong : {false, true}) {
+      if (wrong) {
+        for (std::size_t t = 0; t < result.exact.refined.size(); t += 3) {
+          std::swap(result.exact.refined[t].vertices[0], result.exact.refined[t].vertices[1]);
+        }
+        result.mesh.vertices.back()[0] += 0.5;
+      }
+      VerifyOptions options;
+      options.stage = oracles::Stage::both;
+      const VerifyReport alone = check(model.surface, result, options);
+      EXPECT_EQ(alone.verdict == oracles::Verdict::broken, wrong) << to_text(alone);
+      for (const unsigned threads : {2U, 3U, 8U}) {
+        options.threads = threads;
+        EXPECT_EQ(to_json(check(model.surface, result, options)), to_json(alone)) << model.name;
+      }
+    }
+  }
+}
+
 TEST(Limits, AreErrorsAsValues) {
   const Surface surface = samples::to_surface(samples::skewed(samples::l_shape()).input);
   Options options;
