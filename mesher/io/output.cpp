@@ -68,6 +68,13 @@ void TextSink::hex(double value) {
 }
 
 void TextSink::point(const std::array<double, 3>& p) {
+  if (planted(Planted::written_digits)) {
+    for (const double x : p) {
+      number(x);
+      text(" ");
+    }
+    return;
+  }
   append_double(buffer_, p[0]);
   buffer_ += ' ';
   append_double(buffer_, p[1]);
