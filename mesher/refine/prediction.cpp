@@ -15,9 +15,8 @@ namespace {
 // A cell of the octree is split while its side exceeds this multiple of the local feature size at
 // its centre.
 constexpr double kCellSize = 1.5;
-// Candidates of a cell: what is nearer to its centre than its side; a larger local feature size
-// counts as that; a few times more for large cells, of which simple models have no others. The ball
-// of a child's candidates is within its parent's.
+// A larger local feature size than the side of a cell counts as that; a few times more for large
+// cells, of which simple models have no others.
 constexpr double kFarReach = 4;
 // Tetrahedra per integral of 1 / lfs^3, measured.
 constexpr double kPerUnit[2] = {1.26, 1.5};  // inside; down to the outer box
@@ -31,9 +30,15 @@ struct Element {
   std::uint32_t owner;             // the segment; after these the facets, then the vertices
 };
 
-struct Candidate {
-  std::uint32_t element;
-  double distance;
+// A box of the tree, or an element, waiting to be looked at.
+struct Waiting {
+  double distance2;
+  std::uint32_t index;
+  bool is_element;
+  bool operator<(const Waiting& o) const {  // for a heap with the nearest on top
+    if (distance2 != o.distance2) return distance2 > o.distance2;
+    return is_element != o.is_element ? o.is_element : index > o.index;
+  }
 };
 
 struct Cell {
@@ -103,14 +108,15 @@ class Predictor {
       for (const VertexId v : facet.isolated) add_vertex(v);
     }
     for (const VertexId v : plc.free_vertices) add_vertex(v);
+    std::vector<Box> boxes;
     for (const Element& e : elements_) {
       Box box = Box::empty();
       for (const VertexId v : e.corner) {
         if (v != kNone) box.extend({points.nearest(v), points.nearest(v)});
       }
-      boxes_.push_back(box);
+      boxes.push_back(box);
     }
-    elements_bvh_.emplace(boxes_);
+    elements_bvh_.emplace(boxes);
     for (auto& own : vertices_) {
       std::sort(own.begin(), own.end());
       own.erase(std::unique(own.begin(), own.end()), own.end());
@@ -174,33 +180,51 @@ class Predictor {
     return result;
   }
 
-  // The local feature size at the centre of a cell, if below the given bound.
-  double feature_size(const std::vector<Candidate>& candidates, double bound) {
-    const auto nearer = [](const Candidate& a, const Candidate& b) {
-      return a.distance != b.distance ? a.distance < b.distance : a.element < b.element;
-    };
-    if (candidates.empty()) return bound;
-    // What does not touch the nearest element gives a bound: few are nearer than that.
-    const std::uint32_t nearest =
-        elements_[std::min_element(candidates.begin(), candidates.end(), nearer)->element].owner;
-    for (const Candidate& c : candidates) {
-      if (c.distance < bound && !touch(nearest, elements_[c.element].owner)) bound = c.distance;
-    }
-    near_.clear();
-    for (const Candidate& c : candidates) {
-      if (c.distance < bound) near_.push_back(c);
-    }
-    std::sort(near_.begin(), near_.end(), nearer);
+  // The local feature size at a point, and the distance of the nearest element, if below the given
+  // bound: the elements are looked at from the nearest on.
+  double feature_size(const Vec3& p, double bound, double& nearest) {
+    nearest = bound;
     owners_.clear();
-    for (const Candidate& c : near_) {
-      const std::uint32_t owner = elements_[c.element].owner;
+    waiting_.assign(1, {0, 0, false});
+    while (!waiting_.empty()) {
+      std::pop_heap(waiting_.begin(), waiting_.end());
+      const Waiting w = waiting_.back();
+      waiting_.pop_back();
+      if (w.distance2 >= bound * bound) break;
+      if (!w.is_element) {
+        expand(p, w.index, bound * bound);
+        continue;
+      }
+      const double distance = std::sqrt(w.distance2);
+      if (owners_.empty()) nearest = distance;
+      const std::uint32_t owner = elements_[w.index].owner;
       if (std::find(owners_.begin(), owners_.end(), owner) != owners_.end()) continue;
       for (const std::uint32_t other : owners_) {
-        if (!touch(owner, other)) return c.distance;
+        if (!touch(owner, other)) return distance;
       }
       owners_.push_back(owner);
     }
     return bound;
+  }
+
+  void expand(const Vec3& p, std::uint32_t n, double bound2) {
+    const auto wait = [&](double distance2, std::uint32_t index, bool is_element) {
+      if (distance2 >= bound2) return;
+      waiting_.push_back({distance2, index, is_element});
+      std::push_heap(waiting_.begin(), waiting_.end());
+    };
+    const Bvh::Node& node = elements_bvh_->node(n);
+    if (!node.is_leaf()) {
+      for (const std::uint32_t child : {n + 1, node.right}) {
+        wait(box_distance2(p, elements_bvh_->node(child).box), child, false);
+      }
+      return;
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i) {
+      if (box_distance2(p, elements_bvh_->item_box(i)) >= bound2) continue;
+      const std::uint32_t e = elements_bvh_->item(i);
+      wait(distance2(p, elements_[e]), e, true);
+    }
   }
 
   // Parity of the crossings of a ray with the surface, in doubles: good enough for an estimate.
@@ -231,46 +255,17 @@ class Predictor {
   void visit(const Cell& cell, Where where) {
     control_.poll();
     if (cell.depth < kMinDepth) return divide(cell, where);
-    std::vector<Candidate>& candidates = candidates_[static_cast<std::size_t>(cell.depth)];
-    candidates.clear();
-    const auto consider = [&](std::uint32_t e, double reach) {
-      if (box_distance2(cell.center, boxes_[e]) > reach * reach) return;
-      const double d = std::sqrt(distance2(cell.center, elements_[e]));
-      if (d < reach) candidates.push_back({e, d});
-    };
-    const auto consider_all = [&](double reach) {
-      Box box{cell.center, cell.center};
-      for (std::size_t k = 0; k < 3; ++k) {
-        box.lo[k] -= reach;
-        box.hi[k] += reach;
-      }
-      elements_bvh_->query(box, [&](std::uint32_t e) {
-        consider(e, reach);
-        return true;
-      });
-    };
-    if (cell.depth == kMinDepth) {
-      consider_all(cell.side);
-    } else {
-      for (const Candidate& c : candidates_[static_cast<std::size_t>(cell.depth) - 1]) {
-        consider(c.element, cell.side);
-      }
-    }
-    double nearest = HUGE_VAL;
-    for (const Candidate& c : candidates) nearest = std::min(nearest, c.distance);
+    double nearest = 0;
+    double size = feature_size(cell.center, cell.side, nearest);
     const bool crossed = nearest < 0.8660254 * cell.side;
     const bool interior = options_.region == Region::interior;
     if (where == Where::unknown && interior && !crossed) {
       where = inside(cell.center) ? Where::inside : Where::outside;
     }
     if (where == Where::outside) return;
-    double size = feature_size(candidates, cell.side);
     if (cell.side > kCellSize * size && cell.depth < kMaxDepth) return divide(cell, where);
-    for (double reach = 1; cell.depth == kMinDepth && reach < kFarReach; reach *= 2) {
-      if (size < reach * cell.side) break;
-      candidates.clear();
-      consider_all(2 * reach * cell.side);
-      size = feature_size(candidates, 2 * reach * cell.side);
+    if (cell.depth == kMinDepth && size >= cell.side) {
+      size = feature_size(cell.center, kFarReach * cell.side, nearest);
     }
     const double target = options_.max_edge > 0 ? std::min(size, options_.max_edge) : size;
     const double ratio = cell.side / target;
@@ -303,8 +298,7 @@ class Predictor {
   std::optional<Bvh> elements_bvh_;
   std::vector<std::vector<VertexId>> vertices_;  // per owner, ascending
   FlatMap touching_;
-  std::array<std::vector<Candidate>, kMaxDepth + 1> candidates_;  // of the cells around this one
-  std::vector<Candidate> near_;                                   // scratch of feature_size()
+  std::vector<Waiting> waiting_;  // scratch of feature_size()
   std::vector<std::uint32_t> owners_;
   double sum_ = 0;
   std::uint32_t random_ = 1;
