@@ -185,7 +185,8 @@ class Predictor {
   double feature_size(const Vec3& p, double bound, double& nearest) {
     nearest = bound;
     owners_.clear();
-    waiting_.assign(1, {0, 0, false});
+    waiting_.clear();
+    if (!elements_bvh_->empty()) waiting_.push_back({0, 0, false});  // none: all was filtered away
     while (!waiting_.empty()) {
       std::pop_heap(waiting_.begin(), waiting_.end());
       const Waiting w = waiting_.back();
