@@ -91,6 +91,7 @@ class Run {
     ChamferResult chamfered;
     RefineResult refined = chamfer_and_refine(chamfered);
     if (options_.approximate) {
+      refined.delaunay.reset();
       write(approximate_mesh(chamfered, refined, topology_, points_, options_.region));
       return {};
     }

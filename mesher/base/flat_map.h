@@ -8,6 +8,11 @@
 
 namespace delmesher {
 
+// Key of the undirected pair ab.
+inline std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
+  return a < b ? (std::uint64_t{a} << 32U) | b : (std::uint64_t{b} << 32U) | a;
+}
+
 class FlatMap {
  public:
   // The value of a key, or `missing`.

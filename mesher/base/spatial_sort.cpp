@@ -48,6 +48,13 @@ std::uint32_t hash(std::uint32_t x) {
 
 }  // namespace
 
+InsertionRounds::InsertionRounds(std::size_t points)
+    : last_(std::clamp(static_cast<int>(std::bit_width(points)) - 6, 0, 31)) {}
+
+int InsertionRounds::operator()(std::uint32_t n) const {
+  return std::max(0, last_ - std::countr_zero(hash(n) | (1U << 31)));
+}
+
 void spatial_sort(std::span<std::uint32_t> order,
                   std::span<const std::array<double, 3>> coordinates) {
   if (order.empty()) return;
@@ -64,8 +71,7 @@ void spatial_sort(std::span<std::uint32_t> order,
   for (int k = 0; k < 3; ++k) extent = std::max(extent, high[k] / 2 - low[k] / 2);
   const double cells = static_cast<double>((1U << kBits) - 1);
 
-  // Rounds of doubling size, the smallest first; below 64 points a round is not worth its scatter.
-  const int rounds = std::max(0, static_cast<int>(std::bit_width(order.size())) - 6);
+  const InsertionRounds rounds(order.size());
   struct Item {
     std::uint64_t key;
     std::uint32_t position, point;
@@ -77,11 +83,9 @@ void spatial_sort(std::span<std::uint32_t> order,
       const double half = coordinates[order[n]][k] / 2 - low[k] / 2;
       cell[k] = extent > 0 ? static_cast<std::uint32_t>(half / extent * cells) : 0;
     }
-    // A point is in the last round with probability 1/2, in the one before with 1/4, ...
-    const int round = std::max(0, rounds - std::countr_zero(hash(n) | (1U << 31)));
     // A Hilbert key has 60 bits, so at most 15 rounds get their own group.
-    items[n] = {(std::uint64_t(std::clamp(round - rounds + 15, 0, 15)) << 60) | hilbert_key(cell),
-                n, order[n]};
+    const int group = std::clamp(rounds(n) - rounds.last() + 15, 0, 15);
+    items[n] = {(std::uint64_t(group) << 60) | hilbert_key(cell), n, order[n]};
   }
   std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
     return a.key != b.key ? a.key < b.key : a.position < b.position;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesher/cdt/key_table.h"
+#include "mesher/base/flat_map.h"
 #include "mesher/cdt/separation.h"
 
 namespace delmesher {
@@ -49,7 +49,7 @@ class GiftWrapper {
     }
     return k;
   }
-  bool is_open(const Triangle& t) const { return is_open_.get(key(t)) == 1; }
+  bool is_open(const Triangle& t) const { return is_open_.get(key(t), 0) == 1; }
   void open(const Triangle& t) {
     is_open_.set(key(t), 1);
     ++open_count_;
@@ -123,7 +123,7 @@ class GiftWrapper {
   std::vector<VertexId> vertices_;
   std::vector<Tetrahedron>& tetrahedra_;
   FillCounters& counters_;
-  KeyTable is_open_;
+  FlatMap is_open_;
   std::size_t open_count_ = 0;
   std::vector<Triangle> front_;
   std::vector<VertexId> candidates_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/flat_map.h"
 
 namespace delmesher {
 namespace {
@@ -199,13 +200,13 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
   std::vector<Tetrahedron> all = upper;
   all.insert(all.end(), lower.begin(), lower.end());
   // Directed face, counter-clockwise seen from outside its new tetrahedron -> 4 * index + face.
-  KeyTable owner(4 * all.size());
+  FlatMap owner;
   std::vector<Triangle> face(4 * all.size());
   for (std::uint32_t n = 0; n < all.size(); ++n) {
     for (std::uint32_t i = 0; i < 4; ++i) {
       const Tetrahedron& t = all[n];
       face[4 * n + i] = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
-      if (owner.get(face_key(face[4 * n + i])) != KeyTable::kAbsent) return false;
+      if (owner.get(face_key(face[4 * n + i]), kNone) != kNone) return false;
       owner.set(face_key(face[4 * n + i]), 4 * n + i);
     }
   }
@@ -215,8 +216,8 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
   std::vector<std::uint32_t> outer(face.size(), kUnmatched);
   for (const std::vector<ShellFace>* shell : {&upper_shell_, &lower_shell_}) {
     for (const ShellFace& s : *shell) {
-      const std::uint32_t f = owner.get(face_key(s.vertices));
-      if (f == KeyTable::kAbsent) return false;
+      const std::uint32_t f = owner.get(face_key(s.vertices), kNone);
+      if (f == kNone) return false;
       const TetId t = s.inner >> 2;
       const int i = static_cast<int>(s.inner & 3);
       const TetId beyond = mesh_.neighbor(t, i);
@@ -228,8 +229,8 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
   }
   for (std::uint32_t f = 0; f < face.size(); ++f) {
     if (outer[f] != kUnmatched) continue;
-    partner[f] = owner.get(face_key(reversed(face[f])));
-    if (partner[f] == KeyTable::kAbsent) return false;
+    partner[f] = owner.get(face_key(reversed(face[f])), kNone);
+    if (partner[f] == kNone) return false;
   }
   for (const TetId t : cavity_) mesh_.destroy(t);
   std::vector<TetId> id(all.size());

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "mesher/cdt/facet_triangles.h"
-#include "mesher/cdt/key_table.h"
 #include "mesher/cdt/polyhedron.h"
 
 namespace delmesher {

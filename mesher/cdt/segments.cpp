@@ -6,7 +6,7 @@
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
-#include "mesher/cdt/key_table.h"
+#include "mesher/base/flat_map.h"
 #include "mesher/predicates/placement.h"
 
 namespace delmesher {
@@ -237,8 +237,8 @@ class SegmentRecovery {
         if (chains_.valence(a) == 0 || chains_.valence(b) == 0) continue;
         const std::uint64_t key = pair_key(a, b);
         if (std::binary_search(kept_.begin(), kept_.end(), key)) continue;
-        const std::uint32_t n = subsegments_.get(key);
-        if (n == KeyTable::kAbsent) continue;
+        const std::uint32_t n = subsegments_.get(key, kNone);
+        if (n == kNone) continue;
         if (queue_.back() != n) queue_.push_back(n);
       }
     }
@@ -493,7 +493,7 @@ class SegmentRecovery {
   PointStore& points_;
   Control& control_;
   Placer placer_;
-  KeyTable subsegments_;              // end vertices -> node
+  FlatMap subsegments_;               // end vertices -> node
   std::vector<std::uint8_t> acute_;   // per input vertex
   std::vector<std::uint8_t> centre_;  // per node
   std::vector<std::uint32_t> queue_;  // nodes whose subsegment may be missing

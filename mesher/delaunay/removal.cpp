@@ -140,6 +140,7 @@ void Tetrahedrization::fill_hole(Tetrahedrization& patch) {
 void Tetrahedrization::change_to(std::span<const VertexId> vertices, Control& control) {
   // Building anew takes as long as removing about this part of the vertices.
   constexpr std::size_t kWorthwhile = 8;
+  control.poll_now(vertices.size(), -1);
   std::vector<VertexId> missing, surplus;
   std::vector<std::uint8_t> stays(incident_.size(), 0);
   for (const VertexId v : vertices) {
@@ -158,13 +159,9 @@ void Tetrahedrization::change_to(std::span<const VertexId> vertices, Control& co
     return;
   }
   remove(surplus, control);
-  TetId hint = kNone;
-  for (const VertexId v : in_spatial_order(missing)) {
-    control.poll(vertices.size());
-    for (TetId t = 0; hint == kNone; ++t) hint = alive(t) ? t : kNone;
-    DELMESHER_CHECK(insert(v, hint), "coincident vertices in a tetrahedrization");
-    hint = incident_[v];
-  }
+  TetId hint = 0;
+  while (!alive(hint)) ++hint;
+  insert_in_order(in_spatial_order(missing), hint, control);
 }
 
 }  // namespace delmesher

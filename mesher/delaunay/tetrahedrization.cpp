@@ -34,8 +34,12 @@ void Tetrahedrization::build(std::span<const VertexId> vertices, Control& contro
   std::vector<VertexId> order = in_spatial_order(vertices);
   cell_.reserve(order.size() * 7);
   first_tetrahedron(order);
-  TetId hint = 0;
-  for (std::size_t n = 4; n < order.size(); ++n) {
+  insert_in_order(std::span(order).subspan(4), 0, control);
+}
+
+void Tetrahedrization::insert_in_order(std::span<const VertexId> order, TetId hint,
+                                       Control& control) {
+  for (std::size_t n = 0; n < order.size(); ++n) {
     control.poll(order.size(), static_cast<double>(n) / static_cast<double>(order.size()));
     DELMESHER_CHECK(insert(order[n], hint), "coincident vertices in a tetrahedrization");
     hint = incident_[order[n]];

@@ -151,6 +151,8 @@ class Tetrahedrization {
   std::vector<VertexId> in_spatial_order(std::span<const VertexId> vertices) const;
   void collect_hole(VertexId v, std::span<const std::uint8_t> goes);
   void fill_hole(Tetrahedrization& patch);
+  // Inserts vertices that are none yet, each near the one before it, from `hint` on.
+  void insert_in_order(std::span<const VertexId> order, TetId hint, Control& control);
   TetId allocate();
   void first_tetrahedron(std::span<VertexId> order);
   bool conflicts(TetId t, VertexId v);

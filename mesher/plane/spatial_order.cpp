@@ -1,7 +1,8 @@
 #include "mesher/plane/spatial_order.h"
 
 #include <algorithm>
-#include <bit>
+
+#include "mesher/base/spatial_sort.h"
 
 namespace delmesher::plane {
 namespace {
@@ -18,14 +19,6 @@ std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y, int bits) {
     y ^= turn ^ (0 - mirror);
   }
   return key;
-}
-
-std::uint32_t hash(std::uint32_t x) {
-  x ^= x >> 16;
-  x *= 0x7feb352dU;
-  x ^= x >> 15;
-  x *= 0x846ca68bU;
-  return x ^ (x >> 16);
 }
 
 }  // namespace
@@ -67,12 +60,9 @@ std::vector<std::uint32_t> order_along_curve(std::span<const std::array<double, 
 }
 
 void arrange_in_rounds(std::vector<VertexId>& order) {
-  // A point is in the last round with probability 1/2, in the one before with 1/4, ...; below 64
-  // points a round is not worth its scatter.
-  const int rounds = std::clamp(static_cast<int>(std::bit_width(order.size())) - 6, 0, 31);
-  const auto round = [rounds](std::size_t n) {
-    const std::uint32_t bits = hash(static_cast<std::uint32_t>(n)) | (1U << 31);
-    return static_cast<std::size_t>(std::max(0, rounds - std::countr_zero(bits)));
+  const InsertionRounds rounds(order.size());
+  const auto round = [&rounds](std::size_t n) {
+    return static_cast<std::size_t>(rounds(static_cast<std::uint32_t>(n)));
   };
   std::array<std::size_t, 33> first{};
   for (std::size_t n = 0; n < order.size(); ++n) ++first[round(n) + 1];

@@ -165,8 +165,7 @@ class Predictor {
   // Do the two elements of the complex share a point (or did they, before chamfering)?
   bool touch(std::uint32_t a, std::uint32_t b) {
     if (a == b) return true;
-    if (a > b) std::swap(a, b);
-    const std::uint64_t key = std::uint64_t{a} << 32U | b;
+    const std::uint64_t key = pair_key(a, b);
     const std::uint32_t known = touching_.get(key, 2);
     if (known != 2) return known != 0;
     const auto& s = vertices_[a];

@@ -16,10 +16,6 @@ namespace {
 constexpr double kLineTolerance = 1.0 / 256;
 constexpr double kBendTolerance = 1.0 / (1 << 22);
 
-std::uint64_t edge_key(VertexId a, VertexId b) {
-  return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
-}
-
 template <typename T>
 std::vector<T> intersection(std::span<const T> a, std::span<const T> b) {
   std::vector<T> common;
@@ -45,12 +41,12 @@ void Refiner::collect_segment_facets() {
 std::uint32_t Refiner::new_subsegment(VertexId a, VertexId b, std::uint32_t segment) {
   const auto s = static_cast<std::uint32_t>(subsegments_.size());
   subsegments_.push_back({a, b, segment, kNone, {kNone, kNone}});
-  edge_map_.set(edge_key(a, b), s);
+  edge_map_.set(pair_key(a, b), s);
   return s;
 }
 
 std::uint32_t Refiner::find_subsegment(VertexId a, VertexId b) const {
-  return edge_map_.get(edge_key(a, b), kNone);
+  return edge_map_.get(pair_key(a, b), kNone);
 }
 
 void Refiner::recover_segments() {
@@ -190,7 +186,7 @@ void Refiner::split_subsegment(std::uint32_t s) {
   DELMESHER_CHECK(duplicate == kNone, "split point of a subsegment coincides with a vertex");
   ++on_segments_;
   find_cavity(v, start);
-  edge_map_.erase(edge_key(a, b));
+  edge_map_.erase(pair_key(a, b));
   subsegments_[s].alive = false;
   if (options_.gabriel) {
     queue_encroached_subsegments(v);
@@ -200,7 +196,7 @@ void Refiner::split_subsegment(std::uint32_t s) {
 
   subsegments_[s].alive = true;
   subsegments_[s].b = v;
-  edge_map_.set(edge_key(a, v), s);
+  edge_map_.set(pair_key(a, v), s);
   const std::uint32_t half = new_subsegment(v, b, subsegments_[s].segment);
   subsegments_[half].next = subsegments_[s].next;
   subsegments_[s].next = half;
