@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "mesher/base/flat_map.h"
@@ -22,7 +23,9 @@ constexpr double kFarReach = 4;
 constexpr double kPerUnit[2] = {1.26, 1.5};  // inside; down to the outer box
 constexpr int kMinDepth = 3, kMaxDepth = 60;
 // From this depth on, four children of eight stand for all: every other one, as on a chessboard.
-constexpr int kSampledDepth = 4;
+// One level more without that costs twice the time and brings estimates 4 % nearer (root mean
+// square of the logarithms over 459 models).
+constexpr int kSampledDepth = 3;
 
 // A segment of the complex, a triangle of a kept facet, or a vertex by itself.
 struct Element {
@@ -41,11 +44,20 @@ struct Waiting {
   }
 };
 
+// What a point is near to. Elements are kNone where none was found within the bound.
+struct Surroundings {
+  double size;                    // the local feature size, if below the bound
+  double nearest;                 // distance of the nearest element, if below the bound
+  std::uint32_t closest = kNone;  // that element
+  std::array<std::uint32_t, 2> witness = {kNone, kNone};  // two that do not touch, within `size`
+};
+
 struct Cell {
   Vec3 center;
   double side;
   int depth;
-  double weight;  // how many it stands for
+  double weight;        // how many it stands for
+  Surroundings parent;  // of the centre of the cell above
 };
 
 // Squared distances from the origin.
@@ -83,31 +95,32 @@ class Predictor {
         options_(options),
         control_(control),
         surface_(triangle_boxes(topology, points)) {
-    vertices_.resize(plc.segments.size() + topology.facet_triangles.size());
+    std::vector<std::vector<VertexId>> vertices(plc.segments.size() +
+                                                topology.facet_triangles.size());
     for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
       const auto& ends = plc.segments[s].vertex;
       elements_.push_back({{ends[0], ends[1], kNone}, s});
-      vertices_[s].assign(ends.begin(), ends.end());
+      vertices[s].assign(ends.begin(), ends.end());
     }
     for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
       const FacetId f = topology.facet_of[t];
       if (!facet_kept.empty() && facet_kept[f] == 0) continue;
       const auto owner = static_cast<std::uint32_t>(plc.segments.size() + f);
       elements_.push_back({topology.triangles[t], owner});
-      auto& own = vertices_[owner];
+      auto& own = vertices[owner];
       own.insert(own.end(), topology.triangles[t].begin(), topology.triangles[t].end());
     }
     for (const PlcFacet& facet : plc.facets) {
       if (facet.input_facet == kNone) continue;
-      auto& own = vertices_[plc.segments.size() + facet.input_facet];
+      auto& own = vertices[plc.segments.size() + facet.input_facet];
       for (const PlcFacet::Side& side : facet.boundary) {
         const auto& ends = plc.segments[side.segment].vertex;
         own.insert(own.end(), ends.begin(), ends.end());
       }
       own.insert(own.end(), facet.isolated.begin(), facet.isolated.end());
-      for (const VertexId v : facet.isolated) add_vertex(v);
+      for (const VertexId v : facet.isolated) add_vertex(v, vertices);
     }
-    for (const VertexId v : plc.free_vertices) add_vertex(v);
+    for (const VertexId v : plc.free_vertices) add_vertex(v, vertices);
     std::vector<Box> boxes;
     for (const Element& e : elements_) {
       Box box = Box::empty();
@@ -117,16 +130,18 @@ class Predictor {
       boxes.push_back(box);
     }
     elements_bvh_.emplace(boxes);
-    for (auto& own : vertices_) {
+    for (auto& own : vertices) {
       std::sort(own.begin(), own.end());
-      own.erase(std::unique(own.begin(), own.end()), own.end());
+      first_vertex_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+      std::unique_copy(own.begin(), own.end(), std::back_inserter(vertices_));
     }
+    first_vertex_.push_back(static_cast<std::uint32_t>(vertices_.size()));
   }
 
   double run() {
     if (surface_.empty()) return 0;
     const Box all = surface_.node(0).box;
-    Cell root{{}, 0, 0, 1};
+    Cell root{{}, 0, 0, 1, {HUGE_VAL, HUGE_VAL}};
     for (std::size_t k = 0; k < 3; ++k) {
       root.center[k] = 0.5 * all.lo[k] + 0.5 * all.hi[k];
       root.side = std::max(root.side, all.hi[k] - all.lo[k]);
@@ -137,9 +152,9 @@ class Predictor {
   }
 
  private:
-  void add_vertex(VertexId v) {
-    elements_.push_back({{v, kNone, kNone}, static_cast<std::uint32_t>(vertices_.size())});
-    vertices_.push_back({v});
+  void add_vertex(VertexId v, std::vector<std::vector<VertexId>>& vertices) {
+    elements_.push_back({{v, kNone, kNone}, static_cast<std::uint32_t>(vertices.size())});
+    vertices.push_back({v});
   }
 
   enum class Where : std::uint8_t { unknown, inside, outside };
@@ -156,7 +171,7 @@ class Predictor {
   static double box_distance2(const Vec3& p, const Box& box) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double d = std::max({box.lo[k] - p[k], p[k] - box.hi[k], 0.0});
+      const double d = std::max(std::max(box.lo[k] - p[k], p[k] - box.hi[k]), 0.0);
       sum += d * d;
     }
     return sum;
@@ -165,46 +180,102 @@ class Predictor {
   // Do the two elements of the complex share a point (or did they, before chamfering)?
   bool touch(std::uint32_t a, std::uint32_t b) {
     if (a == b) return true;
+    constexpr std::uint32_t kFew = 12;
+    const std::uint32_t n = first_vertex_[a + 1] - first_vertex_[a];
+    if (n + first_vertex_[b + 1] - first_vertex_[b] <= kFew) return share_vertex(a, b);
     const std::uint64_t key = pair_key(a, b);
     const std::uint32_t known = touching_.get(key, 2);
     if (known != 2) return known != 0;
-    const auto& s = vertices_[a];
-    const auto& l = vertices_[b];
-    bool result = false;
-    for (auto i = s.begin(), j = l.begin(); !result && i != s.end() && j != l.end();) {
-      result = *i == *j;
-      (*i < *j ? i : j)++;
-    }
+    const bool result = share_vertex(a, b);
     touching_.set(key, result ? 1 : 0);
     return result;
   }
 
-  // The local feature size at a point, and the distance of the nearest element, if below the given
-  // bound: the elements are looked at from the nearest on.
-  double feature_size(const Vec3& p, double bound, double& nearest) {
-    nearest = bound;
-    owners_.clear();
+  bool share_vertex(std::uint32_t a, std::uint32_t b) const {
+    std::uint32_t i = first_vertex_[a], j = first_vertex_[b];
+    while (i < first_vertex_[a + 1] && j < first_vertex_[b + 1]) {
+      if (vertices_[i] == vertices_[j]) return true;
+      (vertices_[i] < vertices_[j] ? i : j)++;
+    }
+    return false;
+  }
+
+  // Elements are looked at from the nearest on, until two do not touch. A pair that did not nearby,
+  // in the cell above, tells from the start how far to look.
+  Surroundings surroundings(const Vec3& p, double bound, const Surroundings& nearby) {
+    Surroundings found{bound, bound, kNone, nearby.witness};
+    met_.clear();
     waiting_.clear();
-    if (!elements_bvh_->empty()) waiting_.push_back({0, 0, false});  // none: all was filtered away
+    if (elements_bvh_->empty()) return found;  // all was filtered away
+    if (nearby.witness[0] != kNone) {
+      found.size = std::min(bound, witness_distance(p, nearby));
+      found.nearest = found.size;
+      gather(p, found.size * found.size);
+      for (const Waiting& w : waiting_) {
+        if (!meet(w, found)) break;
+      }
+      return found;
+    }
+    waiting_.push_back({0, 0, false});
     while (!waiting_.empty()) {
       std::pop_heap(waiting_.begin(), waiting_.end());
       const Waiting w = waiting_.back();
       waiting_.pop_back();
-      if (w.distance2 >= bound * bound) break;
-      if (!w.is_element) {
+      if (w.is_element) {
+        if (!meet(w, found)) break;
+      } else {
         expand(p, w.index, bound * bound);
+      }
+    }
+    return found;
+  }
+
+  // Takes note of the next element; false if it and one met before do not touch.
+  bool meet(const Waiting& w, Surroundings& found) {
+    if (met_.empty()) {
+      found.nearest = std::sqrt(w.distance2);
+      found.closest = w.index;
+    }
+    const std::uint32_t owner = elements_[w.index].owner;
+    const auto same = [&](std::uint32_t e) { return elements_[e].owner == owner; };
+    if (std::any_of(met_.begin(), met_.end(), same)) return true;
+    for (const std::uint32_t other : met_) {
+      if (touch(owner, elements_[other].owner)) continue;
+      found.size = std::sqrt(w.distance2);
+      found.witness = {other, w.index};
+      return false;
+    }
+    met_.push_back(w.index);
+    return true;
+  }
+
+  // The elements within the bound, the nearest first.
+  void gather(const Vec3& p, double bound2) {
+    nodes_.assign(1, 0);
+    while (!nodes_.empty()) {
+      const std::uint32_t n = nodes_.back();
+      const Bvh::Node& node = elements_bvh_->node(n);
+      nodes_.pop_back();
+      if (node.is_leaf()) {
+        for (std::uint32_t i = node.begin; i < node.end; ++i) {
+          if (box_distance2(p, elements_bvh_->item_box(i)) >= bound2) continue;
+          const std::uint32_t e = elements_bvh_->item(i);
+          const double d = distance2(p, elements_[e]);
+          if (d < bound2) waiting_.push_back({d, e, true});
+        }
         continue;
       }
-      const double distance = std::sqrt(w.distance2);
-      if (owners_.empty()) nearest = distance;
-      const std::uint32_t owner = elements_[w.index].owner;
-      if (std::find(owners_.begin(), owners_.end(), owner) != owners_.end()) continue;
-      for (const std::uint32_t other : owners_) {
-        if (!touch(owner, other)) return distance;
+      for (const std::uint32_t child : {n + 1, node.right}) {
+        if (box_distance2(p, elements_bvh_->node(child).box) < bound2) nodes_.push_back(child);
       }
-      owners_.push_back(owner);
     }
-    return bound;
+    std::sort(waiting_.begin(), waiting_.end(),
+              [](const Waiting& a, const Waiting& b) { return b < a; });
+  }
+
+  double witness_distance(const Vec3& p, const Surroundings& s) const {
+    return std::sqrt(
+        std::max(distance2(p, elements_[s.witness[0]]), distance2(p, elements_[s.witness[1]])));
   }
 
   void expand(const Vec3& p, std::uint32_t n, double bound2) {
@@ -254,18 +325,20 @@ class Predictor {
 
   void visit(const Cell& cell, Where where) {
     control_.poll();
-    if (cell.depth < kMinDepth) return divide(cell, where);
-    double nearest = 0;
-    double size = feature_size(cell.center, cell.side, nearest);
-    const bool crossed = nearest < 0.8660254 * cell.side;
+    if (cell.depth < kMinDepth) return divide(cell, cell.parent, where);
+    Surroundings around = surroundings(cell.center, cell.side, cell.parent);
+    double size = around.size;
+    const bool crossed = around.nearest < 0.8660254 * cell.side;
     const bool interior = options_.region == Region::interior;
     if (where == Where::unknown && interior && !crossed) {
       where = inside(cell.center) ? Where::inside : Where::outside;
     }
     if (where == Where::outside) return;
-    if (cell.side > kCellSize * size && cell.depth < kMaxDepth) return divide(cell, where);
+    if (cell.side > kCellSize * size && cell.depth < kMaxDepth) {
+      return divide(cell, around, where);
+    }
     if (cell.depth == kMinDepth && size >= cell.side) {
-      size = feature_size(cell.center, kFarReach * cell.side, nearest);
+      size = surroundings(cell.center, kFarReach * cell.side, around).size;
     }
     const double target = options_.max_edge > 0 ? std::min(size, options_.max_edge) : size;
     const double ratio = cell.side / target;
@@ -273,13 +346,13 @@ class Predictor {
     sum_ += (half ? 0.5 : 1) * cell.weight * ratio * ratio * ratio;
   }
 
-  void divide(const Cell& cell, Where where) {
+  void divide(const Cell& cell, const Surroundings& around, Where where) {
     const bool sampled = cell.depth >= kSampledDepth;
     const unsigned colour = next_random() & 1U;
     for (unsigned child = 0; child < 8; ++child) {
       if (sampled && (std::popcount(child) & 1U) != colour) continue;
-      Cell next{cell.center, cell.side / 2, cell.depth + 1,
-                sampled ? 2 * cell.weight : cell.weight};
+      Cell next{cell.center, cell.side / 2, cell.depth + 1, sampled ? 2 * cell.weight : cell.weight,
+                around};
       for (std::size_t k = 0; k < 3; ++k) {
         next.center[k] += ((child >> k & 1) != 0 ? 0.25 : -0.25) * cell.side;
       }
@@ -294,12 +367,13 @@ class Predictor {
   Control& control_;
   Bvh surface_;
   std::vector<Element> elements_;
-  std::vector<Box> boxes_;  // of the elements
   std::optional<Bvh> elements_bvh_;
-  std::vector<std::vector<VertexId>> vertices_;  // per owner, ascending
+  std::vector<VertexId> vertices_;           // per owner, ascending
+  std::vector<std::uint32_t> first_vertex_;  // of each owner, and the end
   FlatMap touching_;
-  std::vector<Waiting> waiting_;  // scratch of feature_size()
-  std::vector<std::uint32_t> owners_;
+  std::vector<Waiting> waiting_;  // scratch of surroundings()
+  std::vector<std::uint32_t> nodes_;
+  std::vector<std::uint32_t> met_;  // an element of each owner met there
   double sum_ = 0;
   std::uint32_t random_ = 1;
 };
