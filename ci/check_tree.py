@@ -56,6 +56,8 @@ FOLDERS = {
 ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/tetgen_adapter/": "mesher/io/", "corpus/plane/": "mesher/io/"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+OPENED = re.compile(r"^(?:inline )?namespace(?: ([\w:]+))? \{$")
+CLASS = re.compile(r"^(?:class|struct|union|enum class|enum struct|enum) ([\w:]+)(?: final)?(?: :[^:;]*)? \{")
 # Assembled so that this file does not trip over itself.
 MACHINE_PATH = re.compile(r"(?<![\w.$})/-])/(?:" + "|".join(["work", "tmp", "home", "root", "Users"]) + r")/\w")
 
@@ -144,6 +146,33 @@ def check_source(path, lines, root):
         yield 1, "header without #pragma once"
 
 
+def classes_defined(lines):
+    """(line number, namespaces and name) of each class defined at namespace scope, those in unnamed namespaces left out."""
+    namespaces = []
+    for number, line in enumerate(lines, 1):
+        opened = OPENED.match(line)
+        if opened:
+            namespaces.append(opened.group(1) or "")
+        elif line.startswith("}  // namespace") and namespaces:
+            namespaces.pop()
+        else:
+            match = CLASS.match(line)
+            if match and "" not in namespaces:
+                yield number, "::".join(namespaces + [match.group(1)])
+
+
+def check_classes(texts):
+    """One definition per class (the one-definition rule): the linker takes either of two and says nothing."""
+    first = {}
+    for path, text in sorted(texts.items()):
+        if not path.endswith(SOURCE) or path.split("/")[0] not in TOP:
+            continue
+        for number, name in classes_defined(text.split("\n")):
+            if name in first:
+                yield path, number, "%s is defined in %s too" % (name, first[name])
+            first.setdefault(name, path)
+
+
 def licences_used(path, text):
     """Copyleft code that a file builds on, by what it includes or links."""
     used = set()
@@ -187,6 +216,7 @@ def check_tree(root):
         if path.endswith(SOURCE) and path.split("/")[0] in TOP:
             for number, reason in check_source(path, lines, root):
                 yield path, number, reason
+    yield from check_classes(texts)
     yield from check_licences(files, texts, root)
 
 

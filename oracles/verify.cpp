@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <mutex>
 
 #include "oracles/chamfer.h"
@@ -12,6 +11,7 @@
 #include "oracles/hull.h"
 #include "oracles/parallel.h"
 #include "oracles/refinement.h"
+#include "oracles/regions.h"
 #include "oracles/surface_validity.h"
 
 namespace tetproof::oracles {
@@ -27,72 +27,6 @@ double figure(const OracleReport& report, const std::string& name) {
     if (key == name) return value;
   }
   return 0;
-}
-
-// Regions are numbers without meaning, but none may hold both tetrahedra inside and outside. The
-// side of a region is where most of its volume lies by parity of the centroids. Rounding may leave
-// the centroid of a sliver along the surface on the other side: `complex.inside` follows the region
-// then, and the sliver may be no thicker than `allowed`, checked by check_strays.
-class Regions {
- public:
-  Regions(TetComplex& complex, const std::vector<std::int64_t>& regions)
-      : complex_(complex), regions_(regions) {
-    std::map<std::int64_t, std::array<mpz_class, 2>> volumes;
-    exact::Volume6 volume6(*complex.points);
-    for (std::size_t t = 0; t < regions.size(); ++t) {
-      volumes[regions[t]][complex.inside[t]] += abs(volume6(complex.tetrahedra[t]));
-    }
-    count_ = volumes.size();
-    for (std::size_t t = 0; t < regions.size(); ++t) {
-      const auto& [outside, inside] = volumes[regions[t]];
-      const std::uint8_t side = inside > outside;
-      if (complex.inside[t] != side) strays_.push_back(t);
-      complex.inside[t] = side;
-    }
-  }
-
-  OracleReport check_strays(double allowed) const {
-    OracleReport report("regions", "tetrahedra");
-    report.checked = regions_.size();
-    for (const std::size_t t : strays_) {
-      if (smallest_altitude(*complex_.points, complex_.tetrahedra[t]) <= allowed) continue;
-      report.fail(complex_.tet_name(t) + " is not on the side of the surface where the rest of " +
-                  "region " + std::to_string(regions_[t]) + " lies");
-    }
-    report.figures.emplace_back("regions", static_cast<double>(count_));
-    report.figures.emplace_back("slivers along the surface", static_cast<double>(strays_.size()));
-    return report;
-  }
-
- private:
-  TetComplex& complex_;
-  const std::vector<std::int64_t>& regions_;
-  std::size_t count_ = 0;
-  std::vector<std::size_t> strays_;
-};
-
-double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
-  double sum = 0;
-  for (const Face& f : faces) {
-    const IntegerVector n = exact::area2(*complex.points, f[0], f[1], f[2]);
-    const long exponent = 2 * complex.points->exponent();
-    sum += std::hypot(to_double(n[0], exponent), to_double(n[1], exponent),
-                      to_double(n[2], exponent)) /
-           2;
-  }
-  return sum;
-}
-
-// Have the tetrahedra, all together, about the volume of the solid? Up to what rounding of the
-// vertices adds to it, which is more than any share of the volume where walls are thin.
-bool fills(const TetComplex& complex, const InputSurface& surface, double rounding) {
-  mpz_class sum;
-  exact::Volume6 volume6(*complex.points);
-  for (const Tet& tet : complex.tetrahedra) sum += volume6(tet);
-  const mpz_class difference = abs(sum - surface.volume6());
-  if (difference * 1000000 <= surface.volume6()) return true;
-  const double volume = to_double(difference, 3 * complex.points->exponent()) / 6;
-  return volume <= 2 * rounding * surface_area(complex, surface.triangles());
 }
 
 TetComplex complex_of(const std::vector<ExactRecord::Tet>& tets, const ExactPoints& points) {

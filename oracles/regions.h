@@ -1,0 +1,37 @@
+// Which tetrahedra of a mesh file are inside, by its region numbers and by parity.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "oracles/input_surface.h"
+#include "oracles/report.h"
+#include "oracles/tet_complex.h"
+
+namespace tetproof::oracles {
+
+// Regions are numbers without meaning, but none may hold both tetrahedra inside and outside. The
+// side of a region is where most of its volume lies by parity of the centroids. Rounding may leave
+// the centroid of a sliver along the surface on the other side: `complex.inside` follows the region
+// then, and the sliver may be no thicker than `allowed`, checked by check_strays.
+class Regions {
+ public:
+  // Sets complex.inside, which must hold the parity. Both arguments must outlive this.
+  Regions(TetComplex& complex, const std::vector<std::int64_t>& regions);
+
+  OracleReport check_strays(double allowed) const;
+
+ private:
+  const TetComplex& complex_;
+  const std::vector<std::int64_t>& regions_;
+  std::size_t count_ = 0;
+  std::vector<std::size_t> strays_;
+};
+
+// Have the tetrahedra, all together, about the volume of the solid? Up to what rounding of the
+// vertices, by at most `rounding`, adds to it, which is more than any share of the volume where
+// walls are thin.
+bool fills(const TetComplex& complex, const InputSurface& surface, double rounding);
+
+}  // namespace tetproof::oracles
