@@ -6,7 +6,6 @@
 #include <string>
 
 namespace tetproof::oracles {
-namespace {
 
 double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
   double sum = 0;
@@ -19,8 +18,6 @@ double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
   }
   return sum;
 }
-
-}  // namespace
 
 Regions::Regions(TetComplex& complex, const std::vector<std::int64_t>& regions)
     : complex_(complex), regions_(regions) {

@@ -29,6 +29,9 @@ class Regions {
   std::vector<std::size_t> strays_;
 };
 
+// In doubles.
+double surface_area(const TetComplex& complex, const std::vector<Face>& faces);
+
 // Have the tetrahedra, all together, about the volume of the solid? Up to what rounding of the
 // vertices, by at most `rounding`, adds to it, which is more than any share of the volume where
 // walls are thin.
