@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "oracles/measures.h"
+
 namespace tetproof::oracles {
 
 double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
