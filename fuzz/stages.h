@@ -27,4 +27,7 @@ struct Stages {
   delmesher::SurfaceTopology topology;
 };
 
+// Are doubles fine enough for the surface? Its features are thousands of roundings apart.
+bool roomy(const delmesher::Surface& surface);
+
 }  // namespace tetproof::fuzz

@@ -98,7 +98,7 @@ enum class StatusCode : std::uint8_t {
   ok,
   invalid_options,  // the message names the option
   invalid_surface,  // the message names the vertices, edges or triangles
-  limit_reached,    // vertices, time or memory
+  limit_reached,    // vertices, time, memory or the precision of doubles
   interrupted,      // the progress callback returned false
   internal_error    // a bug; the message says where
 };

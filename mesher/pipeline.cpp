@@ -331,9 +331,9 @@ SurfaceReport check_surface(const Surface& surface, const Options& options) {
     ChamferOptions chamfering;
     chamfering.cosine_squared = cosine_squared(options.acute);
     chamfering.corner_cosine_squared = cosine_squared(corner_threshold(options));
-    const ChamferResult chamfered = chamfer(topology, points, predicates, chamfering, control);
-    report.acute_vertices = chamfered.acute_vertices;
-    report.acute_edges = chamfered.acute_edges;
+    const AcuteCount acute = count_acute(topology, points, predicates, chamfering, control);
+    report.acute_vertices = acute.vertices;
+    report.acute_edges = acute.edges;
     return {};
   });
   report.status = status;

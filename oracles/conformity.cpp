@@ -51,6 +51,7 @@ class Conformity {
   void follow_edges();
   bool follow(const InputSurface::Edge& edge, double tolerance, std::vector<Index>& chain) const;
   double progress(const InputSurface::Edge& edge, Index v, double& distance) const;
+  bool is_matched(Index v) const { return std::binary_search(matched_.begin(), matched_.end(), v); }
   bool advances(const InputSurface::Edge& edge, Index here, Index next) const;
   void grow_patches();
   void check_borders();
@@ -81,6 +82,7 @@ class Conformity {
   std::vector<std::pair<std::uint64_t, Index>> directed_;  // edge, face; sorted
   std::vector<Index> surface_vertices_;                    // sorted by the nearest x
   std::vector<Index> match_;                               // input vertex -> mesh vertex
+  std::vector<Index> matched_;                             // these mesh vertices, sorted
   std::unordered_map<std::uint64_t, Index> chain_facet_;  // directed mesh edge -> facet on its left
 };
 
@@ -138,6 +140,8 @@ void Conformity::match_vertices() {
     }
     if (match_[v] == kNone) fail("input vertex " + std::to_string(v) + " is not on the boundary");
   }
+  for (const Index v : surface_.used_vertices()) matched_.push_back(match_[v]);
+  std::sort(matched_.begin(), matched_.end());
   if (moved > 0) result_.report.notes.push_back(std::to_string(moved) + " input vertices moved");
 }
 
@@ -187,7 +191,8 @@ bool Conformity::advances(const InputSurface::Edge& edge, Index here, Index next
 }
 
 // A chain of boundary edges from one end of the input edge to the other that stays on it, always
-// advancing.
+// advancing. Input edges meet at common ends only, so no other input vertex and no edge of another
+// chain belongs to it, however close they are.
 bool Conformity::follow(const InputSurface::Edge& edge, double tolerance,
                         std::vector<Index>& chain) const {
   const Index goal = match_[edge.to];
@@ -200,6 +205,7 @@ bool Conformity::follow(const InputSurface::Edge& edge, double tolerance,
                                         std::pair(edge_key(chain.back(), 0), Index{0}));
     for (auto i = first; i != directed_.end() && i->first >> 32 == chain.back(); ++i) {
       const Index next = static_cast<Index>(i->first);
+      if (next != goal && (is_matched(next) || chain_facet_.contains(i->first))) continue;
       const double at = progress(edge, next, distance);
       if (options_.exact) {
         if (!advances(edge, chain.back(), next)) continue;

@@ -288,6 +288,41 @@ TEST(Limits, AreErrorsAsValues) {
   EXPECT_EQ(calls, 3U);
 }
 
+// Two tetrahedra whose edges cross at a distance.
+Surface crossing_edges(double gap) {
+  const auto solid = [](std::initializer_list<std::array<double, 3>> corners) {
+    Surface s;
+    s.vertices = corners;
+    s.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    return s;
+  };
+  Surface s = solid({{0.61, 0, 0}, {-0.37, 0, 0}, {0.1, 0.3, -1}, {0.1, -0.4, -1}});
+  const Surface upper =
+      solid({{0.03, -0.53, gap}, {-0.11, 0.71, gap}, {0.6, 0.1, 1}, {-0.6, 0.1, 1}});
+  for (auto t : upper.triangles) s.triangles.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
+  s.vertices.insert(s.vertices.end(), upper.vertices.begin(), upper.vertices.end());
+  return s;
+}
+
+TEST(Precision, EndsWithALimitThatNamesTheEdge) {
+  for (const double gap : {1e-6, 1e-16, 1e-20}) {
+    expect_right({"gap " + std::to_string(gap), crossing_edges(gap)}, default_options());
+  }
+  for (const double gap : {1e-40, 1e-100, 1e-323}) {
+    for (const double tau : {1e-4, 0.0}) {
+      Options options;
+      options.tau = tau;
+      const Surface surface = crossing_edges(gap);
+      EXPECT_TRUE(delmesher::check_surface(surface).status.ok());
+      const Result result = delmesher::tetrahedralize(surface, options);
+      EXPECT_EQ(result.status.code, StatusCode::limit_reached) << gap;
+      const bool first = result.status.message.find("edge 0-1: ") == 0;
+      const bool second = result.status.message.find("edge 4-5: ") == 0;
+      EXPECT_TRUE(first || second) << result.status.message;
+    }
+  }
+}
+
 TEST(InvalidSurfaces, AreRefusedWithTheDefectNamed) {
   const Surface good = samples::to_surface(samples::cube().input);
   const auto refused = [](const Surface& surface) {

@@ -147,7 +147,11 @@ void nudge_vertex(Mesh& mesh, Random& random, int bits) {
       break;
     }
     default:
-      for (int i = 0; i < 3; ++i) p[i] = shapes::ulps_away(p[i], random.integer(-3, 3));
+      // Not from zero: what is 5e-324 beside it no mesher with double coordinates can resolve.
+      for (int i = 0; i < 3; ++i) {
+        const int steps = random.integer(-3, 3);
+        if (p[i] != 0) p[i] = shapes::ulps_away(p[i], steps);
+      }
       break;
   }
   mesh.set_point(v, p);

@@ -13,6 +13,11 @@ double seconds_between(std::chrono::steady_clock::time_point a,
 
 }  // namespace
 
+void stop_at_precision(const std::string& where) {
+  throw Stopped{{StatusCode::limit_reached,
+                 where + ": features there are too close to each other for double precision"}};
+}
+
 Control::Control(const Options& options)
     : options_(options),
       threads_(std::max(

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 #include "mesher/delmesher.h"
 
@@ -12,6 +13,11 @@ namespace delmesher {
 struct Stopped {
   Status status;
 };
+
+// Throws Stopped, as a limit: a valid surface has features at `where` ("edge 3-7") that points with
+// parameters of doubles cannot tell apart. Such a surface has coordinates far smaller than an ulp
+// of its size.
+[[noreturn]] void stop_at_precision(const std::string& where);
 
 // Not thread-safe: one Control belongs to one call of the public API.
 class Control {

@@ -196,7 +196,7 @@ TEST(Cdt, NeedlesDownTo1e32) {
   }
   Model model(needle_among_obstacles(1e-40, 3));
   ASSERT_TRUE(model.valid);
-  EXPECT_THROW(model.run(), InternalError);  // at once, not after filling all memory
+  EXPECT_THROW(model.run(), Stopped);  // at once, not after filling all memory
 }
 
 TEST(Cdt, ScalesWithTheInput) {

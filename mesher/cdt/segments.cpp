@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
@@ -49,6 +50,12 @@ Target target_behind(const ChainNode& a, const ChainNode& b, double step) {
   return t;
 }
 
+// Something is nearer to the edge than points on it can be placed.
+[[noreturn]] void stop_beside(const Chains& chains, std::uint32_t edge) {
+  const std::array<VertexId, 2> end = chains.topology().edge_vertices(edge);
+  stop_at_precision("edge " + std::to_string(end[0]) + "-" + std::to_string(end[1]));
+}
+
 class Placer {
  public:
   Placer(Chains& chains, PointStore& points, Predicates& predicates)
@@ -69,8 +76,10 @@ class Placer {
       }
       points_.pop_back();
     }
-    DELMESHER_CHECK(false, "a subsegment is too short to be split");
-    return kNone;
+    // Parts of an edge become that short beside something nearer than doubles can say where.
+    const double place = std::max(std::min(a.from[0], a.from[1]), std::min(b.from[0], b.from[1]));
+    DELMESHER_CHECK(width <= 0x1p-50 * place, "a subsegment cannot be split");
+    stop_beside(chains_, a.edge);
   }
 
  private:
@@ -397,7 +406,7 @@ class SegmentRecovery {
     // Below that no two points can be matched by the parameters a point has, and splitting goes on
     // for ever. Edges of doubles of about the same size never come so close to each other.
     if (squared_sine < 0x1p-212) ++hopeless_;
-    DELMESHER_CHECK(hopeless_ < 1024, "constrained edges meet at an angle below 2^-106");
+    if (hopeless_ == 1024) stop_beside(chains_, edge);
     const Dyadic squared_radius = squared_distance(apex, reference);
     const Dyadic squared_length = squared_distance(apex, other);
     // In units of a power of two near the length: squares may overflow otherwise.

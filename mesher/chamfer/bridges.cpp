@@ -1,6 +1,8 @@
 #include "mesher/chamfer/bridges.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "mesher/base/check.h"
 #include "mesher/predicates/placement.h"
@@ -187,10 +189,12 @@ class BridgeBuilder {
     return in_triangle(b, c, r, from_r(b), from_r(c), target - origin, accuracy);
   }
 
+  // Fails in triangles so thin that products of their coordinates underflow.
   static PointDefinition in_triangle(VertexId p, VertexId q, VertexId r, Vec2 b, Vec2 c,
                                      Vec2 target, double accuracy) {
     const double area = cross(b, c);
     const double u = cross(target, c) / area, v = cross(b, target) / area;
+    if (!std::isfinite(u) || !std::isfinite(v)) stop_at_precision("vertex " + std::to_string(r));
     const double u_slack = accuracy / (2 * norm(b)), v_slack = accuracy / (2 * norm(c));
     return {PointKind::on_triangle,
             {p, q, r},

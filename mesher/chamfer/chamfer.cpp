@@ -58,6 +58,13 @@ void measure_radii(const KeptSurface& surface, const Cuts& cuts, const Bridges& 
   }
 }
 
+AcuteCount counted(const Acuteness& acute) {
+  AcuteCount count;
+  for (std::uint8_t flag : acute.vertex) count.vertices += flag;
+  for (std::uint8_t flag : acute.edge) count.edges += flag;
+  return count;
+}
+
 }  // namespace
 
 ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
@@ -82,8 +89,9 @@ ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
   result.vertex_is_acute = acute.vertex;
   result.edge_is_acute = acute.edge;
   result.vertex_is_apex = acute.apex;
-  for (std::uint8_t flag : acute.vertex) result.acute_vertices += flag;
-  for (std::uint8_t flag : acute.edge) result.acute_edges += flag;
+  const AcuteCount count = counted(acute);
+  result.acute_vertices = count.vertices;
+  result.acute_edges = count.edges;
   return result;
 }
 
@@ -94,6 +102,12 @@ ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predi
                   "one threshold per vertex");
   const KeptSurface surface(topology, points, options.facet_kept);
   return chamfer_surface(surface, points, predicates, options, {}, control);
+}
+
+AcuteCount count_acute(const SurfaceTopology& topology, const PointStore& points,
+                       Predicates& predicates, const ChamferOptions& options, Control& control) {
+  const KeptSurface surface(topology, points, options.facet_kept);
+  return counted(find_acute(surface, predicates, Thresholds(options), {}, control));
 }
 
 }  // namespace delmesher

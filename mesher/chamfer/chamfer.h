@@ -50,8 +50,16 @@ struct ChamferResult {
 
 // Appends the new points (on-segment and on-triangle, with supports) to the store. The result
 // satisfies the projection condition for the threshold in force, up to the rounding of on-triangle
-// points.
+// points, where features are far larger than an ulp of the surface's size: in narrower facets
+// doubles cannot say where a right angle is. Stops as at a limit where they cannot place a point.
 ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
                       const ChamferOptions& options, Control& control);
+
+// What of the surface would be chamfered.
+struct AcuteCount {
+  std::uint64_t vertices = 0, edges = 0;
+};
+AcuteCount count_acute(const SurfaceTopology& topology, const PointStore& points,
+                       Predicates& predicates, const ChamferOptions& options, Control& control);
 
 }  // namespace delmesher

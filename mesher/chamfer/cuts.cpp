@@ -1,6 +1,7 @@
 #include "mesher/chamfer/cuts.h"
 
 #include <algorithm>
+#include <string>
 
 #include "mesher/base/planted.h"
 #include "mesher/chamfer/boundary_distance.h"
@@ -38,7 +39,7 @@ class Cutter {
     }
     cuts_.fraction.assign(2 * topology_.edge_count(), 0);
     for (VertexId v = 0; v < surface_.vertex_count(); ++v) {
-      if (cuts_.distance[v] > 0) cut_edges(v);
+      if (acute_.vertex[v]) cut_edges(v);
     }
     cuts_.height.assign(topology_.opposite.size(), 0);
     for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
@@ -69,6 +70,7 @@ class Cutter {
         if (c != kNone) accuracy = std::min(accuracy, bridge_accuracy(cuts_.split[c]));
       }
       const double exact = cuts_.distance[v] / norm(surface_.edge_vector(v, topology_.to(h)));
+      if (!(exact > 0 && exact < 0.5)) stop_at_precision("vertex " + std::to_string(v));
       const double slack = accuracy * exact;
       cuts_.fraction[2 * topology_.edge_of[h] + (v > topology_.to(h))] =
           shortest_dyadic(exact - slack, exact + slack);
