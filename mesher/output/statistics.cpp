@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/base/parallel.h"
+#include "mesher/output/cosines.h"
 
 namespace delmesher {
 namespace {
@@ -212,52 +213,6 @@ class CosineBins {
   std::array<double, kCells> bound_{};
 };
 
-// The cosines of the angles of a tetrahedron without very long or short edges and without angles
-// near 0 or 180, where cosines do as well as the robust formulas, in a fraction of their time.
-struct Cosines {
-  std::array<std::array<double, 3>, 4> face;
-  std::array<double, 6> dihedral;
-};
-
-bool ordinary_cosines(const Vec3& origin, const Vec3& p1, const Vec3& p2, const Vec3& p3,
-                      Cosines& result) {
-  constexpr double kMaxSquared = 1e60, kMaxRatioSquared = 1e8, kMaxCosine = 0.999;
-  const auto difference = [](const Vec3& a, const Vec3& b) {
-    return Vec3{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  };
-  const Vec3 e[6] = {difference(origin, p1), difference(origin, p2), difference(origin, p3),
-                     difference(p1, p2),     difference(p1, p3),     difference(p2, p3)};
-  double squared[6], inverse[6];
-  for (int i = 0; i < 6; ++i) squared[i] = dot(e[i], e[i]);
-  const auto [shortest, longest] = std::minmax_element(squared, squared + 6);
-  if (!(*longest<kMaxSquared&& * shortest> 1 / kMaxSquared &&
-        *longest < kMaxRatioSquared * *shortest)) {
-    return false;
-  }
-  for (int i = 0; i < 6; ++i) inverse[i] = 1 / std::sqrt(squared[i]);
-  // Of edges i and j at their common end; the sign is negative if one of them starts there.
-  const auto cosine = [&](int i, int j) { return dot(e[i], e[j]) * (inverse[i] * inverse[j]); };
-  result.face = {{{cosine(3, 4), -cosine(3, 5), cosine(4, 5)},
-                  {cosine(1, 2), -cosine(1, 5), cosine(2, 5)},
-                  {cosine(0, 2), -cosine(0, 4), cosine(2, 4)},
-                  {cosine(0, 1), -cosine(0, 3), cosine(1, 3)}}};
-  const Vec3 normal[4] = {cross(e[3], e[4]), cross(e[2], e[1]), cross(e[0], e[2]),
-                          cross(e[1], e[0])};
-  double inverse_area[4];
-  for (int f = 0; f < 4; ++f) inverse_area[f] = 1 / std::sqrt(dot(normal[f], normal[f]));
-  double largest = 0;
-  for (int i = 0; i < 6; ++i) {
-    const auto [f, g] = kEdges[5 - i];
-    result.dihedral[i] = -dot(normal[f], normal[g]) * (inverse_area[f] * inverse_area[g]);
-    largest = std::max(largest, std::fabs(result.dihedral[i]));
-  }
-  // A face angle near 0 or 180 need not come with such a dihedral angle.
-  for (const auto& face : result.face) {
-    for (const double c : face) largest = std::max(largest, std::fabs(c));
-  }
-  return largest < kMaxCosine;  // not if NaN: an area may have vanished
-}
-
 // For each tetrahedron, which of its faces an earlier one has (bit i: face i). Faces are bucketed
 // by smallest vertex, so that this takes 16 bytes per tetrahedron and time linear but for sorting
 // the small buckets.
@@ -303,29 +258,27 @@ using Extremes = std::array<double, 2>;  // the smallest and the largest angle
 // The angles of consecutive tetrahedra, which need no others.
 class Angles {
  public:
-  void measure(std::span<const Vec3> coordinates, const Tet& tet, unsigned repeated,
-               const CosineBins& bins) {
-    const auto& [a, b, c, d] = tet;
-    Cosines cosines;
-    if (ordinary_cosines(coordinates[a], coordinates[b], coordinates[c], coordinates[d], cosines)) {
-      for (int f = 0; f < 4; ++f) {
-        if ((repeated >> f & 1U) == 0) add_face_cosines(cosines.face[f], bins);
+  // Of all of them, in batches.
+  void measure(std::span<const Vec3> coordinates, std::span<const Tet> tetrahedra,
+               std::span<const std::uint8_t> repeated, const CosineBins& bins) {
+    CosineBatch batch;
+    for (std::size_t begin = 0; begin < tetrahedra.size(); begin += CosineBatch::kLanes) {
+      batch.measure(coordinates, tetrahedra.subspan(begin));
+      const std::size_t count = std::min(CosineBatch::kLanes, tetrahedra.size() - begin);
+      for (std::size_t l = 0; l < count; ++l) {
+        if (batch.ordinary[l]) {
+          add_cosines(batch, l, repeated[begin + l], bins);
+        } else {
+          add_robustly(make_shape(coordinates, tetrahedra[begin + l]), repeated[begin + l]);
+        }
       }
-      add_dihedral_cosines(cosines.dihedral, bins);
-      return;
     }
-    const Shape shape = make_shape(coordinates, tet);
-    for (int f = 0; f < 4; ++f) {
-      if ((repeated >> f & 1U) == 0) add_face(face_angles(shape, f));
-    }
-    const double volume = volume_term(shape);
-    add_dihedrals(
-        shape.comparable ? comparable_dihedrals(shape, volume) : incomparable_dihedrals(shape),
-        shape.comparable && volume == 0);
   }
 
   // Adds up, one by one: the sums do not depend on where chunks end. Then empty.
   void move_to(MeshStatistics& s, std::uint64_t& faces) {
+    append_degrees(face_cosines_, face_);
+    append_degrees(dihedral_cosines_, dihedral_);
     faces += face_.size();
     for (const auto& [low, high] : face_) {
       s.min_face_angle = std::min(s.min_face_angle, low);
@@ -355,10 +308,43 @@ class Angles {
     for (const double a : angles) ++face_histogram_[bin(a)];
   }
 
-  void add_face_cosines(const std::array<double, 3>& cosines, const CosineBins& bins) {
-    const auto [low, high] = std::minmax({cosines[0], cosines[1], cosines[2]});
-    face_.push_back({std::acos(high) * kDegrees, std::acos(low) * kDegrees});
-    for (const double c : cosines) ++face_histogram_[bins(c)];
+  void add_cosines(const CosineBatch& batch, std::size_t lane, unsigned repeated,
+                   const CosineBins& bins) {
+    for (std::size_t f = 0; f < 4; ++f) {
+      if ((repeated >> f & 1U) != 0) continue;
+      const double a = batch.face[f][0][lane], b = batch.face[f][1][lane],
+                   c = batch.face[f][2][lane];
+      face_cosines_.push_back(std::max(std::max(a, b), c));
+      face_cosines_.push_back(std::min(std::min(a, b), c));
+      for (const double cosine : {a, b, c}) ++face_histogram_[bins(cosine)];
+    }
+    double low = -1, high = 1;
+    for (const auto& dihedral : batch.dihedral) {
+      low = std::max(low, dihedral[lane]);
+      high = std::min(high, dihedral[lane]);
+      ++dihedral_histogram_[bins(dihedral[lane])];
+    }
+    dihedral_cosines_.push_back(low);
+    dihedral_cosines_.push_back(high);
+  }
+
+  void add_robustly(const Shape& shape, unsigned repeated) {
+    for (int f = 0; f < 4; ++f) {
+      if ((repeated >> f & 1U) == 0) add_face(face_angles(shape, f));
+    }
+    const double volume = volume_term(shape);
+    add_dihedrals(
+        shape.comparable ? comparable_dihedrals(shape, volume) : incomparable_dihedrals(shape),
+        shape.comparable && volume == 0);
+  }
+
+  // Of the smallest and the largest angle in turn. Then empty.
+  static void append_degrees(std::vector<double>& cosines, std::vector<Extremes>& angles) {
+    degrees_of_cosines(cosines);
+    for (std::size_t n = 0; n < cosines.size(); n += 2) {
+      angles.push_back({cosines[n], cosines[n + 1]});
+    }
+    cosines.clear();
   }
 
   void add_dihedrals(const std::array<double, 6>& angles, bool flat) {
@@ -369,12 +355,7 @@ class Angles {
     for (const double a : angles) ++dihedral_histogram_[bin(a)];
   }
 
-  void add_dihedral_cosines(const std::array<double, 6>& cosines, const CosineBins& bins) {
-    const auto [low, high] = std::minmax_element(cosines.begin(), cosines.end());
-    dihedral_.push_back({std::acos(*high) * kDegrees, std::acos(*low) * kDegrees});
-    for (const double c : cosines) ++dihedral_histogram_[bins(c)];
-  }
-
+  std::vector<double> face_cosines_, dihedral_cosines_;
   std::vector<Extremes> face_, dihedral_;
   std::array<std::uint64_t, 12> face_histogram_{}, dihedral_histogram_{};
 };
@@ -414,9 +395,9 @@ MeshStatistics mesh_statistics(std::span<const Vec3> coordinates, std::span<cons
     const std::size_t count = std::min(kBatch, tetrahedra.size() - begin);
     for_chunks(control, count, kChunk, [&](Worker& worker, const Chunk& chunk) {
       worker.poll();
-      for (std::size_t t = begin + chunk.begin; t < begin + chunk.end; ++t) {
-        angles[chunk.index].measure(coordinates, tetrahedra[t], repeated_faces[t], bins);
-      }
+      const std::size_t size = chunk.end - chunk.begin;
+      angles[chunk.index].measure(coordinates, tetrahedra.subspan(begin + chunk.begin, size),
+                                  repeated_faces.subspan(begin + chunk.begin, size), bins);
       return true;
     });
     for (Angles& chunk : angles) chunk.move_to(statistics, faces);

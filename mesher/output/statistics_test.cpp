@@ -1,4 +1,5 @@
 #include "mesher/output/statistics.h"
+#include "mesher/output/cosines.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +7,8 @@
 #include <numeric>
 #include <random>
 #include <vector>
+
+#include "mesher/output/cosines.h"
 
 namespace delmesher {
 namespace {
@@ -205,6 +208,34 @@ TEST(Statistics, EmptyMesh) {
   EXPECT_EQ(s.tetrahedra, 0U);
   expect_finite(s);
   EXPECT_EQ(s.max_face_angle, 0);
+}
+
+// The polynomial is as good as the library's function.
+TEST(Cosines, DegreesAreThoseOfTheArcCosine) {
+  std::vector<double> cosines = {1, -1, 0, 0.5, -0.5, std::nextafter(0.5, 1), 0x1p-40, 1 - 0x1p-50};
+  for (int n = -1000; n <= 1000; ++n) cosines.push_back(std::sin(n * 1.5e-3));
+  std::vector<double> degrees = cosines;
+  degrees_of_cosines(degrees);
+  for (std::size_t n = 0; n < cosines.size(); ++n) {
+    EXPECT_NEAR(degrees[n], std::acos(cosines[n]) * 180 / M_PI, 1e-13) << cosines[n];
+  }
+}
+
+// Lanes without a tetrahedron, and tetrahedra for the robust formulas, are told from the others.
+TEST(Cosines, ABatchKnowsItsOrdinaryTetrahedra) {
+  const std::vector<std::array<double, 3>> points = {{0, 0, 0}, {1, 0, 0},    {0, 1, 0}, {0, 0, 1},
+                                                     {2, 0, 0}, {1e-9, 0, 0}, {1, 1, 0}};
+  const std::vector<std::array<std::uint32_t, 4>> tetrahedra = {
+      {0, 1, 2, 3}, {0, 1, 4, 3}, {0, 5, 2, 3}, {0, 1, 6, 2}, {4, 6, 2, 3}};
+  CosineBatch batch;
+  batch.measure(points, tetrahedra);
+  const std::vector<bool> expected = {true, false, false, false, true};  // face, edge, volume
+  for (std::size_t l = 0; l < CosineBatch::kLanes; ++l) {
+    EXPECT_EQ(batch.ordinary[l], l < expected.size() && expected[l]) << l;
+  }
+  EXPECT_NEAR(batch.face[0][0][0], 0.5, 1e-15);                  // the large face, equilateral
+  EXPECT_NEAR(batch.dihedral[0][0], 0, 1e-15);                   // at an edge of the right corner
+  EXPECT_NEAR(batch.dihedral[3][0], 1 / std::sqrt(3.0), 1e-15);  // at an edge of the large face
 }
 
 }  // namespace
