@@ -44,11 +44,10 @@ struct Waiting {
   }
 };
 
-// What a point is near to. Elements are kNone where none was found within the bound.
+// What a point is near to.
 struct Surroundings {
-  double size;                    // the local feature size, if below the bound
-  double nearest;                 // distance of the nearest element, if below the bound
-  std::uint32_t closest = kNone;  // that element
+  double size;     // the local feature size, if below the bound
+  double nearest;  // distance of the nearest element, if below the bound
   std::array<std::uint32_t, 2> witness = {kNone, kNone};  // two that do not touch, within `size`
 };
 
@@ -91,36 +90,14 @@ class Predictor {
             const PredictionOptions& options, Control& control)
       : plc_(plc),
         topology_(topology),
+        facet_kept_(facet_kept),
         points_(points),
         options_(options),
         control_(control),
         surface_(triangle_boxes(topology, points)) {
-    std::vector<std::vector<VertexId>> vertices(plc.segments.size() +
-                                                topology.facet_triangles.size());
-    for (std::uint32_t s = 0; s < plc.segments.size(); ++s) {
-      const auto& ends = plc.segments[s].vertex;
-      elements_.push_back({{ends[0], ends[1], kNone}, s});
-      vertices[s].assign(ends.begin(), ends.end());
-    }
-    for (std::uint32_t t = 0; t < topology.triangles.size(); ++t) {
-      const FacetId f = topology.facet_of[t];
-      if (!facet_kept.empty() && facet_kept[f] == 0) continue;
-      const auto owner = static_cast<std::uint32_t>(plc.segments.size() + f);
-      elements_.push_back({topology.triangles[t], owner});
-      auto& own = vertices[owner];
-      own.insert(own.end(), topology.triangles[t].begin(), topology.triangles[t].end());
-    }
-    for (const PlcFacet& facet : plc.facets) {
-      if (facet.input_facet == kNone) continue;
-      auto& own = vertices[plc.segments.size() + facet.input_facet];
-      for (const PlcFacet::Side& side : facet.boundary) {
-        const auto& ends = plc.segments[side.segment].vertex;
-        own.insert(own.end(), ends.begin(), ends.end());
-      }
-      own.insert(own.end(), facet.isolated.begin(), facet.isolated.end());
-      for (const VertexId v : facet.isolated) add_vertex(v, vertices);
-    }
-    for (const VertexId v : plc.free_vertices) add_vertex(v, vertices);
+    Owned vertices(plc.segments.size() + topology.facet_triangles.size());
+    collect_elements(vertices);
+    collect_vertices(vertices);
     std::vector<Box> boxes;
     for (const Element& e : elements_) {
       Box box = Box::empty();
@@ -152,7 +129,40 @@ class Predictor {
   }
 
  private:
-  void add_vertex(VertexId v, std::vector<std::vector<VertexId>>& vertices) {
+  using Owned = std::vector<std::vector<VertexId>>;  // vertices per owner
+
+  void collect_elements(Owned& vertices) {
+    for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
+      const auto& ends = plc_.segments[s].vertex;
+      elements_.push_back({{ends[0], ends[1], kNone}, s});
+      vertices[s].assign(ends.begin(), ends.end());
+    }
+    for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
+      const FacetId f = topology_.facet_of[t];
+      if (!facet_kept_.empty() && facet_kept_[f] == 0) continue;
+      const auto owner = static_cast<std::uint32_t>(plc_.segments.size() + f);
+      elements_.push_back({topology_.triangles[t], owner});
+      auto& own = vertices[owner];
+      own.insert(own.end(), topology_.triangles[t].begin(), topology_.triangles[t].end());
+    }
+  }
+
+  // Those that facets got by chamfering, and those that are elements by themselves.
+  void collect_vertices(Owned& vertices) {
+    for (const PlcFacet& facet : plc_.facets) {
+      if (facet.input_facet == kNone) continue;
+      auto& own = vertices[plc_.segments.size() + facet.input_facet];
+      for (const PlcFacet::Side& side : facet.boundary) {
+        const auto& ends = plc_.segments[side.segment].vertex;
+        own.insert(own.end(), ends.begin(), ends.end());
+      }
+      own.insert(own.end(), facet.isolated.begin(), facet.isolated.end());
+      for (const VertexId v : facet.isolated) add_vertex(v, vertices);
+    }
+    for (const VertexId v : plc_.free_vertices) add_vertex(v, vertices);
+  }
+
+  void add_vertex(VertexId v, Owned& vertices) {
     elements_.push_back({{v, kNone, kNone}, static_cast<std::uint32_t>(vertices.size())});
     vertices.push_back({v});
   }
@@ -203,7 +213,7 @@ class Predictor {
   // Elements are looked at from the nearest on, until two do not touch. A pair that did not nearby,
   // in the cell above, tells from the start how far to look.
   Surroundings surroundings(const Vec3& p, double bound, const Surroundings& nearby) {
-    Surroundings found{bound, bound, kNone, nearby.witness};
+    Surroundings found{bound, bound, nearby.witness};
     met_.clear();
     waiting_.clear();
     if (elements_bvh_->empty()) return found;  // all was filtered away
@@ -232,10 +242,7 @@ class Predictor {
 
   // Takes note of the next element; false if it and one met before do not touch.
   bool meet(const Waiting& w, Surroundings& found) {
-    if (met_.empty()) {
-      found.nearest = std::sqrt(w.distance2);
-      found.closest = w.index;
-    }
+    if (met_.empty()) found.nearest = std::sqrt(w.distance2);
     const std::uint32_t owner = elements_[w.index].owner;
     const auto same = [&](std::uint32_t e) { return elements_[e].owner == owner; };
     if (std::any_of(met_.begin(), met_.end(), same)) return true;
@@ -362,6 +369,7 @@ class Predictor {
 
   const Plc& plc_;
   const SurfaceTopology& topology_;
+  const std::vector<std::uint8_t>& facet_kept_;
   const PointStore& points_;
   const PredictionOptions& options_;
   Control& control_;
