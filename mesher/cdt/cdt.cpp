@@ -51,6 +51,7 @@ class CdtBuilder {
     const std::vector<VertexId> added = recover_segments(mesh, chains_, points_, control_);
     steiner_.insert(steiner_.end(), added.begin(), added.end());
     surface_.clear();
+    found_.clear();
     enter(Phase::facets);
     FacetTriangulator triangulator(input_, chains_, predicates_);
     FacetRecovery recovery(mesh, topology_, chains_, control_);
@@ -58,14 +59,14 @@ class CdtBuilder {
     for (FacetId f = 0; f < facets; ++f) {
       control_.poll(points_.size(), static_cast<double>(f) / facets);
       const FacetTriangles triangles = triangulator.triangulate(f);
-      if (!recovery.recover(f, triangles)) return f;
+      if (!recovery.recover(f, triangles, found_)) return f;
       for (const auto& t : triangles.triangles) surface_.push_back({t, f});
     }
     result_.counters = recovery.counters();
     result_.counters.facet_restarts = restarts_;
     control_.enter(Phase::classify);
     std::size_t missing = 0;
-    inside_ = classify_tetrahedra(mesh, surface_, chains_, control_, &missing);
+    inside_ = classify_tetrahedra(mesh, surface_, found_, chains_, control_, &missing);
     return inside_.empty() ? surface_[missing].facet : kNone;
   }
 
@@ -119,6 +120,7 @@ class CdtBuilder {
   std::unique_ptr<Tetrahedrization> delaunay_;
   std::vector<VertexId> steiner_;
   std::vector<SurfaceFace> surface_;
+  std::vector<std::uint32_t> found_;  // 4 * tetrahedron + face of each, when it was recovered
   std::vector<std::uint8_t> inside_;
   std::uint64_t restarts_ = 0;
   CdtResult result_;

@@ -3,16 +3,34 @@
 #include "mesher/base/check.h"
 
 namespace delmesher {
+namespace {
+
+// Is that face (4 * tetrahedron + face, or kNone) of the mesh this one?
+bool is_face(const Tetrahedrization& mesh, std::uint32_t code, const std::array<VertexId, 3>& v) {
+  const TetId t = code >> 2;
+  if (code == kNone || !mesh.alive(t)) return false;
+  int others = 6;
+  for (const VertexId corner : v) {
+    const int i = mesh.index_of(t, corner);
+    if (i < 0) return false;
+    others -= i;
+  }
+  return others == static_cast<int>(code & 3);
+}
+
+}  // namespace
 
 std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
                                               std::span<const SurfaceFace> surface,
+                                              std::span<const std::uint32_t> found,
                                               const Chains& chains, Control& control,
                                               std::size_t* missing) {
   constexpr std::uint8_t kUnknown = 2;
   std::vector<std::uint8_t> walls(mesh.capacity(), 0);  // bit i: face i is on the surface
   for (std::size_t n = 0; n < surface.size(); ++n) {
     control.poll();
-    const std::uint32_t code = find_face(mesh, chains, surface[n].vertices);
+    const auto& v = surface[n].vertices;
+    const std::uint32_t code = is_face(mesh, found[n], v) ? found[n] : find_face(mesh, chains, v);
     if (code == kNone) {
       *missing = n;
       return {};

@@ -34,13 +34,15 @@ int FacetRecovery::side(VertexId v) {
   return side_[v];
 }
 
-bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles) {
+bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles,
+                            std::vector<std::uint32_t>& found) {
   frame_ = topology_.triangles[topology_.facet_triangles[facet][0]];
   ++facet_epoch_;
   done_.assign(triangles.triangles.size(), 0);
   for (std::uint32_t t = 0; t < triangles.triangles.size(); ++t) {
     control_.poll(predicates_.points().size());
-    if (done_[t] != 0 || find_face(mesh_, chains_, triangles.triangles[t]) != kNone) continue;
+    found.push_back(done_[t] != 0 ? kNone : find_face(mesh_, chains_, triangles.triangles[t]));
+    if (done_[t] != 0 || found.back() != kNone) continue;
     collect_region(triangles, t);
     if (!recover_region()) return false;
   }

@@ -24,8 +24,9 @@ class FacetRecovery {
                 Control& control);
 
   // Makes all triangles of the facet appear. False if that failed, which the theory excludes; the
-  // mesh is still consistent then.
-  bool recover(FacetId facet, const FacetTriangles& triangles);
+  // mesh is still consistent then. Appends to `found` for each triangle the face of the mesh (4 *
+  // tetrahedron + face) that it was before, kNone if it was missing.
+  bool recover(FacetId facet, const FacetTriangles& triangles, std::vector<std::uint32_t>& found);
 
   const CdtCounters& counters() const { return counters_; }
 
