@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <set>
+
 #include "corpus/cli/commands.h"
 #include "corpus/models.h"
 #include "corpus/sha256.h"
@@ -23,7 +25,10 @@ std::vector<std::string> task_of(const RunArguments& run) {
     words.push_back(value);
   };
   for (const std::string& mesher : run.meshers) option("--mesher", mesher);
-  for (const std::string& disposition : run.retry) option("--retry", disposition);
+  // A cluster that ends a task may end a mesher first, and its runner lives to note it.
+  std::set<std::string> retry(run.retry.begin(), run.retry.end());
+  retry.insert("killed");
+  for (const std::string& disposition : retry) option("--retry", disposition);
   option("--jobs", std::to_string(run.jobs));
   option("--timeout", fmt::format("{}", run.timeout));
   if (run.cpu > 0) option("--cpu", fmt::format("{}", run.cpu));
