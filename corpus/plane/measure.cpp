@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "corpus/plane/bench.h"
+#include "corpus/supervise/supervisor.h"
 
 namespace tetproof::plane_bench {
 namespace {
@@ -82,7 +83,7 @@ Measurement measure(const Mesher& mesher, const PlanarGraph& graph, const Limits
     setrlimit(RLIMIT_CPU, &cpu);
     const auto bytes = static_cast<rlim_t>(limits.megabytes * 1048576);
     const struct rlimit memory = {bytes, bytes};
-    setrlimit(RLIMIT_AS, &memory);
+    if (kMemoryBackstop) setrlimit(RLIMIT_AS, &memory);
     const struct rlimit core = {0, 0};
     setrlimit(RLIMIT_CORE, &core);
     const Measurement result = run_here(mesher, graph);
