@@ -16,7 +16,7 @@ volatile double sink;
 
 void work(int size) {
   double sum = 0;
-  for (int i = 1; i < 1000 * size; ++i) sum += 1.0 / i;
+  for (long i = 1; i < 1000L * size; ++i) sum += 1.0 / static_cast<double>(i);
   sink = sum;
 }
 
