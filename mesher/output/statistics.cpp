@@ -275,7 +275,8 @@ class Angles {
     }
   }
 
-  // Adds up, one by one: the sums do not depend on where chunks end. Then empty.
+  // Adds up, one by one, those of the robust formulas first. Chunks do not depend on the number of
+  // threads, so neither do the sums. Then empty.
   void move_to(MeshStatistics& s, std::uint64_t& faces) {
     append_degrees(face_cosines_, face_);
     append_degrees(dihedral_cosines_, dihedral_);
