@@ -54,8 +54,8 @@ std::string first_failure(const oracles::VerifyReport& report, bool room) {
   return "verdict: " + std::string(oracles::verdict_name(report.verdict));
 }
 
-Finding verified(const Surface& surface, const Result& result, Stage stage,
-                 const Options& options) {
+Finding verified(const Surface& surface, const Result& result, Stage stage, const Options& options,
+                 bool room) {
   const oracles::Polyhedron input = {surface.vertices, surface.triangles, surface.labels, {}};
   oracles::VerifyOptions wanted;
   wanted.stage = stage;
@@ -74,7 +74,7 @@ Finding verified(const Surface& surface, const Result& result, Stage stage,
   if (violated || (stage == Stage::final && oracles::failed(report, wanted))) {
     // Where features are hardly more than roundings apart, nobody can tell from rounded points what
     // they belong to; the exact record says it.
-    const std::string failure = first_failure(report, roomy(surface));
+    const std::string failure = first_failure(report, room);
     return failure.empty() ? "" : (stage == Stage::refined ? "refined " : "final ") + failure;
   }
   return {};
@@ -83,7 +83,7 @@ Finding verified(const Surface& surface, const Result& result, Stage stage,
 // Reaching a limit on vertices or memory says nothing wrong; stopping for want of precision does
 // where there is room.
 Finding at_limit(const Surface& surface, const delmesher::Status& status) {
-  const bool precision = status.message.find("double precision") != std::string::npos;
+  const bool precision = status.limit == delmesher::Limit::precision;
   return precision && roomy(surface) ? "status: " + status.message : "";
 }
 
@@ -101,10 +101,11 @@ Finding judged(const Surface& surface, const Result& result, const Options& opti
     // and is said.
     return roomy(surface) ? "rounding: inverted or flat tetrahedra are left" : "";
   }
+  const bool room = roomy(surface);
   if (refined) {
-    if (Finding f = verified(surface, result, Stage::refined, options); !f.empty()) return f;
+    if (Finding f = verified(surface, result, Stage::refined, options, room); !f.empty()) return f;
   }
-  return verified(surface, result, Stage::final, options);
+  return verified(surface, result, Stage::final, options, room);
 }
 
 Points times(Points points, int exponent) {
@@ -196,7 +197,7 @@ Finding refinement_holds(const Surface& surface) {
   const Result result = delmesher::tetrahedralize(surface, options);
   if (result.status.code == StatusCode::limit_reached) return at_limit(surface, result.status);
   if (!result.status.ok()) return "status: " + result.status.message;
-  return verified(surface, result, Stage::refined, options);
+  return verified(surface, result, Stage::refined, options, roomy(surface));
 }
 
 Finding pipeline_holds(const Surface& surface) {
@@ -217,7 +218,8 @@ Finding default_pipeline_holds(const Surface& surface) {
   if (result.statistics.rounding_inverted + result.statistics.rounding_flat > 0) {
     return "rounding: inverted or flat tetrahedra are left";
   }
-  return judged(surface, result, options, true);
+  if (Finding f = verified(surface, result, Stage::refined, options, true); !f.empty()) return f;
+  return verified(surface, result, Stage::final, options, true);
 }
 
 }  // namespace tetproof::fuzz

@@ -103,9 +103,18 @@ enum class StatusCode : std::uint8_t {
   internal_error    // a bug; the message says where
 };
 
+enum class Limit : std::uint8_t {
+  none,
+  size,      // Options::max_vertices, a budget, or what indices can number
+  time,      // Options::time_limit_seconds
+  memory,    // an allocation failed
+  precision  // features are too close to each other for what doubles can express
+};
+
 struct Status {
   StatusCode code = StatusCode::ok;
   std::string message;
+  Limit limit = Limit::none;  // which one, where code is limit_reached
   bool ok() const { return code == StatusCode::ok; }
 };
 

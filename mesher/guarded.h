@@ -28,7 +28,7 @@ Status guarded(Control& control, Body&& body) {
   } catch (const InternalError& error) {
     return {StatusCode::internal_error, error.what()};
   } catch (const std::bad_alloc&) {
-    return {StatusCode::limit_reached, "out of memory"};
+    return {StatusCode::limit_reached, "out of memory", Limit::memory};
   } catch (const std::exception& error) {
     return {StatusCode::internal_error, error.what()};
   }

@@ -150,7 +150,7 @@ class Run {
         return chamfered;
       }
       if (tau_ > kLargestTau) {
-        throw Stopped{{StatusCode::limit_reached, over_budget(predicted)}};
+        throw Stopped{{StatusCode::limit_reached, over_budget(predicted), Limit::size}};
       }
       tau_ = std::max(2 * tau_, kLeastTau);
       while (points_.size() > input_points) points_.pop_back();

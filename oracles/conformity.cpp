@@ -50,6 +50,8 @@ class Conformity {
   Index nearest_surface_vertex(Index input_vertex) const;
   void follow_edges();
   bool follow(const InputSurface::Edge& edge, double tolerance, std::vector<Index>& chain) const;
+  bool is_chain(const InputSurface::Edge& edge, const std::vector<Index>& chain) const;
+  bool find_chain(const InputSurface::Edge& edge, std::vector<Index>& chain) const;
   double progress(const InputSurface::Edge& edge, Index v, double& distance) const;
   bool is_matched(Index v) const { return std::binary_search(matched_.begin(), matched_.end(), v); }
   bool advances(const InputSurface::Edge& edge, Index here, Index next) const;
@@ -227,21 +229,45 @@ bool Conformity::follow(const InputSurface::Edge& edge, double tolerance,
   return true;
 }
 
+// Does a chain that somebody says belongs to the edge have the structure of one?
+bool Conformity::is_chain(const InputSurface::Edge& edge, const std::vector<Index>& chain) const {
+  if (chain.size() < 2 || chain.front() != match_[edge.from] || chain.back() != match_[edge.to]) {
+    return false;
+  }
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const auto [first, last] = faces_at(chain[i - 1], chain[i]);
+    if (first == last || chain_facet_.contains(edge_key(chain[i - 1], chain[i]))) return false;
+    if (i + 1 < chain.size() && is_matched(chain[i])) return false;
+  }
+  return true;
+}
+
+bool Conformity::find_chain(const InputSurface::Edge& edge, std::vector<Index>& chain) const {
+  if (options_.exact) return follow(edge, 0, chain);
+  if (options_.chains != nullptr) {
+    const auto& given = (*options_.chains)[&edge - surface_.edges().data()];
+    if (is_chain(edge, given)) {
+      chain = given;
+      return true;
+    }
+  }
+  for (double tolerance = 1e-15; tolerance <= options_.largest_tolerance; tolerance *= 100) {
+    if (follow(edge, tolerance, chain)) return true;
+  }
+  return false;
+}
+
 void Conformity::follow_edges() {
   std::vector<Index> chain;
+  result_.chains.resize(surface_.edges().size());
   for (const InputSurface::Edge& edge : surface_.edges()) {
     if (match_[edge.from] == kNone || match_[edge.to] == kNone) continue;  // already said
-    bool found = false;
-    for (double tolerance = options_.exact ? 0 : 1e-15;
-         !found && tolerance <= options_.largest_tolerance; tolerance *= 100) {
-      found = follow(edge, tolerance, chain);
-      if (options_.exact) break;
-    }
-    if (!found) {
+    if (!find_chain(edge, chain)) {
       fail(input_edge_name(edge) + " is not a chain of boundary edges; it ends at " +
            complex_.vertex_name(chain.back()));
       continue;
     }
+    result_.chains[&edge - surface_.edges().data()] = chain;
     const IntegerVector direction = exact::difference(points_, edge.from, edge.to);
     for (std::size_t i = 1; i < chain.size(); ++i) {
       const bool fresh = chain_facet_.emplace(edge_key(chain[i - 1], chain[i]), edge.left).second;

@@ -20,6 +20,10 @@ struct ConformityOptions {
   // are rounded. The same combinatorial structure is demanded, and the largest deviation measured.
   bool exact = true;
   double largest_tolerance = 1e-5;  // fraction of the diagonal
+  // With a tolerance: chains to try first, one per edge of the surface, as a record says. Where
+  // edges are less than the tolerance apart, positions alone do not tell which mesh edge is whose.
+  // They prove no less than chains that are found: what is demanded of a chain is checked.
+  const std::vector<std::vector<Index>>* chains = nullptr;
 };
 
 struct ConformityResult {
@@ -28,6 +32,7 @@ struct ConformityResult {
   std::vector<Face> faces;    // boundary faces of the solid, seen from outside
   std::vector<Index> facets;  // the input facet that each tiles, or kNone
   std::uint64_t chain_edges = 0;
+  std::vector<std::vector<Index>> chains;  // per edge of the surface; empty: not found
 };
 
 // `surface` and `complex` use the same points. Only the flags complex.inside say what the solid is.

@@ -123,6 +123,7 @@ class Verification {
   bool check_finite();
   std::string check_file();
   std::string check_input();
+  std::vector<std::vector<Index>> recorded_chains(const InputSurface& surface);
   void check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface);
   void check_file_hull(const TetComplex& complex, const Neighbours& neighbours);
@@ -269,6 +270,11 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
   double allowed_volume = 0;
   if (!conformity.report.passed()) {
     conformity = check_conformity(complex, neighbours, surface, {.exact = false});
+    if (!conformity.report.passed() && exact_ != nullptr && !exact_->final.empty()) {
+      const auto chains = recorded_chains(surface);
+      conformity =
+          check_conformity(complex, neighbours, surface, {.exact = false, .chains = &chains});
+    }
     if (conformity.report.passed()) {  // else the deviation means nothing
       report_.deviation = conformity.deviation;
       allowed_volume = 2 * conformity.deviation * surface_area(complex, conformity.faces);
@@ -285,6 +291,26 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
   const bool labelled = !input_.labels.empty() && mesh_.labels.size() == listed.size();
   add(check_boundary_list(complex, neighbours, surface, conformity, listed,
                           labelled ? mesh_.labels : std::vector<std::int32_t>{}));
+}
+
+// On which mesh edges each input edge lies on exact coordinates, in vertices of the file.
+std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface& surface) {
+  std::vector<std::vector<Index>> chains(surface.edges().size());
+  const Shared::Sidecar& sidecar = shared_.sidecar();
+  if (!sidecar.usable) return chains;
+  const TetComplex complex = complex_of(exact_->final, sidecar.points);
+  Neighbours neighbours;
+  if (!check_complex(complex, neighbours).passed()) return chains;
+  ConformityResult exact = check_conformity(complex, neighbours, sidecar.surface, {.exact = true});
+  if (exact.chains.size() != chains.size()) return chains;
+  std::vector<Index> written(sidecar.points.size(), kNone);
+  for (std::size_t i = 0; i < exact_->mesh_vertices.size(); ++i) {
+    written[exact_->mesh_vertices[i]] = static_cast<Index>(input_.vertices.size() + i);
+  }
+  for (std::vector<Index>& chain : exact.chains) {
+    for (Index& v : chain) v = written[v];
+  }
+  return exact.chains;
 }
 
 // Nothing is promised of the doubles as written: these only count and measure.
@@ -416,7 +442,13 @@ std::string Verification::check_refined_angles() {
 
 std::string Verification::check_refined_inside() {
   if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
-  add(check_contained(shared_.refined().complex, shared_.sidecar().surface), "refined-");
+  OracleReport contained = check_contained(shared_.refined().complex, shared_.sidecar().surface);
+  // With every facet filtered, nothing is left to be inside; that this was right is for the
+  // filter's oracle to say.
+  const auto filtered = [](const ExactRecord::Facet& f) { return f.filtered != 0; };
+  const bool none_kept = exact_->refined_facets.empty() && !exact_->facets.empty() &&
+                         std::all_of(exact_->facets.begin(), exact_->facets.end(), filtered);
+  if (!none_kept || contained.checked > 0) add(std::move(contained), "refined-");
   return {};
 }
 

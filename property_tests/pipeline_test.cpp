@@ -275,7 +275,9 @@ TEST(Limits, AreErrorsAsValues) {
   const Surface surface = samples::to_surface(samples::skewed(samples::l_shape()).input);
   Options options;
   options.max_vertices = 20;
-  EXPECT_EQ(delmesher::tetrahedralize(surface, options).status.code, StatusCode::limit_reached);
+  const delmesher::Status limit = delmesher::tetrahedralize(surface, options).status;
+  EXPECT_EQ(limit.code, StatusCode::limit_reached);
+  EXPECT_EQ(limit.limit, delmesher::Limit::size);
   options = {};
   options.delta = 95;
   EXPECT_EQ(delmesher::tetrahedralize(surface, options).status.code, StatusCode::invalid_options);
@@ -316,6 +318,7 @@ TEST(Precision, EndsWithALimitThatNamesTheEdge) {
       EXPECT_TRUE(delmesher::check_surface(surface).status.ok());
       const Result result = delmesher::tetrahedralize(surface, options);
       EXPECT_EQ(result.status.code, StatusCode::limit_reached) << gap;
+      EXPECT_EQ(result.status.limit, delmesher::Limit::precision) << gap;
       const bool first = result.status.message.find("edge 0-1: ") == 0;
       const bool second = result.status.message.find("edge 4-5: ") == 0;
       EXPECT_TRUE(first || second) << result.status.message;

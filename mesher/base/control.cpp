@@ -15,7 +15,8 @@ double seconds_between(std::chrono::steady_clock::time_point a,
 
 void stop_at_precision(const std::string& where) {
   throw Stopped{{StatusCode::limit_reached,
-                 where + ": features there are too close to each other for double precision"}};
+                 where + ": features there are too close to each other for double precision",
+                 Limit::precision}};
 }
 
 Control::Control(const Options& options)
@@ -45,13 +46,14 @@ void Control::poll(std::uint64_t vertices, double done) {
 
 void Control::poll_now(std::uint64_t vertices, double done) {
   if (options_.max_vertices != 0 && vertices > options_.max_vertices) {
-    throw Stopped{{StatusCode::limit_reached, "vertex limit reached (" +
-                                                  std::to_string(options_.max_vertices) +
-                                                  "), see --max-vertices"}};
+    throw Stopped{
+        {StatusCode::limit_reached,
+         "vertex limit reached (" + std::to_string(options_.max_vertices) + "), see --max-vertices",
+         Limit::size}};
   }
   if (options_.time_limit_seconds > 0 &&
       seconds_between(start_, Clock::now()) > options_.time_limit_seconds) {
-    throw Stopped{{StatusCode::limit_reached, "time limit reached, see --time-limit"}};
+    throw Stopped{{StatusCode::limit_reached, "time limit reached, see --time-limit", Limit::time}};
   }
   if (options_.progress && !options_.progress(Progress{phase_, done, vertices, predicted_})) {
     throw Stopped{{StatusCode::interrupted, "interrupted"}};

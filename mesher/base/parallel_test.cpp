@@ -137,6 +137,7 @@ TEST(Threads, TimeLimitsHold) {
     FAIL() << "no end";
   } catch (const Stopped& stopped) {
     EXPECT_EQ(stopped.status.code, StatusCode::limit_reached);
+    EXPECT_EQ(stopped.status.limit, Limit::time);
   }
 }
 

@@ -103,6 +103,18 @@ TEST(VertexMoves, TakesTheShortestMove) {
   EXPECT_LE(moved, 0x1p-53);
 }
 
+TEST(VertexMoves, UntanglingEndsWhereNothingCanMove) {
+  Scene s = octahedron(1.5, 0, 0);
+  s.input.on_surface[6] = 1;
+  for (const int fixed : {0, 1}) {
+    s.input.fixed[6] = static_cast<std::uint8_t>(fixed);
+    RoundedMesh mesh = s.mesh();
+    mesh.prepare_repairs();
+    EXPECT_FALSE(VertexMoves(mesh).untangle(s.control));
+    EXPECT_FALSE(mesh.bad().empty());
+  }
+}
+
 TEST(LocalOperations, CollapsesAVolumeVertexOutsideItsStar) {
   // The octahedron's centre has six neighbours; a collapse leaves the four tetrahedra that do not
   // touch the vertex it goes to. Flips cannot help with a vertex this far out.

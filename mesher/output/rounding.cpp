@@ -11,19 +11,40 @@
 namespace delmesher {
 namespace {
 
+// What is done about tetrahedra that are not positive: only what lessens them, or moves that may
+// exchange them for others as well, after that or instead.
+enum class Strategy { descend, descend_and_untangle, untangle_first };
+
 // Repairs from mild to drastic; after each success, the mild ones get another chance.
 class Repair {
  public:
   Repair(RoundedMesh& mesh, const PointStore& points, Control& control, RoundingResult& result)
       : mesh_(mesh), control_(control), result_(result), moves_(mesh), operations_(mesh, points) {}
 
-  void run() {
-    for (int effort = 0; effort < kEfforts;) effort = pass(effort) ? 0 : effort + 1;
+  void run(Strategy strategy) {
+    if (strategy == Strategy::descend) descend(kEfforts);
+    if (strategy == Strategy::descend_and_untangle) descend(kExactEfforts);
+    if (strategy != Strategy::descend) untangle();
     for (const auto& group : mesh_.coincident()) separate(group);
   }
 
  private:
   static constexpr int kEfforts = 4;
+  static constexpr int kExactEfforts = 3;  // those that do no harm on exact coordinates
+  static constexpr int kUntanglings = 4;
+
+  void descend(int efforts) {
+    for (int effort = 0; effort < efforts;) effort = pass(effort) ? 0 : effort + 1;
+  }
+
+  // Flips may help where moves alone do not, and the other way round.
+  void untangle() {
+    std::size_t fewest = mesh_.bad().size() + 1;
+    for (int i = 0; i < kUntanglings && mesh_.bad().size() < fewest; ++i) {
+      fewest = mesh_.bad().size();
+      if (!moves_.untangle(control_)) descend(kExactEfforts);
+    }
+  }
 
   // Every tetrahedron bad at the beginning gets one attempt, unless it failed before and nothing
   // has changed around it. Badness decreases with each success, so passes end.
@@ -125,7 +146,7 @@ void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingRe
 }
 
 // The tetrahedra of the input are there again afterwards if there was something to repair.
-RoundingResult round_once(RoundingInput& input, Control& control) {
+RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& control) {
   RoundedMesh mesh(input, control);
   RoundingResult result;
   const std::size_t bad_before = mesh.bad().size();
@@ -137,7 +158,7 @@ RoundingResult round_once(RoundingInput& input, Control& control) {
       input.inside.push_back(mesh.inside(t) ? 1 : 0);
     }
     mesh.prepare_repairs();
-    Repair(mesh, *input.points, control, result).run();
+    Repair(mesh, *input.points, control, result).run(strategy);
   }
   for (const std::uint32_t t : mesh.bad()) ++(mesh.sign(t) < 0 ? result.inverted : result.flat);
   result.repaired = bad_before - mesh.bad().size();
@@ -148,6 +169,11 @@ RoundingResult round_once(RoundingInput& input, Control& control) {
 
 std::uint64_t defects(const RoundingResult& result) {
   return result.inverted + result.flat + result.coincident;
+}
+
+// What is wrong as written counts first, then what is wrong on exact coordinates.
+std::pair<std::uint64_t, std::uint64_t> rank(const RoundingResult& result) {
+  return {defects(result), result.inexact_operations};
 }
 
 // The same order for every run: the state is the only source of it.
@@ -166,12 +192,17 @@ RoundingResult round_mesh(RoundingInput input, Control& control) {
   // Which repairs are possible depends on those done before: where one order of the tetrahedra ends
   // in a dead end, another may not.
   constexpr int kOrders = 8;
-  RoundingResult best = round_once(input, control);
+  RoundingResult best = round_once(input, Strategy::descend, control);
   std::uint32_t state = 1;
   for (int order = 1; order < kOrders && defects(best) > 0; ++order) {
     shuffle_tetrahedra(input, state);
-    RoundingResult other = round_once(input, control);
+    RoundingResult other = round_once(input, Strategy::descend, control);
     if (defects(other) < defects(best)) best = std::move(other);
+  }
+  for (const Strategy s : {Strategy::descend_and_untangle, Strategy::untangle_first}) {
+    if (defects(best) + best.inexact_operations == 0) break;
+    RoundingResult other = round_once(input, s, control);
+    if (rank(other) < rank(best)) best = std::move(other);
   }
   return best;
 }

@@ -11,6 +11,7 @@
 
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/output/rounded_mesh.h"
+#include "mesher/output/vertex_moves.h"
 
 namespace delmesher {
 namespace {
@@ -341,6 +342,32 @@ TEST(Rounding, FarFromTheOrigin) {
     }
   }
   EXPECT_GT(before, 20U);
+}
+
+// How many tetrahedra are bad when rounded, and that untangling leaves none.
+std::size_t untangled(const Scene& scene) {
+  const Options options;
+  Control control(options);
+  RoundingInput given = scene.input;
+  RoundedMesh mesh(given, control);
+  const std::size_t before = mesh.bad().size();
+  mesh.prepare_repairs();
+  EXPECT_TRUE(VertexMoves(mesh).untangle(control));
+  EXPECT_TRUE(mesh.bad().empty());
+  for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
+    EXPECT_TRUE(!mesh.fixed(v) || mesh.position(v) == mesh.home(v)) << v;
+  }
+  return before;
+}
+
+TEST(Rounding, UntanglingAloneIsEnough) {
+  std::size_t before = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    before += untangled(make_grazing(seed, 1, false)) + untangled(make_grazing(seed, 1, true)) +
+              untangled(make_ridge(seed, 1, 3e-16)) + untangled(make_ridge(seed, 1, 2e-7, 1e9));
+  }
+  EXPECT_GT(before, 100U);  // else the test shows nothing
 }
 
 TEST(Rounding, NothingToDo) {

@@ -11,6 +11,8 @@ constexpr int kChainBudget = 4000;
 // The same for all chains together, so that a hopeless mesh ends, too.
 constexpr std::int64_t kAllChainsBudget = 10'000'000;
 constexpr int kChainDepth = 3;
+// Most signs that untangling may decide.
+constexpr std::int64_t kUntangleBudget = 5'000'000;
 
 // The distance from |x| to the next larger double; 0 for 0, whose neighbours say nothing about the
 // scale of the mesh.
@@ -339,6 +341,67 @@ bool VertexMoves::fix_by_chain(std::uint32_t t) {
   }
   undo(chain, 0);
   return false;
+}
+
+std::int64_t VertexMoves::weight(std::uint32_t t) const {
+  const auto at = weight_.find(t);
+  return at == weight_.end() ? 1 : at->second;
+}
+
+// The candidate for which the bad tetrahedra around v weigh least, if that is less than `best`.
+bool VertexMoves::lighten_by(std::uint32_t v, std::int64_t& best, Vec3& best_position) {
+  order_star(v);
+  std::int64_t now = 0;
+  for (const std::uint32_t t : ordered_star_) now += mesh_.sign(t) <= 0 ? weight(t) : 0;
+  bool found = false;
+  for (int stage = 0; stage < 3; ++stage) {
+    stage == 2 ? far_candidates(v) : near_candidates(v, stage == 1);
+    for (const Vec3& p : candidates_) {
+      std::int64_t change = -now;
+      for (const std::uint32_t t : ordered_star_) {
+        --untangle_budget_;
+        change += mesh_.sign_at(t, v, p) <= 0 ? weight(t) : 0;
+        if (change >= best) break;
+      }
+      if (change >= best || mesh_.occupied(p)) continue;
+      best = change;
+      best_position = p;
+      found = true;
+    }
+  }
+  return found;
+}
+
+bool VertexMoves::lighten(std::uint32_t t) {
+  --untangle_budget_;
+  std::int64_t best = 0;
+  std::uint32_t best_vertex = kNone;
+  Vec3 best_position{};
+  for (const std::uint32_t v : movable(t)) {
+    if (lighten_by(v, best, best_position)) best_vertex = v;
+  }
+  if (best_vertex == kNone) return false;
+  mesh_.move(best_vertex, best_position);
+  mesh_.note_change(best_vertex);
+  return true;
+}
+
+// The breakout method of constraint satisfaction (Morris, AAAI 1993): what stays bad although
+// nothing around it can be moved without harm becomes heavier, until exchanging it for something
+// else bad pays.
+bool VertexMoves::untangle(Control& control) {
+  weight_.clear();
+  untangle_budget_ = kUntangleBudget;
+  while (untangle_budget_ > 0) {
+    std::vector<std::uint32_t> work(mesh_.bad().begin(), mesh_.bad().end());
+    std::erase_if(work, [&](std::uint32_t t) { return movable(t).empty(); });
+    if (work.empty()) break;
+    for (const std::uint32_t t : work) {
+      control.poll_now(0, -1);
+      if (mesh_.sign(t) <= 0 && !lighten(t)) weight_[t] = weight(t) + 1;
+    }
+  }
+  return mesh_.bad().empty();
 }
 
 }  // namespace delmesher

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "mesher/output/rounded_mesh.h"
@@ -23,6 +24,10 @@ class VertexMoves {
   bool fix_by_chain(std::uint32_t t);
   // Moves v away from a vertex with the same coordinates, doing no harm.
   bool separate(std::uint32_t v);
+  // Moves many vertices, on the way also to where more is bad, until nothing is bad: where one move
+  // can only exchange one bad tetrahedron for another. False, in any state, when
+  // the budget ends.
+  bool untangle(Control& control);
 
  private:
   struct Chain;
@@ -36,6 +41,9 @@ class VertexMoves {
   bool improve(std::uint32_t t, bool far);
   bool free_by_chain(Chain& chain, std::uint32_t t, int depth);
   void undo(Chain& chain, std::size_t mark);
+  std::int64_t weight(std::uint32_t t) const;
+  bool lighten(std::uint32_t t);
+  bool lighten_by(std::uint32_t v, std::int64_t& best, Vec3& best_position);
 
   RoundedMesh& mesh_;
   double surface_unit_ = 0;                  // unit in the last place of the largest coordinate
@@ -44,6 +52,8 @@ class VertexMoves {
   std::vector<std::uint32_t> ordered_star_;  // its star, bad ones first
   Badness star_badness_ = 0;
   std::int64_t chains_budget_;
+  std::map<std::uint32_t, std::int64_t> weight_;  // where not 1
+  std::int64_t untangle_budget_ = 0;
 };
 
 }  // namespace delmesher

@@ -269,7 +269,7 @@ void Triangulation::fill_cavity(VertexId p) {
   }
   DELMESHER_CHECK(created_.size() == n, "a cavity of the wrong size");
   if (triangles_.size() >= std::size_t{1} << 30) {  // edges have no more numbers
-    throw Stopped{{StatusCode::limit_reached, "more than 2^30 triangles"}};
+    throw Stopped{{StatusCode::limit_reached, "more than 2^30 triangles", Limit::size}};
   }
   for (std::size_t k = 0; k < n; ++k) {
     const BoundaryEdge& b = boundary_[k];
