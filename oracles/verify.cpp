@@ -143,6 +143,7 @@ class Verification {
   void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                          const InputSurface& surface);
   void check_promises(const RefinedMesh& mesh);
+  OracleReport check_none_contained(const TetComplex& complex, const InputSurface& surface) const;
   OracleReport check_contained(const TetComplex& complex, const InputSurface& surface) const;
   double delta() const;
   AngleScope scope() const;
@@ -442,13 +443,15 @@ std::string Verification::check_refined_angles() {
 
 std::string Verification::check_refined_inside() {
   if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
-  OracleReport contained = check_contained(shared_.refined().complex, shared_.sidecar().surface);
-  // With every facet filtered, nothing is left to be inside; that this was right is for the
-  // filter's oracle to say.
+  const Shared::Refined& refined = shared_.refined();
+  const InputSurface& surface = shared_.sidecar().surface;
+  OracleReport contained = check_contained(refined.complex, surface);
   const auto filtered = [](const ExactRecord::Facet& f) { return f.filtered != 0; };
-  const bool none_kept = exact_->refined_facets.empty() && !exact_->facets.empty() &&
-                         std::all_of(exact_->facets.begin(), exact_->facets.end(), filtered);
-  if (!none_kept || contained.checked > 0) add(std::move(contained), "refined-");
+  if (contained.checked == 0 &&
+      std::any_of(exact_->facets.begin(), exact_->facets.end(), filtered)) {
+    contained = check_none_contained(refined.complex, surface);
+  }
+  add(std::move(contained), "refined-");
   return {};
 }
 
@@ -493,6 +496,22 @@ OracleReport Verification::check_contained(const TetComplex& complex,
     }
   }
   return contained;
+}
+
+// Where the filter has dropped so much of the surface that nothing is called inside, that must be
+// true.
+OracleReport Verification::check_none_contained(const TetComplex& complex,
+                                                const InputSurface& surface) const {
+  OracleReport none("contained", "tetrahedra called outside");
+  InputSurface::PlaneSides known;
+  for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
+    ++none.checked;
+    if (surface.inside(*complex.points, complex.tetrahedra[t]) == 1 &&
+        !surface.meets_interior(*complex.points, complex.tetrahedra[t], known)) {
+      none.fail(complex.tet_name(t) + " is contained in the solid but is not called inside");
+    }
+  }
+  return none;
 }
 
 // The record says what was promised, unless the caller knows better.

@@ -242,6 +242,13 @@ TEST(RefinedStage, AcceptsAndChecksARecord) {
   damaged = record;
   for (auto& tet : damaged.refined) tet.inside = true;
   EXPECT_FALSE(run(sample, &damaged, options).find("refined-contained")->passed());
+  // That nothing is inside needs a facet that the filter has dropped, and must be true.
+  for (auto& tet : damaged.refined) tet.inside = false;
+  EXPECT_FALSE(run(sample, &damaged, options).find("refined-contained")->passed());
+  damaged.facets = {{0, 0, 1, {0}}};
+  const VerifyReport none = run(sample, &damaged, options);
+  EXPECT_FALSE(none.find("refined-contained")->passed());
+  EXPECT_GT(none.find("refined-contained")->violations, 0U);
   damaged = record;
   // Move an inner vertex by one ulp: its cells' corners are no longer cospherical.
   const Index v = record.mesh_vertices[vertex_at(sample, {0.5, 0.5, 0.5})];
