@@ -294,6 +294,11 @@ IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c) {
   return cross(difference(points, a, b), difference(points, a, c));
 }
 
+IntervalVector rough_area2(const ExactPoints& points, Index a, Index b, Index c) {
+  const IntervalVector u = rough_difference(points, a, b), v = rough_difference(points, a, c);
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
 bool collinear(const ExactPoints& points, Index a, Index b, Index c) {
   const IntervalVector u = rough_difference(points, a, b), v = rough_difference(points, a, c);
   for (int axis = 0; axis < 3; ++axis) {

@@ -86,6 +86,8 @@ int dot_sign(const ExactPoints& points, Index apex, Index p, Index q);
 bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // (b - a) x (c - a): twice the area vector.
 IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c);
+// Encloses the same in units of length.
+IntervalVector rough_area2(const ExactPoints& points, Index a, Index b, Index c);
 IntegerVector difference(const ExactPoints& points, Index from, Index to);
 mpz_class dot(const IntegerVector& u, const IntegerVector& v);
 IntegerVector cross(const IntegerVector& u, const IntegerVector& v);

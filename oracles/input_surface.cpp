@@ -58,6 +58,10 @@ std::string InputSurface::assign(const Polyhedron& polyhedron, const ExactPoints
   orient_components(points);
   build_facets(polyhedron, points);
   build_edges();
+  rough_normals_.clear();
+  for (const auto& [a, b, c] : triangles_) {
+    rough_normals_.push_back(exact::rough_area2(points, a, b, c));
+  }
   volume6_ = 0;
   const Index origin = triangles_[0][0];
   for (const auto& [a, b, c] : triangles_) volume6_ += exact::volume6(points, origin, a, b, c);

@@ -104,9 +104,12 @@ class InputSurface {
   int crossings_above(const ExactPoints& points, std::span<const Index> corners,
                       Index except) const;
   void measure(const ExactPoints& points);
+  // On which side of a triangle's plane a vertex lies, or 2 where doubles do not tell.
+  int rough_side(const ExactPoints& points, Index triangle, Index v) const;
 
   std::vector<std::array<Index, 3>> triangles_;
   std::vector<std::array<Index, 3>> neighbours_;  // across edge corner i -> i + 1
+  std::vector<IntervalVector> rough_normals_;     // per triangle, twice its area vector
   std::vector<Facet> facets_;
   std::vector<Index> facet_of_triangle_;
   std::vector<Edge> edges_;

@@ -62,14 +62,9 @@ int side_above(const ExactPoints& points, Index a, Index b, const Centroid& q) {
 
 // Sign of the height of the centroid over the plane of a triangle along its normal.
 int side_of_plane(const ExactPoints& points, const std::array<Index, 3>& t, const Centroid& q) {
-  const IntervalVector &a = points.enclosure(t[0]), &b = points.enclosure(t[1]),
-                       &c = points.enclosure(t[2]);
-  const IntervalVector u = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const IntervalVector v = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+  const IntervalVector n = exact::rough_area2(points, t[0], t[1], t[2]);
   const IntervalVector w = q.rough_from(t[0]);
-  const int rough = ((u[1] * v[2] - u[2] * v[1]) * w[0] + (u[2] * v[0] - u[0] * v[2]) * w[1] +
-                     (u[0] * v[1] - u[1] * v[0]) * w[2])
-                        .sign();
+  const int rough = (n[0] * w[0] + n[1] * w[1] + n[2] * w[2]).sign();
   if (rough != 2) return rough;
   return sgn(exact::dot(exact::area2(points, t[0], t[1], t[2]), q.from(t[0])));
 }
@@ -124,6 +119,9 @@ bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
                const std::array<Index, 4>& tetrahedron) {
   for (int face = 0; face < 4; ++face) {
     const auto outside = [&](Index v) {
+      // A corner of the tetrahedron needs no arithmetic: it lies on this face or is its apex.
+      if (v == tetrahedron[face]) return false;
+      if (std::find(tetrahedron.begin(), tetrahedron.end(), v) != tetrahedron.end()) return true;
       std::array<Index, 4> replaced = tetrahedron;
       replaced[face] = v;
       return exact::orient3d(points, replaced[0], replaced[1], replaced[2], replaced[3]) <= 0;
@@ -178,23 +176,43 @@ int InputSurface::inside(const ExactPoints& points, std::span<const Index> corne
   return crossings < 0 ? -1 : crossings % 2;
 }
 
+int InputSurface::rough_side(const ExactPoints& points, Index triangle, Index v) const {
+  const IntervalVector& n = rough_normals_[triangle];
+  const IntervalVector &a = points.enclosure(triangles_[triangle][0]), &p = points.enclosure(v);
+  return (n[0] * (p[0] - a[0]) + n[1] * (p[1] - a[1]) + n[2] * (p[2] - a[2])).sign();
+}
+
 bool InputSurface::meets_interior(const ExactPoints& points,
                                   const std::array<Index, 4>& tetrahedron,
                                   PlaneSides& known) const {
   std::vector<Index> found;
   tree_->query(box_around(points, tetrahedron), found);
-  // A facet's plane that does not enter the tetrahedron keeps all its triangles out.
+  const auto side = [&](Index t, Index v) {
+    const auto key = static_cast<std::uint64_t>(facet_of_triangle_[t]) << 32 | v;
+    const auto [at, fresh] = known.try_emplace(key, 0);
+    if (fresh) {
+      const auto& [a, b, c] = triangles_[t];
+      at->second = exact::orient3d(points, a, b, c, v);
+    }
+    return at->second;
+  };
+  // A facet's plane that does not enter the tetrahedron keeps all its triangles out. Only what
+  // doubles do not tell is looked up or decided.
   const auto plane_enters = [&](Index t) {
     bool above = false, below = false;
-    for (const Index v : tetrahedron) {
-      const auto key = static_cast<std::uint64_t>(facet_of_triangle_[t]) << 32 | v;
-      const auto [at, fresh] = known.try_emplace(key, 0);
-      if (fresh) {
-        const auto& [a, b, c] = triangles_[t];
-        at->second = exact::orient3d(points, a, b, c, v);
-      }
-      above = above || at->second > 0;
-      below = below || at->second < 0;
+    std::array<int, 4> sides;
+    for (std::size_t i = 0; i < 4; ++i) {
+      sides[i] = rough_side(points, t, tetrahedron[i]);
+      above = above || sides[i] == 1;
+      below = below || sides[i] == -1;
+    }
+    const auto& corners = triangles_[t];
+    for (std::size_t i = 0; i < 4 && !(above && below); ++i) {
+      const Index v = tetrahedron[i];
+      if (sides[i] != 2 || std::find(corners.begin(), corners.end(), v) != corners.end()) continue;
+      const int s = side(t, v);
+      above = above || s > 0;
+      below = below || s < 0;
     }
     return above && below;
   };
