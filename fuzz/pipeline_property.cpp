@@ -55,7 +55,7 @@ std::string first_failure(const oracles::VerifyReport& report, bool room) {
 }
 
 Finding verified(const Surface& surface, const Result& result, Stage stage, const Options& options,
-                 bool room) {
+                 bool strict) {
   const oracles::Polyhedron input = {surface.vertices, surface.triangles, surface.labels, {}};
   oracles::VerifyOptions wanted;
   wanted.stage = stage;
@@ -74,7 +74,7 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
   if (violated || (stage == Stage::final && oracles::failed(report, wanted))) {
     // Where features are hardly more than roundings apart, nobody can tell from rounded points what
     // they belong to; the exact record says it.
-    const std::string failure = first_failure(report, room);
+    const std::string failure = first_failure(report, strict || roomy(surface));
     return failure.empty() ? "" : (stage == Stage::refined ? "refined " : "final ") + failure;
   }
   return {};
@@ -101,11 +101,10 @@ Finding judged(const Surface& surface, const Result& result, const Options& opti
     // and is said.
     return roomy(surface) ? "rounding: inverted or flat tetrahedra are left" : "";
   }
-  const bool room = roomy(surface);
   if (refined) {
-    if (Finding f = verified(surface, result, Stage::refined, options, room); !f.empty()) return f;
+    if (Finding f = verified(surface, result, Stage::refined, options, false); !f.empty()) return f;
   }
-  return verified(surface, result, Stage::final, options, room);
+  return verified(surface, result, Stage::final, options, false);
 }
 
 Points times(Points points, int exponent) {
@@ -197,7 +196,7 @@ Finding refinement_holds(const Surface& surface) {
   const Result result = delmesher::tetrahedralize(surface, options);
   if (result.status.code == StatusCode::limit_reached) return at_limit(surface, result.status);
   if (!result.status.ok()) return "status: " + result.status.message;
-  return verified(surface, result, Stage::refined, options, roomy(surface));
+  return verified(surface, result, Stage::refined, options, false);
 }
 
 Finding pipeline_holds(const Surface& surface) {

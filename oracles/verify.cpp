@@ -143,8 +143,8 @@ class Verification {
   void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                          const InputSurface& surface);
   void check_promises(const RefinedMesh& mesh);
-  OracleReport check_none_contained(const TetComplex& complex, const InputSurface& surface) const;
-  OracleReport check_contained(const TetComplex& complex, const InputSurface& surface) const;
+  OracleReport check_contained(const TetComplex& complex, const InputSurface& surface,
+                               bool inside) const;
   double delta() const;
   AngleScope scope() const;
   void add(OracleReport oracle, const std::string& prefix = {}) {
@@ -306,7 +306,9 @@ std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface
   if (exact.chains.size() != chains.size()) return chains;
   std::vector<Index> written(sidecar.points.size(), kNone);
   for (std::size_t i = 0; i < exact_->mesh_vertices.size(); ++i) {
-    written[exact_->mesh_vertices[i]] = static_cast<Index>(input_.vertices.size() + i);
+    const Index v = exact_->mesh_vertices[i];
+    if (v >= written.size()) continue;  // said by check_rounding
+    written[v] = static_cast<Index>(input_.vertices.size() + i);
   }
   for (std::vector<Index>& chain : exact.chains) {
     for (Index& v : chain) v = written[v];
@@ -445,11 +447,12 @@ std::string Verification::check_refined_inside() {
   if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
   const Shared::Refined& refined = shared_.refined();
   const InputSurface& surface = shared_.sidecar().surface;
-  OracleReport contained = check_contained(refined.complex, surface);
+  OracleReport contained = check_contained(refined.complex, surface, true);
   const auto filtered = [](const ExactRecord::Facet& f) { return f.filtered != 0; };
   if (contained.checked == 0 &&
       std::any_of(exact_->facets.begin(), exact_->facets.end(), filtered)) {
-    contained = check_none_contained(refined.complex, surface);
+    // Where the filter has dropped so much that nothing is called inside, that must be true.
+    contained = check_contained(refined.complex, surface, false);
   }
   add(std::move(contained), "refined-");
   return {};
@@ -483,35 +486,22 @@ void Verification::check_promises(const RefinedMesh& mesh) {
   if (promised.tolerance > 0) add(check_filter(mesh), "refined-");
 }
 
-OracleReport Verification::check_contained(const TetComplex& complex,
-                                           const InputSurface& surface) const {
-  OracleReport contained("contained", "tetrahedra called inside");
+// Those called inside are contained in the solid, or none of those called outside is.
+OracleReport Verification::check_contained(const TetComplex& complex, const InputSurface& surface,
+                                           bool inside) const {
+  OracleReport contained("contained",
+                         inside ? "tetrahedra called inside" : "tetrahedra called outside");
+  const char* const wrong = inside ? " is called inside but is not contained in the solid"
+                                   : " is contained in the solid but is not called inside";
   InputSurface::PlaneSides known;
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
-    if (!complex.inside[t]) continue;
+    if ((complex.inside[t] != 0) != inside) continue;
     ++contained.checked;
-    if (surface.inside(*complex.points, complex.tetrahedra[t]) != 1 ||
-        surface.meets_interior(*complex.points, complex.tetrahedra[t], known)) {
-      contained.fail(complex.tet_name(t) + " is called inside but is not contained in the solid");
-    }
+    const bool within = surface.inside(*complex.points, complex.tetrahedra[t]) == 1 &&
+                        !surface.meets_interior(*complex.points, complex.tetrahedra[t], known);
+    if (within != inside) contained.fail(complex.tet_name(t) + wrong);
   }
   return contained;
-}
-
-// Where the filter has dropped so much of the surface that nothing is called inside, that must be
-// true.
-OracleReport Verification::check_none_contained(const TetComplex& complex,
-                                                const InputSurface& surface) const {
-  OracleReport none("contained", "tetrahedra called outside");
-  InputSurface::PlaneSides known;
-  for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
-    ++none.checked;
-    if (surface.inside(*complex.points, complex.tetrahedra[t]) == 1 &&
-        !surface.meets_interior(*complex.points, complex.tetrahedra[t], known)) {
-      none.fail(complex.tet_name(t) + " is contained in the solid but is not called inside");
-    }
-  }
-  return none;
 }
 
 // The record says what was promised, unless the caller knows better.
