@@ -38,24 +38,15 @@ oracles::MeshFile as_file(const delmesher::TetMesh& mesh) {
   return file;
 }
 
-// What compares doubles as written with the surface.
-bool needs_room(const std::string& oracle) {
-  constexpr const char* kNames[] = {"conformity", "volume", "regions", "boundary-list", "hull"};
-  return std::find(std::begin(kNames), std::end(kNames), oracle) != std::end(kNames);
-}
-
-std::string first_failure(const oracles::VerifyReport& report, bool room) {
+std::string first_failure(const oracles::VerifyReport& report) {
   for (const auto& oracle : report.oracles) {
-    if (!oracle.findings.empty() && (room || !needs_room(oracle.name))) {
-      return oracle.name + ": " + oracle.findings[0];
-    }
+    if (!oracle.findings.empty()) return oracle.name + ": " + oracle.findings[0];
   }
-  if (!room) return {};
   return "verdict: " + std::string(oracles::verdict_name(report.verdict));
 }
 
-Finding verified(const Surface& surface, const Result& result, Stage stage, const Options& options,
-                 bool strict) {
+Finding verified(const Surface& surface, const Result& result, Stage stage,
+                 const Options& options) {
   const oracles::Polyhedron input = {surface.vertices, surface.triangles, surface.labels, {}};
   oracles::VerifyOptions wanted;
   wanted.stage = stage;
@@ -72,10 +63,7 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
   // An oracle that had nothing to look at (no facet left by the filter, say) makes the verdict of
   // the refined stage "broken", but is no finding.
   if (violated || (stage == Stage::final && oracles::failed(report, wanted))) {
-    // Where features are hardly more than roundings apart, nobody can tell from rounded points what
-    // they belong to; the exact record says it.
-    const std::string failure = first_failure(report, strict || roomy(surface));
-    return failure.empty() ? "" : (stage == Stage::refined ? "refined " : "final ") + failure;
+    return (stage == Stage::refined ? "refined " : "final ") + first_failure(report);
   }
   return {};
 }
@@ -97,14 +85,12 @@ Finding judged(const Surface& surface, const Result& result, const Options& opti
       return "status: " + result.status.message;
   }
   if (result.statistics.rounding_inverted + result.statistics.rounding_flat > 0) {
-    // The contract: where parts of the surface are hardly more than roundings apart, it may happen,
-    // and is said.
-    return roomy(surface) ? "rounding: inverted or flat tetrahedra are left" : "";
+    return "rounding: inverted or flat tetrahedra are left";
   }
   if (refined) {
-    if (Finding f = verified(surface, result, Stage::refined, options, false); !f.empty()) return f;
+    if (Finding f = verified(surface, result, Stage::refined, options); !f.empty()) return f;
   }
-  return verified(surface, result, Stage::final, options, false);
+  return verified(surface, result, Stage::final, options);
 }
 
 Points times(Points points, int exponent) {
@@ -196,7 +182,7 @@ Finding refinement_holds(const Surface& surface) {
   const Result result = delmesher::tetrahedralize(surface, options);
   if (result.status.code == StatusCode::limit_reached) return at_limit(surface, result.status);
   if (!result.status.ok()) return "status: " + result.status.message;
-  return verified(surface, result, Stage::refined, options, false);
+  return verified(surface, result, Stage::refined, options);
 }
 
 Finding pipeline_holds(const Surface& surface) {
@@ -217,8 +203,8 @@ Finding default_pipeline_holds(const Surface& surface) {
   if (result.statistics.rounding_inverted + result.statistics.rounding_flat > 0) {
     return "rounding: inverted or flat tetrahedra are left";
   }
-  if (Finding f = verified(surface, result, Stage::refined, options, true); !f.empty()) return f;
-  return verified(surface, result, Stage::final, options, true);
+  if (Finding f = verified(surface, result, Stage::refined, options); !f.empty()) return f;
+  return verified(surface, result, Stage::final, options);
 }
 
 }  // namespace tetproof::fuzz

@@ -297,7 +297,7 @@ std::uint8_t within(Region region, std::uint8_t repeated) {
 
 }  // namespace
 
-MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,
+MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
                             const PointStore& points, Region region) {
   MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
   RoundingInput& input = mesh.rounding;
@@ -309,7 +309,9 @@ MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,
     if (region == Region::interior && cdt.inside[n] == 0) continue;
     input.tetrahedra.push_back(cdt.tetrahedra[n]);
     input.inside.push_back(cdt.inside[n]);
-    mesh.repeated_faces.push_back(within(region, cdt.repeated_faces[n]));
+    if (!cdt.repeated_faces.empty()) {
+      mesh.repeated_faces.push_back(within(region, cdt.repeated_faces[n]));
+    }
   }
   for (const SurfaceFace& face : cdt.boundary) {
     input.boundary.push_back(face.vertices);

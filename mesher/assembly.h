@@ -44,7 +44,7 @@ struct MeshToWrite {
   std::vector<std::uint8_t> repeated_faces;
 };
 
-MeshToWrite conforming_mesh(CdtResult cdt, const SurfaceTopology& topology,
+MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
                             const PointStore& points, Region region);
 // The refined mesh itself; its boundary is the part of the surface that was neither chamfered nor
 // filtered.
@@ -73,6 +73,8 @@ void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
 void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
 void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
+// Replaces the final tetrahedra by those left after thinning.
+void record_thinned(const CdtResult& thinned, const SurfaceTopology& topology, ExactRecord& record);
 // Replaces the final tetrahedra that were handed to rounding by those that it returned.
 void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& record);
 // Adds the points that the record uses, input vertices first, and renumbers.

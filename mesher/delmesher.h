@@ -191,9 +191,11 @@ struct ExactRecord {
   };
   std::vector<Ball> balls;
   std::vector<Tet> final;
-  std::vector<Tet>
-      unrepaired;  // `final` before local repairs of rounding; empty if there were none
   std::vector<std::array<std::uint32_t, 4>> final_facets;  // a, b, c, facet id
+  // `final` before local repairs of rounding; empty if there were none.
+  std::vector<Tet> unrepaired;
+  // `final_facets` then; empty if they were the same.
+  std::vector<std::array<std::uint32_t, 4>> unrepaired_facets;
   // Indices into `points` of the vertices of TetMesh, in its order.
   std::vector<std::uint32_t> mesh_vertices;
 };
@@ -222,6 +224,8 @@ struct Statistics {
   std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
   std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;
   std::uint64_t rounding_inverted = 0, rounding_flat = 0, rounding_repaired = 0;
+  // Points of the last step taken out again where doubles are too coarse for them.
+  std::uint64_t rounding_thinned = 0;
   double max_surface_deviation = 0;  // input units
   std::uint64_t predicate_filter = 0, predicate_extended = 0, predicate_exact = 0;
   std::uint64_t predicate_symbolic = 0, predicate_by_support = 0;

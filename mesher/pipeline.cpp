@@ -14,6 +14,7 @@
 #include "mesher/guarded.h"
 #include "mesher/output/rounding.h"
 #include "mesher/output/statistics.h"
+#include "mesher/output/thinning.h"
 #include "mesher/refine/prediction.h"
 #include "mesher/refine/refine.h"
 #include "mesher/scaling.h"
@@ -46,7 +47,7 @@ class Run {
                                                           std::move(delaunay));
     input.reset();
     record_cdt(cdt);
-    write(conforming_mesh(std::move(cdt), topology_, points_, options_.region));
+    round_and_write(std::move(cdt));
     return {};
   }
 
@@ -56,7 +57,7 @@ class Run {
     input.phase_by_phase = true;
     CdtResult cdt = constrained_delaunay_tetrahedrization(input, points_, predicates_, control_);
     record_cdt(cdt);
-    write(conforming_mesh(std::move(cdt), topology_, points_, options_.region));
+    round_and_write(std::move(cdt));
     return {};
   }
 
@@ -92,7 +93,10 @@ class Run {
     RefineResult refined = chamfer_and_refine(chamfered);
     if (options_.approximate) {
       refined.delaunay.reset();
-      write(approximate_mesh(chamfered, refined, topology_, points_, options_.region));
+      control_.enter(Phase::round);
+      MeshToWrite exact = approximate_mesh(chamfered, refined, topology_, points_, options_.region);
+      RoundingResult rounded = round_mesh(std::move(exact.rounding), control_);
+      write(exact, std::move(rounded));
       return {};
     }
     control_.enter(Phase::enrich);
@@ -247,10 +251,32 @@ class Run {
     record_final(cdt, topology_, result_.exact);
   }
 
-  // Rounds to the doubles that will be written and fills in mesh and statistics.
-  void write(MeshToWrite exact) {
+  // Where doubles are too coarse for the points of the last step, it does with fewer of them.
+  void round_and_write(CdtResult cdt) {
+    constexpr int kMostRings = 3;
+    constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
     control_.enter(Phase::round);
+    MeshToWrite exact = conforming_mesh(cdt, topology_, points_, options_.region);
     RoundingResult rounded = round_mesh(std::move(exact.rounding), control_);
+    std::uint64_t thinned = 0;
+    for (int rings = 0; rings <= kMostRings && defects(rounded) != kNoDefects; ++rings) {
+      const std::size_t gone = thin_out(rounded.disturbed, rings, topology_.vertex_half_edge.size(),
+                                        points_, predicates_, control_, cdt);
+      thinned += gone;
+      if (gone == 0) continue;
+      MeshToWrite thinner = conforming_mesh(cdt, topology_, points_, options_.region);
+      RoundingResult other = round_mesh(std::move(thinner.rounding), control_);
+      if (!(defects(other) < defects(rounded))) continue;
+      rounded = std::move(other);
+      exact = std::move(thinner);
+      result_.statistics.rounding_thinned = thinned;
+      if (options_.want_exact) record_thinned(cdt, topology_, result_.exact);
+    }
+    write(exact, std::move(rounded));
+  }
+
+  // Fills in mesh and statistics.
+  void write(MeshToWrite& exact, RoundingResult rounded) {
     Statistics& s = result_.statistics;
     s.rounding_inverted = rounded.inverted;
     s.rounding_flat = rounded.flat;

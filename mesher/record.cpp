@@ -21,7 +21,7 @@ void for_each_point(ExactRecord& record, Visit&& visit) {
       for (auto& v : t.vertices) visit(v);
     }
   }
-  for (auto* faces : {&record.refined_facets, &record.final_facets}) {
+  for (auto* faces : {&record.refined_facets, &record.final_facets, &record.unrepaired_facets}) {
     for (auto& f : *faces) {
       for (int k = 0; k < 3; ++k) visit(f[k]);
     }
@@ -105,9 +105,20 @@ void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRe
   }
 }
 
+void record_thinned(const CdtResult& thinned, const SurfaceTopology& topology,
+                    ExactRecord& record) {
+  if (record.unrepaired.empty()) {
+    record.unrepaired = std::move(record.final);
+    record.unrepaired_facets = std::move(record.final_facets);
+  }
+  record.final.clear();
+  record.final_facets.clear();
+  record_final(thinned, topology, record);
+}
+
 void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& record) {
   if (record.final.empty()) return;  // the refined mesh itself was written
-  record.unrepaired = record.final;
+  if (record.unrepaired.empty()) record.unrepaired = record.final;
   std::erase_if(record.final,
                 [&](const ExactRecord::Tet& t) { return region == Region::hull || t.inside; });
   for (std::size_t n = 0; n < rounded.tetrahedra.size(); ++n) {

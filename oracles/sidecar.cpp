@@ -16,7 +16,7 @@ class SidecarReader {
 
   ExactRecord read() {
     expect("delmesher-exact");
-    version_ = reader_.index(0, 3);
+    version_ = reader_.index(0, 4);
     if (version_ == 0) reader_.fail("unknown version 0");
     if (version_ >= 2) read_parameters();
     read_points();
@@ -69,6 +69,7 @@ class SidecarReader {
       for (Index& v : ball.tetrahedron) v = point();
     });
     read_tets("unrepaired", record_.unrepaired);
+    if (version_ >= 3) read_faces("unrepaired_facets", record_.unrepaired_facets);
   }
 
   void expect(const std::string& wanted) {

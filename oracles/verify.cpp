@@ -108,6 +108,7 @@ void Shared::read_sidecar() {
 class Verification {
  public:
   using Check = std::string (Verification::*)();
+  using FaceOnFacet = std::array<std::uint32_t, 4>;  // of the record
 
   Verification(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
                const VerifyOptions& options, Shared& shared)
@@ -139,7 +140,8 @@ class Verification {
   std::string check_refined_promises();
   OracleReport check_rounding(const ExactPoints& points) const;
   OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
-                               const InputSurface& surface) const;
+                               const InputSurface& surface,
+                               const std::vector<FaceOnFacet>& listed) const;
   void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                          const InputSurface& surface);
   void check_promises(const RefinedMesh& mesh);
@@ -374,14 +376,15 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
   add(check_hull(complex, neighbours), "exact-");
   if (exact_->final_facets.empty()) return;
   check_constrained(complex, neighbours, surface);
-  add(check_facet_ids(complex, conformity, surface));
+  add(check_facet_ids(complex, conformity, surface, exact_->final_facets), "exact-");
 }
 
 // The faces that are said to tile facets are those that do.
 OracleReport Verification::check_facet_ids(const TetComplex& complex,
                                            const ConformityResult& conformity,
-                                           const InputSurface& surface) const {
-  OracleReport report("exact-facets", "faces");
+                                           const InputSurface& surface,
+                                           const std::vector<FaceOnFacet>& listed) const {
+  OracleReport report("facets", "faces");
   std::vector<std::pair<Face, Index>> facet_of;
   facet_of.reserve(conformity.faces.size());
   for (Index f = 0; f < conformity.faces.size(); ++f) {
@@ -389,7 +392,7 @@ OracleReport Verification::check_facet_ids(const TetComplex& complex,
     std::sort(facet_of.back().first.begin(), facet_of.back().first.end());
   }
   std::sort(facet_of.begin(), facet_of.end());
-  for (const auto& [a, b, c, id] : exact_->final_facets) {
+  for (const auto& [a, b, c, id] : listed) {
     Face face = {a, b, c};
     std::sort(face.begin(), face.end());
     ++report.checked;
@@ -422,6 +425,14 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
   add(std::move(shape), "unrepaired-");
   if (!usable) return;
   add(check_orientation(before), "unrepaired-");
+  if (!exact_->unrepaired_facets.empty()) {
+    const ConformityResult conformity =
+        check_conformity(before, neighbours_before, surface, {.exact = true});
+    add(conformity.report, "unrepaired-");
+    add(check_facet_ids(before, conformity, surface, exact_->unrepaired_facets), "unrepaired-");
+    constraints.clear();
+    for (const auto& [a, b, c, id] : exact_->unrepaired_facets) constraints.push_back({a, b, c});
+  }
   add(check_constrained_delaunay(before, neighbours_before, surface, constraints), "unrepaired-");
 }
 

@@ -586,5 +586,23 @@ TEST(ConstrainedDamage, AfterRepairsOnlyWhatWasBeforeIsAGate) {
         run(mutant.sample, &mutant.record));
 }
 
+TEST(ConstrainedDamage, FacesOnFacetsBeforeRepairsAreChecked) {
+  MesherRun mutant = good_run();
+  mutant.record.unrepaired = mutant.record.final;
+  mutant.record.unrepaired_facets = mutant.record.final_facets;
+  const VerifyReport good = run(mutant.sample, &mutant.record);
+  ASSERT_NE(good.verdict, Verdict::broken) << to_text(good);
+  ASSERT_NE(good.find("unrepaired-facets"), nullptr);
+  mutant.record.unrepaired_facets.pop_back();
+  judge("final wedge and slab", "face on a facet before repairs missing", "unrepaired-facets",
+        run(mutant.sample, &mutant.record));
+  mutant = good_run();
+  mutant.record.unrepaired = mutant.record.final;
+  mutant.record.unrepaired_facets = mutant.record.final_facets;
+  for (auto& tet : mutant.record.unrepaired) tet.inside = true;
+  judge("final wedge and slab", "no surface before repairs", "unrepaired-conformity",
+        run(mutant.sample, &mutant.record));
+}
+
 }  // namespace
 }  // namespace tetproof

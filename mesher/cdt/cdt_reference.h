@@ -67,12 +67,13 @@ inline int in_sphere(const Vector& a, const Vector& b, const Vector& c, const Ve
   return sgn(s);
 }
 
-// Everything that makes the result a constrained Delaunay tetrahedrization of the surface; returns
-// what is wrong, or an empty string.
+// Everything that makes the result a constrained Delaunay tetrahedrization of the surface, or, not
+// `delaunay`, just any that conforms to it; returns what is wrong, or an empty string.
 class Checker {
  public:
-  Checker(const SurfaceTopology& surface, const PointStore& points, const CdtResult& result)
-      : s_(surface), r_(result) {
+  Checker(const SurfaceTopology& surface, const PointStore& points, const CdtResult& result,
+          bool delaunay = true)
+      : s_(surface), r_(result), delaunay_(delaunay) {
     for (VertexId v = 0; v < points.size(); ++v) x_.push_back(exact(points, v));
   }
 
@@ -170,7 +171,7 @@ class Checker {
       const bool inside = r_.inside[list[0][0]] != 0;
       const bool beyond = list.size() == 2 && r_.inside[list[1][0]] != 0;
       if ((inside != beyond) != wall) return "wrong inside flag";
-      if (wall || list.size() == 1) continue;
+      if (wall || list.size() == 1 || !delaunay_) continue;
       const auto& t = r_.tetrahedra[list[0][0]];
       const VertexId apex = r_.tetrahedra[list[1][0]][list[1][1]];
       if (in_sphere(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]], x_[apex]) > 0) return "not Delaunay";
@@ -180,6 +181,7 @@ class Checker {
 
   const SurfaceTopology& s_;
   const CdtResult& r_;
+  bool delaunay_;
   std::vector<Vector> x_;
 };
 

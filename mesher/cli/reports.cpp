@@ -145,6 +145,7 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                      {"on_facets", s.steiner_on_facets},
                      {"in_volume", s.steiner_in_volume}};
   json["rounding"] = rounding_json(s);
+  json["rounding"]["thinned"] = s.rounding_thinned;
   json["rounding"]["max_surface_deviation"] = s.max_surface_deviation;
   json["predicates"] = {{"filter", s.predicate_filter},
                         {"support", s.predicate_by_support},

@@ -25,6 +25,7 @@ ExactRecord sample() {
   r.chamfer_points = {{3, 2}};
   r.balls = {{2, {0, 1, 3, 4}}};
   r.unrepaired = {{{4, 2, 3, 1}, false}};
+  r.unrepaired_facets = {{0, 2, 4, 0}};
   r.refined = {{{0, 1, 2, 3}, true}, {{0, 1, 2, 4}, false}};
   r.refined_facets = {{0, 1, 2, 0}, {1, 2, 3, 0xffffffffU}};
   r.final = {{{1, 2, 3, 4}, true}};
@@ -50,10 +51,10 @@ TEST(ExactRecord, TextIsAsDocumented) {
   const std::string text = written(sample());
   EXPECT_TRUE(
       text.starts_with(
-          "delmesher-exact 2\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0\npoints 5\nE "
+          "delmesher-exact 3\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0\npoints 5\nE "
           "0x1.999999999999ap-4 -0x0p+0 0x0.01268af1fef2p-1022\n") ||
       text.starts_with(
-          "delmesher-exact 2\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0\npoints 5\nE "
+          "delmesher-exact 3\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0\npoints 5\nE "
           "0x1.999999999999ap-4 -0x0p+0 "))
       << text;
   EXPECT_NE(text.find("S 1 2 0x1.8p-2\nT 0 1 2 0x1p-2 0x1p-1\nfacets 2\n0 7 0 3 0 2 5\n1 -1 1 0\n"
@@ -63,7 +64,7 @@ TEST(ExactRecord, TextIsAsDocumented) {
   EXPECT_TRUE(
       text.ends_with("final_facets 1\n0 1 4 1\nmesh_vertices 5\n4\n3\n2\n1\n0\n"
                      "chamfer_points 1\n3 2\nballs 1\n2 0 1 3 4 \nunrepaired 1\n"
-                     "4 2 3 1 0\nend\n"));
+                     "4 2 3 1 0\nunrepaired_facets 1\n0 2 4 0\nend\n"));
 }
 
 TEST(ExactRecord, RoundTrip) {
@@ -97,7 +98,7 @@ TEST(ExactRecord, DamageIsFound) {
     }
   }
   EXPECT_GT(refused, 300);
-  EXPECT_EQ(parse_exact("delmesher-exact 3\n", "x").error, "x:1: unknown version 3");
+  EXPECT_EQ(parse_exact("delmesher-exact 4\n", "x").error, "x:1: unknown version 4");
   EXPECT_EQ(parse_exact("delmesher-exact 1\npoints 1\nS 0 0 0x1p+0\nfacets 0\n", "x").error,
             "x:3: a point refers to one that is not explicit");
   EXPECT_EQ(parse_exact("delmesher-exact 1\npoints 99999999999\n", "x").error,

@@ -209,6 +209,7 @@ ExactRecord ExactReader::read() {
     });
     tets("unrepaired", record_.unrepaired);
   }
+  if (version >= 3) triangles("unrepaired_facets", record_.unrepaired_facets);
   line();
   if (token() != "end") fail(here(), "'end' missing");
   return std::move(record_);

@@ -123,6 +123,7 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
     out.text("\n");
   }
   write_tets(out, "unrepaired", record.unrepaired);
+  write_triangles(out, "unrepaired_facets", record.unrepaired_facets);
   out.text("end\n");
   return status;
 }

@@ -151,6 +151,9 @@ RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& cont
   RoundingResult result;
   const std::size_t bad_before = mesh.bad().size();
   if (bad_before != 0 || !mesh.coincident().empty()) {
+    for (const std::uint32_t t : mesh.bad()) {
+      for (const std::uint32_t v : mesh.tet(t)) result.disturbed.push_back(mesh.store_id(v));
+    }
     for (std::uint32_t t = 0; t < mesh.slots(); ++t) {
       const auto& [a, b, c, d] = mesh.tet(t);
       input.tetrahedra.push_back(
@@ -165,15 +168,6 @@ RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& cont
   for (const auto& group : mesh.coincident()) result.coincident += group.size() - 1;
   export_mesh(mesh, input, result);
   return result;
-}
-
-std::uint64_t defects(const RoundingResult& result) {
-  return result.inverted + result.flat + result.coincident;
-}
-
-// What is wrong as written counts first, then what is wrong on exact coordinates.
-std::pair<std::uint64_t, std::uint64_t> rank(const RoundingResult& result) {
-  return {defects(result), result.inexact_operations};
 }
 
 // The same order for every run: the state is the only source of it.
@@ -194,15 +188,16 @@ RoundingResult round_mesh(RoundingInput input, Control& control) {
   constexpr int kOrders = 8;
   RoundingResult best = round_once(input, Strategy::descend, control);
   std::uint32_t state = 1;
-  for (int order = 1; order < kOrders && defects(best) > 0; ++order) {
+  for (int order = 1; order < kOrders && defects(best).first > 0; ++order) {
     shuffle_tetrahedra(input, state);
     RoundingResult other = round_once(input, Strategy::descend, control);
-    if (defects(other) < defects(best)) best = std::move(other);
+    if (defects(other).first < defects(best).first) best = std::move(other);
   }
+  constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
   for (const Strategy s : {Strategy::descend_and_untangle, Strategy::untangle_first}) {
-    if (defects(best) + best.inexact_operations == 0) break;
+    if (defects(best) == kNoDefects) break;
     RoundingResult other = round_once(input, s, control);
-    if (rank(other) < rank(best)) best = std::move(other);
+    if (defects(other) < defects(best)) best = std::move(other);
   }
   return best;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesher/base/control.h"
@@ -38,6 +39,8 @@ struct RoundingResult {
   std::uint64_t inverted = 0, flat = 0;  // left in the result, by exact sign
   std::uint64_t repaired = 0;            // were not positive after plain rounding, and are now
   std::uint64_t coincident = 0;          // vertices left with the coordinates of an earlier one
+  // Points of the store at the tetrahedra that plain rounding left not positive.
+  std::vector<VertexId> disturbed;
   // Local operations done: if not 0, the tetrahedra are not those given. They are positive on the
   // exact coordinates as well, except where `inexact_operations` had no other choice.
   std::uint64_t operations = 0, inexact_operations = 0;
@@ -45,6 +48,11 @@ struct RoundingResult {
   // up).
   double max_surface_deviation = 0;
 };
+
+// What is wrong as written, or only on exact coordinates: the less the better, the former first.
+inline std::pair<std::uint64_t, std::uint64_t> defects(const RoundingResult& result) {
+  return {result.inverted + result.flat + result.coincident, result.inexact_operations};
+}
 
 RoundingResult round_mesh(RoundingInput input, Control& control);
 
