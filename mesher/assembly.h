@@ -56,6 +56,9 @@ MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult&
 
 MeshStatistics refined_statistics(const RefineResult& refined, const PointStore& points,
                                   Region region, Control& control);
+// Of a final mesh's inside, before rounding.
+MeshStatistics interior_statistics(const CdtResult& cdt, const PointStore& points,
+                                   Control& control);
 
 // The chamfered surface with rounded coordinates, for display, in the triangulation that the
 // refinement gave it.

@@ -223,6 +223,8 @@ struct Statistics {
   bool gabriel = false;                // the constraints of the refined mesh have empty balls
   std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
   std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;
+  // Does the final mesh have the points of the refined one? Not where the input alone is better.
+  bool enriched = true;
   std::uint64_t rounding_inverted = 0, rounding_flat = 0, rounding_repaired = 0;
   // Points of the last step taken out again where doubles are too coarse for them.
   std::uint64_t rounding_thinned = 0;

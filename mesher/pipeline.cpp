@@ -46,6 +46,7 @@ class Run {
     CdtResult cdt = constrained_delaunay_tetrahedrization(*input, points_, predicates_, control_,
                                                           std::move(delaunay));
     input.reset();
+    if (std::optional<CdtResult> plain = plain_if_better(cdt)) cdt = std::move(*plain);
     record_cdt(cdt);
     round_and_write(std::move(cdt));
     return {};
@@ -103,6 +104,29 @@ class Run {
     delaunay = std::move(refined.delaunay);
     return enriched_input(chamfered, filter_.facet_kept, refined, topology_, points_, predicates_,
                           control_);
+  }
+
+  // A solid that meets the bound without any further point needs none: its plain constrained
+  // tetrahedrization, where that is the better one in every respect. (TetGen leaves such inputs as
+  // they are, too; large ones are never among them.)
+  std::optional<CdtResult> plain_if_better(const CdtResult& enriched) {
+    constexpr std::size_t kMostTriangles = 1000;
+    if (options_.region != Region::interior || options_.max_edge > 0 ||
+        topology_.triangles.size() > kMostTriangles) {
+      return std::nullopt;
+    }
+    const std::size_t enriched_points = points_.size();
+    CdtResult plain = constrained_delaunay_tetrahedrization(plain_input(topology_), points_,
+                                                            predicates_, control_);
+    while (points_.size() > enriched_points) points_.pop_back();
+    if (!plain.steiner.empty()) return std::nullopt;
+    const MeshStatistics p = interior_statistics(plain, points_, control_);
+    if (p.min_face_angle < options_.delta) return std::nullopt;
+    const MeshStatistics e = interior_statistics(enriched, points_, control_);
+    const bool better = p.min_face_angle >= e.min_face_angle && p.min_dihedral >= e.min_dihedral &&
+                        p.tetrahedra <= e.tetrahedra;
+    result_.statistics.enriched = !better;
+    return better ? std::optional(std::move(plain)) : std::nullopt;
   }
 
   // Chamfering and refinement, again with empty diametral balls and then with stricter corners

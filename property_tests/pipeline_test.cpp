@@ -109,6 +109,37 @@ TEST_P(Models, HaveAConstrainedDelaunayTetrahedrization) {
   EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
 }
 
+// The regular tetrahedron and a bipyramid of two: nothing that could be added makes them better.
+TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
+  const NamedSurface models[] = {
+      {"regular",
+       {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+        {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}},
+        {}}},
+      {"bipyramid",
+       {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}},
+        {{0, 3, 2}, {0, 1, 3}, {0, 2, 1}, {1, 4, 3}, {1, 2, 4}, {2, 3, 4}},
+        {}}}};
+  for (const NamedSurface& model : models) {
+    expect_right(model, default_options());
+    const Result result = delmesher::tetrahedralize(model.surface);
+    EXPECT_EQ(result.mesh.tetrahedra.size(), model.surface.triangles.size() / 3) << model.name;
+    EXPECT_FALSE(result.statistics.enriched);
+    // Not where other sizes or the surroundings are asked for.
+    Options options;
+    options.max_edge = 0.25;
+    EXPECT_GT(delmesher::tetrahedralize(model.surface, options).mesh.tetrahedra.size(), 50U);
+    options.max_edge = 0;
+    options.region = delmesher::Region::hull;
+    EXPECT_TRUE(delmesher::tetrahedralize(model.surface, options).statistics.enriched);
+  }
+  // A corner below the bound needs what refinement makes of it.
+  const Surface sharp = {{{0, 0, 0}, {1, 0, 0}, {1, 0.2, 0}, {0, 0, 1}},
+                         {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}},
+                         {}};
+  EXPECT_TRUE(delmesher::tetrahedralize(sharp).statistics.enriched);
+}
+
 TEST_P(Models, GiveTheSameMeshTwice) {
   const Result first = delmesher::tetrahedralize(GetParam().surface);
   const Result second = delmesher::tetrahedralize(GetParam().surface);

@@ -337,7 +337,7 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");
   EXPECT_EQ(keys(json["guarantee"]), "acute corner gabriel fallback_corners ");
-  EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume ");
+  EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume in_final_mesh ");
   EXPECT_EQ(keys(json["rounding"]), "inverted flat repaired thinned max_surface_deviation ");
   EXPECT_EQ(json["status"], "ok");
   EXPECT_EQ(json["final"]["tetrahedra"], 42);

@@ -143,7 +143,8 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                        {"fallback_corners", s.fallback_corners}};
   json["steiner"] = {{"on_segments", s.steiner_on_segments},
                      {"on_facets", s.steiner_on_facets},
-                     {"in_volume", s.steiner_in_volume}};
+                     {"in_volume", s.steiner_in_volume},
+                     {"in_final_mesh", s.enriched}};
   json["rounding"] = rounding_json(s);
   json["rounding"]["thinned"] = s.rounding_thinned;
   json["rounding"]["max_surface_deviation"] = s.max_surface_deviation;
