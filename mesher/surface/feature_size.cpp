@@ -117,7 +117,13 @@ double between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
   if (!(square > 0)) return best;
   const double s = dot(cross(w, v), n) / square, t = dot(cross(w, u), n) / square;
   if (!(s > 0 && s < 1 && t > 0 && t < 1)) return best;
-  return std::min(best, length(moved(a, s, u) - moved(c, t, v)));
+  const Vec3 p = moved(a, s, u), q = moved(c, t, v);
+  // Below this sine the two parameters do not belong to each other any more, digit by digit.
+  constexpr double kParallel = 0x1p-20;
+  if (square < kParallel * kParallel * dot(u, u) * dot(v, v)) {
+    return std::min({best, to_segment(p, c, d), to_segment(q, a, b)});
+  }
+  return std::min(best, length(p - q));
 }
 
 // Distance from the triangle to the point where the segment crosses its plane, if it does.
