@@ -54,7 +54,7 @@ class Thinning {
   bool remove(VertexId v) {
     const std::vector<VertexId> neighbours = possible_targets(v);
     VertexId best = kNone;
-    Score best_score{bad_around(v) + 1, 0};
+    Score best_score{bad_around(v) + 1, -HUGE_VAL};
     for (const VertexId w : neighbours) {
       const std::optional<Score> score = try_collapse(v, w);
       if (!score || !(*score < best_score)) continue;
@@ -170,13 +170,14 @@ class Thinning {
 
   // Volume by the third power of the longest edge, roughly.
   double shape(const std::array<VertexId, 4>& t) const {
-    double longest = 0;
+    double longest2 = 0;
     for (int i = 0; i < 4; ++i) {
       for (int j = i + 1; j < 4; ++j) {
         const Vec3 e = points_.difference(t[i], t[j]);
-        longest = std::max(longest, std::hypot(e[0], e[1], e[2]));
+        longest2 = std::max(longest2, e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
       }
     }
+    const double longest = std::sqrt(longest2);
     const Vec3 u = points_.difference(t[0], t[1]), v = points_.difference(t[0], t[2]),
                w = points_.difference(t[0], t[3]);
     double volume = 0;

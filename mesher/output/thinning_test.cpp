@@ -74,31 +74,66 @@ TEST(Thinning, KeepsTheSurfaceAndTheHull) {
   }
 }
 
+// Points on every edge that is not flat, at these parameters from its larger end.
+void split_edges(Model& model, std::initializer_list<double> parameters) {
+  const SurfaceTopology& s = model.topology;
+  model.input.on_edge.resize(s.edge_count());
+  for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
+    if (s.edge_is_flat[e] != 0) continue;
+    const auto end = s.edge_vertices(e);
+    std::vector<PlaneId> planes;
+    for (const std::uint32_t h : s.edge_half_edges(e)) {
+      planes.push_back(s.facet_plane[s.facet_of_half_edge(h)]);
+    }
+    std::sort(planes.begin(), planes.end());
+    for (const double t : parameters) {
+      const VertexId v = model.points.add_on_segment(end[1], end[0], t);
+      model.points.set_supports(v, planes, {&e, 1});
+      model.input.on_edge[e].push_back(v);
+      model.input.vertices.push_back(v);
+    }
+  }
+}
+
 // Without a box around, the hull is the surface's own.
 TEST(Thinning, KeepsAHullThatIsTheSurface) {
   Model model(box(0, 1));
   ASSERT_TRUE(model.valid);
-  model.input.on_edge.resize(model.topology.edge_count());
-  for (std::uint32_t e = 0; e < model.topology.edge_count(); ++e) {
-    if (model.topology.edge_is_flat[e] != 0) continue;
-    const auto end = model.topology.edge_vertices(e);
-    const VertexId v = model.points.add_on_segment(end[0], end[1], 0.5);
-    const auto h = model.topology.edge_half_edges(e);
-    std::vector<PlaneId> planes;
-    for (const auto side : h) {
-      planes.push_back(model.topology.facet_plane[model.topology.facet_of_half_edge(side)]);
-    }
-    std::sort(planes.begin(), planes.end());
-    model.points.set_supports(v, planes, {&e, 1});
-    model.input.on_edge[e] = {v};
-    model.input.vertices.push_back(v);
-  }
+  split_edges(model, {0.5});
   CdtResult mesh = model.run();
   const std::set<VertexId> before = vertices(mesh);
   const std::vector<VertexId> all(before.begin(), before.end());
   EXPECT_GT(thin(model, all, 0, mesh), 0U);
   EXPECT_EQ(wrong(model, mesh), "");
   EXPECT_EQ(volume(model, mesh), 6);
+}
+
+// How many tetrahedra are inverted or flat on nearest doubles.
+std::size_t bad_as_written(const Model& model, const CdtResult& mesh) {
+  return static_cast<std::size_t>(
+      std::count_if(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), [&](const auto& t) {
+        rational::Vector x[4];
+        for (int i = 0; i < 4; ++i) {
+          const Vec3 p = model.points.nearest(t[i]);
+          x[i] = {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])};
+        }
+        return sgn(rational::volume(x[0], x[1], x[2], x[3])) <= 0;
+      }));
+}
+
+// Points on edges less than an ulp apart.
+TEST(Thinning, LeavesNoMoreThatDoublesInvert) {
+  Model model(box(1.1, 2.3));
+  ASSERT_TRUE(model.valid);
+  split_edges(model, {0.3, 0.3 + 0x1p-53, 0.3 + 0x1p-52});
+  CdtResult mesh = model.run();
+  const std::size_t bad = bad_as_written(model, mesh);
+  EXPECT_GT(bad, 0U);  // otherwise the test says nothing
+  const std::set<VertexId> before = vertices(mesh);
+  const std::vector<VertexId> all(before.begin(), before.end());
+  EXPECT_GT(thin(model, all, 0, mesh), 0U);
+  EXPECT_EQ(wrong(model, mesh), "");
+  EXPECT_LT(bad_as_written(model, mesh), bad);
 }
 
 // Schoenhardt's polyhedron cannot be tetrahedrized without further vertices.
