@@ -1,6 +1,7 @@
 #include "fuzz/entry.h"
 
 #include <bit>
+#include <cfloat>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -61,7 +62,7 @@ double Bytes::coordinate() {
     case 3:
       return last_ = static_cast<std::int8_t>(byte()) * 0.1;
     case 4:
-      return last_ = std::nextafter(last_, (byte() & 1) != 0 ? HUGE_VAL : -HUGE_VAL);
+      return last_ = std::nextafter(last_, (byte() & 1) != 0 ? DBL_MAX : -DBL_MAX);
     case 5:
       return last_;
     case 6: {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <sstream>
 #include <vector>
@@ -27,9 +28,7 @@ Points read_points(Bytes& bytes) {
   const double level = flat < 3 ? bytes.coordinate() : 0;
   for (VertexId i = 0; i < p.corners; ++i) {
     Vec3 x = {bytes.coordinate(), bytes.coordinate(), bytes.coordinate()};
-    // Towards zero, or the largest double would become infinite.
-    const double beside = std::nextafter(level, level < 0 ? HUGE_VAL : -HUGE_VAL);
-    if (flat < 3) x[flat] = bytes.below(4) == 0 ? beside : level;
+    if (flat < 3) x[flat] = bytes.below(4) == 0 ? std::nextafter(level, DBL_MAX) : level;
     p.store.add_explicit(x[0], x[1], x[2]);
   }
   for (std::uint32_t n = bytes.below(8); n > 0; --n) {
