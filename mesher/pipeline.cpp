@@ -289,7 +289,7 @@ class Run {
       thinned += gone;
       if (gone == 0) continue;
       MeshToWrite thinner = conforming_mesh(cdt, topology_, points_, options_.region);
-      RoundingResult other = round_mesh(std::move(thinner.rounding), control_);
+      RoundingResult other = round_mesh(std::move(thinner.rounding), control_, rings == kMostRings);
       if (!(defects(other) < defects(rounded))) continue;
       rounded = std::move(other);
       exact = std::move(thinner);

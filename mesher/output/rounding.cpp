@@ -31,7 +31,7 @@ class Repair {
  private:
   static constexpr int kEfforts = 4;
   static constexpr int kExactEfforts = 3;  // those that do no harm on exact coordinates
-  static constexpr int kUntanglings = 4;
+  static constexpr int kUntanglings = 2;
 
   void descend(int efforts) {
     for (int effort = 0; effort < efforts;) effort = pass(effort) ? 0 : effort + 1;
@@ -182,11 +182,12 @@ void shuffle_tetrahedra(RoundingInput& input, std::uint32_t& state) {
 
 }  // namespace
 
-RoundingResult round_mesh(RoundingInput input, Control& control) {
+RoundingResult round_mesh(RoundingInput input, Control& control, bool thoroughly) {
   // Which repairs are possible depends on those done before: where one order of the tetrahedra ends
   // in a dead end, another may not.
-  constexpr int kOrders = 8;
+  constexpr int kOrders = 4;
   RoundingResult best = round_once(input, Strategy::descend, control);
+  if (!thoroughly) return best;
   std::uint32_t state = 1;
   for (int order = 1; order < kOrders && defects(best).first > 0; ++order) {
     shuffle_tetrahedra(input, state);

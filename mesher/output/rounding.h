@@ -54,6 +54,8 @@ inline std::pair<std::uint64_t, std::uint64_t> defects(const RoundingResult& res
   return {result.inverted + result.flat + result.coincident, result.inexact_operations};
 }
 
-RoundingResult round_mesh(RoundingInput input, Control& control);
+// `thoroughly`: where the first repairs leave defects, others are tried, which may take a hundred
+// times as long.
+RoundingResult round_mesh(RoundingInput input, Control& control, bool thoroughly = true);
 
 }  // namespace delmesher

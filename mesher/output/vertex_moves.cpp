@@ -12,7 +12,7 @@ constexpr int kChainBudget = 4000;
 constexpr std::int64_t kAllChainsBudget = 10'000'000;
 constexpr int kChainDepth = 3;
 // Most signs that untangling may decide.
-constexpr std::int64_t kUntangleBudget = 5'000'000;
+constexpr std::int64_t kUntangleBudget = 1'000'000;
 
 // The distance from |x| to the next larger double; 0 for 0, whose neighbours say nothing about the
 // scale of the mesh.
