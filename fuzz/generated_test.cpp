@@ -100,6 +100,11 @@ TEST(Members, AreThinnedWhereDoublesAreTooCoarse) {
   }
 }
 
+// Far from the origin: what the oracles measure must not be roundings of the coordinates.
+TEST(Members, FarFromTheOriginPass) {
+  expect_written_positive("offset", 30);
+}
+
 // The certificate must object to what is wrong, or it means nothing.
 TEST(Certificate, NamesDefects) {
   using Kind = delmesher::Defect::Kind;

@@ -404,8 +404,7 @@ void ChamferExtent::check_point(Index p, Index vertex) {
     return report_.fail(complex_.vertex_name(p) + " was made for input vertex " +
                         std::to_string(vertex) + ", which was not chamfered");
   }
-  const Position &a = points_.nearest(p), &b = points_.nearest(vertex);
-  const double distance = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  const double distance = exact::distance(points_, p, vertex);
   const double radius = corner->second->radius;
   farthest_ = std::max(farthest_, distance / radius);
   if (!(distance <= radius * (on_edge ? 1 : kWidest) * kPlacement)) {

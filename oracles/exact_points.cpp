@@ -228,6 +228,12 @@ bool equal(const ExactPoints& points, Index a, Index b) {
   return points.integer(a) == points.integer(b);
 }
 
+double distance(const ExactPoints& points, Index a, Index b) {
+  const IntegerVector v = difference(points, a, b);
+  const long e = points.exponent();
+  return std::hypot(to_double(v[0], e), to_double(v[1], e), to_double(v[2], e));
+}
+
 mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d) {
   return determinant3(difference(points, a, b), difference(points, a, c), difference(points, a, d));
 }

@@ -93,6 +93,8 @@ mpz_class dot(const IntegerVector& u, const IntegerVector& v);
 IntegerVector cross(const IntegerVector& u, const IntegerVector& v);
 bool is_zero(const IntegerVector& v);
 bool equal(const ExactPoints& points, Index a, Index b);
+// Right to a few roundings, however far from the origin both are.
+double distance(const ExactPoints& points, Index a, Index b);
 mpz_class squared(const IntegerVector& v);
 // Are a, b, c on one line?
 bool collinear(const ExactPoints& points, Index a, Index b, Index c);

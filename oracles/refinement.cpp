@@ -201,8 +201,7 @@ void Segments::check_gap(const InputSurface::Edge& edge, Index input_vertex, Ind
     return report_.fail(edge_name(edge) + " has no segment near input vertex " +
                         std::to_string(input_vertex) + ", which was not chamfered");
   }
-  const Position &p = points_.nearest(input_vertex), &q = points_.nearest(end);
-  const double cut = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  const double cut = exact::distance(points_, input_vertex, end);
   // Cut points are placed with a relative accuracy of 2^-20.
   if (!(cut <= corner->second->radius * (1 + 0x1p-16))) {
     report_.fail(edge_name(edge) + " is cut off farther than the radius at input vertex " +
