@@ -100,6 +100,21 @@ TEST(Members, AreThinnedWhereDoublesAreTooCoarse) {
   }
 }
 
+// Walls of nearly parallel edges: points on one side and the other that do not face each other
+// would be each other's reference, all along the wall.
+TEST(Members, ThinWallsTakeFewPoints) {
+  const std::pair<const char*, std::uint64_t> members[] = {
+      {"spiral", 37}, {"spiral", 66}, {"scale", 79}};
+  for (const auto& [family, member] : members) {
+    const auto surface = generate(*find_family(family), 1, member);
+    ASSERT_TRUE(surface);
+    delmesher::Options options;
+    options.max_vertices = 5000;  // of at most 128; there were tens of millions
+    EXPECT_TRUE(delmesher::constrained_delaunay(*surface, options).status.ok()) << family << member;
+    EXPECT_EQ(fuzz::cdt_holds(*surface), "") << family << member;
+  }
+}
+
 // Far from the origin: what the oracles measure must not be roundings of the coordinates.
 TEST(Members, FarFromTheOriginPass) {
   expect_written_positive("offset", 30);

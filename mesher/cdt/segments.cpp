@@ -265,7 +265,9 @@ class SegmentRecovery {
     const double length = chains_.length(u.edge);
     const Vec3 r = points_.nearest(reference);
     if (centre == kNoCentre) {
-      if (Target t{}; target_opposite(u, w, reference, t)) return t;
+      bool soon = false;
+      if (Target t{}; target_opposite(u, w, reference, t, soon)) return t;
+      if (soon) return middle;
       const double to_u = safe_distance(r, points_.nearest(u.vertex)) / length;
       const double to_w = safe_distance(r, points_.nearest(w.vertex)) / length;
       const double step = std::min(to_u, to_w);
@@ -282,9 +284,10 @@ class SegmentRecovery {
   // are done with, if they do so up to d^2 / L: farther from its place, a point is in the diametral
   // ball of a part of length L of the other edge, and a part between two other edges may be missing
   // for good. Hence the reference's projection, with twice as many bits where it takes them, and
-  // only where the edges are parallel enough for the projection back to be as near.
-  bool target_opposite(const ChainNode& u, const ChainNode& w, VertexId reference,
-                       Target& t) const {
+  // only where the edges are parallel enough for the projection back to be as near. `soon` says
+  // that they will be when this part has been halved a few times.
+  bool target_opposite(const ChainNode& u, const ChainNode& w, VertexId reference, Target& t,
+                       bool& soon) const {
     const Vec3 along = points_.difference(u.vertex, w.vertex);
     const double part = std::hypot(along[0], along[1], along[2]);
     const Vec3 to_reference = points_.difference(u.vertex, reference);
@@ -292,7 +295,12 @@ class SegmentRecovery {
                f = scaled_difference(to_reference, {}, part);
     const double place = dot(d, f), squared_off = dot(cross(d, f), cross(d, f));
     if (!(place > 0 && place < 1 && squared_off < kBeside * kBeside)) return false;
-    if (!runs_along(u.edge, reference, std::sqrt(squared_off) / 16)) return false;
+    const double parallel = std::sqrt(squared_off) / 16;
+    if (!runs_along(u.edge, reference, parallel)) {
+      constexpr double kSoon = 256;
+      soon = runs_along(u.edge, reference, kSoon * parallel);
+      return false;
+    }
     const std::array<VertexId, 2> end = chains_.topology().edge_vertices(u.edge);
     t = target_behind(u, w, place * fraction_between(u, w));
     const VertexId apex = end[t.anchor], other = end[1 - t.anchor];
