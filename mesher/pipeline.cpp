@@ -14,13 +14,13 @@
 #include "mesher/guarded.h"
 #include "mesher/output/rounding.h"
 #include "mesher/output/statistics.h"
-#include "mesher/output/thinning.h"
 #include "mesher/refine/prediction.h"
 #include "mesher/refine/refine.h"
 #include "mesher/scaling.h"
 #include "mesher/surface/feature_size.h"
 #include "mesher/surface/topology.h"
 #include "mesher/surface/validity.h"
+#include "mesher/thinning.h"
 
 namespace delmesher {
 namespace {

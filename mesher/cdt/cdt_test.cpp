@@ -4,7 +4,7 @@
 
 #include "mesher/base/check.h"
 #include "mesher/cdt/gift_wrapping.h"
-#include "mesher/cdt/test_model.h"
+#include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
 
 namespace delmesher {

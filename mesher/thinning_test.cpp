@@ -1,10 +1,10 @@
-#include "mesher/output/thinning.h"
+#include "mesher/thinning.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "mesher/cdt/test_model.h"
+#include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
 
 namespace delmesher {

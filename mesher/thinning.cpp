@@ -1,4 +1,4 @@
-#include "mesher/output/thinning.h"
+#include "mesher/thinning.h"
 
 #include <algorithm>
 #include <cmath>
