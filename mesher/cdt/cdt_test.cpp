@@ -246,7 +246,7 @@ TEST(Cdt, SolidIsFilledInOneWayOnly) {
     };
     std::vector<Tetrahedron> filled, wrapped;
     PolyhedronFiller filler(model.predicates, model.control);
-    EXPECT_TRUE(filler.fill(faces, filled));
+    EXPECT_TRUE(filler.fill(faces, {}, filled));
     EXPECT_EQ(as_set(filled), expected);
     blocked += filler.counters().blocked;
     FillCounters counters;
@@ -277,6 +277,29 @@ TEST(Cdt, Enriched) {
       EXPECT_EQ(used.size(), model.input.vertices.size() + result.steiner.size());
     }
   }
+}
+
+// All tetrahedra of the vertex just above the middle of the upper facet reach through that to the
+// ring below: cut by it, they leave the vertex on no face of what is to be filled.
+TEST(Cdt, VertexOnNoFaceOfACavityStays) {
+  Model model(box(0, 64));
+  ASSERT_TRUE(model.valid);
+  const auto add = [&](double x, double y, double z) {
+    model.input.vertices.push_back(model.points.add_explicit(x, y, z));
+  };
+  add(32, 32, 65);
+  add(33, 32, 76);
+  add(32, 33, 54);
+  for (const double x : {22, 42}) {
+    for (const double y : {23, 41}) add(x, y, 62);
+  }
+  const CdtResult result = model.run();
+  EXPECT_GT(result.counters.isolated_vertices, 0U);
+  EXPECT_EQ(model.wrong(result), "");
+  EXPECT_EQ(result.counters.facet_restarts, 0U);
+  std::set<VertexId> used;
+  for (const auto& t : result.tetrahedra) used.insert(t.begin(), t.end());
+  EXPECT_EQ(used.size(), model.input.vertices.size() + result.steiner.size());
 }
 
 TEST(Cdt, StopsWhenTold) {

@@ -1,6 +1,7 @@
 #include "mesher/cdt/polyhedron.h"
 
 #include <algorithm>
+#include <span>
 
 #include "mesher/base/check.h"
 #include "mesher/cdt/gift_wrapping.h"
@@ -126,8 +127,9 @@ class DelaunayPart {
 
 }  // namespace
 
-void PolyhedronFiller::collect_vertices(const std::vector<Triangle>& faces) {
-  vertices_.clear();
+void PolyhedronFiller::collect_vertices(const std::vector<Triangle>& faces,
+                                        const std::vector<VertexId>& isolated) {
+  vertices_ = isolated;
   for (const Triangle& f : faces) vertices_.insert(vertices_.end(), f.begin(), f.end());
   std::sort(vertices_.begin(), vertices_.end());
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
@@ -144,11 +146,12 @@ bool PolyhedronFiller::delaunay_part(std::vector<Triangle>& faces,
   return true;
 }
 
-bool PolyhedronFiller::fill(std::vector<Triangle> faces, std::vector<Tetrahedron>& tetrahedra) {
+bool PolyhedronFiller::fill(std::vector<Triangle> faces, std::vector<VertexId> isolated,
+                            std::vector<Tetrahedron>& tetrahedra) {
   const std::size_t start = tetrahedra.size();
   for (;;) {
-    if (faces.empty()) return true;
-    collect_vertices(faces);
+    if (faces.empty()) return isolated.empty();
+    collect_vertices(faces, isolated);
     if (vertices_.size() < kWrapBelow) break;
     const std::size_t before = tetrahedra.size();
     if (!delaunay_part(faces, tetrahedra)) {
@@ -156,6 +159,11 @@ bool PolyhedronFiller::fill(std::vector<Triangle> faces, std::vector<Tetrahedron
       return false;
     }
     if (tetrahedra.size() == before) break;
+    const std::span added = std::span(tetrahedra).subspan(before);
+    std::erase_if(isolated, [&](VertexId v) {  // from now on it is on a face, or done with
+      return std::ranges::any_of(
+          added, [&](const Tetrahedron& t) { return std::ranges::find(t, v) != t.end(); });
+    });
   }
   if (gift_wrap(predicates_, control_, faces, vertices_, tetrahedra, counters_)) return true;
   tetrahedra.resize(start);

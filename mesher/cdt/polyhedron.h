@@ -29,15 +29,17 @@ class PolyhedronFiller {
       : predicates_(predicates), control_(control) {}
 
   // Appends the tetrahedra that fill the polyhedron bounded by `faces`, counter-clockwise seen from
-  // outside it. A face may occur in both orientations: a dangling wall. Returns false if the faces
-  // are not what is required, which is a bug of the caller.
-  bool fill(std::vector<Triangle> faces, std::vector<Tetrahedron>& tetrahedra);
+  // outside it. A face may occur in both orientations: a dangling wall. `isolated` are the vertices
+  // that are on no face. Returns false if these are not what is required, which is a bug of the
+  // caller.
+  bool fill(std::vector<Triangle> faces, std::vector<VertexId> isolated,
+            std::vector<Tetrahedron>& tetrahedra);
 
   const FillCounters& counters() const { return counters_; }
 
  private:
   bool delaunay_part(std::vector<Triangle>& faces, std::vector<Tetrahedron>& tetrahedra);
-  void collect_vertices(const std::vector<Triangle>& faces);
+  void collect_vertices(const std::vector<Triangle>& faces, const std::vector<VertexId>& isolated);
 
   Predicates& predicates_;
   Control& control_;

@@ -23,7 +23,8 @@ FacetRecovery::FacetRecovery(Tetrahedrization& mesh, const SurfaceTopology& topo
       control_(control),
       filler_(predicates_, control),
       side_mark_(predicates_.points().size(), 0),
-      side_(predicates_.points().size(), 0) {}
+      side_(predicates_.points().size(), 0),
+      shell_mark_(predicates_.points().size(), 0) {}
 
 // Side of the facet's plane: +1 outside the solid.
 int FacetRecovery::side(VertexId v) {
@@ -146,6 +147,25 @@ void FacetRecovery::collect_shell() {
   }
 }
 
+// The vertices of the cavity that are on neither its shell nor the plane.
+void FacetRecovery::collect_isolated() {
+  upper_isolated_.clear();
+  lower_isolated_.clear();
+  for (const std::vector<ShellFace>* shell : {&upper_shell_, &lower_shell_}) {
+    for (const ShellFace& f : *shell) {
+      for (const VertexId v : f.vertices) shell_mark_[v] = cavity_epoch_;
+    }
+  }
+  for (const TetId t : cavity_) {
+    for (int i = 0; i < 4; ++i) {
+      const VertexId v = mesh_.vertex(t, i);
+      if (shell_mark_[v] == cavity_epoch_ || side(v) == 0) continue;
+      shell_mark_[v] = cavity_epoch_;  // once is enough
+      (side(v) > 0 ? upper_isolated_ : lower_isolated_).push_back(v);
+    }
+  }
+}
+
 bool FacetRecovery::recover_region() {
   ++cavity_epoch_;
   if (cavity_mark_.size() < mesh_.capacity()) cavity_mark_.resize(mesh_.capacity() * 3 / 2, 0);
@@ -155,6 +175,8 @@ bool FacetRecovery::recover_region() {
   }
   if (!grow_cavity()) return false;
   collect_shell();
+  collect_isolated();
+  counters_.isolated_vertices += upper_isolated_.size() + lower_isolated_.size();
   counters_.missing_triangles += region_.size();
   ++counters_.regions;
   counters_.cavity_tetrahedra += cavity_.size();
@@ -164,10 +186,10 @@ bool FacetRecovery::recover_region() {
   std::vector<Triangle> faces;
   for (const Triangle& t : region_) faces.push_back(reversed(t));
   for (const ShellFace& f : upper_shell_) faces.push_back(f.vertices);
-  if (!filler_.fill(std::move(faces), upper)) return false;
+  if (!filler_.fill(std::move(faces), upper_isolated_, upper)) return false;
   faces = region_;
   for (const ShellFace& f : lower_shell_) faces.push_back(f.vertices);
-  if (!filler_.fill(std::move(faces), lower)) return false;
+  if (!filler_.fill(std::move(faces), lower_isolated_, lower)) return false;
   return replace_cavity(upper, lower);
 }
 
@@ -180,6 +202,17 @@ void FacetRecovery::number_vertices() {
   std::sort(local_.begin(), local_.end());
   local_.erase(std::unique(local_.begin(), local_.end()), local_.end());
   DELMESHER_CHECK(local_.size() < (1U << 21), "cavity too large");
+}
+
+// Are all vertices of the cavity and the region (numbered) corners of the tetrahedra?
+bool FacetRecovery::keeps_all_vertices(const std::vector<Tetrahedron>& tetrahedra) const {
+  std::vector<std::uint8_t> kept(local_.size(), 0);
+  for (const Tetrahedron& t : tetrahedra) {
+    for (const VertexId v : t) {
+      kept[std::ranges::lower_bound(local_, v) - local_.begin()] = 1;
+    }
+  }
+  return std::ranges::find(kept, 0) == kept.end();
 }
 
 // Directed triangles up to rotation.
@@ -195,12 +228,14 @@ std::uint64_t FacetRecovery::face_key(const Triangle& t) const {
 }
 
 // Swaps the cavity's tetrahedra for the new ones, if these fit: every face of a new tetrahedron is
-// either matched by another new one or on the shell, and the whole shell is covered.
+// either matched by another new one or on the shell, the whole shell is covered, and no vertex is
+// lost.
 bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
                                    const std::vector<Tetrahedron>& lower) {
   number_vertices();
   std::vector<Tetrahedron> all = upper;
   all.insert(all.end(), lower.begin(), lower.end());
+  if (!keeps_all_vertices(all)) return false;
   // Directed face, counter-clockwise seen from outside its new tetrahedron -> 4 * index + face.
   FlatMap owner;
   std::vector<Triangle> face(4 * all.size());

@@ -7,7 +7,9 @@
 // tetrahedra whose interiors the region crosses are exactly those reached from one of them through
 // faces with vertices strictly on both sides of the plane, and no face without keeps from being
 // constrained Delaunay when the region becomes a wall. The region cuts their union in an upper and
-// a lower polyhedron, which are filled independently.
+// a lower polyhedron, which are filled independently. A vertex all of whose tetrahedra reach
+// through the region is on no face of either (one of 7649, of a spiral squeezed flat): it is
+// isolated inside.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +45,10 @@ class FacetRecovery {
   bool seed(const std::array<VertexId, 2>& edge);
   bool grow_cavity();
   void collect_shell();
+  void collect_isolated();
   bool replace_cavity(const std::vector<Tetrahedron>& upper, const std::vector<Tetrahedron>& lower);
   void number_vertices();
+  bool keeps_all_vertices(const std::vector<Tetrahedron>& tetrahedra) const;
   std::uint64_t face_key(const Triangle& t) const;
   void add_to_cavity(TetId t);
 
@@ -68,7 +72,9 @@ class FacetRecovery {
   std::vector<std::uint32_t> cavity_mark_;  // per tet
   std::uint32_t cavity_epoch_ = 0;
   std::vector<ShellFace> upper_shell_, lower_shell_;
-  std::vector<VertexId> local_;  // vertices of the cavity, ascending
+  std::vector<VertexId> upper_isolated_, lower_isolated_;
+  std::vector<std::uint32_t> shell_mark_;  // per point: cavity whose shell it is known to be on
+  std::vector<VertexId> local_;            // vertices of the cavity, ascending
 };
 
 }  // namespace delmesher

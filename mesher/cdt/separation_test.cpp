@@ -120,6 +120,7 @@ std::set<Tetrahedron> as_set(std::vector<Tetrahedron> tetrahedra) {
 // In a convex polyhedron with Delaunay faces every way must find the Delaunay tetrahedrization.
 TEST(Polyhedron, ConvexIsDelaunay) {
   std::mt19937 random(17);
+  std::size_t all_isolated = 0;
   Options options;
   Control control(options);
   for (const unsigned range : {4U, 16U, 1000U}) {
@@ -147,9 +148,25 @@ TEST(Polyhedron, ConvexIsDelaunay) {
           faces.push_back({v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]});
         }
       }
-      // Inner vertices are on no face: dangling walls bring them in.
+      // Inner vertices are on no face: isolated ones...
       std::set<VertexId> seen;
       for (const Triangle& f : faces) seen.insert(f.begin(), f.end());
+      std::vector<VertexId> isolated;
+      for (const VertexId v : vertices) {
+        if (seen.count(v) == 0) isolated.push_back(v);
+      }
+      all_isolated += isolated.size();
+      const auto check = [&](const std::vector<VertexId>& on_no_face) {
+        FillCounters counters;
+        std::vector<Tetrahedron> filled, wrapped;
+        PolyhedronFiller filler(predicates, control);
+        ASSERT_TRUE(filler.fill(faces, on_no_face, filled));
+        EXPECT_EQ(as_set(filled), as_set(expected));
+        ASSERT_TRUE(gift_wrap(predicates, control, faces, vertices, wrapped, counters));
+        EXPECT_EQ(as_set(wrapped), as_set(expected));
+      };
+      check(isolated);
+      // ... or dangling walls bring them in.
       for (const Tetrahedron& t : expected) {
         for (int i = 0; i < 4; ++i) {
           const Triangle f = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
@@ -161,15 +178,10 @@ TEST(Polyhedron, ConvexIsDelaunay) {
           faces.push_back({f[0], f[2], f[1]});
         }
       }
-      FillCounters counters;
-      std::vector<Tetrahedron> filled, wrapped;
-      PolyhedronFiller filler(predicates, control);
-      ASSERT_TRUE(filler.fill(faces, filled));
-      EXPECT_EQ(as_set(filled), as_set(expected));
-      ASSERT_TRUE(gift_wrap(predicates, control, faces, vertices, wrapped, counters));
-      EXPECT_EQ(as_set(wrapped), as_set(expected));
+      check({});
     }
   }
+  EXPECT_GT(all_isolated, 20U);
 }
 
 TEST(Polyhedron, OpenSurfaceIsRefused) {
@@ -184,11 +196,11 @@ TEST(Polyhedron, OpenSurfaceIsRefused) {
   std::vector<Triangle> faces = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   std::vector<Tetrahedron> tetrahedra;
   PolyhedronFiller filler(predicates, control);
-  EXPECT_TRUE(filler.fill(faces, tetrahedra));
+  EXPECT_TRUE(filler.fill(faces, {}, tetrahedra));
   EXPECT_EQ(tetrahedra.size(), 1U);
   faces.pop_back();
   tetrahedra.clear();
-  EXPECT_FALSE(filler.fill(faces, tetrahedra));
+  EXPECT_FALSE(filler.fill(faces, {}, tetrahedra));
   EXPECT_TRUE(tetrahedra.empty());
 }
 
