@@ -106,6 +106,10 @@ class Run {
                           control_);
   }
 
+  void forget_points(std::size_t first) {
+    while (points_.size() > first) points_.pop_back();
+  }
+
   // A solid that meets the bound without any further point needs none: its plain constrained
   // tetrahedrization, where that is the better one in every respect. (TetGen leaves such inputs as
   // they are, too; large ones are never among them.)
@@ -118,7 +122,7 @@ class Run {
     const std::size_t enriched_points = points_.size();
     CdtResult plain = constrained_delaunay_tetrahedrization(plain_input(topology_), points_,
                                                             predicates_, control_);
-    while (points_.size() > enriched_points) points_.pop_back();
+    forget_points(enriched_points);
     if (!plain.steiner.empty()) return std::nullopt;
     const MeshStatistics p = interior_statistics(plain, points_, control_);
     if (p.min_face_angle < options_.delta) return std::nullopt;
@@ -160,7 +164,7 @@ class Run {
         options.cosine_squared = options.corner_cosine_squared = 0;
         options.vertex_cosine_squared.clear();
       }
-      while (points_.size() > input_points) points_.pop_back();
+      forget_points(input_points);
     }
   }
 
@@ -181,7 +185,7 @@ class Run {
         throw Stopped{{StatusCode::limit_reached, over_budget(predicted), Limit::size}};
       }
       tau_ = std::max(2 * tau_, kLeastTau);
-      while (points_.size() > input_points) points_.pop_back();
+      forget_points(input_points);
     }
   }
 
@@ -278,7 +282,6 @@ class Run {
   // Where doubles are too coarse for the points of the last step, it does with fewer of them.
   void round_and_write(CdtResult cdt) {
     constexpr int kMostRings = 3;
-    constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
     control_.enter(Phase::round);
     MeshToWrite exact = conforming_mesh(cdt, topology_, points_, options_.region);
     RoundingResult rounded = round_mesh(std::move(exact.rounding), control_);

@@ -11,11 +11,6 @@ std::uint64_t edge_key(Index a, Index b) {
   return static_cast<std::uint64_t>(a) << 32 | b;
 }
 
-double length(const IntegerVector& v, long exponent) {
-  return std::hypot(to_double(v[0], exponent), to_double(v[1], exponent),
-                    to_double(v[2], exponent));
-}
-
 // The check as a whole; the functions appear in the order in which they run.
 class Conformity {
  public:
@@ -137,7 +132,7 @@ void Conformity::match_vertices() {
       match_[v] = nearest_surface_vertex(v);
       ++moved;
       if (match_[v] != kNone) {
-        deviate(length(exact::difference(points_, v, match_[v]), points_.exponent()));
+        deviate(exact::distance(points_, v, match_[v]));
       }
     }
     if (match_[v] == kNone) fail("input vertex " + std::to_string(v) + " is not on the boundary");

@@ -92,6 +92,11 @@ double to_double(const mpz_class& value, long exponent) {
   return std::ldexp(fraction, static_cast<int>(std::clamp(e, -5000L, 5000L)));
 }
 
+double length(const IntegerVector& vector, long exponent) {
+  return std::hypot(to_double(vector[0], exponent), to_double(vector[1], exponent),
+                    to_double(vector[2], exponent));
+}
+
 std::vector<ExactPoint> explicit_points(std::span<const Position> positions) {
   std::vector<ExactPoint> points(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -229,9 +234,7 @@ bool equal(const ExactPoints& points, Index a, Index b) {
 }
 
 double distance(const ExactPoints& points, Index a, Index b) {
-  const IntegerVector v = difference(points, a, b);
-  const long e = points.exponent();
-  return std::hypot(to_double(v[0], e), to_double(v[1], e), to_double(v[2], e));
+  return length(difference(points, a, b), points.exponent());
 }
 
 mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d) {

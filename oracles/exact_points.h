@@ -56,6 +56,8 @@ std::vector<delmesher::ExactPoint> explicit_points(std::span<const Position> pos
 
 // mpz times a power of two as a double, rounded towards zero.
 double to_double(const mpz_class& value, long exponent);
+// Length of a vector times 2^exponent.
+double length(const IntegerVector& vector, long exponent);
 
 // Exact signs and measures. Filtered by intervals except where the value itself is wanted. All
 // determinants are in integer units: a length is off by 2^exponent, which no sign or comparison

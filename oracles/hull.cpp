@@ -104,11 +104,9 @@ void Hull::check_edge(const Side& side, const Side& other) {
   if (sign == 0 && exact::dot(m, n) > 0) return;
   if (sign > 0 && allowed_ > 0) {
     // How far the opposite corner is in front of the face.
-    const double height =
-        to_double(exact::dot(m, exact::difference(points_, a, other.opposite)),
-                  3 * points_.exponent()) /
-        std::hypot(to_double(m[0], 2 * points_.exponent()), to_double(m[1], 2 * points_.exponent()),
-                   to_double(m[2], 2 * points_.exponent()));
+    const double height = to_double(exact::dot(m, exact::difference(points_, a, other.opposite)),
+                                    3 * points_.exponent()) /
+                          length(m, 2 * points_.exponent());
     if (height <= allowed_) return;
   }
   report_.fail("the outer boundary is not convex at edge " + complex_.vertex_name(a) + " - " +
@@ -119,10 +117,7 @@ double Hull::area() const {
   double sum = 0;
   for (const Face& f : faces_) {
     const IntegerVector n = exact::area2(points_, f[0], f[1], f[2]);
-    const long exponent = 2 * points_.exponent();
-    sum += std::hypot(to_double(n[0], exponent), to_double(n[1], exponent),
-                      to_double(n[2], exponent)) /
-           2;
+    sum += length(n, 2 * points_.exponent()) / 2;
   }
   return sum;
 }

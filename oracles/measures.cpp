@@ -10,9 +10,7 @@ double smallest_altitude(const ExactPoints& points, const Tet& tet) {
   for (int i = 0; i < 4; ++i) {
     const Face face = face_of(tet, i);
     const IntegerVector n = exact::area2(points, face[0], face[1], face[2]);
-    const long exponent = 2 * points.exponent();
-    largest = std::max(largest, std::hypot(to_double(n[0], exponent), to_double(n[1], exponent),
-                                           to_double(n[2], exponent)));
+    largest = std::max(largest, length(n, 2 * points.exponent()));
   }
   const double volume =
       std::fabs(to_double(exact::volume6(points, a, b, c, d), 3 * points.exponent()));

@@ -13,10 +13,7 @@ double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
   double sum = 0;
   for (const Face& f : faces) {
     const IntegerVector n = exact::area2(*complex.points, f[0], f[1], f[2]);
-    const long exponent = 2 * complex.points->exponent();
-    sum += std::hypot(to_double(n[0], exponent), to_double(n[1], exponent),
-                      to_double(n[2], exponent)) /
-           2;
+    sum += length(n, 2 * complex.points->exponent()) / 2;
   }
   return sum;
 }

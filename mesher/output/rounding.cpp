@@ -194,7 +194,6 @@ RoundingResult round_mesh(RoundingInput input, Control& control, bool thoroughly
     RoundingResult other = round_once(input, Strategy::descend, control);
     if (defects(other).first < defects(best).first) best = std::move(other);
   }
-  constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
   for (const Strategy s : {Strategy::descend_and_untangle, Strategy::untangle_first}) {
     if (defects(best) == kNoDefects) break;
     RoundingResult other = round_once(input, s, control);

@@ -53,6 +53,7 @@ struct RoundingResult {
 inline std::pair<std::uint64_t, std::uint64_t> defects(const RoundingResult& result) {
   return {result.inverted + result.flat + result.coincident, result.inexact_operations};
 }
+inline constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
 
 // `thoroughly`: where the first repairs leave defects, others are tried, which may take a hundred
 // times as long.
