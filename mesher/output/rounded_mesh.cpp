@@ -1,7 +1,9 @@
 #include "mesher/output/rounded_mesh.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <optional>
 
 #include "mesher/base/check.h"
 #include "mesher/base/planted.h"
@@ -35,6 +37,67 @@ int filtered_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
   return determinant < -bound ? -1 : 0;
 }
 
+__extension__ using Wide = __int128;
+
+// Coordinates along one axis as integers below 2^60 in a common unit, if they are.
+bool as_integers(const std::array<double, 4>& coordinate, std::array<std::int64_t, 4>& integer) {
+  constexpr int kMostBits = 60;
+  std::array<std::uint64_t, 4> mantissa{};
+  std::array<int, 4> exponent{};
+  int low = 0, high = 0;
+  bool any = false;
+  for (std::size_t n = 0; n < 4; ++n) {
+    const auto bits = std::bit_cast<std::uint64_t>(coordinate[n]);
+    const int field = static_cast<int>((bits >> 52U) & 0x7ffU);
+    std::uint64_t m = bits & 0xfffffffffffffU;
+    if (field != 0) m |= std::uint64_t{1} << 52U;
+    if (m == 0) continue;
+    const int zeros = std::countr_zero(m);
+    mantissa[n] = m >> zeros;
+    exponent[n] = std::max(field, 1) + zeros;
+    const int top = exponent[n] + std::bit_width(mantissa[n]);
+    low = any ? std::min(low, exponent[n]) : exponent[n];
+    high = any ? std::max(high, top) : top;
+    any = true;
+  }
+  if (high - low > kMostBits) return false;
+  for (std::size_t n = 0; n < 4; ++n) {
+    if (mantissa[n] == 0) {
+      integer[n] = 0;
+      continue;
+    }
+    const auto size = static_cast<std::int64_t>(mantissa[n] << (exponent[n] - low));
+    integer[n] = std::signbit(coordinate[n]) ? -size : size;
+  }
+  return true;
+}
+
+// The same sign exactly where every axis has a unit of its own that suits all four coordinates, as
+// it has for vertices not much nearer to the origin than to each other; else nothing.
+std::optional<int> orientation_in_integers(const Vec3& a, const Vec3& b, const Vec3& c,
+                                           const Vec3& d) {
+  std::array<std::int64_t, 3> u{}, v{}, w{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::array<std::int64_t, 4> x{};
+    if (!as_integers({a[i], b[i], c[i], d[i]}, x)) return {};
+    u[i] = x[1] - x[0];
+    v[i] = x[2] - x[0];
+    w[i] = x[3] - x[0];
+  }
+  // The minors of the first two are below 2^123; they are multiplied in two halves, so that the
+  // sums stay below 2^127.
+  Wide high = 0, low = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const Wide minor = Wide{u[j]} * v[k] - Wide{u[k]} * v[j];
+    high += (minor >> 64) * w[i];
+    low += static_cast<Wide>(static_cast<std::uint64_t>(minor)) * w[i];
+  }
+  high += low >> 64;
+  if (high != 0) return high > 0 ? 1 : -1;
+  return static_cast<std::uint64_t>(low) != 0 ? 1 : 0;
+}
+
 template <typename T>
 void erase_sorted(std::vector<T>& sorted, T value) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
@@ -54,6 +117,7 @@ int DoubleOrientation::operator()(const Vec3& a, const Vec3& b, const Vec3& c, c
   const int sign = filtered_orientation(a, b, c, d);
   if (sign != 0) return sign;
   if (planted(Planted::rounding_check)) return 1;
+  if (const std::optional<int> exact = orientation_in_integers(a, b, c, d)) return *exact;
   const VertexId i = scratch_.add_explicit(a[0], a[1], a[2]);
   const VertexId j = scratch_.add_explicit(b[0], b[1], b[2]);
   const VertexId k = scratch_.add_explicit(c[0], c[1], c[2]);

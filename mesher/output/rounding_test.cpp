@@ -491,5 +491,35 @@ TEST(DoubleOrientation, AgreesWithRationals) {
   EXPECT_GT(signs, 1000);
 }
 
+// Vertices an ulp or so from a plane, far from and near the origin, whose coordinates need all bits
+// and more: what rounding leaves of flat tetrahedra.
+TEST(DoubleOrientation, AgreesWithRationalsNearPlanes) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  DoubleOrientation orient;
+  std::array<int, 3> seen{};
+  for (int round = 0; round < 6000; ++round) {
+    const double offset = round % 3 == 0 ? 0 : std::ldexp(1.5, static_cast<int>(random() % 12));
+    const double size = std::ldexp(1, -static_cast<int>(random() % 40));
+    const double scale = std::ldexp(1, static_cast<int>(random() % 1900) - 950);
+    std::vector<Vec3> x(4);
+    for (int n = 0; n < 3; ++n) {
+      for (double& c : x[n]) c = scale * (offset + size * unit(random));
+    }
+    const double s = unit(random), t = unit(random);
+    for (int i = 0; i < 3; ++i) {
+      x[3][i] = x[0][i] + s * (x[1][i] - x[0][i]) + t * (x[2][i] - x[0][i]);
+      for (auto steps = random() % 3; steps > 0; --steps) {
+        x[3][i] = std::nextafter(x[3][i], random() % 2 == 0 ? HUGE_VAL : -HUGE_VAL);
+      }
+    }
+    if (round % 5 == 0) x[3][2] = x[2][2] = x[1][2] = x[0][2];
+    const int expected = sign_of(x, {0, 1, 2, 3});
+    EXPECT_EQ(orient(x[0], x[1], x[2], x[3]), expected) << round;
+    ++seen[static_cast<std::size_t>(expected + 1)];
+  }
+  for (const int count : seen) EXPECT_GT(count, 500);
+}
+
 }  // namespace
 }  // namespace delmesher
