@@ -26,8 +26,9 @@ using Json = nlohmann::json;
 
 volatile sig_atomic_t interrupted = 0;
 
-// Looking at a mesh must not hang or eat the machine either, whatever a mesher wrote. Processor
-// time decides, so that a busy machine changes no verdict.
+// Looking at a mesh must not hang or eat the machine either, whatever a mesher wrote: these limits
+// or those of the run, whichever are larger. Processor time decides, so that a busy machine changes
+// no verdict.
 constexpr Limits kMeasureLimits = {
     .wall_seconds = 7200, .cpu_seconds = 900, .memory_bytes = 8ull << 30};
 
@@ -179,8 +180,14 @@ class Job {
       return false;
     }
     start({options_.self.string(), "measure", files_.mesh.string(), "-o", measured().string()},
-          kMeasureLimits);
+          limits_of_looking());
     return true;
+  }
+
+  Limits limits_of_looking() const {
+    return {.wall_seconds = std::max(kMeasureLimits.wall_seconds, options_.limits.wall_seconds),
+            .cpu_seconds = std::max(kMeasureLimits.cpu_seconds, options_.limits.cpu_seconds),
+            .memory_bytes = std::max(kMeasureLimits.memory_bytes, options_.limits.memory_bytes)};
   }
 
   bool after_measure() {
@@ -194,7 +201,7 @@ class Job {
     keep_mesh();
     if (!options_.verify) return false;
     if (options_.sidecars && mesher_.sidecar_command) {
-      start(mesher_.sidecar_command(files_), kMeasureLimits);
+      start(mesher_.sidecar_command(files_), limits_of_looking());
       return true;
     }
     step_ = Step::sidecar;
@@ -228,7 +235,7 @@ class Job {
                                      "--declared-deviation",
                                      deviation.str()};
     if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
-    start(argv, kMeasureLimits);
+    start(argv, limits_of_looking());
     return true;
   }
 
