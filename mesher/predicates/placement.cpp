@@ -35,6 +35,10 @@ Vec3 difference(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
+Vec3 sum(const Vec3& a, const Vec3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
 double largest(const Vec3& a) {
   return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
 }
@@ -125,7 +129,8 @@ double shortest_dyadic(double lo, double hi) {
 }
 
 PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId q,
-                                 const Vec3& target, double tolerance, bool inside) {
+                                 const Vec3& target, double tolerance, bool inside,
+                                 const Vec3& rest) {
   Vec3 far = points.nearest(p);
   Vec3 near = points.nearest(q);
   // Compare at a scale where squares neither overflow nor vanish.
@@ -137,7 +142,8 @@ PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId 
     std::swap(far, near);
   }
   std::array<Vec3, 2> local = {far, target};
-  localise(local, near, tolerance);
+  const int shift = localise(local, near, tolerance);
+  local[1] = sum(local[1], scaled(rest, shift));
   const Vec3& edge = local[0];
   const double length = std::sqrt(dot(edge, edge));
   DELMESHER_CHECK(length > 0, "segment of no length");
@@ -171,8 +177,7 @@ PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId
               corner.end());
   std::array<Vec3, 3> local = {points.nearest(corner[0]), points.nearest(corner[1]), target};
   const int shift = localise(local, points.nearest(corner[2]), tolerance);
-  const Vec3 added = scaled(rest, shift);
-  for (std::size_t i = 0; i < 3; ++i) local[2][i] += added[i];
+  local[2] = sum(local[2], scaled(rest, shift));
   const auto [u, v] = solve(local[0], local[1], local[2]);
   const auto shortest = [&](double x, const Vec3& edge) {
     const double slack = tolerance / 2 / std::sqrt(dot(edge, edge));

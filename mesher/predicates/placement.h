@@ -9,17 +9,17 @@ namespace delmesher {
 // zero among several). Requires lo <= hi, both finite.
 double shortest_dyadic(double lo, double hi);
 
-// A point of the line through the explicit points p and q within about `tolerance` of `target`'s
-// projection onto it, with the shortest parameter, anchored at the end nearest to the target (so
-// the corners of the result may be q, p). If `inside` is true, the result is strictly between p and
-// q.
+// A point of the line through the explicit points p and q within about `tolerance` of the
+// projection of `target` + `rest` onto it, with the shortest parameter, anchored at the end nearest
+// to the target (so the corners of the result may be q, p). If `inside` is true, the result is
+// strictly between p and q. `rest` is what the doubles of the target leave over: far from the
+// origin they are coarser than a tolerance that small distances ask for.
 PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId q,
-                                 const Vec3& target, double tolerance, bool inside = true);
+                                 const Vec3& target, double tolerance, bool inside = true,
+                                 const Vec3& rest = {0, 0, 0});
 
 // A point of the plane of the explicit points p, q, r within about `tolerance` of the projection of
-// `target` + `rest` onto it, anchored at the nearest corner. Not confined to the triangle. `rest`
-// is what the doubles of the target leave over: far from the origin they are coarser than a
-// tolerance that small distances ask for.
+// `target` + `rest` onto it, anchored at the nearest corner. Not confined to the triangle.
 PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId q, VertexId r,
                                   const Vec3& target, double tolerance,
                                   const Vec3& rest = {0, 0, 0});

@@ -140,6 +140,17 @@ TEST(Placement, OutsideIsAllowedOnRequest) {
   EXPECT_EQ(d.u, -0.5);
 }
 
+// Where the ends are neighbouring doubles, only the rest says where between them.
+TEST(Placement, RestOfTheTarget) {
+  PointStore store;
+  const double x = 0x1p26, unit = 0x1p-26;
+  const VertexId p = store.add_explicit(x, 1, 2), q = store.add_explicit(x + unit, 1, 2);
+  const PointDefinition d =
+      place_on_segment(store, p, q, {x, 1, 2}, unit * 0x1p-20, true, {0.375 * unit, 0, 0});
+  EXPECT_EQ(d.corner[1], p);
+  EXPECT_EQ(d.u, 0.375);
+}
+
 // However near to the anchor, a tolerance relative to the distance is kept.
 TEST(Placement, VeryNearToTheAnchor) {
   PointStore store;

@@ -184,15 +184,20 @@ void Refiner::check_subfacet(std::uint32_t s, std::uint32_t face) {
   }
 }
 
+Refiner::Place Refiner::beside(VertexId origin, const Vec3& offset) const {
+  const Approximation &near = points_.approximation(origin), left = points_.remainder(origin);
+  Place place;
+  two_sum(near.x, offset[0], place.nearest[0], place.rest[0]);
+  two_sum(near.y, offset[1], place.nearest[1], place.rest[1]);
+  two_sum(near.z, offset[2], place.nearest[2], place.rest[2]);
+  place.rest = {place.rest[0] + left.x, place.rest[1] + left.y, place.rest[2] + left.z};
+  return place;
+}
+
 VertexId Refiner::place_in(std::uint32_t facet, VertexId origin, const Vec3& offset,
                            double tolerance) {
   const PlcFacet& f = plc_.facets[facet];
-  const Approximation &near = points_.approximation(origin), left = points_.remainder(origin);
-  Vec3 target{}, rest{};
-  two_sum(near.x, offset[0], target[0], rest[0]);
-  two_sum(near.y, offset[1], target[1], rest[1]);
-  two_sum(near.z, offset[2], target[2], rest[2]);
-  rest = {rest[0] + left.x, rest[1] + left.y, rest[2] + left.z};
+  const auto [target, rest] = beside(origin, offset);
   std::array<VertexId, 3> frame = f.frame;
   if (f.input_facet != kNone) {
     frame = topology_.triangles[locator_.triangle_at(f.input_facet, target)];

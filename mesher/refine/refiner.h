@@ -81,6 +81,11 @@ class Refiner {
   void build_facet(std::uint32_t f);
   void recover_facets();
   void split_subfacet(std::uint32_t s);
+  // `origin` + `offset` and what the doubles of that leave over.
+  struct Place {
+    Vec3 nearest{}, rest{};
+  };
+  Place beside(VertexId origin, const Vec3& offset) const;
   // A new point in the plane of the facet, within about `tolerance` of `origin` + `offset`.
   VertexId place_in(std::uint32_t facet, VertexId origin, const Vec3& offset, double tolerance);
   // The subfacet of the facet that contains v, walking from `start`; if a subsegment is in the way,

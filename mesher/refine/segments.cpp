@@ -1,5 +1,6 @@
 // Segment recovery and splitting (section 5.2).
 #include <algorithm>
+#include <string>
 
 #include "mesher/base/check.h"
 #include "mesher/base/planted.h"
@@ -149,11 +150,12 @@ VertexId Refiner::place_on(const Subsegment& s) {
   if (segment.input_edge == kNone && !box) {
     return place_in(facet, s.a, offset, length * kBendTolerance);
   }
-  const Vec3 middle = {a[0] + offset[0], a[1] + offset[1], a[2] + offset[2]};
+  const auto [middle, rest] = beside(s.a, offset);
   const std::array<VertexId, 2> line =
       box ? segment.vertex : topology_.edge_vertices(segment.input_edge);
   for (double tolerance = length * kLineTolerance; tolerance > 0; tolerance /= 1 << 12) {
-    const PointDefinition p = place_on_segment(points_, line[0], line[1], middle, tolerance, true);
+    const PointDefinition p =
+        place_on_segment(points_, line[0], line[1], middle, tolerance, true, rest);
     const VertexId v = points_.add_on_segment(p.corner[0], p.corner[1], p.u);
     if (predicates_.dot_difference_sign(s.a, v, s.a, s.b) > 0 &&
         predicates_.dot_difference_sign(v, s.b, s.a, s.b) > 0) {
@@ -164,8 +166,7 @@ VertexId Refiner::place_on(const Subsegment& s) {
     points_.pop_back();
     if (tolerance < length * 1e-12) break;
   }
-  DELMESHER_CHECK(false, "subsegment too short for its midpoint to be placed");
-  return kNone;
+  stop_at_precision("edge " + std::to_string(line[0]) + "-" + std::to_string(line[1]));
 }
 
 // A tetrahedron that the last insertion created, all of which have its vertex, with the edge from
