@@ -58,9 +58,11 @@ Finding chamfered(const Surface& surface, double cosine_squared, double degrees)
   if (Finding f = distances_fit(s, result); !f.empty()) return f;
   const auto report = delmesher::plc_angles::measure(result.plc, s.points);
   if (!report.defect.empty()) return "chamfer complex: " + report.defect;
-  // Chamfers are laid out in doubles: in facets narrower than an ulp of the model (which the filter
-  // drops by default) they are at any angle.
-  if (report.smallest() < degrees - kDegreesLost && roomy(surface)) {
+  // Chamfers are laid out in doubles: where that makes them shorter than an ulp of the model (in
+  // facets and at angles that narrow, which the filter drops by default) they are at any angle.
+  constexpr double kShortest = 0x1p-50;
+  if (report.smallest() < degrees - kDegreesLost && report.smallest_segment > kShortest &&
+      roomy(surface)) {
     return "chamfer angle: " + std::to_string(report.smallest()) + " degrees are left of " +
            std::to_string(degrees);
   }

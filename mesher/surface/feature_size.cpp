@@ -118,8 +118,9 @@ double between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
   const double s = dot(cross(w, v), n) / square, t = dot(cross(w, u), n) / square;
   if (!(s > 0 && s < 1 && t > 0 && t < 1)) return best;
   const Vec3 p = moved(a, s, u), q = moved(c, t, v);
-  // Below this sine the two parameters do not belong to each other any more, digit by digit.
-  constexpr double kParallel = 0x1p-20;
+  // The two parameters are off by roundings over the sine, each in its own way: below this sine,
+  // the points that belong to them do not face each other any more, digit by digit.
+  constexpr double kParallel = 1.0 / 16;
   if (square < kParallel * kParallel * dot(u, u) * dot(v, v)) {
     return std::min({best, to_segment(p, c, d), to_segment(q, a, b)});
   }
