@@ -261,6 +261,12 @@ TEST(Cdt, SolidIsFilledInOneWayOnly) {
 
 // ------------------------------------------------------------------------------------- enriched
 
+std::size_t used_vertices(const CdtResult& result) {
+  std::set<VertexId> used;
+  for (const auto& t : result.tetrahedra) used.insert(t.begin(), t.end());
+  return used.size();
+}
+
 TEST(Cdt, Enriched) {
   std::uint32_t seed = 1;
   for (const Surface& s : {box(0, 1), perforated_plate(5, 0.25, 2), star(1, 0.1, 5),
@@ -272,9 +278,7 @@ TEST(Cdt, Enriched) {
       const CdtResult result = model.run();
       EXPECT_EQ(model.wrong(result), "");
       EXPECT_EQ(result.counters.facet_restarts, 0U);
-      std::set<VertexId> used;
-      for (const auto& t : result.tetrahedra) used.insert(t.begin(), t.end());
-      EXPECT_EQ(used.size(), model.input.vertices.size() + result.steiner.size());
+      EXPECT_EQ(used_vertices(result), model.input.vertices.size() + result.steiner.size());
     }
   }
 }
@@ -297,9 +301,7 @@ TEST(Cdt, VertexOnNoFaceOfACavityStays) {
   EXPECT_GT(result.counters.isolated_vertices, 0U);
   EXPECT_EQ(model.wrong(result), "");
   EXPECT_EQ(result.counters.facet_restarts, 0U);
-  std::set<VertexId> used;
-  for (const auto& t : result.tetrahedra) used.insert(t.begin(), t.end());
-  EXPECT_EQ(used.size(), model.input.vertices.size() + result.steiner.size());
+  EXPECT_EQ(used_vertices(result), model.input.vertices.size() + result.steiner.size());
 }
 
 TEST(Cdt, StopsWhenTold) {
