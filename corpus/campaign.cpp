@@ -26,12 +26,6 @@ using Json = nlohmann::json;
 
 volatile sig_atomic_t interrupted = 0;
 
-// Looking at a mesh must not hang or eat the machine either, whatever a mesher wrote: these limits
-// or those of the run, whichever are larger. Processor time decides, so that a busy machine changes
-// no verdict.
-constexpr Limits kMeasureLimits = {
-    .wall_seconds = 7200, .cpu_seconds = 900, .memory_bytes = 8ull << 30};
-
 std::string read_if_there(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -78,6 +72,30 @@ std::string without(const fs::path& folder, std::string text) {
     text.erase(at, prefix.size());
   }
   return text;
+}
+
+// Of a verifier that did not come to a verdict. Which limit it was stands there with its size, so
+// that one sees whether a larger one might help.
+std::string why_unfinished(const Outcome& outcome, const Limits& limits) {
+  const std::string reason = judge(outcome, ExitCodes::ours).reason;
+  std::ostringstream text;
+  switch (outcome.ending) {
+    case Ending::wall_limit:
+      text << reason << " of " << limits.wall_seconds << " s";
+      break;
+    case Ending::cpu_limit:
+      text << reason << " of " << limits.cpu_seconds << " s";
+      break;
+    case Ending::memory_limit:
+      text << reason << " of " << (limits.memory_bytes >> 20) << " MiB";
+      break;
+    case Ending::exited:
+      text << (outcome.exit_code == 0 ? "no report" : reason);
+      break;
+    default:
+      text << reason;
+  }
+  return text.str();
 }
 
 // Says nothing about the mesher: with more time or memory it might have ended otherwise.
@@ -130,7 +148,10 @@ class Job {
   // True once the row is complete.
   bool advance() {
     while (process_->advance()) {
-      if (!after(step_)) return true;
+      if (!after(step_)) {
+        demand_verdict(row_);
+        return true;
+      }
       step_ = static_cast<Step>(static_cast<int>(step_) + 1);
     }
     return false;
@@ -180,28 +201,27 @@ class Job {
       return false;
     }
     start({options_.self.string(), "measure", files_.mesh.string(), "-o", measured().string()},
-          limits_of_looking());
+          options_.verify_limits);
     return true;
-  }
-
-  Limits limits_of_looking() const {
-    return {.wall_seconds = std::max(kMeasureLimits.wall_seconds, options_.limits.wall_seconds),
-            .cpu_seconds = std::max(kMeasureLimits.cpu_seconds, options_.limits.cpu_seconds),
-            .memory_bytes = std::max(kMeasureLimits.memory_bytes, options_.limits.memory_bytes)};
   }
 
   bool after_measure() {
     row_.mesh_json = json_if_valid(measured());
     const Outcome& outcome = process_->outcome();
     if (row_.mesh_json.empty()) {
-      wrong("the mesh cannot be measured: " + judge(outcome, ExitCodes::ours).reason);
+      const std::string why = without_folder(why_unfinished(outcome, options_.verify_limits));
+      if (judge(outcome, ExitCodes::ours).disposition == Disposition::rejected) {
+        wrong("the mesh cannot be measured: " + why);
+      } else {
+        row_.verdict_json = Json({{"error", "not measured: " + why}}).dump();
+      }
       return false;
     }
     take_measurements();
     keep_mesh();
     if (!options_.verify) return false;
     if (options_.sidecars && mesher_.sidecar_command) {
-      start(mesher_.sidecar_command(files_), limits_of_looking());
+      start(mesher_.sidecar_command(files_), options_.verify_limits);
       return true;
     }
     step_ = Step::sidecar;
@@ -235,12 +255,13 @@ class Job {
                                      "--declared-deviation",
                                      deviation.str()};
     if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
-    start(argv, limits_of_looking());
+    start(argv, options_.verify_limits);
     return true;
   }
 
   bool after_verify() {
     const Outcome& outcome = process_->outcome();
+    row_.verify_seconds = outcome.wall_seconds;
     row_.verdict_json = json_if_valid(verdict());
     const bool told = outcome.ending == Ending::exited && !row_.verdict_json.empty();
     if (told && outcome.exit_code == 1) {
@@ -248,8 +269,8 @@ class Job {
       const std::string prefix = "tetproof: " + files_.mesh.string() + ": ";
       wrong("verify: " + (said.starts_with(prefix) ? said.substr(prefix.size()) : said));
     } else if (!told || outcome.exit_code != 0) {
-      // Not the mesher's fault; the row says that nobody vouches for the mesh.
-      const std::string reason = without_folder(judge(outcome, ExitCodes::ours).reason);
+      // Not the mesher's fault, but nobody vouches for the mesh: the row becomes unverified.
+      const std::string reason = without_folder(why_unfinished(outcome, options_.verify_limits));
       row_.verdict_json = Json({{"error", reason}}).dump();
     }
     if (!no_sidecar_.empty()) {

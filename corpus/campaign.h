@@ -21,6 +21,9 @@ struct CampaignOptions {
   std::uint64_t keep_tetrahedra = 0;  // keep none with more than this; 0: no bound
   std::set<Disposition> retry;        // rows that ended so are run again
   Limits limits;
+  // Of the children that look at a mesh: they must not hang or eat the machine either, whatever a
+  // mesher wrote. Processor time decides, so that a busy machine changes no verdict.
+  Limits verify_limits = {.wall_seconds = 7200, .cpu_seconds = 900, .memory_bytes = 8ull << 30};
   unsigned jobs = 1;
   double stop_after_seconds = 0;  // begin no further model after this long; 0: no bound
   bool verify = true;             // ask `tetproof verify` for a verdict on each mesh
@@ -31,8 +34,9 @@ struct CampaignOptions {
 };
 
 struct CampaignSummary {
-  std::size_t present = 0;              // rows that were there already
-  std::array<std::size_t, 7> counts{};  // rows of this campaign by disposition, old and new
+  std::size_t present = 0;  // rows that were there already
+  std::array<std::size_t, kDispositionCount>
+      counts{};  // rows of this campaign by disposition, old and new
   bool interrupted = false;
   std::size_t models_left_out = 0;  // not begun because of stop_after_seconds
 };

@@ -40,6 +40,22 @@ class CampaignTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
+  // Makes a model the surface of the corner.
+  void make_surface(int index) const {
+    std::ofstream(folder_ / "models" / ("m" + std::to_string(index) + ".off"))
+        << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  }
+
+  // A `tetproof` that notes what it is asked and, asked to verify, runs a line of shell first.
+  fs::path self_that(const std::string& line) const {
+    fs::path script = folder_ / "self.sh";
+    std::ofstream(script) << "#!/bin/sh\necho \"$@\" >> " << calls().string()
+                          << "\n[ \"$1\" = verify ] && { " << line << "; }\nexec " << TETPROOF_PATH
+                          << " \"$@\"\n";
+    fs::permissions(script, fs::perms::owner_all);
+    return script;
+  }
+
   std::vector<Model> models() const { return collect_models({folder_ / "models"}).models; }
 
   // A mesher that notes each call in a file and runs a line of shell.
@@ -76,6 +92,8 @@ class CampaignTest : public testing::Test {
 };
 
 TEST_F(CampaignTest, DispositionsAreToldApart) {
+  make_surface(0);
+  options_.verify = true;
   options_.limits.wall_seconds = options_.limits.cpu_seconds = 120;
   options_.jobs = 2;
   const std::string nasty = TETPROOF_NASTY_PATH;
@@ -152,7 +170,7 @@ TEST_F(CampaignTest, StatisticsOfTheMesherAreStored) {
                                "\"min_face_angle\": 14.5}}' > stats.json")},
                options_);
   const RunRow row = rows_of_model(0)["s"];
-  EXPECT_EQ(row.disposition, Disposition::ok) << row.reason;
+  EXPECT_EQ(row.disposition, Disposition::unverified) << row.reason;
   EXPECT_EQ(row.mesh_seconds, 3);
   EXPECT_EQ(row.refined->min_face_angle, 14.5);
 }
@@ -185,8 +203,7 @@ TEST_F(CampaignTest, RowsAreRunAgainOnRequest) {
 // The mesh of the corner against a real surface: a verdict is in each row.
 TEST_F(CampaignTest, TheOraclesAreAskedUnlessToldNotTo) {
   EXPECT_TRUE(CampaignOptions().verify);
-  std::ofstream(folder_ / "models" / "m0.off")
-      << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  make_surface(0);
   std::ofstream(folder_ / "models" / "m1.off")
       << "OFF\n4 4 0\n0 0 0\n2 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
   options_.verify = true;
@@ -200,16 +217,48 @@ TEST_F(CampaignTest, TheOraclesAreAskedUnlessToldNotTo) {
   EXPECT_EQ(wrong.reason.find("scratch"), std::string::npos) << wrong.reason;
 }
 
+// Whatever keeps the oracles from a verdict: the mesh is not ok then, and not wrong either.
+TEST_F(CampaignTest, AMeshThatNoOracleHasFinishedWithIsUnverified) {
+  make_surface(0);
+  const auto mesher = shell("v", "printf '" + kCorner + "' > mesh.tet");
+  const auto reason_with = [&](const std::string& line) {
+    options_.self = self_that(line);
+    options_.retry = {Disposition::unverified};
+    const auto summary = run_campaign({models()[0]}, {mesher}, options_);
+    EXPECT_EQ(summary.counts[static_cast<std::size_t>(Disposition::unverified)], 1U) << line;
+    const RunRow row = rows_of_model(0)["v"];
+    EXPECT_EQ(row.disposition, Disposition::unverified) << line;
+    EXPECT_EQ(row.verify_seconds.has_value(), options_.verify) << line;
+    return row.reason;
+  };
+  const std::string unfinished = "the oracles have not finished: ";
+  EXPECT_EQ(reason_with("true"), "no oracle was asked");
+  options_.verify = true;
+  EXPECT_EQ(reason_with("exit 0"), unfinished + "no report");
+  EXPECT_EQ(reason_with("echo too many >&2; exit 3"), unfinished + "too many");
+  EXPECT_EQ(reason_with("echo x: not enough memory >&2; exit 6"),
+            unfinished + "internal error: x: not enough memory");
+  EXPECT_EQ(reason_with("kill -9 $$"), unfinished + "SIGKILL from outside");
+  EXPECT_EQ(reason_with("kill -11 $$"), unfinished + "SIGSEGV");
+  options_.verify_limits = {.wall_seconds = 0.5, .cpu_seconds = 900, .memory_bytes = 0};
+  EXPECT_EQ(reason_with("sleep 100"), unfinished + "wall limit of 0.5 s");
+  options_.verify_limits = {.wall_seconds = 900, .cpu_seconds = 0.25, .memory_bytes = 0};
+  EXPECT_EQ(reason_with("while :; do :; done"), unfinished + "processor limit of 0.25 s");
+  options_.verify_limits = {.wall_seconds = 900, .cpu_seconds = 900, .memory_bytes = 200u << 20};
+  EXPECT_EQ(reason_with("exec " TETPROOF_NASTY_PATH " allocate 1000"),
+            unfinished + "memory limit of 200 MiB");
+  // Asked again without hindrance.
+  options_.self = TETPROOF_PATH;
+  options_.verify_limits = CampaignOptions().verify_limits;
+  run_campaign({models()[0]}, {mesher}, options_);
+  EXPECT_EQ(rows_of_model(0)["v"].disposition, Disposition::ok);
+}
+
 // The oracles are asked once, with the sidecar of a second run where there is one, and that run has
 // to write the same bytes. `self` is a script here that notes what it is asked.
 TEST_F(CampaignTest, VerdictsAndSidecars) {
-  std::ofstream(folder_ / "models" / "m0.off")
-      << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
-  const fs::path script = folder_ / "self.sh";
-  std::ofstream(script) << "#!/bin/sh\necho \"$@\" >> " << calls().string() << "\nexec "
-                        << TETPROOF_PATH << " \"$@\"\n";
-  fs::permissions(script, fs::perms::owner_all);
-  options_.self = script;
+  make_surface(0);
+  options_.self = self_that("true");
   options_.verify = options_.sidecars = true;
   const auto with_sidecar = [](Mesher mesher, const std::string& line) {
     mesher.sidecar_command = [line](const RunFiles& files) {

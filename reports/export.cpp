@@ -60,6 +60,7 @@ void put_measurements(Json& json, const RunRow& row, bool brief) {
   json["wall_seconds"] = row.wall_seconds;
   json["cpu_seconds"] = row.cpu_seconds;
   put(json, "mesh_seconds", row.mesh_seconds);
+  put(json, "verify_seconds", row.verify_seconds);
   json["peak_rss_bytes"] = row.peak_rss_bytes;
   json["started"] = row.started;
   if (brief) return;
@@ -130,6 +131,7 @@ RunRow from_object(const Json& json) {
   get(json, "wall_seconds", row.wall_seconds);
   get(json, "cpu_seconds", row.cpu_seconds);
   get(json, "mesh_seconds", row.mesh_seconds);
+  get(json, "verify_seconds", row.verify_seconds);
   get(json, "peak_rss_bytes", row.peak_rss_bytes);
   get(json, "model_path", row.model_path);
   get(json, "command", row.command);
@@ -144,6 +146,7 @@ RunRow from_object(const Json& json) {
   row.mesh = mesh_columns(row.mesh_json, "");
   row.inside = mesh_columns(row.mesh_json, "inside");
   row.refined = mesh_columns(row.stats_json, "refined");
+  demand_verdict(row);
   return row;
 }
 
@@ -152,10 +155,12 @@ std::string junit_case(const RunRow& row) {
       fmt::format("    <testcase classname=\"tetproof.{}\" name=\"{}\" time=\"{:.3f}\"",
                   markup_text(row.key.mesher), markup_text(row.model_name), row.wall_seconds);
   if (row.disposition == Disposition::ok) return start + "/>\n";
+  // JUnit's error is a test that could not be completed; nothing is known of the mesh then.
+  const char* element = row.disposition == Disposition::unverified ? "error" : "failure";
   return start + fmt::format(
-                     ">\n      <failure type=\"{}\" message=\"{}\">{}</failure>\n"
+                     ">\n      <{0} type=\"{1}\" message=\"{2}\">{3}</{0}>\n"
                      "    </testcase>\n",
-                     disposition_name(row.disposition), markup_text(row.reason),
+                     element, disposition_name(row.disposition), markup_text(row.reason),
                      markup_text("model " + row.key.model_sha256 + "\n" + row.command + "\n" +
                                  row.stderr_tail));
 }
@@ -184,9 +189,9 @@ std::vector<std::string> csv_header(const ExportOptions& options) {
                                      "inverted",
                                      "flat"};
   if (options.stable) return header;
-  for (const char* name :
-       {"refined_min_face_angle", "wall_seconds", "cpu_seconds", "mesh_seconds", "peak_rss_bytes",
-        "us_per_tetrahedron", "peak_bytes_per_tetrahedron", "host", "started", "command"}) {
+  for (const char* name : {"refined_min_face_angle", "wall_seconds", "cpu_seconds", "mesh_seconds",
+                           "verify_seconds", "peak_rss_bytes", "us_per_tetrahedron",
+                           "peak_bytes_per_tetrahedron", "host", "started", "command"}) {
     header.emplace_back(name);
   }
   return header;
@@ -226,7 +231,7 @@ std::vector<std::string> csv_row(const RunRow& row, const ExportOptions& options
   };
   for (std::string& cell : std::vector<std::string>{
            of(row.refined, &MeshColumns::min_face_angle), fmt::format("{}", row.wall_seconds),
-           fmt::format("{}", row.cpu_seconds), text(row.mesh_seconds),
+           fmt::format("{}", row.cpu_seconds), text(row.mesh_seconds), text(row.verify_seconds),
            fmt::format("{}", row.peak_rss_bytes), per_tetrahedron(1e6 * row.wall_seconds),
            per_tetrahedron(static_cast<double>(row.peak_rss_bytes)), row.host, row.started,
            row.command}) {
@@ -260,7 +265,7 @@ std::string rows_to_json(std::vector<RunRow> rows, const ExportOptions& options)
 std::string rows_to_junit(std::vector<RunRow> rows) {
   sort_rows(rows);
   struct Suite {
-    std::size_t tests = 0, failures = 0;
+    std::size_t tests = 0, failures = 0, errors = 0;
     double seconds = 0;
     std::string cases;
   };
@@ -268,16 +273,18 @@ std::string rows_to_junit(std::vector<RunRow> rows) {
   for (const RunRow& row : rows) {
     Suite& suite = suites[row.key.mesher];
     ++suite.tests;
-    suite.failures += row.disposition != Disposition::ok;
+    const bool unverified = row.disposition == Disposition::unverified;
+    suite.errors += unverified;
+    suite.failures += row.disposition != Disposition::ok && !unverified;
     suite.seconds += row.wall_seconds;
     suite.cases += junit_case(row);
   }
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   for (const auto& [mesher, suite] : suites) {
     text += fmt::format(
-        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" "
+        "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"0\" "
         "time=\"{:.3f}\">\n{}  </testsuite>\n",
-        markup_text(mesher), suite.tests, suite.failures, suite.seconds, suite.cases);
+        markup_text(mesher), suite.tests, suite.failures, suite.errors, suite.seconds, suite.cases);
   }
   return text + "</testsuites>\n";
 }

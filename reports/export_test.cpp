@@ -100,6 +100,29 @@ TEST(Export, JunitCountsRefusalsAsFailures) {
       << xml;
 }
 
+// An error is a test that could not be completed.
+TEST(Export, UnverifiedMeshesAreErrorsInJunit) {
+  RunRow row = sample("a", "cdt", Disposition::ok);
+  row.verdict_json = R"({"error":"processor limit of 900 s"})";
+  demand_verdict(row);
+  const std::string xml = rows_to_junit({row, sample("b", "cdt", Disposition::ok)});
+  EXPECT_NE(xml.find("tests=\"2\" failures=\"0\" errors=\"1\""), std::string::npos) << xml;
+  EXPECT_NE(xml.find("<error type=\"unverified\" message=\"the oracles have not finished: "
+                     "processor limit of 900 s\">"),
+            std::string::npos)
+      << xml;
+}
+
+// Exports made before there was a word for it.
+TEST(Export, RowsReadAreNotOkWithoutAVerdict) {
+  RunRow row = sample("a", "cdt", Disposition::ok);
+  row.verdict_json.clear();
+  row.verify_seconds = 2.5;
+  const auto rows = rows_from_json(rows_to_json({row}));
+  EXPECT_EQ(rows.at(0).disposition, Disposition::unverified);
+  EXPECT_EQ(rows.at(0).verify_seconds, 2.5);
+}
+
 TEST(Export, FilesAreToldApartByTheirContent) {
   const auto base =
       std::filesystem::path(testing::TempDir()) / ("export_test_" + std::to_string(getpid()));

@@ -202,7 +202,7 @@ Chart disposition_chart(const Selection& selection) {
     row[4] = row[3];
   }
   percent.header[4] = "ok";
-  return stacked(percent, 4, 11);
+  return stacked(percent, 4, 4 + kDispositionCount);
 }
 
 Chart time_chart(const Selection& selection) {

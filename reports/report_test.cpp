@@ -135,7 +135,7 @@ TEST(Compare, VersionsStandBesideEachOther) {
                     ("compare_test_" + std::to_string(getpid()) + ".json");
   std::ofstream(file) << R"({"format": "tetproof-runs", "version": 1, "rows": [
     {"model": "a", "model_sha256": "h", "mesher": "cdt", "version": "1", "flags": "", "limits": "",
-     "disposition": "ok", "mesh": {"tetrahedra": 5}}]})";
+     "disposition": "ok", "mesh": {"tetrahedra": 5}, "verdict": {"verdict": "exact"}}]})";
   const Selection selection = load_runs({file}, {file});
   EXPECT_EQ(selection.meshers, (std::vector<std::string>{"cdt", "cdt@base"}));
   EXPECT_EQ(pairs_of(selection).at(0), std::pair(std::string("cdt@base"), std::string("cdt")));

@@ -17,10 +17,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kSchemaVersion = 2;
+constexpr int kSchemaVersion = 3;
 constexpr int kApplicationId = 0x74657470;  // "tetp"
-constexpr std::array<const char*, 7> kDispositions = {
-    "ok", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"};
+constexpr std::array<const char*, kDispositionCount> kDispositions = {
+    "ok", "unverified", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"};
 
 // Columns besides the key, in the order in which they are bound and read. Angles and counts stand
 // in columns for queries by hand; histograms and the rest are in the JSON texts.
@@ -40,6 +40,7 @@ CREATE TABLE IF NOT EXISTS runs (
   stderr_tail TEXT NOT NULL, stdout_tail TEXT NOT NULL,
   command TEXT NOT NULL, host TEXT NOT NULL, started TEXT NOT NULL,
   verdict TEXT NOT NULL DEFAULT '', mesh_path TEXT NOT NULL DEFAULT '',
+  verify_seconds REAL,
   UNIQUE (model_sha256, mesher, version, flags, limits)))";
 
 constexpr const char* kColumns =
@@ -49,8 +50,8 @@ constexpr const char* kColumns =
     "max_face_angle, min_dihedral, max_dihedral, microseconds_per_tetrahedron, "
     "peak_bytes_per_tetrahedron, stats_json, mesh_json, verdict_json, stderr_tail, stdout_tail, "
     "command, host, started";
-constexpr const char* kColumnsOfVersion2 = ", verdict, mesh_path";
-constexpr int kColumnCount = 37;
+constexpr const char* kLaterColumns = ", verdict, mesh_path, verify_seconds";
+constexpr int kColumnCount = 38;
 
 constexpr const char* kWhereKey =
     " WHERE model_sha256 = ? AND mesher = ? AND version = ? AND flags = ? AND limits = ?";
@@ -153,6 +154,7 @@ void bind_row(SQLite::Statement& statement, const RunRow& row) {
   bind(row.started);
   bind(verdict_of(row));
   bind(row.mesh_path);
+  bind(row.verify_seconds);
 }
 
 RunRow read_row(SQLite::Statement& statement) {
@@ -188,9 +190,11 @@ RunRow read_row(SQLite::Statement& statement) {
   std::string in_verdict;
   read(in_verdict);
   read(row.mesh_path);
+  read(row.verify_seconds);
   row.mesh = mesh_columns(row.mesh_json, "");
   row.inside = mesh_columns(row.mesh_json, "inside");
   row.refined = mesh_columns(row.stats_json, "refined");
+  demand_verdict(row);
   return row;
 }
 
@@ -256,7 +260,7 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) {
     }
     version_ = database_->execAndGet("PRAGMA user_version").getInt();
     const bool empty = database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
-    const bool known = version_ == kSchemaVersion || version_ == 1;
+    const bool known = version_ >= 1 && version_ <= kSchemaVersion;
     if (!known && !(empty && mode == Mode::write)) {
       throw std::runtime_error(path.string() + ": not a results file of this version");
     }
@@ -273,16 +277,35 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) {
 void ResultsDatabase::prepare_for_writing() {
   SQLite::Transaction transaction(*database_);
   database_->exec(kSchema);
+  const bool empty = version_ == 0;
   if (version_ == 1) {
     for (const char* column : {"verdict", "mesh_path"}) {
       database_->exec(std::string("ALTER TABLE runs ADD COLUMN ") + column +
                       " TEXT NOT NULL DEFAULT ''");
     }
   }
+  if (!empty && version_ < 3) {
+    database_->exec("ALTER TABLE runs ADD COLUMN verify_seconds REAL");
+    demand_verdicts();
+  }
   version_ = kSchemaVersion;
   database_->exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   database_->exec("PRAGMA application_id = " + std::to_string(kApplicationId));
   transaction.commit();
+}
+
+// For queries by hand; rows that are read obey anyway.
+void ResultsDatabase::demand_verdicts() {
+  for (const RunRow& row : rows()) {
+    if (row.disposition != Disposition::unverified) continue;
+    SQLite::Statement update(
+        *database_, std::string("UPDATE runs SET disposition = ?, reason = ?") + kWhereKey);
+    Binder bind(update);
+    bind(std::string(disposition_name(row.disposition)));
+    bind(row.reason);
+    visit_key(bind, row.key);
+    update.exec();
+  }
 }
 
 ResultsDatabase::~ResultsDatabase() {
@@ -301,13 +324,16 @@ void ResultsDatabase::store(const RunRow& row) {
   std::string places = "?";
   for (int i = 1; i < kColumnCount; ++i) places += ", ?";
   SQLite::Statement insert(*database_, std::string("INSERT OR REPLACE INTO runs (") + kColumns +
-                                           kColumnsOfVersion2 + ") VALUES (" + places + ")");
-  bind_row(insert, row);
+                                           kLaterColumns + ") VALUES (" + places + ")");
+  RunRow honest = row;
+  demand_verdict(honest);
+  bind_row(insert, honest);
   insert.exec();
 }
 
 std::string ResultsDatabase::selected_columns() const {
-  return std::string(kColumns) + (version_ == 1 ? ", '', ''" : kColumnsOfVersion2);
+  if (version_ == 1) return std::string(kColumns) + ", '', '', NULL";
+  return std::string(kColumns) + (version_ == 2 ? ", verdict, mesh_path, NULL" : kLaterColumns);
 }
 
 std::optional<RunRow> ResultsDatabase::find(const RunKey& key) {
@@ -339,9 +365,25 @@ std::string verdict_of(const RunRow& row) {
   return told ? json.at("verdict").get<std::string>() : "unknown";
 }
 
+void demand_verdict(RunRow& row) {
+  const std::string verdict = verdict_of(row);
+  if (row.disposition != Disposition::ok || !(verdict.empty() || verdict == "unknown")) return;
+  row.disposition = Disposition::unverified;
+  std::string reason = "no oracle was asked";
+  if (!verdict.empty()) {
+    const Json json = Json::parse(row.verdict_json, nullptr, false);
+    reason = "the oracles have not finished";
+    if (json.is_object() && json.contains("error") && json.at("error").is_string()) {
+      reason += ": " + json.at("error").get<std::string>();
+    }
+  }
+  row.reason += (row.reason.empty() ? "" : "; ") + reason;
+}
+
 bool supersedes(const RunRow& row, const RunRow& other) {
   const auto rank = [](const RunRow& r) {
-    return std::tuple(r.disposition != Disposition::killed, r.started, r.disposition,
+    return std::tuple(r.disposition != Disposition::killed,
+                      r.disposition != Disposition::unverified, r.started, r.disposition,
                       r.verdict_json, r.wall_seconds, r.cpu_seconds, r.peak_rss_bytes, r.host);
   };
   return rank(row) > rank(other);

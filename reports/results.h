@@ -15,7 +15,8 @@ class Database;
 namespace tetproof {
 
 enum class Disposition : std::uint8_t {
-  ok,
+  ok,          // a mesh was delivered, and the oracles have nothing against it
+  unverified,  // a mesh was delivered, but the oracles have not finished with it, or were not asked
   wrong_result,   // a mesh was delivered, but it is broken or has inverted tetrahedra
   rejected,       // the mesher refused the model; the reason says why
   crash,          // ended by a signal of its own making, or by an internal error it noticed
@@ -23,6 +24,8 @@ enum class Disposition : std::uint8_t {
   out_of_memory,  // memory limit, or it said so itself
   killed          // by somebody else
 };
+
+inline constexpr std::size_t kDispositionCount = 8;
 
 const char* disposition_name(Disposition disposition);  // "wrong-result", "out-of-memory", ...
 // \throw std::runtime_error for anything that disposition_name() does not return.
@@ -52,10 +55,11 @@ struct RunRow {
   std::string model_name, model_path;
   std::uint64_t model_bytes = 0;
   Disposition disposition = Disposition::killed;
-  std::string reason;  // empty if ok
+  std::string reason;  // empty if ok; of an unverified mesh why nobody vouches for it
   std::optional<int> exit_code, signal;
   double wall_seconds = 0, cpu_seconds = 0;
   std::optional<double> mesh_seconds;  // without reading, checking and writing, by its own account
+  std::optional<double> verify_seconds;  // wall time of the oracles; nothing if they were not asked
   std::uint64_t peak_rss_bytes = 0;
   std::optional<MeshColumns> mesh;  // if a readable mesh was written
   std::optional<MeshColumns> inside;
@@ -74,8 +78,12 @@ struct RunRow {
 // decide, empty if they were not asked.
 std::string verdict_of(const RunRow& row);
 
+// No row is ok without a verdict: one that says so, as those of earlier versions may, becomes
+// unverified, with the reason. Rows are stored and read like that.
+void demand_verdict(RunRow& row);
+
 // Of two rows of one key the one that stays in a merge, whatever the order: a row that was killed
-// from outside gives way, then the earlier one.
+// from outside gives way, then one that is unverified, then the earlier one.
 bool supersedes(const RunRow& row, const RunRow& other);
 
 // The columns found in a measured object (no member), or in its member `inside`, or in the member
@@ -101,12 +109,13 @@ class ResultsDatabase {
 
  private:
   void prepare_for_writing();
+  void demand_verdicts();
   // What stands between SELECT and FROM for read_row().
   std::string selected_columns() const;
 
   std::unique_ptr<SQLite::Database> database_;
   int lock_fd_ = -1;
-  int version_ = 0;  // of the file's schema
+  int version_ = 0;  // of the file's schema, 0 if it was empty
 };
 
 // In an order that does not depend on how they came about: model name, then key.

@@ -34,6 +34,7 @@ RunRow sample(const std::string& model = "aa", const std::string& mesher = "tetg
   row.model_name = "a.off";
   row.disposition = Disposition::wrong_result;
   row.reason = "3 inverted";
+  row.verify_seconds = 0.75;
   row.exit_code = 0;
   row.wall_seconds = 0.1;
   row.peak_rss_bytes = 1234567890123;
@@ -61,6 +62,7 @@ TEST_F(Results, RoundTrip) {
   EXPECT_EQ(r.signal, std::nullopt);
   EXPECT_EQ(r.mesh_seconds, std::nullopt);
   EXPECT_EQ(r.wall_seconds, 0.1);
+  EXPECT_EQ(r.verify_seconds, 0.75);
   EXPECT_EQ(r.peak_rss_bytes, 1234567890123u);
   EXPECT_EQ(r.inverted, 3u);
   EXPECT_EQ(r.flat, std::nullopt);
@@ -125,7 +127,10 @@ TEST_F(Results, MergingIsIdempotentAndWithoutOrder) {
   late.started = "2026-01-02T00:00:00Z";
   killed.started = "2026-01-03T00:00:00Z";
   killed.disposition = Disposition::killed;
-  std::vector<RunRow> rows = {early, late, killed};
+  RunRow unverified = sample();
+  unverified.started = "2026-01-04T00:00:00Z";
+  unverified.disposition = Disposition::unverified;
+  std::vector<RunRow> rows = {early, late, killed, unverified};
   std::sort(rows.begin(), rows.end(),
             [](const auto& a, const auto& b) { return a.started < b.started; });
   do {
@@ -151,13 +156,80 @@ TEST_F(Results, VerdictsAreNamed) {
   EXPECT_EQ(verdict_of(row), "unknown");
 }
 
-// As a file of the first version, which had two columns less.
+// Whatever says so: nothing is ok that the oracles have not said something of.
+TEST(Verdict, NoRowIsOkWithoutOne) {
+  RunRow row;
+  row.disposition = Disposition::ok;
+  row.verdict_json = R"({"verdict": "deviating"})";
+  demand_verdict(row);
+  EXPECT_EQ(row.disposition, Disposition::ok);
+  row.verdict_json = "";
+  demand_verdict(row);
+  EXPECT_EQ(row.disposition, Disposition::unverified);
+  EXPECT_EQ(row.reason, "no oracle was asked");
+  row = {};
+  row.disposition = Disposition::ok;
+  row.verdict_json = R"({"error": "wall limit of 60 s"})";
+  demand_verdict(row);
+  demand_verdict(row);
+  EXPECT_EQ(row.disposition, Disposition::unverified);
+  EXPECT_EQ(row.reason, "the oracles have not finished: wall limit of 60 s");
+  for (std::size_t i = 1; i < kDispositionCount; ++i) {
+    row = {};
+    row.disposition = static_cast<Disposition>(i);
+    demand_verdict(row);
+    EXPECT_EQ(row.disposition, static_cast<Disposition>(i));
+  }
+}
+
+// Files of earlier versions called meshes ok that nobody had looked at. Reading them changes
+// nothing in the file, writing does.
+TEST_F(Results, EarlierVersionsAreReadWithVerdictsDemanded) {
+  {
+    ResultsDatabase database(path_, Mode::write);
+    for (const char* verdict : {"", R"({"error": "memory limit"})", R"({"verdict": "exact"})"}) {
+      RunRow row = sample(std::string("model") + verdict);
+      row.reason = "";
+      row.disposition = Disposition::ok;
+      row.verdict_json = verdict;
+      database.store(row);
+    }
+  }
+  {
+    SQLite::Database raw(path_.string(), SQLite::OPEN_READWRITE);
+    EXPECT_EQ(raw.execAndGet("SELECT count(*) FROM runs WHERE disposition = 'ok'").getInt(), 1);
+    raw.exec("UPDATE runs SET disposition = 'ok', reason = ''");
+    raw.exec("ALTER TABLE runs DROP COLUMN verify_seconds");
+    raw.exec("PRAGMA user_version = 2");
+  }
+  const auto expect_rows = [](const std::vector<RunRow>& rows) {
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_EQ(rows[0].disposition, Disposition::unverified);
+    EXPECT_EQ(rows[0].reason, "no oracle was asked");
+    EXPECT_EQ(rows[1].disposition, Disposition::unverified);
+    EXPECT_EQ(rows[1].reason, "the oracles have not finished: memory limit");
+    EXPECT_EQ(rows[2].disposition, Disposition::ok);
+    EXPECT_EQ(rows[0].verify_seconds, std::nullopt);
+  };
+  expect_rows(ResultsDatabase(path_, Mode::read).rows());
+  const auto count_ok = [&] {
+    SQLite::Database raw(path_.string(), SQLite::OPEN_READONLY);
+    return raw.execAndGet("SELECT count(*) FROM runs WHERE disposition = 'ok'").getInt();
+  };
+  EXPECT_EQ(count_ok(), 3);
+  expect_rows(ResultsDatabase(path_, Mode::write).rows());
+  EXPECT_EQ(count_ok(), 1);
+  expect_rows(ResultsDatabase(path_, Mode::read).rows());
+}
+
+// As a file of the first version, which had three columns less.
 TEST_F(Results, FilesOfTheFirstVersionAreReadAndUpgraded) {
   ResultsDatabase(path_, Mode::write).store(sample());
   {
     SQLite::Database raw(path_.string(), SQLite::OPEN_READWRITE);
     raw.exec("ALTER TABLE runs DROP COLUMN verdict");
     raw.exec("ALTER TABLE runs DROP COLUMN mesh_path");
+    raw.exec("ALTER TABLE runs DROP COLUMN verify_seconds");
     raw.exec("PRAGMA user_version = 1");
   }
   EXPECT_EQ(ResultsDatabase(path_, Mode::read).rows().at(0).stderr_tail, sample().stderr_tail);
@@ -178,7 +250,7 @@ TEST_F(Results, OtherFilesAreRefused) {
 }
 
 TEST(Disposition, NamesRoundTrip) {
-  for (int i = 0; i < 7; ++i) {
+  for (int i = 0; i < static_cast<int>(kDispositionCount); ++i) {
     const auto d = static_cast<Disposition>(i);
     EXPECT_EQ(disposition_from_name(disposition_name(d)), d);
   }

@@ -160,10 +160,12 @@ Table disposition_table(const Selection& selection) {
   table.name = "dispositions";
   table.title = "What became of the runs";
   table.header = {"Mesher", "Runs", "ok", "ok %", "95 % interval"};
-  for (int d = 1; d < 7; ++d) table.header.push_back(disposition_name(static_cast<Disposition>(d)));
+  for (std::size_t d = 1; d < kDispositionCount; ++d) {
+    table.header.emplace_back(disposition_name(static_cast<Disposition>(d)));
+  }
   table.header.push_back("ok with flat tets");
   for (const std::string& mesher : selection.meshers) {
-    std::array<std::size_t, 7> counts{};
+    std::array<std::size_t, kDispositionCount> counts{};
     std::size_t with_flat = 0;
     for (const auto& [model, row] : selection.runs.at(mesher)) {
       ++counts[static_cast<std::size_t>(row.disposition)];
@@ -175,15 +177,16 @@ Table disposition_table(const Selection& selection) {
         mesher, std::to_string(total), std::to_string(counts[0]),
         fixed(100.0 * static_cast<double>(counts[0]) / static_cast<double>(total), 1),
         fixed(100 * interval.low, 1) + " to " + fixed(100 * interval.high, 1)};
-    for (int d = 1; d < 7; ++d) row.push_back(std::to_string(counts[d]));
+    for (std::size_t d = 1; d < kDispositionCount; ++d) row.push_back(std::to_string(counts[d]));
     row.push_back(std::to_string(with_flat));
     table.rows.push_back(std::move(row));
   }
   table.notes = {
+      "ok: a mesh was delivered and the oracles have nothing against it. unverified: the oracles "
+      "have not finished with it or were not asked, so that nobody vouches for it; not a success.",
       "wrong-result: a mesh was delivered but is unreadable, empty, has inverted "
-      "tetrahedra by exact sign, or faces of more than two tetrahedra, or the oracles (where "
-      "asked) "
-      "find it broken.",
+      "tetrahedra by exact sign, or faces of more than two tetrahedra, or the oracles find it "
+      "broken.",
       "Intervals are Wilson's."};
   return table;
 }

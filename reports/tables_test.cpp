@@ -78,6 +78,20 @@ TEST(Tables, Dispositions) {
   EXPECT_EQ(t["cdt"]["timeout"], "0");
 }
 
+// In no success rate and in no average, but with a column of its own.
+TEST(Tables, UnverifiedMeshesAreNoSuccesses) {
+  Selection selection = campaign();
+  RunRow& row = selection.runs.at("cdt").at("hash-a");
+  row.disposition = Disposition::unverified;
+  auto t = cells(disposition_table(selection));
+  EXPECT_EQ(t["cdt"]["ok"], "2");
+  EXPECT_EQ(t["cdt"]["unverified"], "1");
+  EXPECT_EQ(selection.ok_run("cdt", "hash-a"), nullptr);
+  EXPECT_EQ(selection.common_models({"cdt"}).size(), 2U);
+  auto table2 = cells(table_2(selection));
+  EXPECT_EQ(table2["Successes (ok of runs)"]["cdt"], "2/3");
+}
+
 TEST(Tables, Speed) {
   auto t = cells(speed_table(campaign()));
   // safe: 100, 166.67, 150 us per tet; median 150; total 3.6 s / 24000.

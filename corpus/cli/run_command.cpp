@@ -59,6 +59,10 @@ CampaignOptions campaign_options(const RunArguments& arguments) {
   campaign.limits.cpu_seconds = arguments.cpu > 0 ? arguments.cpu : arguments.timeout;
   campaign.limits.memory_bytes = arguments.memory_mebibytes << 20;
   campaign.limits.file_bytes = 64ull << 30;
+  Limits& verify = campaign.verify_limits;
+  verify.wall_seconds = std::max(verify.wall_seconds, campaign.limits.wall_seconds);
+  verify.cpu_seconds = std::max(verify.cpu_seconds, campaign.limits.cpu_seconds);
+  verify.memory_bytes = std::max(verify.memory_bytes, campaign.limits.memory_bytes);
   campaign.keep_tetrahedra = arguments.keep_tetrahedra;
   for (const std::string& name : arguments.retry) {
     campaign.retry.insert(disposition_from_name(name));

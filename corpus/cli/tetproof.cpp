@@ -41,8 +41,8 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
   app->add_option("--shard", a.shard, "I/N: only the I-th of N parts of the models");
   app->add_option("--retry", a.retry,
                   "Run those again that ended so: killed, timeout, out-of-memory, ...")
-      ->check(CLI::IsMember(
-          {"ok", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"}));
+      ->check(CLI::IsMember({"ok", "unverified", "wrong-result", "rejected", "crash", "timeout",
+                             "out-of-memory", "killed"}));
   app->add_option("--delmesher-binary", a.delmesher,
                   "Our mesher (default: the one beside this program)");
   app->add_option("--keep", a.keep,
