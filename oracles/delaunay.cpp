@@ -3,17 +3,21 @@
 #include <algorithm>
 
 #include "oracles/ball_side.h"
+#ifdef TETPROOF_SECOND_OPINIONS
 #include "oracles/cgal/kernel_opinion.h"
+#endif
 #include "oracles/sample.h"
 
 namespace tetproof::oracles {
 namespace {
 
+#ifdef TETPROOF_SECOND_OPINIONS
 // The in-sphere sign of our integers, checked against CGAL's.
 class TwoOpinions {
  public:
   explicit TwoOpinions(const ExactPoints& points) : points_(points), cgal_(points) {}
 
+  void tell(OracleReport&) const {}
   int insphere(const Tet& t, Index e, OracleReport& report) {
     const int ours = exact::insphere(points_, t[0], t[1], t[2], t[3], e);
     const int theirs = cgal_.insphere(t[0], t[1], t[2], t[3], e);
@@ -28,6 +32,21 @@ class TwoOpinions {
   const ExactPoints& points_;
   const KernelOpinion cgal_;
 };
+#else
+// The in-sphere sign of our integers alone.
+class TwoOpinions {
+ public:
+  explicit TwoOpinions(const ExactPoints& points) : points_(points) {}
+
+  void tell(OracleReport& report) const { report.notes.push_back(kNoSecondOpinion); }
+  int insphere(const Tet& t, Index e, OracleReport&) const {
+    return exact::insphere(points_, t[0], t[1], t[2], t[3], e);
+  }
+
+ private:
+  const ExactPoints& points_;
+};
+#endif
 
 struct ViolationNames {
   const TetComplex& complex;
@@ -127,6 +146,7 @@ OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbo
   OracleReport report("delaunay", "faces between two tetrahedra, and tetrahedra");
   const ViolationNames names{complex};
   TwoOpinions opinions(*complex.points);
+  opinions.tell(report);
   for (Index i = 0; i < neighbours.across.size(); ++i) {
     const Index j = neighbours.across[i];
     if (j == kNone || j < i) continue;
@@ -153,6 +173,7 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
   std::sort(constraints.begin(), constraints.end());
   std::uint64_t not_delaunay = 0;
   TwoOpinions opinions(*complex.points);
+  opinions.tell(report);
   for (Index i = 0; i < neighbours.across.size(); ++i) {
     const Index j = neighbours.across[i];
     if (j == kNone || j < i) continue;

@@ -10,6 +10,10 @@
 
 namespace tetproof::oracles {
 
+// What an oracle notes that would ask another library too, in a program built without them.
+inline constexpr const char* kNoSecondOpinion =
+    "CGAL was not asked: built without second opinions (TETPROOF_SECOND_OPINIONS)";
+
 struct OracleReport {
   explicit OracleReport(std::string oracle_name, std::string what = {})
       : name(std::move(oracle_name)), checked_what(std::move(what)) {}

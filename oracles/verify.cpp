@@ -338,7 +338,9 @@ void Verification::check_file_hull(const TetComplex& complex, const Neighbours& 
 }
 
 std::string Verification::check_input() {
-  add(check_surface_validity(input_));
+#ifdef TETPROOF_SECOND_OPINIONS
+  add(check_surface_validity(input_));  // it has no opinion but theirs
+#endif
   return {};
 }
 
