@@ -13,8 +13,10 @@
   }
 
 // A script that was not there when this program was built.
-#define TETPROOF_NO_ASSET(name) \
-  std::string_view tetproof::assets::name() { return {}; }
+#define TETPROOF_NO_ASSET(name)               \
+  std::string_view tetproof::assets::name() { \
+    return {};                                \
+  }
 
 #ifdef TETPROOF_CHART_JS
 TETPROOF_ASSET(chart_js, TETPROOF_CHART_JS)

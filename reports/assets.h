@@ -6,8 +6,8 @@
 
 namespace tetproof::assets {
 
-// Packaged: Chart.js, three.js and its OrbitControls, both MIT. Empty where they were not found when
-// the program was built.
+// Packaged: Chart.js, three.js and its OrbitControls, both MIT. Empty where they were not found
+// when the program was built.
 std::string_view chart_js();
 std::string_view three_js();
 std::string_view orbit_controls_js();
