@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/base/planted.h"
-
 namespace delmesher {
 namespace {
 
@@ -36,7 +34,6 @@ void scale(ExactRecord& record, int exponent) {
   }
   record.parameters.tolerance = std::ldexp(record.parameters.tolerance, exponent);
   for (ExactRecord::Corner& corner : record.corners) {
-    if (planted(Planted::unscaled_radius)) continue;
     corner.radius = std::ldexp(corner.radius, exponent);
   }
 }

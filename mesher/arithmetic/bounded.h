@@ -9,8 +9,6 @@
 
 #include <cmath>
 
-#include "mesher/base/planted.h"
-
 namespace delmesher {
 
 inline constexpr int kUnknownSign = 2;
@@ -27,7 +25,7 @@ struct Bounded {
   double error = 0;
 
   int sign() const {
-    if (value > error || (planted(Planted::decided_zero) && value == error)) return 1;
+    if (value > error) return 1;
     if (value < -error) return -1;
     return value == 0 && error == 0 ? 0 : kUnknownSign;
   }

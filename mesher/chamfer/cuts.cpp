@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "mesher/base/planted.h"
 #include "mesher/chamfer/boundary_distance.h"
 #include "mesher/predicates/placement.h"
 
@@ -53,8 +52,7 @@ class Cutter {
  private:
   void bound_distance(std::uint32_t index) {
     const Corner& corner = surface_.corners()[index];
-    const double share = planted(Planted::chamfer_distance) ? 2.9 : 3;
-    double bound = boundary_.from_vertex(corner.facet, corner.vertex) / share;
+    double bound = boundary_.from_vertex(corner.facet, corner.vertex) / 3;
     const double step = cuts_.split[index].step;
     // The inner points of a bridge are farther away than its ends.
     if (max_radius_ > 0) bound = std::min(bound, max_radius_ / std::sqrt(1 + step * step));

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "mesher/base/parallel.h"
-#include "mesher/base/planted.h"
 #include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/closest.h"
@@ -50,7 +49,6 @@ class InputFilter {
       if (facets_.alive(pair.second)) {
         result.dropped_triangles += resolve(pair);
         ++result.rounds;
-        if (planted(Planted::filter_worklist)) continue;
       }
       if (const auto next = closest_to(pair.first)) queue_.push(*next);
     }

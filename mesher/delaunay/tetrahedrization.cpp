@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
-#include "mesher/base/planted.h"
 #include "mesher/base/spatial_sort.h"
 
 namespace delmesher {
@@ -254,7 +253,7 @@ bool Tetrahedrization::conflicts(TetId t, VertexId v) {
     VertexId x[4] = {w[0], w[1], w[2], w[3]};
     x[i] = v;
     const int side = predicates_.orient3d(x[0], x[1], x[2], x[3]);
-    if (side != 0 || planted(Planted::coplanar_ghost)) return side > 0;
+    if (side != 0) return side > 0;
     w = vertices(neighbor(t, i));
     break;
   }
@@ -310,7 +309,6 @@ TetId Tetrahedrization::cone(const BoundaryFace& boundary, VertexId v) {
   }
   if (!ghost) {
     for (int i = 0; i < 4; ++i) {
-      if (planted(Planted::stale_incident) && i != face) continue;
       incident_[cell.vertex[i]] = t;
     }
   }

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <filesystem>
 
-#include "mesher/base/planted.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::io {
@@ -51,13 +50,6 @@ std::FILE* create_beside(const fs::path& target, std::string& name) {
 }  // namespace
 
 void TextSink::number(double value) {
-  if (planted(Planted::written_digits)) {
-    char digits[40];
-    const auto end =
-        std::to_chars(digits, digits + sizeof digits, value, std::chars_format::scientific, 15);
-    text(std::string_view(digits, static_cast<std::size_t>(end.ptr - digits)));
-    return;
-  }
   append_double(buffer_, value);
   flush_if_full();
 }
@@ -68,13 +60,6 @@ void TextSink::hex(double value) {
 }
 
 void TextSink::point(const std::array<double, 3>& p) {
-  if (planted(Planted::written_digits)) {
-    for (const double x : p) {
-      number(x);
-      text(" ");
-    }
-    return;
-  }
   append_double(buffer_, p[0]);
   buffer_ += ' ';
   append_double(buffer_, p[1]);

@@ -2,7 +2,6 @@
 // face per line, as every writer does; normals, colours and texture coordinates are ignored.
 #include <vector>
 
-#include "mesher/base/planted.h"
 #include "mesher/io/readers.h"
 #include "mesher/io/text.h"
 
@@ -142,7 +141,7 @@ void OffReader::read_face(std::uint64_t index) {
                        " corners");
     }
     if (!parse_integer(token, corner)) fail(here(), "bad vertex index " + quoted(token));
-    if (corner >= vertices_ + (planted(Planted::reader_index) ? 1 : 0)) {
+    if (corner >= vertices_) {
       fail(here(), "vertex index out of range: " + std::to_string(corner) + " of " +
                        std::to_string(vertices_));
     }

@@ -5,7 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include "mesher/base/planted.h"
 #include "mesher/io/text.h"
 #include "mesher/io/triangulate.h"
 
@@ -104,7 +103,7 @@ void SurfaceBuilder::weld() {
 void SurfaceBuilder::check_corners(std::span<const std::uint32_t> corners,
                                    Position position) const {
   for (std::uint32_t corner : corners) {
-    if (corner >= surface_.vertices.size() + (planted(Planted::reader_index) ? 1 : 0)) {
+    if (corner >= surface_.vertices.size()) {
       fail(position, "vertex index out of range: number " + std::to_string(corner) +
                          " (counted from 0) of " + std::to_string(surface_.vertices.size()));
     }

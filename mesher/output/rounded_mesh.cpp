@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "mesher/base/check.h"
-#include "mesher/base/planted.h"
 
 namespace delmesher {
 namespace {
@@ -116,7 +115,6 @@ std::array<std::uint32_t, 3> sorted_triple(std::uint32_t a, std::uint32_t b, std
 int DoubleOrientation::operator()(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const int sign = filtered_orientation(a, b, c, d);
   if (sign != 0) return sign;
-  if (planted(Planted::rounding_check)) return 1;
   if (const std::optional<int> exact = orientation_in_integers(a, b, c, d)) return *exact;
   const VertexId i = scratch_.add_explicit(a[0], a[1], a[2]);
   const VertexId j = scratch_.add_explicit(b[0], b[1], b[2]);

@@ -6,7 +6,6 @@
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
-#include "mesher/base/planted.h"
 
 namespace delmesher {
 namespace {
@@ -86,8 +85,7 @@ VertexId PointStore::add_implicit(const PointDefinition& definition) {
     limbs_.append(x.mantissa.data(), x.mantissa.data() + x.mantissa.used());
   }
   const auto combined = [](const std::array<Rounded, 3>& r) -> Approximation {
-    double error = std::max({r[0].error, r[1].error, r[2].error});
-    if (planted(Planted::implicit_error)) error *= 0.9;
+    const double error = std::max({r[0].error, r[1].error, r[2].error});
     return {r[0].value, r[1].value, r[2].value, error};
   };
   approximations_.push_back(combined(nearest));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "mesher/base/planted.h"
 #include "mesher/predicates/stages.h"
 
 namespace delmesher {
@@ -45,7 +44,7 @@ bool on_shared_coordinate_plane(const PointStore& points, const std::array<Verte
   bool x = true, y = true, z = true;
   for (const VertexId id : v) {
     const Approximation& a = points.approximation(id);
-    if (a.error != 0 && !planted(Planted::rounded_coordinate)) return false;
+    if (a.error != 0) return false;
     x = x && a.x == first.x;
     y = y && a.y == first.y;
     z = z && a.z == first.z;
@@ -145,7 +144,6 @@ int Predicates::perturbed_sign(VertexId a, VertexId b, VertexId c, VertexId d, V
     std::copy(v.begin() + static_cast<std::ptrdiff_t>(i) + 1, v.end(),
               others.begin() + static_cast<std::ptrdiff_t>(i));
     const int s = orient3d(others[0], others[1], others[2], others[3]);
-    if (s != 0 && planted(Planted::perturbed_tie) && i != order[0]) return i % 2 == 0 ? s : -s;
     if (s != 0) return i % 2 == 0 ? -s : s;
   }
   return 0;
@@ -199,8 +197,7 @@ bool Predicates::angle_below(VertexId p, VertexId q, VertexId r, double cosine_s
 bool Predicates::dihedral_below(VertexId a, VertexId b, VertexId c, VertexId d,
                                 double cosine_squared) {
   const VertexId v[] = {a, b, c, d};
-  return (dihedral_sign(a, b, c, d) > 0 || planted(Planted::obtuse_dihedral)) &&
-         sign(polynomials::DihedralExcess{cosine_squared}, v) > 0;
+  return dihedral_sign(a, b, c, d) > 0 && sign(polynomials::DihedralExcess{cosine_squared}, v) > 0;
 }
 
 bool Predicates::edge_plane_angle_below(VertexId q, VertexId a, VertexId b, VertexId c,

@@ -4,7 +4,6 @@
 
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/base/check.h"
-#include "mesher/base/planted.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/refiner.h"
 
@@ -178,7 +177,6 @@ void Refiner::check_subfacet(std::uint32_t s, std::uint32_t face) {
     subfacet_[t[k]][i[k]] = s;
     note(t[k], kFaces) |= static_cast<std::uint8_t>(1U << i[k]);
     const VertexId v = dt_.vertex(t[k], i[k]);
-    if (k == 1 && planted(Planted::facet_encroachment)) continue;
     if (!options_.gabriel || v == kInfinite) continue;
     if (predicates_.in_diametral_ball(c[0], c[1], c[2], v) > 0) queue_subfacet(s);
   }

@@ -3,7 +3,6 @@
 #include <string>
 
 #include "mesher/base/check.h"
-#include "mesher/base/planted.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
@@ -87,7 +86,6 @@ bool Refiner::subsegment_encroached(std::uint32_t s, TetId having_edge) {
     for (int i = 0; i < 4; ++i) {
       const VertexId v = dt_.vertex(t, i);
       if (v == a || v == b || v == kInfinite) continue;
-      if (i == 3 && planted(Planted::segment_encroachment)) continue;
       if (predicates_.dot_sign(a, v, b) < 0) return true;
     }
   }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "mesher/base/planted.h"
 #include "mesher/surface/bvh.h"
 
 namespace delmesher {
@@ -163,7 +162,7 @@ class ClosestElements {
       if (topology_.edge_is_flat[e] == 0) edges_.push_back(e);
     }
     examine_vertices();
-    if (!planted(Planted::edge_distance)) examine_edges();
+    examine_edges();
     return best_;
   }
 

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "mesher/base/ids.h"
-#include "mesher/base/planted.h"
 
 namespace delmesher {
 namespace {
@@ -92,7 +91,7 @@ std::uint32_t DisjointSets::find(std::uint32_t i) {
 }
 
 void DisjointSets::unite(std::uint32_t i, std::uint32_t j) {
-  if (!planted(Planted::merged_facet)) i = find(i);
+  i = find(i);
   j = find(j);
   if (i != j) parent_[std::max(i, j)] = std::min(i, j);
 }

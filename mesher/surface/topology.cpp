@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "mesher/base/check.h"
-#include "mesher/base/planted.h"
 #include "mesher/surface/carrier_key.h"
 #include "mesher/surface/half_edges.h"
 #include "mesher/surface/triangle_contact.h"
@@ -90,12 +89,7 @@ class Builder {
       const auto [h, g] = s.edge_half_edges(e);
       if (s.labels[h / 3] != s.labels[g / 3]) continue;
       const VertexId c = s.to(SurfaceTopology::next(h)), d = s.to(SurfaceTopology::next(g));
-      if (planted(Planted::coplanar)
-              ? filters::orient3d(points_.approximation(s.from(h)), points_.approximation(s.to(h)),
-                                  points_.approximation(c), points_.approximation(d)) != 0
-              : predicates_.orient3d(s.from(h), s.to(h), c, d) != 0) {
-        continue;
-      }
+      if (predicates_.orient3d(s.from(h), s.to(h), c, d) != 0) continue;
       s.edge_is_flat[e] = 1;
       sets.unite(h / 3, g / 3);
     }

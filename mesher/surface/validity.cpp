@@ -8,7 +8,6 @@
 #include <set>
 
 #include "mesher/base/parallel.h"
-#include "mesher/base/planted.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/half_edges.h"
@@ -308,19 +307,12 @@ class Checker {
 
   bool intersect(Predicates& predicates, std::uint32_t t, std::uint32_t u) const {
     if (projections_[t].sign == 0 || projections_[u].sign == 0 || same_corners(t, u)) return false;
-    if (planted(Planted::shared_vertex) && share_a_corner(t, u)) return false;
     return meet_outside_shared(predicates, triangles_[t], triangles_[u], projections_[t],
                                projections_[u]);
   }
 
   bool same_corners(std::uint32_t t, std::uint32_t u) const {
     return std::all_of(triangles_[t].begin(), triangles_[t].end(), [&](VertexId v) {
-      return std::find(triangles_[u].begin(), triangles_[u].end(), v) != triangles_[u].end();
-    });
-  }
-
-  bool share_a_corner(std::uint32_t t, std::uint32_t u) const {
-    return std::any_of(triangles_[t].begin(), triangles_[t].end(), [&](VertexId v) {
       return std::find(triangles_[u].begin(), triangles_[u].end(), v) != triangles_[u].end();
     });
   }
@@ -349,8 +341,7 @@ class Checker {
                                          predicates_, *bvh_, control_);
     std::vector<std::uint8_t> wrong;
     for (const ComponentNesting& c : nesting) {
-      const bool outer = planted(Planted::nesting) ? c.depth == 0 : c.depth % 2 == 0;
-      const int wanted = outer ? 1 : -1;
+      const int wanted = c.depth % 2 == 0 ? 1 : -1;
       wrong.push_back(c.volume_sign != wanted);
       result_.report.volume += wanted * c.volume;
     }
