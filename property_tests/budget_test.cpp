@@ -64,7 +64,7 @@ TEST(Budget, ThinPlatesAndGapsEndWithinIt) {
         EXPECT_EQ(oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh),
                                   &result.exact, {}, report),
                   "");
-        EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
+        EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
       }
     }
   }

@@ -3,7 +3,10 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <ostream>
+#include <string_view>
+#include <vector>
 
 #include "mesher/delmesher.h"
 #include "oracles/surface_file.h"
@@ -16,8 +19,31 @@ namespace {
 namespace fs = std::filesystem;
 using oracles::VerifyReport;
 
-// Quadrilaterals, acute corners, a curved shape with handles; small enough for every run.
-constexpr const char* kModels[] = {"cross_quad", "hole", "double-torus-example"};
+constexpr bool kInstalled = std::string_view(CGAL_DATA) != "";
+
+// Polygons that are not all triangles, acute corners, holes, handles, round shapes, scans; small
+// enough for every run.
+constexpr const char* kModels[] = {"3torus",
+                                   "P",
+                                   "blob-closed",
+                                   "corner",
+                                   "cross",
+                                   "cross_quad",
+                                   "double-torus-example",
+                                   "geosphere",
+                                   "hole",
+                                   "itemb",
+                                   "pipe",
+                                   "quint_tris",
+                                   "star",
+                                   "torus_quad",
+                                   "tripod",
+                                   "u"};
+
+std::vector<const char*> models() {
+  if (!kInstalled) return {};
+  return {std::begin(kModels), std::end(kModels)};
+}
 
 fs::path extracted(const std::string& model) {
   std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
@@ -33,6 +59,15 @@ fs::path extracted(const std::string& model) {
   return folder / member;
 }
 
+// Without the package these tests do not vanish: this one is skipped, and fails where all packages
+// are meant to be there (ci/test).
+TEST(Package, OfRealModelsIsInstalled) {
+  if (kInstalled) return;
+  const char* const missing = "no models: Debian's libcgal-demo (data.tar.gz) was not found";
+  if (std::getenv("TETPROOF_ALL_PACKAGES") != nullptr) FAIL() << missing;
+  GTEST_SKIP() << missing;
+}
+
 class RealModels : public testing::TestWithParam<const char*> {};
 
 std::string test_name(const testing::TestParamInfo<const char*>& tested) {
@@ -43,7 +78,8 @@ std::string test_name(const testing::TestParamInfo<const char*>& tested) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Cgal, RealModels, testing::ValuesIn(kModels), test_name);
+INSTANTIATE_TEST_SUITE_P(Cgal, RealModels, testing::ValuesIn(models()), test_name);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealModels);
 
 void expect_every_promise_kept(const oracles::Polyhedron& input, delmesher::Options options) {
   options.want_exact = true;
@@ -53,7 +89,7 @@ void expect_every_promise_kept(const oracles::Polyhedron& input, delmesher::Opti
   ASSERT_EQ(oracles::verify(input, samples::to_mesh(result.mesh), &result.exact,
                             {.stage = oracles::Stage::both}, report),
             "");
-  EXPECT_NE(report.verdict, oracles::Verdict::broken) << to_text(report);
+  EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
   for (const char* oracle : {"conformity", "exact-conformity", "exact-volume", "exact-interior",
                              "exact-constrained-delaunay", "refined-delaunay", "refined-angles",
                              "refined-segments", "refined-encroachment"}) {

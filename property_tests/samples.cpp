@@ -316,6 +316,10 @@ delmesher::Surface finned_cube(double length, double h) {
   return s;
 }
 
+bool exact_or_rounded(const oracles::VerifyReport& report) {
+  return report.verdict == oracles::Verdict::exact || report.verdict == oracles::Verdict::rounded;
+}
+
 int iterations(int normal) {
   const char* factor = std::getenv("TETPROOF_ITERATIONS");
   const long times = factor != nullptr ? std::strtol(factor, nullptr, 10) : 1;

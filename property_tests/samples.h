@@ -59,6 +59,10 @@ delmesher::Surface quantized_star(std::uint64_t seed);
 // A cube with a square fin on one side of the given length and thickness h (Figure 8's family).
 delmesher::Surface finned_cube(double length, double h);
 
+// What the mesher owes: exact, or rounded to doubles (4 ulp of the largest coordinate). A surface
+// that deviates by more is not what was asked for.
+bool exact_or_rounded(const oracles::VerifyReport& report);
+
 // How often to repeat something: the given number, times the environment's TETPROOF_ITERATIONS.
 int iterations(int normal);
 

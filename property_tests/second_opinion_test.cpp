@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iostream>
 #include <limits>
 #include <random>
 
@@ -296,9 +297,14 @@ TEST(MeshesByCgal, OfCosphericalPointsPass) {
 #ifdef TETGEN_PATH
 namespace fs = std::filesystem;
 
+// The only verdict "deviating" that passes anywhere, and said: TetGen places its points on the
+// surface in doubles, and declares this fraction of the diagonal (corpus/meshers.cpp).
+constexpr double kTetgensDeviation = 1e-8;
+
 TEST(MeshesByTetgen, OfValidSurfacesPass) {
   const fs::path folder = fs::path(TETPROOF_SCRATCH) / "by_tetgen";
   std::size_t delivered = 0;
+  std::string deviating;
   for (const samples::NamedSurface& model : samples::surfaces(kSeed)) {
     fs::create_directories(folder);
     const fs::path in = folder / "in.off", out = folder / "out.mesh";
@@ -323,11 +329,17 @@ TEST(MeshesByTetgen, OfValidSurfacesPass) {
       VerifyReport report;
       const Polyhedron input = samples::to_polyhedron(model.surface);
       ASSERT_EQ(verify(input, read_mesh(out.string()), nullptr, {}, report), "");
-      EXPECT_NE(report.verdict, Verdict::broken) << model.name << "\n" << to_text(report);
+      EXPECT_FALSE(failed(report, {.declared_deviation = kTetgensDeviation})) << model.name << "\n"
+                                                                              << to_text(report);
+      if (!samples::exact_or_rounded(report))
+        deviating += (deviating.empty() ? "" : ", ") + model.name;
     }
     fs::remove_all(folder);
   }
   EXPECT_GT(delivered, 6U) << "TetGen meshes simple models";
+  std::cout << "TetGen delivered " << delivered << " of " << samples::surfaces(kSeed).size()
+            << " models, farther than 4 ulp from the surface: "
+            << (deviating.empty() ? "none" : deviating) << "\n";
 }
 #endif
 
