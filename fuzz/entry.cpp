@@ -10,6 +10,7 @@
 #include "corpus/generate/certify.h"
 #include "corpus/generate/generate.h"
 #include "mesher/io/read_surface.h"
+#include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
 
@@ -29,6 +30,7 @@ void report(const Finding& finding, const delmesher::Surface* surface) {
 
 int on_valid_surface(const std::uint8_t* data, std::size_t size,
                      Finding (*property)(const delmesher::Surface&)) {
+  executed();
   const auto surface = parse(data, size);
   if (!surface || !certified_valid(*surface)) return 0;
   if (const Finding finding = property(*surface); !finding.empty()) report(finding, &*surface);
@@ -37,9 +39,23 @@ int on_valid_surface(const std::uint8_t* data, std::size_t size,
 
 int on_any_surface(const std::uint8_t* data, std::size_t size,
                    Finding (*property)(const delmesher::Surface&)) {
+  executed();
   const auto surface = parse(data, size);
   if (!surface) return 0;
   if (const Finding finding = property(*surface); !finding.empty()) report(finding, &*surface);
+  return 0;
+}
+
+int on_bytes(const std::uint8_t* data, std::size_t size, Finding (*property)(Bytes)) {
+  executed();
+  if (const Finding finding = property({data, size}); !finding.empty()) report(finding);
+  return 0;
+}
+
+int on_text(const std::uint8_t* data, std::size_t size, Finding (*property)(const std::string&)) {
+  executed();
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  if (const Finding finding = property(text); !finding.empty()) report(finding);
   return 0;
 }
 

@@ -30,6 +30,11 @@ int on_valid_surface(const std::uint8_t* data, std::size_t size,
 int on_any_surface(const std::uint8_t* data, std::size_t size,
                    Finding (*property)(const delmesher::Surface&));
 
+class Bytes;
+// Runs a property on the bytes, or on them as text.
+int on_bytes(const std::uint8_t* data, std::size_t size, Finding (*property)(Bytes));
+int on_text(const std::uint8_t* data, std::size_t size, Finding (*property)(const std::string&));
+
 // Numbers out of bytes; zeros when there are none left.
 class Bytes {
  public:

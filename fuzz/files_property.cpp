@@ -15,11 +15,20 @@
 #include "mesher/io/write_mesh.h"
 #include "oracles/mesh_file.h"
 #include "oracles/text_reader.h"
+#include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
+
+// What a reader refuses is looked at as far as the message goes; most inputs are of that kind, and
+// what it accepts is counted as what it does not refuse.
+Leniency refused("refused-in-one-line", 0.999);
+Leniency no_triangles("read-without-triangles", 0.5);
+Leniency no_boundary("boundary-not-in-format", 0.5);
+Leniency no_labels("labels-not-in-format", 0.5);
+Leniency not_run("ends-with-its-parsing", 0.999);
 
 // A folder of this process, removed at its end.
 const fs::path& scratch() {
@@ -59,13 +68,25 @@ bool same_bits(const delmesher::Surface& s, const delmesher::Surface& t) {
   return true;
 }
 
-// As sets of tetrahedra with sorted corners: formats differ in order and orientation.
-template <class Cells>
-std::multiset<std::array<std::uint32_t, 4>> sorted_cells(const Cells& cells) {
-  std::multiset<std::array<std::uint32_t, 4>> result;
-  for (auto cell : cells) {
+// As sets of tetrahedra or triangles with sorted corners: formats differ in order and orientation.
+template <class Cell>
+std::multiset<Cell> sorted_cells(const std::vector<Cell>& cells) {
+  std::multiset<Cell> result;
+  for (Cell cell : cells) {
     std::sort(cell.begin(), cell.end());
     result.insert(cell);
+  }
+  return result;
+}
+
+using Triangle = std::array<std::uint32_t, 3>;
+std::multiset<std::pair<Triangle, std::int32_t>> labelled(const std::vector<Triangle>& triangles,
+                                                          const std::vector<std::int32_t>& labels) {
+  std::multiset<std::pair<Triangle, std::int32_t>> result;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    Triangle t = triangles[i];
+    std::sort(t.begin(), t.end());
+    result.insert({t, labels[i]});
   }
   return result;
 }
@@ -89,10 +110,14 @@ delmesher::TetMesh read_mesh(Bytes& bytes) {
     corners(mesh.tetrahedra.emplace_back());
     mesh.inside.push_back(static_cast<std::uint8_t>(bytes.below(2)));
   }
+  // All triangles of a facet have its label.
+  std::array<std::int32_t, 4> label{};
+  for (std::int32_t& l : label) l = static_cast<std::int8_t>(bytes.byte());
   for (std::uint32_t t = bytes.below(8); t > 0; --t) {
     corners(mesh.boundary.emplace_back());
-    mesh.boundary_labels.push_back(static_cast<std::int8_t>(bytes.byte()));
-    mesh.boundary_facets.push_back(bytes.byte());
+    const std::uint32_t facet = bytes.byte();
+    mesh.boundary_labels.push_back(label[facet % label.size()]);
+    mesh.boundary_facets.push_back(facet);
   }
   return mesh;
 }
@@ -109,8 +134,18 @@ Finding written_and_read(const delmesher::TetMesh& mesh, const std::string& exte
   if (sorted_cells(read.tetrahedra) != sorted_cells(mesh.tetrahedra)) {
     return "tetrahedra of " + extension + ": differ when read back";
   }
-  if (extension != ".tet" && read.boundary.size() != mesh.boundary.size()) {
+  if (extension == ".tet") {
+    no_boundary.take();
+    return {};
+  }
+  if (sorted_cells(read.boundary) != sorted_cells(mesh.boundary)) {
     return "boundary of " + extension + ": differs when read back";
+  }
+  if (read.labels.size() != read.boundary.size()) {
+    no_labels.take();
+  } else if (labelled(read.boundary, read.labels) !=
+             labelled(mesh.boundary, mesh.boundary_labels)) {
+    return "labels of " + extension + ": differ when read back";
   }
   return {};
 }
@@ -118,8 +153,10 @@ Finding written_and_read(const delmesher::TetMesh& mesh, const std::string& exte
 }  // namespace
 
 Finding reader_holds(const std::string& text, const std::string& name) {
+  judging({&refused, &no_triangles});
   const auto first = delmesher::io::parse_surface(text, name);
   if (!first.ok()) {
+    refused.take();
     return is_one_line(first.error) ? "" : "reader error: not one line";
   }
   const delmesher::Surface& s = first.surface;
@@ -131,13 +168,17 @@ Finding reader_holds(const std::string& text, const std::string& name) {
   }
   delmesher::Surface plain = s;
   plain.labels.clear();
-  if (plain.triangles.empty()) return {};
+  if (plain.triangles.empty()) {
+    no_triangles.take();
+    return {};
+  }
   const auto again = delmesher::io::parse_surface(to_off(plain), "again.off");
   if (!again.ok()) return "reader round trip: " + again.error;
   return same_bits(plain, again.surface) ? "" : "reader round trip: differs";
 }
 
 Finding writers_hold(Bytes bytes) {
+  judging({&no_boundary, &no_labels});
   constexpr const char* kExtensions[] = {".mesh", ".msh", ".vtu", ".node", ".tet"};
   const char* extension = kExtensions[bytes.below(5)];
   try {
@@ -149,6 +190,7 @@ Finding writers_hold(Bytes bytes) {
 
 Finding command_line_holds(const std::string& text) {
   if (text.find('/') != std::string::npos) return {};  // stays in its own folder
+  judging({&not_run});
   fs::current_path(scratch());
   std::vector<std::string> words(1);
   for (const char c : text) {
@@ -160,6 +202,7 @@ Finding command_line_holds(const std::string& text) {
   }
   const delmesher::cli::Parsed parsed = delmesher::cli::parse_arguments(words);
   if (!parsed.run) {
+    not_run.take();
     const bool known = parsed.exit_code == 0 || parsed.exit_code == 2;
     return known ? "" : "command line: parsing ends with " + std::to_string(parsed.exit_code);
   }

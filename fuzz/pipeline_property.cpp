@@ -4,6 +4,7 @@
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"
 #include "oracles/verify.h"
+#include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
 namespace {
@@ -17,6 +18,12 @@ using oracles::Stage;
 // A run that reaches it has said nothing wrong; a campaign is not the place for large meshes.
 constexpr std::uint64_t kMostVertices = 6000;
 constexpr std::uint64_t kFewVertices = 1000;
+
+Leniency too_many_vertices("stopped-at-6000-vertices", 0.03);
+Leniency too_precise("stopped-features-below-2^-40", 0.05);
+Leniency nothing_refined("refined-oracle-without-work", 0.2);
+Leniency too_large_to_scale("too-large-to-mesh-twice", 0.1);
+Leniency out_of_range("out-of-range-when-scaled", 0.1);
 
 using Points = std::vector<std::array<double, 3>>;
 
@@ -53,7 +60,6 @@ Finding verified(const Surface& surface, const Result& result, Stage stage,
   wanted.delta = options.delta;
   wanted.scope = options.region == delmesher::Region::hull ? oracles::AngleScope::all
                                                            : oracles::AngleScope::solid;
-  wanted.declared_deviation = 1e-9;
   oracles::VerifyReport report;
   const std::string refusal =
       oracles::verify(input, as_file(result.mesh), &result.exact, wanted, report);
@@ -62,17 +68,28 @@ Finding verified(const Surface& surface, const Result& result, Stage stage,
   for (const auto& oracle : report.oracles) violated = violated || oracle.violations > 0;
   // An oracle that had nothing to look at (no facet left by the filter, say) makes the verdict of
   // the refined stage "broken", but is no finding.
-  if (violated || (stage == Stage::final && oracles::failed(report, wanted))) {
+  if (!violated && !oracles::failed(report, wanted)) return {};
+  if (violated || stage == Stage::final) {
     return (stage == Stage::refined ? "refined " : "final ") + first_failure(report);
   }
+  nothing_refined.take();
   return {};
 }
 
-// Reaching a limit on vertices or memory says nothing wrong; stopping for want of precision does
-// where there is room.
+// Reaching the limit on vertices says nothing wrong; stopping for want of precision does where
+// there is room, and there is no other limit.
 Finding at_limit(const Surface& surface, const delmesher::Status& status) {
-  const bool precision = status.limit == delmesher::Limit::precision;
-  return precision && roomy(surface) ? "status: " + status.message : "";
+  switch (status.limit) {
+    case delmesher::Limit::size:
+      too_many_vertices.take();
+      return {};
+    case delmesher::Limit::precision:
+      if (roomy(surface)) return "status: " + status.message;
+      too_precise.take();
+      return {};
+    default:
+      return "limit: " + status.message;
+  }
 }
 
 Finding judged(const Surface& surface, const Result& result, const Options& options, bool refined) {
@@ -110,6 +127,7 @@ Finding same_when_scaled(const Surface& surface, const Result& plain, const Opti
   if (!(largest_coordinate(scaled.vertices) < 0x1p450) ||
       largest_coordinate(scaled.vertices) < 0x1p-450 ||
       times(scaled.vertices, -exponent) != surface.vertices) {
+    out_of_range.take();
     return {};
   }
   Options units = options;
@@ -163,12 +181,8 @@ Options options_for(const Surface& surface) {
 
 }  // namespace
 
-bool roomy(const Surface& surface) {
-  return delmesher::check_surface(surface).smallest_local_feature_size >
-         largest_coordinate(surface.vertices) * 0x1p-40;
-}
-
 Finding cdt_holds(const Surface& surface) {
+  judging({&too_many_vertices, &too_precise});
   Options options;
   options.want_exact = true;
   options.max_vertices = kMostVertices;
@@ -177,6 +191,7 @@ Finding cdt_holds(const Surface& surface) {
 }
 
 Finding refinement_holds(const Surface& surface) {
+  judging({&too_many_vertices, &too_precise, &nothing_refined});
   Options options = options_for(surface);
   options.approximate = true;
   const Result result = delmesher::tetrahedralize(surface, options);
@@ -186,16 +201,23 @@ Finding refinement_holds(const Surface& surface) {
 }
 
 Finding pipeline_holds(const Surface& surface) {
+  judging({&too_many_vertices, &too_precise, &nothing_refined, &too_large_to_scale, &out_of_range});
   const Options options = options_for(surface);
   const Result result = delmesher::tetrahedralize(surface, options);
   if (Finding f = judged(surface, result, options, true); !f.empty()) return f;
-  if (!result.status.ok() || result.mesh.vertices.size() > kFewVertices) return {};
+  if (!result.status.ok()) return {};
   const int scales[] = {0, 0, 0, 300, -300, 65, -47, 1};
   const int exponent = scales[(hash_of(surface) >> 13) % 8];
-  return exponent == 0 ? "" : same_when_scaled(surface, result, options, exponent);
+  if (exponent == 0) return {};
+  if (result.mesh.vertices.size() > kFewVertices) {
+    too_large_to_scale.take();
+    return {};
+  }
+  return same_when_scaled(surface, result, options, exponent);
 }
 
 Finding default_pipeline_holds(const Surface& surface) {
+  judging({&nothing_refined});
   Options options;
   options.want_exact = true;
   const Result result = delmesher::tetrahedralize(surface, options);

@@ -8,6 +8,7 @@
 #include "mesher/io/read_plane.h"
 #include "mesher/io/write_plane.h"
 #include "oracles/plane_verify.h"
+#include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
 namespace {
@@ -21,6 +22,14 @@ using Point = std::array<double, 2>;
 
 // A run that reaches it has said nothing wrong.
 constexpr std::uint64_t kMostVertices = 3000;
+
+Leniency too_many_vertices("stopped-at-3000-vertices", 0.05);
+Leniency too_precise("stopped-features-below-2^-40", 0.1);
+Leniency nothing_to_mesh("refused-encloses-nothing", 0.3);
+Leniency no_numbers("refused-out-of-range", 0.1);
+Leniency invalid_graph("refused-segments-conflict", 0.5);
+Leniency not_positive("inverted-features-below-2^-46", 0.01);
+Leniency reader_refused("refused-in-one-line", 0.999);
 
 int orient(const Point& a, const Point& b, const Point& c) {
   const mpq_class ax = a[0], ay = a[1];
@@ -123,28 +132,89 @@ double extent(const PlanarGraph& graph) {
   return result;
 }
 
-// Refused although no two segments conflict: the reasons that are left.
-bool other_reason(const PlanarGraph& graph, const std::string& message) {
+double largest_coordinate(const PlanarGraph& graph) {
   double largest = 0;
   for (const Point& p : graph.vertices) largest = std::max({largest, p[0], -p[0], p[1], -p[1]});
-  return message == "no segments" || message == "the segments enclose nothing" ||
-         (message.find("no room for a mesh") != std::string::npos && extent(graph) < 0x1p-1044) ||
-         (message.find("orders of magnitude") != std::string::npos && largest > 0x1p200);
+  return largest;
+}
+
+mpq_class squared_distance(const Point& p, const Point& a, const Point& b) {
+  const mpq_class ux = mpq_class(b[0]) - a[0], uy = mpq_class(b[1]) - a[1],
+                  wx = mpq_class(p[0]) - a[0], wy = mpq_class(p[1]) - a[1];
+  const mpq_class all = ux * ux + uy * uy;
+  mpq_class along = all == 0 ? mpq_class(0) : mpq_class((ux * wx + uy * wy) / all);
+  if (along < 0) along = 0;
+  if (along > 1) along = 1;
+  const mpq_class dx = wx - along * ux, dy = wy - along * uy;
+  return dx * dx + dy * dy;
+}
+
+// Do all vertices and segments that do not meet keep this distance, as a share of the largest
+// coordinate? The graph is valid. In rationals, over all pairs.
+bool features_above(const PlanarGraph& graph, double share) {
+  const mpq_class least = mpq_class(share) * mpq_class(largest_coordinate(graph));
+  const mpq_class squared = least * least;
+  const auto near = [&](const Point& p, const Point& a, const Point& b) {
+    const mpq_class d = squared_distance(p, a, b);
+    return d != 0 && d < squared;
+  };
+  for (const Point& p : graph.vertices) {
+    for (const Point& q : graph.vertices) {
+      if (p != q && near(p, q, q)) return false;
+    }
+    for (const auto& [a, b] : graph.segments) {
+      if (near(p, graph.vertices[a], graph.vertices[b])) return false;
+    }
+  }
+  return true;
+}
+
+// Refused although no two segments conflict: is it for one of the reasons that are left?
+bool other_reason(const PlanarGraph& graph, const std::string& message) {
+  if (message == "no segments" || message == "the segments enclose nothing") {
+    nothing_to_mesh.take();
+    return true;
+  }
+  if ((message.find("no room for a mesh") != std::string::npos && extent(graph) < 0x1p-1044) ||
+      (message.find("orders of magnitude") != std::string::npos &&
+       largest_coordinate(graph) > 0x1p200)) {
+    no_numbers.take();
+    return true;
+  }
+  return false;
+}
+
+// A limit says nothing wrong: the one on vertices, and that of precision where there is no room.
+Finding at_limit(const PlanarGraph& graph, const delmesher::Status& status) {
+  switch (status.limit) {
+    case delmesher::Limit::size:
+      too_many_vertices.take();
+      return {};
+    case delmesher::Limit::precision:
+      if (features_above(graph, 0x1p-40)) break;
+      too_precise.take();
+      return {};
+    default:
+      break;
+  }
+  return "plane limit: " + status.message;
 }
 
 Finding judged(const PlanarGraph& graph, const Options& options) {
   const PlaneResult result = delmesher::triangulate_polygon(graph, options);
-  if (result.status.code == StatusCode::limit_reached) return {};
+  const bool refused = result.status.code == StatusCode::invalid_surface;
   if (!is_valid(graph)) {
-    return result.status.code == StatusCode::invalid_surface
-               ? ""
-               : "plane check: an invalid graph passes";
-  }
-  if (result.status.code == StatusCode::invalid_surface &&
-      other_reason(graph, result.status.message)) {
+    if (!refused) return "plane check: an invalid graph passes: " + result.status.message;
+    invalid_graph.take();
     return {};
   }
+  if (refused && other_reason(graph, result.status.message)) return {};
+  if (result.status.code == StatusCode::limit_reached) return at_limit(graph, result.status);
   if (!result.status.ok()) return "plane status: " + result.status.message;
+  if (result.statistics.rounding_inverted + result.statistics.rounding_flat > 0) {
+    if (features_above(graph, 0x1p-46)) return "plane rounding: inverted or flat triangles left";
+    not_positive.take();
+  }
   const PlaneVerdict verdict = verify_plane(graph, options, result);
   return verdict.ok() ? "" : "plane " + verdict.failures[0];
 }
@@ -173,6 +243,8 @@ void print(const PlanarGraph& graph, const Options& options) {
 }  // namespace
 
 Finding plane_holds(Bytes bytes) {
+  judging({&too_many_vertices, &too_precise, &nothing_to_mesh, &no_numbers, &invalid_graph,
+           &not_positive});
   const Options options = options_for(bytes);
   const PlanarGraph graph = read_graph(bytes);
   const Finding finding = judged(graph, options);
@@ -181,8 +253,10 @@ Finding plane_holds(Bytes bytes) {
 }
 
 Finding plane_reader_holds(const std::string& text, const std::string& name) {
+  judging({&reader_refused});
   const auto first = delmesher::io::parse_plane(text, name);
   if (!first.ok()) {
+    reader_refused.take();
     const bool one_line =
         !first.error.empty() && first.error.find_first_of("\r\n") == std::string::npos;
     return one_line ? "" : "reader error: not one line";

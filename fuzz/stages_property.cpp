@@ -1,20 +1,24 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "fuzz/feature_size.h"
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"
 #include "mesher/base/check.h"
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/chamfer/filter.h"
 #include "mesher/chamfer/plc_angles.h"
-#include "mesher/surface/feature_size.h"
+#include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
 namespace {
 
 using delmesher::Surface;
 using delmesher::Vec3;
+
+Leniency too_precise("stopped-features-below-2^-40", 0.05);
+Leniency short_chamfer("acute-chamfer-below-an-ulp", 0.1);
+Leniency no_room("acute-features-below-2^-40", 0.05);
 
 // A property of one stage: failed checks inside the mesher are findings, and so is a stop for want
 // of precision where there is room.
@@ -23,7 +27,11 @@ Finding guarded(const char* stage, const Surface& surface, Body&& body) {
   try {
     return body();
   } catch (const delmesher::Stopped& stopped) {
-    return roomy(surface) ? std::string(stage) + " stop: " + stopped.status.message : "";
+    if (stopped.status.limit != delmesher::Limit::precision || roomy(surface)) {
+      return std::string(stage) + " stop: " + stopped.status.message;
+    }
+    too_precise.take();
+    return {};
   } catch (const delmesher::InternalError& error) {
     return std::string(stage) + " check: " + error.what();
   }
@@ -31,6 +39,8 @@ Finding guarded(const char* stage, const Surface& surface, Body&& body) {
 
 // Points on triangles are rounded to dyadic parameters; the angles are measured in doubles.
 constexpr double kDegreesLost = 0.02;
+// The filter compares distances in doubles.
+constexpr double kDistanceRoundings = 1e-9;
 
 double length(const delmesher::PointStore& points, const std::array<delmesher::VertexId, 2>& ends) {
   const Vec3 p = points.nearest(ends[0]), q = points.nearest(ends[1]);
@@ -61,8 +71,12 @@ Finding chamfered(const Surface& surface, double cosine_squared, double degrees)
   // Chamfers are laid out in doubles: where that makes them shorter than an ulp of the model (in
   // facets and at angles that narrow, which the filter drops by default) they are at any angle.
   constexpr double kShortest = 0x1p-50;
-  if (report.smallest() < degrees - kDegreesLost && report.smallest_segment > kShortest &&
-      roomy(surface)) {
+  if (!(report.smallest() < degrees - kDegreesLost)) return {};
+  if (!(report.smallest_segment > kShortest)) {
+    short_chamfer.take();
+  } else if (!roomy(surface)) {
+    no_room.take();
+  } else {
     return "chamfer angle: " + std::to_string(report.smallest()) + " degrees are left of " +
            std::to_string(degrees);
   }
@@ -70,28 +84,13 @@ Finding chamfered(const Surface& surface, double cosine_squared, double degrees)
 }
 
 // Kept triangles of facets that share no vertex are not closer than the tolerance.
-Finding kept_is_apart(const Stages& s, const std::vector<std::uint8_t>& kept, double tolerance) {
-  const auto& t = s.topology;
-  const auto corners = [&](std::uint32_t i) {
-    const auto& c = t.triangles[i];
-    return std::array<Vec3, 3>{s.points.nearest(c[0]), s.points.nearest(c[1]),
-                               s.points.nearest(c[2])};
-  };
-  std::vector<std::vector<std::uint32_t>> vertices(t.facet_triangles.size());
-  for (std::uint32_t i = 0; i < t.triangles.size(); ++i) {
-    for (const auto v : t.triangles[i]) vertices[t.facet_of[i]].push_back(v);
-  }
-  for (auto& list : vertices) std::sort(list.begin(), list.end());
-  for (std::uint32_t i = 0; i < t.triangles.size(); ++i) {
-    for (std::uint32_t j = 0; j < i; ++j) {
-      const auto f = t.facet_of[i], g = t.facet_of[j];
-      if (kept[f] == 0 || kept[g] == 0 || f == g) continue;
-      std::vector<std::uint32_t> common;
-      std::set_intersection(vertices[f].begin(), vertices[f].end(), vertices[g].begin(),
-                            vertices[g].end(), std::back_inserter(common));
-      if (!common.empty()) continue;
-      const double d = delmesher::triangle_triangle_distance(corners(i), corners(j));
-      if (d < tolerance * (1 - 1e-9)) return "filter distance: kept facets closer than allowed";
+Finding kept_is_apart(const FeatureSizes& sizes, const delmesher::SurfaceTopology& topology,
+                      const std::vector<std::uint8_t>& kept, double tolerance) {
+  const auto is_kept = [&](std::uint32_t t) { return kept[topology.facet_of[t]] != 0; };
+  for (std::uint32_t i = 0; i < topology.triangles.size(); ++i) {
+    for (std::uint32_t j = 0; is_kept(i) && j < i; ++j) {
+      if (!is_kept(j) || !sizes.closer(i, j, tolerance * (1 - kDistanceRoundings))) continue;
+      if (!sizes.facets_touch(i, j)) return "filter distance: kept facets closer than allowed";
     }
   }
   return {};
@@ -100,6 +99,7 @@ Finding kept_is_apart(const Stages& s, const std::vector<std::uint8_t>& kept, do
 }  // namespace
 
 Finding chamfer_holds(const Surface& surface) {
+  judging({&too_precise, &short_chamfer, &no_room});
   return guarded("chamfer", surface, [&]() -> Finding {
     if (Finding f = chamfered(surface, 0.25, 60); !f.empty()) return f;
     return chamfered(surface, 0, 90);
@@ -107,19 +107,12 @@ Finding chamfer_holds(const Surface& surface) {
 }
 
 Finding filter_holds(const Surface& surface) {
+  judging({&too_precise});
   return guarded("filter", surface, [&]() -> Finding {
     Stages s(surface);
-    Vec3 low = surface.vertices[surface.triangles[0][0]], high = low;
-    for (const auto& t : surface.triangles) {
-      for (const auto v : t) {
-        for (std::size_t i = 0; i < 3; ++i) {
-          low[i] = std::min(low[i], surface.vertices[v][i]);
-          high[i] = std::max(high[i], surface.vertices[v][i]);
-        }
-      }
-    }
-    const double diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-    const double apart = smallest_local_feature_size(s.topology, s.points, s.control);
+    FeatureSizes sizes;
+    if (!sizes.assign(surface).empty()) return "filter input: the oracles cannot read it";
+    const double diagonal = sizes.surface().diagonal(), apart = sizes.smallest();
     for (const double tau : {1e-4, 0.02}) {
       const auto result = filter_input(s.topology, s.points, tau * diagonal, s.control);
       if (result.facet_kept.size() != s.topology.facet_triangles.size()) {
@@ -127,10 +120,11 @@ Finding filter_holds(const Surface& surface) {
       }
       const bool all = std::all_of(result.facet_kept.begin(), result.facet_kept.end(),
                                    [](std::uint8_t kept) { return kept != 0; });
-      if (!all && apart > tau * diagonal * (1 + 1e-9)) {
+      if (!all && apart > tau * diagonal * (1 + kDistanceRoundings)) {
         return "filter reason: drops facets although no features are closer than the tolerance";
       }
-      if (Finding f = kept_is_apart(s, result.facet_kept, tau * diagonal); !f.empty()) return f;
+      Finding f = kept_is_apart(sizes, s.topology, result.facet_kept, tau * diagonal);
+      if (!f.empty()) return f;
     }
     return {};
   });

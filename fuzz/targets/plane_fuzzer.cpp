@@ -2,7 +2,5 @@
 #include "fuzz/properties.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace tetproof::fuzz;
-  if (const Finding finding = plane_holds({data, size}); !finding.empty()) report(finding);
-  return 0;
+  return tetproof::fuzz::on_bytes(data, size, tetproof::fuzz::plane_holds);
 }

@@ -3,9 +3,7 @@
 #include "fuzz/properties.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace tetproof::fuzz;
-  const std::string text(reinterpret_cast<const char*>(data), size);
-  const Finding finding = reader_holds(text, "input." TETPROOF_FORMAT);
-  if (!finding.empty()) report(finding);
-  return 0;
+  return tetproof::fuzz::on_text(data, size, [](const std::string& text) {
+    return tetproof::fuzz::reader_holds(text, "input." TETPROOF_FORMAT);
+  });
 }
