@@ -37,9 +37,10 @@ std::string to_json(const Chart& chart) {
   if (chart.log_x) json["logX"] = true;
   if (chart.log_y) json["logY"] = true;
   if (chart.diagonal) json["diagonal"] = true;
+  if (chart.flat) json["flat"] = true;
   json["series"] = Json::array();
   for (const Chart::Series& series : chart.series) {
-    Json one = {{"label", series.label}};
+    Json one = {{"label", series.label}, {"style", series.style}};
     Json& data = one["data"] = Json::array();
     for (const auto& value : series.values) data.push_back(value ? Json(rounded(*value)) : Json());
     for (const auto& [x, y] : series.points) data.push_back({rounded(x), rounded(y)});

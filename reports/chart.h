@@ -20,9 +20,10 @@ struct Chart {
   };
   struct Series {
     std::string label;
-    std::vector<std::optional<double>> values;      // bars: one per category
-    std::vector<std::pair<double, double>> points;  // the others
-    std::vector<std::string> point_names;           // points: what to say about each; may be empty
+    std::vector<std::optional<double>> values = {};      // bars: one per category
+    std::vector<std::pair<double, double>> points = {};  // the others
+    std::vector<std::string> point_names = {};  // points: what to say about each; may be empty
+    std::size_t style = 0;  // of series_style(), another one for each series of a chart
   };
 
   std::string name;  // of the CSV file and of the element in the page
@@ -33,6 +34,7 @@ struct Chart {
   std::vector<Series> series;
   bool log_x = false, log_y = false;
   bool diagonal = false;  // points: draw x = y
+  bool flat = false;      // bars lie, so that long names of categories can be read
   std::vector<std::string> notes;
 
   bool empty() const;

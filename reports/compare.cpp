@@ -97,6 +97,7 @@ Table pairing_table(const Selection& selection) {
   Table table;
   table.name = "pairs";
   table.title = "Paired comparison";
+  table.caption = limits_caption(selection, selection.meshers);
   table.header = {"First",      "Second",
                   "Models",     "Both ok",
                   "Only first", "Only second",
@@ -131,7 +132,19 @@ Table pairing_table(const Selection& selection) {
                   "test, of time, size and angle by Wilcoxon's signed-rank test, adjusted for {} "
                   "pairs by Holm's method.",
                   all.size()),
-      "delmesher writes the inside only: its size is not comparable with that of the others."};
+      "Size ratios say little between a mesher of the interior and one of the hull (Region in "
+      "Table "
+      "1)."};
+  std::string unverified;
+  for (const std::string& mesher : selection.meshers) {
+    const std::size_t count = unverified_count(selection, mesher);
+    if (count > 0)
+      unverified += fmt::format("{} {} {}", unverified.empty() ? "" : ",", mesher, count);
+  }
+  if (!unverified.empty()) {
+    table.notes.push_back("Unverified meshes are no successes:" + unverified + ".");
+  }
+  if (all.empty()) table.notes.clear();
   return table;
 }
 

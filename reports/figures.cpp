@@ -58,8 +58,9 @@ Chart angle_chart(const Selection& selection, const AngleMeasure& angle, const B
   for (const std::string& mesher : selection.meshers) {
     const auto values = values_of(selection.ok_runs(mesher), of(&RunRow::mesh, angle.column));
     if (values.empty()) continue;
-    chart.series.push_back(
-        {fmt::format("{} ({})", mesher, values.size()), histogram(values, bins), {}, {}});
+    chart.series.push_back({.label = fmt::format("{} ({})", mesher, values.size()),
+                            .values = histogram(values, bins),
+                            .style = style_of(selection, mesher)});
   }
   chart.notes = {
       "Percentages of the models on which the mesher succeeded, whose number stands in "
@@ -113,7 +114,10 @@ Chart figure_13(const Selection& selection, const std::string& model, const char
       rows = {row};
     }
     auto percent = summed_histogram(rows, key);
-    if (!percent.empty()) chart.series.push_back({mesher, std::move(percent), {}, {}});
+    if (!percent.empty()) {
+      chart.series.push_back(
+          {.label = mesher, .values = std::move(percent), .style = style_of(selection, mesher)});
+    }
   }
   return chart;
 }
@@ -126,7 +130,7 @@ Chart stacked(const Table& table, std::size_t first_column, std::size_t last_col
   chart.kind = Chart::Kind::stacked_bars;
   for (const auto& row : table.rows) chart.categories.push_back(row[0]);
   for (std::size_t column = first_column; column < last_column; ++column) {
-    Chart::Series series = {table.header[column], {}, {}, {}};
+    Chart::Series series = {.label = table.header[column], .style = column - first_column};
     bool any = false;
     for (const auto& row : table.rows) {
       const double value = row[column] == "-" ? 0 : std::stod(row[column]);
@@ -137,6 +141,7 @@ Chart stacked(const Table& table, std::size_t first_column, std::size_t last_col
   }
   chart.x_title = "mesher";
   chart.y_title = "%";
+  chart.flat = true;
   return chart;
 }
 
@@ -148,7 +153,8 @@ Chart distribution(const Selection& selection, const Value& value) {
   for (const std::string& mesher : selection.meshers) {
     auto values = values_of(selection.ok_runs(mesher), value);
     std::sort(values.begin(), values.end());
-    Chart::Series series = {fmt::format("{} ({})", mesher, values.size()), {}, {}, {}};
+    Chart::Series series = {.label = fmt::format("{} ({})", mesher, values.size()),
+                            .style = style_of(selection, mesher)};
     for (std::size_t i = 0; i < values.size(); ++i) {
       series.points.emplace_back(
           values[i], 100.0 * static_cast<double>(i + 1) / static_cast<double>(values.size()));
@@ -166,7 +172,7 @@ Chart cactus(const Selection& selection, const Value& value) {
   for (const std::string& mesher : selection.meshers) {
     auto values = values_of(selection.ok_runs(mesher), value);
     std::sort(values.begin(), values.end());
-    Chart::Series series = {mesher, {}, {}, {}};
+    Chart::Series series = {.label = mesher, .style = style_of(selection, mesher)};
     for (std::size_t i = 0; i < values.size(); ++i) {
       series.points.emplace_back(static_cast<double>(i + 1), values[i]);
     }
@@ -202,7 +208,11 @@ Chart disposition_chart(const Selection& selection) {
     row[4] = row[3];
   }
   percent.header[4] = "ok";
-  return stacked(percent, 4, 4 + kDispositionCount);
+  Chart chart = stacked(percent, 4, 4 + kDispositionCount);
+  // Green for what is ok, and the same for a disposition in every report.
+  static constexpr std::array<std::size_t, kDispositionCount> kStyles = {2, 5, 1, 0, 3, 4, 6, 7};
+  for (Chart::Series& series : chart.series) series.style = kStyles.at(series.style);
+  return chart;
 }
 
 Chart time_chart(const Selection& selection) {
@@ -246,14 +256,14 @@ Chart figure_8_chart(const Selection& selection) {
   const Table table = figure_8_table(selection);
   Chart chart;
   chart.name = "figure8-chart";
-  chart.title = "Figure 8: tetrahedra as a wall gets thinner";
+  chart.title = "Tetrahedra as a wall gets thinner, after Figure 8";
   chart.kind = Chart::Kind::lines;
   chart.log_x = chart.log_y = true;
   chart.x_title = "1/h";
   chart.y_title = "tetrahedra";
   for (const auto& row : table.rows) {
     if (chart.series.empty() || chart.series.back().label != row[1]) {
-      chart.series.push_back({row[1], {}, {}, {}});
+      chart.series.push_back({.label = row[1], .style = style_of(selection, row[1])});
     }
     chart.series.back().points.emplace_back(1 / std::stod(row[0]), std::stod(row[2]));
   }

@@ -10,6 +10,7 @@
 #include "reports/assets.h"
 #include "reports/compare.h"
 #include "reports/measures.h"
+#include "reports/series_style.h"
 #include "reports/text.h"
 
 namespace tetproof {
@@ -34,6 +35,24 @@ std::string dump(const Json& json) {
   return for_script(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
+// Text in which words with hyphens, such as the names of meshers, are kept on one line, while what
+// is longer than a line of a phone, such as a path, may break.
+std::string whole_words(const std::string& text) {
+  constexpr std::size_t kLongest = 36;
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t start = std::min(text.find_first_not_of(" \n\t", at), text.size());
+    const std::size_t end = std::min(text.find_first_of(" \n\t", start), text.size());
+    const std::string word = text.substr(start, end - start);
+    const bool keep = word.size() <= kLongest && word.find('-') != std::string::npos &&
+                      word.find_first_not_of('-') != std::string::npos;
+    result += text.substr(at, start - at);
+    result += keep ? "<span class=\"whole\">" + markup_text(word) + "</span>" : markup_text(word);
+    at = end;
+  }
+  return result;
+}
+
 // Numbers stand on the right; words, which need room, on the left.
 bool is_words(const std::string& cell) {
   const auto letters =
@@ -41,12 +60,34 @@ bool is_words(const std::string& cell) {
   return letters > 3 && 2 * static_cast<std::size_t>(letters) > cell.size();
 }
 
-std::string table_row(const std::vector<std::string>& cells, const char* tag) {
+// Commands fold away.
+std::string folded(const std::string& text) {
+  constexpr std::size_t kShort = 28;
+  if (text.size() <= kShort) return "<code class=\"whole\">" + markup_text(text) + "</code>";
+  return "<details class=\"fold\"><summary>command</summary><code>" + markup_text(text) +
+         "</code></details>";
+}
+
+std::string header_row(const Table& table) {
   std::string row = "<tr>";
-  for (const std::string& cell : cells) {
-    const bool words = std::string_view(tag) == "td" && is_words(cell);
-    row +=
-        fmt::format("<{}{}>{}</{}>", tag, words ? " class=\"text\"" : "", markup_text(cell), tag);
+  for (const std::string& cell : table.header) row += "<th>" + whole_words(cell) + "</th>";
+  return row + "</tr>\n";
+}
+
+std::string table_row(const Table& table, const std::vector<std::string>& cells) {
+  std::string row = "<tr>";
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto& fold = table.folded_columns;
+    if (std::find(fold.begin(), fold.end(), i) != fold.end()) {
+      row += "<td class=\"text\">" + folded(cells[i]) + "</td>";
+      continue;
+    }
+    // One word stays on its line, sentences have room.
+    const bool sentence = std::count(cells[i].begin(), cells[i].end(), ' ') > 3;
+    const char* kind = !is_words(cells[i]) ? ""
+                       : sentence          ? " class=\"text prose\""
+                                           : " class=\"text\"";
+    row += fmt::format("<td{}>{}</td>", kind, whole_words(cells[i]));
   }
   return row + "</tr>\n";
 }
@@ -54,12 +95,11 @@ std::string table_row(const std::vector<std::string>& cells, const char* tag) {
 std::string notes_list(const std::vector<std::string>& notes) {
   if (notes.empty()) return "";
   std::string text = "<ul class=\"notes\">";
-  for (const std::string& note : notes) text += "<li>" + markup_text(note) + "</li>\n";
+  for (const std::string& note : notes) text += "<li>" + whole_words(note) + "</li>\n";
   return text + "</ul>\n";
 }
 
 std::string chart_html(const Chart& chart) {
-  if (chart.empty()) return "";
   const bool tall = chart.kind != Chart::Kind::bars;
   return fmt::format(
       "<div class=\"chart{}\"><h3>{}</h3><div class=\"frame\" data-chart=\"{}\"></div></div>\n",
@@ -77,20 +117,33 @@ std::string compact_html(const Table& table) {
   return text;
 }
 
-std::string section_html(const Section& section) {
+// What stands in the place of charts that cannot be drawn.
+std::string chart_list(const std::vector<Chart>& charts) {
+  std::string text =
+      "<p class=\"faint\">Not drawn, as this build lacks Chart.js; the numbers are in ";
+  for (const Chart& chart : charts) {
+    text += (&chart == &charts.front() ? "" : ", ") +
+            ("<code>" + markup_text(chart.name) + ".csv</code>");
+  }
+  return text + ".</p>\n";
+}
+
+std::string section_html(const Section& section, bool has_charts) {
   std::string text =
       fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", section.id, markup_text(section.title));
-  if (!section.text.empty()) text += "<p class=\"faint\">" + markup_text(section.text) + "</p>\n";
+  if (!section.text.empty()) text += "<p class=\"faint\">" + whole_words(section.text) + "</p>\n";
   std::string tables;
   for (const Table& table : section.tables) {
     tables += section.side_by_side ? compact_html(table) : to_html(table);
   }
-  if (section.side_by_side) tables = "<div class=\"columns\">" + tables + "</div>\n";
+  if (section.side_by_side) tables = "<div class=\"beside\">" + tables + "</div>\n";
   if (section.folded) {
     tables = "<details><summary>Show the tables</summary>" + tables + "</details>\n";
   }
   std::string charts, notes;
   for (const Chart& chart : section.charts) charts += chart_html(chart);
+  if (!charts.empty() && !has_charts)
+    return text + tables + chart_list(section.charts) + "</section>\n";
   if (!charts.empty()) charts = "<div class=\"columns\">" + charts + "</div>\n";
   for (const Chart& chart : section.charts) {
     if (!chart.notes.empty() && notes.empty()) notes = notes_list(chart.notes);
@@ -148,6 +201,7 @@ Json run_json(const RunRow& row, std::size_t model, std::size_t mesher, bool his
           verdict_text(row),
           row.reason.substr(0, 300),
           number_or_null(row.wall_seconds),
+          number_or_null(row.verify_seconds),
           number_or_null(static_cast<double>(row.peak_rss_bytes) / 1e6),
           of_mesh(&MeshColumns::vertices),
           of_mesh(&MeshColumns::tetrahedra),
@@ -173,27 +227,21 @@ std::pair<std::string, std::string> first_pair(const Selection& selection) {
 
 Json data_of(const Page& page, const Selection& selection) {
   Json data;
-  data["columns"] = {"model",
-                     "mesher",
-                     "disposition",
-                     "verdict",
-                     "reason",
-                     "wall_seconds",
-                     "peak_mb",
-                     "vertices",
-                     "tetrahedra",
-                     "min_face_angle",
-                     "max_face_angle",
-                     "min_dihedral",
-                     "max_dihedral",
-                     "mean_min_face_angle",
-                     "mean_min_dihedral",
-                     "phases",
-                     "face_histogram",
-                     "dihedral_histogram",
-                     "command"};
+  data["columns"] = {"model",        "mesher",         "disposition",         "verdict",
+                     "reason",       "wall_seconds",   "verify_seconds",      "peak_mb",
+                     "vertices",     "tetrahedra",     "min_face_angle",      "max_face_angle",
+                     "min_dihedral", "max_dihedral",   "mean_min_face_angle", "mean_min_dihedral",
+                     "phases",       "face_histogram", "dihedral_histogram",  "command"};
   data["meshers"] = selection.meshers;
   data["phases"] = kPhases;
+  data["charts_drawn"] = page.has_charts;
+  data["pictures_drawn"] = page.has_pictures;
+  data["styles"] = Json::array();
+  for (std::size_t i = 0; i < kSeriesStyles; ++i) {
+    const SeriesStyle style = series_style(i);
+    data["styles"].push_back(
+        {fmt::format("#{:06x}", style.light), fmt::format("#{:06x}", style.dark), style.pattern});
+  }
   const auto [first, second] = first_pair(selection);
   data["pair"] = {first, second};
   data["models"] = Json::array();
@@ -240,7 +288,7 @@ constexpr const char* kModels = R"(
 <div class="controls"><label>Model <select id="model"></select></label>
 <span class="faint">&#9670; with pictures</span></div>
 <h3 id="model-name"></h3><p class="faint"><code id="model-facts"></code></p>
-<div id="model-3d">
+<div id="model-3d" hidden>
 <div class="controls">
 <label>Show <select id="part"></select></label>
 <label>Cut across <select id="axis"><option value="0">x</option><option value="1" selected>y</option>
@@ -253,12 +301,12 @@ constexpr const char* kModels = R"(
 </div>
 <div class="view" id="view"></div>
 </div>
-<p class="faint" id="model-no-3d" hidden>No pictures: run with --keep, see also --views.</p>
-<div class="scroll"><table><thead><tr><th>Mesher</th><th>Disposition</th><th>Oracles</th><th>Seconds</th>
-<th>MB</th><th>Vertices</th><th>Tetrahedra</th><th>Min face</th><th>Max face</th><th>Min dihedral</th>
-<th>Max dihedral</th><th>Avg. min face</th><th>Avg. min dihedral</th><th>Reason; command</th></tr></thead>
+<p class="faint" id="model-no-3d" hidden></p>
+<div class="scroll"><table><thead><tr><th>Mesher</th><th>Disposition</th><th>Verdict</th><th>Seconds</th>
+<th>Oracles, s</th><th>MB</th><th>Vertices</th><th>Tetrahedra</th><th>Min face</th><th>Max face</th><th>Min dihedral</th>
+<th>Max dihedral</th><th>Avg. min face</th><th>Avg. min dihedral</th><th>Reason and command</th></tr></thead>
 <tbody id="model-runs"></tbody></table></div>
-<div class="columns">
+<div class="columns" id="model-charts">
 <div class="chart"><h3>Seconds by phase</h3><div class="frame" id="model-phases"></div></div>
 <div class="chart"><h3>Face angles</h3><div class="frame" id="model-faces"></div></div>
 <div class="chart"><h3>Dihedral angles</h3><div class="frame" id="model-dihedrals"></div></div>
@@ -268,9 +316,9 @@ constexpr const char* kModels = R"(
 
 constexpr const char* kGallery = R"(
 <section id="figure9">
-<h2>Gallery (Figure 9)</h2>
-<p class="faint">The input, the mesh cut open with all that was meshed, and the part inside the model. Red: a face
-angle below 5 degrees.</p>
+<h2>Gallery (after Figure 9)</h2>
+<p class="faint">The input, a mesh cut open, and only its tetrahedra inside the model where the file tells them; under
+each picture the mesher whose mesh it is. Red: a face angle below 5 degrees.</p>
 <div class="gallery" id="gallery"></div>
 </section>
 )";
@@ -283,25 +331,38 @@ std::string script(std::string_view text) {
 
 std::string to_html(const Table& table) {
   std::string text = fmt::format("<div id=\"table-{}\"><h3>{}</h3>\n", markup_text(table.name),
-                                 markup_text(table.title));
+                                 whole_words(table.title));
+  if (!table.caption.empty()) {
+    text += "<p class=\"caption\">" + whole_words(table.caption) + "</p>\n";
+  }
   if (!table.rows.empty()) {
-    text += "<div class=\"scroll\"><table><thead>" + table_row(table.header, "th") +
-            "</thead><tbody>\n";
-    for (const auto& row : table.rows) text += table_row(row, "td");
+    text += "<div class=\"scroll\"><table><thead>" + header_row(table) + "</thead><tbody>\n";
+    for (const auto& row : table.rows) text += table_row(table, row);
     text += "</tbody></table></div>\n";
   }
   return text + notes_list(table.notes) + "</div>\n";
 }
 
+namespace {
+
+// The section after which the models come: the figures, where there are any.
+const Section& before_models(const std::vector<Section>& sections) {
+  const auto figures = std::find_if(sections.begin(), sections.end(),
+                                    [](const Section& section) { return section.id == "figures"; });
+  return figures == sections.end() ? sections.front() : *figures;
+}
+
+}  // namespace
+
 std::string to_html(const Page& page, const Selection& selection) {
   std::string nav, body;
   for (const Section& section : page.sections) {
     nav += fmt::format("<a href=\"#{}\">{}</a>\n", section.id, markup_text(section.title));
-    body += section_html(section);
-    if (section.id == "compare" && selection.meshers.size() > 1) {
+    body += section_html(section, page.has_charts);
+    if (section.id == "compare" && page.has_charts) {
       body.insert(body.rfind("</section>"), kComparison);
     }
-    if (section.id == "figures") {
+    if (&section == &before_models(page.sections)) {
       if (!page.views.empty()) {
         nav += "<a href=\"#figure9\">Gallery</a>\n";
         body += kGallery;
@@ -314,16 +375,28 @@ std::string to_html(const Page& page, const Selection& selection) {
   for (const std::string& fact : page.headline) {
     const auto space = std::min(fact.find(' '), fact.size());
     facts += "<li><b>" + markup_text(fact.substr(0, space)) + "</b>" +
-             markup_text(fact.substr(space)) + "</li>\n";
+             whole_words(fact.substr(space)) + "</li>\n";
+  }
+  std::vector<std::string> warnings = page.warnings;
+  if (!page.has_charts) {
+    warnings.emplace_back("No charts: this build lacks Chart.js (Debian: libjs-chart.js).");
+  }
+  if (!page.has_pictures) {
+    warnings.emplace_back(
+        "No gallery and no 3D view: this build lacks three.js (Debian: libjs-three).");
+  }
+  std::string said;
+  for (const std::string& warning : warnings) {
+    said += "<p class=\"warning\">" + whole_words(warning) + "</p>\n";
   }
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
       "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<nav>\n{}</nav>\n"
-      "<header><h1>{}</h1>\n<ul class=\"headline\">\n{}</ul>\n"
+      "<header><h1>{}</h1>\n<ul class=\"headline\">\n{}</ul>\n{}"
       "<p class=\"not-ok\" id=\"trouble\" hidden></p></header>\n<main>\n{}{}</main>\n",
-      markup_text(page.title), assets::page_css(), nav, markup_text(page.title), facts, body,
+      markup_text(page.title), assets::page_css(), nav, markup_text(page.title), facts, said, body,
       notes_list(page.notes));
   for (const ViewPart& part : page.views) {
     text += "<script type=\"application/json\" class=\"part\">" + for_script(to_json(part)) +
@@ -331,9 +404,9 @@ std::string to_html(const Page& page, const Selection& selection) {
   }
   text += "<script type=\"application/json\" id=\"data\">" + dump(data_of(page, selection)) +
           "</script>\n";
-  for (const std::string_view code :
-       {assets::chart_js(), assets::three_js(), assets::orbit_controls_js(), assets::charts_js(),
-        assets::view_js(), assets::page_js()}) {
+  if (page.has_charts) text += script(assets::chart_js());
+  if (page.has_pictures) text += script(assets::three_js()) + script(assets::orbit_controls_js());
+  for (const std::string_view code : {assets::charts_js(), assets::view_js(), assets::page_js()}) {
     text += script(code);
   }
   return text + "</body>\n</html>\n";

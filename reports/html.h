@@ -23,9 +23,13 @@ struct Section {
 struct Page {
   std::string title;
   std::vector<std::string> headline;  // short facts, each "number words"
+  std::vector<std::string> warnings;  // below it, in sentences
   std::vector<Section> sections;
   std::vector<ViewPart> views;
   std::vector<std::string> notes;
+  // Whether this build holds the libraries that draw charts (Chart.js) and pictures (three.js); a
+  // page without says what is missing.
+  bool has_charts = true, has_pictures = true;
 };
 
 std::string to_html(const Table& table);

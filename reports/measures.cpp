@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 namespace tetproof {
 namespace {
@@ -15,10 +16,43 @@ std::optional<double> per_tetrahedron(const RunRow& row, std::optional<double> a
   return *amount / static_cast<double>(row.mesh->tetrahedra);
 }
 
+// The limits of a mesher's runs; more than one set if runs of several campaigns are mixed.
+std::string limits_of(const Selection& selection, const std::string& mesher) {
+  const auto runs = selection.runs.find(mesher);
+  if (runs == selection.runs.end()) return "";
+  std::set<std::string> all;
+  for (const auto& [model, row] : runs->second) all.insert(row.key.limits);
+  std::string text;
+  for (const std::string& one : all) text += (text.empty() ? "" : " or ") + one;
+  return text;
+}
+
+// Meshers by their limits, in the order of the meshers.
+std::vector<std::pair<std::string, std::string>> limits_and_meshers(
+    const Selection& selection, const std::vector<std::string>& meshers) {
+  std::vector<std::pair<std::string, std::string>> groups;
+  for (const std::string& mesher : meshers) {
+    if (run_count(selection, mesher) == 0) continue;
+    const std::string limits = limits_of(selection, mesher);
+    const auto same = std::find_if(groups.begin(), groups.end(),
+                                   [&](const auto& group) { return group.first == limits; });
+    if (same == groups.end()) {
+      groups.emplace_back(limits, mesher);
+    } else {
+      same->second += ", " + mesher;
+    }
+  }
+  return groups;
+}
+
 }  // namespace
 
 Value wall_seconds() {
   return [](const RunRow& row) { return row.wall_seconds; };
+}
+
+Value verify_seconds() {
+  return [](const RunRow& row) { return row.verify_seconds; };
 }
 
 Value peak_megabytes() {
@@ -71,6 +105,42 @@ std::vector<std::string> present(const Selection& selection,
 std::size_t run_count(const Selection& selection, const std::string& mesher) {
   const auto found = selection.runs.find(mesher);
   return found == selection.runs.end() ? 0 : found->second.size();
+}
+
+std::size_t unverified_count(const Selection& selection, const std::string& mesher) {
+  const auto found = selection.runs.find(mesher);
+  if (found == selection.runs.end()) return 0;
+  return static_cast<std::size_t>(std::count_if(
+      found->second.begin(), found->second.end(),
+      [](const auto& run) { return run.second.disposition == Disposition::unverified; }));
+}
+
+std::string successes_of(const Selection& selection, const std::string& mesher) {
+  const std::size_t unverified = unverified_count(selection, mesher);
+  return fmt::format("{}/{}", selection.ok_runs(mesher).size(), run_count(selection, mesher)) +
+         (unverified == 0 ? "" : fmt::format(", {} unverified", unverified));
+}
+
+bool limits_differ(const Selection& selection, const std::vector<std::string>& meshers) {
+  const auto groups = limits_and_meshers(selection, meshers);
+  return groups.size() > 1 ||
+         (!groups.empty() && groups.front().first.find(" or ") != std::string::npos);
+}
+
+std::string limits_caption(const Selection& selection, const std::vector<std::string>& meshers) {
+  const auto groups = limits_and_meshers(selection, meshers);
+  if (groups.empty()) return "";
+  if (groups.size() == 1) return "Limits of each run: " + groups.front().first + ".";
+  std::string text = "The limits differ:";
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    text += (i == 0 ? " " : "; ") + groups[i].second + ": " + groups[i].first;
+  }
+  return text + ".";
+}
+
+std::size_t style_of(const Selection& selection, const std::string& mesher) {
+  const auto found = std::find(selection.meshers.begin(), selection.meshers.end(), mesher);
+  return static_cast<std::size_t>(found - selection.meshers.begin());
 }
 
 std::string short_name(const std::string& model_name) {

@@ -42,6 +42,7 @@ inline constexpr AngleMeasure kAverageAngles[] = {
     {"average max dihedral angle", &MeshColumns::mean_max_dihedral}};
 
 Value wall_seconds();
+Value verify_seconds();
 Value peak_megabytes();
 // Of the whole process, or of the meshing by the mesher's own account.
 Value process_microseconds();
@@ -58,6 +59,18 @@ std::string degrees(std::optional<double> value);  // small ones keep two signif
 std::vector<std::string> present(const Selection& selection,
                                  const std::vector<std::string>& meshers);
 std::size_t run_count(const Selection& selection, const std::string& mesher);
+// Meshes of it that no oracle has finished with.
+std::size_t unverified_count(const Selection& selection, const std::string& mesher);
+// "27/29", or "27/29, 1 unverified": successes of runs.
+std::string successes_of(const Selection& selection, const std::string& mesher);
+
+// A sentence on the limits of the runs of these meshers, which says so where they differ; empty
+// without runs.
+std::string limits_caption(const Selection& selection, const std::vector<std::string>& meshers);
+bool limits_differ(const Selection& selection, const std::vector<std::string>& meshers);
+
+// The style of a mesher's series, the same in every chart.
+std::size_t style_of(const Selection& selection, const std::string& mesher);
 
 // The file's name without folders and extension.
 std::string short_name(const std::string& model_name);

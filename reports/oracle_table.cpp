@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array<const char*, 5> kVerdicts = {"exact", "rounded", "deviating", "broken",
-                                                  "not verified"};
+                                                  "unverified"};
 
 struct OracleCount {
   std::size_t asked = 0, failed = 0;
@@ -20,7 +20,7 @@ struct OracleCount {
 };
 
 struct MesherVerdicts {
-  std::size_t verified = 0;
+  std::size_t files = 0;
   std::map<std::string, std::size_t> verdicts;
   std::map<std::string, OracleCount> oracles;
 };
@@ -32,9 +32,9 @@ std::string shortened(const std::string& text) {
 
 void add(const Json& json, const std::string& model, MesherVerdicts& sum,
          std::vector<std::string>& order) {
-  ++sum.verified;
+  ++sum.files;
   if (!json.contains("verdict")) {
-    ++sum.verdicts["not verified"];
+    ++sum.verdicts["unverified"];
     return;
   }
   ++sum.verdicts[json.at("verdict").get<std::string>()];
@@ -62,6 +62,10 @@ Table oracle_table(const Selection& selection) {
   std::vector<std::string> order;  // of oracles, as they come in the reports
   for (const std::string& mesher : selection.meshers) {
     for (const auto& [model, row] : selection.runs.at(mesher)) {
+      if (row.disposition == Disposition::unverified && row.verdict_json.empty()) {
+        ++meshers[mesher].files;
+        ++meshers[mesher].verdicts["unverified"];
+      }
       if (row.verdict_json.empty()) continue;
       const Json json = Json::parse(row.verdict_json, nullptr, false);
       if (json.is_object()) add(json, row.model_name, meshers[mesher], order);
@@ -71,6 +75,7 @@ Table oracle_table(const Selection& selection) {
   for (const std::string& mesher : selection.meshers) {
     if (meshers.contains(mesher)) shown.push_back(mesher);
   }
+  if (shown.empty()) return table;
   table.header = {"Verdict or oracle"};
   table.header.insert(table.header.end(), shown.begin(), shown.end());
   const auto add_row = [&](const std::string& name, const auto& cell) {
@@ -78,7 +83,7 @@ Table oracle_table(const Selection& selection) {
     for (const std::string& mesher : shown) row.push_back(cell(meshers[mesher]));
     table.rows.push_back(std::move(row));
   };
-  add_row("files", [](const MesherVerdicts& sum) { return std::to_string(sum.verified); });
+  add_row("files", [](const MesherVerdicts& sum) { return std::to_string(sum.files); });
   for (const char* verdict : kVerdicts) {
     add_row(verdict, [&](MesherVerdicts& sum) { return std::to_string(sum.verdicts[verdict]); });
   }

@@ -42,8 +42,11 @@ Table table_3(const Selection& selection, const std::string& model) {
                 (name == selection.model_names.end() ? "none" : short_name(name->second));
   table.header = {"Measure"};
   Rows rows;
+  std::vector<std::string> unverified;
   for (const std::string& mesher : selection.meshers) {
     const RunRow* row = selection.ok_run(mesher, model);
+    const RunRow* any = selection.run(mesher, model);
+    if (any != nullptr && any->disposition == Disposition::unverified) unverified.push_back(mesher);
     if (row == nullptr) continue;
     table.header.push_back(mesher);
     rows.push_back(row);
@@ -53,6 +56,8 @@ Table table_3(const Selection& selection, const std::string& model) {
     for (const RunRow* row : rows) cells.push_back(cell(*row));
     table.rows.push_back(std::move(cells));
   };
+  if (rows.empty()) return table;
+  table.caption = limits_caption(selection, {table.header.begin() + 1, table.header.end()});
   add("Number of vertices", [](const RunRow& r) { return std::to_string(r.mesh->vertices); });
   add("Number of tetrahedra", [](const RunRow& r) { return std::to_string(r.mesh->tetrahedra); });
   for (const auto& angles : {kExtremeAngles, kAverageAngles}) {
@@ -62,10 +67,10 @@ Table table_3(const Selection& selection, const std::string& model) {
   }
   add("Time (s)", [](const RunRow& r) { return fixed(r.wall_seconds, 2); });
   table.notes = {
-      "Only meshers that succeed on the model. Averages are over faces and over tetrahedra; "
-      "delmesher is our default run, which writes the inside only.",
-      "The paper's Table 3 is for model 71331 of Thingi10K; it has tetgen, delmesher-e4 and "
-      "Delmesher, which is delmesher-nofilter here."};
+      "Only meshers that succeed on the model. Averages are over faces and over tetrahedra."};
+  for (const std::string& mesher : unverified) {
+    table.notes.push_back("Left out, as its mesh is unverified: " + mesher + ".");
+  }
   return table;
 }
 
@@ -73,13 +78,11 @@ Table ablation_table(const Selection& selection) {
   const std::string with = "delmesher-e4", without = "delmesher-nobridges";
   Table table;
   table.name = "ablation";
-  table.title = "Section 4.4: what bridge simplification does";
+  table.title = "What the simplification of bridges (section 4.4) does";
   table.header = {"Measure", "with", "without", "without/with, median (10 % to 90 %)"};
   const auto common = selection.common_models({with, without});
-  if (!selection.has(with) || !selection.has(without)) {
-    table.notes = {"Needs runs of delmesher-e4 and of delmesher-nobridges."};
-    return table;
-  }
+  if (common.empty()) return table;
+  table.caption = limits_caption(selection, {with, without});
   const auto add = [&](const std::string& label, const Value& value, int digits) {
     std::vector<std::pair<double, double>> pairs;
     std::vector<double> firsts, seconds;
@@ -109,7 +112,8 @@ Table ablation_table(const Selection& selection) {
 Table figure_8_table(const Selection& selection) {
   Table table;
   table.name = "figure8";
-  table.title = "Figure 8: one wall getting thinner";
+  table.title = "One wall getting thinner, after Figure 8";
+  table.caption = limits_caption(selection, selection.meshers);
   table.header = {"h",
                   "Mesher",
                   "Tetrahedra",
@@ -143,7 +147,8 @@ Table figure_8_table(const Selection& selection) {
   table.notes = {
       "Shewchuk's estimate bounds the number of tetrahedra by K V / L^3 with a small "
       "constant K, V the volume meshed and L the shortest edge; it holds if the last "
-      "column stays small as h decreases. Models: corpus/figure8."};
+      "column stays small as h decreases. The models are our own, made by corpus/figure8 after the "
+      "paper's figure."};
   return table;
 }
 

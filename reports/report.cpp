@@ -6,6 +6,7 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "reports/assets.h"
 #include "reports/compare.h"
 #include "reports/export.h"
 #include "reports/fidelity.h"
@@ -34,6 +35,7 @@ Table mesher_table(const Selection& selection) {
     const RunRow& row = runs.begin()->second;
     table.rows.push_back({mesher, row.key.version, row.key.flags, row.key.limits, row.host});
   }
+  table.folded_columns = {2};
   table.notes = selection.notes;
   return table;
 }
@@ -76,9 +78,11 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
     return sections.emplace_back(Section{std::move(id), std::move(title), std::move(text),
                                          std::move(tables), std::move(charts), false, false});
   };
-  add("tables", "Tables 1 and 2", "", {table_1(selection), table_2(selection)}, {}).side_by_side =
-      true;
-  add("figures", "Angles (Figures 10, 11, 13)",
+  add("tables", "Tables 1 and 2",
+      "Laid out as the paper's Tables 1 and 2, with every mesher of this campaign on its models.",
+      {table_1(selection), table_2(selection)}, {})
+      .side_by_side = true;
+  add("figures", "Angles (after Figures 10, 11, 13)",
       "Extreme angles of each model, average angles of each model, and all angles of all models. "
       "Same bins for all meshers; each mesher's bars add up to 100 % of its own successes.",
       {},
@@ -92,28 +96,60 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
       {speed_table(selection), time_table(selection), phase_table(selection)},
       {time_chart(selection), speed_chart(selection), phase_chart(selection)});
   add("compare", "Comparison of two", "", {pairing_table(selection)}, {});
-  add("table3", "Table 3 and Figure 13", "", {table_3(selection, model)},
+  add("table3", "One model (after Table 3 and Figure 13)", "", {table_3(selection, model)},
       model.empty() ? std::vector<Chart>() : angle_charts(selection, model));
   add("more", "Table 2, other ways", "", {table_2_all(selection), table_2_inside(selection)}, {})
       .side_by_side = true;
-  add("chamfering", "Bridges and thin walls (section 4.4, Figure 8)", "",
+  add("chamfering", "Bridges and thin walls",
+      "Our own measurements on what the paper's section 4.4 and Figure 8 are about.",
       {ablation_table(selection), figure_8_table(selection)}, {figure_8_chart(selection)});
-  add("fidelity", "Fidelity to the paper",
-      "What the paper states, what this campaign gives, and what differs.",
+  add("fidelity", "Beside the paper",
+      "Columns \"paper\": as printed there. Columns \"here\": measured in this campaign, with "
+      "other "
+      "models, machines and programs; the notes say what differs.",
       fidelity_tables(selection, model), {});
   add("runs", "Slowest runs, failures, meshers", "",
       {mesher_table(selection), slowest_table(selection)}, {});
-  add("failures", "Every failure", "", {failure_table(selection)}, {}).folded = true;
+  add("failures", "Every run that is not ok", "", {failure_table(selection)}, {}).folded = true;
+  for (Section& section : sections) {
+    std::erase_if(section.tables, [](const Table& table) { return !has_data(table); });
+    std::erase_if(section.charts, [](const Chart& chart) { return chart.empty(); });
+  }
+  std::erase_if(sections, [](const Section& section) {
+    return section.tables.empty() && section.charts.empty();
+  });
   return sections;
 }
 
 std::vector<std::string> headline_of(const Selection& selection) {
   std::vector<std::string> facts = {fmt::format("{} models", selection.models.size())};
   for (const std::string& mesher : selection.meshers) {
-    facts.push_back(fmt::format("{}/{} {}", selection.ok_runs(mesher).size(),
-                                run_count(selection, mesher), mesher));
+    const std::size_t unverified = unverified_count(selection, mesher);
+    facts.push_back(fmt::format("{}/{} {}{}", selection.ok_runs(mesher).size(),
+                                run_count(selection, mesher), mesher,
+                                unverified == 0 ? "" : fmt::format(", {} unverified", unverified)));
   }
   return facts;
+}
+
+// What a reader must know before the first number.
+std::vector<std::string> warnings_of(const Selection& selection) {
+  std::vector<std::string> warnings;
+  std::size_t unverified = 0;
+  for (const std::string& mesher : selection.meshers) {
+    unverified += unverified_count(selection, mesher);
+  }
+  if (unverified > 0) {
+    warnings.push_back(fmt::format(
+        "{} {} unverified: the oracles have not finished with {}, or were not asked. "
+        "Such a mesh is no success and in no average.",
+        unverified, unverified == 1 ? "mesh is" : "meshes are", unverified == 1 ? "it" : "them"));
+  }
+  if (limits_differ(selection, selection.meshers)) {
+    warnings.push_back(limits_caption(selection, selection.meshers) +
+                       " Successes and times are not comparable where they do.");
+  }
+  return warnings;
 }
 
 std::vector<RunRow> all_rows(const Selection& selection) {
@@ -136,11 +172,20 @@ ReportFiles write_report(const Selection& selection, const std::filesystem::path
   page.notes = {
       "CSV files of every table and figure, LaTeX (tables.tex) and Markdown (report.md) "
       "stand beside this page."};
-  page.views = collect_views(selection, options.views, page.notes);
+  page.warnings = warnings_of(selection);
+  page.has_charts = !assets::chart_js().empty();
+  page.has_pictures = !assets::three_js().empty() && !assets::orbit_controls_js().empty();
+  if (page.has_pictures) page.views = collect_views(selection, options.views, page.notes);
 
   std::filesystem::create_directories(folder);
-  std::string markdown = fmt::format("# Meshing campaign\n\n{} models, {} meshers.\n\n",
-                                     selection.models.size(), selection.meshers.size());
+  std::string summary = fmt::format("{} models, {} meshers; successes of runs:\n\n",
+                                    selection.models.size(), selection.meshers.size());
+  for (const std::string& mesher : selection.meshers) {
+    summary += fmt::format("- {}: {}\n", mesher, successes_of(selection, mesher));
+  }
+  summary += "\n";
+  for (const std::string& warning : page.warnings) summary += "**" + warning + "**\n\n";
+  std::string markdown = "# Meshing campaign\n\n" + summary;
   std::string latex = "% \\usepackage{booktabs}\n";
   for (const Section& section : page.sections) {
     markdown += "## " + section.title + "\n\n";
@@ -150,7 +195,7 @@ ReportFiles write_report(const Selection& selection, const std::filesystem::path
       write_file(folder / (table.name + ".csv"), to_csv(table));
     }
     for (const Chart& chart : section.charts) {
-      if (!chart.empty()) write_file(folder / (chart.name + ".csv"), to_csv(to_table(chart)));
+      write_file(folder / (chart.name + ".csv"), to_csv(to_table(chart)));
     }
   }
   markdown += "Every run, one a line: [runs.csv](runs.csv). Figures: report.html.\n";
@@ -158,9 +203,8 @@ ReportFiles write_report(const Selection& selection, const std::filesystem::path
   write_file(folder / "tables.tex", latex);
   write_file(folder / "report.md", markdown);
   write_file(folder / "report.html", to_html(page, selection));
-  const auto& first = page.sections.front().tables;
-  return {folder / "report.html", folder / "report.md",
-          to_markdown(first[0]) + to_markdown(first[1])};
+  for (const Table& table : {table_1(selection), table_2(selection)}) summary += to_markdown(table);
+  return {folder / "report.html", folder / "report.md", summary};
 }
 
 }  // namespace tetproof

@@ -17,7 +17,7 @@ struct ReportOptions {
 
 struct ReportFiles {
   std::filesystem::path html, markdown;
-  std::string headline;  // Tables 1 and 2 as Markdown, to be printed
+  std::string headline;  // successes, warnings, Tables 1 and 2 as Markdown, to be printed
 };
 
 // \throw std::runtime_error if the folder cannot be written, or if no model has the name.

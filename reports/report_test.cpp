@@ -6,14 +6,18 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
+#include "reports/assets.h"
 #include "reports/compare.h"
 #include "reports/fidelity.h"
 #include "reports/figures.h"
 #include "reports/html.h"
 #include "reports/made_up_runs.h"
+#include "reports/series_style.h"
 #include "reports/tables.h"
 
 namespace tetproof {
@@ -87,6 +91,69 @@ TEST(Figures, CactusCountsSuccessesOnly) {
   }
 }
 
+// A campaign of 16 meshers, whose runs have twelve phases.
+Selection large_campaign() {
+  std::vector<RunRow> rows;
+  for (int i = 0; i < 16; ++i) {
+    const std::string mesher = "mesher-" + std::to_string(i);
+    for (const char* model : {"figure8-h0.1", "figure8-h0.01"}) {
+      RunRow row = row_of({model, mesher.c_str(), kOk, 1000, 5, 1, 14, 400});
+      row.mesh->volume = row.mesh->shortest_edge = 1;
+      row.mesh_json =
+          R"({"tetrahedra": 1000, "face_angle_histogram": [1], "dihedral_histogram": [1]})";
+      row.stats_json =
+          R"({"phases_seconds": {"read": 1, "check": 1, "filter": 1, "chamfer": 1, "delaunay": 1, "segments": 1,
+              "facets": 1, "refine": 1, "enrich": 1, "classify": 1, "round": 1, "write": 1}})";
+      rows.push_back(row);
+    }
+  }
+  return select_runs(rows);
+}
+
+std::vector<Chart> every_chart(const Selection& selection) {
+  std::vector<Chart> all = {disposition_chart(selection), time_chart(selection),
+                            speed_chart(selection),       phase_chart(selection),
+                            cactus_chart(selection),      size_cactus_chart(selection),
+                            figure_8_chart(selection)};
+  for (const auto& charts :
+       {extreme_angle_charts(selection), average_angle_charts(selection),
+        angle_charts(selection, ""), angle_charts(selection, selection.models.front())}) {
+    all.insert(all.end(), charts.begin(), charts.end());
+  }
+  return all;
+}
+
+// The colours themselves: series_style_test.cpp.
+TEST(Figures, NoTwoSeriesOfAChartShareAColour) {
+  std::size_t most = 0;
+  for (const Selection& selection : {campaign(), detailed_campaign(), large_campaign()}) {
+    for (const Chart& chart : every_chart(selection)) {
+      std::set<std::uint32_t> light, dark;
+      for (const Chart::Series& series : chart.series) {
+        const SeriesStyle style = series_style(series.style);
+        EXPECT_TRUE(light.insert(style.light).second) << chart.name << ": " << series.label;
+        EXPECT_TRUE(dark.insert(style.dark).second) << chart.name << ": " << series.label;
+      }
+      most = std::max(most, chart.series.size());
+    }
+  }
+  EXPECT_EQ(most, 16U);
+  EXPECT_EQ(phase_chart(large_campaign()).series.size(), 12U);
+}
+
+TEST(Figures, AMesherHasTheSameColourInEveryChart) {
+  const Selection selection = large_campaign();
+  std::map<std::string, std::size_t> styles;
+  for (const Chart& chart : every_chart(selection)) {
+    for (const Chart::Series& series : chart.series) {
+      const std::string mesher = series.label.substr(0, series.label.find(' '));
+      if (!selection.has(mesher)) continue;
+      EXPECT_EQ(styles.emplace(mesher, series.style).first->second, series.style) << chart.name;
+    }
+  }
+  EXPECT_EQ(styles.size(), 16U);
+}
+
 TEST(Figures, DispositionsAddUp) {
   const Chart chart = disposition_chart(campaign());
   for (std::size_t i = 0; i < chart.categories.size(); ++i) {
@@ -141,6 +208,26 @@ TEST(Compare, VersionsStandBesideEachOther) {
   EXPECT_EQ(pairs_of(selection).at(0), std::pair(std::string("cdt@base"), std::string("cdt")));
   EXPECT_EQ(pairing_table(selection).rows.size(), 1U);
   std::filesystem::remove(file);
+}
+
+TEST(Fidelity, NothingStandsBesideWhatWasNotRun) {
+  std::vector<RunRow> rows = {row_of({"a", "delmesher", kOk, 100, 5, 1, 0, 0})};
+  for (const Table& table : fidelity_tables(select_runs(rows), "hash-a")) {
+    EXPECT_FALSE(has_data(table)) << table.name;
+  }
+}
+
+TEST(Fidelity, ColumnsSayWhoseNumbersTheyHold) {
+  for (const Table& table : fidelity_tables(campaign(), "hash-a")) {
+    EXPECT_TRUE(has_data(table)) << table.name;
+    EXPECT_EQ(table.title.rfind("Beside the paper's", 0), 0U) << table.title;
+    for (std::size_t i = 1; i < table.header.size(); ++i) {
+      const std::string& column = table.header[i];
+      EXPECT_TRUE(column.find("paper") != std::string::npos ||
+                  column.find("here") != std::string::npos)
+          << table.name << ": " << column;
+    }
+  }
 }
 
 TEST(Fidelity, ThePapersNumbersStandThere) {
@@ -210,6 +297,86 @@ TEST_F(ReportFolder, TheDataOfThePageAreWhole) {
   }
 }
 
+TEST_F(ReportFolder, SectionsWithoutDataAreLeftOut) {
+  write_report(campaign(), folder_);
+  const std::string page = text("report.html"), markdown = text("report.md");
+  // No model of Figure 8, no run without bridges.
+  EXPECT_EQ(page.find("id=\"chamfering\""), std::string::npos);
+  EXPECT_EQ(page.find("#chamfering"), std::string::npos);
+  EXPECT_EQ(markdown.find("## Bridges"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "ablation.csv"));
+  EXPECT_NE(page.find("id=\"success\""), std::string::npos);
+
+  RunRow row = row_of({"a", "delmesher", kOk, 100, 5, 1, 0, 0});
+  write_report(select_runs({row}), folder_);
+  const std::string small = text("report.html");
+  for (const char* id : {"compare", "fidelity", "failures", "figure9"}) {
+    EXPECT_EQ(small.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
+  }
+  const std::regex section("<section id=\"[a-z0-9]*\">\\s*<h2>[^<]*</h2>\\s*</section>");
+  EXPECT_FALSE(std::regex_search(small.substr(0, small.find("<script")), section));
+}
+
+TEST_F(ReportFolder, UnverifiedMeshesAreInTheHeadline) {
+  Selection selection = detailed_campaign();
+  for (const char* model : {"hash-a", "hash-b"}) {
+    selection.runs.at("cdt").at(model).disposition = Disposition::unverified;
+  }
+  const ReportFiles files = write_report(selection, folder_);
+  EXPECT_NE(files.headline.find("cdt: 1/3, 2 unverified"), std::string::npos) << files.headline;
+  EXPECT_NE(files.headline.find("2 meshes are unverified"), std::string::npos);
+  const std::string page = text("report.html");
+  const std::string top = page.substr(0, page.find("<main>"));
+  EXPECT_NE(top.find("<b>1/3</b> cdt, 2 unverified"), std::string::npos)
+      << top.substr(top.find("<header"));
+  EXPECT_NE(top.find("2 meshes are unverified"), std::string::npos);
+  for (const char* file :
+       {"report.md", "tables.tex", "table1.csv", "table2.csv", "table2-all.csv"}) {
+    EXPECT_NE(text(file).find("1/3, 2 unverified"), std::string::npos) << file;
+  }
+  EXPECT_NE(text("runs.csv").find(",unverified,"), std::string::npos);
+  write_report(detailed_campaign(), folder_);
+  const std::string none = text("report.html");
+  EXPECT_EQ(none.substr(0, none.find("<main>")).find("unverified"), std::string::npos);
+}
+
+TEST_F(ReportFolder, DifferentLimitsAreInTheHeadline) {
+  Selection selection = detailed_campaign();
+  for (auto& [model, row] : selection.runs.at("tetgen")) row.key.limits = "wall 5 s";
+  EXPECT_NE(write_report(selection, folder_).headline.find("The limits differ"), std::string::npos);
+  const std::string page = text("report.html");
+  EXPECT_NE(page.substr(0, page.find("<main>")).find("The limits differ"), std::string::npos);
+}
+
+TEST(Page, SaysWhatTheBuildLacks) {
+  const Selection selection = detailed_campaign();
+  Page page;
+  page.title = "t";
+  page.sections = {
+      {"success", "Success", "", {disposition_table(selection)}, {disposition_chart(selection)}}};
+  const auto start = [&] {
+    const std::string html = to_html(page, selection);
+    return html.substr(0, html.find("<script"));
+  };
+  EXPECT_EQ(start().find("this build lacks"), std::string::npos);
+  page.has_charts = page.has_pictures = false;
+  const std::string without = start();
+  EXPECT_NE(without.find("this build lacks Chart.js"), std::string::npos);
+  EXPECT_NE(without.find("this build lacks three.js"), std::string::npos);
+  EXPECT_NE(without.find("dispositions-chart.csv"), std::string::npos);
+  EXPECT_EQ(without.find("class=\"frame\" data-chart"), std::string::npos);
+  EXPECT_EQ(to_html(page, selection).find("Chart.js v"), std::string::npos);
+}
+
+TEST(Page, CommandsFoldAndNamesStayWhole) {
+  Table table = {"n", "t", {"Mesher", "Flags"}, {{"safe-delmesher-e4", std::string(60, 'x')}}, {}};
+  table.folded_columns = {1};
+  const std::string html = to_html(table);
+  EXPECT_NE(html.find("<span class=\"whole\">safe-delmesher-e4</span>"), std::string::npos) << html;
+  EXPECT_NE(html.find("<details class=\"fold\"><summary>command</summary><code>xxx"),
+            std::string::npos);
+}
+
 TEST_F(ReportFolder, TablesAndHistogramsComeFirst) {
   write_report(campaign(), folder_);
   const std::string page = text("report.html");
@@ -227,7 +394,7 @@ TEST_F(ReportFolder, EveryTableAndFigureIsAFileToo) {
   write_report(detailed_campaign(), folder_);
   for (const char* name :
        {"report.md", "tables.tex", "runs.csv", "table1.csv", "table2.csv", "table2-all.csv",
-        "table2-inside.csv", "table3.csv", "ablation.csv", "figure10-min-face-angle.csv",
+        "table2-inside.csv", "table3.csv", "figure10-min-face-angle.csv",
         "figure11-average-max-dihedral-angle.csv", "figure13-face-angles.csv", "pairs.csv",
         "slowest.csv", "failures.csv", "phases-chart.csv", "fidelity-table1.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
@@ -250,6 +417,8 @@ TEST_F(ReportFolder, KeptMeshesAreShown) {
   std::ofstream(folder_ / "kept.chamfered.off")
       << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
   RunRow row = row_of({"a", "delmesher", kOk, 1, 45, 1, 0, 0});
+  row.key.version = "delmesher 1";
+  row.key.flags = "mesh";
   row.model_path = folder_ / "a.off";
   row.mesh_path = folder_ / "kept.tet";
   std::vector<std::string> notes;
@@ -258,12 +427,53 @@ TEST_F(ReportFolder, KeptMeshesAreShown) {
   EXPECT_EQ(parts[0].label, "input");
   EXPECT_EQ(parts[1].label, "chamfered, delmesher");
   EXPECT_TRUE(parts[2].mesh);
+  EXPECT_TRUE(parts[2].ours);
   EXPECT_EQ(parts[2].quality, std::vector<std::uint8_t>{180});  // 45 degrees
   for (const float x : parts[2].vertices) EXPECT_LE(std::fabs(x), 1);
   EXPECT_TRUE(notes.empty());
   row.model_path = folder_ / "gone.off";
   EXPECT_TRUE(collect_views(select_runs({row}), {}, notes).empty());
   EXPECT_EQ(notes.size(), 1U);
+}
+
+// Whatever it is called here, and however the names are sorted.
+TEST_F(ReportFolder, ThePageOpensOnOurMesh) {
+  std::filesystem::create_directories(folder_);
+  std::vector<RunRow> rows;
+  for (const char* model : {"a", "b"}) {
+    for (const char* mesher : {"cdt", "abc", "zzz"}) {
+      const std::string name = std::string(model) + mesher;
+      std::ofstream(folder_ / (name + ".off"))
+          << "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+      std::ofstream(folder_ / (name + ".tet"))
+          << "4 vertices\n1 tets\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 0 1 2 3\n";
+      RunRow row = row_of({model, mesher, kOk, 1, 45, 1, 0, 0});
+      row.key.version = std::string(mesher) == "abc" ? "TetGen 1.5" : "delmesher 1";
+      row.key.flags = std::string(mesher) == "cdt" ? "cdt --region hull" : "mesh --delta 1";
+      row.model_path = folder_ / (name + ".off");
+      row.mesh_path = folder_ / (name + ".tet");
+      // Of model a ours was not kept.
+      if (std::string(model) == "a" && std::string(mesher) == "zzz") row.mesh_path.clear();
+      rows.push_back(row);
+    }
+  }
+  std::vector<std::string> notes;
+  const auto parts = collect_views(select_runs(rows), {}, notes);
+  ASSERT_EQ(parts.size(), 7U);
+  EXPECT_EQ(parts[0].model, 1U);  // b
+  EXPECT_EQ(parts[1].label, "zzz");
+  EXPECT_TRUE(parts[1].ours);
+  for (std::size_t i = 2; i < parts.size(); ++i) EXPECT_FALSE(parts[i].ours) << parts[i].label;
+  EXPECT_TRUE(notes.empty());
+  // Where there is no room for all, every model has its input and its first mesh.
+  ViewOptions tight;
+  tight.bytes = 500;
+  const auto few = collect_views(select_runs(rows), tight, notes);
+  EXPECT_EQ(
+      std::count_if(few.begin(), few.end(), [](const ViewPart& p) { return p.label == "input"; }),
+      2);
+  EXPECT_EQ(std::count_if(few.begin(), few.end(), [](const ViewPart& p) { return p.ours; }), 1);
+  EXPECT_LT(few.size(), 7U);
 }
 
 TEST_F(ReportFolder, AnEmptyCampaignGivesAReport) {

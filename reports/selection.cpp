@@ -111,6 +111,33 @@ void use_processor_time(Selection& selection) {
   selection.notes.emplace_back("Times are processor seconds.");
 }
 
+void shorten_commands(std::vector<RunRow>& rows, std::vector<std::string>& notes) {
+  std::map<std::string, std::string> labels;  // by the mesher as it was given
+  std::set<std::string> taken;
+  for (const RunRow& row : rows) taken.insert(row.key.mesher);
+  const std::set<std::string> given = taken;
+  for (const std::string& mesher : given) {
+    const auto colon = mesher.find(':');
+    if (!mesher.starts_with("cmd") || colon == std::string::npos) continue;
+    const std::string command = mesher.substr(colon + 1);
+    const auto from = command.find_first_not_of("'\" ");
+    const auto to = command.find_first_of("'\" ", from);
+    const std::string program =
+        from == std::string::npos
+            ? ""
+            : std::filesystem::path(command.substr(from, to - from)).filename();
+    std::string label = "cmd:" + program;
+    for (int i = 2; taken.contains(label); ++i) label = "cmd:" + program + "-" + std::to_string(i);
+    taken.insert(label);
+    labels[mesher] = label;
+    notes.push_back(label + " is the mesher given as " + mesher);
+  }
+  for (RunRow& row : rows) {
+    const auto label = labels.find(row.key.mesher);
+    if (label != labels.end()) row.key.mesher = label->second;
+  }
+}
+
 Selection load_runs(const std::vector<std::filesystem::path>& databases,
                     const std::vector<std::filesystem::path>& base) {
   std::vector<RunRow> rows;
@@ -124,7 +151,11 @@ Selection load_runs(const std::vector<std::filesystem::path>& databases,
       rows.push_back(std::move(row));
     }
   }
-  return select_runs(rows);
+  std::vector<std::string> notes;
+  shorten_commands(rows, notes);
+  Selection selection = select_runs(rows);
+  selection.notes.insert(selection.notes.end(), notes.begin(), notes.end());
+  return selection;
 }
 
 }  // namespace tetproof

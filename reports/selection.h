@@ -33,6 +33,10 @@ Selection select_runs(const std::vector<RunRow>& rows);
 // little. Times that a mesher told shrink alike.
 void use_processor_time(Selection& selection);
 
+// A mesher given as a bare command (-m cmd:'PROG ...') is called cmd:PROG from here on, so that
+// tables and charts can name it; cmd:PROG-2 if that name is taken. The notes say what was given.
+void shorten_commands(std::vector<RunRow>& rows, std::vector<std::string>& notes);
+
 // Rows of results files or of exports in JSON; those of `base`, if any, stand beside the others as
 // meshers NAME@base. \throw std::runtime_error if a file cannot be read.
 Selection load_runs(const std::vector<std::filesystem::path>& databases,

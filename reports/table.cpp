@@ -88,6 +88,13 @@ std::string latex_row(const std::vector<std::string>& cells) {
 
 }  // namespace
 
+bool has_data(const Table& table) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [](const auto& row) {
+    return std::any_of(row.begin() + (row.empty() ? 0 : 1), row.end(),
+                       [](const std::string& cell) { return !cell.empty() && cell != "-"; });
+  });
+}
+
 std::string to_markdown(const Table& table) {
   std::vector<std::size_t> widths(table.header.size(), 3);
   const auto widen = [&](const std::vector<std::string>& cells) {
@@ -98,7 +105,9 @@ std::string to_markdown(const Table& table) {
   widen(table.header);
   for (const auto& row : table.rows) widen(row);
 
-  std::string text = "### " + table.title + "\n\n" + markdown_row(table.header, widths) + "|";
+  std::string text = "### " + table.title + "\n\n";
+  if (!table.caption.empty()) text += table.caption + "\n\n";
+  text += markdown_row(table.header, widths) + "|";
   for (std::size_t i = 0; i < widths.size(); ++i) {
     text += i == 0 ? ":" + std::string(widths[i] + 1, '-') + "|"
                    : std::string(widths[i] + 1, '-') + ":|";
@@ -118,7 +127,11 @@ std::string to_csv(const Table& table) {
 
 std::string to_latex(const Table& table) {
   std::string text = "\\begin{table}\n\\centering\n\\caption{" + latex_cell(table.title);
-  for (const std::string& note : table.notes) text += ". " + latex_cell(note);
+  std::vector<std::string> sentences = table.notes;
+  if (!table.caption.empty()) sentences.insert(sentences.begin(), table.caption);
+  for (const std::string& sentence : sentences) {
+    text += (text.back() == '.' ? " " : ". ") + latex_cell(sentence);
+  }
   text += "}\n\\label{tab:" + table.name + "}\n\\begin{tabular}{l";
   text += std::string(table.header.empty() ? 0 : table.header.size() - 1, 'r') + "}\n\\toprule\n";
   text += latex_row(table.header) + "\\midrule\n";

@@ -12,7 +12,13 @@ struct Table {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
   std::vector<std::string> notes;  // below the table: denominators, conventions
+  std::string caption = {};        // below the title: the conditions, such as limits of the runs
+  // Columns of commands and the like, which the page shows on request.
+  std::vector<std::size_t> folded_columns = {};
 };
+
+// Whether any cell says something: neither "-" nor nothing, row labels apart.
+bool has_data(const Table& table);
 
 std::string to_markdown(const Table& table);
 std::string to_csv(const Table& table);    // RFC 4180

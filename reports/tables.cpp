@@ -24,24 +24,96 @@ std::string with_refined(std::optional<double> value, std::optional<double> refi
   return refined ? degrees(value) + " (" + degrees(refined) + ")" : degrees(value);
 }
 
+// What the meshes of these rows cover.
+std::string region_of(const Rows& rows) {
+  std::string region;
+  for (const RunRow* row : rows) {
+    const std::string here = row->region.empty() ? "not told" : row->region;
+    if (!region.empty() && region != here) return "mixed";
+    region = here;
+  }
+  return region.empty() ? "-" : region;
+}
+
+constexpr const char* kRegions =
+    "Region: interior counts the tetrahedra inside the model only, hull all of them, down to the "
+    "convex hull or an outer box. Sizes compare within one region only.";
+
+// Our experiments in the order of the paper's Table 1, then everybody else.
+std::vector<std::string> experiments_first(const Selection& selection) {
+  auto meshers = present(selection, {"safe-delmesher-e4", "delmesher-e4", "delmesher"});
+  for (const std::string& mesher : selection.meshers) {
+    if (std::find(meshers.begin(), meshers.end(), mesher) == meshers.end()) {
+      meshers.push_back(mesher);
+    }
+  }
+  return meshers;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 enum class Over : std::uint8_t { common, own };  // models on which all succeed, or each
 
-Table comparison(const Selection& selection, const std::vector<std::string>& meshers, Part part,
-                 Over over = Over::common) {
-  Table table;
-  std::vector<std::string> common = selection.common_models(meshers);
+// The models on which each of these meshers succeeds and has the part.
+std::vector<std::string> common_to(const Selection& selection,
+                                   const std::vector<std::string>& meshers, Part part) {
+  std::vector<std::string> common;
+  if (meshers.empty()) return common;
+  common = selection.common_models(meshers);
   std::erase_if(common, [&](const auto& model) {
     return std::any_of(meshers.begin(), meshers.end(), [&](const auto& mesher) {
       return !(selection.ok_run(mesher, model)->*part);
     });
   });
+  return common;
+}
+
+// Says over which models the averages are, and which mesher costs most of them.
+std::string common_note(const Selection& selection, const std::vector<std::string>& meshers,
+                        Part part, std::size_t common) {
+  std::string note =
+      fmt::format("Averages over the {} of {} models on which all {} meshers of the table succeed.",
+                  common, selection.models.size(), meshers.size());
+  std::string worst;
+  std::size_t most = common;
+  for (const std::string& mesher : meshers) {
+    std::vector<std::string> others = meshers;
+    std::erase(others, mesher);
+    const std::size_t without = common_to(selection, others, part).size();
+    if (without > most) {
+      most = without;
+      worst = mesher;
+    }
+  }
+  if (!worst.empty()) note += fmt::format(" Without {} they would be over {}.", worst, most);
+  return note;
+}
+
+Table comparison(const Selection& selection, Part part, Over over = Over::common) {
+  const std::vector<std::string>& meshers = selection.meshers;
+  // A mesher without any success would leave no model to compare the others on.
+  std::vector<std::string> taking_part, without;
+  for (const std::string& mesher : meshers) {
+    const Rows rows = selection.ok_runs(mesher);
+    const bool any =
+        std::any_of(rows.begin(), rows.end(), [&](const RunRow* row) { return !!(row->*part); });
+    (any ? taking_part : without).push_back(mesher);
+  }
+  Table table;
+  table.caption = limits_caption(selection, meshers);
+  const std::vector<std::string> common = common_to(selection, taking_part, part);
   std::vector<Rows> columns;
   table.header = {"Measure"};
   for (const std::string& mesher : meshers) {
     table.header.push_back(mesher);
     Rows rows;
     for (const auto& model : over == Over::common ? common : selection.models) {
-      if (const RunRow* row = selection.ok_run(mesher, model)) rows.push_back(row);
+      const RunRow* row = selection.ok_run(mesher, model);
+      if (row != nullptr && row->*part) rows.push_back(row);
     }
     columns.push_back(std::move(rows));
   }
@@ -56,19 +128,21 @@ Table comparison(const Selection& selection, const std::vector<std::string>& mes
   add_row(table, "Avg. # tetrahedra", columns, [&](const Rows& rows) {
     return fixed(mean(values_of(rows, of(part, &MeshColumns::tetrahedra))), 0);
   });
+  if (part == &RunRow::mesh) add_row(table, "Region", columns, region_of);
   std::vector<std::string> successes = {"Successes (ok of runs)"};
-  for (const std::string& mesher : meshers) {
-    successes.push_back(
-        fmt::format("{}/{}", selection.ok_runs(mesher).size(), run_count(selection, mesher)));
-  }
+  for (const std::string& mesher : meshers) successes.push_back(successes_of(selection, mesher));
   table.rows.push_back(std::move(successes));
   table.notes.push_back(
       over == Over::own
           ? "Each column is averaged over the models on which that mesher succeeds: the columns "
             "are not over the same models."
-          : fmt::format(
-                "Averages over the {} of {} models on which all {} meshers of the table succeed.",
-                common.size(), selection.models.size(), meshers.size()));
+          : common_note(selection, taking_part, part, common.size()));
+  if (over == Over::common && !without.empty()) {
+    table.notes.push_back(
+        "Left out of the common models, as no success of theirs can be compared: " +
+        listed(without) + ".");
+  }
+  if (part == &RunRow::mesh) table.notes.emplace_back(kRegions);
   return table;
 }
 
@@ -77,17 +151,19 @@ Table comparison(const Selection& selection, const std::vector<std::string>& mes
 Table table_1(const Selection& selection) {
   Table table;
   table.name = "table1";
-  table.title = "Table 1: averages per experiment";
+  table.title = "Table 1: averages per mesher";
   table.header = {"Measure"};
   std::vector<Rows> columns;
-  const auto meshers = present(selection, {"safe-delmesher-e4", "delmesher-e4", "delmesher"});
+  const auto meshers = experiments_first(selection);
+  table.caption = limits_caption(selection, meshers);
   std::vector<std::string> models = {"Models (ok of runs)"};
   for (const std::string& mesher : meshers) {
     table.header.push_back(mesher);
     columns.push_back(selection.ok_runs(mesher));
-    models.push_back(fmt::format("{}/{}", columns.back().size(), run_count(selection, mesher)));
+    models.push_back(successes_of(selection, mesher));
   }
-  table.rows.push_back(models);
+  if (!meshers.empty()) table.rows.push_back(models);
+  if (!meshers.empty()) add_row(table, "Region", columns, region_of);
   add_row(table, "Avg. # tetrahedra", columns, [](const Rows& rows) {
     return fixed(mean(values_of(rows, of(&RunRow::mesh, &MeshColumns::tetrahedra))), 0);
   });
@@ -109,46 +185,51 @@ Table table_1(const Selection& selection) {
           [](const Rows& rows) { return fixed(mean(values_of(rows, wall_seconds())), 2); });
   add_row(table, "Average memory (MB)", columns,
           [](const Rows& rows) { return fixed(mean(values_of(rows, peak_megabytes())), 0); });
+  const bool verified = std::any_of(columns.begin(), columns.end(), [](const Rows& rows) {
+    return !values_of(rows, verify_seconds()).empty();
+  });
+  if (verified) {
+    add_row(table, "Average time of the oracles (s)", columns,
+            [](const Rows& rows) { return fixed(mean(values_of(rows, verify_seconds())), 2); });
+  }
   table.notes = {
-      "Each column is averaged over the models on which that experiment succeeds (first row).",
+      "Each column is averaged over the models on which that mesher succeeds (first row): the "
+      "columns are not over the same models.",
       "In brackets: at the end of the refinement, before the enriched CDT, by the mesher's own "
       "statistics. All else is measured on the file as written.",
-      "The two e4 experiments count every tetrahedron down to the outer box, as the paper does; "
-      "delmesher is our default run, which writes and counts the inside of the model only.",
+      kRegions,
       "Time is the " + selection.clock +
           " time of the whole process, memory its peak resident set, 1 MB = 10^6 bytes."};
   return table;
 }
 
 Table table_2(const Selection& selection) {
-  Table table = comparison(
-      selection,
-      present(selection, {"tetgen-T0", "tetgen", "cdt", "safe-delmesher-e4", "delmesher-e4"}),
-      &RunRow::mesh);
+  Table table = comparison(selection, &RunRow::mesh);
   table.name = "table2";
   table.title = "Table 2: comparison on the common subset";
-  table.notes.push_back(
-      "All tetrahedra count, down to the convex hull (TetGen, CDT) or the outer box; cdt is our "
-      "own "
-      "constrained Delaunay tetrahedrization, not the published program.");
+  if (selection.has("cdt")) {
+    table.notes.emplace_back(
+        "cdt is our own constrained Delaunay tetrahedrization, not the published program.");
+  }
   return table;
 }
 
 Table table_2_all(const Selection& selection) {
-  Table table = comparison(
-      selection,
-      present(selection, {"tetgen-T0", "tetgen", "cdt", "safe-delmesher-e4", "delmesher-e4"}),
-      &RunRow::mesh, Over::own);
+  Table table = comparison(selection, &RunRow::mesh, Over::own);
   table.name = "table2-all";
   table.title = "Table 2 over all successes of each mesher";
   return table;
 }
 
 Table table_2_inside(const Selection& selection) {
-  Table table = comparison(selection,
-                           present(selection, {"tetgen-T0", "tetgen", "cdt", "safe-delmesher-e4",
-                                               "delmesher-e4", "delmesher"}),
-                           &RunRow::inside);
+  Table table = comparison(selection, &RunRow::inside);
+  // Without a file that tells its inside there is nothing to say.
+  const bool any = std::any_of(
+      selection.meshers.begin(), selection.meshers.end(), [&](const std::string& mesher) {
+        return !values_of(selection.ok_runs(mesher), of(&RunRow::inside, &MeshColumns::tetrahedra))
+                    .empty();
+      });
+  if (!any) table.rows.clear();
   table.name = "table2-inside";
   table.title = "Table 2 inside the model only";
   table.notes.push_back("Only tetrahedra inside the model count, for every mesher.");
@@ -159,6 +240,7 @@ Table disposition_table(const Selection& selection) {
   Table table;
   table.name = "dispositions";
   table.title = "What became of the runs";
+  table.caption = limits_caption(selection, selection.meshers);
   table.header = {"Mesher", "Runs", "ok", "ok %", "95 % interval"};
   for (std::size_t d = 1; d < kDispositionCount; ++d) {
     table.header.emplace_back(disposition_name(static_cast<Disposition>(d)));
@@ -195,6 +277,7 @@ Table speed_table(const Selection& selection) {
   Table table;
   table.name = "speed";
   table.title = "Microseconds and bytes per tetrahedron";
+  table.caption = limits_caption(selection, selection.meshers);
   table.header = {"Mesher",
                   "Models",
                   "us/tet, median",

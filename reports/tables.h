@@ -1,4 +1,6 @@
-// The tables of a report. Every average says over how many models it is taken.
+// The tables of a report. Every average says over how many models it is taken, and every comparison
+// of meshers within which limits they ran and how many meshes are unverified. A table without
+// data has no rows.
 #pragma once
 
 #include <string>
@@ -9,28 +11,29 @@
 
 namespace tetproof {
 
-// The paper's Table 1: our experiments over their own successes, angles before the enriched CDT in
-// brackets.
+// As the paper's Table 1, but of every mesher: averages over its own successes, angles before the
+// enriched CDT in brackets.
 Table table_1(const Selection& selection);
 
-// The paper's Table 2: TetGen twice, CDT and our two, over the models on which all succeed.
+// As the paper's Table 2, but of every mesher: averages over the models on which all succeed that
+// succeed at all.
 Table table_2(const Selection& selection);
 
 // The same over all models on which each mesher succeeds.
 Table table_2_all(const Selection& selection);
 
-// Table 2's measures over the tetrahedra inside the model only, with our default run beside them.
+// Table 2's measures over the tetrahedra inside the model only; no rows if no file tells them.
 Table table_2_inside(const Selection& selection);
 
-// The paper's Table 3: one model with TetGen, our mesher with and without the filter, and the rest.
+// As the paper's Table 3: one model with all meshers that succeed on it.
 Table table_3(const Selection& selection, const std::string& model);
 
 // Section 4.4: delmesher-e4 with and without bridge simplification, over the models on which both
 // succeed. No rows if one of them was not run.
 Table ablation_table(const Selection& selection);
 
-// The paper's Figure 8: models named figure8-h*, with the estimate of the number of tetrahedra from
-// the volume and the shortest edge. No rows if there are none.
+// As the paper's Figure 8: models named figure8-h*, with the estimate of the number of tetrahedra
+// from the volume and the shortest edge. No rows if there are none.
 Table figure_8_table(const Selection& selection);
 
 // How long runs took, in the paper's classes and shorter ones.

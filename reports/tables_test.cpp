@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <map>
 
+#include "reports/compare.h"
 #include "reports/made_up_runs.h"
+#include "reports/measures.h"
 #include "reports/report.h"
 
 namespace tetproof {
@@ -17,8 +20,8 @@ namespace {
 TEST(Tables, Table1) {
   const Table table = table_1(campaign());
   auto t = cells(table);
-  EXPECT_EQ(table.header,
-            (std::vector<std::string>{"Measure", "safe-delmesher-e4", "delmesher-e4"}));
+  EXPECT_EQ(table.header, (std::vector<std::string>{"Measure", "safe-delmesher-e4", "delmesher-e4",
+                                                    "tetgen-T0", "tetgen", "cdt"}));
   EXPECT_EQ(t["Models (ok of runs)"]["safe-delmesher-e4"], "3/3");
   EXPECT_EQ(t["Models (ok of runs)"]["delmesher-e4"], "2/3");
   EXPECT_EQ(t["Avg. # tetrahedra"]["safe-delmesher-e4"], "8000");  // 24000 / 3
@@ -61,6 +64,129 @@ TEST(Tables, Table2IsOverTheCommonSubset) {
   EXPECT_NE(table.notes[0].find("the 1 of 3 models"), std::string::npos) << table.notes[0];
 }
 
+// A mesher by a name of the user's, and one that never succeeds.
+Selection campaign_with_others() {
+  std::vector<RunRow> rows;
+  for (const auto& [mesher, runs] : campaign().runs) {
+    for (const auto& [model, row] : runs) rows.push_back(row);
+  }
+  for (const Made& made :
+       std::initializer_list<Made>{{"a", "mine", kOk, 700, 7, 1, 0, 300},
+                                   {"b", "mine", kOk, 800, 7, 1, 0, 300},
+                                   {"a", "hopeless", Disposition::crash, 0, 0, 0, 0, 0}}) {
+    rows.push_back(row_of(made));
+  }
+  return select_runs(rows);
+}
+
+TEST(Tables, EveryMesherThatWasRunIsInTables1And2) {
+  const Selection selection = campaign_with_others();
+  for (const Table& table : {table_1(selection), table_2(selection), table_2_all(selection)}) {
+    for (const std::string& mesher : selection.meshers) {
+      EXPECT_EQ(std::count(table.header.begin(), table.header.end(), mesher), 1)
+          << table.name << " " << mesher;
+    }
+  }
+  EXPECT_EQ(cells(table_1(selection))["Models (ok of runs)"]["mine"], "2/2");
+  EXPECT_EQ(cells(table_1(selection))["Models (ok of runs)"]["hopeless"], "0/1");
+  EXPECT_EQ(cells(table_1(selection))["Avg. # tetrahedra"]["mine"], "750");
+}
+
+TEST(Tables, AMesherWithoutSuccessDoesNotEmptyTable2) {
+  const Table table = table_2(campaign_with_others());
+  auto t = cells(table);
+  EXPECT_EQ(t["Avg. # tetrahedra"]["tetgen"], "500");  // model a
+  EXPECT_EQ(t["Avg. # tetrahedra"]["hopeless"], "-");
+  EXPECT_EQ(t["Successes (ok of runs)"]["hopeless"], "0/1");
+  EXPECT_NE(to_markdown(table).find("no success of theirs can be compared: hopeless."),
+            std::string::npos);
+}
+
+// Only model a is ok with all five; a and c are with the other four.
+TEST(Tables, TheNoteNamesTheMesherThatCostsMostModels) {
+  const Table table = table_2(campaign());
+  EXPECT_NE(table.notes[0].find("Without tetgen-T0 they would be over 2."), std::string::npos)
+      << table.notes[0];
+}
+
+TEST(Tables, RegionsAreTold) {
+  Selection selection = campaign();
+  for (auto& [model, row] : selection.runs.at("cdt")) row.region = "hull";
+  for (auto& [model, row] : selection.runs.at("tetgen")) row.region = "interior";
+  selection.runs.at("tetgen").at("hash-c").region = "hull";
+  auto t = cells(table_1(selection));
+  EXPECT_EQ(t["Region"]["cdt"], "hull");
+  EXPECT_EQ(t["Region"]["tetgen"], "mixed");
+  EXPECT_EQ(t["Region"]["tetgen-T0"], "not told");
+}
+
+TEST(Tables, CaptionsTellTheLimitsAndWhetherTheyDiffer) {
+  Selection selection = campaign();
+  EXPECT_EQ(table_1(selection).caption, "Limits of each run: l.");
+  EXPECT_FALSE(limits_differ(selection, selection.meshers));
+  for (auto& [model, row] : selection.runs.at("tetgen")) row.key.limits = "wall 5 s";
+  EXPECT_TRUE(limits_differ(selection, selection.meshers));
+  EXPECT_FALSE(limits_differ(selection, {"cdt", "delmesher-e4"}));
+  const std::string caption = limits_caption(selection, selection.meshers);
+  EXPECT_NE(caption.find("The limits differ:"), std::string::npos) << caption;
+  EXPECT_NE(caption.find("tetgen: wall 5 s"), std::string::npos) << caption;
+  for (const Table& table :
+       {table_1(selection), table_2(selection), table_2_all(selection), table_2_inside(selection),
+        disposition_table(selection), speed_table(selection), time_table(selection),
+        pairing_table(selection), table_3(selection, "hash-a"), slowest_table(selection)}) {
+    EXPECT_EQ(table.caption.rfind("The limits differ:", 0), 0U) << table.name;
+    EXPECT_NE(to_markdown(table).find(table.caption), std::string::npos);
+    EXPECT_NE(to_latex(table).find("The limits differ:"), std::string::npos);
+  }
+  // Of one mesher, mixed.
+  selection.runs.at("cdt").at("hash-a").key.limits = "wall 9 s";
+  EXPECT_EQ(limits_caption(selection, {"cdt"}), "Limits of each run: l or wall 9 s.");
+  EXPECT_TRUE(limits_differ(selection, {"cdt"}));
+}
+
+TEST(Tables, TimeOfTheOraclesIsShownWhereRunsAreListed) {
+  Selection selection = campaign();
+  EXPECT_EQ(cells(time_table(selection))["cdt"]["oracles, all s"], "-");
+  selection.runs.at("cdt").at("hash-a").verify_seconds = 1.25;
+  selection.runs.at("cdt").at("hash-b").verify_seconds = 3.25;
+  EXPECT_EQ(cells(time_table(selection))["cdt"]["oracles, all s"], "4.5");
+  EXPECT_EQ(cells(time_table(selection))["cdt"]["oracles, median s"], "2.25");
+  EXPECT_EQ(cells(table_1(selection))["Average time of the oracles (s)"]["cdt"], "2.25");
+  EXPECT_EQ(slowest_table(selection).header.back(), "Oracles, s");
+  selection.runs.at("tetgen").at("hash-b").verify_seconds = 7;
+  const Table failures = failure_table(selection);
+  EXPECT_TRUE(std::any_of(failures.rows.begin(), failures.rows.end(),
+                          [](const auto& row) { return row[1] == "tetgen" && row[4] == "7.00"; }));
+}
+
+TEST(Tables, NothingIsShownOfWhatThereIsNot) {
+  for (const Table& table :
+       {table_1(select_runs({})), table_2(select_runs({})), ablation_table(campaign()),
+        figure_8_table(campaign()), oracle_table(campaign()), phase_table(campaign())}) {
+    EXPECT_FALSE(has_data(table)) << table.name;
+  }
+  EXPECT_TRUE(has_data(table_1(campaign())));
+  EXPECT_FALSE(has_data({"n", "t", {"a", "b"}, {{"x", "-"}, {"y", ""}}, {}}));
+}
+
+TEST(Selection, BareCommandsGetShortNames) {
+  std::vector<RunRow> rows;
+  for (const char* mesher :
+       {"cmd:/opt/bin/mesh.py {in} {out.mesh}", "cmd:'/usr/bin/mesh.py -q {in} {out.msh}'",
+        "cmd,region=hull:prog {in} {out.mesh}", "named", "delmesher"}) {
+    rows.push_back(row_of({"a", mesher, kOk, 10, 1, 1, 0, 0}));
+  }
+  std::vector<std::string> notes;
+  shorten_commands(rows, notes);
+  std::vector<std::string> names;
+  for (const RunRow& row : rows) names.push_back(row.key.mesher);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"cmd:mesh.py", "cmd:mesh.py-2", "cmd:prog",
+                                             "delmesher", "named"}));
+  ASSERT_EQ(notes.size(), 3U);
+  EXPECT_NE(notes[0].find(" is the mesher given as cmd"), std::string::npos);
+}
+
 TEST(Tables, Table2Inside) {
   auto t = cells(table_2_inside(campaign()));
   EXPECT_EQ(t["Avg. # tetrahedra"]["tetgen"], "200");
@@ -89,7 +215,13 @@ TEST(Tables, UnverifiedMeshesAreNoSuccesses) {
   EXPECT_EQ(selection.ok_run("cdt", "hash-a"), nullptr);
   EXPECT_EQ(selection.common_models({"cdt"}).size(), 2U);
   auto table2 = cells(table_2(selection));
-  EXPECT_EQ(table2["Successes (ok of runs)"]["cdt"], "2/3");
+  EXPECT_EQ(table2["Successes (ok of runs)"]["cdt"], "2/3, 1 unverified");
+  EXPECT_EQ(cells(table_1(selection))["Models (ok of runs)"]["cdt"], "2/3, 1 unverified");
+  EXPECT_EQ(cells(table_2_all(selection))["Successes (ok of runs)"]["cdt"], "2/3, 1 unverified");
+  EXPECT_NE(to_markdown(pairing_table(selection)).find("cdt 1"), std::string::npos);
+  const Table table3 = table_3(selection, "hash-a");
+  EXPECT_EQ(std::count(table3.header.begin(), table3.header.end(), "cdt"), 0);
+  EXPECT_NE(to_markdown(table3).find("unverified: cdt"), std::string::npos);
 }
 
 TEST(Tables, Speed) {
@@ -152,7 +284,7 @@ TEST(Tables, OraclesByMesherWithAnExample) {
   EXPECT_EQ(table.rows[0], (std::vector<std::string>{"files", "3"}));
   EXPECT_EQ(table.rows[1], (std::vector<std::string>{"exact", "1"}));
   EXPECT_EQ(table.rows[4], (std::vector<std::string>{"broken", "1"}));
-  EXPECT_EQ(table.rows[5], (std::vector<std::string>{"not verified", "1"}));
+  EXPECT_EQ(table.rows[5], (std::vector<std::string>{"unverified", "1"}));
   EXPECT_EQ(table.rows[6], (std::vector<std::string>{"complex", "2 of 2"}));
   EXPECT_EQ(table.rows[7], (std::vector<std::string>{"volume", "1 of 2"}));
   ASSERT_EQ(table.notes.size(), 2U);
@@ -168,9 +300,8 @@ TEST(Report, FilesAreWritten) {
   const auto folder =
       std::filesystem::path(testing::TempDir()) / ("report_test_" + std::to_string(getpid()));
   const ReportFiles files = write_report(campaign(), folder);
-  for (const char* name :
-       {"report.md", "table1.csv", "table2.csv", "table2-inside.csv", "dispositions.csv",
-        "oracles.csv", "speed.csv", "not-ok.csv", "runs.csv"}) {
+  for (const char* name : {"report.md", "table1.csv", "table2.csv", "table2-inside.csv",
+                           "dispositions.csv", "speed.csv", "not-ok.csv", "runs.csv"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   }
   EXPECT_NE(files.headline.find("Table 2"), std::string::npos);

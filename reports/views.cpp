@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "oracles/mesh_file.h"
 #include "oracles/surface_file.h"
@@ -20,9 +21,16 @@ namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little);  // the page reads arrays as they are
 
-// Meshers whose meshes are shown, the most interesting first.
-constexpr std::array kShown = {"delmesher",         "delmesher-e4",       "tetgen",   "cdt",
-                               "safe-delmesher-e4", "delmesher-nofilter", "tetgen-T0"};
+// The quality meshes of our program; its cdt has no quality to show.
+bool is_ours(const RunRow& row) {
+  return row.key.version.starts_with("delmesher ") && row.key.flags.starts_with("mesh");
+}
+
+// Which mesh of a model is shown first: our default run, our others, then those of others.
+int rank_of(const RunRow& row) {
+  if (is_ours(row)) return row.key.mesher == "delmesher" ? 0 : 1;
+  return 2;
+}
 
 // Moves a model's box to the middle of [-1, 1]^3; computed in double, shown in float.
 struct Frame {
@@ -98,28 +106,33 @@ bool can_be_shown(const RunRow* row, const ViewOptions& options) {
 
 // Those asked for by name, then models spread evenly by size, so that the gallery shows all sorts.
 std::vector<std::size_t> chosen_models(const Selection& selection, const ViewOptions& options) {
-  std::vector<std::pair<std::uint64_t, std::size_t>> candidates;
+  std::vector<std::pair<std::uint64_t, std::size_t>> with_ours, others;
   std::vector<std::size_t> chosen;
   for (std::size_t m = 0; m < selection.models.size(); ++m) {
     const std::string& model = selection.models[m];
     std::uint64_t size = 0;
+    bool ours = false;
     for (const std::string& mesher : selection.meshers) {
       const RunRow* row = selection.run(mesher, model);
-      if (can_be_shown(row, options)) size = std::max(size, row->mesh->tetrahedra);
+      if (!can_be_shown(row, options)) continue;
+      size = std::max(size, row->mesh->tetrahedra);
+      ours = ours || is_ours(*row);
     }
     if (size == 0) continue;
     const std::string name = short_name(selection.model_names.at(model));
     if (std::find(options.wanted.begin(), options.wanted.end(), name) != options.wanted.end()) {
       chosen.push_back(m);
     } else {
-      candidates.emplace_back(size, m);
+      (ours ? with_ours : others).emplace_back(size, m);
     }
   }
-  std::sort(candidates.begin(), candidates.end());
-  const std::size_t free = options.models - std::min(options.models, chosen.size());
-  const std::size_t count = std::min(free, candidates.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    chosen.push_back(candidates[(2 * i + 1) * candidates.size() / (2 * count)].second);
+  for (auto* candidates : {&with_ours, &others}) {
+    std::sort(candidates->begin(), candidates->end());
+    const std::size_t free = options.models - std::min(options.models, chosen.size());
+    const std::size_t count = std::min(free, candidates->size());
+    for (std::size_t i = 0; i < count; ++i) {
+      chosen.push_back((*candidates)[(2 * i + 1) * candidates->size() / (2 * count)].second);
+    }
   }
   return chosen;
 }
@@ -130,31 +143,54 @@ class Collector {
       : selection_(selection), options_(options), notes_(notes) {}
 
   std::vector<ViewPart> collect() {
-    for (const std::size_t model : chosen_models(selection_, options_)) add_model(model);
+    const auto models = chosen_models(selection_, options_);
+    for (const bool first : {true, false}) {
+      for (const std::size_t model : models) add_model(model, first);
+    }
+    // Where the page opens: on a mesh of ours, if there is one.
+    const auto lacks_ours = [&](std::size_t model) {
+      return std::none_of(parts_.begin(), parts_.end(),
+                          [&](const ViewPart& part) { return part.model == model && part.ours; });
+    };
+    std::stable_sort(parts_.begin(), parts_.end(), [&](const ViewPart& a, const ViewPart& b) {
+      const auto place = [&](std::size_t model) {
+        return std::pair(lacks_ours(model), std::find(models.begin(), models.end(), model));
+      };
+      return place(a.model) < place(b.model);
+    });
     return std::move(parts_);
   }
 
  private:
-  void add_model(std::size_t m) {
+  // The input and the first mesh, or all others.
+  void add_model(std::size_t m, bool first) {
     const std::string& model = selection_.models[m];
     std::vector<const RunRow*> rows;
-    for (const char* mesher : kShown) {
-      if (can_be_shown(selection_.run(mesher, model), options_)) {
-        rows.push_back(selection_.run(mesher, model));
-      }
-    }
     for (const std::string& mesher : selection_.meshers) {
       const RunRow* row = selection_.run(mesher, model);
-      if (std::find(rows.begin(), rows.end(), row) == rows.end() && can_be_shown(row, options_)) {
-        rows.push_back(row);
-      }
+      if (can_be_shown(row, options_)) rows.push_back(row);
     }
-    guarded(rows.front()->model_path, [&] {
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const RunRow* a, const RunRow* b) { return rank_of(*a) < rank_of(*b); });
+    const auto read = [&](const auto& use) {
       const auto input = oracles::read_surface(rows.front()->model_path);
-      const Frame frame(input.vertices);
-      add(surface_part(input, frame), m, "input");
-      for (const RunRow* row : rows) add_run(*row, m, frame);
-    });
+      use(input, Frame(input.vertices));
+    };
+    if (first) {
+      guarded(rows.front()->model_path, [&] {
+        read([&](const oracles::Polyhedron& input, const Frame& frame) {
+          add(surface_part(input, frame), m, "input");
+          add_run(*rows.front(), m, frame);
+        });
+        readable_.insert(m);
+      });
+    } else if (readable_.contains(m)) {
+      guarded(rows.front()->model_path, [&] {
+        read([&](const oracles::Polyhedron&, const Frame& frame) {
+          for (std::size_t i = 1; i < rows.size(); ++i) add_run(*rows[i], m, frame);
+        });
+      });
+    }
   }
 
   void add_run(const RunRow& row, std::size_t m, const Frame& frame) {
@@ -163,7 +199,9 @@ class Collector {
         add(surface_part(oracles::read_surface(chamfered_beside(row)), frame), m,
             "chamfered, " + row.key.mesher);
       }
-      add(mesh_part(oracles::read_mesh(row.mesh_path), frame), m, row.key.mesher);
+      ViewPart part = mesh_part(oracles::read_mesh(row.mesh_path), frame);
+      part.ours = is_ours(row);
+      add(std::move(part), m, row.key.mesher);
     });
   }
 
@@ -196,6 +234,7 @@ class Collector {
   const ViewOptions& options_;
   std::vector<std::string>& notes_;
   std::uint64_t used_ = 0;
+  std::set<std::size_t> readable_;  // models
   std::vector<ViewPart> parts_;
 };
 
@@ -227,7 +266,8 @@ std::string to_json(const ViewPart& part) {
   nlohmann::ordered_json json = {{"model", part.model},
                                  {"label", part.label},
                                  {"kind", part.mesh ? "mesh" : "surface"},
-                                 {"hull", part.hull}};
+                                 {"hull", part.hull},
+                                 {"ours", part.ours}};
   json["v"] = base64(part.vertices.data(), part.vertices.size() * sizeof(float));
   const bool wide = part.vertices.size() / 3 >= 65536;
   json["wide"] = wide;

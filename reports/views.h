@@ -23,14 +23,17 @@ struct ViewPart {
   std::string label;      // "input", "chamfered, MESHER", or the mesher
   bool mesh = false;      // tetrahedra; else triangles
   bool hull = false;      // meshes the outside too
+  bool ours = false;      // by delmesher, whatever the mesher is called here
   std::vector<float> vertices;
   std::vector<std::uint32_t> cells;   // 4 or 3 corners each
   std::vector<std::uint8_t> quality;  // per tetrahedron: 4 times its smallest face angle, degrees
   std::vector<std::uint8_t> inside;   // per tetrahedron; empty if the file does not tell
 };
 
-// Reads kept meshes (RunRow::mesh_path), the chamfered surfaces beside them and the models. Files
-// that are gone or cannot be read are left out; `notes` says which.
+// Of every model first the input and the mesh that the page opens on, ours where one was kept; then
+// the others as far as there is room. Reads kept meshes (RunRow::mesh_path), the chamfered surfaces
+// beside them and the models. Files that are gone or cannot be read are left out; `notes` says
+// which.
 std::vector<ViewPart> collect_views(const Selection& selection, const ViewOptions& options,
                                     std::vector<std::string>& notes);
 

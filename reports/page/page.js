@@ -8,6 +8,8 @@
   const runs = new Map();  // by model and mesher
   for (const run of data.runs) runs.set(get(run, "model") + " " + get(run, "mesher"), run);
   const runOf = (model, mesher) => runs.get(model + " " + mesher);
+  const available = { charts: data.charts_drawn, pictures: data.pictures_drawn };  // libraries of this build
+  charts.use(data.styles);
   const isOk = run => run && get(run, "disposition") === "ok" && get(run, "tetrahedra") !== null;
 
   function element(tag, text, attributes = {}) {
@@ -28,8 +30,10 @@
     near.unobserve(e.target);
     charts.draw(e.target, specs.get(e.target.dataset.chart));
   }), { rootMargin: "1500px" });
-  data.meshers.forEach(charts.colourOf);
-  document.querySelectorAll(".frame[data-chart]").forEach(frame => near.observe(frame));
+  document.querySelectorAll(".frame[data-chart]").forEach(frame => {
+    charts.reserve(frame, specs.get(frame.dataset.chart));
+    near.observe(frame);
+  });
   addEventListener("beforeprint", () => document.querySelectorAll(".frame[data-chart]").forEach(frame => {
     if (frame.firstChild === null) charts.draw(frame, specs.get(frame.dataset.chart));
   }));
@@ -61,18 +65,18 @@
     });
     charts.draw($("scatter"), { title: measures[what].text, kind: "points", logX: log, logY: log, diagonal: true,
       x: `${names[0]}: ${measures[what].text}`, y: `${names[1]}: ${measures[what].text}`,
-      series: [{ label: names[1], data: points, names: labels }] });
+      series: [{ label: `${names[1]} against ${names[0]}`, style: second, data: points, names: labels }] });
     differences.sort((a, b) => a - b);
     const quantiles = differences.map((d, i) => [100 * (i + 0.5) / differences.length, d]);
     charts.draw($("quantiles"), { title: "quantiles", kind: "lines", logY: log, x: "% of the common models",
       y: log ? `${names[1]} / ${names[0]}` : `${names[1]} - ${names[0]}`,
-      series: [{ label: names[1], data: quantiles },
+      series: [{ label: `${names[1]} against ${names[0]}`, style: second, data: quantiles },
                { label: log ? "equal (1)" : "equal (0)", data: [[0, log ? 1 : 0], [100, log ? 1 : 0]] }] });
     $("common").textContent = `${points.length} models on which both succeed`;
   }
 
   function startComparison() {
-    if (data.meshers.length < 2) return;
+    if (data.meshers.length < 2 || $("first") === null) return;
     const meshers = data.meshers.map((name, i) => [i, name]);
     fill($("first"), meshers);
     fill($("second"), meshers);
@@ -98,24 +102,27 @@
   }
 
   function runRow(mesher, run) {
-    const row = element("tr"), disposition = get(run, "disposition");
+    const row = element("tr"), disposition = get(run, "disposition"), verdict = get(run, "verdict") || "-";
+    const colour = { ok: "ok", unverified: "unverified" }[disposition] || "not-ok";
     row.append(element("td", data.meshers[mesher]));
-    row.append(element("td", disposition, { className: "text " + (disposition === "ok" ? "ok" : "not-ok") }));
-    row.append(element("td", get(run, "verdict") || "-", { className: "text" }));
-    for (const [name, digits] of [["wall_seconds", 2], ["peak_mb", 0], ["vertices", 0], ["tetrahedra", 0],
+    row.append(element("td", disposition, { className: "text " + colour }));
+    row.append(element("td", verdict, { className: verdict.length > 30 ? "text prose" : "text" }));
+    for (const [name, digits] of [["wall_seconds", 2], ["verify_seconds", 2], ["peak_mb", 0], ["vertices", 0], ["tetrahedra", 0],
                                   ["min_face_angle", 3], ["max_face_angle", 2], ["min_dihedral", 3],
                                   ["max_dihedral", 2], ["mean_min_face_angle", 1], ["mean_min_dihedral", 1]]) {
       row.append(element("td", number(get(run, name), digits)));
     }
-    const how = element("td", undefined, { className: "text" });
-    if (get(run, "reason")) how.append(element("div", get(run, "reason")));
-    how.append(element("code", get(run, "command")));
+    const reason = get(run, "reason"), how = element("td", undefined, { className: reason ? "text prose" : "text" });
+    if (reason) how.append(element("div", reason));
+    const fold = element("details", undefined, { className: "fold" });
+    fold.append(element("summary", "command"), element("code", get(run, "command")));
+    how.append(fold);
     row.append(how);
     return row;
   }
 
   function phaseChart() {
-    const names = data.phases, series = names.map(label => ({ label, data: [] })), categories = [];
+    const names = data.phases, series = names.map((label, style) => ({ label, style, data: [] })), categories = [];
     data.meshers.forEach((mesher, i) => {
       const run = runOf(model, i), seconds = run && get(run, "phases");
       if (!seconds) return;
@@ -125,7 +132,8 @@
     const shown = series.filter(s => s.data.some(v => v > 0));
     $("model-phases").parentElement.hidden = categories.length === 0;
     if (categories.length > 0) {
-      charts.draw($("model-phases"), { title: "Seconds by phase", kind: "bars", x: "", y: "seconds", categories, series: shown });
+      charts.draw($("model-phases"), { title: "Seconds by phase", kind: "stacked", flat: true, x: "", y: "seconds", categories,
+                                       series: shown });
     }
   }
 
@@ -133,7 +141,7 @@
     const series = [];
     data.meshers.forEach((mesher, i) => {
       const run = runOf(model, i), bins = run && get(run, column);
-      if (bins) series.push({ label: mesher, data: bins });
+      if (bins) series.push({ label: mesher, style: i, data: bins });
     });
     $(id).parentElement.hidden = series.length === 0;
     if (series.length === 0) return;
@@ -150,7 +158,7 @@
                    insideOnly: $("inside").checked, edges: $("edges").checked };
     $("bad-value").textContent = look.bad;
     view = view || views.open($("view"));
-    view.show(part, look);
+    view.show(part, look, data.models[model].name);
   }
 
   function showModel(index) {
@@ -160,23 +168,38 @@
     $("model-name").textContent = m.name;
     $("model-facts").textContent = `SHA-256 ${m.sha256}, ${m.bytes} bytes`;
     $("model-runs").replaceChildren(...data.meshers.flatMap((_, i) => runOf(index, i) ? [runRow(i, runOf(index, i))] : []));
-    phaseChart();
-    histogramChart("model-faces", "face_histogram", "Face angles");
-    histogramChart("model-dihedrals", "dihedral_histogram", "Dihedral angles");
+    $("model-charts").hidden = !available.charts;
+    if (available.charts) {
+      phaseChart();
+      histogramChart("model-faces", "face_histogram", "Face angles");
+      histogramChart("model-dihedrals", "dihedral_histogram", "Dihedral angles");
+    }
     const list = parts.get(index) || [];
     $("model-3d").hidden = list.length === 0;
     $("model-no-3d").hidden = list.length > 0;
+    $("model-no-3d").textContent = !available.pictures ? "No pictures: this build lacks three.js."
+      : "No picture of this model" + (parts.size > 0 ? " (those with \u25c6 have some)" : "") +
+        ": meshes are there after run --keep, of as many models as report --views says.";
     if (list.length === 0) return;
     fill($("part"), list.map((part, i) => [i, part.label]));
-    const mesh = list.findIndex(p => p.kind === "mesh");
-    $("part").value = mesh < 0 ? 0 : mesh;
+    $("part").value = bestPart(list);
     showPart();
   }
 
+  // What was looked at before, if this model has it; else our mesh, else any.
+  let looked = null;
+  function bestPart(list) {
+    const same = looked === null ? -1 : list.findIndex(p => p.label === looked);
+    if (same >= 0) return same;
+    const ours = list.findIndex(p => p.kind === "mesh" && p.ours);
+    return Math.max(0, ours >= 0 ? ours : list.findIndex(p => p.kind === "mesh"));
+  }
+
   function startModels() {
-    if (data.models.length === 0) return;
+    if ($("model") === null || data.models.length === 0) return;
     fill($("model"), data.models.map((m, i) => [i, (parts.has(i) ? "◆ " : "") + m.name]));
     $("model").addEventListener("change", () => { location.hash = "model=" + data.models[$("model").value].sha256.slice(0, 12); });
+    $("part").addEventListener("input", () => { looked = (parts.get(model) || [])[Number($("part").value)].label; });
     for (const id of ["part", "axis", "cut", "bad", "inside", "edges"]) $(id).addEventListener("input", showPart);
     const follow = scroll => {
       const wanted = /^#model=([0-9a-f]+)/.exec(location.hash);
@@ -196,15 +219,26 @@
     for (const [index, list] of parts) {
       const input = list.find(p => p.label === "input");
       const meshes = list.filter(p => p.kind === "mesh");
-      const whole = meshes.find(p => p.hull) || meshes[0], inner = meshes.find(p => !p.hull) || meshes[0];
-      const figure = element("figure"), caption = element("figcaption");
+      const find = test => meshes.find(p => p.ours && test(p)) || meshes.find(p => p.ours) || meshes.find(test) || meshes[0];
+      const whole = find(p => p.hull), inner = find(p => !p.hull);
+      const figure = element("figure"), caption = element("figcaption"), row = element("div", undefined, { className: "shots" });
       const link = element("a", data.models[index].name, { href: "#model=" + data.models[index].sha256.slice(0, 12) });
       caption.append(link);
-      const shown = [[input, {}], [whole, { cut: 0.02 }], [inner, { cut: 0.02, insideOnly: true }]].filter(([p]) => p);
-      const canvases = shown.map(() => element("canvas"));
-      figure.append(...canvases, caption);
+      const shown = [[input, {}], [whole, { cut: 0.02 }]];
+      if (inner !== whole || (whole && whole.hull)) shown.push([inner, { cut: 0.02, insideOnly: true }]);
+      figure.append(caption, row);
       gallery.append(figure);
-      shown.forEach(([part, look], i) => views.picture(canvases[i], part, { bad: 5, ...look }));
+      for (const [part, look] of shown.filter(([p]) => p)) {
+        const shot = element("div", undefined, { className: "shot" }), canvas = element("canvas");
+        shot.append(canvas);
+        row.append(shot);
+        const cut = views.picture(canvas, part, { bad: 5, ...look });
+        const what = part.kind !== "mesh" ? part.label
+          : part.label + (look.insideOnly && part.hull ? ", inside" : part.hull ? ", all" : "") + (cut ? "" : ", not cut");
+        shot.append(element("div", what, { className: part.ours ? "ours" : "" }));
+        canvas.setAttribute("role", "img");
+        canvas.setAttribute("aria-label", `${data.models[index].name}: ${what}`);
+      }
     }
   }
 

@@ -151,16 +151,22 @@ const views = (() => {
     group.traverse(o => { if (o.geometry) { o.geometry.dispose(); o.material.dispose(); } });
   }
 
-  // A still picture of a part, on a canvas of the gallery. Pictures share one renderer.
+  // A still picture of a part, on a canvas of the gallery. Pictures share one renderer. Returns whether
+  // it is cut as asked.
   function picture(canvas, part, look) {
     const size = 2 * Math.max(80, canvas.clientWidth);
     canvas.width = canvas.height = size;
-    const r = stills(), s = scene(), group = object(part, { ...kPlain, ...look });
+    const r = stills(), s = scene();
+    // A mesh of a few tetrahedra may lie on the side of the eye: then it is shown whole.
+    let group = object(part, { ...kPlain, ...look });
+    const cut = group.userData.faces > 0;
+    if (!cut) group = object(part, { ...kPlain, ...look, cut: kPlain.cut, insideOnly: false });
     s.add(group);
     r.setSize(size, size, false);
     r.render(s, camera(1));
     canvas.getContext("2d").drawImage(r.domElement, 0, 0);
     free(group);
+    return cut;
   }
   let stillRenderer = null;
   function stills() {
@@ -189,7 +195,7 @@ const views = (() => {
       render();
     }
     new ResizeObserver(resize).observe(element);
-    function show(part, look) {
+    function show(part, look, model) {
       if (group !== null) {
         s.remove(group);
         free(group);
@@ -197,9 +203,10 @@ const views = (() => {
       group = object(part, { ...kPlain, ...look });
       s.add(group);
       resize();
-      said.textContent = part.kind === "mesh"
+      const whose = `${model}, ${part.label}: `;
+      said.textContent = whose + (part.kind === "mesh"
         ? `${part.cells.length / 4} tetrahedra; ${group.userData.bad} shown with a face angle below ${look.bad} degrees (red)`
-        : `${part.cells.length / 3} triangles`;
+        : `${part.cells.length / 3} triangles`);
     }
     return { show, element };
   }
