@@ -74,6 +74,13 @@ std::string header_row(const Table& table) {
   return row + "</tr>\n";
 }
 
+bool has_words(const Table& table, std::size_t column) {
+  const auto words = std::count_if(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return column < row.size() && is_words(row[column]);
+  });
+  return 3 * static_cast<std::size_t>(words) > table.rows.size();
+}
+
 std::string table_row(const Table& table, const std::vector<std::string>& cells) {
   std::string row = "<tr>";
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -82,11 +89,11 @@ std::string table_row(const Table& table, const std::vector<std::string>& cells)
       row += "<td class=\"text\">" + folded(cells[i]) + "</td>";
       continue;
     }
-    // One word stays on its line, sentences have room.
+    // A column of numbers keeps its side for a word among them. Sentences have room.
     const bool sentence = std::count(cells[i].begin(), cells[i].end(), ' ') > 3;
-    const char* kind = !is_words(cells[i]) ? ""
-                       : sentence          ? " class=\"text prose\""
-                                           : " class=\"text\"";
+    const char* kind = !is_words(cells[i]) || !has_words(table, i) ? ""
+                       : sentence                                  ? " class=\"text prose\""
+                                                                   : " class=\"text\"";
     row += fmt::format("<td{}>{}</td>", kind, whole_words(cells[i]));
   }
   return row + "</tr>\n";

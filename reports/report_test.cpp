@@ -231,8 +231,11 @@ TEST(Fidelity, ColumnsSayWhoseNumbersTheyHold) {
 }
 
 TEST(Fidelity, ThePapersNumbersStandThere) {
+  Selection selection = campaign();
+  selection.runs["delmesher-nofilter"]["hash-a"] =
+      row_of({"a", "delmesher-nofilter", kOk, 900, 5, 1, 14, 0});
   std::string all;
-  for (const Table& table : fidelity_tables(campaign(), "hash-a")) all += to_markdown(table);
+  for (const Table& table : fidelity_tables(selection, "hash-a")) all += to_markdown(table);
   for (const char* number :
        {"590725", "669177", "172.78", "179.79", "117", "31005", "543356", "180"}) {
     EXPECT_NE(all.find(number), std::string::npos) << number;
@@ -337,7 +340,9 @@ TEST_F(ReportFolder, UnverifiedMeshesAreInTheHeadline) {
   EXPECT_NE(text("runs.csv").find(",unverified,"), std::string::npos);
   write_report(detailed_campaign(), folder_);
   const std::string none = text("report.html");
-  EXPECT_EQ(none.substr(0, none.find("<main>")).find("unverified"), std::string::npos);
+  const auto header = none.find("<header>");
+  EXPECT_EQ(none.substr(header, none.find("<main>") - header).find("unverified"),
+            std::string::npos);
 }
 
 TEST_F(ReportFolder, DifferentLimitsAreInTheHeadline) {

@@ -68,7 +68,7 @@ TEST(SeriesStyle, TheMeasuresAreRight) {
   EXPECT_NEAR(contrast(0xffffff, 0x000000), 21, 1e-6);
   EXPECT_NEAR(lab(0xffffff, kNormal)[0], 100, 1e-3);
   EXPECT_NEAR(lab(0xff0000, kNormal)[1], 80.1, 0.1);
-  EXPECT_LT(difference(0x8c4a1f, 0x4a6b2a, kNoRed), difference(0x8c4a1f, 0x4a6b2a, kNormal));
+  EXPECT_LT(difference(0xff0000, 0x808000, kNoGreen), difference(0xff0000, 0x808000, kNormal));
 }
 
 // 2.3 is a just noticeable difference in CIELAB; tens are other colours to everybody.
