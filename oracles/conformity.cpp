@@ -139,6 +139,7 @@ void Conformity::match_vertices() {
   }
   for (const Index v : surface_.used_vertices()) matched_.push_back(match_[v]);
   std::sort(matched_.begin(), matched_.end());
+  result_.report.figures.emplace_back("input vertices moved", moved);
   if (moved > 0) result_.report.notes.push_back(std::to_string(moved) + " input vertices moved");
 }
 

@@ -22,17 +22,22 @@ Json parsed(const std::string& text) {
   return text.empty() ? Json() : Json::parse(text, nullptr, false);
 }
 
-// Of a verdict what a comparison needs: which oracle passed.
+// Of a verdict what a comparison needs: which oracle passed, how far the surface as written is off,
+// and the figures that a gate compares.
 Json brief_verdict(const std::string& text) {
   const Json full = parsed(text);
   if (!full.is_object()) return nullptr;
   Json result = Json::object();
-  for (const char* key : {"verdict", "error"}) {
+  for (const char* key : {"verdict", "deviation_ulps", "error"}) {
     if (full.contains(key)) result[key] = full.at(key);
   }
   for (const Json& oracle : full.value("oracles", Json::array())) {
-    result["oracles"].push_back(
-        {{"name", oracle.value("name", "")}, {"passed", oracle.value("passed", false)}});
+    Json& entry = result["oracles"].emplace_back(
+        Json({{"name", oracle.value("name", "")}, {"passed", oracle.value("passed", false)}}));
+    const Json figures = oracle.value("figures", Json::object());
+    for (const char* figure : {"smallest face angle", "input vertices moved"}) {
+      if (figures.contains(figure)) entry["figures"][figure] = figures.at(figure);
+    }
   }
   return result;
 }
@@ -49,6 +54,16 @@ Json brief_mesh(const std::string& text) {
   if (mesh.contains("inside")) drop_histograms(mesh["inside"]);
   drop_histograms(mesh);
   return mesh;
+}
+
+// Of a mesher's own statistics: what it was set to, and the refined mesh.
+Json brief_stats(const std::string& text) {
+  const Json stats = parsed(text);
+  Json result = Json::object();
+  if (!stats.is_object()) return result;
+  if (stats.contains("parameters")) result["parameters"] = stats.at("parameters");
+  if (stats.contains("refined")) result["refined"] = brief_mesh(stats.at("refined").dump());
+  return result;
 }
 
 template <typename T>
@@ -93,6 +108,7 @@ Json to_object(const RunRow& row, const ExportOptions& options) {
     json["verdict"] = brief ? brief_verdict(row.verdict_json) : parsed(row.verdict_json);
   }
   if (!options.stable) put_measurements(json, row, brief);
+  if (brief && !row.stats_json.empty()) json["stats"] = brief_stats(row.stats_json);
   if (brief || options.stable) return json;
   if (!row.stats_json.empty()) json["stats"] = parsed(row.stats_json);
   json["stderr_tail"] = row.stderr_tail;
@@ -185,6 +201,8 @@ std::vector<std::string> csv_header(const ExportOptions& options) {
                                      "max_face_angle",
                                      "min_dihedral",
                                      "max_dihedral",
+                                     "share_below_5_degrees",
+                                     "share_below_10_degrees",
                                      "inside_min_face_angle",
                                      "inverted",
                                      "flat"};
@@ -201,6 +219,13 @@ std::vector<std::string> csv_row(const RunRow& row, const ExportOptions& options
   const auto text = [](const auto& value) { return value ? fmt::format("{}", *value) : ""; };
   const auto of = [](const std::optional<MeshColumns>& mesh, auto member) {
     return mesh ? fmt::format("{}", (*mesh).*member) : "";
+  };
+  // Of the tetrahedra; nothing in results of versions that did not measure it.
+  const Json measured = parsed(row.mesh_json);
+  const auto share = [&](const char* count) -> std::string {
+    if (!measured.is_object() || !measured.contains(count) || row.mesh->tetrahedra == 0) return "";
+    return fmt::format(
+        "{}", measured.at(count).get<double>() / static_cast<double>(row.mesh->tetrahedra));
   };
   std::vector<std::string> cells = {row.model_name,
                                     row.key.model_sha256,
@@ -221,6 +246,8 @@ std::vector<std::string> csv_row(const RunRow& row, const ExportOptions& options
                                     of(row.mesh, &MeshColumns::max_face_angle),
                                     of(row.mesh, &MeshColumns::min_dihedral),
                                     of(row.mesh, &MeshColumns::max_dihedral),
+                                    share("tetrahedra_below_5_degrees"),
+                                    share("tetrahedra_below_10_degrees"),
                                     of(row.inside, &MeshColumns::min_face_angle),
                                     text(row.inverted),
                                     text(row.flat)};

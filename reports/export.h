@@ -15,7 +15,8 @@
 namespace tetproof {
 
 struct ExportOptions {
-  // For baselines: no statistics, histograms, findings or ends of streams, and not where it ran.
+  // For baselines, what tetproof gate compares: no histograms, findings or ends of streams, of the
+  // statistics only parameters and the refined mesh, and not where it ran.
   bool brief = false;
   bool stable = false;  // nor times, memory, host, paths: what differs between equal campaigns
 };

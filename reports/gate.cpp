@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
+#include <optional>
+#include <random>
 
 #include "reports/selection.h"
 #include "reports/statistics.h"
@@ -14,13 +18,17 @@
 namespace tetproof {
 namespace {
 
-constexpr double kDeviations = 4;     // robust standard deviations that count as noise
-constexpr std::size_t kFewPairs = 8;  // below, the spread says nothing
+using Json = nlohmann::json;
 
-struct Pair {
-  const RunRow* base;
-  const RunRow* fresh;
-};
+constexpr double kDeviations = 4;     // robust standard deviations that count as noise
+constexpr std::size_t kFewPairs = 8;  // below, neither spread nor resampling says anything
+constexpr int kResamplings = 2000;
+constexpr double kTail = 0.01;             // of the resamplings that may point elsewhere
+constexpr double kLongestSeconds = 1;      // a run's largest weight in the mean of all
+constexpr double kLargestBytes = 64e6;     // the same for memory
+constexpr double kMostTetrahedra = 10000;  // and for sizes
+constexpr double kLargestRatio = 4;        // an angle's largest part in the mean of all
+constexpr int kTurns = 3;                  // changes of side in base, new, base, new
 
 int verdict_rank(const std::string& verdict) {
   static const std::map<std::string, int> kRanks = {
@@ -29,182 +37,623 @@ int verdict_rank(const std::string& verdict) {
   return found == kRanks.end() ? 0 : found->second;
 }
 
-std::map<std::string, bool> oracles_of(const RunRow& row) {
-  std::map<std::string, bool> passed;
-  const auto json = nlohmann::json::parse(row.verdict_json, nullptr, false);
-  if (!json.is_object()) return passed;
-  for (const auto& oracle : json.value("oracles", nlohmann::json::array())) {
-    passed[oracle.value("name", "")] = oracle.value("passed", false);
-  }
-  return passed;
+// A mesh is there that nothing is known to be wrong with, whether somebody vouches for it or not.
+bool has_mesh(const RunRow& row) {
+  return row.disposition == Disposition::ok || row.disposition == Disposition::unverified;
 }
 
-// One measure of all pairs of a mesher.
-struct Measure {
+// A run with its repetitions, and what of its texts is compared.
+struct Run {
+  RunRow row;
+  std::vector<std::string> started;
+  std::map<std::string, bool> passed;  // by oracle
+  Json verdict, stats, measured;
+
+  std::optional<double> figure(const char* oracle, const char* name) const {
+    for (const Json& entry : verdict.value("oracles", Json::array())) {
+      if (entry.value("name", "") != oracle) continue;
+      const Json figures = entry.value("figures", Json::object());
+      if (figures.contains(name) && figures.at(name).is_number()) return figures.at(name);
+    }
+    return std::nullopt;
+  }
+};
+
+Json object_of(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  return json.is_object() ? json : Json::object();
+}
+
+// Of repetitions the worst says how it ended; one that somebody killed says nothing.
+int weight_of_ending(const RunRow& row) {
+  if (row.disposition == Disposition::killed) return 0;
+  if (!has_mesh(row)) return 3;
+  return is_verified(row) ? 2 : 1;
+}
+
+Run run_of(std::vector<const RunRow*> repetitions) {
+  const RunRow& decisive = **std::max_element(
+      repetitions.begin(), repetitions.end(),
+      [](const RunRow* a, const RunRow* b) { return weight_of_ending(*a) < weight_of_ending(*b); });
+  Run run{decisive,
+          {},
+          {},
+          object_of(decisive.verdict_json),
+          object_of(decisive.stats_json),
+          object_of(decisive.mesh_json)};
+  for (const RunRow* row : repetitions) {
+    run.started.push_back(row->started);
+    if (!has_mesh(*row)) continue;
+    run.row.cpu_seconds = std::min(run.row.cpu_seconds, row->cpu_seconds);
+    run.row.peak_rss_bytes = std::min(run.row.peak_rss_bytes, row->peak_rss_bytes);
+  }
+  for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
+    run.passed[oracle.value("name", "")] = oracle.value("passed", false);
+  }
+  return run;
+}
+
+using Runs = std::map<std::string, std::map<std::string, Run>>;  // by mesher, then model
+
+Runs runs_of(const std::vector<RunRow>& rows) {
+  Runs runs;
+  std::map<RunKey, std::vector<const RunRow*>> by_key;
+  for (const RunRow& row : rows) by_key[row.key].push_back(&row);
+  for (const auto& [mesher, by_model] : select_runs(rows).runs) {
+    for (const auto& [model, row] : by_model) {
+      runs[mesher].emplace(model, run_of(by_key.at(row.key)));
+    }
+  }
+  return runs;
+}
+
+struct Pair {
+  const Run* base;
+  const Run* fresh;
+};
+
+using Getter = std::function<std::optional<double>(const Run&)>;
+
+Getter of(std::optional<MeshColumns> RunRow::*part, double MeshColumns::*column) {
+  return [=](const Run& run) -> std::optional<double> {
+    if (!(run.row.*part)) return std::nullopt;
+    return (*(run.row.*part)).*column;
+  };
+}
+
+// Share of the tetrahedra that this count of the measured mesh is.
+Getter share_of(const char* count) {
+  return [=](const Run& run) -> std::optional<double> {
+    if (!run.row.mesh || !run.measured.contains(count)) return std::nullopt;
+    const auto all = static_cast<double>(run.row.mesh->tetrahedra);
+    return all > 0 ? run.measured.at(count).get<double>() / all : 0;
+  };
+}
+
+// What a largest angle leaves of 180 degrees, so that more is better.
+Getter rest_of(double MeshColumns::*column) {
+  return [=](const Run& run) -> std::optional<double> {
+    if (!run.row.mesh) return std::nullopt;
+    return 180 - (*run.row.mesh).*column;
+  };
+}
+
+std::optional<double> tetrahedra(const Run& run) {
+  if (!run.row.mesh) return std::nullopt;
+  return static_cast<double>(run.row.mesh->tetrahedra);
+}
+
+struct Weighted {
+  double value, weight;
+};
+
+double mean_of(const std::vector<Weighted>& sample) {
+  double sum = 0, weights = 0;
+  for (const auto& [value, weight] : sample) {
+    sum += value * weight;
+    weights += weight;
+  }
+  return weights > 0 ? sum / weights : 0;
+}
+
+// The quantile p of the weighted mean over resamplings of the sample, the same ones in every call.
+double resampled_quantile(const std::vector<Weighted>& sample, double p) {
+  std::mt19937_64 random(1);
+  std::vector<double> means;
+  std::vector<Weighted> drawn(sample.size());
+  for (int i = 0; i < kResamplings; ++i) {
+    for (Weighted& one : drawn) one = sample[random() % sample.size()];
+    means.push_back(mean_of(drawn));
+  }
+  return *quantile(std::move(means), p);
+}
+
+// Whether the mean of many is beyond a limit in the direction of `sign`, and not by a few of them.
+bool all_beyond(const std::vector<Weighted>& sample, double limit, double neutral, int sign) {
+  if (sample.size() < kFewPairs) return false;
+  if (sign * (mean_of(sample) - limit) <= 0) return false;
+  return sign * (resampled_quantile(sample, sign > 0 ? kTail : 1 - kTail) - neutral) > 0;
+}
+
+// 1.4826 times the median distance from the median, a standard deviation if all is normal.
+double spread(const std::vector<double>& values) {
+  if (values.size() < kFewPairs) return 0;
+  const double middle = *median(values);
+  std::vector<double> distances;
+  for (const double value : values) distances.push_back(std::fabs(value - middle));
+  return 1.4826 * *median(distances);
+}
+
+// An angle, or what is left of one; more is better.
+struct Angle {
   FindingKind kind;
+  const char* name;
+  Getter value;
+  double factor, total_factor;
+};
+
+// Processor time or memory.
+struct Cost {
+  FindingKind kind;
+  const char* name;
   const char* unit;
-  double factor, least, divisor;  // the divisor turns the stored unit into the printed one
+  double divisor;  // turns the stored unit into the printed one
+  double factor, total_factor, least, largest_weight;
   double (*value)(const RunRow&);
-  bool depends_on_machine;
 };
 
 class Gate {
  public:
   Gate(const std::vector<RunRow>& base, const std::vector<RunRow>& fresh,
        const GateOptions& options)
-      : base_(select_runs(base)), fresh_(select_runs(fresh)), options_(options) {}
+      : base_(runs_of(base)), fresh_(runs_of(fresh)), options_(options) {}
 
   GateReport run() {
-    for (const std::string& mesher : base_.meshers) compare_mesher(mesher);
-    for (const std::string& mesher : fresh_.meshers) {
-      if (!base_.has(mesher)) report_.notes.push_back(mesher + ": not in the base");
+    for (const auto& [mesher, runs] : base_) compare_mesher(mesher, runs);
+    for (const auto& [mesher, runs] : fresh_) {
+      if (!base_.contains(mesher)) report_.notes.push_back(mesher + ": not in the base");
     }
     return std::move(report_);
   }
 
  private:
-  void compare_mesher(const std::string& mesher) {
-    std::vector<Pair> both_ok;
+  void compare_mesher(const std::string& mesher, const std::map<std::string, Run>& runs) {
+    std::vector<Pair> pairs, meshes;
     std::size_t better = 0, missing = 0;
-    for (const auto& [model, row] : base_.runs.at(mesher)) {
-      const RunRow* fresh = fresh_.run(mesher, model);
+    for (const auto& [model, base] : runs) {
+      const Run* fresh = find_fresh(mesher, model);
       if (fresh == nullptr) {
         ++missing;
-        if (options_.missing_is_bad) add(FindingKind::missing, row, "not run");
+        if (options_.missing_is_bad) add(FindingKind::missing, base, "was run, is not");
         continue;
       }
-      ++report_.pairs;
-      const bool was_ok = row.disposition == Disposition::ok;
-      const bool is_ok = fresh->disposition == Disposition::ok;
-      better += is_ok && !was_ok;
-      if (was_ok && !is_ok) {
-        add(FindingKind::disposition, row,
-            fmt::format("was ok, is {}: {}", disposition_name(fresh->disposition),
-                        fresh->reason.substr(0, 200)));
-        continue;
-      }
-      if (was_ok && is_ok) {
-        compare_verdicts(row, *fresh);
-        both_ok.push_back({&row, fresh});
-      }
+      pairs.push_back({&base, fresh});
+      better += (has_mesh(fresh->row) && !has_mesh(base.row)) ||
+                (is_verified(fresh->row) && !is_verified(base.row));
+      if (compare_endings(base, *fresh)) meshes.push_back({&base, fresh});
     }
     if (missing > 0 && !options_.missing_is_bad) note(mesher, missing, "runs of the base missing");
-    if (better > 0) note(mesher, better, "runs are ok that were not");
-    compare_measures(mesher, both_ok);
+    if (better > 0) note(mesher, better, "runs are ok or verified that were not");
+    report_.pairs += pairs.size();
+    report_.both_ok += meshes.size();
+    compare_identities(mesher, pairs);
+    compare_angles(mesher, meshes);
+    compare_slivers(mesher, meshes);
+    compare_sizes(mesher, meshes);
+    compare_costs(mesher, meshes);
+  }
+
+  const Run* find_fresh(const std::string& mesher, const std::string& model) const {
+    const auto runs = fresh_.find(mesher);
+    if (runs == fresh_.end()) return nullptr;
+    const auto found = runs->second.find(model);
+    return found == runs->second.end() ? nullptr : &found->second;
   }
 
   void note(const std::string& mesher, std::size_t count, const char* what) {
     report_.notes.push_back(fmt::format("{}: {} {}", mesher, count, what));
   }
 
-  void add(FindingKind kind, const RunRow& row, std::string text) {
-    report_.findings.push_back({kind, row.key.mesher, row.model_name, std::move(text)});
+  void differ(const std::string& mesher, const std::string& text) {
+    report_.differences.push_back(mesher + ": " + text);
   }
 
-  void compare_verdicts(const RunRow& base, const RunRow& fresh) {
-    const std::string before = verdict_of(base), after = verdict_of(fresh);
-    if (before.empty()) return;
-    if (verdict_rank(after) < verdict_rank(before)) {
-      add(FindingKind::verdict, base,
-          fmt::format("verdict was {}, is {}", before, after.empty() ? "not asked" : after));
-      return;
+  void add(FindingKind kind, const Run& run, std::string text) {
+    report_.findings.push_back({kind, run.row.key.mesher, run.row.model_name, std::move(text)});
+  }
+
+  void add_for_all(FindingKind kind, const std::string& mesher, std::string text) {
+    report_.findings.push_back({kind, mesher, "", std::move(text)});
+  }
+
+  // Returns whether there are two meshes to compare.
+  bool compare_endings(const Run& base, const Run& fresh) {
+    if (!has_mesh(base.row)) return false;
+    if (!has_mesh(fresh.row)) {
+      add(FindingKind::disposition, base,
+          fmt::format("was {}, is {}: {}", disposition_name(base.row.disposition),
+                      disposition_name(fresh.row.disposition), fresh.row.reason.substr(0, 200)));
+      return false;
     }
-    const auto now = oracles_of(fresh);
-    for (const auto& [name, passed] : oracles_of(base)) {
-      if (!passed) continue;
-      const auto found = now.find(name);
-      if (found == now.end() || !found->second) {
-        add(FindingKind::verdict, base,
-            fmt::format("oracle {} passed, {}", name,
-                        found == now.end() ? "was not asked" : "does not"));
+    if (!is_verified(base.row)) return true;
+    const std::string before = verdict_of(base.row), after = verdict_of(fresh.row);
+    if (!is_verified(fresh.row)) {
+      std::string why = fresh.verdict.value("error", fresh.row.reason);
+      if (why.empty()) why = fresh.row.verdict_json.empty() ? "the oracles were not asked" : after;
+      add(FindingKind::unverified, base, fmt::format("was {}, is unverified: {}", before, why));
+      return true;
+    }
+    ++report_.verified;
+    if (verdict_rank(after) < verdict_rank(before)) {
+      add(FindingKind::verdict, base, fmt::format("verdict was {}, is {}", before, after));
+    }
+    compare_oracles(base, fresh);
+    compare_conformity(base, fresh);
+    return true;
+  }
+
+  void compare_oracles(const Run& base, const Run& fresh) {
+    // Meshes are repaired after rounding where they must be; one that need not be is no worse.
+    const auto is_repair = [](const auto& oracle) {
+      return oracle.first.starts_with("unrepaired-");
+    };
+    const bool repaired = std::any_of(fresh.passed.begin(), fresh.passed.end(), is_repair);
+    for (const auto& oracle : base.passed) {
+      const auto& [name, passed] = oracle;
+      if (!passed || (is_repair(oracle) && !repaired)) continue;
+      const auto now = fresh.passed.find(name);
+      if (now != fresh.passed.end() && now->second) continue;
+      const bool silent = now == fresh.passed.end();
+      if (silent && options_.may_be_silent.contains(name)) {
+        ++silent_[name];
+        continue;
+      }
+      add(FindingKind::oracle, base,
+          fmt::format("oracle {} passed, {}", name, silent ? "was not asked" : "does not"));
+    }
+  }
+
+  // Of a file with coordinates of one bit less, rounded points are twice as far off; where the
+  // input has full mantissas, its vertices are not where they were.
+  void compare_conformity(const Run& base, const Run& fresh) {
+    const auto deviation = [](const Run& run) -> std::optional<double> {
+      const auto found = run.verdict.find("deviation_ulps");
+      if (found == run.verdict.end() || !found->is_number()) return std::nullopt;
+      return found->get<double>();
+    };
+    const auto moved = [](const Run& run) {
+      return run.figure("conformity", "input vertices moved");
+    };
+    const std::string& mesher = base.row.key.mesher;
+    if (both(mesher, "largest deviation", deviation(base), deviation(fresh))) {
+      const double before = *deviation(base), after = *deviation(fresh);
+      if (after > before + options_.deviation_ulps && after > 1.5 * before) {
+        add(FindingKind::conformity, base,
+            fmt::format("surface off by {:.3g} ulp instead of {:.3g}", after, before));
       }
     }
+    if (both(mesher, "input vertices moved", moved(base), moved(fresh)) &&
+        *moved(fresh) > *moved(base)) {
+      add(FindingKind::conformity, base,
+          fmt::format("{:.0f} input vertices moved instead of {:.0f}", *moved(fresh),
+                      *moved(base)));
+    }
   }
 
-  void compare_measures(const std::string& mesher, const std::vector<Pair>& pairs) {
-    const Measure measures[] = {
-        {FindingKind::time, "s", options_.time_factor, options_.least_seconds, 1,
-         [](const RunRow& r) { return r.cpu_seconds; }, true},
-        {FindingKind::memory, "MB", options_.memory_factor, options_.least_bytes, 1e6,
-         [](const RunRow& r) { return static_cast<double>(r.peak_rss_bytes); }, true},
-        {FindingKind::size, "tetrahedra", options_.size_factor, options_.least_tetrahedra, 1,
-         [](const RunRow& r) { return r.mesh ? static_cast<double>(r.mesh->tetrahedra) : 0.0; },
-         false}};
-    for (const Measure& measure : measures) compare_measure(mesher, pairs, measure);
+  // Counts what cannot be compared.
+  bool both(const std::string& mesher, const char* measure, const std::optional<double>& base,
+            const std::optional<double>& fresh) {
+    if (base && fresh) return true;
+    if (base || fresh)
+      ++lacking_[mesher][{measure, base ? "only the base has" : "only the new side has"}];
+    return false;
   }
 
-  void compare_measure(const std::string& mesher, const std::vector<Pair>& pairs,
-                       const Measure& m) {
+  void compare_identities(const std::string& mesher, const std::vector<Pair>& pairs) {
+    compare_texts(mesher, pairs, "flags", [](const Run& r) { return r.row.key.flags; });
+    compare_texts(mesher, pairs, "versions", [](const Run& r) { return r.row.key.version; });
+    compare_texts(mesher, pairs, "limits", [](const Run& r) { return r.row.key.limits; });
+    compare_settings(mesher, pairs);
+  }
+
+  template <typename Text>
+  void compare_texts(const std::string& mesher, const std::vector<Pair>& pairs, const char* what,
+                     Text text) {
+    std::map<std::pair<std::string, std::string>, std::size_t> differing;
+    for (const Pair& pair : pairs) {
+      if (text(*pair.base) != text(*pair.fresh)) ++differing[{text(*pair.base), text(*pair.fresh)}];
+    }
+    for (const auto& [texts, count] : differing) {
+      differ(mesher, fmt::format("{} differ: base \"{}\", new \"{}\" ({} of {} pairs)", what,
+                                 texts.first, texts.second, count, pairs.size()));
+    }
+  }
+
+  // What the mesher says it was set to: with the same flags, its defaults.
+  void compare_settings(const std::string& mesher, const std::vector<Pair>& pairs) {
+    std::map<std::string, std::size_t> differing;
+    for (const Pair& pair : pairs) {
+      const Json before = pair.base->stats.value("parameters", Json::object());
+      const Json after = pair.fresh->stats.value("parameters", Json::object());
+      if (!before.is_object() || !after.is_object() || before.empty() || after.empty()) continue;
+      for (const auto& [name, value] : before.items()) {
+        const std::string now = after.contains(name) ? after.at(name).dump() : "none";
+        if (now != value.dump()) ++differing[fmt::format("{} {} -> {}", name, value.dump(), now)];
+      }
+    }
+    for (const auto& [text, count] : differing) {
+      differ(mesher, fmt::format("settings differ by the mesher's account: {} ({} of {} pairs)",
+                                 text, count, pairs.size()));
+    }
+  }
+
+  void compare_angles(const std::string& mesher, const std::vector<Pair>& pairs) {
+    const double one = options_.angle_factor, all = options_.total_angle_factor;
+    const double one_mean = options_.mean_factor, all_means = options_.total_mean_factor;
+    using enum FindingKind;
+    using Columns = MeshColumns;
+    const Angle angles[] = {
+        {face_angle, "smallest face angle", of(&RunRow::mesh, &Columns::min_face_angle), one, all},
+        {dihedral, "smallest dihedral", of(&RunRow::mesh, &Columns::min_dihedral), one, all},
+        {dihedral, "refined smallest dihedral", of(&RunRow::refined, &Columns::min_dihedral), one,
+         all},
+        {mean_angle, "mean of smallest face angles",
+         of(&RunRow::mesh, &Columns::mean_min_face_angle), one_mean, all_means},
+        {mean_angle, "180 degrees less the mean of largest face angles",
+         rest_of(&Columns::mean_max_face_angle), one_mean, all_means},
+        {mean_angle, "mean of smallest dihedrals", of(&RunRow::mesh, &Columns::mean_min_dihedral),
+         one_mean, all_means},
+        {mean_angle, "180 degrees less the mean of largest dihedrals",
+         rest_of(&Columns::mean_max_dihedral), one_mean, all_means}};
+    compare_refined_angle(mesher, pairs);
+    for (const Angle& angle : angles) compare_angle(mesher, pairs, angle);
+    say_what_lacks(mesher);
+  }
+
+  // The oracle's measurement if both have it, else the mesher's account of itself.
+  void compare_refined_angle(const std::string& mesher, const std::vector<Pair>& pairs) {
+    const auto measured = [](const Run& run) {
+      return run.figure("refined-angles", "smallest face angle");
+    };
+    std::vector<Pair> by_oracle, by_mesher;
+    for (const Pair& pair : pairs) {
+      (measured(*pair.base) && measured(*pair.fresh) ? by_oracle : by_mesher).push_back(pair);
+    }
+    Angle angle{FindingKind::face_angle, "refined smallest face angle", measured,
+                options_.angle_factor, options_.total_angle_factor};
+    compare_angle(mesher, by_oracle, angle);
+    angle.value = of(&RunRow::refined, &MeshColumns::min_face_angle);
+    compare_angle(mesher, by_mesher, angle);
+  }
+
+  void compare_angle(const std::string& mesher, const std::vector<Pair>& pairs,
+                     const Angle& angle) {
+    std::vector<Weighted> logs;
+    for (const Pair& pair : pairs) {
+      const auto before = angle.value(*pair.base), after = angle.value(*pair.fresh);
+      if (!both(mesher, angle.name, before, after)) continue;
+      if (*before <= 0) continue;  // nothing was refined, or as bad as can be
+      const double ratio = *after / *before;
+      if (ratio < angle.factor) {
+        add(angle.kind, *pair.base,
+            fmt::format("{} {:.4g} instead of {:.4g} degrees", angle.name, *after, *before));
+      }
+      const double bounded = std::clamp(ratio, 1 / kLargestRatio, kLargestRatio);
+      logs.push_back({std::log(bounded), 1});
+    }
+    if (all_beyond(logs, std::log(angle.total_factor), 0, -1)) {
+      add_for_all(angle.kind, mesher,
+                  fmt::format("{} {:.3f} times that of the base, on average over {} models",
+                              angle.name, std::exp(mean_of(logs)), logs.size()));
+    }
+  }
+
+  void compare_slivers(const std::string& mesher, const std::vector<Pair>& pairs) {
+    compare_share(mesher, pairs, "share below 5 degrees", share_of("tetrahedra_below_5_degrees"));
+    compare_share(mesher, pairs, "share below 10 degrees", share_of("tetrahedra_below_10_degrees"));
+    say_what_lacks(mesher);
+  }
+
+  void compare_share(const std::string& mesher, const std::vector<Pair>& pairs, const char* name,
+                     const Getter& value) {
+    std::vector<Weighted> differences;
+    double before_sum = 0, after_sum = 0;
+    for (const Pair& pair : pairs) {
+      const auto before = value(*pair.base), after = value(*pair.fresh);
+      if (!before && !after) ++lacking_[mesher][{name, "neither side has"}];
+      if (!both(mesher, name, before, after)) continue;
+      const double more = *after * *tetrahedra(*pair.fresh) - *before * *tetrahedra(*pair.base);
+      if (*after - *before > options_.sliver_share && more >= options_.least_slivers) {
+        add(FindingKind::slivers, *pair.base,
+            fmt::format("{}: {:.2f} instead of {:.2f} % of the tetrahedra", name, 100 * *after,
+                        100 * *before));
+      }
+      differences.push_back({*after - *before, 1});
+      before_sum += *before;
+      after_sum += *after;
+    }
+    if (all_beyond(differences, options_.total_sliver_share, 0, 1)) {
+      const auto models = static_cast<double>(differences.size());
+      add_for_all(
+          FindingKind::slivers, mesher,
+          fmt::format("{}: {:.2f} instead of {:.2f} % on average over {} models", name,
+                      100 * after_sum / models, 100 * before_sum / models, differences.size()));
+    }
+  }
+
+  void say_what_lacks(const std::string& mesher) {
+    for (const auto& [what, count] : lacking_[mesher]) {
+      differ(mesher, fmt::format("not compared: {} of {} models, which {} measured", what.first,
+                                 count, what.second));
+    }
+    lacking_.erase(mesher);
+    for (const auto& [oracle, count] : silent_) {
+      report_.notes.push_back(
+          fmt::format("{}: oracle {} was not asked about {} models", mesher, oracle, count));
+    }
+    silent_.clear();
+  }
+
+  void compare_sizes(const std::string& mesher, const std::vector<Pair>& pairs) {
+    std::vector<Weighted> ratios;
+    std::size_t fewer = 0;
+    for (const Pair& pair : pairs) {
+      const auto before = tetrahedra(*pair.base), after = tetrahedra(*pair.fresh);
+      if (!before || !after || *before <= 0) continue;
+      const double ratio = *after / *before;
+      ratios.push_back({ratio, std::min(*before, kMostTetrahedra)});
+      if (std::fabs(*after - *before) < options_.least_tetrahedra) continue;
+      const bool more = ratio > options_.size_factor, less = ratio < 1 / options_.size_factor;
+      fewer += less;
+      if (!more && !(less && options_.fewer_is_bad)) continue;
+      add(FindingKind::size, *pair.base,
+          fmt::format("{} tetrahedra: {:.0f} instead of {:.0f}, {:.3f} times",
+                      more ? "more" : "fewer", *after, *before, ratio));
+    }
+    if (fewer > 0 && !options_.fewer_is_bad) note(mesher, fewer, "meshes have fewer tetrahedra");
+    const double limit = options_.total_size_factor;
+    const bool more = all_beyond(ratios, limit, 1, 1);
+    if (more || (options_.fewer_is_bad && all_beyond(ratios, 1 / limit, 1, -1))) {
+      add_for_all(FindingKind::size, mesher,
+                  fmt::format("{} tetrahedra: {:.3f} times those of the base, on average over {} "
+                              "models",
+                              more ? "more" : "fewer", mean_of(ratios), ratios.size()));
+    }
+  }
+
+  void compare_costs(const std::string& mesher, const std::vector<Pair>& pairs) {
+    const Cost time{FindingKind::time,
+                    "processor time",
+                    "s",
+                    1,
+                    options_.time_factor,
+                    options_.total_time_factor,
+                    options_.least_seconds,
+                    kLongestSeconds,
+                    [](const RunRow& r) { return r.cpu_seconds; }};
+    const Cost memory{FindingKind::memory,
+                      "peak memory",
+                      "MB",
+                      1e6,
+                      options_.memory_factor,
+                      options_.total_memory_factor,
+                      options_.least_bytes,
+                      kLargestBytes,
+                      [](const RunRow& r) { return static_cast<double>(r.peak_rss_bytes); }};
+    compare_cost(mesher, pairs, time);
+    compare_cost(mesher, pairs, memory);
+  }
+
+  void compare_cost(const std::string& mesher, const std::vector<Pair>& pairs, const Cost& cost) {
     std::vector<double> log_ratios;
+    std::vector<Weighted> ratios;
     std::vector<Pair> compared;
     std::set<std::string> hosts;
     for (const Pair& pair : pairs) {
-      const double a = m.value(*pair.base), b = m.value(*pair.fresh);
-      if (a <= 0 || b <= 0) continue;
-      log_ratios.push_back(std::log(b / a));
+      const double before = cost.value(pair.base->row), after = cost.value(pair.fresh->row);
+      if (before <= 0 || after <= 0) continue;
+      log_ratios.push_back(std::log(after / before));
+      ratios.push_back({after / before, std::min(before, cost.largest_weight)});
       compared.push_back(pair);
-      hosts.insert(pair.base->host);
-      hosts.insert(pair.fresh->host);
+      hosts.insert(pair.base->row.host);
+      hosts.insert(pair.fresh->row.host);
     }
     if (compared.empty()) return;
-    const bool normalise = m.depends_on_machine && hosts.size() > 1;
+    const bool normalise = hosts.size() > 1;
     const double middle = *median(log_ratios);
     if (normalise) {
-      note_machine(mesher, m, std::exp(middle));
+      note_machine(mesher, cost, std::exp(middle));
     } else {
-      check_all(mesher, compared, m, middle);
+      check_all(mesher, compared, ratios, cost, middle);
     }
     const double expected = normalise ? middle : 0;
-    const double noise = m.depends_on_machine ? kDeviations * spread(log_ratios) : 0;
+    const double noise = kDeviations * spread(log_ratios);
     for (std::size_t i = 0; i < compared.size(); ++i) {
       const double excess = log_ratios[i] - expected;
-      const double before = m.value(*compared[i].base) * std::exp(expected);
-      const double after = m.value(*compared[i].fresh);
+      const double before = cost.value(compared[i].base->row) * std::exp(expected);
+      const double after = cost.value(compared[i].fresh->row);
       // Where most models got slower, check_all has said so; the spread is about their middle.
       const bool stands_out = compared.size() == 1 || log_ratios[i] - middle > noise;
-      if (excess > std::log(m.factor) && stands_out && after - before > m.least) {
-        add(m.kind, *compared[i].base,
-            fmt::format("{:.2f} times: {:.4g} {} instead of {:.4g}", std::exp(excess),
-                        after / m.divisor, m.unit, before / m.divisor));
+      if (excess > std::log(cost.factor) && stands_out && after - before > cost.least) {
+        add(cost.kind, *compared[i].base,
+            fmt::format("{}: {:.4g} {} instead of {:.4g}, {:.2f} times", cost.name,
+                        after / cost.divisor, cost.unit, before / cost.divisor, std::exp(excess)));
       }
     }
   }
 
-  // 1.4826 times the median distance from the median, a standard deviation if all is normal.
-  static double spread(const std::vector<double>& values) {
-    if (values.size() < kFewPairs) return 0;
-    const double middle = *median(values);
-    std::vector<double> distances;
-    for (const double value : values) distances.push_back(std::fabs(value - middle));
-    return 1.4826 * *median(distances);
-  }
-
-  void check_all(const std::string& mesher, const std::vector<Pair>& pairs, const Measure& m,
-                 double middle) {
+  void check_all(const std::string& mesher, const std::vector<Pair>& pairs,
+                 const std::vector<Weighted>& ratios, const Cost& cost, double middle) {
     double before = 0, after = 0;
     for (const Pair& pair : pairs) {
-      before += m.value(*pair.base);
-      after += m.value(*pair.fresh);
+      before += cost.value(pair.base->row);
+      after += cost.value(pair.fresh->row);
     }
-    if (pairs.size() < 2 || middle <= std::log(m.factor) || after - before <= m.least) return;
-    report_.findings.push_back(
-        {m.kind, mesher, "",
-         fmt::format("{:.2f} times at the median of {} models", std::exp(middle), pairs.size())});
+    const double mean = mean_of(ratios);
+    const std::string said = fmt::format(
+        "{}: {:.3f} times over {} models, {:.4g} {} instead of {:.4g} in all", cost.name, mean,
+        pairs.size(), after / cost.divisor, cost.unit, before / cost.divisor);
+    const bool narrow =
+        cost.kind != FindingKind::time || options_.quiet_machine || measured_in_turn(pairs);
+    const bool above = all_beyond(ratios, cost.total_factor, 1, 1);
+    // Few pairs, or a drifting machine: what is slower by the factor of a single model counts.
+    const bool far_above =
+        pairs.size() >= 2 && middle > std::log(cost.factor) && after - before > cost.least;
+    if ((narrow && above) || far_above) {
+      add_for_all(cost.kind, mesher, said);
+    } else if (above) {
+      report_.notes.push_back(
+          fmt::format("{}: {}; the sides were not measured in turn, so that only {:.2f} times "
+                      "would count",
+                      mesher, said, cost.factor));
+    }
   }
 
-  void note_machine(const std::string& mesher, const Measure& m, double ratio) {
+  // By the times at which the runs began: the side changes at least as often as in base, new, base,
+  // new.
+  static bool measured_in_turn(const std::vector<Pair>& pairs) {
+    std::vector<std::pair<std::string, bool>> starts;
+    for (const Pair& pair : pairs) {
+      for (const std::string& start : pair.base->started) starts.emplace_back(start, false);
+      for (const std::string& start : pair.fresh->started) starts.emplace_back(start, true);
+    }
+    std::sort(starts.begin(), starts.end());
+    // Times are known to the second: within one the order is not.
+    int turns = 0;
+    std::optional<bool> side;
+    for (std::size_t i = 0; i < starts.size();) {
+      const std::string& second = starts[i].first;
+      const bool first = starts[i].second;
+      bool mixed = false;
+      for (; i < starts.size() && starts[i].first == second; ++i)
+        mixed |= starts[i].second != first;
+      if (mixed) continue;
+      turns += side.has_value() && *side != first;
+      side = first;
+    }
+    return turns >= kTurns;
+  }
+
+  void note_machine(const std::string& mesher, const Cost& cost, double ratio) {
     report_.notes.push_back(
-        fmt::format("{}: different machines, {} taken relative to the median "
-                    "ratio {:.2f}",
-                    mesher, finding_name(m.kind), ratio));
+        fmt::format("{}: different machines, {} taken relative to the median ratio {:.2f}: a "
+                    "slowdown of all models does not show",
+                    mesher, cost.name, ratio));
   }
 
-  Selection base_, fresh_;
+  Runs base_, fresh_;
   GateOptions options_;
   GateReport report_;
+  // By mesher: how many pairs lack which measure on which side.
+  std::map<std::string, std::map<std::pair<std::string, std::string>, std::size_t>> lacking_;
+  std::map<std::string, std::size_t> silent_;  // oracles not asked that need not be
 };
 
 }  // namespace
+
+bool is_verified(const RunRow& row) {
+  return row.disposition == Disposition::ok && verdict_rank(verdict_of(row)) > 0;
+}
 
 GateReport compare_campaigns(const std::vector<RunRow>& base, const std::vector<RunRow>& fresh,
                              const GateOptions& options) {
@@ -212,9 +661,10 @@ GateReport compare_campaigns(const std::vector<RunRow>& base, const std::vector<
 }
 
 const char* finding_name(FindingKind kind) {
-  static constexpr const char* kNames[] = {"disposition", "verdict", "time",
-                                           "memory",      "size",    "missing"};
-  return kNames[static_cast<std::size_t>(kind)];
+  static constexpr std::array kNames = {
+      "disposition", "unverified", "verdict", "oracle", "conformity", "face-angle", "dihedral",
+      "slivers",     "mean-angle", "size",    "time",   "memory",     "missing"};
+  return kNames.at(static_cast<std::size_t>(kind));
 }
 
 }  // namespace tetproof

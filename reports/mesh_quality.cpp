@@ -34,6 +34,8 @@ void measure_dihedrals(Vertices vertices, Tetrahedra tetrahedra, AngleStatistics
     sum_max += *high;
     result.min_dihedral = std::min(result.min_dihedral, *low);
     result.max_dihedral = std::max(result.max_dihedral, *high);
+    result.below_5 += *low < 5;
+    result.below_10 += *low < 10;
     for (const double angle : angles) ++result.dihedral_histogram[bin(angle)];
   }
   result.mean_min_dihedral = sum_min / static_cast<double>(tetrahedra.size());
@@ -188,6 +190,8 @@ nlohmann::ordered_json json_of(const PartQuality& part) {
           {"mean_max_face_angle", a.mean_max_face_angle},
           {"mean_min_dihedral", a.mean_min_dihedral},
           {"mean_max_dihedral", a.mean_max_dihedral},
+          {"tetrahedra_below_5_degrees", a.below_5},
+          {"tetrahedra_below_10_degrees", a.below_10},
           {"shortest_edge", part.shortest_edge},
           {"volume", part.volume},
           {"face_angle_histogram", a.face_angle_histogram},

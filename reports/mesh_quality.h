@@ -18,6 +18,8 @@ struct AngleStatistics {
   double mean_min_dihedral = 0, mean_max_dihedral = 0;      // per tetrahedron
   std::array<std::uint64_t, 12> face_angle_histogram{};     // 15-degree bins
   std::array<std::uint64_t, 12> dihedral_histogram{};
+  // Tetrahedra with a dihedral angle below 5 and below 10 degrees.
+  std::uint64_t below_5 = 0, below_10 = 0;
 };
 
 struct PartQuality {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -33,6 +34,30 @@ TEST(MeshQuality, SharedFacesCountOnce) {
   EXPECT_NEAR(a.mean_max_dihedral, 70.5287793655, 1e-9);
   EXPECT_EQ(std::accumulate(a.face_angle_histogram.begin(), a.face_angle_histogram.end(), 0u), 21u);
   EXPECT_EQ(a.dihedral_histogram[4], 12u);  // 60 to 75 degrees
+}
+
+// Tetrahedra of two equal isosceles triangles on a common edge, this many degrees apart.
+TEST(MeshQuality, SharesOfSmallDihedrals) {
+  MeshFile mesh;
+  const auto add_sliver = [&](double degrees) {
+    const double far = 10.0 * static_cast<double>(mesh.tetrahedra.size());
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    // The edge opposite to the x axis lies in the plane that leaves it at this angle.
+    const double angle = degrees * 3.14159265358979323846 / 180;
+    mesh.vertices.insert(mesh.vertices.end(), {{far, 0, 0},
+                                               {far + 1, 0, 0},
+                                               {far + 0.5, 1, 0},
+                                               {far + 0.5, std::cos(angle), std::sin(angle)}});
+    mesh.tetrahedra.push_back({first, first + 1, first + 2, first + 3});
+  };
+  for (const double degrees : {4.99, 5.01, 9.99, 10.01, 60.0}) add_sliver(degrees);
+  const AngleStatistics& a = measure(mesh).all.angles;
+  EXPECT_NEAR(a.min_dihedral, 4.99, 1e-9);
+  EXPECT_EQ(a.below_5, 1u);
+  EXPECT_EQ(a.below_10, 3u);
+  const auto json = nlohmann::json::parse(to_json(measure(mesh)));
+  EXPECT_EQ(json.at("tetrahedra_below_5_degrees"), 1);
+  EXPECT_EQ(json.at("tetrahedra_below_10_degrees"), 3);
 }
 
 TEST(MeshQuality, OrientationOfTheFileIsFoundByMajority) {

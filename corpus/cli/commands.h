@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "reports/gate.h"
+
 namespace tetproof {
 
 // A request that makes no sense; exit code 2.
@@ -53,8 +55,8 @@ struct MeasureArguments {
 
 struct GateArguments {
   std::vector<std::string> base, fresh;
-  double time_factor = 1.5, memory_factor = 1.3, size_factor = 1.05;
-  bool allow_missing = false;
+  GateOptions options;
+  bool allow_missing = false, allow_fewer = false;
 };
 
 struct ClassifyArguments {

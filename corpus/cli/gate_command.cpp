@@ -21,11 +21,9 @@ std::vector<RunRow> rows_of(const std::vector<std::string>& paths) {
 }  // namespace
 
 int gate_command(const GateArguments& arguments) {
-  GateOptions options;
-  options.time_factor = arguments.time_factor;
-  options.memory_factor = arguments.memory_factor;
-  options.size_factor = arguments.size_factor;
+  GateOptions options = arguments.options;
   options.missing_is_bad = !arguments.allow_missing;
+  options.fewer_is_bad = !arguments.allow_fewer;
   const GateReport report =
       compare_campaigns(rows_of(arguments.base), rows_of(arguments.fresh), options);
   for (const Finding& f : report.findings) {
@@ -33,7 +31,16 @@ int gate_command(const GateArguments& arguments) {
                f.model.empty() ? "(all models)" : f.model, f.text);
   }
   for (const std::string& note : report.notes) fmt::print("note: {}\n", note);
-  fmt::print("{} runs compared, {} regressions\n", report.pairs, report.findings.size());
+  for (const std::string& difference : report.differences) {
+    fmt::print("DIFFERENCE: {}\n", difference);
+  }
+  fmt::print(
+      "{} runs compared, {} with a mesh on both sides, {} verified on both; {}{} regressions\n",
+      report.pairs, report.both_ok, report.verified,
+      report.differences.empty()
+          ? ""
+          : fmt::format("{} differences between the sides, see above; ", report.differences.size()),
+      report.findings.size());
   if (report.pairs == 0 && report.findings.empty()) {
     throw std::runtime_error("the two have no run of the same model and mesher in common");
   }

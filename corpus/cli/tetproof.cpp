@@ -114,23 +114,54 @@ CLI::App* declare_measure(CLI::App& tetproof, MeasureArguments& a) {
 CLI::App* declare_gate(CLI::App& tetproof, GateArguments& a) {
   CLI::App* app = tetproof.add_subcommand(
       "gate", "Compare with an earlier campaign; exit 1 and a line each if something got worse");
-  app->add_option("--base", a.base, "Results, or an export in JSON, to measure up to")
+  app->add_option("--base", a.base,
+                  "Results, or exports in JSON, to measure up to; several: repetitions of one "
+                  "campaign, of which the least times count")
       ->required()
       ->check(CLI::ExistingFile);
-  app->add_option("--new", a.fresh, "Results, or an export in JSON, to be judged")
+  app->add_option("--new", a.fresh, "Results, or exports in JSON, to be judged; several as above")
       ->required()
       ->check(CLI::ExistingFile);
-  const auto factor = CLI::Range(1.0, 1e6);
-  app->add_option("--time-factor", a.time_factor, "Processor time this many times as long")
-      ->check(factor)
-      ->capture_default_str();
-  app->add_option("--memory-factor", a.memory_factor, "Peak memory")
-      ->check(factor)
-      ->capture_default_str();
-  app->add_option("--size-factor", a.size_factor, "Tetrahedra")
-      ->check(factor)
-      ->capture_default_str();
+  GateOptions& o = a.options;
+  const auto limit = [&](const char* group, const char* name, double& value, const char* what,
+                         double low, double high) {
+    app->add_option(name, value, what)
+        ->check(CLI::Range(low, high))
+        ->capture_default_str()
+        ->group(group);
+  };
+  const double most = 1e6;
+  const char* one = "Limits for one model";
+  limit(one, "--time-factor", o.time_factor, "Processor time this many times as long", 1, most);
+  limit(one, "--memory-factor", o.memory_factor, "Peak memory this many times as large", 1, most);
+  limit(one, "--size-factor", o.size_factor, "Tetrahedra this many times as many, or as few", 1,
+        most);
+  limit(one, "--angle-factor", o.angle_factor,
+        "Smallest face angle (refined, final) or dihedral below this fraction of the base's", 0, 1);
+  limit(one, "--mean-factor", o.mean_factor,
+        "The same for mean angles; of the largest what 180 degrees leave", 0, 1);
+  limit(one, "--sliver-share", o.sliver_share,
+        "Share of tetrahedra with a dihedral below 5 or 10 degrees larger by this", 0, 1);
+  limit(one, "--deviation-ulps", o.deviation_ulps,
+        "Written surface off the input by so many ulp more (and by half as much again)", 0, most);
+  limit(one, "--least-seconds", o.least_seconds, "Smaller differences are noise", 0, most);
+  limit(one, "--least-bytes", o.least_bytes, "Smaller differences are noise", 0, 1e18);
+  limit(one, "--least-tetrahedra", o.least_tetrahedra, "Smaller differences are noise", 0, 1e18);
+  limit(one, "--least-slivers", o.least_slivers, "Smaller differences are noise", 0, 1e18);
+  const char* all = "Limits for all models of a mesher together (from 8 pairs on)";
+  limit(all, "--total-time-factor", o.total_time_factor,
+        "Processor time, if the sides were measured in turn (else --time-factor)", 1, most);
+  limit(all, "--total-memory-factor", o.total_memory_factor, "Peak memory", 1, most);
+  limit(all, "--total-size-factor", o.total_size_factor, "Tetrahedra, more or fewer", 1, most);
+  limit(all, "--total-angle-factor", o.total_angle_factor, "Smallest angles", 0, 1);
+  limit(all, "--total-mean-factor", o.total_mean_factor, "Mean angles", 0, 1);
+  limit(all, "--total-sliver-share", o.total_sliver_share, "Share of small dihedrals", 0, 1);
+  app->add_flag("--quiet-machine", o.quiet_machine,
+                "Judge times as if the sides had been measured in turn");
   app->add_flag("--allow-missing", a.allow_missing, "Runs of the base may be missing");
+  app->add_flag("--allow-fewer", a.allow_fewer, "Meshes may have fewer tetrahedra");
+  app->add_option("--allow-silent", o.may_be_silent,
+                  "Oracles that need not have been asked although the base was");
   return app;
 }
 
