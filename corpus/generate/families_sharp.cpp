@@ -67,7 +67,8 @@ Surface cone(FamilyMember& m) {
     }
   }
   // An apex far above, hardly above, or below the base: a cone inside a cone.
-  const double height = r.chance(0.3) ? -0.5 + r.thin(20) : rings.size() + 4 * r.unit();
+  const double height =
+      r.chance(0.3) ? -0.5 + r.thin(20) : static_cast<double>(rings.size()) + 4 * r.unit();
   return spindle({0, 0, height < 0 ? -0.75 : -r.thin(m.bits)}, rings, {0, 0, height});
 }
 

@@ -8,6 +8,7 @@
 #include "mesher/cdt/facet_triangles.h"
 #include "mesher/cdt/regions.h"
 #include "mesher/cdt/segments.h"
+#include "mesher/cdt/validate.h"
 
 namespace delmesher {
 namespace {
@@ -50,6 +51,7 @@ class CdtBuilder {
     enter(Phase::segments);
     const std::vector<VertexId> added = recover_segments(mesh, chains_, points_, control_);
     steiner_.insert(steiner_.end(), added.begin(), added.end());
+    if (input_.validate) validate_segments(mesh, chains_);
     surface_.clear();
     found_.clear();
     enter(Phase::facets);
@@ -67,6 +69,7 @@ class CdtBuilder {
     control_.enter(Phase::classify);
     std::size_t missing = 0;
     inside_ = classify_tetrahedra(mesh, surface_, found_, chains_, control_, &missing);
+    if (input_.validate && !inside_.empty()) validate_facets(mesh, chains_, surface_, inside_);
     return inside_.empty() ? surface_[missing].facet : kNone;
   }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/base/validating.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/topology.h"
@@ -28,6 +29,10 @@ struct CdtInput {
   // Account for the phases delaunay, segments and facets one by one, as nothing before used them;
   // else all is Phase::enrich up to Phase::classify.
   bool phase_by_phase = false;
+  // Check after each step what it promises, InternalError if it does not hold: the tetrahedrization
+  // is Delaunay with every subsegment an edge; then it has every triangle of every facet as a face,
+  // is Delaunay wherever no facet hides, and changes sides at the facets and nowhere else.
+  bool validate = kValidating;
 };
 
 // A face of the tetrahedrization lying on the surface.

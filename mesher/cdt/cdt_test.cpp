@@ -6,6 +6,7 @@
 #include "mesher/cdt/gift_wrapping.h"
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
+#include "mesher/cdt/validate.h"
 
 namespace delmesher {
 namespace {
@@ -52,6 +53,53 @@ TEST(Cdt, CheckerNoticesDefects) {
     if (!chain.empty()) chain.pop_back();
   }
   EXPECT_EQ(model.wrong(bad), "chain without its ends");
+}
+
+template <class Check>
+std::string complaint(Check&& check) {
+  try {
+    check();
+  } catch (const InternalError& error) {
+    const std::string text = error.what();
+    return text.substr(text.rfind(": ") + 2);
+  }
+  return "";
+}
+
+TEST(Cdt, ValidateReportsBrokenPromises) {
+  Model model(box(0, 8));
+  const std::vector<SurfaceFace> surface = model.run().boundary;
+  Tetrahedrization mesh(model.predicates);
+  mesh.build(model.input.vertices, model.control);
+  const Chains chains(model.input, model.points);
+  EXPECT_EQ(complaint([&] { validate_segments(mesh, chains); }), "");
+  std::vector<std::uint8_t> inside(mesh.capacity(), 0);
+  TetId finite = 0;
+  for (TetId t = 0; t < mesh.capacity(); ++t) {
+    if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
+    inside[t] = 1;
+    finite = t;
+  }
+  const auto said = [&](const std::vector<SurfaceFace>& faces, const auto& sides) {
+    return complaint([&] { validate_facets(mesh, chains, faces, sides); });
+  };
+  EXPECT_EQ(said(surface, inside), "");
+  std::vector<std::uint8_t> other = inside;
+  other[finite] = 0;
+  EXPECT_EQ(said(surface, other), "sides change elsewhere than at a facet");
+  std::vector<SurfaceFace> faces(surface.begin(), surface.end() - 1);
+  EXPECT_EQ(said(faces, inside), "sides change elsewhere than at a facet");
+  faces.push_back(faces[0]);
+  EXPECT_EQ(said(faces, inside), "a triangle of a facet is there twice");
+  faces = surface;
+  faces[0].vertices[0] = static_cast<VertexId>(model.points.add_explicit(99, 0, 0));
+  EXPECT_EQ(said(faces, inside), "a triangle of a facet is no face");
+
+  Model twisted(twisted_prism(3, 0.5, 1, true));
+  Tetrahedrization delaunay(twisted.predicates);
+  delaunay.build(twisted.input.vertices, twisted.control);
+  const Chains edges(twisted.input, twisted.points);
+  EXPECT_EQ(complaint([&] { validate_segments(delaunay, edges); }), "a subsegment is no edge");
 }
 
 // Cannot be tetrahedrized without further vertices.

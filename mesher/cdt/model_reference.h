@@ -21,6 +21,7 @@ struct Model {
     surface = oriented_outwards(given, validity);
     topology = build_topology(surface, points, predicates);
     input.topology = &topology;
+    input.validate = true;  // in every build
     for (VertexId v = 0; v < surface.vertices.size(); ++v) input.vertices.push_back(v);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/epoch.h"
 #include "mesher/base/flat_map.h"
 
 namespace delmesher {
@@ -38,7 +39,7 @@ int FacetRecovery::side(VertexId v) {
 bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles,
                             std::vector<std::uint32_t>& found) {
   frame_ = topology_.triangles[topology_.facet_triangles[facet][0]];
-  ++facet_epoch_;
+  next_epoch(facet_epoch_, side_mark_);
   done_.assign(triangles.triangles.size(), 0);
   for (std::uint32_t t = 0; t < triangles.triangles.size(); ++t) {
     control_.poll(predicates_.points().size());
@@ -167,7 +168,7 @@ void FacetRecovery::collect_isolated() {
 }
 
 bool FacetRecovery::recover_region() {
-  ++cavity_epoch_;
+  next_epoch(cavity_epoch_, cavity_mark_, shell_mark_);
   if (cavity_mark_.size() < mesh_.capacity()) cavity_mark_.resize(mesh_.capacity() * 3 / 2, 0);
   cavity_.clear();
   for (const auto& edge : region_border_) {

@@ -7,6 +7,7 @@
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
+#include "mesher/base/epoch.h"
 #include "mesher/base/flat_map.h"
 #include "mesher/predicates/placement.h"
 
@@ -466,7 +467,7 @@ class SegmentRecovery {
     VertexId best = kNone;
     double best_sine = 2;
     if (mark_.size() < mesh_.capacity()) mark_.resize(mesh_.capacity() * 3 / 2, 0);
-    ++epoch_;
+    next_epoch(epoch_, mark_);
     crossed_.clear();
     for (const TetId t : mesh_.star(a)) visit(t);
     for (std::size_t n = 0; n < crossed_.size(); ++n) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/epoch.h"
 
 namespace delmesher {
 namespace {
@@ -185,7 +186,7 @@ class PlanarBuilder {
   }
 
   void insert(Index p) {
-    ++epoch_;
+    next_epoch(epoch_, mark_);
     cavity_.assign(1, locate(p));
     border_.clear();
     mark_[cavity_[0]] = epoch_;

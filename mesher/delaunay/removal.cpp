@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/validating.h"
 #include "mesher/delaunay/tetrahedrization.h"
 
 namespace delmesher {
@@ -162,6 +163,7 @@ void Tetrahedrization::change_to(std::span<const VertexId> vertices, Control& co
   TetId hint = 0;
   while (!alive(hint)) ++hint;
   insert_in_order(in_spatial_order(missing), hint, control);
+  if (kValidating) validate(true);
 }
 
 }  // namespace delmesher

@@ -7,11 +7,15 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/epoch.h"
+#include "mesher/base/numbering.h"
 #include "mesher/base/spatial_sort.h"
+#include "mesher/base/validating.h"
 
 namespace delmesher {
 
-Tetrahedrization::Tetrahedrization(Predicates& predicates) : predicates_(predicates) {}
+Tetrahedrization::Tetrahedrization(Predicates& predicates, std::uint32_t most)
+    : predicates_(predicates), most_(std::min(most, kMostTetrahedra)) {}
 
 // ------------------------------------------------------------------------------------- building
 
@@ -34,6 +38,7 @@ void Tetrahedrization::build(std::span<const VertexId> vertices, Control& contro
   cell_.reserve(order.size() * 7);
   first_tetrahedron(order);
   insert_in_order(std::span(order).subspan(4), 0, control);
+  if (kValidating) validate(true);
 }
 
 void Tetrahedrization::insert_in_order(std::span<const VertexId> order, TetId hint,
@@ -103,8 +108,8 @@ TetId Tetrahedrization::allocate() {
     state_[t].mark = 0;
     return t;
   }
+  if (cell_.size() >= most_) stop_at_size(most_, "tetrahedra");
   const auto t = static_cast<TetId>(cell_.size());
-  DELMESHER_CHECK(t < (1U << 30), "too many tetrahedra for 32-bit adjacency");
   state_.push_back({});
   star_mark_.push_back(0);
   cell_.push_back({});
@@ -147,7 +152,7 @@ void Tetrahedrization::walk_star(VertexId v, Visit&& visit) {
   star_.clear();
   const TetId first = incident(v);
   if (first == kNone) return;
-  ++star_epoch_;
+  next_epoch(star_epoch_, star_mark_);
   star_mark_[first] = star_epoch_;
   star_.push_back(first);
   for (std::size_t n = 0; n < star_.size(); ++n) {
@@ -364,8 +369,13 @@ bool Tetrahedrization::insert(VertexId v, TetId hint) {
 // ----------------------------------------------------------------------------------- validation
 
 void Tetrahedrization::validate(bool delaunay) {
+  const PredicateCounters counters = predicates_.counters;
+  std::size_t dead = 0;
   for (TetId t = 0; t < capacity(); ++t) {
-    if (!alive(t)) continue;
+    if (!alive(t)) {
+      ++dead;
+      continue;
+    }
     const VertexId* w = vertices(t);
     const bool ghost = is_ghost(t);
     DELMESHER_CHECK(ghost || predicates_.orient3d(w[0], w[1], w[2], w[3]) > 0,
@@ -375,7 +385,8 @@ void Tetrahedrization::validate(bool delaunay) {
       const int j = mirror(t, i);
       DELMESHER_CHECK(u < capacity() && alive(u), "neighbour is dead");
       DELMESHER_CHECK(neighbor(u, j) == t && mirror(u, j) == i, "adjacency not symmetric");
-      DELMESHER_CHECK(index_of(t, vertex(u, j)) < 0, "neighbours share all vertices");
+      const VertexId apex = vertex(u, j);
+      DELMESHER_CHECK(index_of(t, apex) < 0, "neighbours share all vertices");
       for (int k = 0; k < 4; ++k) {
         DELMESHER_CHECK(k == i || index_of(u, w[k]) >= 0, "neighbours do not share a face");
       }
@@ -384,11 +395,17 @@ void Tetrahedrization::validate(bool delaunay) {
         DELMESHER_CHECK(s != kNone && alive(s) && index_of(s, w[i]) >= 0, "incident() is stale");
       }
       if (delaunay && !ghost && !is_ghost(u)) {
-        DELMESHER_CHECK(predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], vertex(u, j)) < 0,
+        DELMESHER_CHECK(predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], apex) < 0,
                         "face not locally Delaunay");
+      }
+      if (delaunay && ghost && apex != kInfinite) {
+        DELMESHER_CHECK(!conflicts(t, apex), "hull not convex");
       }
     }
   }
+  DELMESHER_CHECK(dead == free_.size(), "a free slot is lost or used twice");
+  for (const TetId t : free_) DELMESHER_CHECK(!alive(t), "a free slot is in use");
+  predicates_.counters = counters;
 }
 
 }  // namespace delmesher

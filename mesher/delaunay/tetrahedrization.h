@@ -37,7 +37,12 @@ class Tetrahedrization {
   // memory. Zero in a slot that is used for the first time, else what was there.
   using Notes = std::array<std::uint8_t, 4>;
 
-  explicit Tetrahedrization(Predicates& predicates);
+  // Faces are numbered in 32 bits, as 4 * tet + face, and kNone is no face.
+  static constexpr std::uint32_t kMostTetrahedra = (1U << 30) - 1;
+
+  // Stops at a limit of size, Stopped, when there would be more than `most` tetrahedra, ghosts
+  // included.
+  explicit Tetrahedrization(Predicates& predicates, std::uint32_t most = kMostTetrahedra);
 
   // Builds the tetrahedrization of the given points (at least four not coplanar; distinct),
   // inserted in a spatial order. Must be empty before.
@@ -140,8 +145,8 @@ class Tetrahedrization {
   void set_incident(VertexId v, TetId t) { incident_[v] = t; }
 
   // Walks the whole structure on raw indices: neighbour symmetry, shared vertices, orientation,
-  // incident(). Throws InternalError at the first defect. With `delaunay`, also every face locally
-  // Delaunay.
+  // incident(), free slots. Throws InternalError at the first defect. With `delaunay`, also every
+  // face locally Delaunay and the hull convex. Counts no predicates.
   void validate(bool delaunay);
 
   Predicates& predicates() { return predicates_; }
@@ -166,7 +171,10 @@ class Tetrahedrization {
   void glue_around(TetId created, const BoundaryFace& boundary);
   std::uint32_t next_random() { return random_ = random_ * 1664525U + 1013904223U; }
 
+  friend struct TetrahedrizationBreaker;  // of the tests of validate()
+
   Predicates& predicates_;
+  std::uint32_t most_;
   // Half a cache line.
   struct alignas(32) Cell {
     VertexId vertex[4] = {kNone, kNone, kNone, kNone};

@@ -5,12 +5,32 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 #include <set>
+#include <string>
 
 #include "mesher/base/check.h"
 
 namespace delmesher {
+
+// Breaks a tetrahedrization, or brings it to the end of its numbers.
+struct TetrahedrizationBreaker {
+  Tetrahedrization& dt;
+
+  TetId finite() const {
+    TetId t = 0;
+    while (!dt.alive(t) || dt.is_ghost(t)) ++t;
+    return t;
+  }
+  void turn_over() const { std::swap(dt.cell_[finite()].vertex[0], dt.cell_[finite()].vertex[1]); }
+  void glue_wrongly() const { dt.glue(finite(), 0, finite(), 1); }
+  void forget_incident() const { dt.incident_[dt.vertex(finite(), 0)] = kNone; }
+  void lose_slot() const { dt.free_.push_back(finite()); }
+  void kill() const { dt.state_[finite()].mark = Tetrahedrization::kDead; }
+  void use_up_epochs() const { dt.star_epoch_ = 0xffffffffU; }
+};
+
 namespace {
 
 using TetSet = std::set<std::array<VertexId, 4>>;
@@ -115,8 +135,8 @@ TEST(Tetrahedrization, ChangedToOtherVerticesIsThatOfThese) {
       // Neighbours in the order of a grid, so that holes have several vertices; the last round
       // changes so much that the tetrahedrization is built anew.
       const VertexId run = round == 11 ? size / 3 : 1 + round % 4;
-      const VertexId goes = 4 + random() % (size - run - 4),
-                     comes = 4 + random() % (size - run - 4);
+      const VertexId goes = 4 + static_cast<VertexId>(random() % (size - run - 4)),
+                     comes = 4 + static_cast<VertexId>(random() % (size - run - 4));
       for (VertexId v = 0; v < size; ++v) {
         if (v < comes || v >= comes + run) before.push_back(v);
         if (v < goes || v >= goes + run) after.push_back(v);
@@ -226,15 +246,64 @@ TEST(Tetrahedrization, MixedPointsOnAnEdgeAndATriangle) {
   dt.validate(true);
 }
 
-TEST(Tetrahedrization, ValidateCatchesDamage) {
+std::string complaint(const std::function<void(const TetrahedrizationBreaker&)>& damage) {
   Fixture f;
   add_random(f.points, 50, 7);
   Tetrahedrization dt(f.predicates);
   dt.build(f.all(), f.control);
-  TetId t = 0;
-  while (!dt.alive(t) || dt.is_ghost(t)) ++t;
-  dt.glue(t, 0, t, 1);
-  EXPECT_THROW(dt.validate(false), InternalError);
+  damage({dt});
+  try {
+    dt.validate(true);
+  } catch (const InternalError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(Tetrahedrization, ValidateReportsEveryDamage) {
+  using Breaker = TetrahedrizationBreaker;
+  EXPECT_EQ(complaint([](const Breaker&) {}), "nothing");
+  const std::pair<void (Breaker::*)() const, const char*> cases[] = {
+      {&Breaker::turn_over, "not positively oriented"},
+      {&Breaker::glue_wrongly, "neighbours"},
+      {&Breaker::forget_incident, "stale"},
+      {&Breaker::lose_slot, "free slot"},
+      {&Breaker::kill, "dead"},
+  };
+  for (const auto& [damage, reason] : cases) {
+    const std::string said = complaint([broken = damage](const Breaker& b) { (b.*broken)(); });
+    EXPECT_NE(said.find(reason), std::string::npos) << said << ", not " << reason;
+  }
+}
+
+TEST(Tetrahedrization, TooManyTetrahedraAreALimit) {
+  Fixture f;
+  add_random(f.points, 200, 11);
+  Tetrahedrization dt(f.predicates, 300);
+  try {
+    dt.build(f.all(), f.control);
+    FAIL() << "no limit";
+  } catch (const Stopped& stopped) {
+    EXPECT_EQ(stopped.status.code, StatusCode::limit_reached);
+    EXPECT_EQ(stopped.status.limit, Limit::size);
+    EXPECT_NE(stopped.status.message.find("300 tetrahedra"), std::string::npos);
+  }
+  // No number of a face is that of none.
+  EXPECT_LT(std::uint64_t{4} * (Tetrahedrization::kMostTetrahedra - 1) + 3, kNone);
+}
+
+TEST(Tetrahedrization, StarsAreFoundAfterTheLastEpoch) {
+  Fixture f;
+  add_random(f.points, 100, 12);
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  const auto star = dt.star(7);
+  const std::vector<TetId> before(star.begin(), star.end());
+  TetrahedrizationBreaker{dt}.use_up_epochs();
+  for (int round = 0; round < 3; ++round) {
+    const auto again = dt.star(7);
+    EXPECT_EQ(std::vector<TetId>(again.begin(), again.end()), before) << round;
+  }
 }
 
 }  // namespace

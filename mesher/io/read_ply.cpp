@@ -287,7 +287,7 @@ void PlyReader::read_faces(const Element& element) {
   const std::size_t label = element.find(
       {"label", "region", "marker", "group", "attribute", "material_index", "physical"}, false);
   if (label != Element::kNotFound) {
-    builder_.note("labels from the property " + quoted(element.properties[label].name));
+    builder_.note("labels from the property " + io::quoted(element.properties[label].name));
   }
   std::vector<double> scalars, values;
   std::vector<std::uint32_t> corners;
@@ -327,7 +327,7 @@ void PlyReader::read() {
     const std::uint64_t least = element.least_bytes(encoding_);
     if (least > 0 && element.count > remaining() / least + 1) {
       fail(element.position, "the file is too short for " + std::to_string(element.count) +
-                                 " elements " + quoted(element.name));
+                                 " elements " + io::quoted(element.name));
     }
   }
   if (vertices == nullptr) fail(line(), "no element 'vertex'");

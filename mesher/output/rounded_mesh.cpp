@@ -54,7 +54,7 @@ bool as_integers(const std::array<double, 4>& coordinate, std::array<std::int64_
     const int zeros = std::countr_zero(m);
     mantissa[n] = m >> zeros;
     exponent[n] = std::max(field, 1) + zeros;
-    const int top = exponent[n] + std::bit_width(mantissa[n]);
+    const int top = exponent[n] + static_cast<int>(std::bit_width(mantissa[n]));
     low = any ? std::min(low, exponent[n]) : exponent[n];
     high = any ? std::max(high, top) : top;
     any = true;

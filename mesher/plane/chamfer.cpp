@@ -5,6 +5,7 @@
 #include <map>
 
 #include "mesher/base/check.h"
+#include "mesher/base/epoch.h"
 #include "mesher/plane/shape.h"
 #include "mesher/predicates/placement.h"
 #include "mesher/predicates/predicates.h"
@@ -150,7 +151,7 @@ class Chamferer {
     const auto meet = [&](VertexId u) {
       if (!graph_.is_box_corner(u)) best = std::min(best, distance(p, point(u)));
     };
-    ++epoch_;
+    next_epoch(epoch_, seen_);
     base_.star(v, star_);
     for (const EdgeId e : star_) {
       meet(base_.origin(e));
@@ -245,7 +246,7 @@ class Chamferer {
       const double d = side.distance_to(point(v));
       return d <= reach || (touching && d <= 8 * options_.tau * distance(point(v), point(other)));
     };
-    ++epoch_;
+    next_epoch(epoch_, seen_);
     std::vector<EdgeId>& stack = star_;
     stack.assign(1, start);
     for (int count = 0; !stack.empty() && count < kMost; ++count) {

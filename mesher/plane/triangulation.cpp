@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "mesher/base/check.h"
-#include "mesher/base/control.h"
+#include "mesher/base/numbering.h"
 
 namespace delmesher::plane {
 namespace {
@@ -269,7 +269,7 @@ void Triangulation::fill_cavity(VertexId p) {
   }
   DELMESHER_CHECK(created_.size() == n, "a cavity of the wrong size");
   if (triangles_.size() >= std::size_t{1} << 30) {  // edges have no more numbers
-    throw Stopped{{StatusCode::limit_reached, "more than 2^30 triangles", Limit::size}};
+    stop_at_size(std::size_t{1} << 30, "triangles");
   }
   for (std::size_t k = 0; k < n; ++k) {
     const BoundaryEdge& b = boundary_[k];

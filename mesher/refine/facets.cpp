@@ -4,6 +4,7 @@
 
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/base/check.h"
+#include "mesher/base/numbering.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/refiner.h"
 
@@ -60,6 +61,8 @@ void Refiner::make_apex(std::uint32_t f) {
 }
 
 std::uint32_t Refiner::new_subfacet(const std::array<VertexId, 3>& v, std::uint32_t facet) {
+  constexpr std::size_t kMost = kNone / 3;  // edges are numbered as 3 * subfacet + edge
+  if (subfacets_.size() >= kMost) stop_at_size(kMost, "subfacets");
   const auto s = static_cast<std::uint32_t>(subfacets_.size());
   subfacets_.push_back({v, {kNone, kNone, kNone}, {kNone, kNone, kNone}, facet});
   return s;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/epoch.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
@@ -69,7 +70,7 @@ void Refiner::drain() {
 // tetrahedra around it (unless the centres of two are on one side, which without the Gabriel
 // property may be so).
 void Refiner::begin_constraints() {
-  ++stamp_;
+  next_epoch(stamp_, subfacet_stamp_, subsegment_stamp_);
   subfacet_stamp_.resize(subfacets_.size(), 0);
   subsegment_stamp_.resize(subsegments_.size(), 0);
   found_subfacets_.clear();
@@ -193,7 +194,7 @@ void Refiner::requeue_lost() {
   for (const FoundSubfacet& found : found_subfacets_) {
     if (found.internal) queue_subfacet(found.id);
   }
-  ++stamp_;
+  next_epoch(stamp_, subfacet_stamp_, subsegment_stamp_);
   for (const TetId t : dt_.created()) {
     for (int e = 0; e < 6; ++e) {
       if ((note(t, kEdges) >> e & 1) == 0) continue;

@@ -24,11 +24,14 @@ void Refiner::run() {
 
   control_.enter(Phase::segments);
   recover_segments();
+  if (options_.validate) validate();
   control_.enter(Phase::facets);
   build_facets();
   recover_facets();
+  if (options_.validate) validate();
   control_.enter(Phase::refine);
   refine_tetrahedra();
+  if (options_.validate) validate();
 }
 
 RefineResult Refiner::result() {

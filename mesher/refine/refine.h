@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/base/validating.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/bvh.h"
@@ -34,7 +35,8 @@ struct RefineOptions {
   std::vector<std::uint8_t> apex;
   // Boxes that cover the part of the input surface that the complex lacks.
   std::vector<Box> removed;
-  bool want_balls = false;  // fill RefineResult::ball
+  bool want_balls = false;      // fill RefineResult::ball
+  bool validate = kValidating;  // check the invariants after each step (Refiner::validate)
 };
 
 struct RefinedFace {

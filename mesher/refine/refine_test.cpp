@@ -7,12 +7,79 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <set>
+#include <string>
 
+#include "mesher/base/check.h"
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/delaunay/tetrahedrization.h"
+#include "mesher/refine/refiner.h"
 
 namespace delmesher {
+
+// Breaks the state of a refinement, one invariant at a time.
+struct RefinerBreaker {
+  Refiner& r;
+
+  std::uint32_t live_subfacet() const {
+    std::uint32_t s = 0;
+    while (!r.subfacets_[s].alive) ++s;
+    return s;
+  }
+  TetId tetrahedron_with_edge() const {
+    TetId t = 0;
+    while (!r.dt_.alive(t) || r.dt_.is_ghost(t) || r.note(t, Refiner::kEdges) == 0) ++t;
+    return t;
+  }
+  TetId tetrahedron_with_face() const {
+    TetId t = 0;
+    while (!r.dt_.alive(t) || r.note(t, Refiner::kFaces) == 0) ++t;
+    return t;
+  }
+  void forget_edge() const { r.note(tetrahedron_with_edge(), Refiner::kEdges) = 0; }
+  void forget_face() const { r.note(tetrahedron_with_face(), Refiner::kFaces) = 0; }
+  void misname_face() const {
+    for (std::uint32_t& s : r.subfacet_[tetrahedron_with_face()]) ++s;
+  }
+  void turn_subfacet() const {
+    auto& v = r.subfacets_[live_subfacet()].v;
+    std::swap(v[0], v[1]);
+  }
+  void unlink_neighbors() const { r.subfacets_[live_subfacet()].neighbor = {kNone, kNone, kNone}; }
+  void kill_subfacet() const { r.subfacets_[live_subfacet()].alive = false; }
+  void leave_chain() const {
+    std::size_t n = 0;
+    while (r.subsegments_[r.first_subsegment_[n]].next == kNone) ++n;
+    r.subsegments_[r.first_subsegment_[n]].next = kNone;
+  }
+  void forget_ends() const {
+    const auto& s = r.subsegments_[0];
+    r.edge_map_.erase(pair_key(s.a, s.b));
+  }
+  void lose_side() const { r.subsegments_[0].side[0] = kNone; }
+  void claim_to_wait() const { r.subsegments_[0].queued = true; }
+  void wait_unknown() const { r.subfacet_queue_.push_back(0); }
+  // A point in a subfacet that the tetrahedrization has and the facet has not.
+  void insert_behind_its_back() const {
+    const auto& v = r.subfacets_[live_subfacet()].v;
+    Vec3 centre{};
+    for (const VertexId w : v) {
+      for (std::size_t k = 0; k < 3; ++k) centre[k] += r.points_.nearest(w)[k] / 4;
+    }
+    for (std::size_t k = 0; k < 3; ++k) centre[k] += r.points_.nearest(v[0])[k] / 4;
+    const VertexId p = r.points_.add_explicit(centre[0], centre[1], centre[2]);
+    r.dt_.insert(p, r.dt_.incident(v[0]));
+    r.subfacet_.resize(r.dt_.capacity());
+  }
+  void damage_tetrahedra() const {
+    TetId t = 0;
+    while (!r.dt_.alive(t) || r.dt_.is_ghost(t)) ++t;
+    r.dt_.glue(t, 0, t, 1);
+  }
+};
+
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
@@ -82,6 +149,7 @@ struct Refinement {
       if (chamfered.acute_vertices > 0) options.removed.push_back(all);
     }
     options.apex = chamfered.vertex_is_apex;
+    options.validate = true;  // in every build
     result = refine(chamfered.plc, topology, points, predicates, options, control);
   }
 
@@ -327,6 +395,83 @@ TEST(Refine, MaxEdgeBoundsEdgesInside) {
     }
   }
   EXPECT_GT(checked, 1000U);
+}
+
+// A refinement of the box, with its state.
+struct State {
+  PointStore points;
+  Predicates predicates{points};
+  Options limits;
+  Control control{limits};
+  SurfaceTopology topology;
+  ChamferResult chamfered;
+  RefineOptions options;
+  std::optional<Refiner> refiner;
+
+  explicit State(bool gabriel) {
+    topology = build_topology(box(), points, predicates);
+    ChamferOptions chamfering;
+    chamfering.corner_cosine_squared = cosine_squared(60);
+    chamfered = chamfer(topology, points, predicates, chamfering, control);
+    add_outer_box(topology, points, chamfered.plc);
+    options.gabriel = gabriel;
+    refiner.emplace(chamfered.plc, topology, points, predicates, options, control);
+    refiner->run();
+  }
+};
+
+TEST(Refine, ValidateAcceptsWhatTheRefinementLeaves) {
+  for (const bool gabriel : {true, false}) {
+    State state(gabriel);
+    EXPECT_NO_THROW(state.refiner->validate());
+  }
+}
+
+std::string complaint(const std::function<void(const RefinerBreaker&)>& damage) {
+  State state(true);
+  damage({*state.refiner});
+  try {
+    state.refiner->validate();
+  } catch (const InternalError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(Refine, ValidateReportsEveryBrokenInvariant) {
+  using Breaker = RefinerBreaker;
+  const std::pair<void (Breaker::*)() const, const char*> cases[] = {
+      {&Breaker::forget_edge, "does not know of its subsegment"},
+      {&Breaker::forget_face, "does not know of its subfacet"},
+      {&Breaker::misname_face, "does not know of its subfacet"},
+      {&Breaker::turn_subfacet, "turned over"},
+      {&Breaker::unlink_neighbors, "has no other side"},
+      {&Breaker::kill_subfacet, "disagree"},
+      {&Breaker::leave_chain, "ends too soon"},
+      {&Breaker::forget_ends, "not found by its ends"},
+      {&Breaker::lose_side, "lacks a subfacet beside it"},
+      {&Breaker::claim_to_wait, "waits in no queue"},
+      {&Breaker::wait_unknown, "waits in no queue"},
+      {&Breaker::insert_behind_its_back, "sub"},
+      {&Breaker::damage_tetrahedra, "neighbours"},
+  };
+  for (const auto& [damage, reason] : cases) {
+    const std::string said = complaint([broken = damage](const Breaker& b) { (b.*broken)(); });
+    EXPECT_NE(said.find(reason), std::string::npos) << said << ", not " << reason;
+  }
+}
+
+// What is refined without the Gabriel property does not have it.
+TEST(Refine, ValidateAsksForEmptyBallsWithGabrielOnly) {
+  std::string said = "nothing";
+  State state(false);
+  state.options.gabriel = true;
+  try {
+    state.refiner->validate();
+  } catch (const InternalError& error) {
+    said = error.what();
+  }
+  EXPECT_NE(said.find("is encroached"), std::string::npos) << said;
 }
 
 TEST(Refine, GuardReportsWhereEdgesGetTooShort) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "mesher/base/check.h"
+#include "mesher/base/numbering.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
@@ -39,6 +40,7 @@ void Refiner::collect_segment_facets() {
 }
 
 std::uint32_t Refiner::new_subsegment(VertexId a, VertexId b, std::uint32_t segment) {
+  if (subsegments_.size() >= kNone) stop_at_size(kNone, "subsegments");
   const auto s = static_cast<std::uint32_t>(subsegments_.size());
   subsegments_.push_back({a, b, segment, kNone, {kNone, kNone}});
   edge_map_.set(pair_key(a, b), s);

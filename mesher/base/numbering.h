@@ -1,0 +1,20 @@
+// What indices can number.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "mesher/base/control.h"
+
+namespace delmesher {
+
+// Throws Stopped, as a limit of size: there are more of `what` ("tetrahedra") than `most`, which is
+// what indices can number.
+[[noreturn]] inline void stop_at_size(std::uint64_t most, const std::string& what) {
+  throw Stopped{
+      {StatusCode::limit_reached,
+       "more than " + std::to_string(most) + " " + what + ", more than indices can number",
+       Limit::size}};
+}
+
+}  // namespace delmesher

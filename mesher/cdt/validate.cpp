@@ -1,0 +1,59 @@
+#include "mesher/cdt/validate.h"
+
+#include <vector>
+
+#include "mesher/base/check.h"
+
+namespace delmesher {
+namespace {
+
+void validate_edges(Tetrahedrization& mesh, const Chains& chains) {
+  for (std::uint32_t n = 0; n < chains.size(); ++n) {
+    if (!chains.is_subsegment(n)) continue;
+    DELMESHER_CHECK(find_edge(mesh, chains, chains.node(n).vertex, chains.next(n).vertex) != kNone,
+                    "a subsegment is no edge");
+  }
+}
+
+}  // namespace
+
+void validate_segments(Tetrahedrization& mesh, const Chains& chains) {
+  mesh.validate(true);
+  validate_edges(mesh, chains);
+}
+
+void validate_facets(Tetrahedrization& mesh, const Chains& chains,
+                     std::span<const SurfaceFace> surface, std::span<const std::uint8_t> inside) {
+  mesh.validate(false);
+  validate_edges(mesh, chains);
+  std::vector<std::uint8_t> walls(mesh.capacity(), 0);  // bit i: face i is on the surface
+  for (const SurfaceFace& face : surface) {
+    const std::uint32_t code = find_face(mesh, chains, face.vertices);
+    DELMESHER_CHECK(code != kNone, "a triangle of a facet is no face");
+    const TetId t = code >> 2;
+    const int i = static_cast<int>(code & 3U);
+    DELMESHER_CHECK((walls[t] >> i & 1) == 0, "a triangle of a facet is there twice");
+    walls[t] |= static_cast<std::uint8_t>(1U << i);
+    walls[mesh.neighbor(t, i)] |= static_cast<std::uint8_t>(1U << mesh.mirror(t, i));
+  }
+  Predicates& predicates = mesh.predicates();
+  const PredicateCounters counters = predicates.counters;
+  for (TetId t = 0; t < mesh.capacity(); ++t) {
+    if (!mesh.alive(t)) continue;
+    const bool ghost = mesh.is_ghost(t);
+    DELMESHER_CHECK(inside[t] == 0 || (inside[t] == 1 && !ghost), "a side outside the hull");
+    const VertexId* w = mesh.vertices(t);
+    for (int i = 0; i < 4; ++i) {
+      const TetId u = mesh.neighbor(t, i);
+      const bool wall = (walls[t] >> i & 1) != 0;
+      DELMESHER_CHECK((inside[t] != inside[u]) == wall, "sides change elsewhere than at a facet");
+      if (wall || ghost || mesh.is_ghost(u)) continue;
+      DELMESHER_CHECK(predicates.insphere_perturbed(w[0], w[1], w[2], w[3],
+                                                    mesh.vertex(u, mesh.mirror(t, i))) < 0,
+                      "a face that no facet hides is not locally Delaunay");
+    }
+  }
+  predicates.counters = counters;
+}
+
+}  // namespace delmesher

@@ -1,0 +1,21 @@
+// What segment recovery and facet recovery promise, checked on a whole tetrahedrization.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "mesher/cdt/chains.h"
+
+namespace delmesher {
+
+// Throws InternalError unless the tetrahedrization is Delaunay, its structure is sound and every
+// subsegment of the chains is an edge. A few predicates per tetrahedron, which are not counted.
+void validate_segments(Tetrahedrization& mesh, const Chains& chains);
+
+// Throws InternalError unless the structure is sound, every subsegment is an edge and every
+// triangle of `surface` a face, every other face is locally Delaunay, and `inside` (by tetrahedron)
+// changes across the triangles of `surface` and nowhere else, being 0 outside the hull.
+void validate_facets(Tetrahedrization& mesh, const Chains& chains,
+                     std::span<const SurfaceFace> surface, std::span<const std::uint8_t> inside);
+
+}  // namespace delmesher
