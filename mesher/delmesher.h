@@ -88,7 +88,7 @@ struct Options {
   unsigned threads = 1;
   bool want_exact = false;      // fill Result::exact
   bool want_chamfered = false;  // fill Result::chamfered
-  // Called several times a second from the calling thread; returning false cancels the run.
+  // Called several times a second from the calling thread; false, or any exception, cancels it.
   std::function<bool(const Progress&)> progress;
 };
 

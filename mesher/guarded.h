@@ -31,6 +31,8 @@ Status guarded(Control& control, Body&& body) {
     return {StatusCode::limit_reached, "out of memory", Limit::memory};
   } catch (const std::exception& error) {
     return {StatusCode::internal_error, error.what()};
+  } catch (...) {
+    return {StatusCode::internal_error, "an exception of an unknown type"};
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace delmesher {
 namespace {
@@ -53,8 +54,10 @@ int unit_exponent(const Surface& surface) {
 
 }  // namespace
 
-Result in_ordinary_units(const Surface& surface, const Options& options,
-                         const std::function<Result(const Surface&, const Options&)>& task) {
+namespace {
+
+Result scaled_and_back(const Surface& surface, const Options& options,
+                       const std::function<Result(const Surface&, const Options&)>& task) {
   const int exponent = unit_exponent(surface);
   if (exponent == 0) return task(surface, options);
   Surface scaled = surface;
@@ -75,6 +78,20 @@ Result in_ordinary_units(const Surface& surface, const Options& options,
   s.bbox_diagonal = std::ldexp(s.bbox_diagonal, exponent);
   s.max_surface_deviation = std::ldexp(s.max_surface_deviation, exponent);
   return result;
+}
+
+}  // namespace
+
+// The copies, of surface and options, are no part of a task: their memory is guarded here.
+Result in_ordinary_units(const Surface& surface, const Options& options,
+                         const std::function<Result(const Surface&, const Options&)>& task) {
+  try {
+    return scaled_and_back(surface, options, task);
+  } catch (const std::bad_alloc&) {
+    Result result;
+    result.status = {StatusCode::limit_reached, "out of memory", Limit::memory};
+    return result;
+  }
 }
 
 }  // namespace delmesher

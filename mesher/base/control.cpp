@@ -1,6 +1,8 @@
 #include "mesher/base/control.h"
 
 #include <algorithm>
+#include <exception>
+#include <new>
 #include <thread>
 
 namespace delmesher {
@@ -9,6 +11,25 @@ namespace {
 double seconds_between(std::chrono::steady_clock::time_point a,
                        std::chrono::steady_clock::time_point b) {
   return std::chrono::duration<double>(b - a).count();
+}
+
+}  // namespace
+
+namespace {
+
+// What the callback answers; what it throws ends the run like the answer no.
+bool goes_on(const Options& options, const Progress& progress) {
+  try {
+    return options.progress(progress);
+  } catch (const std::bad_alloc&) {
+    throw;  // memory is a limit, whoever asked for it
+  } catch (const std::exception& error) {
+    throw Stopped{{StatusCode::interrupted,
+                   std::string("interrupted: the progress callback threw: ") + error.what()}};
+  } catch (...) {
+    throw Stopped{{StatusCode::interrupted,
+                   "interrupted: the progress callback threw what is no std::exception"}};
+  }
 }
 
 }  // namespace
@@ -55,7 +76,7 @@ void Control::poll_now(std::uint64_t vertices, double done) {
       seconds_between(start_, Clock::now()) > options_.time_limit_seconds) {
     throw Stopped{{StatusCode::limit_reached, "time limit reached, see --time-limit", Limit::time}};
   }
-  if (options_.progress && !options_.progress(Progress{phase_, done, vertices, predicted_})) {
+  if (options_.progress && !goes_on(options_, Progress{phase_, done, vertices, predicted_})) {
     throw Stopped{{StatusCode::interrupted, "interrupted"}};
   }
 }

@@ -1,5 +1,7 @@
 #include "mesher/io/output.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -25,6 +27,18 @@ fs::path resolve(const std::string& path) {
     target = next.is_absolute() ? next : target.parent_path() / next;
   }
   return target;
+}
+
+// A name beside the target that is free now; empty if there is none.
+std::string free_name_beside(const fs::path& target, const char* suffix) {
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    const std::string leaf =
+        "." + target.filename().string().substr(0, 200) + suffix + std::to_string(attempt);
+    const fs::path name = target.parent_path() / leaf;
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(name, error))) return name.string();
+  }
+  return {};
 }
 
 bool is_special(const fs::path& target) {
@@ -127,25 +141,60 @@ WriteStatus OutputSet::commit() {
   WriteStatus status;
   for (File& file : files_) {
     errno = 0;
-    const bool flushed = file.sink->flush();
+    bool flushed = file.sink->flush();
+    // On the disk before it takes its name: what a power cut leaves under the name is complete.
+    if (flushed && !file.temporary.empty()) {
+      flushed = std::fflush(file.file) == 0 && ::fsync(::fileno(file.file)) == 0;
+    }
+    const int failure = file.sink->failure() != 0 ? file.sink->failure() : errno;
     const bool closed = std::fclose(file.file) == 0;
     file.file = nullptr;
     if (status.ok() && (!flushed || !closed)) {
-      status.error =
-          file.path + ": cannot write: " + reason(flushed ? errno : file.sink->failure());
+      status.error = file.path + ": cannot write: " + reason(flushed ? errno : failure);
     }
   }
-  for (File& file : files_) {
-    if (!status.ok() || file.temporary.empty()) continue;
-    std::error_code error;
-    fs::rename(file.temporary, file.target, error);
+  if (status.ok()) status = put_in_place();
+  discard();
+  return status;
+}
+
+// Renames all or, where one cannot be renamed, none: what was there before is kept under another
+// name until all are in place.
+WriteStatus OutputSet::put_in_place() {
+  WriteStatus status;
+  std::error_code error;
+  std::size_t done = 0;
+  for (; done < files_.size() && status.ok(); ++done) {
+    File& file = files_[done];
+    if (file.temporary.empty()) continue;
+    error.clear();
+    if (std::error_code ignored; fs::is_regular_file(file.target, ignored)) {
+      file.former = free_name_beside(file.target, ".old");
+      // A second name, so that the target is there all the time, or the only one where the file
+      // system has no second names.
+      fs::create_hard_link(file.target, file.former, error);
+      if (error) fs::rename(file.target, file.former, error);
+      if (error) file.former.clear();
+    }
+    if (!error) fs::rename(file.temporary, file.target, error);
     if (error) {
       status.error = file.path + ": cannot write: " + error.message();
-    } else {
-      file.temporary.clear();
+      break;
+    }
+    file.placed = true;
+    file.temporary.clear();
+  }
+  for (File& file : files_) {
+    if (status.ok()) {
+      if (!file.former.empty()) fs::remove(file.former, error);
+    } else if (!file.former.empty()) {
+      fs::rename(file.former, file.target, error);
+      // Two names of one file are not renamed into each other.
+      if (!file.placed) fs::remove(file.former, error);
+    } else if (file.placed) {
+      fs::remove(file.target, error);
     }
   }
-  discard();
   return status;
 }
 

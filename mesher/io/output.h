@@ -74,16 +74,21 @@ class OutputSet {
   // device, a pipe) is written directly. Returns null with status.error on failure.
   TextSink* open(const std::string& path, WriteStatus& status);
 
-  // Completes all files, then renames them to their targets; on failure no target is touched unless
-  // the renaming itself fails midway.
+  // Completes all files, brings them to the disk, then renames them to their targets. Where one
+  // cannot be written or renamed, every target is what it was before. A power cut between the
+  // renamings can leave some targets new and some old, each of them complete, and the former ones
+  // under hidden names that end in .oldN.
   WriteStatus commit();
 
  private:
   struct File {
     std::string path, target, temporary;
+    std::string former;   // where the target's former content is while others are renamed
+    bool placed = false;  // the target is the new file
     std::FILE* file = nullptr;
     std::unique_ptr<TextSink> sink;
   };
+  WriteStatus put_in_place();
   void discard();
   void tell_watcher();
 

@@ -185,6 +185,33 @@ TEST_F(WriteMesh, AFullDiskIsReported) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
+// A target that cannot be replaced: those already in their places get back what was there.
+TEST_F(WriteMesh, RenamingIsUndoneWhereOneFails) {
+  std::ofstream(path("a.mesh")) << "old a";
+  std::ofstream(path("c.mesh")) << "old c";
+  OutputSet outputs;
+  for (const char* name : {"a.mesh", "b.mesh", "c.mesh", "d.mesh"}) {
+    ASSERT_TRUE(write_mesh(outputs, path(name), sample()).ok());
+  }
+  fs::create_directories(path("d.mesh/in the way"));
+  const WriteStatus status = outputs.commit();
+  EXPECT_NE(status.error.find("d.mesh: cannot write"), std::string::npos) << status.error;
+  EXPECT_EQ(content(path("a.mesh")), "old a");
+  EXPECT_FALSE(fs::exists(path("b.mesh")));
+  EXPECT_EQ(content(path("c.mesh")), "old c");
+  EXPECT_EQ(files(), 3U);
+}
+
+TEST_F(WriteMesh, FormerFilesGoWhenAllAreInPlace) {
+  std::ofstream(path("a.mesh")) << "old";
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("a.mesh"), sample()).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("b.mesh"), sample()).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  EXPECT_EQ(content(path("a.mesh")), content(path("b.mesh")));
+  EXPECT_EQ(files(), 2U);
+}
+
 TEST_F(WriteMesh, LinksAreFollowed) {
   std::ofstream(path("target.mesh")) << "old";
   fs::create_symlink("target.mesh", path("link.mesh"));

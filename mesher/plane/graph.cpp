@@ -37,7 +37,8 @@ void check_sizes(const PlanarGraph& g) {
   const auto n = g.vertices.size();
   if (n >= 0xfffffff0U || g.segments.size() >= 0xfffffff0U) refuse("too many vertices or segments");
   if (!g.markers.empty() && g.markers.size() != g.segments.size()) {
-    refuse("as many markers as segments are needed");
+    refuse(std::to_string(g.markers.size()) + " markers for " + std::to_string(g.segments.size()) +
+           " segments: as many are needed, or none");
   }
   if (!g.partitions.empty() && g.partitions.size() != g.segments.size()) {
     refuse("as many partition flags as segments are needed");

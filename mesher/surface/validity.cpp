@@ -68,6 +68,15 @@ class Checker {
         predicates_(points_) {}
 
   ValidityResult run() {
+    if (!surface_.labels.empty() && surface_.labels.size() != triangles_.size()) {
+      result_.report.vertices = surface_.vertices.size();
+      result_.report.triangles = triangles_.size();
+      result_.report.status = {StatusCode::invalid_surface,
+                               text(surface_.labels.size()) + " labels for " +
+                                   text(triangles_.size()) +
+                                   " triangles: as many are needed, or none"};
+      return std::move(result_);
+    }
     result_.report.vertices = surface_.vertices.size();
     result_.report.triangles = triangles_.size();
     result_.reverse_triangle.assign(triangles_.size(), 0);

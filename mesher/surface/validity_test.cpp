@@ -63,6 +63,22 @@ TEST(Validity, Box) {
   EXPECT_FALSE(r.report.flipped);
 }
 
+TEST(Validity, AsManyLabelsAsTrianglesOrNone) {
+  Surface s = box({0, 0, 0}, {1, 1, 1});
+  s.labels.assign(s.triangles.size(), 7);
+  EXPECT_TRUE(check(s).report.status.ok());
+  for (const std::size_t labels :
+       {std::size_t{1}, s.triangles.size() - 1, s.triangles.size() + 1}) {
+    s.labels.assign(labels, 7);
+    for (const bool stop_at_first : {false, true}) {
+      const Status status = check(s, stop_at_first).report.status;
+      EXPECT_EQ(status.code, StatusCode::invalid_surface);
+      EXPECT_EQ(status.message,
+                std::to_string(labels) + " labels for 12 triangles: as many are needed, or none");
+    }
+  }
+}
+
 TEST(Validity, InsideOut) {
   const Surface s = reversed(tetrahedron(kOrigin, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}));
   const ValidityResult r = check(s);
