@@ -9,6 +9,8 @@
 
 #include <cmath>
 
+#include "mesher/arithmetic/floating_point.h"
+
 namespace delmesher {
 
 inline constexpr int kUnknownSign = 2;

@@ -23,6 +23,7 @@
 
 #include <cmath>
 
+#include "mesher/arithmetic/floating_point.h"
 #include "mesher/predicates/points.h"
 
 namespace delmesher::filters {
