@@ -1,0 +1,454 @@
+// The pieces that oracles are made of, one by one: intervals, readers, exact signs and measures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "oracles/hull.h"
+#include "oracles/interval.h"
+#include "oracles/measures.h"
+#include "oracles/parallel.h"
+#include "oracles/plane_points.h"
+#include "oracles/regions.h"
+#include "oracles/sample.h"
+#include "oracles/text_reader.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::ExactPoint;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// ------------------------------------------------------------------------------------- intervals
+
+TEST(Intervals, HaveTheSignOfAllTheyHold) {
+  EXPECT_EQ(Interval(1, 2).sign(), 1);
+  EXPECT_EQ(Interval(-2, -1).sign(), -1);
+  EXPECT_EQ(Interval(0).sign(), 0);
+  EXPECT_EQ(Interval(0, 1).sign(), 2);
+  EXPECT_EQ(Interval(-1, 0).sign(), 2);
+  EXPECT_EQ(Interval(-1, 1).sign(), 2);
+  EXPECT_EQ((Interval(1e308) * Interval(10)).sign(), 2);  // overflow certifies nothing
+  EXPECT_EQ((Interval(kInfinity) - Interval(kInfinity)).sign(), 2);
+}
+
+// Rational arithmetic at the ends: nothing that the operands hold may be lost, and at most a few
+// roundings are added.
+TEST(Intervals, EncloseAndAreTight) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto interval = [&] {
+    const double a = unit(random), b = a + std::ldexp(unit(random), -int(random() % 60));
+    return Interval(std::min(a, b), std::max(a, b));
+  };
+  const auto expect = [](const Interval& found, const mpq_class& low, const mpq_class& high) {
+    const mpq_class scale = std::max(abs(low), abs(high));
+    EXPECT_LE(mpq_class(found.low), low);
+    EXPECT_GE(mpq_class(found.high), high);
+    EXPECT_LE(low - mpq_class(found.low), scale * mpq_class(0x1p-49));
+    EXPECT_LE(mpq_class(found.high) - high, scale * mpq_class(0x1p-49));
+  };
+  for (int round = 0; round < 500; ++round) {
+    const Interval a = interval(), b = interval();
+    const mpq_class al = a.low, ah = a.high, bl = b.low, bh = b.high;
+    expect(a + b, al + bl, ah + bh);
+    expect(a - b, al - bh, ah - bl);
+    expect(-a, -ah, -al);
+    const std::array<mpq_class, 4> products = {al * bl, al * bh, ah * bl, ah * bh};
+    expect(a * b, *std::min_element(products.begin(), products.end()),
+           *std::max_element(products.begin(), products.end()));
+  }
+  const Interval tiny = Interval(0x1p-1070) * Interval(0x1p-10);  // underflows to zero
+  EXPECT_GT(tiny.high, 0);
+  EXPECT_EQ(tiny.sign(), 2);
+  EXPECT_LE(tiny.high, 16 * std::numeric_limits<double>::denorm_min());
+}
+
+// -------------------------------------------------------------------------------------- the reader
+
+TEST(TextReader, ReadsWordsAndCountsLines) {
+  TextReader reader("file", "one two # three\n\n\t four\r\nfive");
+  EXPECT_EQ(reader.word(), "one");
+  EXPECT_EQ(reader.line(), 1U);
+  EXPECT_EQ(reader.word_in_line(), "two");
+  EXPECT_EQ(reader.word_in_line(), "");
+  EXPECT_EQ(reader.word(), "four");
+  EXPECT_EQ(reader.line(), 3U);
+  EXPECT_FALSE(reader.at_end());
+  EXPECT_EQ(reader.required_word("a word"), "five");
+  EXPECT_EQ(reader.line(), 4U);
+  EXPECT_TRUE(reader.at_end());
+  EXPECT_EQ(reader.word(), "");
+  EXPECT_THROW(reader.required_word("a word"), ReadError);
+}
+
+TEST(TextReader, ACommentMayEndTheText) {
+  TextReader reader("file", "1 # 2");
+  EXPECT_EQ(reader.integer(), 1);
+  EXPECT_TRUE(reader.at_end());
+  TextReader none("file", "a#b", '\0');
+  EXPECT_EQ(none.word(), "a#b");
+  TextReader skipped("file", "a b c\nd");
+  EXPECT_EQ(skipped.word(), "a");
+  skipped.skip_line();
+  EXPECT_EQ(skipped.word(), "d");
+  EXPECT_EQ(skipped.line(), 2U);
+}
+
+TEST(TextReader, ReadsNumbersExactlyOrRefuses) {
+  const auto number = [](const char* text) { return TextReader("file", text).number(); };
+  EXPECT_EQ(number("0.1"), 0.1);
+  EXPECT_EQ(number("-2.5e3"), -2500);
+  EXPECT_EQ(number("+3"), 3);
+  EXPECT_EQ(number("0x1.8p3"), 12);
+  EXPECT_EQ(number("-0X1p-2"), -0.25);
+  EXPECT_EQ(number("1e-400"), 0);
+  for (const char* text : {"", "1e400", "--1", "+-1", "1.5x", "x", "-", "1,5", "0x"}) {
+    EXPECT_THROW(number(text), ReadError) << text;
+  }
+  const auto integer = [](const char* text) { return TextReader("file", text).integer(); };
+  EXPECT_EQ(integer("-7"), -7);
+  EXPECT_EQ(integer("+7"), 7);
+  for (const char* text : {"", "1.0", "7x", "99999999999999999999", "+"}) {
+    EXPECT_THROW(integer(text), ReadError) << text;
+  }
+}
+
+TEST(TextReader, IndicesAndCountsHaveBounds) {
+  const auto index = [](const char* text) { return TextReader("file", text).index(1, 5); };
+  EXPECT_EQ(index("1"), 0U);
+  EXPECT_EQ(index("5"), 4U);
+  EXPECT_THROW(index("0"), ReadError);
+  EXPECT_THROW(index("6"), ReadError);
+  EXPECT_EQ(TextReader("file", "0").count(), 0U);
+  EXPECT_EQ(TextReader("file", "4 a b c").count(), 4U);  // 7 characters: at most 4 things
+  EXPECT_THROW(TextReader("file", "5 a b c").count(), ReadError);
+  EXPECT_THROW(TextReader("file", "-1").count(), ReadError);
+}
+
+TEST(TextReader, ErrorsNameFileAndLine) {
+  TextReader reader("name", "1\n2\nx");
+  reader.integer();
+  reader.integer();
+  try {
+    reader.integer();
+    FAIL();
+  } catch (const ReadError& error) {
+    EXPECT_EQ(std::string(error.what()), "name:3: \"x\" is no integer");
+  }
+}
+
+// ------------------------------------------------------------------------------------ exact points
+
+ExactPoints points_of(const std::vector<Position>& positions) {
+  ExactPoints points;
+  EXPECT_EQ(points.assign(positions), "");
+  return points;
+}
+
+mpq_class coordinate(const ExactPoints& points, Index v, int axis) {
+  mpq_class value = points.integer(v)[axis];
+  if (points.exponent() >= 0) return value << static_cast<unsigned long>(points.exponent());
+  return value >> static_cast<unsigned long>(-points.exponent());
+}
+
+TEST(ExactPoints, AreTheirDefinitions) {
+  std::vector<ExactPoint> given =
+      explicit_points(std::vector<Position>{{0.1, -3, 7e5}, {1e-7, 0, -2}, {5, 0.3, 0x1p-60}});
+  ExactPoint on_segment;
+  on_segment.kind = ExactPoint::Kind::on_segment;
+  on_segment.i = 0;
+  on_segment.j = 2;
+  on_segment.x = 0.3;
+  given.push_back(on_segment);
+  ExactPoint on_triangle;
+  on_triangle.kind = ExactPoint::Kind::on_triangle;
+  on_triangle.i = 2;
+  on_triangle.j = 0;
+  on_triangle.k = 1;
+  on_triangle.x = 0.7;
+  on_triangle.y = 0x1.8p-3;
+  given.push_back(on_triangle);
+  on_segment.x = 3;  // beyond an end
+  given.push_back(on_segment);
+  ExactPoints points;
+  ASSERT_EQ(points.assign(given), "");
+  ASSERT_EQ(points.size(), given.size());
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<mpq_class, 3> c;
+    for (int v = 0; v < 3; ++v) {
+      const ExactPoint& p = given[v];
+      c[v] = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+      EXPECT_EQ(coordinate(points, v, axis), c[v]);
+      EXPECT_EQ(points.nearest(v)[axis], c[v].get_d());
+      EXPECT_EQ(points.enclosure(v)[axis].low, points.enclosure(v)[axis].high);
+    }
+    const mpq_class t = 0.3, u = 0.7, w = 0x1.8p-3;
+    const std::array<mpq_class, 3> made = {
+        t * c[0] + (1 - t) * c[2], u * c[2] + w * c[0] + (1 - u - w) * c[1], 3 * c[0] - 2 * c[2]};
+    for (Index i = 0; i < 3; ++i) {
+      EXPECT_EQ(coordinate(points, 3 + i, axis), made[i]);
+      const Interval& around = points.enclosure(3 + i)[axis];
+      EXPECT_LE(mpq_class(around.low), made[i]);
+      EXPECT_GE(mpq_class(around.high), made[i]);
+      EXPECT_LE(around.high - around.low, 0x1p-48 * std::fabs(made[i].get_d()));
+      EXPECT_NEAR(points.nearest(3 + i)[axis], made[i].get_d(),
+                  0x1p-51 * std::fabs(made[i].get_d()));
+    }
+    for (Index v = 0; v < points.size(); ++v) {
+      largest = std::max(largest, std::fabs(points.nearest(v)[axis]));
+    }
+  }
+  EXPECT_EQ(points.largest_coordinate(), largest);
+  EXPECT_GE(points.difference_error(), 0x1p-52 * largest);
+  EXPECT_LE(points.difference_error(), 0x1p-48 * largest);
+  EXPECT_EQ(points_of({{1, 2, -3}}).difference_error(), 0);  // doubles are exact
+  EXPECT_EQ(points_of({{1, 2, -3}}).largest_coordinate(), 3);
+  EXPECT_EQ(points_of({{0, 0, 0}}).size(), 1U);
+}
+
+TEST(ExactPoints, RefuseWhatIsNoPoint) {
+  ExactPoints points;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double bad : {kInfinity, std::nan("")}) {
+      Position position = {1, 2, 3};
+      position[axis] = bad;
+      EXPECT_NE(points.assign(std::vector<Position>{{0, 0, 0}, position}).find("point 1"),
+                std::string::npos);
+      EXPECT_EQ(points.size(), 0U);
+    }
+  }
+  const std::vector<ExactPoint> three =
+      explicit_points(std::vector<Position>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  for (const auto kind : {ExactPoint::Kind::on_segment, ExactPoint::Kind::on_triangle}) {
+    const int corners = kind == ExactPoint::Kind::on_segment ? 2 : 3;
+    for (int corner = -1; corner < corners; ++corner) {
+      for (const Index wrong : {4U, 3U, 1000U}) {  // itself, another such point, nothing
+        std::vector<ExactPoint> given = three;
+        ExactPoint p;
+        p.kind = kind;
+        p.i = 0;
+        p.j = 1;
+        p.k = corners == 3 ? 2 : 1000;  // not looked at on segments
+        given.push_back(p);
+        if (corner == 0) p.i = wrong;
+        if (corner == 1) p.j = wrong;
+        if (corner == 2) p.k = wrong;
+        given.push_back(p);
+        EXPECT_EQ(points.assign(given).empty(), corner < 0) << corner << " " << wrong;
+      }
+    }
+  }
+}
+
+TEST(ExactSigns, OfACornerAndItsMirrorImage) {
+  // Unit vectors from a point away from the origin, and what is inside and outside.
+  const double s = 17;
+  const ExactPoints p = points_of({{s, s, s},
+                                   {s + 1, s, s},
+                                   {s, s + 1, s},
+                                   {s, s, s + 1},
+                                   {s + 0.5, s + 0.5, s + 0.25},  // in the sphere, not its centre
+                                   {s + 1, s + 1, s + 1},         // on it
+                                   {s + 2, s + 2, s + 2},
+                                   {s + 2, s, s}});
+  EXPECT_EQ(exact::orient3d(p, 0, 1, 2, 3), 1);
+  EXPECT_EQ(exact::orient3d(p, 0, 2, 1, 3), -1);
+  EXPECT_EQ(exact::orient3d(p, 0, 1, 2, 7), 0);
+  EXPECT_EQ(to_double(exact::volume6(p, 0, 1, 2, 3), 3 * p.exponent()), 1);
+  EXPECT_EQ(to_double(exact::volume6(p, 0, 1, 2, 6), 3 * p.exponent()), 2);
+  EXPECT_EQ(exact::insphere(p, 0, 1, 2, 3, 4), 1);
+  EXPECT_EQ(exact::insphere(p, 0, 1, 2, 3, 5), 0);
+  EXPECT_EQ(exact::insphere(p, 0, 1, 2, 3, 6), -1);
+  EXPECT_EQ(exact::insphere(p, 0, 2, 1, 3, 4), -1);  // the other orientation
+  EXPECT_EQ(exact::dot_sign(p, 0, 1, 2), 0);
+  EXPECT_EQ(exact::dot_sign(p, 0, 1, 5), 1);
+  EXPECT_EQ(exact::dot_sign(p, 0, 1, 7), 1);
+  EXPECT_EQ(exact::dot_sign(p, 1, 0, 7), -1);
+  EXPECT_TRUE(exact::in_diametral_ball(p, 1, 2, 3, 4));
+  EXPECT_FALSE(exact::in_diametral_ball(p, 1, 2, 3, 1));
+  EXPECT_FALSE(exact::in_diametral_ball(p, 1, 2, 3, 6));
+  EXPECT_TRUE(exact::collinear(p, 0, 1, 7));
+  EXPECT_TRUE(exact::collinear(p, 0, 5, 6));
+  EXPECT_TRUE(exact::collinear(p, 0, 0, 6));
+  for (const auto& [a, b] : {std::array<Index, 2>{1, 2}, {2, 3}, {3, 1}}) {
+    EXPECT_FALSE(exact::collinear(p, 0, a, b));
+  }
+  EXPECT_TRUE(exact::equal(p, 3, 3));
+  EXPECT_FALSE(exact::equal(p, 1, 7));
+  EXPECT_NEAR(exact::distance(p, 0, 6), std::sqrt(12.0), 1e-15);
+  EXPECT_NEAR(exact::distance(p, 7, 3), std::sqrt(5.0), 1e-15);
+  EXPECT_EQ(length(exact::area2(p, 0, 1, 2), 2 * p.exponent()), 1);
+}
+
+// The same signs where intervals cannot tell: on a lattice, against integers of the machine.
+TEST(ExactSigns, AgreeWithMachineIntegersOnALattice) {
+  std::mt19937_64 random(5);
+  std::array<std::array<int, 3>, 4> counts{};  // by predicate and sign
+  for (int round = 0; round < 4000; ++round) {
+    std::array<std::array<std::int64_t, 3>, 5> x;
+    std::vector<Position> positions(5);
+    for (int i = 0; i < 5; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        x[i][k] = static_cast<std::int64_t>(random() % 3);
+        // Offset and steps that doubles hold, but not the products of their differences.
+        positions[i][k] = 0x1p40 + static_cast<double>(x[i][k]) * 0x1.0000001p10;
+      }
+    }
+    const auto minus = [&](int a, int b) {
+      return std::array<std::int64_t, 3>{x[a][0] - x[b][0], x[a][1] - x[b][1], x[a][2] - x[b][2]};
+    };
+    const auto cross = [](const auto& u, const auto& v) {
+      return std::array<std::int64_t, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                         u[0] * v[1] - u[1] * v[0]};
+    };
+    const auto dot = [](const auto& u, const auto& v) {
+      return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+    };
+    const auto sign = [](std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
+    const ExactPoints p = points_of(positions);
+    const auto u = minus(1, 0), v = minus(2, 0), w = minus(3, 0);
+    const auto n = cross(u, v);
+    const std::int64_t volume = dot(n, w);
+    const int orientation = sign(volume);
+    ASSERT_EQ(exact::orient3d(p, 0, 1, 2, 3), orientation);
+    exact::Volume6 volume6(p);
+    ASSERT_EQ(volume6({0, 1, 2, 3}), exact::volume6(p, 0, 1, 2, 3));
+    ++counts[0][orientation + 1];
+    const int angle = sign(dot(u, v));
+    ASSERT_EQ(exact::dot_sign(p, 0, 1, 2), angle);
+    ++counts[1][angle + 1];
+    ASSERT_EQ(exact::collinear(p, 0, 1, 2), n == (std::array<std::int64_t, 3>{0, 0, 0}));
+    // Lifted to the paraboloid: e is inside the sphere of abcd.
+    const auto a = minus(0, 4), b = minus(1, 4), c = minus(2, 4), d = minus(3, 4);
+    const std::int64_t lifted = dot(a, a) * dot(b, cross(c, d)) - dot(b, b) * dot(a, cross(c, d)) +
+                                dot(c, c) * dot(a, cross(b, d)) - dot(d, d) * dot(a, cross(b, c));
+    ASSERT_EQ(exact::insphere(p, 0, 1, 2, 3, 4), sign(lifted));
+    ++counts[2][sign(lifted) + 1];
+    if (dot(n, n) == 0) continue;
+    // |w|^2 < 2 w . (centre - a), the centre as in circumcentre formulas.
+    const auto vn = cross(v, n), nu = cross(n, u);
+    const std::int64_t power =
+        dot(w, w) * dot(n, n) - dot(u, u) * dot(w, vn) - dot(v, v) * dot(w, nu);
+    ASSERT_EQ(exact::in_diametral_ball(p, 0, 1, 2, 3), power < 0);
+    ++counts[3][sign(power) + 1];
+  }
+  for (const auto& of_predicate : counts) {
+    for (const int count : of_predicate) EXPECT_GT(count, 100);
+  }
+}
+
+TEST(ExactSigns, LengthsAndDoubles) {
+  EXPECT_EQ(to_double(mpz_class(-5), 3), -40);
+  EXPECT_EQ(to_double(mpz_class(3), -2), 0.75);
+  EXPECT_EQ(to_double(mpz_class(0), 100), 0);
+  EXPECT_EQ(to_double(mpz_class(1), 100000), kInfinity);
+  EXPECT_EQ(to_double(mpz_class(1), -100000), 0);
+  EXPECT_EQ(to_double(mpz_class(1) << 2000, -2000), 1);
+  EXPECT_EQ(length({3, 4, 12}, 1), 26);
+}
+
+// -------------------------------------------------------------------------------------- measures
+
+TEST(Measures, SmallestAltitude) {
+  // Over the triangle (0,0) (3,0) (0,4), whose legs are 3 and 4; the other faces are smaller.
+  const ExactPoints p = points_of({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}, {0, 0, 0.25}, {1, 1, 0}});
+  const double sides[4] = {6, 1.5 * 0.25, 2 * 0.25, 0};
+  const double oblique = std::sqrt(36 + sides[1] * sides[1] + sides[2] * sides[2]);  // de Gua
+  const double volume = 6 * 0.25 / 3;
+  EXPECT_NEAR(smallest_altitude(p, {0, 1, 2, 3}), 3 * volume / oblique, 1e-15);
+  EXPECT_NEAR(smallest_altitude(p, {0, 2, 1, 3}), 3 * volume / oblique, 1e-15);
+  EXPECT_EQ(smallest_altitude(p, {0, 1, 2, 4}), 0);
+}
+
+TEST(Measures, TasksRunOnceEachAndTheFirstErrorIsThrown) {
+  for (const unsigned threads : {0U, 1U, 3U}) {
+    std::array<std::atomic<int>, 20> runs{};
+    run_tasks(threads, runs.size(), [&](std::size_t i) { ++runs[i]; });
+    for (const auto& count : runs) EXPECT_EQ(count, 1);
+    run_tasks(threads, 0, [](std::size_t) { FAIL(); });
+    EXPECT_THROW(run_tasks(threads, 5,
+                           [](std::size_t i) {
+                             if (i >= 2) throw std::runtime_error(std::to_string(i));
+                           }),
+                 std::runtime_error);
+  }
+}
+
+// ------------------------------------------------------------------------------------- the plane
+
+PlanePoints plane_points(const std::vector<std::array<double, 2>>& given) {
+  PlanePoints points;
+  for (const auto& [x, y] : given) points.add({x, y, x, y});
+  return points;
+}
+
+TEST(PlaneSigns, OfASquareAndBeside) {
+  PlanePoints p = plane_points({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.5}, {2, 0}, {3, 3}});
+  EXPECT_EQ(p.orient(0U, 1U, 2U), 1);
+  EXPECT_EQ(p.orient(0U, 2U, 1U), -1);
+  EXPECT_EQ(p.orient(0U, 1U, 5U), 0);
+  EXPECT_EQ(p.in_circle(0, 1, 2, 4), 1);
+  EXPECT_EQ(p.in_circle(0, 1, 2, 3), 0);
+  EXPECT_EQ(p.in_circle(0, 1, 2, 5), -1);
+  EXPECT_EQ(p.in_circle(0, 2, 1, 5), 1);
+  EXPECT_TRUE(p.encroaches(0, 4, 5));
+  EXPECT_FALSE(p.encroaches(0, 4, 1));  // on the circle
+  EXPECT_TRUE(p.encroaches(0, 1, 5));
+  EXPECT_FALSE(p.encroaches(0, 1, 2));  // a right angle
+  EXPECT_FALSE(p.encroaches(0, 6, 1));
+  EXPECT_EQ(p.checks, 12U);
+  EXPECT_EQ(p.parameter(4, 0, 2), mpq_class(0.5));
+  EXPECT_EQ(p.parameter(6, 0, 2), 3);
+  EXPECT_EQ(p.parameter(3, 0, 3), 1);  // upright
+  EXPECT_NEAR(p.distance(0, 6), std::sqrt(18.0), 1e-15);
+  EXPECT_NEAR(p.distance(5, 3), std::sqrt(5.0), 1e-15);
+  EXPECT_EQ(p.distance_to_segment(3, 0, 1), 1);
+  EXPECT_DOUBLE_EQ(p.distance_to_segment(3, 1, 5), std::sqrt(2.0));   // beyond the first end
+  EXPECT_DOUBLE_EQ(p.distance_to_segment(6, 0, 1), std::sqrt(13.0));  // beyond the second
+  EXPECT_NEAR(p.distance_to_segment(1, 0, 2), std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(p.distance_to_segment(4, 0, 2), 0);
+}
+
+TEST(PlaneSigns, AgreeWithMachineIntegersOnALattice) {
+  std::mt19937_64 random(7);
+  std::array<std::array<int, 3>, 2> counts{};
+  for (int round = 0; round < 4000; ++round) {
+    std::vector<std::array<double, 2>> given(4);
+    std::array<std::array<std::int64_t, 2>, 4> x;
+    for (int i = 0; i < 4; ++i) {
+      for (int k = 0; k < 2; ++k) {
+        x[i][k] = static_cast<std::int64_t>(random() % 4);
+        given[i][k] = 0x1p40 + static_cast<double>(x[i][k]) * 0x1.0000001p10;
+      }
+    }
+    PlanePoints p = plane_points(given);
+    const auto sign = [](std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
+    const auto area = [&](int a, int b, int c) {
+      return (x[b][0] - x[a][0]) * (x[c][1] - x[a][1]) - (x[b][1] - x[a][1]) * (x[c][0] - x[a][0]);
+    };
+    ASSERT_EQ(p.orient(0U, 1U, 2U), sign(area(0, 1, 2)));
+    ++counts[0][sign(area(0, 1, 2)) + 1];
+    std::int64_t lifted = 0;
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t u = x[i][0] - x[3][0], v = x[i][1] - x[3][1];
+      lifted += (u * u + v * v) * area(3, (i + 1) % 3, (i + 2) % 3);
+    }
+    ASSERT_EQ(p.in_circle(0, 1, 2, 3), sign(lifted));
+    ++counts[1][sign(lifted) + 1];
+  }
+  for (const auto& of_predicate : counts) {
+    for (const int count : of_predicate) EXPECT_GT(count, 100);
+  }
+}
+
+}  // namespace
+}  // namespace tetproof
