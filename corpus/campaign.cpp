@@ -255,6 +255,8 @@ class Job {
                                      "--declared-deviation",
                                      deviation.str()};
     if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
+    // What a record of ours is held to are the options that it was asked for with.
+    if (mesher_.sidecar_command) argv.insert(argv.end(), {"--promised", mesher_.flags});
     start(argv, options_.verify_limits);
     return true;
   }

@@ -52,14 +52,12 @@ std::string first_failure(const oracles::VerifyReport& report) {
   return "verdict: " + std::string(oracles::verdict_name(report.verdict));
 }
 
-Finding verified(const Surface& surface, const Result& result, Stage stage,
-                 const Options& options) {
+Finding verified(const Surface& surface, const Result& result, Stage stage, const Options& options,
+                 oracles::Task task = oracles::Task::mesh) {
   const oracles::Polyhedron input = {surface.vertices, surface.triangles, surface.labels, {}};
   oracles::VerifyOptions wanted;
   wanted.stage = stage;
-  wanted.delta = options.delta;
-  wanted.scope = options.region == delmesher::Region::hull ? oracles::AngleScope::all
-                                                           : oracles::AngleScope::solid;
+  wanted.promised = oracles::promise_of(options, task);
   oracles::VerifyReport report;
   const std::string refusal =
       oracles::verify(input, as_file(result.mesh), &result.exact, wanted, report);
@@ -107,7 +105,8 @@ Finding judged(const Surface& surface, const Result& result, const Options& opti
   if (refined) {
     if (Finding f = verified(surface, result, Stage::refined, options); !f.empty()) return f;
   }
-  return verified(surface, result, Stage::final, options);
+  return verified(surface, result, Stage::final, options,
+                  refined ? oracles::Task::mesh : oracles::Task::cdt);
 }
 
 Points times(Points points, int exponent) {

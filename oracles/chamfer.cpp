@@ -345,7 +345,8 @@ class ChamferExtent {
         points_(*mesh.points),
         surface_(*mesh.surface),
         complex_(*mesh.complex),
-        facets_(surface_, record_) {
+        facets_(surface_, record_),
+        limit_(mesh.promise->chamfer_radius) {
     for (const auto& corner : record_.corners) corner_[corner.vertex] = &corner;
   }
 
@@ -372,6 +373,7 @@ class ChamferExtent {
   const InputSurface& surface_;
   const TetComplex& complex_;
   const FacetIndex facets_;
+  double limit_;  // --chamfer-radius, or 0
   std::unordered_map<Index, const ExactRecord::Corner*> corner_;
   std::vector<Index> found_;
   std::uint64_t edges_ = 0;
@@ -409,6 +411,10 @@ void ChamferExtent::check_point(Index p, Index vertex) {
   farthest_ = std::max(farthest_, distance / radius);
   if (!(distance <= radius * (on_edge ? 1 : kWidest) * kPlacement)) {
     report_.fail(complex_.vertex_name(p) + " is farther than the radius from input vertex " +
+                 std::to_string(vertex));
+  }
+  if (limit_ > 0 && !(distance <= limit_ * kPlacement)) {
+    report_.fail(complex_.vertex_name(p) + " is farther than --chamfer-radius from input vertex " +
                  std::to_string(vertex));
   }
 }

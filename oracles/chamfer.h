@@ -18,4 +18,15 @@ OracleReport check_chamfer_angles(const RefinedMesh& mesh);
 // facet's faces cover no more than the facet.
 OracleReport check_chamfer_extent(const RefinedMesh& mesh);
 
+// Exactly those corners were chamfered that are acute at the threshold in force at them, on the
+// surface that the filter kept, and those edges cut off that are acute. No radius is above a third
+// of the local feature size (the distance, within the facets kept at the corner, to their edges
+// that do not meet it), nor above --chamfer-radius.
+OracleReport check_chamfer_need(const RefinedMesh& mesh);
+
+// What a kept facet has lost is what was cut off at its chamfered corners and acute edges, and
+// nothing else: the boundary of what is left follows the facet's own, side by side, but for detours
+// over points made for the corner passed; the area inside that boundary is that of the faces.
+OracleReport check_chamfer_cuts(const RefinedMesh& mesh);
+
 }  // namespace tetproof::oracles

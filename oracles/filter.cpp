@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
-#include <numbers>
+
+#include "oracles/chamfer_features.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -27,49 +28,6 @@ struct Element {
   Kind kind;
   Index id;
   auto operator<=>(const Element&) const = default;
-};
-
-// Angles below a threshold. Says yes too often, never too rarely: facets and edges at a vertex
-// count as neighbours, whatever lies between them.
-class Sharpness {
- public:
-  explicit Sharpness(double degrees) {
-    const double cosine = std::cos(std::min(degrees, 90.0) * (std::numbers::pi / 180));
-    cosine_squared_ = cosine * cosine * (1 - 1e-9);
-    sine_squared_ = (1 - cosine * cosine) * (1 + 1e-9);
-  }
-
-  bool among(const std::vector<IntegerVector>& edges,
-             const std::vector<IntegerVector>& normals) const {
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        const mpz_class dot = exact::dot(edges[i], edges[j]);
-        if (dot > 0 && squared_cosine(dot, edges[i], edges[j]) > cosine_squared_) return true;
-      }
-      for (const IntegerVector& normal : normals) {
-        const mpz_class dot = exact::dot(edges[i], normal);
-        if (dot != 0 && squared_cosine(dot, edges[i], normal) < sine_squared_) return true;
-      }
-    }
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        // The normals of a sharp wedge point away from each other, inside and outside.
-        const mpz_class dot = exact::dot(normals[i], normals[j]);
-        if (dot < 0 && squared_cosine(dot, normals[i], normals[j]) > cosine_squared_) return true;
-      }
-    }
-    return false;
-  }
-
- private:
-  static mpq_class squared_cosine(const mpz_class& dot, const IntegerVector& a,
-                                  const IntegerVector& b) {
-    mpq_class result(mpz_class(dot * dot), mpz_class(exact::squared(a) * exact::squared(b)));
-    result.canonicalize();
-    return result;
-  }
-
-  mpq_class cosine_squared_, sine_squared_;
 };
 
 // The constrained edges and facets of the input, some of them present.
@@ -122,8 +80,8 @@ class Features {
   std::string near_vertex(Index v, double reach, const mpq_class& bound);
   std::string near_edge(Index e, double reach, const mpq_class& bound);
 
-  // Does anything present at a vertex of the facet meet at a sharp angle?
-  bool meets_sharply(Index facet, const Sharpness& sharp) const;
+  // Its vertices that are on constrained edges, and those that such edges lead to.
+  std::vector<Index> vertices_around(Index facet) const;
 
  private:
   bool touches(Index v, Index facet) const {
@@ -264,24 +222,20 @@ std::vector<Element> Features::elements_of(Index facet) const {
   return elements;
 }
 
-bool Features::meets_sharply(Index facet, const Sharpness& sharp) const {
-  std::vector<IntegerVector> edges, normals;
+std::vector<Index> Features::vertices_around(Index facet) const {
+  std::vector<Index> vertices;
   for (const Index t : triangles_of_[facet]) {
     for (const Index v : surface_.triangles()[t]) {
-      edges.clear();
-      normals.clear();
       for (const Index e : edges_at_[v]) {
-        const InputSurface::Edge& edge = surface_.edges()[e];
         if (!edge_present(e)) continue;
-        edges.push_back(exact::difference(points_, v, edge.from == v ? edge.to : edge.from));
+        vertices.push_back(surface_.edges()[e].from);
+        vertices.push_back(surface_.edges()[e].to);
       }
-      for (const Index f : facets_at_[v]) {
-        if (present_[f]) normals.push_back(surface_.facets()[f].normal);
-      }
-      if (sharp.among(edges, normals)) return true;
     }
   }
-  return false;
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
 }
 
 class FilterCheck {
@@ -291,7 +245,18 @@ class FilterCheck {
         surface_(*mesh.surface),
         facets_(surface_, record_),
         features_(*mesh.points, surface_, facets_),
-        exponent_(mesh.points->exponent()) {}
+        exponent_(mesh.points->exponent()),
+        corners_(*mesh.points, surface_),
+        chamfers_(*mesh.points, surface_, corners_, thresholds_, mesh.promise->chamfer_radius) {
+    double acute = record_.parameters.acute, of_edges = record_.parameters.corner;
+    // Of what the guard tightened, only the corners that are left are known: then the strictest
+    // threshold counts everywhere.
+    for (const auto& corner : record_.corners) {
+      if (corner.threshold > record_.parameters.acute) acute = of_edges = corner.threshold;
+    }
+    thresholds_.at = [acute](Index) { return acute; };
+    thresholds_.of_edges = [of_edges](Index) { return of_edges; };
+  }
 
   OracleReport run() {
     const double tolerance = record_.parameters.tolerance;
@@ -299,8 +264,8 @@ class FilterCheck {
     check_kept(low, bound(low));
     const std::vector<Index> first = dropped_in(1), second = dropped_in(2);
     count_returnable(first, high, bound(high));
+    check_second_step(second, tolerance);
     for (const Index f : second) features_.set_present(f, true);
-    check_second_step(second);
     check_first_step(first, high, bound(high));
     report_.figures.emplace_back("dropped facets", first.size() + second.size());
     report_.figures.emplace_back("dropped for what chamfering made of them", second.size());
@@ -356,15 +321,29 @@ class FilterCheck {
     report_.figures.emplace_back("dropped that could return", could_return);
   }
 
-  void check_second_step(const std::vector<Index>& dropped) {
-    double threshold = record_.parameters.acute;
-    for (const auto& corner : record_.corners) threshold = std::max(threshold, corner.threshold);
-    const Sharpness sharp(threshold);
-    for (const Index f : dropped) {
-      ++report_.checked;
-      if (!features_.meets_sharply(f, sharp)) {
-        report_.fail(name(f) + " was dropped for its chamfers, and nothing at it is chamfered");
+  // The same order for the second step: what was dropped last was dropped from the surface as it
+  // is, where chamfering has to make something too small at the facet, and so on.
+  void check_second_step(std::vector<Index> dropped, double tolerance) {
+    // Dropped is what is closer than a sixteenth of the tolerance; simplified bridges and the
+    // placement of points change a distance by less than a factor of 2.
+    constexpr double kFraction = 1.0 / 8;
+    const AcuteCorners::Present present = [this](Index f) { return features_.present(f); };
+    const auto put_back = [&](Index f) {
+      features_.set_present(f, true);
+      for (const Index v : features_.vertices_around(f)) {
+        const double smallest = chamfers_.smallest(v, present);
+        if (smallest < kFraction * tolerance) return true;
       }
+      features_.set_present(f, false);
+      return false;
+    };
+    report_.checked += dropped.size();
+    for (std::size_t before = dropped.size() + 1; dropped.size() < before;) {
+      before = dropped.size();
+      std::erase_if(dropped, put_back);
+    }
+    for (const Index f : dropped) {
+      report_.fail(name(f) + " was dropped for its chamfers, and none of them is too small");
     }
   }
 
@@ -410,6 +389,9 @@ class FilterCheck {
   const FacetIndex facets_;
   Features features_;
   long exponent_;
+  AcuteCorners corners_;
+  CornerThresholds thresholds_;
+  ChamferFeatures chamfers_;
   OracleReport report_{"filter", "vertices, edges and dropped facets"};
 };
 

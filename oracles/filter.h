@@ -8,15 +8,13 @@ namespace tetproof::oracles {
 // No two vertices, edges or facets that the filter kept, and that do not touch, are closer than the
 // tolerance; distances are rational.
 //
-// Nothing was dropped without need, as far as that can be said of a greedy filter:
-// - First step. There is an order in which every drop was forced: the facets dropped can be put
-// back
-//   one element (vertex, edge or facet, none of whose facets was kept) after the other, each
-//   of them closer than the tolerance to something present that it does not touch. Read backwards
-//   that is what the filter may do, so a facet that never comes back was dropped for nothing.
-// - Second step, which only says that chamfering made something too small: the facet has a vertex
-// at
-//   which something present after the first step meets at less than the largest threshold in force.
+// Nothing was dropped without need, as far as that can be said of a greedy filter. There is an
+// order in which every drop was forced; read backwards, what was dropped can be put back one after
+// the other, and a facet that never comes back was dropped for nothing:
+// - Second step, put back first: facets at which chamfering of the surface as it then is makes
+//   something too small, by the oracle's own construction of the chamfers.
+// - First step: elements (vertex, edge or facet, none of whose facets is there), each closer than
+//   the tolerance to something present that it does not touch.
 // Counted: facets that could be put back alone after all. The order of the drops matters, so a
 // facet dropped early may have become harmless.
 OracleReport check_filter(const RefinedMesh& mesh);

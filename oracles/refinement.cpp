@@ -49,6 +49,7 @@ class Segments {
       chain.artificial ? check_artificial(n, chain) : check_input(n, chain);
     }
     check_ends();
+    report_.checked += surface_.edges().size();
     report_.figures.emplace_back("segments", record_.segments.size());
     report_.figures.emplace_back("artificial segments", artificial_);
     report_.figures.emplace_back("largest bend of an artificial segment", largest_bend_);
@@ -77,7 +78,7 @@ class Segments {
   std::vector<Index> first_, last_;                      // per input edge: ends of its chain
   std::uint64_t artificial_ = 0;
   double largest_bend_ = 0;
-  OracleReport report_{"segments", "edges of segments"};
+  OracleReport report_{"segments", "input edges and edges of segments"};
 };
 
 bool Segments::check_mesh_edges(std::size_t n, const ExactRecord::Chain& chain) {
@@ -223,11 +224,9 @@ class RefinedFacets {
   OracleReport run() {
     collect_mesh_faces();
     for (const auto& [a, b, c, id] : record_.refined_facets) check_face({a, b, c}, id);
-    // Records without segments say nothing about borders.
-    if (!record_.segments.empty()) {
-      collect_chains();
-      check_borders();
-    }
+    report_.checked += surface_.facets().size();
+    collect_chains();
+    check_borders();
     return std::move(report_);
   }
 
@@ -245,7 +244,7 @@ class RefinedFacets {
   std::vector<Face> mesh_faces_;
   std::vector<std::pair<Index, std::uint64_t>> sides_;    // facet, directed edge of a face
   std::vector<std::pair<Index, std::uint64_t>> chained_;  // facet, edge of a chain
-  OracleReport report_{"facets", "faces"};
+  OracleReport report_{"facets", "facets and faces"};
 };
 
 void RefinedFacets::collect_mesh_faces() {
@@ -400,21 +399,52 @@ OracleReport check_refined_facets(const RefinedMesh& mesh) {
   return RefinedFacets(mesh).run();
 }
 
+namespace {
+
+// Points given explicitly that are neither of the input nor on the outer box were put into the
+// volume.
+std::vector<std::uint8_t> volume_points(const RefinedMesh& mesh) {
+  std::vector<std::uint8_t> is_volume(mesh.points->size());
+  const auto& tets = mesh.complex->tetrahedra;
+  for (const Index v : used_vertices(*mesh.complex)) {
+    is_volume[v] =
+        v >= mesh.input_vertices && mesh.record->points[v].kind == ExactPoint::Kind::explicit_point;
+  }
+  for (Index i = 0; i < mesh.neighbours->across.size(); ++i) {
+    if (mesh.neighbours->across[i] != kNone) continue;
+    for (const Index v : face_of(tets[i / 4], static_cast<int>(i % 4))) is_volume[v] = 0;
+  }
+  return is_volume;
+}
+
+}  // namespace
+
 OracleReport check_balls(const RefinedMesh& mesh) {
-  OracleReport report("steiner-balls", "volume Steiner points");
+  OracleReport report("steiner-balls", "vertices");
   const ExactPoints& points = *mesh.points;
   std::uint64_t on_sphere = 0;
+  std::vector<std::uint8_t> waiting = volume_points(mesh);
+  report.checked = used_vertices(*mesh.complex).size();
   for (const ExactRecord::Ball& ball : mesh.record->balls) {
     const auto& [a, b, c, d] = ball.tetrahedron;
-    ++report.checked;
+    const std::string name = mesh.complex->vertex_name(ball.vertex);
+    if (waiting[ball.vertex] == 0) {
+      report.fail(name + " has a ball too many, or is no volume Steiner point");
+    }
+    waiting[ball.vertex] = 0;
     const int sign = exact::orient3d(points, a, b, c, d);
     const int inside = sign * exact::insphere(points, a, b, c, d, ball.vertex);
     if (sign == 0) {
-      report.fail(mesh.complex->vertex_name(ball.vertex) + " was made for a flat tetrahedron");
+      report.fail(name + " was made for a flat tetrahedron");
     } else if (inside <= 0) {
       on_sphere += inside == 0;
-      report.fail(mesh.complex->vertex_name(ball.vertex) + " is " +
-                  (inside == 0 ? "on" : "outside") + " the circumsphere that it was made for");
+      report.fail(name + " is " + (inside == 0 ? "on" : "outside") +
+                  " the circumsphere that it was made for");
+    }
+  }
+  for (Index v = 0; v < waiting.size(); ++v) {
+    if (waiting[v] != 0) {
+      report.fail(mesh.complex->vertex_name(v) + " was put into the volume for no ball");
     }
   }
   report.figures.emplace_back("on the sphere", on_sphere);
@@ -434,7 +464,8 @@ class Encroachment {
     check_sample();
     report_.figures.emplace_back("edges", edges_.size());
     report_.figures.emplace_back("faces", faces_.size());
-    if (!record_.parameters.gabriel) report_.figures.emplace_back("vertices in a ball", found_);
+    report_.promised = record_.parameters.gabriel;
+    if (!report_.promised) report_.figures.emplace_back("vertices in a ball", found_);
     return std::move(report_);
   }
 

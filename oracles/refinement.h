@@ -3,6 +3,7 @@
 #pragma once
 
 #include "oracles/input_surface.h"
+#include "oracles/promise.h"
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -14,6 +15,8 @@ struct RefinedMesh {
   const InputSurface* surface = nullptr;
   const TetComplex* complex = nullptr;
   const Neighbours* neighbours = nullptr;
+  const Promise* promise = nullptr;
+  Index input_vertices = 0;
 };
 
 // Facets of the surface by id, and which of them the filter kept.

@@ -55,6 +55,7 @@ std::string to_json(const VerifyReport& report) {
     nlohmann::ordered_json entry;
     entry["name"] = oracle.name;
     entry["passed"] = oracle.passed();
+    entry["status"] = oracle.status();
     entry["checked"] = oracle.checked;
     entry["checked_what"] = oracle.checked_what;
     entry["violations"] = oracle.violations;
@@ -67,33 +68,85 @@ std::string to_json(const VerifyReport& report) {
   return json.dump(2) + "\n";
 }
 
-std::string to_text(const VerifyReport& report) {
-  std::string text;
-  for (const OracleReport& oracle : report.oracles) {
-    text += (oracle.passed() ? "pass  " : "FAIL  ") + oracle.name + ": " +
-            std::to_string(oracle.checked) + " " + oracle.checked_what + " checked";
-    if (oracle.violations > 0) text += ", " + std::to_string(oracle.violations) + " violations";
-    for (const auto& [name, value] : oracle.figures) text += "; " + name + " " + number(value);
-    text += "\n";
-    for (const auto& [name, bins] : oracle.histograms) {
-      text += "      " + name + " in bins of 15 degrees:";
-      for (const std::uint64_t count : bins) text += " " + std::to_string(count);
-      text += "\n";
+namespace {
+
+// Items of one paragraph, indented from the second line on.
+class Paragraph {
+ public:
+  explicit Paragraph(std::string begin) : line_(std::move(begin)) {}
+  void add(const std::string& item, const char* separator = "; ") {
+    constexpr std::size_t kWidth = 120;
+    if (line_.size() + std::char_traits<char>::length(separator) + item.size() + 1 > kWidth) {
+      text_ += line_ + (separator[0] == ' ' ? "" : std::string(1, separator[0])) + "\n";
+      line_ = "      " + item;
+    } else {
+      line_ += separator + item;
     }
-    for (const std::string& finding : oracle.findings) text += "      " + finding + "\n";
-    for (const std::string& note : oracle.notes) text += "      note: " + note + "\n";
   }
-  text += std::string("verdict: ") + verdict_name(report.verdict);
+  // Words of a sentence, on a line of their own.
+  void sentence(const std::string& words) {
+    text_ += line_ + "\n";
+    line_ = "     ";
+    std::string word;
+    for (const char c : words + " ") {
+      if (c != ' ') {
+        word += c;
+      } else if (!word.empty()) {
+        add(word, " ");
+        word.clear();
+      }
+    }
+  }
+  std::string text() const { return text_ + line_ + "\n"; }
+
+ private:
+  std::string text_, line_;
+};
+
+std::string summary(const VerifyReport& report) {
+  std::uint64_t passed = 0, failed = 0, told = 0;
+  std::string names;
+  for (const OracleReport& oracle : report.oracles) {
+    ++(!oracle.passed() ? failed : oracle.promised ? passed : told);
+    if (!oracle.passed()) names += (names.empty() ? " (" : ", ") + oracle.name;
+  }
+  if (!names.empty()) names += ")";
+  Paragraph line(std::string("verdict: ") + verdict_name(report.verdict));
+  line.add(std::to_string(passed) + " passed, " + std::to_string(failed) + " FAILED" + names +
+           ", " + std::to_string(told) + " for information");
   if (report.verdict == Verdict::rounded || report.verdict == Verdict::deviating) {
-    text += " (deviation " + number(report.deviation) + " = " + number(report.deviation_ulps) +
-            " ulp of the largest coordinate, " + number(report.deviation_share) +
-            " of the diagonal)";
+    line.add("deviation " + number(report.deviation) + " = " + number(report.deviation_ulps) +
+             " ulp of the largest coordinate");
+    line.add(number(report.deviation_share) + " of the diagonal");
   }
   if (report.inverted + report.flat > 0) {
-    text += ", " + std::to_string(report.inverted) + " inverted and " +
-            std::to_string(report.flat) + " flat tetrahedra as written";
+    line.add(std::to_string(report.inverted) + " inverted and " + std::to_string(report.flat) +
+             " flat tetrahedra as written");
   }
-  return text + "\n";
+  return line.text();
+}
+
+std::string paragraph(const OracleReport& oracle) {
+  Paragraph lines(std::string(oracle.status()) + "  " + oracle.name + ": " +
+                  std::to_string(oracle.checked) + " " + oracle.checked_what + " checked");
+  if (oracle.violations > 0) lines.add(std::to_string(oracle.violations) + " violations", ", ");
+  for (const auto& [name, value] : oracle.figures) lines.add(name + " " + number(value));
+  for (const auto& [name, bins] : oracle.histograms) {
+    std::string counts = name + " in bins of 15 degrees:";
+    for (const std::uint64_t count : bins) counts += " " + std::to_string(count);
+    lines.sentence(counts);
+  }
+  for (const std::string& finding : oracle.findings) lines.sentence(finding);
+  for (const std::string& note : oracle.notes) lines.sentence("note: " + note);
+  return lines.text();
+}
+
+}  // namespace
+
+std::string to_text(const VerifyReport& report) {
+  std::string text = summary(report);
+  for (const OracleReport& oracle : report.oracles) text += paragraph(oracle);
+  return text;
 }
 
 }  // namespace tetproof::oracles

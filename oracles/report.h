@@ -22,6 +22,7 @@ struct OracleReport {
   std::string checked_what;  // e.g. "tetrahedra"
   std::uint64_t checked = 0;
   std::uint64_t violations = 0;
+  bool promised = true;  // false: only counted and measured, because nobody promised it
   std::vector<std::string> findings;  // the first violations, each naming its element
   std::vector<std::string> notes;     // no violations, but worth knowing
   std::vector<std::pair<std::string, double>> figures;
@@ -35,6 +36,8 @@ struct OracleReport {
   }
   // An oracle that has looked at nothing has not passed.
   bool passed() const { return violations == 0 && checked > 0; }
+  // "pass", "FAIL", or "info" of what was not promised.
+  const char* status() const { return !passed() ? "FAIL" : promised ? "pass" : "info"; }
 };
 
 enum class Verdict : std::uint8_t { exact, rounded, deviating, broken };
@@ -54,6 +57,8 @@ struct VerifyReport {
 };
 
 std::string to_json(const VerifyReport& report);
+// The verdict and the numbers of oracles in the first line, then a paragraph for each oracle; no
+// line is longer than 120 characters unless a single item is.
 std::string to_text(const VerifyReport& report);
 
 }  // namespace tetproof::oracles

@@ -44,8 +44,10 @@ class SidecarReader {
     list("mesh_vertices", record_.mesh_vertices, [&](auto& vertex) { vertex = point(); });
     if (version_ >= 2) read_additions();
     expect("end");
+    if (!reader_.at_end()) reader_.fail("something follows the end");
     return std::move(record_);
   }
+  unsigned version() const { return version_; }
 
  private:
   void read_parameters() {
@@ -132,9 +134,12 @@ class SidecarReader {
 
 }  // namespace
 
-ExactRecord read_sidecar(const std::string& path) {
+ExactRecord read_sidecar(const std::string& path, unsigned* version) {
   const std::string text = read_whole_file(path);
-  return SidecarReader(path, text).read();
+  SidecarReader reader(path, text);
+  ExactRecord record = reader.read();
+  if (version != nullptr) *version = reader.version();
+  return record;
 }
 
 }  // namespace tetproof::oracles

@@ -7,7 +7,8 @@
 
 namespace tetproof::oracles {
 
-// Throws ReadError.
-delmesher::ExactRecord read_sidecar(const std::string& path);
+// Throws ReadError. Older versions are read as far as they go: what they lack is for the oracle of
+// the promise to say, which is told the version.
+delmesher::ExactRecord read_sidecar(const std::string& path, unsigned* version = nullptr);
 
 }  // namespace tetproof::oracles

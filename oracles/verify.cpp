@@ -7,12 +7,17 @@
 
 #include "oracles/chamfer.h"
 #include "oracles/delaunay.h"
+#include "oracles/enrichment.h"
 #include "oracles/filter.h"
 #include "oracles/hull.h"
 #include "oracles/parallel.h"
 #include "oracles/refinement.h"
 #include "oracles/regions.h"
+#include "oracles/same_mesh.h"
 #include "oracles/surface_validity.h"
+#ifdef TETPROOF_SECOND_OPINIONS
+#include "oracles/cgal/second_kernel.h"
+#endif
 
 namespace tetproof::oracles {
 namespace {
@@ -20,7 +25,6 @@ namespace {
 using delmesher::ExactRecord;
 
 constexpr double kRoundedUlps = 4;
-constexpr double kDefaultDelta = 14.47;
 
 double figure(const OracleReport& report, const std::string& name) {
   for (const auto& [key, value] : report.figures) {
@@ -138,15 +142,14 @@ class Verification {
   std::string check_refined_angles();
   std::string check_refined_inside();
   std::string check_refined_promises();
-  OracleReport check_rounding(const ExactPoints& points) const;
   OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
                                const InputSurface& surface,
                                const std::vector<FaceOnFacet>& listed) const;
   void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                          const InputSurface& surface);
   void check_promises(const RefinedMesh& mesh);
-  OracleReport check_contained(const TetComplex& complex, const InputSurface& surface,
-                               bool inside) const;
+  OracleReport check_contained(const TetComplex& complex, const InputSurface& surface) const;
+  OracleReport check_edges(const TetComplex& complex) const;
   double delta() const;
   AngleScope scope() const;
   void add(OracleReport oracle, const std::string& prefix = {}) {
@@ -324,6 +327,7 @@ void Verification::check_file_quality(const TetComplex& complex, const Neighbour
                                       const ConformityResult& conformity) {
   add(check_constrained_delaunay(complex, neighbours, surface, conformity.faces, {.gate = false}));
   OracleReport angles("angles", "tetrahedra inside");
+  angles.promised = false;
   for (const std::uint8_t inside : complex.inside) angles.checked += inside;
   measure_angles(complex, neighbours, complex.inside, angles);
   add(std::move(angles));
@@ -350,6 +354,10 @@ std::string Verification::check_sidecar() {
   if (!sidecar.usable) return sidecar.why;
   ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);
   diagonal_ = sidecar.surface.diagonal();
+  add(check_promise(options_.promised, *exact_, options_.record_version, diagonal_));
+  add(check_same_mesh(mesh_, *exact_, options_.promised, !input_.labels.empty()));
+  add(check_rounding(mesh_, *exact_, sidecar.points,
+                     {.ulp = ulp_, .allowed = options_.declared_deviation * diagonal_}));
   return {};
 }
 
@@ -358,7 +366,9 @@ std::string Verification::check_exact_final() {
   if (!sidecar_usable) return {};
   ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
   check_final_complex(points, surface);
-  add(check_rounding(points));
+#ifdef TETPROOF_SECOND_OPINIONS
+  add(check_second_kernel(input_, surface, *exact_, points, options_.sidecar), "exact-");
+#endif
   return {};
 }
 
@@ -376,7 +386,6 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
   add(conformity.report, "exact-");
   add(check_volume(complex, surface, 0), "exact-");
   add(check_hull(complex, neighbours), "exact-");
-  if (exact_->final_facets.empty()) return;
   check_constrained(complex, neighbours, surface);
   add(check_facet_ids(complex, conformity, surface, exact_->final_facets), "exact-");
 }
@@ -420,6 +429,7 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
   add(check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = !repaired}),
       "exact-");
   if (!repaired) return;
+  add(check_repairs(*exact_, *complex.points, options_.promised));
   const TetComplex before = complex_of(exact_->unrepaired, *complex.points);
   Neighbours neighbours_before;
   OracleReport shape = check_complex(before, neighbours_before);
@@ -458,16 +468,7 @@ std::string Verification::check_refined_angles() {
 
 std::string Verification::check_refined_inside() {
   if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
-  const Shared::Refined& refined = shared_.refined();
-  const InputSurface& surface = shared_.sidecar().surface;
-  OracleReport contained = check_contained(refined.complex, surface, true);
-  const auto filtered = [](const ExactRecord::Facet& f) { return f.filtered != 0; };
-  if (contained.checked == 0 &&
-      std::any_of(exact_->facets.begin(), exact_->facets.end(), filtered)) {
-    // Where the filter has dropped so much that nothing is called inside, that must be true.
-    contained = check_contained(refined.complex, surface, false);
-  }
-  add(std::move(contained), "refined-");
+  add(check_contained(shared_.refined().complex, shared_.sidecar().surface), "refined-");
   return {};
 }
 
@@ -475,85 +476,79 @@ std::string Verification::check_refined_promises() {
   if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
   const auto& [complex, neighbours, shape] = shared_.refined();
   const Shared::Sidecar& sidecar = shared_.sidecar();
-  check_promises({exact_, &sidecar.points, &sidecar.surface, &complex, &neighbours});
+  check_promises({exact_, &sidecar.points, &sidecar.surface, &complex, &neighbours,
+                  &options_.promised, static_cast<Index>(input_.vertices.size())});
   return {};
 }
 
-// What only a record with facets and segments can be asked.
 void Verification::check_promises(const RefinedMesh& mesh) {
-  if (!exact_->refined_facets.empty() || !exact_->facets.empty()) {
-    OracleReport facets = check_refined_facets(mesh);
-    if (!exact_->refined_facets.empty() || facets.violations > 0)
-      add(std::move(facets), "refined-");
-  }
-  if (!exact_->segments.empty()) add(check_segments(mesh), "refined-");
-  if (!exact_->segments.empty() || !exact_->refined_facets.empty()) {
+  add(check_refined_facets(mesh), "refined-");
+  add(check_segments(mesh), "refined-");
+  if (!exact_->segments.empty() || !exact_->refined_facets.empty()) {  // else check_promise says so
     add(check_encroachment(mesh), "refined-");
-  }
-  if (!exact_->balls.empty()) add(check_balls(mesh), "refined-");
-  const delmesher::ExactRecord::Parameters& promised = exact_->parameters;
-  if (promised.acute > 0 && !exact_->segments.empty()) {
     add(check_chamfer_angles(mesh), "refined-");
-    if (!exact_->chamfer_points.empty()) add(check_chamfer_extent(mesh), "refined-");
   }
-  if (promised.tolerance > 0) add(check_filter(mesh), "refined-");
+  add(check_balls(mesh), "refined-");
+  add(check_chamfer_need(mesh), "refined-");
+  if (!exact_->refined_facets.empty()) add(check_chamfer_cuts(mesh), "refined-");
+  if (!exact_->chamfer_points.empty()) add(check_chamfer_extent(mesh), "refined-");
+  if (options_.promised.tau > 0 || exact_->parameters.tolerance > 0) {
+    add(check_filter(mesh), "refined-");
+  }
+  if (options_.promised.max_edge > 0) add(check_edges(*mesh.complex), "refined-");
+  if (!options_.promised.approximate) add(check_enrichment(mesh));
 }
 
-// Those called inside are contained in the solid, or none of those called outside is.
-OracleReport Verification::check_contained(const TetComplex& complex, const InputSurface& surface,
-                                           bool inside) const {
-  OracleReport contained("contained",
-                         inside ? "tetrahedra called inside" : "tetrahedra called outside");
-  const char* const wrong = inside ? " is called inside but is not contained in the solid"
-                                   : " is contained in the solid but is not called inside";
-  InputSurface::PlaneSides known;
+// No edge of a tetrahedron of the region is longer than --max-edge.
+OracleReport Verification::check_edges(const TetComplex& complex) const {
+  OracleReport report("edges", "tetrahedra");
+  const double most = options_.promised.max_edge * (1 + 1e-9);
+  double longest = 0;
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
-    if ((complex.inside[t] != 0) != inside) continue;
-    ++contained.checked;
-    const bool within = surface.inside(*complex.points, complex.tetrahedra[t]) == 1 &&
-                        !surface.meets_interior(*complex.points, complex.tetrahedra[t], known);
-    if (within != inside) contained.fail(complex.tet_name(t) + wrong);
+    if (complex.inside[t] == 0 && scope() == AngleScope::solid) continue;
+    ++report.checked;
+    const Tet& tet = complex.tetrahedra[t];
+    double here = 0;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        here = std::max(here, exact::distance(*complex.points, tet[i], tet[j]));
+      }
+    }
+    longest = std::max(longest, here);
+    if (here > most) report.fail(complex.tet_name(t) + " has an edge above --max-edge");
   }
+  report.figures.emplace_back("longest edge", longest);
+  return report;
+}
+
+// Those called inside are contained in the solid, and none of those called outside is.
+OracleReport Verification::check_contained(const TetComplex& complex,
+                                           const InputSurface& surface) const {
+  OracleReport contained("contained", "tetrahedra");
+  InputSurface::PlaneSides known;
+  std::uint64_t inside = 0;
+  for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
+    const Tet& tet = complex.tetrahedra[t];
+    const bool within = surface.inside(*complex.points, tet) == 1 &&
+                        !surface.meets_interior(*complex.points, tet, known);
+    ++contained.checked;
+    inside += complex.inside[t];
+    if (within == (complex.inside[t] != 0)) continue;
+    contained.fail(complex.tet_name(t) +
+                   (within ? " is contained in the solid but is not called inside"
+                           : " is called inside but is not contained in the solid"));
+  }
+  contained.figures.emplace_back("called inside", static_cast<double>(inside));
   return contained;
 }
 
-// The record says what was promised, unless the caller knows better.
 double Verification::delta() const {
-  if (options_.delta) return *options_.delta;
-  return exact_ && exact_->parameters.delta > 0 ? exact_->parameters.delta : kDefaultDelta;
+  if (exact_ == nullptr) return options_.promised.delta;
+  return std::max(options_.promised.guaranteed_delta(), exact_->parameters.delta);
 }
 
 AngleScope Verification::scope() const {
-  if (options_.scope) return *options_.scope;
-  return exact_ && exact_->parameters.region == delmesher::Region::hull ? AngleScope::all
-                                                                        : AngleScope::solid;
-}
-
-// What is written is near what is exact.
-OracleReport Verification::check_rounding(const ExactPoints& points) const {
-  OracleReport report("rounding", "written vertices");
-  if (exact_->mesh_vertices.size() != mesh_.vertices.size()) {
-    report.fail("the sidecar knows " + std::to_string(exact_->mesh_vertices.size()) +
-                " written vertices, the file has " + std::to_string(mesh_.vertices.size()));
-    return report;
-  }
-  double largest = 0;
-  std::uint64_t moved = 0;
-  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
-    const Index v = exact_->mesh_vertices[i];
-    ++report.checked;
-    if (v >= points.size()) {
-      report.fail("written vertex " + std::to_string(i) + " is no point of the sidecar");
-      continue;
-    }
-    const Position p = points.nearest(v), q = mesh_.vertices[i];
-    const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
-    moved += distance > 4 * ulp_;
-    largest = std::max(largest, distance);
-  }
-  report.figures.emplace_back("largest distance", largest);
-  report.figures.emplace_back("moved by more than 4 ulp", static_cast<double>(moved));
-  return report;
+  return options_.promised.region == delmesher::Region::hull ? AngleScope::all : AngleScope::solid;
 }
 
 void conclude(double ulp, double diagonal, VerifyReport& report) {

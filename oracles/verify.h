@@ -11,6 +11,7 @@
 #include "oracles/input_surface.h"
 #include "oracles/measures.h"
 #include "oracles/mesh_file.h"
+#include "oracles/promise.h"
 #include "oracles/report.h"
 
 namespace tetproof::oracles {
@@ -20,9 +21,13 @@ enum class Stage : std::uint8_t { refined, final, both };
 
 struct VerifyOptions {
   Stage stage = Stage::final;
-  // Refined stage; what the record says if not given, and failing that 14.47 and the solid.
-  std::optional<double> delta = std::nullopt;
-  std::optional<AngleScope> scope = std::nullopt;
+  // What the mesher was asked for. The record is held to it; of a file alone, the refined stage
+  // takes delta and region from it.
+  Promise promised = {};
+  // Of the sidecar that the record was read from.
+  unsigned record_version = kRecordVersion;
+  // That sidecar, for the kernel that reads its text once more; empty: there is only the record.
+  std::string sidecar = {};
   // Largest deviation that is no failure, as a fraction of the diagonal; beyond 4 ulp the verdict
   // says "deviating" in any case.
   double declared_deviation = 0;

@@ -1,12 +1,15 @@
 #include "oracles/verify_command.h"
 
+#include <gmp.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
+#include <stdexcept>
 
 #include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
@@ -16,10 +19,18 @@
 namespace tetproof::oracles {
 namespace {
 
-enum ExitCode { kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kInvalid = 4, kInternal = 6 };
+enum ExitCode {
+  kDone = 0,
+  kFailed = 1,
+  kUsage = 2,
+  kUnreadable = 3,
+  kInvalid = 4,
+  kLimit = 5,
+  kInternal = 6
+};
 
 struct Arguments {
-  std::string input, mesh, exact;
+  std::string input, mesh, exact, promised = "mesh";
   bool json = false;
   std::optional<Stage> stage;
   VerifyOptions options;
@@ -42,12 +53,8 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "what is checked (final; with a sidecar, what it holds)")
       ->transform(one_of<Stage>({{"refined", Stage::refined}, {"final", Stage::final}}))
       ->type_name("STAGE");
-  app.add_option("--delta", arguments.options.delta,
-                 "angle bound of the refined stage (what the sidecar says, or 14.47)");
-  app.add_option("--region", arguments.options.scope,
-                 "where the angle bound holds (what the sidecar says, or interior)")
-      ->transform(one_of<AngleScope>({{"interior", AngleScope::solid}, {"hull", AngleScope::all}}))
-      ->type_name("REGION");
+  app.add_option("--promised", arguments.promised,
+                 "what the mesher was asked for: 'mesh OPTIONS', 'cdt OPTIONS' (mesh)");
   app.add_option("--declared-deviation", arguments.options.declared_deviation,
                  "deviation that is no failure, as a fraction of the diagonal (0)");
   app.add_option("--threads", arguments.options.threads,
@@ -75,6 +82,20 @@ class Terminal {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+void* allocate(std::size_t size) {
+  void* block = std::malloc(size);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+void* reallocate(void* block, std::size_t, std::size_t size) {
+  void* larger = std::realloc(block, size);
+  if (larger == nullptr) throw std::bad_alloc();
+  return larger;
+}
+void release(void* block, std::size_t) {
+  std::free(block);
+}
+
 // One line: the verdict and the first thing that is wrong.
 std::string reason(const VerifyReport& report) {
   std::string line = verdict_name(report.verdict);
@@ -86,6 +107,13 @@ std::string reason(const VerifyReport& report) {
   return line + " by more than declared";
 }
 
+// What is promised is checked, whether the record has it or not. Files alone are taken for final
+// meshes unless they are said not to be.
+Stage promised_stage(const Promise& promised, const std::string& exact) {
+  if (promised.approximate) return Stage::refined;
+  return exact.empty() || promised.task == Task::cdt ? Stage::final : Stage::both;
+}
+
 // Why the input bounds no solid, or null.
 std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   Terminal terminal;
@@ -93,12 +121,10 @@ std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   const Polyhedron input = read_surface(arguments.input);
   const MeshFile mesh = read_mesh(arguments.mesh);
   delmesher::ExactRecord record;
-  if (!arguments.exact.empty()) record = read_sidecar(arguments.exact);
   VerifyOptions options = arguments.options;
-  const Stage recorded = record.refined.empty() ? Stage::final
-                         : record.final.empty() ? Stage::refined
-                                                : Stage::both;
-  options.stage = arguments.stage.value_or(recorded);
+  if (!arguments.exact.empty()) record = read_sidecar(arguments.exact, &options.record_version);
+  options.sidecar = arguments.exact;
+  options.stage = arguments.stage.value_or(promised_stage(options.promised, arguments.exact));
   terminal.say(std::to_string(mesh.tetrahedra.size()) + " tetrahedra read");
   options.progress = [&](const OracleReport& oracle) {
     terminal.say(oracle.name + ": " + std::to_string(oracle.checked) + " " + oracle.checked_what);
@@ -115,6 +141,8 @@ int verify_files(const Arguments& arguments) {
   }
   std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
   if (!failed(report, arguments.options)) return kDone;
+  // As text, the report has said it.
+  if (!arguments.json) return kFailed;
   std::fprintf(stderr, "tetproof: %s: %s\n", arguments.mesh.c_str(), reason(report).c_str());
   return kFailed;
 }
@@ -134,6 +162,14 @@ int run_verify(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kUsage;
   }
+  if (const std::string why = parse_promise(arguments.promised, arguments.options.promised);
+      !why.empty()) {
+    std::fprintf(stderr, "tetproof: --promised: %s\n", why.c_str());
+    return kUsage;
+  }
+  // GMP ends the program where it gets no memory; out of its allocation functions an exception may
+  // be thrown all the same, which leaves only the number in hand undefined.
+  mp_set_memory_functions(allocate, reallocate, release);
   try {
     return verify_files(arguments);
   } catch (const ReadError& error) {
@@ -141,7 +177,11 @@ int run_verify(int argc, char** argv) {
     return kUnreadable;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "tetproof: %s: not enough memory\n", arguments.mesh.c_str());
-    return kInternal;
+    return kLimit;
+  } catch (const std::length_error&) {
+    std::fprintf(stderr, "tetproof: %s: more than this machine can number\n",
+                 arguments.mesh.c_str());
+    return kLimit;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tetproof: %s: internal error: %s\n", arguments.mesh.c_str(),
                  error.what());

@@ -61,9 +61,11 @@ TEST(Budget, ThinPlatesAndGapsEndWithinIt) {
         EXPECT_GT(result.statistics.tau, gap / 2);
         EXPECT_GT(result.statistics.dropped_triangles, 0U);
         oracles::VerifyReport report;
-        EXPECT_EQ(oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh),
-                                  &result.exact, {}, report),
-                  "");
+        EXPECT_EQ(
+            oracles::verify(
+                samples::to_polyhedron(surface), samples::to_mesh(result.mesh), &result.exact,
+                {.stage = oracles::Stage::both, .promised = oracles::promise_of(options)}, report),
+            "");
         EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
       }
     }

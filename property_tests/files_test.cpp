@@ -106,7 +106,11 @@ TEST_F(Files, ApproximateMeshesAreVerifiedAsRefinedMeshes) {
   ASSERT_EQ(run("mesh -q --approximate " + path("in.off") + " -o " + path("out.mesh") +
                 " --exact " + path("out.exact")),
             0);
-  EXPECT_EQ(verify({path("in.off"), path("out.mesh"), "--exact", path("out.exact")}), 0);
+  const std::string approximate = "mesh --approximate";
+  EXPECT_EQ(verify({path("in.off"), path("out.mesh"), "--exact", path("out.exact"), "--promised",
+                    approximate}),
+            0);
+  EXPECT_EQ(verify({path("in.off"), path("out.mesh"), "--exact", path("out.exact")}), 1);
   EXPECT_EQ(verify({path("in.off"), path("out.mesh"), "--stage", "final"}), 1);
 }
 

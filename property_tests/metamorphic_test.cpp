@@ -31,11 +31,13 @@ Result mesh(const Surface& surface) {
   return result;
 }
 
-VerifyReport verified(const Surface& surface, const Result& result, oracles::Stage stage) {
+VerifyReport verified(const Surface& surface, const Result& result, oracles::Stage stage,
+                      const Options& options = {}) {
   VerifyReport report;
-  EXPECT_EQ(oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh),
-                            &result.exact, {.stage = stage}, report),
-            "");
+  EXPECT_EQ(
+      oracles::verify(samples::to_polyhedron(surface), samples::to_mesh(result.mesh), &result.exact,
+                      {.stage = stage, .promised = oracles::promise_of(options)}, report),
+      "");
   return report;
 }
 
@@ -250,8 +252,8 @@ TEST_P(Metamorphic, UnionWithADisjointCopyDoublesEverything) {
   const Result two = delmesher::tetrahedralize(both, options);
   ASSERT_TRUE(two.status.ok()) << two.status.message;
   EXPECT_EQ(shape_of(two), (Shape{2 * one.facets, 2 * one.acute_vertices, 2 * one.acute_edges, 0}));
-  EXPECT_TRUE(samples::exact_or_rounded(verified(both, two, oracles::Stage::final)));
-  EXPECT_EQ(verified(both, two, oracles::Stage::refined).verdict, oracles::Verdict::exact);
+  EXPECT_TRUE(samples::exact_or_rounded(verified(both, two, oracles::Stage::final, options)));
+  EXPECT_EQ(verified(both, two, oracles::Stage::refined, options).verdict, oracles::Verdict::exact);
 }
 
 // The solid's exact volume in units that no relation above changes.

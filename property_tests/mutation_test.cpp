@@ -267,9 +267,12 @@ class SmallDamages : public testing::TestWithParam<RecordDamage> {};
 
 TEST_P(SmallDamages, AreCaughtByTheOracleMeantForThem) {
   samples::ExactSample sample = samples::exact_sample();
-  ASSERT_TRUE(samples::exact_or_rounded(run(sample.sample, &sample.exact)));
+  VerifyOptions options;
+  options.promised.task = Task::cdt;
+  ASSERT_TRUE(samples::exact_or_rounded(run(sample.sample, &sample.exact, options)));
   GetParam().apply(sample.exact);
-  judge("tetrahedron", GetParam().name, GetParam().oracle, run(sample.sample, &sample.exact));
+  judge("tetrahedron", GetParam().name, GetParam().oracle,
+        run(sample.sample, &sample.exact, options));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SmallDamages, testing::ValuesIn(kSmallDamages),
@@ -281,35 +284,21 @@ INSTANTIATE_TEST_SUITE_P(All, SmallDamages, testing::ValuesIn(kSmallDamages),
 struct MesherRun {
   Sample sample;
   ExactRecord record;
+  Promise promise;
 };
 
-// A wedge with an edge of 11 degrees, and a thin slab beside it that the filter takes apart.
+// The filter takes the slab apart.
 MesherRun mesher_run() {
-  delmesher::Surface s;
-  s.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0.2, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0.2, 1}};
-  s.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
-                 {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
-  for (int z = 0; z < 2; ++z) {
-    for (const auto& [x, y] : {std::pair(2.0, 0.0), {3.0, 0.0}, {3.0, 1.0}, {2.0, 1.0}}) {
-      s.vertices.push_back({x, y, z * 0x1p-10});
-    }
-  }
-  for (const auto& [a, b, c, d] : {std::array{6U, 9U, 8U, 7U},
-                                   {10U, 11U, 12U, 13U},
-                                   {6U, 7U, 11U, 10U},
-                                   {7U, 8U, 12U, 11U},
-                                   {8U, 9U, 13U, 12U},
-                                   {9U, 6U, 10U, 13U}}) {
-    s.triangles.push_back({a, b, c});
-    s.triangles.push_back({a, c, d});
-  }
+  const delmesher::Surface s = samples::wedge_and_slab();
   delmesher::Options options;
   options.want_exact = true;
   options.gabriel = true;
   options.tau = 0x1p-9;
   const delmesher::Result result = delmesher::tetrahedralize(s, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
-  return {{samples::to_polyhedron(s), samples::to_mesh(result.mesh)}, result.exact};
+  return {{samples::to_polyhedron(s), samples::to_mesh(result.mesh)},
+          result.exact,
+          promise_of(options)};
 }
 
 const MesherRun& good_run() {
@@ -549,8 +538,7 @@ class RefinedDamages : public testing::TestWithParam<RecordDamage> {};
 
 TEST_P(RefinedDamages, AreCaughtByTheOracleMeantForThem) {
   MesherRun mutant = good_run();
-  VerifyOptions options;
-  options.stage = Stage::refined;
+  VerifyOptions options{.stage = Stage::refined, .promised = mutant.promise};
   static const VerifyReport good = run(mutant.sample, &mutant.record, options);
   ASSERT_EQ(good.verdict, Verdict::exact) << to_text(good);
   GetParam().apply(mutant.record);
@@ -563,45 +551,47 @@ INSTANTIATE_TEST_SUITE_P(All, RefinedDamages, testing::ValuesIn(kRefinedDamages)
 
 TEST(ConstrainedDamage, AFlippedFaceIsCaught) {
   MesherRun mutant = good_run();
-  const VerifyReport good = run(mutant.sample, &mutant.record);
+  const VerifyReport good = run(mutant.sample, &mutant.record, {.promised = mutant.promise});
   ASSERT_TRUE(samples::exact_or_rounded(good)) << to_text(good);
   ASSERT_NE(good.find("exact-constrained-delaunay"), nullptr);
   ASSERT_TRUE(mutant.record.unrepaired.empty());
   ASSERT_TRUE(flip_some_face(mutant.record, mutant.record.final));
   judge("final wedge and slab", "face flipped", "exact-constrained-delaunay",
-        run(mutant.sample, &mutant.record));
+        run(mutant.sample, &mutant.record, {.promised = mutant.promise}));
 }
 
 TEST(ConstrainedDamage, AfterRepairsOnlyWhatWasBeforeIsAGate) {
   MesherRun mutant = good_run();
   mutant.record.unrepaired = mutant.record.final;
   ASSERT_TRUE(flip_some_face(mutant.record, mutant.record.final));
-  const VerifyReport counted = run(mutant.sample, &mutant.record);
-  EXPECT_TRUE(samples::exact_or_rounded(counted)) << to_text(counted);
+  const VerifyReport counted = run(mutant.sample, &mutant.record, {.promised = mutant.promise});
+  EXPECT_TRUE(counted.find("exact-constrained-delaunay")->passed()) << to_text(counted);
   EXPECT_GT(counted.find("exact-constrained-delaunay")->figures[0].second, 0);
+  // Nothing was there to be repaired.
+  judge("final wedge and slab", "face flipped as if to repair", "repairs", counted);
   mutant = good_run();
   mutant.record.unrepaired = mutant.record.final;
   ASSERT_TRUE(flip_some_face(mutant.record, mutant.record.unrepaired));
   judge("final wedge and slab", "face flipped before repairs", "unrepaired-constrained-delaunay",
-        run(mutant.sample, &mutant.record));
+        run(mutant.sample, &mutant.record, {.promised = mutant.promise}));
 }
 
 TEST(ConstrainedDamage, FacesOnFacetsBeforeRepairsAreChecked) {
   MesherRun mutant = good_run();
   mutant.record.unrepaired = mutant.record.final;
   mutant.record.unrepaired_facets = mutant.record.final_facets;
-  const VerifyReport good = run(mutant.sample, &mutant.record);
+  const VerifyReport good = run(mutant.sample, &mutant.record, {.promised = mutant.promise});
   ASSERT_TRUE(samples::exact_or_rounded(good)) << to_text(good);
   ASSERT_NE(good.find("unrepaired-facets"), nullptr);
   mutant.record.unrepaired_facets.pop_back();
   judge("final wedge and slab", "face on a facet before repairs missing", "unrepaired-facets",
-        run(mutant.sample, &mutant.record));
+        run(mutant.sample, &mutant.record, {.promised = mutant.promise}));
   mutant = good_run();
   mutant.record.unrepaired = mutant.record.final;
   mutant.record.unrepaired_facets = mutant.record.final_facets;
   for (auto& tet : mutant.record.unrepaired) tet.inside = true;
   judge("final wedge and slab", "no surface before repairs", "unrepaired-conformity",
-        run(mutant.sample, &mutant.record));
+        run(mutant.sample, &mutant.record, {.promised = mutant.promise}));
 }
 
 }  // namespace

@@ -55,13 +55,11 @@ void expect_right(const NamedSurface& model, const Options& options) {
   const Result result = delmesher::tetrahedralize(model.surface, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   VerifyOptions verify_options;
+  verify_options.promised = oracles::promise_of(options);
   const VerifyReport final_report = check(model.surface, result, verify_options);
   EXPECT_TRUE(samples::exact_or_rounded(final_report)) << to_text(final_report);
   EXPECT_NE(final_report.find("exact-conformity"), nullptr);
   verify_options.stage = oracles::Stage::refined;
-  verify_options.delta = options.delta;
-  verify_options.scope = options.region == delmesher::Region::hull ? oracles::AngleScope::all
-                                                                   : oracles::AngleScope::solid;
   const VerifyReport refined_report = check(model.surface, result, verify_options);
   EXPECT_EQ(refined_report.verdict, oracles::Verdict::exact) << to_text(refined_report);
   EXPECT_NE(refined_report.find("refined-delaunay"), nullptr);
@@ -105,7 +103,8 @@ TEST_P(Models, HaveAConstrainedDelaunayTetrahedrization) {
   options.region = delmesher::Region::hull;
   const Result result = delmesher::constrained_delaunay(GetParam().surface, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  const VerifyReport report = check(GetParam().surface, result, {});
+  const VerifyReport report = check(GetParam().surface, result,
+                                    {.promised = oracles::promise_of(options, oracles::Task::cdt)});
   EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
 }
 

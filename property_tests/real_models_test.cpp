@@ -86,8 +86,9 @@ void expect_every_promise_kept(const oracles::Polyhedron& input, delmesher::Opti
   const delmesher::Result result = delmesher::tetrahedralize(samples::to_surface(input), options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   VerifyReport report;
-  ASSERT_EQ(oracles::verify(input, samples::to_mesh(result.mesh), &result.exact,
-                            {.stage = oracles::Stage::both}, report),
+  ASSERT_EQ(oracles::verify(
+                input, samples::to_mesh(result.mesh), &result.exact,
+                {.stage = oracles::Stage::both, .promised = oracles::promise_of(options)}, report),
             "");
   EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
   for (const char* oracle : {"conformity", "exact-conformity", "exact-volume", "exact-interior",

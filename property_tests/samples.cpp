@@ -228,6 +228,7 @@ ExactSample exact_sample() {
       {{0, 4, 2, 3}, true}, {{4, 1, 2, 5}, true}, {{4, 2, 3, 5}, true}, {{4, 3, 1, 5}, true}};
   exact.final_facets = {{0, 2, 4, 0}, {4, 2, 1, 0}, {0, 4, 3, 1}, {4, 1, 3, 1},
                         {1, 2, 5, 2}, {2, 3, 5, 2}, {3, 1, 5, 2}, {2, 0, 3, 3}};
+  exact.facets = {{0, 0, 0, {0}}, {1, 0, 0, {1}}, {2, 0, 0, {2}}, {3, 0, 0, {3}}};
   exact.mesh_vertices = {0, 1, 2, 3, 4, 5};
   oracles::MeshFile& mesh = result.sample.mesh;
   oracles::ExactPoints points;
@@ -318,6 +319,28 @@ delmesher::Surface finned_cube(double length, double h) {
 
 bool exact_or_rounded(const oracles::VerifyReport& report) {
   return report.verdict == oracles::Verdict::exact || report.verdict == oracles::Verdict::rounded;
+}
+
+delmesher::Surface wedge_and_slab() {
+  delmesher::Surface s;
+  s.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0.2, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0.2, 1}};
+  s.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                 {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  for (int z = 0; z < 2; ++z) {
+    for (const auto& [x, y] : {std::pair(2.0, 0.0), {3.0, 0.0}, {3.0, 1.0}, {2.0, 1.0}}) {
+      s.vertices.push_back({x, y, z * 0x1p-10});
+    }
+  }
+  for (const auto& [a, b, c, d] : {std::array{6U, 9U, 8U, 7U},
+                                   {10U, 11U, 12U, 13U},
+                                   {6U, 7U, 11U, 10U},
+                                   {7U, 8U, 12U, 11U},
+                                   {8U, 9U, 13U, 12U},
+                                   {9U, 6U, 10U, 13U}}) {
+    s.triangles.push_back({a, b, c});
+    s.triangles.push_back({a, c, d});
+  }
+  return s;
 }
 
 int iterations(int normal) {

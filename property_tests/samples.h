@@ -63,6 +63,9 @@ delmesher::Surface finned_cube(double length, double h);
 // that deviates by more is not what was asked for.
 bool exact_or_rounded(const oracles::VerifyReport& report);
 
+// A wedge with an edge of 11 degrees, and a slab as thin as 2^-10 beside it, one unit long each.
+delmesher::Surface wedge_and_slab();
+
 // How often to repeat something: the given number, times the environment's TETPROOF_ITERATIONS.
 int iterations(int normal);
 

@@ -316,9 +316,11 @@ TEST(FilterStage, DropsWhatIsCloserThanTheToleranceAndNothingElse) {
       EXPECT_GT(result.statistics.dropped_triangles, 0U) << gap;
     }
     VerifyReport report;
-    EXPECT_EQ(oracles::verify(samples::to_polyhedron(plates), samples::to_mesh(result.mesh),
-                              &result.exact, {.stage = oracles::Stage::both}, report),
-              "");
+    EXPECT_EQ(
+        oracles::verify(
+            samples::to_polyhedron(plates), samples::to_mesh(result.mesh), &result.exact,
+            {.stage = oracles::Stage::both, .promised = oracles::promise_of(options)}, report),
+        "");
     EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
     ASSERT_NE(report.find("refined-filter"), nullptr);
     EXPECT_EQ(figure(*report.find("refined-filter"), "dropped that could return"), 0) << gap;
@@ -351,9 +353,10 @@ TEST(CdtStage, SchoenhardtsPolyhedronIsFilledWithSteinerPoints) {
     const Result result = delmesher::constrained_delaunay(s, options);
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     VerifyReport report;
-    EXPECT_EQ(oracles::verify(samples::to_polyhedron(s), samples::to_mesh(result.mesh),
-                              &result.exact, {}, report),
-              "");
+    EXPECT_EQ(
+        oracles::verify(samples::to_polyhedron(s), samples::to_mesh(result.mesh), &result.exact,
+                        {.promised = oracles::promise_of(options, oracles::Task::cdt)}, report),
+        "");
     EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
     const oracles::OracleReport* cdt = report.find("exact-constrained-delaunay");
     ASSERT_NE(cdt, nullptr);

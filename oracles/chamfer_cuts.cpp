@@ -1,0 +1,417 @@
+// What chamfering cut off, and whether it had to.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "oracles/chamfer.h"
+#include "oracles/corners.h"
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactRecord;
+
+// Cut points are placed with a relative accuracy of 2^-20.
+constexpr double kPlacement = 1 + 0x1p-16;
+
+std::uint64_t directed_key(Index a, Index b) {
+  return static_cast<std::uint64_t>(a) << 32 | b;
+}
+
+std::string corner_name(Index v) {
+  return "input vertex " + std::to_string(v);
+}
+
+// --- was there need?
+
+class ChamferNeed {
+ public:
+  explicit ChamferNeed(const RefinedMesh& mesh)
+      : record_(*mesh.record),
+        surface_(*mesh.surface),
+        facets_(surface_, record_),
+        acute_(*mesh.points, surface_),
+        limit_(mesh.promise->chamfer_radius) {
+    for (const ExactRecord::Corner& corner : record_.corners) corner_[corner.vertex] = &corner;
+    const double acute = record_.parameters.acute, corner = record_.parameters.corner;
+    thresholds_.at = [this, acute](Index v) {
+      const auto found = corner_.find(v);
+      return found != corner_.end() ? found->second->threshold : acute;
+    };
+    thresholds_.of_edges = [this, acute, corner](Index v) {
+      const double here = thresholds_.at(v);
+      return here > acute || corner == 0 ? here : std::min(corner, here);
+    };
+  }
+
+  OracleReport run() {
+    const auto present = [this](Index f) { return facets_.kept(f); };
+    for (const Index v : surface_.used_vertices()) {
+      ++report_.checked;
+      const auto corner = corner_.find(v);
+      const bool cut = corner != corner_.end();
+      const std::string why =
+          acute_.why_acute(v, present, thresholds_, cut ? Doubt::acute : Doubt::not_acute);
+      if (cut && why.empty()) {
+        report_.fail(corner_name(v) + " was chamfered and is not acute");
+      } else if (!cut && !why.empty()) {
+        report_.fail(corner_name(v) + " was not chamfered and is acute: " + why);
+      }
+      if (cut) check_radius(*corner->second);
+    }
+    if (corner_.size() != record_.corners.size()) report_.fail("a corner is listed twice");
+    for (const auto& [v, corner] : corner_) {
+      if (!std::binary_search(surface_.used_vertices().begin(), surface_.used_vertices().end(),
+                              v)) {
+        report_.fail(corner_name(v) + " was chamfered and is on no facet");
+      }
+    }
+    check_missing_edges();
+    report_.figures.emplace_back("corners", static_cast<double>(corner_.size()));
+    report_.figures.emplace_back("largest radius over local feature size", largest_share_);
+    return std::move(report_);
+  }
+
+ private:
+  void check_radius(const ExactRecord::Corner& corner) {
+    const Index v = corner.vertex;
+    if (!(corner.radius > 0)) return report_.fail(corner_name(v) + " has no radius");
+    const auto present = [this](Index f) { return facets_.kept(f); };
+    const std::string near = acute_.nearer_than(3 * corner.radius * (1 - 1e-9), v, present);
+    if (!near.empty()) {
+      report_.fail(corner_name(v) + " has a radius above a third of its distance from " + near);
+    }
+    if (limit_ > 0 && corner.radius > limit_ * kPlacement) {
+      report_.fail(corner_name(v) + " has a radius above --chamfer-radius");
+    }
+    const double size = acute_.local_feature_size(v, present, 4 * corner.radius);
+    largest_share_ = std::max(largest_share_, corner.radius / size);
+  }
+
+  void check_missing_edges() {
+    const InputEdges input_edges(surface_);
+    std::vector<std::uint8_t> present_edge(surface_.edges().size());
+    for (const ExactRecord::Chain& chain : record_.segments) {
+      const Index e = chain.artificial ? kNone : input_edges.of_chain(record_, chain.vertices);
+      if (e != kNone) present_edge[e] = 1;
+    }
+    const auto present = [this](Index f) { return facets_.kept(f); };
+    for (Index e = 0; e < surface_.edges().size(); ++e) {
+      const InputSurface::Edge& edge = surface_.edges()[e];
+      if (!AcuteCorners::edge_present(edge, present)) continue;
+      const std::string name =
+          "input edge " + std::to_string(edge.from) + "-" + std::to_string(edge.to);
+      if (present_edge[e] == 0 && !acute_.edge_is_acute(e, present, thresholds_, Doubt::acute)) {
+        report_.fail(name + " was chamfered and is not acute");
+      }
+      if (present_edge[e] != 0 && acute_.edge_is_acute(e, present, thresholds_, Doubt::not_acute)) {
+        report_.fail(name + " was not chamfered and is acute");
+      }
+    }
+  }
+
+  const ExactRecord& record_;
+  const InputSurface& surface_;
+  const FacetIndex facets_;
+  const AcuteCorners acute_;
+  double limit_;
+  std::unordered_map<Index, const ExactRecord::Corner*> corner_;
+  CornerThresholds thresholds_;
+  double largest_share_ = 0;
+  OracleReport report_{"chamfer-need", "input vertices"};
+};
+
+// --- what is gone
+
+// Follows what is left of the boundary of every kept facet: it has to be the facet's own boundary,
+// side by side, but for a detour around each chamfered corner over points made for that corner, and
+// beside each acute edge from the points made for one end to those made for the other.
+class ChamferCuts {
+ public:
+  explicit ChamferCuts(const RefinedMesh& mesh)
+      : record_(*mesh.record),
+        points_(*mesh.points),
+        surface_(*mesh.surface),
+        complex_(*mesh.complex),
+        facets_(surface_, record_),
+        input_edges_(surface_) {
+    for (const auto& [point, vertex] : record_.chamfer_points) {
+      const auto [known, fresh] = made_for_.emplace(point, vertex);
+      if (!fresh && known->second != vertex) {
+        report_.fail(complex_.vertex_name(point) + " was made for two corners");
+      }
+    }
+    for (const ExactRecord::Corner& corner : record_.corners) corners_.insert(corner.vertex);
+  }
+
+  OracleReport run() {
+    collect_faces();
+    collect_chains();
+    collect_sides();
+    for (Index f = 0; f < surface_.facets().size(); ++f) {
+      if (facets_.kept(f)) check_facet(f);
+    }
+    report_.figures.emplace_back("detours around corners", static_cast<double>(detours_));
+    report_.figures.emplace_back("strips beside acute edges", static_cast<double>(strips_));
+    return std::move(report_);
+  }
+
+ private:
+  struct Side {  // of a facet, seen from outside, on an input edge
+    Index from, to, edge;
+    std::size_t next;
+  };
+  struct Link {  // an artificial chain, in the direction of the boundary of what is left
+    Index to;
+    const std::vector<Index>* vertices;
+    bool reversed;
+    bool used = false;
+  };
+  using Links = std::map<std::pair<Index, Index>, Link>;  // facet, from
+
+  void collect_faces();
+  void collect_chains();
+  void collect_sides();
+  void check_facet(Index f);
+  bool walk(Index f, std::size_t first);
+  void add(const std::vector<Index>& chain, bool reversed);
+  void add(Index a, Index b);
+  void fail(Index f, const std::string& what) {
+    report_.fail("facet " + std::to_string(surface_.facets()[f].id) + ": " + what);
+  }
+  Index made_for(Index v) const {
+    const auto found = made_for_.find(v);
+    return found != made_for_.end() ? found->second : kNone;
+  }
+
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  const TetComplex& complex_;
+  const FacetIndex facets_;
+  const InputEdges input_edges_;
+  std::unordered_map<Index, Index> made_for_;
+  std::set<Index> corners_;
+  std::vector<std::pair<Index, std::uint64_t>> face_sides_;
+  std::vector<IntegerVector> area_;          // of the faces of each facet, twice
+  std::vector<std::vector<Index>> on_edge_;  // the chain of each input edge, from -> to
+  Links links_;
+  std::vector<Side> sides_;
+  std::vector<std::vector<std::size_t>> sides_of_;  // per facet
+  std::vector<std::uint8_t> passed_;
+  IntegerVector walked_;  // twice the area inside what has been followed
+  Index origin_ = 0;
+  std::uint64_t detours_ = 0, strips_ = 0;
+  OracleReport report_{"chamfer-cuts", "sides of kept facets"};
+};
+
+void ChamferCuts::collect_faces() {
+  area_.resize(surface_.facets().size());
+  for (const auto& [a, b, c, id] : record_.refined_facets) {
+    const Index f = facets_.find(id);
+    if (f == kNone) continue;
+    const IntegerVector n = exact::area2(points_, a, b, c);
+    for (int axis = 0; axis < 3; ++axis) area_[f][axis] += n[axis];
+    for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+      face_sides_.emplace_back(f, directed_key(p, q));
+    }
+  }
+  std::sort(face_sides_.begin(), face_sides_.end());
+}
+
+void ChamferCuts::collect_chains() {
+  on_edge_.resize(surface_.edges().size());
+  for (const ExactRecord::Chain& chain : record_.segments) {
+    const std::vector<Index>& v = chain.vertices;
+    if (v.size() < 2) continue;  // the segment oracle says so
+    if (!chain.artificial) {
+      const Index e = input_edges_.of_chain(record_, v);
+      if (e == kNone) continue;
+      const InputSurface::Edge& edge = surface_.edges()[e];
+      on_edge_[e] = v;
+      if (exact::dot(exact::difference(points_, edge.from, edge.to),
+                     exact::difference(points_, v.front(), v.back())) < 0) {
+        std::reverse(on_edge_[e].begin(), on_edge_[e].end());
+      }
+      continue;
+    }
+    const Index f = facets_.find(chain.facet);
+    if (f == kNone) continue;
+    const auto is_side = [&](Index a, Index b) {
+      return std::binary_search(face_sides_.begin(), face_sides_.end(),
+                                std::pair(f, directed_key(a, b)));
+    };
+    const bool reversed = !is_side(v[0], v[1]);
+    const Index from = reversed ? v.back() : v.front(), to = reversed ? v.front() : v.back();
+    for (const Index end : {from, to}) {
+      if (made_for(end) == kNone) {
+        fail(f, "the artificial segment at " + complex_.vertex_name(end) +
+                    " ends where nothing was chamfered");
+      }
+    }
+    if (!links_.emplace(std::pair(f, from), Link{to, &v, reversed}).second) {
+      fail(f, "two artificial segments leave " + complex_.vertex_name(from));
+    }
+  }
+}
+
+void ChamferCuts::collect_sides() {
+  const auto& triangles = surface_.triangles();
+  const auto& facet_of = surface_.facet_of_triangle();
+  std::unordered_map<std::uint64_t, std::size_t> number;  // triangle * 4 + side
+  sides_of_.resize(surface_.facets().size());
+  for (Index t = 0; t < triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      if (facet_of[surface_.neighbour(t, i)] == facet_of[t]) continue;
+      const Index a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+      number[std::uint64_t{t} * 4 + i] = sides_.size();
+      sides_of_[facet_of[t]].push_back(sides_.size());
+      sides_.push_back({a, b, input_edges_.find(a, b), 0});
+    }
+  }
+  for (const auto& [key, side] : number) {
+    // Around the head, over the triangles of the facet, to the next side.
+    auto t = static_cast<Index>(key / 4);
+    int i = (static_cast<int>(key % 4) + 1) % 3;
+    const Index head = sides_[side].to;
+    while (facet_of[surface_.neighbour(t, i)] == facet_of[t]) {
+      t = surface_.neighbour(t, i);
+      i = static_cast<int>(std::find(triangles[t].begin(), triangles[t].end(), head) -
+                           triangles[t].begin());
+    }
+    sides_[side].next = number.at(std::uint64_t{t} * 4 + i);
+  }
+  passed_.resize(sides_.size());
+}
+
+void ChamferCuts::add(Index a, Index b) {
+  const IntegerVector n =
+      exact::cross(exact::difference(points_, origin_, a), exact::difference(points_, origin_, b));
+  for (int axis = 0; axis < 3; ++axis) walked_[axis] += n[axis];
+}
+
+void ChamferCuts::add(const std::vector<Index>& chain, bool reversed) {
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    reversed ? add(chain[i], chain[i - 1]) : add(chain[i - 1], chain[i]);
+  }
+}
+
+void ChamferCuts::check_facet(Index f) {
+  walked_ = {};
+  origin_ = surface_.facets()[f].vertex;
+  bool followed = true;
+  for (const std::size_t s : sides_of_[f]) {
+    ++report_.checked;
+    if (sides_[s].edge == kNone) return fail(f, "has a side on no input edge");
+    if (passed_[s] == 0 && !on_edge_[sides_[s].edge].empty()) followed = walk(f, s) && followed;
+  }
+  // Where all edges of a boundary are acute, only strips are left of it.
+  for (const std::size_t s : sides_of_[f]) {
+    if (passed_[s] == 0 && followed) followed = walk(f, s);
+  }
+  if (!followed) return;
+  for (auto link = links_.lower_bound({f, 0}); link != links_.end() && link->first.first == f;
+       ++link) {
+    if (!link->second.used) {
+      return fail(f, "the artificial segment from " + complex_.vertex_name(link->first.second) +
+                         " cuts off no corner and no edge");
+    }
+  }
+  if (walked_ != area_[f]) fail(f, "the cuts do not account for what is missing");
+}
+
+// From a side, over all that follow it, back to it.
+bool ChamferCuts::walk(Index f, std::size_t first) {
+  const auto chain_of = [&](std::size_t s) -> const std::vector<Index>& {
+    return on_edge_[sides_[s].edge];
+  };
+  const auto along = [&](std::size_t s) {
+    return surface_.edges()[sides_[s].edge].from == sides_[s].from;
+  };
+  const auto start = [&](std::size_t s) {
+    return along(s) ? chain_of(s).front() : chain_of(s).back();
+  };
+  const auto end = [&](std::size_t s) {
+    return along(s) ? chain_of(s).back() : chain_of(s).front();
+  };
+  const auto refuse = [&](const std::string& what) {
+    fail(f, what);
+    return false;
+  };
+  // Over one artificial segment; kNone if there is none that has not been passed.
+  const auto step = [&](Index at) {
+    const auto link = links_.find({f, at});
+    if (link == links_.end() || link->second.used) return kNone;
+    link->second.used = true;
+    add(*link->second.vertices, link->second.reversed);
+    return link->second.to;
+  };
+  std::size_t s = first;
+  Index begin = kNone, at = kNone;
+  if (!chain_of(s).empty()) {
+    begin = start(s);
+  } else {
+    // The strip beside the edge begins at a point made for its tail.
+    for (auto link = links_.lower_bound({f, 0}); link != links_.end() && link->first.first == f;
+         ++link) {
+      if (!link->second.used && made_for(link->first.second) == sides_[s].from &&
+          made_for(link->second.to) == sides_[s].to) {
+        begin = link->first.second;
+      }
+    }
+    if (begin == kNone) return refuse("nothing is left beside " + corner_name(sides_[s].from));
+  }
+  do {
+    if (passed_[s]++ != 0) return refuse("its boundary is followed twice");
+    if (!chain_of(s).empty()) {
+      add(chain_of(s), !along(s));
+      at = end(s);
+    } else {
+      ++strips_;
+      if (at == kNone) at = begin;
+      at = step(at);
+      if (at == kNone || made_for(at) != sides_[s].to) {
+        return refuse("no cut leads along the acute edge to " + corner_name(sides_[s].to));
+      }
+    }
+    const std::size_t next = sides_[s].next;
+    const Index corner = sides_[s].to;
+    const bool strip = chain_of(next).empty();
+    if (!corners_.contains(corner)) {
+      if (strip || at != corner || start(next) != corner) {
+        return refuse(corner_name(corner) + " was cut off and is not chamfered");
+      }
+    } else {
+      ++detours_;
+      const auto arrived = [&] {
+        if (next == first) return at == begin;
+        if (!strip) return at == start(next);
+        const auto link = links_.find({f, at});
+        return link != links_.end() && made_for(link->second.to) == sides_[next].to &&
+               sides_[next].to != corner;
+      };
+      while (!arrived()) {
+        at = step(at);
+        if (at == kNone || made_for(at) != corner) {
+          return refuse("no cut leads around " + corner_name(corner));
+        }
+      }
+    }
+    s = next;
+  } while (s != first);
+  return true;
+}
+
+}  // namespace
+
+OracleReport check_chamfer_need(const RefinedMesh& mesh) {
+  return ChamferNeed(mesh).run();
+}
+
+OracleReport check_chamfer_cuts(const RefinedMesh& mesh) {
+  return ChamferCuts(mesh).run();
+}
+
+}  // namespace tetproof::oracles

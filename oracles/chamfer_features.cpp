@@ -1,0 +1,142 @@
+#include "oracles/chamfer_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "oracles/filter.h"
+
+namespace tetproof::oracles {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// In doubles, from exact vectors, so that small ones are right as well.
+double angle_between(const IntegerVector& a, const IntegerVector& b) {
+  return std::atan2(length(exact::cross(a, b), 0), to_double(exact::dot(a, b), 0));
+}
+
+// The height of a bridge point over its edge, as a share of the chamfer distance, by the formula
+// for three equal edges (Figure 4). Sectors above 120 degrees are cut into two, above 240 into
+// four.
+double step_of(double sector) {
+  constexpr double kThird = 2 * std::numbers::pi / 3 + 1e-9;
+  const double parts = sector <= kThird ? 1 : sector <= 2 * kThird ? 2 : 4;
+  const double half = sector / parts / 2;
+  return std::sin(half) / (std::cos(half) + 0.5);
+}
+
+}  // namespace
+
+double ChamferFeatures::distance(Index v, const AcuteCorners::Present& present) const {
+  double most = kInfinite;
+  for (const Index e : corners_.edges_at(v)) {
+    const InputSurface::Edge& edge = surface_.edges()[e];
+    if (AcuteCorners::edge_present(edge, present)) {
+      most = std::min(most, exact::distance(points_, edge.from, edge.to));
+    }
+  }
+  const double third = corners_.local_feature_size(v, present, most) / 3;
+  return limit_ > 0 ? std::min(third, limit_) : third;
+}
+
+// Every side of a facet that leaves the vertex begins one; the triangles as far as the next side
+// make it up.
+std::vector<ChamferFeatures::Sector> ChamferFeatures::sectors(
+    Index v, const AcuteCorners::Present& present) const {
+  const auto& triangles = surface_.triangles();
+  const auto& facet_of = surface_.facet_of_triangle();
+  const auto corner = [&](Index t) {
+    return static_cast<int>(std::find(triangles[t].begin(), triangles[t].end(), v) -
+                            triangles[t].begin());
+  };
+  std::vector<Sector> list;
+  for (Index t : corners_.triangles_at(v)) {
+    const Index f = facet_of[t];
+    if (!present(f) || facet_of[surface_.neighbour(t, corner(t))] == f) continue;
+    double angle = 0;
+    for (;;) {
+      const int i = corner(t);
+      angle += angle_between(exact::difference(points_, v, triangles[t][(i + 1) % 3]),
+                             exact::difference(points_, v, triangles[t][(i + 2) % 3]));
+      const Index next = surface_.neighbour(t, (i + 2) % 3);
+      if (facet_of[next] != f) break;
+      t = next;
+    }
+    list.push_back({f, angle});
+  }
+  return list;
+}
+
+double ChamferFeatures::step(Index v, Index facet, const AcuteCorners::Present& present) const {
+  double smallest = kInfinite;
+  for (const Sector& sector : sectors(v, present)) {
+    if (sector.facet == facet) smallest = std::min(smallest, step_of(sector.angle));
+  }
+  return smallest;
+}
+
+double ChamferFeatures::strip(Index e, Index facet, const AcuteCorners::Present& present) const {
+  const InputSurface::Edge& edge = surface_.edges()[e];
+  double height = kInfinite;
+  for (const Index v : {edge.from, edge.to}) {
+    height = std::min(height, step(v, facet, present) * distance(v, present));
+    // A third of the way to what lies beyond in the facet.
+    for (const Index other : {edge.from, edge.to}) {
+      const AcuteCorners::Present only = [facet](Index f) { return f == facet; };
+      height = std::min(height, corners_.local_feature_size(other, only, 3 * height) / 3);
+    }
+  }
+  return limit_ > 0 ? std::min(height, limit_) : height;
+}
+
+double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) const {
+  if (corners_.why_acute(v, present, thresholds_, Doubt::acute).empty()) return kInfinite;
+  const double d = distance(v, present);
+  double smallest = d;
+  for (const Sector& sector : sectors(v, present)) {
+    smallest = std::min(smallest, d * step_of(sector.angle));
+  }
+  std::vector<Index> spokes;
+  for (const Index e : corners_.edges_at(v)) {
+    const InputSurface::Edge& edge = surface_.edges()[e];
+    if (!AcuteCorners::edge_present(edge, present)) continue;
+    spokes.push_back(edge.from == v ? edge.to : edge.from);
+    if (!corners_.edge_is_acute(e, present, thresholds_, Doubt::acute)) continue;
+    const double wedge = std::numbers::pi - angle_between(surface_.facets()[edge.left].normal,
+                                                          surface_.facets()[edge.right].normal);
+    for (const Index f : {edge.left, edge.right}) {
+      const double height = strip(e, f, present);
+      smallest = std::min({smallest, height, 2 * height * std::sin(wedge / 2)});
+    }
+  }
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const IntegerVector a = exact::difference(points_, v, spokes[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      const double angle = angle_between(a, exact::difference(points_, v, spokes[j]));
+      smallest = std::min(smallest, 2 * d * std::sin(angle / 2));
+    }
+    // Over a facet that the edge does not bound, if it projects into a triangle of it.
+    for (const Index t : corners_.triangles_at(v)) {
+      const Index f = surface_.facet_of_triangle()[t];
+      const auto& corner = surface_.triangles()[t];
+      if (!present(f) || std::find(corner.begin(), corner.end(), spokes[i]) != corner.end())
+        continue;
+      const int k = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
+      const IntegerVector& n = surface_.facets()[f].normal;
+      const auto left = [&](const IntegerVector& x, const IntegerVector& y) {
+        return sgn(exact::dot(n, exact::cross(x, y)));
+      };
+      if (left(exact::difference(points_, v, corner[(k + 1) % 3]), a) < 0 ||
+          left(a, exact::difference(points_, v, corner[(k + 2) % 3])) < 0) {
+        continue;
+      }
+      const double angle = std::fabs(std::numbers::pi / 2 - angle_between(a, n));
+      smallest = std::min(smallest, d * std::sin(angle));
+    }
+  }
+  return smallest;
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,157 @@
+#include "oracles/corners.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "oracles/filter.h"
+
+namespace tetproof::oracles {
+namespace {
+
+mpq_class squared_cosine(double degrees, Doubt doubt) {
+  if (degrees == 90) return 0;
+  if (degrees == 60) return mpq_class(1, 4);
+  const double cosine = std::cos(degrees * (3.14159265358979323846 / 180));
+  return mpq_class(cosine * cosine * (doubt == Doubt::acute ? 1 - 1e-9 : 1 + 1e-12));
+}
+
+double square_root(const mpq_class& value, long exponent) {
+  return std::ldexp(std::sqrt(value.get_d()), static_cast<int>(exponent));
+}
+
+}  // namespace
+
+AngleBound::AngleBound(double degrees, Doubt doubt) : bound_(squared_cosine(degrees, doubt)) {}
+
+AcuteCorners::AcuteCorners(const ExactPoints& points, const InputSurface& surface)
+    : points_(points), surface_(surface) {
+  const Index vertices = surface.used_vertices().empty() ? 0 : surface.used_vertices().back() + 1;
+  edges_at_.resize(vertices);
+  triangles_at_.resize(vertices);
+  std::vector<BoxTree::Box> boxes;
+  for (Index e = 0; e < surface.edges().size(); ++e) {
+    const InputSurface::Edge& edge = surface.edges()[e];
+    boxes.push_back(box_around(points, std::array{edge.from, edge.to}));
+    edges_at_[edge.from].push_back(e);
+    edges_at_[edge.to].push_back(e);
+  }
+  edge_tree_ = std::make_unique<BoxTree>(std::move(boxes));
+  for (Index t = 0; t < surface.triangles().size(); ++t) {
+    for (const Index v : surface.triangles()[t]) triangles_at_[v].push_back(t);
+  }
+}
+
+bool AcuteCorners::edge_is_acute(Index e, const Present& present,
+                                 const CornerThresholds& thresholds, Doubt doubt) const {
+  const InputSurface::Edge& edge = surface_.edges()[e];
+  if (!present(edge.left) || !present(edge.right)) return false;
+  const IntegerVector &m = surface_.facets()[edge.left].normal,
+                      &n = surface_.facets()[edge.right].normal;
+  // The normals point away from each other where the facets enclose a sharp wedge, on either side.
+  const mpz_class cosine = -exact::dot(m, n);
+  if (cosine <= 0) return false;
+  const AngleBound bound(std::max(thresholds.at(edge.from), thresholds.at(edge.to)), doubt);
+  return bound.above(cosine, exact::squared(m) * exact::squared(n));
+}
+
+std::string AcuteCorners::why_acute(Index v, const Present& present,
+                                    const CornerThresholds& thresholds, Doubt doubt) const {
+  std::vector<Index> spokes;  // far ends of the edges present
+  for (const Index e : edges_at_[v]) {
+    const InputSurface::Edge& edge = surface_.edges()[e];
+    if (!edge_present(edge, present)) continue;
+    if (edge_is_acute(e, present, thresholds, doubt)) {
+      return "facets at edge " + std::to_string(edge.from) + "-" + std::to_string(edge.to);
+    }
+    spokes.push_back(edge.from == v ? edge.to : edge.from);
+  }
+  const AngleBound of_edges(thresholds.of_edges(v), doubt), of_facets(thresholds.at(v), doubt);
+  for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const IntegerVector a = exact::difference(points_, v, spokes[i]);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (exact::dot_sign(points_, v, spokes[i], spokes[j]) <= 0) continue;
+      const IntegerVector b = exact::difference(points_, v, spokes[j]);
+      if (of_edges.above(exact::dot(a, b), exact::squared(a) * exact::squared(b))) {
+        return "edges to " + std::to_string(spokes[i]) + " and " + std::to_string(spokes[j]);
+      }
+    }
+  }
+  for (const Index spoke : spokes) {
+    if (edge_meets_facet(v, spoke, present, of_facets)) {
+      return "the edge to " + std::to_string(spoke) + " and a facet";
+    }
+  }
+  return {};
+}
+
+// The projection of the edge onto the facet has to begin inside a triangle of it, or on a flat edge
+// of one.
+bool AcuteCorners::edge_meets_facet(Index v, Index to, const Present& present,
+                                    const AngleBound& bound) const {
+  const IntegerVector d = exact::difference(points_, v, to);
+  for (const Index t : triangles_at_[v]) {
+    const Index f = surface_.facet_of_triangle()[t];
+    if (!present(f)) continue;
+    const auto& corner = surface_.triangles()[t];
+    const int i = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
+    const Index p = corner[(i + 1) % 3], q = corner[(i + 2) % 3];
+    if (p == to || q == to) continue;
+    const IntegerVector& n = surface_.facets()[f].normal;
+    const mpz_class height = exact::dot(n, d), norms = exact::squared(n) * exact::squared(d);
+    if (!bound.beyond(norms - height * height, norms)) continue;
+    const auto left = [&](const IntegerVector& x, const IntegerVector& y) {
+      return sgn(exact::dot(n, exact::cross(x, y)));
+    };
+    const int after = left(exact::difference(points_, v, p), d),
+              before = left(d, exact::difference(points_, v, q));
+    if (after < 0 || (after == 0 && !is_flat(t, i))) continue;
+    if (before < 0 || (before == 0 && !is_flat(t, (i + 2) % 3))) continue;
+    if (after > 0 || before > 0) return true;
+  }
+  return false;
+}
+
+template <class Visit>
+void AcuteCorners::boundary_near(Index v, double distance, const Present& present,
+                                 Visit visit) const {
+  BoxTree::Box box = box_around(points_, std::array{v});
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] -= distance;
+    box.high[axis] += distance;
+  }
+  std::vector<Index> facets, found;
+  for (const Index e : edges_at_[v]) {
+    for (const Index f : {surface_.edges()[e].left, surface_.edges()[e].right}) {
+      if (present(f)) facets.push_back(f);
+    }
+  }
+  const auto here = [&](Index f) {
+    return std::find(facets.begin(), facets.end(), f) != facets.end();
+  };
+  edge_tree_->query(box, found);
+  for (const Index e : found) {
+    const InputSurface::Edge& edge = surface_.edges()[e];
+    if (edge.from == v || edge.to == v || (!here(edge.left) && !here(edge.right))) continue;
+    visit(e, squared_distance_to_segment(points_, v, edge.from, edge.to));
+  }
+}
+
+std::string AcuteCorners::nearer_than(double distance, Index v, const Present& present) const {
+  std::string name;
+  boundary_near(v, distance, present, [&](Index e, const mpq_class& squared) {
+    if (!name.empty() || square_root(squared, points_.exponent()) >= distance) return;
+    name = "edge " + std::to_string(surface_.edges()[e].from) + "-" +
+           std::to_string(surface_.edges()[e].to);
+  });
+  return name;
+}
+
+double AcuteCorners::local_feature_size(Index v, const Present& present, double most) const {
+  double smallest = most;
+  boundary_near(v, most, present, [&](Index, const mpq_class& squared) {
+    smallest = std::min(smallest, square_root(squared, points_.exponent()));
+  });
+  return smallest;
+}
+
+}  // namespace tetproof::oracles

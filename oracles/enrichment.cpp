@@ -1,0 +1,393 @@
+#include "oracles/enrichment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "oracles/angles.h"
+#include "oracles/filter.h"
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactPoint;
+using delmesher::ExactRecord;
+
+BoxTree::Box enlarged(BoxTree::Box box, double by) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] -= by;
+    box.high[axis] += by;
+  }
+  return box;
+}
+
+double square_root(const mpq_class& value, long exponent) {
+  return std::ldexp(std::sqrt(value.get_d()), static_cast<int>(exponent));
+}
+
+std::vector<std::uint8_t> used_in(const std::vector<ExactRecord::Tet>& tets, std::size_t points) {
+  std::vector<std::uint8_t> used(points);
+  for (const ExactRecord::Tet& tet : tets) {
+    for (const Index v : tet.vertices) used[v] = 1;
+  }
+  return used;
+}
+
+class Enrichment {
+ public:
+  explicit Enrichment(const RefinedMesh& mesh)
+      : mesh_(mesh),
+        record_(*mesh.record),
+        points_(*mesh.points),
+        surface_(*mesh.surface),
+        complex_(*mesh.complex),
+        facets_(surface_, record_),
+        inputs_(mesh.input_vertices),
+        enriched_(record_.unrepaired.empty() ? record_.final : record_.unrepaired),
+        refined_(used_in(record_.refined, points_.size())),
+        final_(used_in(enriched_, points_.size())) {}
+
+  OracleReport run() {
+    check_vertices();
+    if (!is_plain()) check_missing();
+    report_.figures.emplace_back("left out in chamfers", in_chamfer_);
+    report_.figures.emplace_back("left out on artificial segments", on_artificial_);
+    report_.figures.emplace_back("left out beside dropped facets", crowded_);
+    return std::move(report_);
+  }
+
+ private:
+  struct Round {  // a sphere around a corner, or a cylinder around an edge
+    Index a, b;
+    double radius;
+  };
+
+  void check_vertices() {
+    std::uint64_t on_surface = 0;
+    for (Index v = 0; v < points_.size(); ++v) {
+      if (final_[v] == 0) continue;
+      ++report_.checked;
+      if (v < inputs_ || refined_[v] != 0) continue;
+      ++on_surface;
+      if (!lies_on_surface(v)) {
+        report_.fail(complex_.vertex_name(v) +
+                     " of the final mesh is no vertex of the refined one and not on the surface");
+      }
+    }
+    report_.figures.emplace_back("new on the surface", static_cast<double>(on_surface));
+  }
+
+  bool lies_on_surface(Index v) {
+    found_.clear();
+    surface_.triangles_near(box_around(points_, std::array{v}), found_);
+    return std::any_of(found_.begin(), found_.end(), [&](Index t) {
+      return squared_distance_to_face(points_, v, surface_.triangles()[t]) == 0;
+    });
+  }
+
+  // Nothing but the input, where that alone keeps the bound.
+  bool is_plain() {
+    constexpr std::size_t kMostTriangles = 1000;
+    for (Index v = 0; v < points_.size(); ++v) {
+      if (final_[v] != 0 && v >= inputs_) return false;
+    }
+    const Promise& promise = *mesh_.promise;
+    if (promise.region != delmesher::Region::interior || promise.max_edge > 0 ||
+        surface_.triangles().size() > kMostTriangles) {
+      return false;
+    }
+    TetComplex plain{&points_, {}, {}, 0, 0};
+    for (const ExactRecord::Tet& tet : enriched_) {
+      plain.tetrahedra.push_back(tet.vertices);
+      plain.inside.push_back(tet.inside);
+    }
+    Neighbours neighbours;
+    if (!check_complex(plain, neighbours).passed()) return false;
+    const bool good =
+        check_angles(plain, neighbours, surface_, promise.guaranteed_delta(), AngleScope::solid)
+            .passed();
+    if (good) report_.notes.emplace_back("the input alone keeps the bound: it was not enriched");
+    return good;
+  }
+
+  void check_missing() {
+    std::vector<Index> missing;
+    for (Index v = inputs_; v < points_.size(); ++v) {
+      if (refined_[v] == 0) continue;
+      ++report_.checked;
+      if (final_[v] == 0) missing.push_back(v);
+    }
+    for (Index v = 0; v < inputs_; ++v) {
+      if (refined_[v] != 0 && final_[v] == 0) {
+        report_.fail("input vertex " + std::to_string(v) + " is in the refined mesh only");
+      }
+    }
+    if (missing.empty()) return;
+    volume_.resize(points_.size());
+    for (const ExactRecord::Ball& ball : record_.balls) volume_[ball.vertex] = 1;
+    collect_rounds();
+    collect_artificial();
+    collect_spacings(missing);
+    for (const Index v : missing) {
+      if (artificial_[v] != 0) {
+        ++on_artificial_;
+      } else if (coincides(v)) {
+        continue;
+      } else if (volume_[v] == 0) {
+        report_.fail(complex_.vertex_name(v) +
+                     " of the refined mesh is on the surface or the box " +
+                     "and not in the final mesh");
+      } else if (in_chamfer(v)) {
+        ++in_chamfer_;
+      } else if (crowded(v)) {
+        ++crowded_;
+      } else {
+        report_.fail(complex_.vertex_name(v) +
+                     " of the refined mesh is not in the final mesh, and in no chamfer");
+      }
+    }
+  }
+
+  void collect_artificial() {
+    artificial_.resize(points_.size());
+    std::vector<std::uint8_t> on_edge(points_.size());
+    for (const ExactRecord::Chain& chain : record_.segments) {
+      for (const Index v : chain.vertices) (chain.artificial ? artificial_ : on_edge)[v] = 1;
+    }
+    for (std::size_t v = 0; v < on_edge.size(); ++v) {
+      if (on_edge[v] != 0) artificial_[v] = 0;
+    }
+  }
+
+  void collect_rounds() {
+    std::unordered_map<Index, double> radius;
+    std::unordered_map<Index, Index> made_for;
+    for (const ExactRecord::Corner& corner : record_.corners) radius[corner.vertex] = corner.radius;
+    for (const auto& [point, vertex] : record_.chamfer_points) {
+      made_for[point] = vertex;
+      double& r = radius[vertex];
+      r = std::max(r, exact::distance(points_, point, vertex));
+    }
+    for (const auto& [v, r] : radius) rounds_.push_back({v, v, r});
+    const InputEdges edges(surface_);
+    for (const ExactRecord::Chain& chain : record_.segments) {
+      if (!chain.artificial || chain.vertices.size() < 2) continue;
+      const auto u = made_for.find(chain.vertices.front()),
+                 w = made_for.find(chain.vertices.back());
+      if (u == made_for.end() || w == made_for.end() || u->second == w->second) continue;
+      if (edges.find(u->second, w->second) == kNone) continue;
+      double width = 0;
+      for (const Index p : {chain.vertices.front(), chain.vertices.back()}) {
+        width = std::max(width,
+                         square_root(squared_distance_to_segment(points_, p, u->second, w->second),
+                                     points_.exponent()));
+      }
+      rounds_.push_back({u->second, w->second, width});
+    }
+    std::vector<BoxTree::Box> boxes;
+    for (const Round& round : rounds_) {
+      boxes.push_back(enlarged(box_around(points_, std::array{round.a, round.b}), round.radius));
+    }
+    if (!boxes.empty()) round_tree_ = std::make_unique<BoxTree>(std::move(boxes));
+  }
+
+  bool in_chamfer(Index v) {
+    if (!round_tree_) return false;
+    found_.clear();
+    round_tree_->query(box_around(points_, std::array{v}), found_);
+    return std::any_of(found_.begin(), found_.end(), [&](Index n) {
+      const Round& round = rounds_[n];
+      const double distance =
+          round.a == round.b
+              ? exact::distance(points_, v, round.a)
+              : square_root(squared_distance_to_segment(points_, v, round.a, round.b),
+                            points_.exponent());
+      return distance < round.radius * (1 + 1e-9);
+    });
+  }
+
+  // Of those that are missing, to the nearest neighbour.
+  void collect_spacings(const std::vector<Index>& missing) {
+    for (const Index v : missing) spacing_[v] = std::numeric_limits<double>::infinity();
+    for (const ExactRecord::Tet& tet : record_.refined) {
+      for (const Index v : tet.vertices) {
+        const auto at = spacing_.find(v);
+        if (at == spacing_.end()) continue;
+        for (const Index w : tet.vertices) {
+          if (w != v) at->second = std::min(at->second, exact::distance(points_, v, w));
+        }
+      }
+    }
+  }
+
+  bool crowded(Index v) {
+    constexpr double kCrowding = 0.3;
+    const double reach = kCrowding * spacing_.at(v) * (1 + 1e-9);
+    found_.clear();
+    surface_.triangles_near(enlarged(box_around(points_, std::array{v}), reach), found_);
+    return std::any_of(found_.begin(), found_.end(), [&](Index t) {
+      if (facets_.kept(surface_.facet_of_triangle()[t])) return false;
+      const auto& [a, b, c] = surface_.triangles()[t];
+      mpq_class square = squared_distance_to_face(points_, v, {a, b, c});
+      if (square < 0) {
+        square = std::min({squared_distance_to_segment(points_, v, a, b),
+                           squared_distance_to_segment(points_, v, b, c),
+                           squared_distance_to_segment(points_, v, c, a)});
+      }
+      return square_root(square, points_.exponent()) <= reach;
+    });
+  }
+
+  bool coincides(Index v) {
+    found_.clear();
+    surface_.triangles_near(box_around(points_, std::array{v}), found_);
+    return std::any_of(found_.begin(), found_.end(), [&](Index t) {
+      const auto& corners = surface_.triangles()[t];
+      return std::any_of(corners.begin(), corners.end(),
+                         [&](Index w) { return exact::equal(points_, v, w); });
+    });
+  }
+
+  const RefinedMesh& mesh_;
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  const TetComplex& complex_;
+  const FacetIndex facets_;
+  Index inputs_;
+  const std::vector<ExactRecord::Tet>& enriched_;
+  std::vector<std::uint8_t> refined_, final_, artificial_, volume_;
+  std::vector<Round> rounds_;
+  std::unique_ptr<BoxTree> round_tree_;
+  std::unordered_map<Index, double> spacing_;
+  std::vector<Index> found_;
+  double in_chamfer_ = 0, on_artificial_ = 0, crowded_ = 0;
+  OracleReport report_{"enrichment", "vertices of both meshes"};
+};
+
+// --- repairs
+
+class Repairs {
+ public:
+  Repairs(const ExactRecord& record, const ExactPoints& points, const Promise& promise)
+      : record_(record), points_(points), all_(promise.region == delmesher::Region::hull) {}
+
+  OracleReport run() {
+    // Repairs take points out up to three edges away, and repair what that disturbs in turn.
+    constexpr int kReach = 8;
+    check_vertices();
+    find_defects();
+    const std::vector<Tet> before = sorted(record_.unrepaired), after = sorted(record_.final);
+    std::vector<Tet> changed;
+    std::set_difference(before.begin(), before.end(), after.begin(), after.end(),
+                        std::back_inserter(changed));
+    report_.checked += before.size();
+    report_.figures.emplace_back("tetrahedra changed", static_cast<double>(changed.size()));
+    report_.figures.emplace_back("not positive on doubles", static_cast<double>(defects_));
+    spread(kReach);
+    int farthest = 0;
+    for (const Tet& tet : changed) {
+      int nearest = kReach + 1;
+      for (const Index v : tet) nearest = std::min<int>(nearest, ring_[v]);
+      farthest = std::max(farthest, nearest);
+      if (nearest > kReach) {
+        report_.fail("tetrahedron (" + std::to_string(tet[0]) + " " + std::to_string(tet[1]) + " " +
+                     std::to_string(tet[2]) + " " + std::to_string(tet[3]) +
+                     ") was changed far from all that doubles are too coarse for");
+      }
+    }
+    report_.figures.emplace_back("edges from there", farthest);
+    return std::move(report_);
+  }
+
+ private:
+  static std::vector<Tet> sorted(const std::vector<ExactRecord::Tet>& tets) {
+    std::vector<Tet> list;
+    list.reserve(tets.size());
+    for (const ExactRecord::Tet& tet : tets) {
+      list.push_back(tet.vertices);
+      std::sort(list.back().begin(), list.back().end());
+    }
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  void check_vertices() {
+    const std::vector<std::uint8_t> before = used_in(record_.unrepaired, points_.size()),
+                                    after = used_in(record_.final, points_.size());
+    for (Index v = 0; v < points_.size(); ++v) {
+      report_.checked += after[v];
+      if (after[v] != 0 && before[v] == 0) {
+        report_.fail("vertex " + std::to_string(v) + " came with the repairs");
+      }
+    }
+  }
+
+  void find_defects() {
+    std::vector<Position> nearest(points_.size());
+    for (Index v = 0; v < points_.size(); ++v) nearest[v] = rounded(v);
+    ExactPoints doubles;
+    doubles.assign(nearest);
+    ring_.assign(points_.size(), kFar);
+    for (const ExactRecord::Tet& tet : record_.unrepaired) {
+      if (!all_ && !tet.inside) continue;
+      const auto& [a, b, c, d] = tet.vertices;
+      if (exact::orient3d(doubles, a, b, c, d) > 0) continue;
+      ++defects_;
+      for (const Index v : tet.vertices) ring_[v] = 0;
+    }
+  }
+
+  // To nearest.
+  Position rounded(Index v) const {
+    Position result;
+    for (int axis = 0; axis < 3; ++axis) {
+      const mpz_class& x = points_.integer(v)[axis];
+      const std::size_t bits = x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2);
+      if (bits <= 53) {
+        result[axis] = to_double(x, points_.exponent());
+        continue;
+      }
+      // Adding half of the last place before truncation rounds to nearest.
+      mpz_class half;
+      mpz_ui_pow_ui(half.get_mpz_t(), 2, bits - 54);
+      result[axis] =
+          to_double(x > 0 ? mpz_class(x + half) : mpz_class(x - half), points_.exponent());
+    }
+    return result;
+  }
+
+  // How many edges from the nearest defect every vertex is.
+  void spread(int reach) {
+    for (std::uint8_t ring = 1; ring <= reach; ++ring) {
+      for (const ExactRecord::Tet& tet : record_.unrepaired) {
+        const bool touched = std::any_of(tet.vertices.begin(), tet.vertices.end(),
+                                         [&](Index v) { return ring_[v] == ring - 1; });
+        if (!touched) continue;
+        for (const Index v : tet.vertices) ring_[v] = std::min(ring_[v], ring);
+      }
+    }
+  }
+
+  static constexpr std::uint8_t kFar = 255;
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  bool all_;
+  std::vector<std::uint8_t> ring_;
+  std::uint64_t defects_ = 0;
+  OracleReport report_{"repairs", "vertices and tetrahedra"};
+};
+
+}  // namespace
+
+OracleReport check_enrichment(const RefinedMesh& mesh) {
+  return Enrichment(mesh).run();
+}
+
+OracleReport check_repairs(const ExactRecord& record, const ExactPoints& points,
+                           const Promise& promise) {
+  return Repairs(record, points, promise).run();
+}
+
+}  // namespace tetproof::oracles

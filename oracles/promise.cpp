@@ -1,0 +1,290 @@
+#include "oracles/promise.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactRecord;
+using delmesher::Region;
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  std::string word;
+  for (const char c : text) {
+    if (c != ' ' && c != '\t' && c != '\n') {
+      word += c;
+    } else if (!word.empty()) {
+      words.push_back(std::move(word));
+      word.clear();
+    }
+  }
+  if (!word.empty()) words.push_back(std::move(word));
+  return words;
+}
+
+struct Number {
+  const char* name;
+  double Promise::*target;
+  double low, high;
+};
+
+constexpr Number kNumbers[] = {{"--delta", &Promise::delta, 0, 60},
+                               {"--tau", &Promise::tau, 0, 1},
+                               {"--acute", &Promise::acute, 0, 90},
+                               {"--corner", &Promise::corner, 0, 90},
+                               {"--chamfer-radius", &Promise::chamfer_radius, 0, 1e308},
+                               {"--max-edge", &Promise::max_edge, 0, 1e308},
+                               {"--budget", &Promise::budget, 0, 1e15},
+                               {"--max-vertices", &Promise::max_vertices, 0, 1e15}};
+
+// They say where and how, not what; of --slivers nothing is guaranteed.
+constexpr std::array kWithValue = {"-o",        "--output",     "--stats",          "--exact",
+                                   "--threads", "--time-limit", "--save-chamfered", "--slivers"};
+constexpr std::array kWithout = {"-q", "--quiet", "-v", "--verbose", "--no-bridge-simplification"};
+
+template <std::size_t N>
+bool among(const std::array<const char*, N>& names, const std::string& word) {
+  return std::find(names.begin(), names.end(), word) != names.end();
+}
+
+// Whole words only, in no locale, finite.
+bool parse_number(const std::string& text, double& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+void set_defaults(Task task, bool paper, Promise& p) {
+  p = {};
+  p.task = task;
+  if (task == Task::cdt) p.region = Region::hull;
+  if (task == Task::plane) p.delta = 20.7;
+  if (!paper) return;
+  p.acute = p.corner = 90;
+  p.region = Region::hull;
+  p.gabriel = true;
+  if (task == Task::plane) p.tau = 0;
+}
+
+class PromiseReader {
+ public:
+  explicit PromiseReader(std::string_view text) : words_(words_of(text)) {}
+
+  std::string read(Promise& p) {
+    Task task = Task::mesh;
+    if (!words_.empty() && !words_[0].starts_with("-")) {
+      const std::string& first = words_[next_++];
+      if (first == "cdt") {
+        task = Task::cdt;
+      } else if (first == "plane") {
+        task = Task::plane;
+      } else if (first != "mesh") {
+        return "\"" + first + "\" is none of mesh, cdt and plane";
+      }
+    }
+    set_defaults(task, preset(), p);
+    while (next_ < words_.size()) {
+      std::string option = words_[next_++];
+      if (std::string why = apply(std::move(option), p); !why.empty()) return why;
+    }
+    return {};
+  }
+
+ private:
+  // Other options override the preset, wherever it stands.
+  bool preset() const {
+    for (std::size_t i = next_; i < words_.size(); ++i) {
+      if (words_[i] == "--preset=paper") return true;
+      if (words_[i] == "--preset" && i + 1 < words_.size() && words_[i + 1] == "paper") return true;
+    }
+    return false;
+  }
+
+  std::string apply(std::string option, Promise& p) {
+    value_.reset();
+    if (const auto at = option.find('='); option.starts_with("--") && at != std::string::npos) {
+      value_ = option.substr(at + 1);
+      option.resize(at);
+    }
+    if (option == "--gabriel" || option == "--approximate") {
+      (option == "--gabriel" ? p.gabriel : p.approximate) = true;
+      return {};
+    }
+    if (among(kWithout, option)) return {};
+    if (!value_ && next_ < words_.size()) value_ = words_[next_++];
+    if (!value_) return option + ": unknown, or without a value";
+    if (among(kWithValue, option)) return {};
+    if (option == "--preset") return *value_ == "paper" ? "" : "no preset \"" + *value_ + "\"";
+    if (option == "--region") {
+      if (*value_ != "interior" && *value_ != "hull") return "no region \"" + *value_ + "\"";
+      p.region = *value_ == "hull" ? Region::hull : Region::interior;
+      return {};
+    }
+    for (const Number& number : kNumbers) {
+      if (option != number.name) continue;
+      double value = 0;
+      if (!parse_number(*value_, value) || value < number.low || value > number.high) {
+        return option + ": \"" + *value_ + "\" is no number that it takes";
+      }
+      p.*number.target = value;
+      return {};
+    }
+    return "unknown option " + option;
+  }
+
+  std::vector<std::string> words_;
+  std::size_t next_ = 0;
+  std::optional<std::string> value_;
+};
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+// One promise after another, each counted.
+class PromiseCheck {
+ public:
+  PromiseCheck(const Promise& promise, const ExactRecord& record, double diagonal)
+      : promise_(promise), record_(record), diagonal_(diagonal) {}
+
+  OracleReport run(unsigned version) {
+    demand(version == kRecordVersion, "the record is of version " + std::to_string(version) +
+                                          ", what is promised needs version " +
+                                          std::to_string(kRecordVersion));
+    section("facets", record_.facets.size());
+    section("mesh_vertices", record_.mesh_vertices.size());
+    const bool enriched = promise_.task == Task::cdt || !promise_.approximate;
+    if (enriched) {
+      section("final", record_.final.size());
+      section("final_facets", record_.final_facets.size());
+    } else {
+      demand(record_.final.empty(), "the record has a final mesh, promised was --approximate");
+    }
+    if (promise_.task == Task::mesh) {
+      section("refined", record_.refined.size());
+      check_refined_sections();
+      check_parameters();
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void demand(bool kept, const std::string& otherwise) {
+    ++report_.checked;
+    if (!kept) report_.fail(otherwise);
+  }
+  void section(const std::string& name, std::size_t size) {
+    demand(size > 0, "the record has nothing in its section " + name);
+  }
+  void not_laxer(const std::string& name, double recorded, double promised) {
+    demand(recorded >= promised, "the record has " + name + " " + number(recorded) +
+                                     ", promised was " + number(promised));
+    if (recorded > promised) report_.figures.emplace_back("stricter: " + name, recorded);
+  }
+
+  void check_refined_sections() {
+    std::size_t kept = 0;
+    for (const ExactRecord::Facet& facet : record_.facets) kept += facet.filtered == 0;
+    if (kept > 0) {
+      section("segments", record_.segments.size());
+      section("refined_facets", record_.refined_facets.size());
+    }
+    if (!record_.corners.empty()) section("chamfer_points", record_.chamfer_points.size());
+  }
+
+  void check_parameters() {
+    const ExactRecord::Parameters& p = record_.parameters;
+    not_laxer("delta", p.delta, promise_.guaranteed_delta());
+    not_laxer("acute", p.acute, promise_.acute);
+    not_laxer("corner", p.corner, promise_.corner_in_force());
+    demand(p.gabriel || !promise_.gabriel, "the record has no empty balls, promised was --gabriel");
+    demand(p.region == promise_.region, "the record is of another region than was promised");
+    check_tolerance();
+    // The guard tightens corners only where empty balls alone did not help.
+    std::uint64_t tightened = 0;
+    for (const ExactRecord::Corner& corner : record_.corners) {
+      ++report_.checked;
+      const std::string name = "corner " + std::to_string(corner.vertex);
+      if (!(corner.threshold >= p.acute && corner.threshold <= 90)) {
+        report_.fail(name + " has a threshold of " + number(corner.threshold) + " degrees");
+      }
+      tightened += corner.threshold > promise_.acute;
+      if (corner.threshold > promise_.acute && !p.gabriel) {
+        report_.fail(name + " is tightened, which comes after empty balls");
+      }
+    }
+    demand(p.acute <= promise_.acute || p.gabriel,
+           "corners are tightened everywhere, which comes after empty balls");
+    if (tightened > 0) {
+      report_.figures.emplace_back("corners tightened", static_cast<double>(tightened));
+    }
+  }
+
+  // tau, or for a budget the first of tau, 2 tau, 4 tau ... (from 1e-5 if that is more) that fits.
+  void check_tolerance() {
+    constexpr double kLeast = 1e-5, kLargest = 0.1, kSlack = 1e-9;
+    const double recorded = diagonal_ > 0 ? record_.parameters.tolerance / diagonal_ : 0;
+    const auto is = [&](double tau) { return std::fabs(recorded - tau) <= kSlack * tau; };
+    bool kept = is(promise_.tau);
+    if (!kept && promise_.budget > 0) {
+      double tau = std::max(2 * promise_.tau, kLeast);
+      while (!is(tau) && tau <= kLargest) tau *= 2;
+      kept = tau <= kLargest * (1 + kSlack);
+      report_.figures.emplace_back("tau for the budget", recorded);
+    }
+    demand(kept,
+           "the record has tau " + number(recorded) + ", promised was " + number(promise_.tau));
+  }
+
+  const Promise& promise_;
+  const ExactRecord& record_;
+  double diagonal_;
+  OracleReport report_{"promise", "promises"};
+};
+
+}  // namespace
+
+double Promise::guaranteed_delta() const {
+  constexpr double kGuaranteed = 14.4775;
+  return std::min(delta, kGuaranteed);
+}
+
+double Promise::corner_in_force() const {
+  constexpr double kMargin = 5;
+  return std::min(acute, std::max(corner, delta + kMargin));
+}
+
+std::string parse_promise(std::string_view text, Promise& promise) {
+  return PromiseReader(text).read(promise);
+}
+
+Promise promise_of(const delmesher::Options& options, Task task) {
+  Promise p;
+  p.task = task;
+  p.delta = options.delta;
+  p.tau = options.tau;
+  p.acute = options.acute;
+  p.corner = options.corner;
+  p.gabriel = options.gabriel;
+  p.approximate = options.approximate;
+  p.region = options.region;
+  p.chamfer_radius = options.chamfer_radius;
+  p.max_edge = options.max_edge;
+  p.budget = static_cast<double>(options.budget);
+  p.max_vertices = static_cast<double>(options.max_vertices);
+  return p;
+}
+
+OracleReport check_promise(const Promise& promise, const ExactRecord& record, unsigned version,
+                           double diagonal) {
+  return PromiseCheck(promise, record, diagonal).run(version);
+}
+
+}  // namespace tetproof::oracles

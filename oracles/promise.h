@@ -1,0 +1,55 @@
+// What a mesher was asked for: what its mesh and its record are held to. The caller says it; the
+// record cannot.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "mesher/delmesher.h"
+#include "oracles/report.h"
+
+namespace tetproof::oracles {
+
+enum class Task : std::uint8_t { mesh, cdt, plane };
+
+// Options of delmesher as README.md documents them, with its defaults.
+struct Promise {
+  Task task = Task::mesh;
+  double delta = 14.47;  // degrees
+  double tau = 1e-4;     // fraction of the diagonal of the bounding box
+  double acute = 60;     // degrees
+  double corner = 20;    // degrees, as given
+  bool gabriel = false;
+  bool approximate = false;
+  delmesher::Region region = delmesher::Region::interior;
+  double chamfer_radius = 0;  // input units; 0: no bound
+  double max_edge = 0;        // input units; 0: no bound
+  double budget = 0;          // tetrahedra; 0: tau is not raised
+  double max_vertices = 0;    // 0: no limit
+
+  // The face angle that is guaranteed: above a radius-edge ratio of 2 the bound is best effort.
+  double guaranteed_delta() const;
+  // The threshold for two edges that is in force: an angle of two edges that is not chamfered is an
+  // angle of the mesh, so it has to exceed delta by some degrees.
+  double corner_in_force() const;
+};
+
+// Reads a command line without the program's name: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS';
+// without a first word `mesh` is meant. Options that promise nothing of the result (files, threads,
+// times) are read over. Null, or why it is none.
+std::string parse_promise(std::string_view text, Promise& promise);
+
+// The same of a call of the library.
+Promise promise_of(const delmesher::Options& options, Task task = Task::mesh);
+
+// Is the record of the present version, has it the sections that the promise needs, and are its
+// parameters those promised or stricter ones? `diagonal` is of the input's bounding box.
+OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord& record,
+                           unsigned version, double diagonal);
+
+// The version of the sidecar that has all that is asked for.
+inline constexpr unsigned kRecordVersion = 3;
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,27 @@
+// The record and the file are one mesh.
+#pragma once
+
+#include "oracles/mesh_file.h"
+#include "oracles/promise.h"
+#include "oracles/tet_complex.h"
+
+namespace tetproof::oracles {
+
+struct SameMeshOptions {
+  double ulp = 0;      // of the largest coordinate of the surface
+  double allowed = 0;  // a declared deviation, in input units
+};
+
+// The tetrahedra of the file are, through mesh_vertices and one to one, those of the last mesh of
+// the record: of the solid, or all if the hull was promised. Region numbers tell inside from
+// outside as the record does. Listed boundary triangles are the record's faces on facets, one to
+// one, with their labels (faces of the hull may be listed besides).
+OracleReport check_same_mesh(const MeshFile& mesh, const delmesher::ExactRecord& record,
+                             const Promise& promise, bool labelled);
+
+// No two vertices of the file are the same point of the record, and every one is within 4 ulp of
+// its exact place in each coordinate, or within what was declared.
+OracleReport check_rounding(const MeshFile& mesh, const delmesher::ExactRecord& record,
+                            const ExactPoints& points, const SameMeshOptions& options);
+
+}  // namespace tetproof::oracles
