@@ -141,6 +141,8 @@ class Verifier {
   }
 
   void verify_corners() {
+    // Corners that were promised to be chamfered and are not would spoil the bound.
+    if (!(record_.acute >= options_.acute)) fail("chamfer", "a threshold below what was promised");
     const auto segments = static_cast<Index>(graph_.segments.size());
     for (const auto& corner : record_.corners) {
       radius_[corner.vertex] = corner.radius;
@@ -583,10 +585,8 @@ class Verifier {
       if (!expected.contains({ids[a], ids[b], ids[c]})) fail("written", "an unknown triangle");
       bad += exact_.orient(written[a], written[b], written[c]) <= 0;
     }
-    const auto& s = result_.statistics;
-    if (bad != s.rounding_inverted + s.rounding_flat) {
-      fail("written", std::to_string(bad) + " triangles not positive as written");
-    }
+    // Whether the statistics confess it or not.
+    if (bad > 0) fail("written", std::to_string(bad) + " triangles not positive as written");
   }
 
   const PlanarGraph& graph_;

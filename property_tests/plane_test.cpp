@@ -422,6 +422,11 @@ TEST(PlaneOracle, NoticesWhatIsWrong) {
   noticed("chamfer", [](PlaneResult& r) { r.exact.corners[0].radius *= 2; });
   noticed("written", [](PlaneResult& r) { r.mesh.vertices[3][0] += 1e-9; });
   noticed("written", [](PlaneResult& r) { r.mesh.triangles.pop_back(); });
+  noticed("chamfer", [](PlaneResult& r) { r.exact.acute = 1; });
+  noticed("not positive as written", [](PlaneResult& r) {  // confessed, and refused all the same
+    std::swap(r.mesh.triangles[0][0], r.mesh.triangles[0][1]);
+    r.statistics.rounding_inverted = 1;
+  });
 }
 
 TEST(PlaneOracle, NoticesAnEdgeThatIsNotDelaunay) {
