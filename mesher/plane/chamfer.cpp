@@ -6,56 +6,12 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/epoch.h"
-#include "mesher/plane/shape.h"
+#include "mesher/plane/line.h"
 #include "mesher/predicates/placement.h"
 #include "mesher/predicates/predicates.h"
 
 namespace delmesher::plane {
 namespace {
-
-using Point = std::array<double, 2>;
-
-double distance(const Point& a, const Point& b) {
-  return norm(b[0] - a[0], b[1] - a[1]);
-}
-
-// Divides a vector by the power of two of its size, and returns the exponent.
-int to_size_one(double& x, double& y) {
-  const double size = std::max(std::fabs(x), std::fabs(y));
-  const int power = size > 0 ? std::ilogb(size) : 0;
-  x = std::ldexp(x, -power);
-  y = std::ldexp(y, -power);
-  return power;
-}
-
-struct Line {
-  Point a, b;
-  double length() const { return distance(a, b); }
-  Point at(double t) const { return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])}; }
-  // Parameter of the point nearest to p.
-  double nearest(const Point& p) const {
-    double x = b[0] - a[0], y = b[1] - a[1], u = p[0] - a[0], v = p[1] - a[1];
-    int power = 0;
-    if (!(x * x + y * y > 0x1p-500 && u * u + v * v > 0x1p-500)) {
-      power = to_size_one(u, v) - to_size_one(x, y);  // so that products do not vanish
-    }
-    const double square = x * x + y * y;
-    if (!(square > 0)) return 0;
-    const double t = (u * x + v * y) / square;
-    return std::clamp(power == 0 ? t : std::ldexp(t, power), 0.0, 1.0);
-  }
-  // From the nearer end, so that one that is far away does not blur it.
-  double distance_to(const Point& p) const {
-    const bool at_a = distance(a, p) <= distance(b, p);
-    const Point &from = at_a ? a : b, &to = at_a ? b : a;
-    const double t = Line{from, to}.nearest(p);
-    return norm(p[0] - from[0] - t * (to[0] - from[0]), p[1] - from[1] - t * (to[1] - from[1]));
-  }
-  double distance_to_line(const Line& l) const {  // that does not cross it
-    return std::min(std::min(distance_to(l.a), distance_to(l.b)),
-                    std::min(l.distance_to(a), l.distance_to(b)));
-  }
-};
 
 class Chamferer {
  public:
