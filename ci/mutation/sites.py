@@ -31,6 +31,9 @@ INTEGRAL = {cindex.TypeKind.INT, cindex.TypeKind.UINT, cindex.TypeKind.LONG, cin
 # Calls whose absence nobody can see but by the clock or in memory.
 ONLY_TIME = re.compile(r"(\.|->|^)(reserve|shrink_to_fit|__builtin_prefetch|prefetch\w*)\s*\(")
 
+# Room for one more than is needed changes nothing either.
+ROOM = re.compile(r"(\.|->)(resize|assign)\($|\bvector<.*> \w+\($")
+
 CONSTANT = {Kind.ENUM_DECL, Kind.STATIC_ASSERT, Kind.TEMPLATE_NON_TYPE_PARAMETER, Kind.TEMPLATE_TYPE_PARAMETER, Kind.TYPEDEF_DECL,
             Kind.TYPE_ALIAS_DECL, Kind.TYPE_REF, Kind.TEMPLATE_REF, Kind.FRIEND_DECL}
 CALLS = {Kind.CALL_EXPR, Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR}
@@ -134,6 +137,8 @@ class Finder:
         lines = text[first:last]
         if "//" in before or "#" in before:
             return
+        if text[start - 1] == "<" or text[end:end + 1] == ">":
+            return  # a template argument, by the formatting
         if any(w in lines for w in ("operator<", "template <", "static_assert")):
             return
         site = Site(file, text.count("\n", 0, start) + 1, start, end, operator, before, after, statement)
@@ -151,7 +156,7 @@ class Finder:
                 self.binary(file, text, start, end, gap.group(1), left.end.offset, right.start.offset, parent)
         if kind == Kind.UNARY_OPERATOR and source[0] == "-" and source[1] != "-":
             self.add(file, start, end, "sign", "(" + source[1:] + ")")
-        if kind == Kind.UNARY_OPERATOR and source[0] == "!":
+        if kind == Kind.UNARY_OPERATOR and source[0] == "!" and source[1] != "=":
             self.add(file, start, end, "comparison", "static_cast<bool>(" + source[1:] + ")")
         if kind == Kind.INTEGER_LITERAL:
             match = INTEGER.fullmatch(source)
@@ -176,7 +181,8 @@ class Finder:
             self.named(cursor, file, start, end, source)
         if kind == Kind.CALL_EXPR and re.search(r"(\.|->)size\(\)$", source):
             self.add(file, start, end, "off-by-one", f"({source} - 1)")
-            self.add(file, start, end, "off-by-one", f"({source} + 1)")
+            if not ROOM.search(text[:start].rsplit("\n", 1)[-1]):
+                self.add(file, start, end, "off-by-one", f"({source} + 1)")
         if parent is not None and parent.kind in BODIES:
             self.statement(cursor, children, parent, file, text, start, end)
 
