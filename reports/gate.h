@@ -28,7 +28,7 @@ struct GateOptions {
   double deviation_ulps = 0.2;  // surface off by so many ulps more, and by half as much again
 
   // All models of a mesher together.
-  double total_time_factor = 1.1;
+  double total_time_factor = 1.07;
   double total_memory_factor = 1.1;
   double total_size_factor = 1.03;
   double total_angle_factor = 0.9;
