@@ -5,6 +5,8 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
+#include <fstream>
 #include <limits>
 #include <random>
 
@@ -15,6 +17,7 @@
 #include "oracles/plane_points.h"
 #include "oracles/regions.h"
 #include "oracles/sample.h"
+#include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
 #include "property_tests/samples.h"
 
@@ -381,6 +384,53 @@ TEST(Measures, TasksRunOnceEachAndTheFirstErrorIsThrown) {
                            }),
                  std::runtime_error);
   }
+}
+
+// ------------------------------------------------------------------------------------- STL files
+
+std::string written(const std::string& name, const std::string& text) {
+  const std::string path = testing::TempDir() + name;
+  std::ofstream(path, std::ios::binary) << text;
+  return path;
+}
+
+// Each solid of a text file is a label of its own, from 0; equal corners are one vertex.
+TEST(Stl, SolidsAreLabelsAndCornersAreWelded) {
+  const std::string first =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+      "0\nendloop\nendfacet\n";
+  const std::string second =
+      "facet normal 0 0 1\nouter loop\nvertex 1 0 -0\nvertex 1 1 0.5\nvertex 0 1 "
+      "0\nendloop\nendfacet\n";
+  const Polyhedron surface = read_surface(written(
+      "two_solids.stl", "solid a\n" + first + "endsolid a\nsolid b\n" + second + "endsolid b\n"));
+  EXPECT_EQ(surface.labels, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(surface.triangles, (std::vector<std::array<Index, 3>>{{0, 1, 2}, {1, 3, 2}}));
+  ASSERT_EQ(surface.vertices.size(), 4U);
+  EXPECT_EQ(surface.vertices[3], (Position{1, 1, 0.5}));
+  for (const char* wrong : {"vertex 0 0\n", "vertex 0 0 0\nvertex 0 0 0\n"}) {
+    std::string text = "solid a\n" + first;
+    text.replace(text.find("vertex 0 0 0\n"), 13, wrong);  // a number less, a corner more
+    EXPECT_THROW(read_surface(written("wrong.stl", text)), ReadError);
+  }
+  std::string two_corners = "solid a\n" + first;
+  two_corners.erase(two_corners.find("vertex 0 0 0\n"), 13);
+  EXPECT_THROW(read_surface(written("wrong.stl", two_corners)), ReadError);
+}
+
+// The same as 84 bytes and 50 for each triangle, the corners from byte 12 of these.
+TEST(Stl, BinaryFilesHaveTheirCornersWhereTheFormatSays) {
+  const float corners[2][9] = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0.5, 0, 1, 0}};
+  std::string bytes(84 + 2 * 50, '\0');
+  bytes[80] = 2;
+  for (std::size_t t = 0; t < 2; ++t) {
+    std::memcpy(&bytes[84 + 50 * t + 12], corners[t], sizeof corners[t]);
+  }
+  const Polyhedron surface = read_surface(written("binary.stl", bytes));
+  EXPECT_EQ(surface.triangles, (std::vector<std::array<Index, 3>>{{0, 1, 2}, {1, 3, 2}}));
+  ASSERT_EQ(surface.vertices.size(), 4U);
+  EXPECT_EQ(surface.vertices[1], (Position{1, 0, 0}));
+  EXPECT_EQ(surface.vertices[3], (Position{1, 1, 0.5}));
 }
 
 // ---------------------------------------------------------------------------------------- reports
