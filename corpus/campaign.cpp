@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <ctime>
@@ -16,6 +17,7 @@
 
 #include "corpus/process.h"
 #include "corpus/progress.h"
+#include "corpus/runnable.h"
 #include "corpus/shell.h"
 
 namespace tetproof {
@@ -24,7 +26,19 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
+using Clock = std::chrono::steady_clock;
+
 volatile sig_atomic_t interrupted = 0;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<std::string> names_of(const std::vector<Mesher>& meshers) {
+  std::vector<std::string> names;
+  for (const Mesher& mesher : meshers) names.push_back(mesher.name);
+  return names;
+}
 
 std::string read_if_there(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -98,6 +112,18 @@ std::string why_unfinished(const Outcome& outcome, const Limits& limits) {
   return text.str();
 }
 
+// Where edges of the input are less than roundings apart, the positions in a file do not tell which
+// mesh edge is whose. A record does, and what it says is checked like anything else.
+bool record_may_tell(int exit_code, const std::string& verdict_json) {
+  constexpr int kUndecided = 5;
+  if (exit_code == kUndecided) return true;
+  if (exit_code != 1) return false;
+  for (const Json& oracle : Json::parse(verdict_json).value("oracles", Json::array())) {
+    if (oracle.value("name", "") == "conformity") return !oracle.value("passed", false);
+  }
+  return false;
+}
+
 // Says nothing about the mesher: with more time or memory it might have ended otherwise.
 bool is_limit(Disposition disposition) {
   return disposition == Disposition::timeout || disposition == Disposition::out_of_memory ||
@@ -144,6 +170,9 @@ class Job {
   const RunRow& row() const { return row_; }
   const Model& model() const { return model_; }
   const Mesher& mesher() const { return mesher_; }
+  // Was there a program at all?
+  bool cannot_run() const { return cannot_run_; }
+  double seconds() const { return seconds_since(begin_); }
 
   // True once the row is complete.
   bool advance() {
@@ -182,6 +211,7 @@ class Job {
 
   bool after_mesh() {
     const Outcome& outcome = process_->outcome();
+    cannot_run_ = tetproof::cannot_run(outcome, !mesher_.line.empty());
     const Judgement judgement = judge(outcome, mesher_.exit_codes);
     row_.disposition = judgement.disposition;
     row_.reason = without_folder(judgement.reason);
@@ -220,7 +250,7 @@ class Job {
     take_measurements();
     keep_mesh();
     if (!options_.verify) return false;
-    if (options_.sidecars && mesher_.sidecar_command) {
+    if (sidecar_wanted_) {
       start(mesher_.sidecar_command(files_), options_.verify_limits);
       return true;
     }
@@ -230,8 +260,7 @@ class Job {
 
   // Starts the oracles, whether there is a sidecar or not.
   bool after_sidecar() {
-    const bool wanted = options_.sidecars && mesher_.sidecar_command;
-    if (wanted && !fs::exists(files_.exact)) {
+    if (sidecar_wanted_ && !fs::exists(files_.exact)) {
       const Judgement judgement = judge(process_->outcome(), mesher_.exit_codes);
       const std::string reason = without_folder(judgement.reason);
       if (is_limit(judgement.disposition)) {
@@ -239,7 +268,7 @@ class Job {
       } else {
         wrong("no sidecar: " + reason);
       }
-    } else if (wanted && !same_bytes(files_.mesh, files_.again)) {
+    } else if (sidecar_wanted_ && !same_bytes(files_.mesh, files_.again)) {
       wrong("a second run wrote another mesh");
     }
     std::ostringstream deviation;
@@ -263,9 +292,16 @@ class Job {
 
   bool after_verify() {
     const Outcome& outcome = process_->outcome();
-    row_.verify_seconds = outcome.wall_seconds;
+    row_.verify_seconds = row_.verify_seconds.value_or(0) + outcome.wall_seconds;
     row_.verdict_json = json_if_valid(verdict());
     const bool told = outcome.ending == Ending::exited && !row_.verdict_json.empty();
+    if (told && !sidecar_wanted_ && mesher_.sidecar_command &&
+        record_may_tell(outcome.exit_code, row_.verdict_json)) {
+      sidecar_wanted_ = true;
+      step_ = Step::measure;
+      start(mesher_.sidecar_command(files_), options_.verify_limits);
+      return true;
+    }
     if (told && outcome.exit_code == 1) {
       const std::string said = last_line(outcome.stderr_tail);
       const std::string prefix = "tetproof: " + files_.mesh.string() + ": ";
@@ -334,6 +370,9 @@ class Job {
   RunFiles files_;
   RunRow row_;
   Step step_ = Step::mesh;
+  bool cannot_run_ = false;
+  bool sidecar_wanted_ = options_.verify && options_.sidecars && mesher_.sidecar_command;
+  Clock::time_point begin_ = Clock::now();
   std::string no_sidecar_;  // the limit that kept the second run from writing one
   std::unique_ptr<SupervisedProcess> process_;
 };
@@ -347,14 +386,23 @@ class Campaign {
         options_(options),
         database_(options.database, ResultsDatabase::Mode::write),
         scratch_(fs::absolute(options.database).string() + ".scratch"),
-        progress_(models.size() * meshers.size(), options.terminal) {
+        progress_(names_of(meshers), models.size(), options.jobs, options.terminal) {
     // The lock on the database makes this folder ours: what is in it was left by a killed run,
     // whose last child may still be about to be killed, hence a folder of our own in it.
+    std::error_code ignored;
+    fs::remove_all(scratch_, ignored);
+    for (const Mesher& mesher : meshers) summary_.meshers.push_back({.mesher = mesher.name});
+  }
+  Campaign(const Campaign&) = delete;
+  Campaign& operator=(const Campaign&) = delete;
+  ~Campaign() {
+    running_.clear();
     std::error_code ignored;
     fs::remove_all(scratch_, ignored);
   }
 
   CampaignSummary run() {
+    probe_meshers();
     const fs::path own = scratch_ / std::to_string(getpid());
     fs::create_directories(own);
     while (interrupted == 0 && (start_jobs(own) || !running_.empty())) {
@@ -363,14 +411,26 @@ class Campaign {
       show_progress();
     }
     summary_.interrupted = interrupted != 0;
+    summary_.elapsed_seconds = seconds_since(start_);
     running_.clear();
-    std::error_code ignored;
-    fs::remove_all(scratch_, ignored);
     progress_.finish();
     return summary_;
   }
 
  private:
+  // A program that is not there would refuse every model.
+  void probe_meshers() const {
+    for (const Mesher& mesher : meshers_) {
+      const std::string why = why_not_runnable(mesher.line, options_.supervisor);
+      if (!why.empty()) throw CannotRun(mesher.name + ": " + why);
+    }
+  }
+
+  MesherCount& count_of(const std::string& mesher) {
+    return *std::find_if(summary_.meshers.begin(), summary_.meshers.end(),
+                         [&](const MesherCount& count) { return count.mesher == mesher; });
+  }
+
   // Fills the free places; false when there is nothing left to start.
   bool start_jobs(const fs::path& folder) {
     while (running_.size() < options_.jobs && next_ < models_.size() * meshers_.size()) {
@@ -387,7 +447,8 @@ class Campaign {
       const auto present = database_.find(row.key);
       if (present && !options_.retry.contains(present->disposition)) {
         ++summary_.present;
-        ++summary_.counts[static_cast<std::size_t>(present->disposition)];
+        count_of(mesher.name).add(*present);
+        ran_.insert(mesher.name);
         ++next_;
         progress_.already_done(*present);
         continue;
@@ -406,8 +467,7 @@ class Campaign {
 
   // Asked between models only, so that every model begun has all its runs.
   bool out_of_time() const {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-    return options_.stop_after_seconds > 0 && elapsed.count() >= options_.stop_after_seconds;
+    return options_.stop_after_seconds > 0 && seconds_since(start_) >= options_.stop_after_seconds;
   }
 
   void wait() {
@@ -423,9 +483,16 @@ class Campaign {
         ++it;
         continue;
       }
+      const std::string& mesher = job.mesher().name;
+      // Later it is a matter of that model: it did run on another.
+      if (job.cannot_run() && !ran_.contains(mesher)) {
+        progress_.finish();
+        throw CannotRun(mesher + ": " + job.row().reason);
+      }
+      ran_.insert(mesher);
       database_.store(job.row());
-      ++summary_.counts[static_cast<std::size_t>(job.row().disposition)];
-      progress_.done(job.row());
+      count_of(mesher).add(job.row());
+      progress_.done(job.row(), job.seconds());
       it = running_.erase(it);
     }
   }
@@ -445,7 +512,8 @@ class Campaign {
   fs::path scratch_;
   Progress progress_;
   std::string host_ = host_name();
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Clock::time_point start_ = Clock::now();
+  std::set<std::string> ran_;  // meshers that have ended otherwise than by not being there
   std::size_t next_ = 0;
   std::list<std::unique_ptr<Job>> running_;
   CampaignSummary summary_;

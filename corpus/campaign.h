@@ -1,7 +1,6 @@
 // Runs meshers on models: one supervised child per pair, results in the database as they come.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -9,6 +8,8 @@
 
 #include "corpus/meshers.h"
 #include "corpus/models.h"
+#include "corpus/progress.h"
+#include "corpus/runnable.h"
 #include "reports/results.h"
 
 namespace tetproof {
@@ -34,15 +35,16 @@ struct CampaignOptions {
 };
 
 struct CampaignSummary {
-  std::size_t present = 0;  // rows that were there already
-  std::array<std::size_t, kDispositionCount>
-      counts{};  // rows of this campaign by disposition, old and new
+  std::size_t present = 0;           // rows that were there already
+  std::vector<MesherCount> meshers;  // rows of this campaign, old and new, in the order given
+  double elapsed_seconds = 0;
   bool interrupted = false;
   std::size_t models_left_out = 0;  // not begun because of stop_after_seconds
 };
 
 // Ends early, with everything finished so far in the database, once interrupt_campaign() was
-// called. \throw std::runtime_error if the database cannot be written.
+// called. \throw std::runtime_error if the database cannot be written, CannotRun if a mesher turns
+// out not to be runnable on any model: before the first, or by what its first run says.
 CampaignSummary run_campaign(const std::vector<Model>& models, const std::vector<Mesher>& meshers,
                              const CampaignOptions& options);
 

@@ -225,7 +225,8 @@ TEST_F(CampaignTest, AMeshThatNoOracleHasFinishedWithIsUnverified) {
     options_.self = self_that(line);
     options_.retry = {Disposition::unverified};
     const auto summary = run_campaign({models()[0]}, {mesher}, options_);
-    EXPECT_EQ(summary.counts[static_cast<std::size_t>(Disposition::unverified)], 1U) << line;
+    const auto& counts = summary.meshers.at(0).counts;
+    EXPECT_EQ(counts[static_cast<std::size_t>(Disposition::unverified)], 1U) << line;
     const RunRow row = rows_of_model(0)["v"];
     EXPECT_EQ(row.disposition, Disposition::unverified) << line;
     EXPECT_EQ(row.verify_seconds.has_value(), options_.verify) << line;
@@ -295,6 +296,101 @@ TEST_F(CampaignTest, VerdictsAndSidecars) {
   EXPECT_EQ(rows["plain"].verdict_json.find("no_sidecar"), std::string::npos);
 }
 
+// Where the file alone does not conform, our meshers are asked for their record without --exact;
+// nobody else has one.
+TEST_F(CampaignTest, ARecordIsTakenWhereTheFileAloneDoesNotTell) {
+  make_surface(0);
+  options_.verify = true;
+  const auto foreign = shell("foreign", "printf '" + kCorner + "' > mesh.tet");
+  Mesher ours = foreign;
+  ours.name = "ours";
+  ours.sidecar_command = [](const RunFiles& files) {
+    return std::vector<std::string>{"/bin/sh",
+                                    "-c",
+                                    "cp \"$2\" \"$0\"; echo record > \"$1\"",
+                                    files.again.string(),
+                                    files.exact.string(),
+                                    files.mesh.string()};
+  };
+  const std::string with_record =
+      "case \"$*\" in *--exact*) echo '{\"verdict\": \"rounded\"}'; exit 0;; esac; ";
+  const auto dispositions = [&](const std::string& alone, int code) {
+    options_.self =
+        self_that(with_record + "echo '" + alone + "'; echo why >&2; exit " + std::to_string(code));
+    fs::remove(options_.database);
+    run_campaign({models()[0]}, {foreign, ours}, options_);
+    auto rows = rows_of_model(0);
+    return std::pair(rows["foreign"], rows["ours"]);
+  };
+  const auto [wrong, right] = dispositions(
+      R"({"verdict": "broken", "oracles": [{"name": "conformity", "passed": false}]})", 1);
+  EXPECT_EQ(wrong.disposition, Disposition::wrong_result);
+  EXPECT_EQ(right.disposition, Disposition::ok) << right.reason;
+  EXPECT_EQ(verdict_of(right), "rounded");
+  const auto [undecided, decided] = dispositions(R"({"verdict": "undecided"})", 5);
+  EXPECT_EQ(undecided.disposition, Disposition::unverified);
+  EXPECT_EQ(undecided.reason, "the oracles have not finished: own limit: why");
+  EXPECT_EQ(decided.disposition, Disposition::ok);
+  // A record has nothing to say about anything else.
+  const auto [bad, worse] = dispositions(
+      R"({"verdict": "broken", "oracles": [{"name": "conformity", "passed": true}]})", 1);
+  EXPECT_EQ(bad.disposition, Disposition::wrong_result);
+  EXPECT_EQ(worse.disposition, Disposition::wrong_result);
+}
+
+// A program that is not there says nothing about any model: no row, and an error at the start.
+TEST_F(CampaignTest, WhatCannotBeRunEndsTheCampaign) {
+  const auto error_of = [&](const std::vector<std::string>& lines) -> std::string {
+    std::vector<Mesher> meshers;
+    for (const std::string& line : lines) {
+      meshers.push_back(
+          make_mesher("m" + std::to_string(meshers.size()) + "=cmd:" + line + " # {in} {out.tet}",
+                      {options_.supervisor, "", ""}));
+    }
+    try {
+      run_campaign(models(), meshers, options_);
+    } catch (const CannotRun& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const fs::path plain = folder_ / "plain", script = folder_ / "script";
+  std::ofstream(plain) << "no program";
+  std::ofstream(script) << "#!" << (folder_ / "no-shell").string() << "\n";
+  fs::permissions(script, fs::perms::owner_all);
+  EXPECT_EQ(error_of({"exit 4", "no-such-mesher"}), "m1: no-such-mesher: not found");
+  EXPECT_EQ(error_of({"/no/such/mesher"}), "m0: /no/such/mesher: not found");
+  EXPECT_EQ(error_of({plain.string()}), "m0: " + plain.string() + ": is not executable");
+  EXPECT_EQ(error_of({folder_.string()}), "m0: " + folder_.string() + ": is no file");
+  EXPECT_EQ(error_of({script.string()}), "m0: " + script.string() + ": its interpreter " +
+                                             (folder_ / "no-shell").string() + " cannot be run");
+  EXPECT_TRUE(error_of({"./plain"}).find("an absolute path is expected") != std::string::npos);
+  EXPECT_EQ(row_count(), 0U);
+  // What only the shell sees through is seen at the first model.
+  EXPECT_EQ(error_of({"sh -c no-such-mesher"}).find("m0: exit 127: "), 0U);
+  EXPECT_EQ(error_of({"cd / && " + plain.string()}).find("m0: exit 126: "), 0U);
+  EXPECT_EQ(row_count(), 0U);
+  // After a model on which it did run it is that model's, and so it is when resumed.
+  const std::string second = "case {in} in *m1.off) exit 127;; *) exit 4;; esac";
+  EXPECT_EQ(error_of({second}), "");
+  EXPECT_EQ(row_count(), 3U);
+  EXPECT_EQ(rows_of_model(1)["m0"].reason, "exit 127");
+  EXPECT_EQ(error_of({second}), "");
+  // Without a supervisor nothing runs.
+  options_.supervisor = folder_ / "none";
+  std::ofstream(options_.supervisor) << "no program";
+  const std::string said = error_of({"exit 5"});
+  EXPECT_NE(said.find((folder_ / "none").string()), std::string::npos) << said;
+  EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
+}
+
+TEST_F(CampaignTest, NothingStaysBesideTheDatabase) {
+  run_campaign({models()[0]}, {shell("a", "exit 4")}, options_);
+  for (const char* suffix : {"-wal", "-shm", "-journal", ".lock", ".scratch"}) {
+    EXPECT_FALSE(fs::exists(options_.database.string() + suffix)) << suffix;
+  }
+}
+
 TEST_F(CampaignTest, NoFurtherModelIsBegunOnceTimeIsUp) {
   options_.stop_after_seconds = 0.2;
   const std::vector<Mesher> meshers = {shell("a", "sleep 0.3"), shell("b", "exit 4")};
@@ -337,7 +433,9 @@ TEST_F(InterruptedCampaign, StopsCleanlyAndKeepsWhatWasDone) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   EXPECT_EQ(row_count(), 2u);
-  EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
+  for (const char* suffix : {"-wal", "-shm", "-journal", ".lock", ".scratch"}) {
+    EXPECT_FALSE(fs::exists(options_.database.string() + suffix)) << suffix;
+  }
 }
 
 TEST_F(InterruptedCampaign, ResumesAfterKill9) {

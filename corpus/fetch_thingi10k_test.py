@@ -40,7 +40,7 @@ class Home(http.server.BaseHTTPRequestHandler):
             return self.answer(429, b"slowly", {"Retry-After": "0"})
         digest = hashlib.sha256(FILES[name]).hexdigest()
         if self.path.startswith("/raw_meshes/"):  # as the real one: elsewhere, and the checksum is told here
-            return self.answer(302, b"", {"Location": server.base + "/store/" + name, "X-Linked-ETag": '"%s"' % digest})
+            return self.answer(302, b"", {"Location": server.elsewhere.get(name, server.base + "/store/" + name), "X-Linked-ETag": '"%s"' % digest})
         body = server.corrupt.get(name, FILES[name])
         start = 0
         wanted = re.fullmatch(r"bytes=(\d+)-", self.headers.get("Range") or "")
@@ -54,6 +54,11 @@ class Home(http.server.BaseHTTPRequestHandler):
             self.send_header("Content-Length", str(len(body) - start))
             self.end_headers()
             self.wfile.write(body[start:start + 100_000])
+            self.wfile.flush()
+            self.close_connection = True
+            return None
+        if server.raw.get(name):
+            self.wfile.write(server.raw[name].pop(0))
             self.wfile.flush()
             self.close_connection = True
             return None
@@ -78,6 +83,7 @@ class FetchTest(unittest.TestCase):
         self.server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Home)
         self.server.base = "http://127.0.0.1:%d" % self.server.server_address[1]
         self.server.seen, self.server.refusals, self.server.cuts, self.server.corrupt = [], {}, {}, {}
+        self.server.raw, self.server.elsewhere = {}, {}
         self.server.slow = 0
         threading.Thread(target=self.server.serve_forever, daemon=True).start()
         self.folder = tempfile.TemporaryDirectory()
@@ -137,6 +143,41 @@ class FetchTest(unittest.TestCase):
         ranges = [r for _, r, _ in self.requests_of("101.stl")]
         self.assertEqual(ranges[0], None)
         self.assertTrue(all(ranges[1:]), ranges)  # never from the start again
+
+    def test_answers_that_are_no_http(self):
+        # Each is another exception of http.client: RemoteDisconnected, BadStatusLine, UnknownProtocol, LineTooLong,
+        # too many headers, IncompleteRead of a chunk, a chunk without a size, a length that is none.
+        chunked = b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n"
+        answers = [b"", b"nonsense\r\n\r\n", b"HTTP/9.9 200 OK\r\n\r\n", b"HTTP/1.1 200 OK\r\nX: " + b"x" * 70000 + b"\r\n\r\n",
+                   b"HTTP/1.1 200 OK\r\n" + b"".join(b"H%d: 1\r\n" % i for i in range(200)) + b"\r\n",
+                   chunked + b"100\r\nabc", chunked + b"zz\r\nabc\r\n"]
+        for answer in answers:
+            with self.subTest(answer=answer[:40]):
+                self.tearDown()
+                self.setUp()
+                self.server.raw = {"101.stl": [answer] * 2}
+                run = self.fetch()
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assert_complete()
+
+    def test_a_server_that_never_speaks_http(self):
+        self.server.raw = {"102.obj": [b"nonsense\r\n\r\n"] * 100}
+        run = self.fetch("--retries", "2")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertIn("102.obj: BadStatusLine", run.stderr)
+        self.assertNotIn("Traceback", run.stderr)
+        self.assertTrue(os.path.exists(os.path.join(self.folder.name, "103.stl")))
+        self.server.raw = {}
+        self.assertEqual(self.fetch().returncode, 0)
+        self.assert_complete()
+
+    def test_redirects_without_https_are_refused(self):
+        for place in ("http://localhost.example.invalid/x", "http://127.0.0.1.example.invalid/x", "http://localhost@example.invalid/x",
+                      "http://example.invalid/x"):
+            self.server.elsewhere = {"101.stl": place}
+            run = self.fetch("--retries", "0", "101")
+            self.assertEqual(run.returncode, 1)
+            self.assertIn("without https", run.stderr)
 
     def test_wrong_bytes_are_refused(self):
         self.server.corrupt = {"102.obj": b"something else"}

@@ -172,6 +172,7 @@ Mesher command_mesher(const std::string& name, const std::string& text) {
   const auto program = program_of(line);
   mesher.version = program ? "cmd (build " + build_id(*program) + ")" : "cmd";
   mesher.flags = line;
+  mesher.line = line;
   mesher.mesh_extension = line.substr(start + 4, end - start - 4);
   mesher.command = [line, place = line.substr(start, end + 1 - start)](const RunFiles& files) {
     std::string command = line;

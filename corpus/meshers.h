@@ -30,6 +30,7 @@ struct Mesher {
   std::string flags;    // everything of the command that is not a file of the run
   std::string region;   // what it meshes: "interior", "hull" or "" if not known
   std::string mesh_extension;
+  std::string line;               // of shell, if it is a command of the user
   double declared_deviation = 0;  // fraction of the diagonal by which it may miss the surface
   ExitCodes exit_codes = ExitCodes::unknown;
   std::function<std::vector<std::string>(const RunFiles&)> command;

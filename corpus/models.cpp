@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "corpus/sha256.h"
 
@@ -23,15 +24,38 @@ bool is_surface_file(const fs::path& path) {
   return extension == ".off" || extension == ".obj" || extension == ".stl" || extension == ".ply";
 }
 
-std::vector<fs::path> surface_files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry :
-       fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink)) {
-    if (entry.is_regular_file() && is_surface_file(entry.path())) files.push_back(entry.path());
+// Links to folders are followed, but every folder is entered once, whatever leads to it, so that a
+// link to a folder above is no cycle. What is there without links comes first: names then do not
+// depend on the links.
+class Walk {
+ public:
+  std::vector<fs::path> files_in(const fs::path& folder) {
+    enter(folder);
+    while (!links_.empty()) {
+      const std::set<fs::path> links = std::exchange(links_, {});
+      for (const fs::path& link : links) enter(link);
+    }
+    std::sort(files_.begin(), files_.end());
+    return std::exchange(files_, {});
   }
-  std::sort(files.begin(), files.end());
-  return files;
-}
+
+ private:
+  void enter(const fs::path& folder) {
+    if (!entered_.insert(fs::canonical(folder)).second) return;
+    std::set<fs::path> folders;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.is_directory()) {
+        (entry.is_symlink() ? links_ : folders).insert(entry.path());
+      } else if (entry.is_regular_file() && is_surface_file(entry.path())) {
+        files_.push_back(entry.path());
+      }
+    }
+    for (const fs::path& below : folders) enter(below);
+  }
+
+  std::set<fs::path> entered_, links_;
+  std::vector<fs::path> files_;
+};
 
 Model make_model(const fs::path& path, const std::string& name) {
   return {fs::absolute(path).lexically_normal(), name, sha256_of_file(path), fs::file_size(path)};
@@ -62,7 +86,7 @@ ModelList collect_models(const std::vector<fs::path>& paths) {
   };
   for (const fs::path& path : paths) {
     if (fs::is_directory(path)) {
-      for (const fs::path& file : surface_files_in(path)) {
+      for (const fs::path& file : Walk().files_in(path)) {
         add(make_model(file, file.lexically_relative(path).string()));
       }
     } else if (fs::exists(path)) {

@@ -21,7 +21,8 @@ struct ModelList {
 };
 
 // Files are taken as they are; folders with all their .off, .obj, .stl and .ply files, at any
-// depth. \throw std::runtime_error if a path does not exist or cannot be read.
+// depth, also behind links to folders; a folder that several paths lead to is entered once. \throw
+// std::runtime_error if a path does not exist or cannot be read.
 ModelList collect_models(const std::vector<std::filesystem::path>& paths);
 
 // Part `index` of `count` (1-based) in a division by hash, the same whatever else is in the list.

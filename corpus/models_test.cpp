@@ -55,6 +55,26 @@ TEST_F(Models, FilesOfAnyNameAreTaken) {
   EXPECT_THROW(collect_models({folder_ / "missing.off"}), std::runtime_error);
 }
 
+// Also in a cycle, and two links to one folder.
+TEST_F(Models, LinksToFoldersAreFollowedAndEveryFolderEnteredOnce) {
+  const fs::path other = folder_.string() + ".other";
+  fs::create_directories(other / "deep");
+  std::ofstream(other / "deep" / "d.off") << "d";
+  write("sub/c.off", "c");
+  fs::create_directory_symlink("..", folder_ / "sub" / "up");
+  fs::create_directory_symlink(other, folder_ / "a-link");
+  fs::create_directory_symlink(other / "deep", folder_ / "b-link");
+  fs::create_directory_symlink("sub", folder_ / "alias-of-sub");
+  fs::create_directory_symlink(folder_, other / "back");
+  fs::create_symlink("nowhere.off", folder_ / "dangling.off");
+  const ModelList list = collect_models({folder_});
+  ASSERT_EQ(list.models.size(), 2U);
+  EXPECT_TRUE(list.duplicates.empty());
+  EXPECT_EQ(list.models[0].name, "a-link/deep/d.off");
+  EXPECT_EQ(list.models[1].name, "sub/c.off");  // not alias-of-sub, though that comes first
+  fs::remove_all(other);
+}
+
 TEST_F(Models, ShardsPartition) {
   for (int i = 0; i < 40; ++i) write(std::to_string(i) + ".off", std::to_string(i));
   const auto models = collect_models({folder_}).models;

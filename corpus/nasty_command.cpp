@@ -5,9 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,31 @@ void ignore_signals() {
   for (int s = 1; s < 32; ++s) {
     if (s != SIGCHLD) signal(s, SIG_IGN);
   }
+}
+
+// Until this process has used so much processor time.
+void burn(double seconds) {
+  volatile std::uint64_t sink = 0;
+  const auto limit = static_cast<clock_t>(seconds * CLOCKS_PER_SEC);
+  while (clock() < limit) {
+    for (int i = 0; i < 10000; ++i) sink = sink + 1;
+  }
+}
+
+// DEPTH processes below one another, each of which starts COUNT that burn one after the other.
+void burn_in_tree(int depth, int count, double seconds) {
+  for (int i = 0; i < count; ++i) {
+    if (fork() == 0) {
+      burn(seconds);
+      _exit(0);
+    }
+    wait(nullptr);
+  }
+  if (depth > 1 && fork() == 0) {
+    burn_in_tree(depth - 1, count, seconds);
+    _exit(0);
+  }
+  wait(nullptr);
 }
 
 [[noreturn]] void wait_forever() {
@@ -100,6 +127,34 @@ int main(int argc, char** argv) {
       if (file != nullptr) std::fclose(file);
       if (lines == std::atoi(argv[2])) break;
       usleep(1000);
+    }
+  } else if (mode == "burn-in-turn") {  // DEPTH COUNT SECONDS: nobody burns long
+    burn_in_tree(std::atoi(argv[2]), std::atoi(argv[3]), std::atof(argv[4]));
+  } else if (mode == "burn-forgotten") {  // COUNT SECONDS: children whose time the kernel forgets
+    signal(SIGCHLD, SIG_IGN);
+    for (int i = 0; i < std::atoi(argv[2]); ++i) {
+      if (fork() == 0) {
+        burn(std::atof(argv[3]));
+        _exit(0);
+      }
+      while (wait(nullptr) > 0) {
+      }
+    }
+  } else if (mode ==
+             "share") {  // MEGABYTES CHILDREN SECONDS [write]: forked children share an array
+    auto blocks = allocate(std::strtoul(argv[2], nullptr, 10));
+    for (int i = 0; i < std::atoi(argv[3]); ++i) {
+      if (fork() == 0) {
+        std::size_t sum = 0;
+        for (char* block : blocks) {
+          if (argc > 5) std::memset(block, 2, 1 << 20);
+          sum += static_cast<unsigned char>(block[12345]);
+        }
+        usleep(static_cast<useconds_t>(1e6 * std::atof(argv[4])));
+        _exit(sum == 0);
+      }
+    }
+    while (wait(nullptr) > 0) {
     }
   } else {
     return 2;

@@ -113,6 +113,60 @@ TEST(Process, CpuLimitCountsGrandchildren) {
   for (const pid_t pid : noted(pids)) EXPECT_FALSE(alive(pid));
 }
 
+// Each of them is short, and the mesher waits for each: 2 s in all without any that lives long.
+TEST(Process, CpuLimitCountsChildrenThatWereWaitedFor) {
+  const Outcome o =
+      nasty({"burn-in-turn", "1", "40", "0.05"}, {.wall_seconds = 60, .cpu_seconds = 0.5});
+  EXPECT_EQ(o.ending, Ending::cpu_limit);
+  EXPECT_GE(o.cpu_seconds, 0.45);
+  EXPECT_LT(o.cpu_seconds, 1);
+}
+
+TEST(Process, CpuLimitCountsGrandchildrenThatWereWaitedFor) {
+  const Outcome o =
+      nasty({"burn-in-turn", "10", "4", "0.05"}, {.wall_seconds = 60, .cpu_seconds = 0.5});
+  EXPECT_EQ(o.ending, Ending::cpu_limit);
+  EXPECT_GE(o.cpu_seconds, 0.45);
+  EXPECT_LT(o.cpu_seconds, 1);
+}
+
+// 0.6 s of children, of whom everybody is in somebody's account by turns: a limit of 0.9 s is not
+// reached, as it would be if any were counted twice.
+TEST(Process, CpuOfNobodyIsCountedTwice) {
+  const Outcome o =
+      nasty({"burn-in-turn", "3", "4", "0.05"}, {.wall_seconds = 60, .cpu_seconds = 0.9});
+  EXPECT_EQ(o.ending, Ending::exited);
+  EXPECT_GE(o.cpu_seconds, 0.55);
+  EXPECT_LT(o.cpu_seconds, 0.9);
+}
+
+// The parent ignores SIGCHLD: the kernel adds the time of such children to nobody's.
+TEST(Process, CpuLimitCountsChildrenThatNobodyWaitsFor) {
+  const Outcome o = nasty({"burn-forgotten", "20", "0.2"}, {.wall_seconds = 60, .cpu_seconds = 1});
+  EXPECT_EQ(o.ending, Ending::cpu_limit);
+  EXPECT_GE(o.cpu_seconds, 0.6);
+  EXPECT_LT(o.cpu_seconds, 2);
+}
+
+// Four processes with the same 120 MB: the sum of the resident sets is beyond the limit.
+TEST(Process, SharedPagesAreCountedOnce) {
+  if (!std::filesystem::exists("/proc/self/smaps_rollup")) GTEST_SKIP() << "the kernel has no PSS";
+  const Outcome o =
+      nasty({"share", "120", "3", "0.5"}, {.wall_seconds = 60, .memory_bytes = 250u << 20});
+  EXPECT_EQ(o.ending, Ending::exited);
+  EXPECT_EQ(o.exit_code, 0);
+  EXPECT_GT(o.peak_rss_bytes, 115u << 20);
+  EXPECT_LT(o.peak_rss_bytes, 180u << 20);
+}
+
+// Until the children write: then each has its own.
+TEST(Process, PagesWrittenAfterAForkAreNotShared) {
+  const Outcome o =
+      nasty({"share", "120", "3", "30", "write"}, {.wall_seconds = 60, .memory_bytes = 250u << 20});
+  EXPECT_EQ(o.ending, Ending::memory_limit);
+  EXPECT_GT(o.peak_rss_bytes, 240u << 20);
+}
+
 TEST(Process, MemoryLimitByTouching) {
   const Outcome o = nasty({"allocate", "2000"}, {.wall_seconds = 20, .memory_bytes = 200u << 20});
   EXPECT_EQ(o.ending, Ending::memory_limit);

@@ -3,10 +3,13 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <tuple>
@@ -198,15 +201,46 @@ RunRow read_row(SQLite::Statement& statement) {
   return row;
 }
 
+// A file beside the database, locked as long as somebody writes and removed by its holder. Not the
+// database itself: closing a descriptor of it would drop SQLite's own locks, and on NFS the two
+// kinds of locks exclude each other.
+std::string lock_name(const std::filesystem::path& path) {
+  return path.string() + ".lock";
+}
+
+// Who locks a file that its holder has removed in the meantime holds nothing, hence the look at
+// whether the name still means the file that is locked.
 int lock_for_writing(const std::filesystem::path& path) {
-  const std::string name = path.string() + ".lock";
-  const int fd = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (fd < 0) throw std::runtime_error(name + ": cannot be created");
-  if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+  const std::string name = lock_name(path);
+  for (;;) {
+    const int fd = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (fd < 0) throw std::runtime_error(name + ": cannot be created: " + std::strerror(errno));
+    if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+      close(fd);
+      throw std::runtime_error(path.string() + ": another run is writing to it");
+    }
+    struct stat locked {
+    }, named{};
+    if (fstat(fd, &locked) == 0 && stat(name.c_str(), &named) == 0 &&
+        locked.st_dev == named.st_dev && locked.st_ino == named.st_ino) {
+      return fd;
+    }
     close(fd);
-    throw std::runtime_error(path.string() + ": another run is writing to it");
   }
-  return fd;
+}
+
+void unlock(const std::filesystem::path& path, int fd) {
+  if (fd < 0) return;
+  unlink(lock_name(path).c_str());  // while it is ours
+  close(fd);
+}
+
+std::unique_ptr<SQLite::Database> open_for_reading(const std::filesystem::path& path) {
+  // The last connection takes the files of a WAL with it only if it may write.
+  const bool writable = access(path.c_str(), W_OK) == 0 &&
+                        access(std::filesystem::absolute(path).parent_path().c_str(), W_OK) == 0;
+  return std::make_unique<SQLite::Database>(
+      path.string(), writable ? SQLite::OPEN_READWRITE : SQLite::OPEN_READONLY, 10000);
 }
 
 }  // namespace
@@ -246,7 +280,7 @@ std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std:
   return columns;
 }
 
-ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) {
+ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) : path_(path) {
   try {
     if (mode == Mode::write) {
       lock_fd_ = lock_for_writing(path);
@@ -256,7 +290,7 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) {
       database_->exec("PRAGMA journal_mode = WAL");
       database_->exec("PRAGMA synchronous = NORMAL");
     } else {
-      database_ = std::make_unique<SQLite::Database>(path.string(), SQLite::OPEN_READONLY, 10000);
+      database_ = open_for_reading(path);
     }
     version_ = database_->execAndGet("PRAGMA user_version").getInt();
     const bool empty = database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
@@ -266,10 +300,12 @@ ResultsDatabase::ResultsDatabase(const std::filesystem::path& path, Mode mode) {
     }
     if (mode == Mode::write) prepare_for_writing();
   } catch (const SQLite::Exception& error) {
-    if (lock_fd_ >= 0) close(lock_fd_);
+    database_.reset();
+    unlock(path_, lock_fd_);
     throw std::runtime_error(path.string() + ": " + error.what());
   } catch (...) {
-    if (lock_fd_ >= 0) close(lock_fd_);
+    database_.reset();
+    unlock(path_, lock_fd_);
     throw;
   }
 }
@@ -309,8 +345,17 @@ void ResultsDatabase::demand_verdicts() {
 }
 
 ResultsDatabase::~ResultsDatabase() {
+  if (lock_fd_ >= 0) {
+    try {
+      // A single file again, which can be read where nobody may write. A reader that is at it keeps
+      // the WAL alive and takes its files away when it ends.
+      database_->setBusyTimeout(0);
+      database_->exec("PRAGMA journal_mode = DELETE");
+    } catch (const SQLite::Exception&) {
+    }
+  }
   database_.reset();
-  if (lock_fd_ >= 0) close(lock_fd_);
+  unlock(path_, lock_fd_);
 }
 
 bool ResultsDatabase::has(const RunKey& key) {

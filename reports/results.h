@@ -94,7 +94,8 @@ class ResultsDatabase {
  public:
   enum class Mode : std::uint8_t { read, write };
 
-  // Write mode creates the file, and holds a lock so that there is one writer.
+  // Write mode creates the file, and holds a lock so that there is one writer. Nothing but the file
+  // stays when the last user is gone, unless it was killed; the next one cleans up then.
   // \throw std::runtime_error if it cannot be opened, is not ours, or another writer has it.
   ResultsDatabase(const std::filesystem::path& path, Mode mode);
   ~ResultsDatabase();
@@ -114,6 +115,7 @@ class ResultsDatabase {
   std::string selected_columns() const;
 
   std::unique_ptr<SQLite::Database> database_;
+  std::filesystem::path path_;
   int lock_fd_ = -1;
   int version_ = 0;  // of the file's schema, 0 if it was empty
 };

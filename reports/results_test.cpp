@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <memory>
 
 namespace tetproof {
 namespace {
@@ -105,6 +106,88 @@ TEST_F(Results, OneWriterAndAnyReaders) {
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("another run"), std::string::npos) << error.what();
   }
+}
+
+// Whoever comes and goes in whatever order.
+TEST_F(Results, NothingStaysBesideTheFile) {
+  const auto expect_alone = [&](const char* when) {
+    for (const char* suffix : {"-wal", "-shm", "-journal", ".lock"}) {
+      EXPECT_FALSE(fs::exists(path_.string() + suffix)) << suffix << " " << when;
+    }
+  };
+  ResultsDatabase(path_, Mode::write).store(sample());
+  expect_alone("after writing");
+  EXPECT_EQ(ResultsDatabase(path_, Mode::read).rows().size(), 1U);
+  expect_alone("after reading");
+  {
+    auto writer = std::make_unique<ResultsDatabase>(path_, Mode::write);
+    ResultsDatabase reader(path_, Mode::read);
+    EXPECT_EQ(reader.rows().size(), 1U);
+    EXPECT_THROW(ResultsDatabase(path_, Mode::write), std::runtime_error);
+    writer.reset();
+    EXPECT_EQ(reader.rows().size(), 1U);
+    EXPECT_FALSE(fs::exists(path_.string() + ".lock"));
+  }
+  expect_alone("after a reader that outlived the writer");
+  EXPECT_EQ(ResultsDatabase(path_, Mode::read).rows().size(), 1U);
+  expect_alone("after reading again");
+  const pid_t child = fork();
+  if (child == 0) {
+    ResultsDatabase database(path_, Mode::write);
+    database.store(sample("bb"));
+    kill(getpid(), SIGKILL);
+  }
+  waitpid(child, nullptr, 0);
+  EXPECT_EQ(ResultsDatabase(path_, Mode::write).rows().size(), 2U);
+  expect_alone("after a writer that was killed, and another");
+}
+
+// Files that nobody may write, in a folder where nobody may.
+TEST_F(Results, ReadOnlyFilesAreRead) {
+  const fs::path folder = path_.string() + ".folder", file = folder / "a.sqlite";
+  fs::create_directories(folder);
+  ResultsDatabase(file, Mode::write).store(sample());
+  fs::permissions(file, fs::perms::owner_read);
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_EQ(ResultsDatabase(file, Mode::read).rows().size(), 1U);
+  fs::permissions(folder, fs::perms::owner_all);
+  fs::remove_all(folder);
+}
+
+// Many processes take turns at the lock, which each removes: never do two hold it, or the sum of
+// what they do one after the other would be wrong.
+TEST_F(Results, TheLockStaysOneThoughItIsRemoved) {
+  ResultsDatabase(path_, Mode::write).store(sample());
+  const fs::path counter = path_.string() + ".counter";
+  std::ofstream(counter) << 0;
+  constexpr int kProcesses = 6, kTurns = 40;
+  std::vector<pid_t> children;
+  for (int i = 0; i < kProcesses; ++i) {
+    const pid_t child = fork();
+    if (child != 0) {
+      children.push_back(child);
+      continue;
+    }
+    for (int turn = 0; turn < kTurns;) {
+      try {
+        ResultsDatabase database(path_, Mode::write);
+        int count = 0;
+        std::ifstream(counter) >> count;
+        usleep(100);
+        std::ofstream(counter) << count + 1;
+        ++turn;
+      } catch (const std::runtime_error&) {
+        usleep(50);
+      }
+    }
+    _exit(0);
+  }
+  for (const pid_t child : children) waitpid(child, nullptr, 0);
+  int count = 0;
+  std::ifstream(counter) >> count;
+  EXPECT_EQ(count, kProcesses * kTurns);
+  fs::remove(counter);
+  EXPECT_FALSE(fs::exists(path_.string() + ".lock"));
 }
 
 TEST_F(Results, RowsSurviveTheDeathOfTheWriter) {

@@ -89,6 +89,9 @@ struct ShrinkArguments {
   bool no_verify = false;
 };
 
+// \throw UsageError if the folder in which the file is to be is not there.
+void demand_folder_of(const std::string& database);
+
 // Ctrl-C and the like end campaigns cleanly from now on.
 void handle_interrupts();
 

@@ -6,6 +6,7 @@
 
 #include "corpus/campaign.h"
 #include "corpus/cli/commands.h"
+#include "corpus/printable.h"
 #include "corpus/process.h"
 
 namespace tetproof {
@@ -18,7 +19,7 @@ void on_interrupt(int) {
 std::vector<Model> chosen_models(const RunArguments& arguments) {
   const ModelList list = collect_models({arguments.paths.begin(), arguments.paths.end()});
   for (const auto& path : list.duplicates) {
-    fmt::print("same content as another model, left out: {}\n", path.string());
+    fmt::print("same content as another model, left out: {}\n", printable(path.string()));
   }
   std::vector<Model> models = list.models;
   if (!arguments.tier.empty()) models = tier_of(models, tier_from_name(arguments.tier));
@@ -89,23 +90,31 @@ void handle_interrupts() {
   signal(SIGPIPE, SIG_IGN);
 }
 
+void demand_folder_of(const std::string& database) {
+  const auto folder = std::filesystem::absolute(database).parent_path();
+  if (!std::filesystem::is_directory(folder)) {
+    throw UsageError("--db: " + folder.string() + ": no such folder");
+  }
+}
+
 int run_command(const RunArguments& arguments) {
+  demand_folder_of(arguments.database);
   const auto models = chosen_models(arguments);
   const auto meshers = chosen_meshers(arguments);
   handle_interrupts();
   fmt::print("{} models, {} meshers, results in {}\n", models.size(), meshers.size(),
              arguments.database);
   std::fflush(stdout);
-  const auto folder = std::filesystem::absolute(arguments.database).parent_path();
-  std::filesystem::create_directories(folder);
-  const CampaignSummary summary = run_campaign(models, meshers, campaign_options(arguments));
-  std::string text = fmt::format("{} of the runs were there already", summary.present);
-  for (std::size_t d = 0; d < summary.counts.size(); ++d) {
-    if (summary.counts[d] == 0) continue;
-    text +=
-        fmt::format(", {} {}", summary.counts[d], disposition_name(static_cast<Disposition>(d)));
+  CampaignSummary summary;
+  try {
+    summary = run_campaign(models, meshers, campaign_options(arguments));
+  } catch (const CannotRun& error) {
+    throw UsageError(std::string("cannot be run: ") + error.what());
   }
-  fmt::print("{}{}\n", summary.interrupted ? "interrupted; " : "", text);
+  fmt::print("{}", count_table(summary.meshers));
+  fmt::print("{}{} elapsed; {} of the runs were there already\n",
+             summary.interrupted ? "interrupted; " : "", duration_text(summary.elapsed_seconds),
+             summary.present);
   if (summary.models_left_out > 0) {
     fmt::print("{} models were not begun within {} s; run again to go on\n",
                summary.models_left_out, arguments.stop_after);

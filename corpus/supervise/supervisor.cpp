@@ -19,7 +19,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 namespace tetproof {
 namespace {
@@ -29,6 +31,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int kPollMilliseconds = 20;
 constexpr double kGiveUpKillingSeconds = 20;
 constexpr std::size_t kTailBytes = 4096;
+constexpr std::uint64_t kShareable = 8u << 20;  // resident bytes beside the largest process
+constexpr double kProportionalPause = 20;       // times what the last look took
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -42,7 +46,7 @@ double seconds_of(const timeval& time) {
 struct ProcessState {
   pid_t parent = 0;
   char state = '?';
-  double cpu_seconds = 0;  // own, without its children
+  double cpu_seconds = 0;  // its own and that of the children it has waited for
   std::uint64_t resident_bytes = 0;
 };
 
@@ -61,17 +65,38 @@ bool read_state(pid_t pid, ProcessState& result) {
   if (rest == nullptr) return false;
   long parent = 0, resident_pages = 0;
   unsigned long user = 0, system = 0;
+  long children_user = 0, children_system = 0;
   const int fields = std::sscanf(rest + 1,
-                                 " %c %ld %*s %*s %*s %*s %*s %*s %*s %*s %*s %lu %lu %*s %*s "
+                                 " %c %ld %*s %*s %*s %*s %*s %*s %*s %*s %*s %lu %lu %ld %ld "
                                  "%*s %*s %*s %*s %*s %*s %ld",
-                                 &result.state, &parent, &user, &system, &resident_pages);
-  if (fields != 5) return false;
+                                 &result.state, &parent, &user, &system, &children_user,
+                                 &children_system, &resident_pages);
+  if (fields != 7) return false;
   static const double ticks = static_cast<double>(sysconf(_SC_CLK_TCK));
   static const long page = sysconf(_SC_PAGESIZE);
   result.parent = static_cast<pid_t>(parent);
-  result.cpu_seconds = static_cast<double>(user + system) / ticks;
+  result.cpu_seconds =
+      (static_cast<double>(user + system) + static_cast<double>(children_user + children_system)) /
+      ticks;
   result.resident_bytes = static_cast<std::uint64_t>(resident_pages) * page;
   return true;
+}
+
+// Resident bytes with pages shared by N processes counted as 1/N of a page, of which nothing is
+// left over in a sum. Slow (the kernel walks the page tables), and not there on every kernel.
+std::optional<std::uint64_t> proportional_bytes(pid_t pid) {
+  std::array<char, 64> path;
+  std::snprintf(path.data(), path.size(), "/proc/%d/smaps_rollup", static_cast<int>(pid));
+  FILE* file = std::fopen(path.data(), "re");
+  if (file == nullptr) return std::nullopt;
+  std::optional<std::uint64_t> bytes;
+  std::array<char, 256> line;
+  unsigned long long kibibytes = 0;
+  while (!bytes && std::fgets(line.data(), line.size(), file) != nullptr) {
+    if (std::sscanf(line.data(), "Pss: %llu kB", &kibibytes) == 1) bytes = kibibytes << 10;
+  }
+  std::fclose(file);
+  return bytes;
 }
 
 template <typename Visit>
@@ -119,7 +144,8 @@ std::vector<pid_t> descendants_by_scan(pid_t root) {
   return found;
 }
 
-// Every process below this one. Orphans are adopted by the subreaper, so nothing escapes.
+// Every process below this one, parents before their children. Orphans are adopted by the
+// subreaper, so nothing escapes.
 std::vector<pid_t> descendants() {
   const pid_t self = getpid();
   std::vector<pid_t> found;
@@ -299,20 +325,70 @@ class Job {
   }
 
   void check_limits() {
-    double cpu = cpu_of_reaped_;
-    std::uint64_t resident = 0;
-    for (const pid_t pid : descendants()) {
-      ProcessState state;
-      if (!read_state(pid, state)) continue;
-      cpu += state.cpu_seconds;
-      resident += state.resident_bytes;
-    }
+    const double cpu = processor_seconds();
+    const std::uint64_t resident = resident_bytes();
     peak_sum_ = std::max(peak_sum_, resident);
     if (limits_.memory_bytes > 0 && resident > limits_.memory_bytes) decide(Ending::memory_limit);
     if (limits_.wall_seconds > 0 && seconds_since(start_time_) >= limits_.wall_seconds) {
       decide(Ending::wall_limit);
     }
     if (limits_.cpu_seconds > 0 && cpu >= limits_.cpu_seconds) decide(Ending::cpu_limit);
+  }
+
+  // Of everything below, whoever has waited for it. A process's time is its own until it is waited
+  // for and then in the children's time of who waited, so nobody counts twice: parents are read
+  // before their children, and those that end in between are missing for once rather than doubled.
+  // What is missing in a second look, too, was of processes that nobody waits for (their parent
+  // ignores SIGCHLD, and the kernel forgets their time): it stays counted as last seen.
+  double processor_seconds() {
+    states_.clear();
+    double sum = look() + cpu_forgotten_;
+    if (sum < cpu_seen_) sum = look() + cpu_forgotten_;
+    if (sum < cpu_seen_) {
+      cpu_forgotten_ += cpu_seen_ - sum;
+      sum = cpu_seen_;
+    }
+    return cpu_seen_ = sum;
+  }
+
+  double look() {
+    states_.clear();
+    double sum = cpu_of_reaped_;
+    for (const pid_t pid : descendants()) {
+      ProcessState state;
+      if (!read_state(pid, state)) continue;
+      sum += state.cpu_seconds;
+      states_.emplace_back(pid, state);
+    }
+    return sum;
+  }
+
+  // Of everything seen by the last look(), pages shared among its processes once. The sum of the
+  // resident sets is an upper bound that costs nothing; the proportional sets are asked only where
+  // the bound could matter (it is beyond the peak so far, and by more than the little that a shell
+  // shares with the program it started), and seldom enough to take a small part of the time, unless
+  // the job is beyond its limit by what was shared at the last look. In between the largest process
+  // stands for the job.
+  std::uint64_t resident_bytes() {
+    std::uint64_t sum = 0, largest = 0;
+    for (const auto& [pid, state] : states_) {
+      sum += state.resident_bytes;
+      largest = std::max(largest, state.resident_bytes);
+    }
+    if (sum - largest <= kShareable || sum <= peak_sum_) return sum;
+    const std::uint64_t guess = std::max(largest, sum - std::min(sum, shared_before_));
+    const bool beyond = limits_.memory_bytes > 0 && guess > limits_.memory_bytes;
+    if (seconds_since(start_time_) < next_proportional_ && !beyond) return largest;
+    const Clock::time_point begin = Clock::now();
+    std::uint64_t proportional = 0;
+    for (const auto& [pid, state] : states_) {
+      // A process that has just ended has no pages any more; one that cannot be asked counts fully.
+      proportional += proportional_bytes(pid).value_or(state.resident_bytes);
+    }
+    proportional = std::clamp(proportional, largest, sum);
+    shared_before_ = sum - proportional;
+    next_proportional_ = seconds_since(start_time_) + kProportionalPause * seconds_since(begin);
+    return proportional;
   }
 
   // Collects whoever has ended; returns false when there are no children any more.
@@ -364,7 +440,7 @@ class Job {
   }
 
   void collect() {
-    outcome_.cpu_seconds = cpu_of_reaped_;
+    outcome_.cpu_seconds = cpu_of_reaped_ + cpu_forgotten_;
     outcome_.peak_rss_bytes = std::max(peak_single_, peak_sum_);
     outcome_.stderr_tail = stderr_.take();
     outcome_.stdout_tail = stdout_.take();
@@ -378,7 +454,10 @@ class Job {
   pid_t leader_ = -1;
   bool leader_done_ = false;
   Clock::time_point start_time_;
-  double cpu_of_reaped_ = 0;
+  std::vector<std::pair<pid_t, ProcessState>> states_;
+  double cpu_of_reaped_ = 0, cpu_seen_ = 0, cpu_forgotten_ = 0;
+  double next_proportional_ = 0;  // seconds since the start
+  std::uint64_t shared_before_ = 0;
   std::uint64_t peak_single_ = 0, peak_sum_ = 0;
   Tail stdout_{-1}, stderr_{-1};
   Outcome outcome_;  // its ending is `lost` while undecided

@@ -29,8 +29,8 @@ inline constexpr bool kMemoryBackstop = true;
 // Limits of one child; 0 means none.
 struct Limits {
   double wall_seconds = 0;
-  double cpu_seconds = 0;          // all processes of the job together
-  std::uint64_t memory_bytes = 0;  // resident, all processes of the job together
+  double cpu_seconds = 0;          // all processes of the job together, those that have ended too
+  std::uint64_t memory_bytes = 0;  // resident, all processes together, shared pages once
   std::uint64_t file_bytes = 0;    // largest file it may write
 };
 

@@ -1,4 +1,4 @@
-// tetproof-tetgen SWITCHES INPUT OUT.mesh STATS.json
+// tetproof-tetgen [--markers label|facet|triangle|one] SWITCHES INPUT OUT.mesh STATS.json
 //
 // TetGen, in memory, on the very doubles that our own mesher reads, with its result written by the
 // same writer and the same exit codes: 3 input unreadable, 4 refused, 5 out of memory, 6 internal
@@ -8,11 +8,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <new>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "corpus/tetgen_adapter/inside_flood.h"
@@ -53,27 +57,85 @@ double seconds_since(Clock::time_point start) {
   }
 }
 
-// One marker per label of the input, not per triangle: TetGen merges coplanar facets of one marker,
-// and would otherwise keep every flat edge of the triangulation as a constraint. Faces of no facet
-// have marker 0 or, on the hull, 1; ours start well above.
+// Which triangles share a facet marker. TetGen merges adjacent facets of one marker that are almost
+// coplanar, by a tolerance of its own, and keeps the edges between different markers; README.md
+// here has what comes of it.
+enum class MarkersBy : std::uint8_t {
+  label,     // all triangles of one label of the input
+  facet,     // adjacent triangles of one label that are exactly coplanar
+  triangle,  // none
+  one        // all, as if there were no markers
+};
+
+constexpr struct {
+  const char* name;
+  MarkersBy by;
+} kMarkersBy[] = {{"label", MarkersBy::label},
+                  {"facet", MarkersBy::facet},
+                  {"triangle", MarkersBy::triangle},
+                  {"one", MarkersBy::one}};
+
+// Faces of no facet have marker 0 or, on the hull, 1; ours start well above.
 constexpr int kFirstMarker = 16;
 
-struct Markers {
-  std::vector<std::int32_t> labels;      // by marker - kFirstMarker, increasing
-  std::vector<std::uint32_t> triangles;  // smallest input triangle of each
-
-  explicit Markers(const delmesher::Surface& surface) : labels(surface.labels) {
-    if (labels.empty()) labels.push_back(0);
-    std::sort(labels.begin(), labels.end());
-    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-    triangles.assign(labels.size(), 0);
-    for (std::size_t i = surface.labels.size(); i-- > 0;) {
-      triangles[index_of(surface.labels[i])] = static_cast<std::uint32_t>(i);
+// The exactly coplanar neighbours of one label, each group named by its smallest triangle.
+std::vector<std::uint32_t> coplanar_groups(const delmesher::Surface& surface) {
+  double extent[3] = {0, 0, 0};
+  for (const auto& vertex : surface.vertices) {
+    for (int c = 0; c < 3; ++c) extent[c] = std::max(extent[c], std::fabs(vertex[c]));
+  }
+  exactinit(0, 0, 0, 2 * extent[0], 2 * extent[1], 2 * extent[2]);
+  std::vector<std::uint32_t> group(surface.triangles.size());
+  std::iota(group.begin(), group.end(), 0U);
+  const auto root = [&](std::uint32_t t) {
+    while (group[t] != t) t = group[t] = group[group[t]];
+    return t;
+  };
+  const auto coplanar = [&](std::uint32_t t, std::uint32_t vertex) {
+    REAL p[4][3];
+    const auto& corners = surface.triangles[t];
+    for (int c = 0; c < 3; ++c) {
+      for (int i = 0; i < 3; ++i) p[i][c] = surface.vertices[corners[i]][c];
+      p[3][c] = surface.vertices[vertex][c];
+    }
+    return orient3d(p[0], p[1], p[2], p[3]) == 0;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> first_at;  // edge -> triangle
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const auto [low, high] =
+          std::minmax(surface.triangles[t][i], surface.triangles[t][(i + 1) % 3]);
+      const auto [at, fresh] = first_at.try_emplace({low, high}, t);
+      if (fresh) continue;
+      const std::uint32_t other = at->second;
+      const bool same_label = surface.labels.empty() || surface.labels[t] == surface.labels[other];
+      if (!same_label || !coplanar(other, surface.triangles[t][(i + 2) % 3])) continue;
+      const auto [a, b] = std::minmax({root(t), root(other)});  // values, not references
+      group[b] = a;
     }
   }
-  std::size_t index_of(std::int32_t label) const {
-    return static_cast<std::size_t>(std::lower_bound(labels.begin(), labels.end(), label) -
-                                    labels.begin());
+  for (std::uint32_t t = 0; t < group.size(); ++t) group[t] = root(t);
+  return group;
+}
+
+struct Markers {
+  std::vector<int> of_triangle;          // from kFirstMarker on
+  std::vector<std::uint32_t> triangles;  // by marker - kFirstMarker: its smallest input triangle
+
+  Markers(const delmesher::Surface& surface, MarkersBy by) {
+    std::vector<std::uint32_t> coplanar;
+    if (by == MarkersBy::facet) coplanar = coplanar_groups(surface);
+    std::map<std::int64_t, int> known;
+    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+      std::int64_t key = 0;
+      if (by == MarkersBy::label && !surface.labels.empty()) key = surface.labels[t];
+      if (by == MarkersBy::facet) key = coplanar[t];
+      if (by == MarkersBy::triangle) key = t;
+      const int next = kFirstMarker + static_cast<int>(triangles.size());
+      const auto [at, fresh] = known.try_emplace(key, next);
+      if (fresh) triangles.push_back(t);
+      of_triangle.push_back(at->second);
+    }
   }
 };
 
@@ -99,8 +161,7 @@ void fill(const delmesher::Surface& surface, const Markers& markers, tetgenio& i
     for (int c = 0; c < 3; ++c) {
       facet.polygonlist[0].vertexlist[c] = static_cast<int>(surface.triangles[i][c]);
     }
-    const std::int32_t label = surface.labels.empty() ? 0 : surface.labels[i];
-    in.facetmarkerlist[i] = kFirstMarker + static_cast<int>(markers.index_of(label));
+    in.facetmarkerlist[i] = markers.of_triangle[i];
   }
 }
 
@@ -124,7 +185,8 @@ void orient(delmesher::TetMesh& mesh) {
   for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
 }
 
-delmesher::TetMesh take(const tetgenio& out, const Markers& markers, bool whole_hull) {
+delmesher::TetMesh take(const tetgenio& out, const delmesher::Surface& surface,
+                        const Markers& markers, bool whole_hull) {
   delmesher::TetMesh mesh;
   mesh.vertices.resize(static_cast<std::size_t>(out.numberofpoints));
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
@@ -143,9 +205,11 @@ delmesher::TetMesh take(const tetgenio& out, const Markers& markers, bool whole_
     const int* v = out.trifacelist + 3 * i;
     mesh.boundary.push_back({static_cast<std::uint32_t>(v[0]), static_cast<std::uint32_t>(v[1]),
                              static_cast<std::uint32_t>(v[2])});
-    const auto group = static_cast<std::size_t>(marker - kFirstMarker);
-    mesh.boundary_labels.push_back(markers.labels.at(group));
-    mesh.boundary_facets.push_back(markers.triangles.at(group));  // TetGen does not tell the facet
+    // TetGen does not tell the facet, so that it is the first of its marker.
+    const std::uint32_t facet =
+        markers.triangles.at(static_cast<std::size_t>(marker - kFirstMarker));
+    mesh.boundary_labels.push_back(surface.labels.empty() ? 0 : surface.labels[facet]);
+    mesh.boundary_facets.push_back(facet);
   }
   orient(mesh);
   if (whole_hull) mesh.inside = tetproof::flood_inside(mesh.tetrahedra, mesh.boundary);
@@ -166,12 +230,13 @@ void write_statistics(const char* path, const delmesher::Surface& surface,
       << "}}\n";
 }
 
-int run(char* switches, const std::string& input, const std::string& output, const char* stats) {
+int run(MarkersBy by, char* switches, const std::string& input, const std::string& output,
+        const char* stats) {
   auto start = Clock::now();
   const delmesher::io::ReadResult read = delmesher::io::read_surface(input);
   if (!read.ok()) finish(3, input, read.error);
   tetgenio in, out;
-  const Markers markers(read.surface);
+  const Markers markers(read.surface, by);
   fill(read.surface, markers, in);
   const double reading = seconds_since(start);
 
@@ -187,7 +252,7 @@ int run(char* switches, const std::string& input, const std::string& output, con
 
   start = Clock::now();
   const bool whole_hull = std::strchr(switches, 'c') != nullptr;
-  const delmesher::TetMesh mesh = take(out, markers, whole_hull);
+  const delmesher::TetMesh mesh = take(out, read.surface, markers, whole_hull);
   delmesher::io::OutputSet outputs;
   delmesher::io::WriteStatus status = delmesher::io::write_mesh(outputs, output, mesh);
   if (status.ok()) status = outputs.commit();
@@ -203,9 +268,23 @@ int main(int argc, char** argv) {
     std::puts("TetGen " TETGEN_VERSION);
     return 0;
   }
-  if (argc != 5) {
-    std::fprintf(stderr, "usage: tetproof-tetgen SWITCHES INPUT OUT.mesh STATS.json\n");
+  MarkersBy by = MarkersBy::label;
+  bool understood = argc == 5 || argc == 7;
+  if (argc == 7) {
+    understood = false;
+    for (const auto& choice : kMarkersBy) {
+      if (std::strcmp(argv[1], "--markers") != 0 || std::strcmp(argv[2], choice.name) != 0)
+        continue;
+      by = choice.by;
+      understood = true;
+    }
+    argv += 2;
+  }
+  if (!understood) {
+    std::fprintf(stderr,
+                 "usage: tetproof-tetgen [--markers label|facet|triangle|one] SWITCHES INPUT "
+                 "OUT.mesh STATS.json\n");
     return 2;
   }
-  return run(argv[1], argv[2], argv[3], argv[4]);
+  return run(by, argv[1], argv[2], argv[3], argv[4]);
 }
