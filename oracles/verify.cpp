@@ -325,7 +325,10 @@ std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface
 void Verification::check_file_quality(const TetComplex& complex, const Neighbours& neighbours,
                                       const InputSurface& surface,
                                       const ConformityResult& conformity) {
-  add(check_constrained_delaunay(complex, neighbours, surface, conformity.faces, {.gate = false}));
+  OracleReport delaunay =
+      check_constrained_delaunay(complex, neighbours, surface, conformity.faces, {.gate = false});
+  // A mesh all of whose faces are on the surface, as a single tetrahedron, has nothing to count.
+  if (delaunay.checked > 0) add(std::move(delaunay));
   OracleReport angles("angles", "tetrahedra inside");
   angles.promised = false;
   for (const std::uint8_t inside : complex.inside) angles.checked += inside;

@@ -268,7 +268,7 @@ int main(int argc, char** argv) {
     std::puts("TetGen " TETGEN_VERSION);
     return 0;
   }
-  MarkersBy by = MarkersBy::label;
+  MarkersBy by = MarkersBy::facet;
   bool understood = argc == 5 || argc == 7;
   if (argc == 7) {
     understood = false;
