@@ -70,10 +70,13 @@ class Counters {
     return place + kName;
   }
 
-  std::uint64_t executed_ = 0, judged_ = 0;
+  std::uint64_t executed() const { return executed_; }
+  std::uint64_t judged() const { return judged_; }
+
   std::vector<Leniency*> listed;
 
  private:
+  std::uint64_t executed_ = 0, judged_ = 0;
   char* memory_;
   char *executed_digits_ = nullptr, *judged_digits_ = nullptr;
   std::size_t lines_ = 0;
@@ -85,8 +88,8 @@ Counters& counters() {
 }
 
 bool too_often(const Leniency& leniency) {
-  const auto judged = static_cast<double>(counters().judged_);
-  return counters().judged_ >= kSample &&
+  const auto judged = static_cast<double>(counters().judged());
+  return counters().judged() >= kSample &&
          static_cast<double>(leniency.taken()) > leniency.most() * judged;
 }
 
@@ -111,8 +114,8 @@ void Leniency::take() {
     std::fprintf(stderr, "leniency %s is not named by its property\n", name_);
     std::abort();
   }
-  if (last_ == counters().judged_) return;
-  last_ = counters().judged_;
+  if (last_ == counters().judged()) return;
+  last_ = counters().judged();
   ++taken_;
   count(digits_);
 }
@@ -120,15 +123,15 @@ void Leniency::take() {
 std::string leniency_table() {
   const Counters& all = counters();
   std::string text =
-      std::to_string(all.executed_) + " executions, " + std::to_string(all.judged_) + " judged\n";
+      std::to_string(all.executed()) + " executions, " + std::to_string(all.judged()) + " judged\n";
   for (const Leniency* leniency : all.listed) {
     char line[160];
-    const double share = all.judged_ == 0 ? 0
-                                          : 100 * static_cast<double>(leniency->taken()) /
-                                                static_cast<double>(all.judged_);
+    const double share = all.judged() == 0 ? 0
+                                           : 100 * static_cast<double>(leniency->taken()) /
+                                                 static_cast<double>(all.judged());
     std::snprintf(line, sizeof line, "  %-36s %llu of %llu (%.3g %%, at most %.3g %%)%s\n",
                   leniency->name(), static_cast<unsigned long long>(leniency->taken()),
-                  static_cast<unsigned long long>(all.judged_), share, 100 * leniency->most(),
+                  static_cast<unsigned long long>(all.judged()), share, 100 * leniency->most(),
                   too_often(*leniency) ? " TOO OFTEN" : "");
     text += line;
   }
