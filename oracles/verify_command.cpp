@@ -152,6 +152,10 @@ int verify_files(const Arguments& arguments) {
 
 namespace tetproof {
 
+void survive_lack_of_memory() {
+  mp_set_memory_functions(oracles::allocate, oracles::reallocate, oracles::release);
+}
+
 int run_verify(int argc, char** argv) {
   using namespace oracles;
   CLI::App app("Checks a tetrahedral mesh of a surface exactly.", "tetproof verify");
@@ -167,9 +171,6 @@ int run_verify(int argc, char** argv) {
     std::fprintf(stderr, "tetproof: --promised: %s\n", why.c_str());
     return kUsage;
   }
-  // GMP ends the program where it gets no memory; out of its allocation functions an exception may
-  // be thrown all the same, which leaves only the number in hand undefined.
-  mp_set_memory_functions(allocate, reallocate, release);
   try {
     return verify_files(arguments);
   } catch (const ReadError& error) {

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <new>
+#include <stdexcept>
 
 #include "corpus/cli/commands.h"
 #include "corpus/meshers.h"
@@ -287,17 +289,24 @@ int parse_and_run(int argc, char** argv) {
 }  // namespace tetproof
 
 int main(int argc, char** argv) {
-#ifdef TETPROOF_HAS_VERIFY
-  // The oracles read their own arguments.
-  if (argc > 1 && std::strcmp(argv[1], "verify") == 0) {
-    return tetproof::run_verify(argc - 1, argv + 1);
-  }
-#endif
   try {
+#ifdef TETPROOF_HAS_VERIFY
+    tetproof::survive_lack_of_memory();
+    // The oracles read their own arguments.
+    if (argc > 1 && std::strcmp(argv[1], "verify") == 0) {
+      return tetproof::run_verify(argc - 1, argv + 1);
+    }
+#endif
     return tetproof::parse_and_run(argc, argv);
   } catch (const tetproof::UsageError& error) {
     std::fprintf(stderr, "tetproof: %s\n", error.what());
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::fputs("tetproof: not enough memory\n", stderr);
+    return 5;
+  } catch (const std::length_error&) {
+    std::fputs("tetproof: more than this machine can number\n", stderr);
+    return 5;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tetproof: %s\n", error.what());
     return 3;

@@ -26,8 +26,14 @@ class CdtBuilder {
         delaunay_(std::move(delaunay)) {}
 
   CdtResult run() {
-    // Facet recovery cannot fail by the theory; should it, a few more points on the facet's
-    // boundary give it another configuration to work on.
+    // Facet recovery cannot fail: all segments are edges of a Delaunay tetrahedrization that is
+    // generic by perturbation, hence strongly Delaunay, and then a constrained Delaunay
+    // tetrahedrization exists (Shewchuk, General-dimensional constrained Delaunay and constrained
+    // regular triangulations, I, 2008), in which gift wrapping finds an apex for every open face.
+    // What runs out on the way (memory, time, numbers for the vertices of a cavity, room between
+    // doubles) is thrown as a limit and does not come here. So already a first failure is a bug,
+    // of which counters.facet_restarts tells; a few more points on the facet's boundary give it
+    // another configuration to work on, and when these do not help either it is an internal error.
     constexpr int kAttempts = 8;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       if (!delaunay_) delaunay_ = std::make_unique<Tetrahedrization>(predicates_);
@@ -37,7 +43,7 @@ class CdtBuilder {
       ++restarts_;
       split_boundary(failed);
     }
-    DELMESHER_CHECK(false, "facet recovery failed");
+    DELMESHER_CHECK(false, "facet recovery failed, which contradicts the theory");
     return {};
   }
 

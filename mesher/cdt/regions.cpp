@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "mesher/base/check.h"
 #include "mesher/base/epoch.h"
 #include "mesher/base/flat_map.h"
+#include "mesher/base/numbering.h"
 
 namespace delmesher {
 namespace {
@@ -177,6 +177,7 @@ bool FacetRecovery::recover_region() {
   if (!grow_cavity()) return false;
   collect_shell();
   collect_isolated();
+  number_vertices();
   counters_.isolated_vertices += upper_isolated_.size() + lower_isolated_.size();
   counters_.missing_triangles += region_.size();
   ++counters_.regions;
@@ -202,7 +203,9 @@ void FacetRecovery::number_vertices() {
   for (const Triangle& t : region_) local_.insert(local_.end(), t.begin(), t.end());
   std::sort(local_.begin(), local_.end());
   local_.erase(std::unique(local_.begin(), local_.end()), local_.end());
-  DELMESHER_CHECK(local_.size() < (1U << 21), "cavity too large");
+  // Three numbers to a key, here and in gift wrapping, whose vertices are among these.
+  constexpr std::size_t kMost = (std::size_t{1} << 21) - 1;
+  if (local_.size() > kMost) stop_at_size(kMost, "vertices of one cavity");
 }
 
 // Are all vertices of the cavity and the region (numbered) corners of the tetrahedra?
@@ -233,7 +236,6 @@ std::uint64_t FacetRecovery::face_key(const Triangle& t) const {
 // lost.
 bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
                                    const std::vector<Tetrahedron>& lower) {
-  number_vertices();
   std::vector<Tetrahedron> all = upper;
   all.insert(all.end(), lower.begin(), lower.end());
   if (!keeps_all_vertices(all)) return false;

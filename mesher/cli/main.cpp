@@ -1,5 +1,6 @@
 // delmesher: the mesher's command line.
 #include <cstdio>
+#include <new>
 
 #include "mesher/cli/arguments.h"
 #include "mesher/cli/progress.h"
@@ -7,8 +8,10 @@
 #include "mesher/cli/signals.h"
 #include "mesher/delmesher.h"
 
-int main(int argc, char** argv) {
-  using namespace delmesher;
+namespace delmesher {
+namespace {
+
+int parse_and_run(int argc, char** argv) {
   cli::install_signal_handlers();
   const cli::Parsed parsed =
       cli::parse_arguments(std::vector<std::string>(argv + (argc > 0 ? 1 : 0), argv + argc));
@@ -28,4 +31,16 @@ int main(int argc, char** argv) {
     return cli::kUnreadable;
   }
   return code;
+}
+
+}  // namespace
+}  // namespace delmesher
+
+int main(int argc, char** argv) {
+  try {
+    return delmesher::parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {  // not even enough for the arguments, or for a message
+    std::fputs("delmesher: out of memory\n", stderr);
+    return delmesher::cli::kLimit;
+  }
 }

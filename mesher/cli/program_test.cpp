@@ -205,6 +205,38 @@ std::string spiky_ball() {
   return off.str();
 }
 
+TEST_F(Program, LackOfMemoryIsFive) {
+  write("in.off", spiky_ball());
+  const auto limit_to = [](int kibibytes) {
+    return "ulimit -v " + std::to_string(kibibytes) + " && ";
+  };
+  // With less it does not even start; sanitizers take more than any of these.
+  int least = 6 << 10;
+  while (least < 40 << 10 && run("--version", limit_to(least)) != 0) least += 256;
+  if (least >= 40 << 10) GTEST_SKIP() << "does not start with 40 MiB of addresses";
+  int ended = 0;
+  for (const int more : {0, 256, 1 << 10, 2 << 10, 4 << 10, 8 << 10}) {
+    const int kibibytes = least + more;
+    const std::string limit = limit_to(kibibytes);
+    for (const char* job : {"mesh in.off -o mesh.vtu --exact exact -q",
+                            "cdt in.off -o mesh.vtu -o mesh.tet -q", "check in.off"}) {
+      const int code = run(job, limit);
+      if (code == 0) {
+        EXPECT_EQ(text("err.txt"), "");
+        for (const char* name : {"mesh.vtu", "mesh.tet", "exact"}) fs::remove(path(name));
+        continue;
+      }
+      EXPECT_EQ(code, 5) << job << " with " << kibibytes << " KiB";
+      const std::string said = text("err.txt");
+      EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+      EXPECT_NE(said.find("out of memory"), std::string::npos) << said;
+      expect_no_output();
+      ++ended;
+    }
+  }
+  EXPECT_GT(ended, 0);
+}
+
 // The lines of statistics that are the same for every run.
 std::string lasting(const std::string& statistics) {
   std::istringstream in(statistics);

@@ -116,7 +116,8 @@ void OutputSet::discard() {
 TextSink* OutputSet::open(const std::string& path, WriteStatus& status) {
   const fs::path target = resolve(path);
   std::error_code error;
-  File file;
+  // Known before it is created, so that it does not stay should memory run out on the way.
+  File& file = files_.emplace_back();
   file.path = path;
   file.target = target.string();
   errno = 0;
@@ -128,13 +129,14 @@ TextSink* OutputSet::open(const std::string& path, WriteStatus& status) {
     file.file = create_beside(target, file.temporary);
   }
   if (file.file == nullptr) {
-    status.error = path + ": cannot write: " + reason(errno);
+    const int why = errno;
+    files_.pop_back();
+    status.error = path + ": cannot write: " + reason(why);
     return nullptr;
   }
-  file.sink = std::make_unique<TextSink>(file.file);
-  files_.push_back(std::move(file));
   tell_watcher();
-  return files_.back().sink.get();
+  file.sink = std::make_unique<TextSink>(file.file);
+  return file.sink.get();
 }
 
 WriteStatus OutputSet::commit() {
@@ -162,40 +164,50 @@ WriteStatus OutputSet::commit() {
 // name until all are in place.
 WriteStatus OutputSet::put_in_place() {
   WriteStatus status;
-  std::error_code error;
-  std::size_t done = 0;
-  for (; done < files_.size() && status.ok(); ++done) {
-    File& file = files_[done];
-    if (file.temporary.empty()) continue;
-    error.clear();
-    if (std::error_code ignored; fs::is_regular_file(file.target, ignored)) {
-      file.former = free_name_beside(file.target, ".old");
-      // A second name, so that the target is there all the time, or the only one where the file
-      // system has no second names.
-      fs::create_hard_link(file.target, file.former, error);
-      if (error) fs::rename(file.target, file.former, error);
-      if (error) file.former.clear();
+  try {
+    for (File& file : files_) {
+      if (file.temporary.empty()) continue;
+      std::error_code error;
+      if (std::error_code ignored; fs::is_regular_file(file.target, ignored)) {
+        std::string former = free_name_beside(file.target, ".old");
+        // A second name, so that the target is there all the time, or the only one where the file
+        // system has no second names.
+        fs::create_hard_link(file.target, former, error);
+        if (error) fs::rename(file.target, former, error);
+        if (!error) file.former = std::move(former);
+      }
+      if (!error) fs::rename(file.temporary, file.target, error);
+      if (error) {
+        status.error = file.path + ": cannot write: " + error.message();
+        break;
+      }
+      file.placed = true;
+      file.temporary.clear();
     }
-    if (!error) fs::rename(file.temporary, file.target, error);
-    if (error) {
-      status.error = file.path + ": cannot write: " + error.message();
-      break;
-    }
-    file.placed = true;
-    file.temporary.clear();
+  } catch (...) {  // no memory
+    restore_targets();
+    throw;
   }
-  for (File& file : files_) {
-    if (status.ok()) {
-      if (!file.former.empty()) fs::remove(file.former, error);
-    } else if (!file.former.empty()) {
-      fs::rename(file.former, file.target, error);
-      // Two names of one file are not renamed into each other.
-      if (!file.placed) fs::remove(file.former, error);
-    } else if (file.placed) {
-      fs::remove(file.target, error);
-    }
+  if (!status.ok()) {
+    restore_targets();
+    return status;
+  }
+  for (const File& file : files_) {
+    if (!file.former.empty()) std::remove(file.former.c_str());
   }
   return status;
+}
+
+void OutputSet::restore_targets() noexcept {
+  for (const File& file : files_) {
+    if (!file.former.empty()) {
+      std::rename(file.former.c_str(), file.target.c_str());
+      // Two names of one file are not renamed into each other.
+      if (!file.placed) std::remove(file.former.c_str());
+    } else if (file.placed) {
+      std::remove(file.target.c_str());
+    }
+  }
 }
 
 WriteStatus check_writable(const std::string& path) {

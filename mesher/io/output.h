@@ -89,6 +89,7 @@ class OutputSet {
     std::unique_ptr<TextSink> sink;
   };
   WriteStatus put_in_place();
+  void restore_targets() noexcept;  // without memory, too
   void discard();
   void tell_watcher();
 
