@@ -10,7 +10,9 @@
 
 namespace delmesher {
 
-using Wide = unsigned __int128;
+// ISO C++ has no 128-bit integers: an extension that gcc and clang share.
+__extension__ using Wide = unsigned __int128;
+__extension__ using SignedWide = __int128;
 
 // a + b + carry and a - b - borrow, with the new carry or borrow (0 or 1).
 #if defined(__x86_64__)
@@ -101,8 +103,8 @@ inline FixedInteger<N + M> operator*(const FixedInteger<N>& a, const FixedIntege
 }
 
 inline FixedInteger<2> operator*(const FixedInteger<1>& a, const FixedInteger<1>& b) {
-  const __int128 p = static_cast<__int128>(static_cast<std::int64_t>(a.limb[0])) *
-                     static_cast<std::int64_t>(b.limb[0]);
+  const SignedWide p =
+      SignedWide{static_cast<std::int64_t>(a.limb[0])} * static_cast<std::int64_t>(b.limb[0]);
   return {{static_cast<std::uint64_t>(p), static_cast<std::uint64_t>(static_cast<Wide>(p) >> 64)}};
 }
 

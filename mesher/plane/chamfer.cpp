@@ -273,7 +273,7 @@ class Chamferer {
       const Piece& piece = graph_.pieces[id];
       if (id >= kBoxPieces) {
         for (const VertexId v : {piece.a, piece.b}) {
-          attached[v] |= kept(id) ? 3 : 1;
+          attached[v] = static_cast<std::uint8_t>(attached[v] | (kept(id) ? 3 : 1));
         }
       }
       if (!kept(id)) {

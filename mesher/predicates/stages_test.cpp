@@ -47,8 +47,11 @@ TEST(Stages, EachSignIsDecidedByOne) {
         const int s = sign();
         ASSERT_EQ(decided(p.counters), decided(before) + 1);
         ASSERT_EQ(p.counters.symbolic, before.symbolic);
-        if (s == 0) EXPECT_EQ(p.counters.filter, before.filter);
-        if (s != 0) EXPECT_EQ(p.counters.support, before.support);
+        if (s == 0) {
+          EXPECT_EQ(p.counters.filter, before.filter);
+        } else {
+          EXPECT_EQ(p.counters.support, before.support);
+        }
       }
     }
     const PredicateCounters one = p.counters;
