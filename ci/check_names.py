@@ -3,15 +3,28 @@
 
 Usage: check_names.py BUILD_DIR [JOBS]. Files that passed before and have not changed since, nor any header, are
 not read again. Exits 1 and prints clang-tidy's words if a name breaks the rules.
+
+Most of the time would go into the headers of libraries, once per file. So files of a folder that are compiled alike are
+read together, as one that includes them, unless they have a local name in common. Where that does not compile all the same,
+they are read in halves, at last alone.
 """
+import collections
 import concurrent.futures
 import hashlib
 import json
 import os
+import re
+import shlex
 import subprocess
 import sys
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), ".."))
+FOLDERS = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports")
+TOGETHER = 16  # files
+# What a file defines outside of classes and functions begins a line there.
+DEFINED = re.compile(r"^(?:using (\w+) =|(?:struct|class|enum class|union) (\w+)|namespace (\w+) =|"
+                     r"(?:inline |static )*const(?:expr|init)? .*?\b(k[A-Z]\w*)\W|"
+                     r"\w+_(MAIN)\(|(?!TEST|INSTANTIATE|namespace)[\w:<].*?[ *&](\w+)\(|(?:TYPED_)?TEST(?:_F|_P)?\((\w+, \w+))")
 
 
 def digest(paths):
@@ -23,15 +36,81 @@ def digest(paths):
 
 
 def project_headers():
-    folders = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports")
-    return [os.path.join(folder, name) for top in folders for folder, _, names in os.walk(os.path.join(ROOT, top))
+    return [os.path.join(folder, name) for top in FOLDERS for folder, _, names in os.walk(os.path.join(ROOT, top))
             for name in names if name.endswith(".h")]
 
 
-def tidy(build, path):
-    run = subprocess.run(["clang-tidy", "--quiet", "-p", build, "--extra-arg=-Wno-unknown-warning-option",
-                          "--extra-arg=-Wno-everything", path], capture_output=True, text=True)
-    return run.returncode, run.stdout + ("" if run.returncode == 0 else run.stderr)
+def flags_of(entry):
+    """What the file is compiled with, without compiler, file, object and warnings: definitions {name: flag}, others in order."""
+    words = shlex.split(entry["command"])
+    words = words[next(i for i, word in enumerate(words) if word.startswith("-")):]
+    defined, others = {}, []
+    while words:
+        word = words.pop(0)
+        if word in ("-o", "-c", "-MF", "-MT", "-MQ"):
+            words.pop(0)
+        elif word == "-isystem":
+            others.append(word + words.pop(0))
+        elif word.startswith("-D"):
+            defined[word.split("=")[0]] = word
+        elif not word.startswith(("-M", "-W")):
+            others.append(word)
+    return defined, others
+
+
+def local_names(path):
+    with open(path, encoding="utf-8") as stream:
+        found = [DEFINED.match(line.rstrip()) for line in stream]
+    return {next(name for name in match.groups() if name).lower() for match in found if match}
+
+
+class Group:
+    """Files that are read together: no local name in common, no macro with two values."""
+
+    def __init__(self):
+        self.files, self.names, self.defined, self.others = [], set(), {}, []
+
+    def takes(self, names, flags):
+        return len(self.files) < TOGETHER and not self.names & names and all(
+            self.defined.get(name, flag) == flag for name, flag in flags[0].items())
+
+    def add(self, file, names, flags):
+        self.files.append(file)
+        self.names |= names
+        self.defined |= flags[0]
+        self.others += [flag for flag in flags[1] if flag not in self.others]
+
+
+def groups_of(files, flags):
+    groups = collections.defaultdict(list)  # by top folder: what lies together includes the same libraries
+    for file in files:
+        names, top = local_names(file), os.path.relpath(file, ROOT).split(os.sep)[0]
+        group = next((g for g in groups[top] if g.takes(names, flags[file])), None)
+        if group is None:
+            group = Group()
+            groups[top].append(group)
+        group.add(file, names, flags[file])
+    return [group for groups_there in groups.values() for group in groups_there]
+
+
+class Tidy:
+    def __init__(self, scratch):
+        self.scratch = scratch
+
+    def read_together(self, flags, files):
+        """{file: (code, words)}; words of a file read with others are those of all of them."""
+        unit = files[0]
+        if len(files) > 1:
+            unit = os.path.join(self.scratch, hashlib.sha256("\n".join(files).encode()).hexdigest()[:16] + ".cpp")
+            with open(unit, "w", encoding="utf-8") as stream:
+                stream.writelines('#include "%s"\n' % file for file in files)
+        run = subprocess.run(["clang-tidy", "--quiet", "--config-file=" + os.path.join(ROOT, ".clang-tidy"),
+                              "--header-filter=^%s/(%s)/.*[.](h|cpp)$" % (ROOT, "|".join(FOLDERS)), unit, "--", *flags,
+                              "-Wno-unknown-warning-option", "-Wno-everything"], capture_output=True, text=True)
+        if run.returncode != 0 and len(files) > 1:
+            middle = len(files) // 2
+            return self.read_together(flags, files[:middle]) | self.read_together(flags, files[middle:])
+        return {file: (run.returncode, run.stdout + ("" if run.returncode == 0 else run.stderr)) for file in files}
 
 
 def main():
@@ -39,21 +118,24 @@ def main():
     jobs = int(sys.argv[2]) if len(sys.argv) > 2 else os.cpu_count()
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as stream:
         entries = json.load(stream)
-    files = sorted({os.path.realpath(os.path.join(e["directory"], e["file"])) for e in entries})
-    files = [f for f in files if f.startswith(ROOT + os.sep) and not f.startswith(os.path.realpath(build))]
+    flags = {os.path.realpath(os.path.join(e["directory"], e["file"])): flags_of(e) for e in entries}
+    files = sorted(f for f in flags if f.startswith(ROOT + os.sep) and not f.startswith(os.path.realpath(build)))
     common = digest(project_headers() + [os.path.join(ROOT, ".clang-tidy")])
     memory = os.path.join(build, "names_checked")
     os.makedirs(memory, exist_ok=True)
     marks = {f: os.path.join(memory, hashlib.sha256((common + digest([f])).encode()).hexdigest()) for f in files}
     unread = [f for f in files if not os.path.exists(marks[f])]
+    groups = sorted(groups_of(unread, flags), key=lambda group: -len(group.files))
+    tidy = Tidy(memory)
     failed = 0
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for path, (code, output) in zip(unread, pool.map(lambda f: tidy(build, f), unread)):
-            if code == 0:
-                open(marks[path], "w", encoding="utf-8").close()
-            else:
-                failed += 1
-                print(output.strip())
+        for results in pool.map(lambda g: tidy.read_together([*g.defined.values(), *g.others], g.files), groups):
+            for path, (code, output) in results.items():
+                if code == 0:
+                    open(marks[path], "w", encoding="utf-8").close()
+                else:
+                    failed += 1
+                    print(output.strip())
     print("names: %d files, %d unchanged, %d with violations" % (len(files), len(files) - len(unread), failed))
     return 1 if failed or not files else 0
 

@@ -10,9 +10,9 @@ constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr int kBins = 12;
 
 // Certifies that angles are not below a bound: cos^2 <= c2 for acute ones.
-class AngleBound {
+class SmallestAngle {
  public:
-  explicit AngleBound(double degrees) {
+  explicit SmallestAngle(double degrees) {
     const double cosine = std::cos(degrees / kDegrees);
     bound_ = cosine * cosine * (1 + 1e-9);
     exact_bound_ = bound_;
@@ -52,7 +52,7 @@ class AngleBound {
 };
 
 // The first angle below the bound, as face and corner; false if there is none.
-bool find_small_angle(const ExactPoints& points, const Tet& tet, const AngleBound& bound,
+bool find_small_angle(const ExactPoints& points, const Tet& tet, const SmallestAngle& bound,
                       Face& corner_first) {
   for (int i = 0; i < 4; ++i) {
     const Face face = face_of(tet, i);
@@ -294,7 +294,7 @@ void measure_angles(const TetComplex& complex, const Neighbours& neighbours,
 OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface, double delta, AngleScope scope) {
   OracleReport report("angles", "tetrahedra");
-  const AngleBound bound(delta);
+  const SmallestAngle bound(delta);
   std::uint64_t left_alone = 0;
   InputSurface::PlaneSides known;
   std::vector<std::uint8_t> selected(complex.tetrahedra.size(), 1);

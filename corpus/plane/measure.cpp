@@ -87,7 +87,7 @@ Measurement measure(const Mesher& mesher, const PlanarGraph& graph, const Limits
     const struct rlimit core = {0, 0};
     setrlimit(RLIMIT_CORE, &core);
     const Measurement result = run_here(mesher, graph);
-    const bool written = write(ends[1], &result, sizeof result) == sizeof result;
+    const bool written = ::write(ends[1], &result, sizeof result) == sizeof result;
     _exit(written ? 0 : 1);
   }
   close(ends[1]);

@@ -7,6 +7,7 @@
 
 #include "mesher/base/parallel.h"
 #include "mesher/output/cosines.h"
+#include "mesher/predicates/vector.h"
 
 namespace delmesher {
 namespace {
@@ -20,18 +21,6 @@ constexpr int kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 // Beyond this ratio of longest to shortest edge, products of four lengths could underflow.
 constexpr int kComparableExponents = 200;
-
-Vec3 cross(const Vec3& u, const Vec3& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-double dot(const Vec3& u, const Vec3& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-double length(const Vec3& u) {
-  return std::sqrt(dot(u, u));
-}
 
 Vec3 minus(const Vec3& u) {
   return {-u[0], -u[1], -u[2]};
@@ -145,13 +134,13 @@ double volume_term(const Shape& shape) {
 
 std::array<double, 3> face_angles(const Shape& shape, int f) {
   std::array<double, 3> result;
-  const double area = shape.comparable ? length(face_normal(shape, f)) : 0;
+  const double area = shape.comparable ? norm(face_normal(shape, f)) : 0;
   for (int i = 0; i < 3; ++i) {
     const int p = kFaces[f][i];
     const Vec3 u = edge_vector(shape, p, kFaces[f][(i + 1) % 3]);
     const Vec3 v = edge_vector(shape, p, kFaces[f][(i + 2) % 3]);
     // Edges at different scales do not share one area, but their directions are right.
-    result[i] = angle(shape.comparable ? area : length(cross(u, v)), dot(u, v));
+    result[i] = angle(shape.comparable ? area : norm(cross(u, v)), dot(u, v));
   }
   return result;
 }
@@ -180,7 +169,7 @@ std::array<double, 6> incomparable_dihedrals(const Shape& shape) {
     const Vec3 na = cross(edge_vector(shape, d, a), along);
     const Vec3 nb = cross(edge_vector(shape, d, b), along);
     const double volume = std::fabs(dot(edge_vector(shape, d, a), nb));
-    result[e] = angle(volume * length(along), dot(na, nb));
+    result[e] = angle(volume * norm(along), dot(na, nb));
   }
   return result;
 }

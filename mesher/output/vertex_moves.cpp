@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/predicates/vector.h"
+
 namespace delmesher {
 namespace {
 
@@ -31,14 +33,6 @@ bool is_finite(const Vec3& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
-Vec3 difference(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Vec3& u, const Vec3& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
 // A half space that the vertex must be in to make one tetrahedron of its star positive.
 struct HalfSpace {
   Vec3 normal;  // of length 1, inwards
@@ -65,12 +59,12 @@ StarFrame make_frame(const RoundedMesh& mesh, std::uint32_t v) {
   double size = 0;
   for (const std::uint32_t t : mesh.star(v)) {
     for (const std::uint32_t w : mesh.tet(t)) {
-      size = std::max(size, largest_component(difference(mesh.position(w), frame.origin)));
+      size = std::max(size, largest_component(subtract(mesh.position(w), frame.origin)));
     }
   }
   std::frexp(size, &frame.exponent);
   const auto local = [&](std::uint32_t w) {
-    Vec3 x = difference(mesh.position(w), frame.origin);
+    Vec3 x = subtract(mesh.position(w), frame.origin);
     for (double& c : x) c = std::ldexp(c, -frame.exponent);
     return x;
   };
@@ -80,10 +74,10 @@ StarFrame make_frame(const RoundedMesh& mesh, std::uint32_t v) {
     const Tet& q = mesh.tet(t);
     const auto i = std::find(q.begin(), q.end(), v) - q.begin();
     const Vec3 a = local(q[kInward[i][0]]);
-    const Vec3 u = difference(local(q[kInward[i][1]]), a);
-    const Vec3 w = difference(local(q[kInward[i][2]]), a);
+    const Vec3 u = subtract(local(q[kInward[i][1]]), a);
+    const Vec3 w = subtract(local(q[kInward[i][2]]), a);
     Vec3 normal{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
-    const double length = std::sqrt(dot(normal, normal));
+    const double length = norm(normal);
     if (!(length > 0) || !std::isfinite(length)) continue;
     for (double& c : normal) c /= length;
     frame.half_spaces.push_back({normal, dot(normal, a)});
