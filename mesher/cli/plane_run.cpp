@@ -27,9 +27,8 @@ class PlaneRunner : RunSteps {
 };
 
 int PlaneRunner::read() {
-  io::PlaneReadResult input = io::read_plane(command_.input);
-  if (input.code == io::ReadCode::out_of_memory) return fail(kLimit, input.error);
-  if (!input.ok()) return fail(kUnreadable, input.error);
+  io::PlaneReadResult input = io::read_plane(command_.input, goes_on());
+  if (!input.ok()) return fail_reading(input.code, input.error);
   for (const std::string& warning : input.warnings) warn(warning);
   graph_ = std::move(input.graph);
   note_input(input.format, graph_.vertices.size(), graph_.segments.size(), "segments");

@@ -179,6 +179,28 @@ TEST_F(Program, LimitsAreFive) {
   expect_no_output();
 }
 
+// Faces of so many corners that reading takes seconds.
+std::string combs() {
+  constexpr int kFaces = 200, kCorners = 19998;
+  std::string off = "OFF\n" + std::to_string(kCorners) + " " + std::to_string(kFaces) + " 0\n";
+  std::string face = std::to_string(kCorners);
+  for (int i = 0; i < kCorners; ++i) {
+    off += std::to_string(i % 2 == 0 ? 0 : i) + " " + std::to_string(i) + " 0\n";
+    face += " " + std::to_string(i);
+  }
+  for (int i = 0; i < kFaces; ++i) off += face + "\n";
+  return off;
+}
+
+TEST_F(Program, TimeLimitHoldsWhileReading) {
+  write("in.off", combs());
+  EXPECT_EQ(run("mesh in.off -o mesh.mesh --time-limit 0.1"), 5);
+  expect_error("in.off", "time limit reached while reading");
+  EXPECT_EQ(run("plane in.off -o mesh.off --time-limit 0.1"), 5);
+  expect_error("in.off", "time limit reached while reading");
+  expect_no_output();
+}
+
 // A ball with spikes, as a graph over the sphere: acute corners, and many facets that are close.
 std::string spiky_ball() {
   constexpr int kRings = 14, kSlices = 24;

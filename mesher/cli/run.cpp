@@ -28,9 +28,10 @@ class Runner : RunSteps {
 };
 
 int Runner::read() {
-  io::ReadResult input = io::read_surface(command_.input);
-  if (input.code == io::ReadCode::out_of_memory) return fail(kLimit, input.error);
-  if (!input.ok()) return fail(kUnreadable, input.error);
+  io::ReadOptions options;
+  options.go_on = goes_on();
+  io::ReadResult input = io::read_surface(command_.input, options);
+  if (!input.ok()) return fail_reading(input.code, input.error);
   for (const std::string& warning : input.warnings) warn(warning);
   surface_ = std::move(input.surface);
   note_input(input.format, surface_.vertices.size(), surface_.triangles.size(), "triangles");

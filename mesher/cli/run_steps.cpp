@@ -1,5 +1,6 @@
 #include "mesher/cli/run_steps.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace delmesher::cli {
@@ -52,6 +53,26 @@ int RunSteps::check_outputs(std::vector<std::string> (*files_of)(const std::stri
   return kDone;
 }
 
+std::function<bool()> RunSteps::goes_on() const {
+  return [this] {
+    const double limit = command_.options.time_limit_seconds;
+    return !interrupted() && (limit <= 0 || seconds() <= limit);
+  };
+}
+
+int RunSteps::fail_reading(io::ReadCode code, const std::string& error) const {
+  switch (code) {
+    case io::ReadCode::stopped:
+      return interrupted()
+                 ? fail_input(kInterrupted, "interrupted")
+                 : fail_input(kLimit, "time limit reached while reading, see --time-limit");
+    case io::ReadCode::out_of_memory:
+      return fail(kLimit, error);
+    default:
+      return fail(kUnreadable, error);
+  }
+}
+
 void RunSteps::note_input(const std::string& format, std::uint64_t vertices, std::uint64_t cells,
                           const char* cell_name) {
   facts_.input_vertices = vertices;
@@ -63,6 +84,8 @@ void RunSteps::note_input(const std::string& format, std::uint64_t vertices, std
 
 Options RunSteps::options_with_progress(ProgressLine& line) const {
   Options options = command_.options;
+  double& limit = options.time_limit_seconds;
+  if (limit > 0) limit = std::max(limit - seconds(), 1e-9);  // 0 would be none
   options.progress = [&line](const Progress& progress) {
     line.show(progress);
     return !interrupted();

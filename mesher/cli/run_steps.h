@@ -12,6 +12,7 @@
 #include "mesher/cli/run.h"
 #include "mesher/cli/signals.h"
 #include "mesher/io/output.h"
+#include "mesher/io/read_surface.h"
 
 namespace delmesher::cli {
 
@@ -28,6 +29,11 @@ class RunSteps {
 
   // Can all files be written? `files_of` names those that an output makes.
   int check_outputs(std::vector<std::string> (*files_of)(const std::string&)) const;
+
+  // What a reader asks (ReadOptions::go_on): --time-limit counts from the start of the run.
+  std::function<bool()> goes_on() const;
+  // Prints why nothing was read and returns the code.
+  int fail_reading(io::ReadCode code, const std::string& error) const;
 
   // Says what was read and how long it took.
   void note_input(const std::string& format, std::uint64_t vertices, std::uint64_t cells,

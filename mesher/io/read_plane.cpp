@@ -31,8 +31,8 @@ double need_number(TextLines& in, const char* what) {
 // Triangle's files (https://www.cs.cmu.edu/~quake/triangle.html), counted from 0 or 1.
 class PolyReader {
  public:
-  PolyReader(std::string_view text, PlanarGraph& graph)
-      : in_(text, Comments::anywhere, ','), graph_(graph) {}
+  PolyReader(std::string_view text, Polling& polling, PlanarGraph& graph)
+      : in_(text, Comments::anywhere, ','), polling_(polling), graph_(graph) {}
 
   bool read_header() {
     need_line("the number of vertices");
@@ -110,6 +110,7 @@ class PolyReader {
  private:
   Position here() const { return at_line(in_.line()); }
   void need_line(const char* what) {
+    polling_.poll(8);
     if (!in_.next_line()) fail(here(), std::string("the file ends where ") + what + " is expected");
   }
   template <typename T>
@@ -150,6 +151,7 @@ class PolyReader {
   }
 
   TextLines in_;
+  Polling& polling_;
   PlanarGraph& graph_;
   std::uint64_t vertices_ = 0, base_ = 0;
 };
@@ -228,10 +230,12 @@ bool has_extension(const std::string& path, std::string_view extension) {
 }
 
 void read_by_format(std::string_view bytes, const std::string& path, const NodeFile& node_file,
-                    PlaneReadResult& result) {
+                    const std::function<bool()>& go_on, PlaneReadResult& result) {
+  Polling polling(go_on);
   if (looks_like_off(bytes) || has_extension(path, ".off") || has_extension(path, ".obj")) {
     ReadOptions options;
     options.planar = true;
+    options.go_on = go_on;
     ReadResult surface = parse_surface(bytes, path, options);
     result.code = surface.code;
     result.error = surface.error;
@@ -240,24 +244,25 @@ void read_by_format(std::string_view bytes, const std::string& path, const NodeF
     if (surface.ok()) result.graph = outline(surface.surface, surface.lines);
   } else if (has_extension(path, ".poly")) {
     result.format = "poly";
-    read_triangle_poly(bytes, node_file, result);
+    read_triangle_poly(bytes, node_file, polling, result);
   } else {
     result.format = "polygons";
-    read_polygons(bytes, result);
+    read_polygons(bytes, polling, result);
   }
 }
 
 }  // namespace
 
-void read_triangle_poly(std::string_view text, const NodeFile& node_file, PlaneReadResult& result) {
+void read_triangle_poly(std::string_view text, const NodeFile& node_file, Polling& polling,
+                        PlaneReadResult& result) {
   result.graph.insideness = Insideness::enclosed;
-  PolyReader reader(text, result.graph);
+  PolyReader reader(text, polling, result.graph);
   if (reader.read_header()) {
     reader.read_vertices();
   } else {
     const auto nodes = node_file ? node_file() : std::nullopt;
     if (!nodes) fail(at_line(1), "no vertices, and no .node file beside it");
-    PolyReader node_reader(*nodes, result.graph);
+    PolyReader node_reader(*nodes, polling, result.graph);
     try {
       if (node_reader.read_header()) node_reader.read_vertices();
     } catch (const ParseError& error) {
@@ -269,7 +274,7 @@ void read_triangle_poly(std::string_view text, const NodeFile& node_file, PlaneR
   reader.read_holes_and_regions(result.warnings);
 }
 
-void read_polygons(std::string_view text, PlaneReadResult& result) {
+void read_polygons(std::string_view text, Polling& polling, PlaneReadResult& result) {
   TextLines in(text, Comments::anywhere, ',');
   std::vector<Point2> points;
   std::vector<std::size_t> ends;  // of the rings, in points
@@ -278,6 +283,7 @@ void read_polygons(std::string_view text, PlaneReadResult& result) {
   };
   bool more_columns = false;
   while (in.next_raw_line()) {
+    polling.poll(8);
     const std::string_view rest = in.rest_of_line();
     if (rest.empty() || rest[0] == '>') {
       close();
@@ -363,10 +369,10 @@ PlanarGraph outline(const Surface& surface,
 }
 
 PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
-                            const NodeFile& node_file) {
+                            const NodeFile& node_file, const std::function<bool()>& go_on) {
   PlaneReadResult result;
   try {
-    read_by_format(bytes, path, node_file, result);
+    read_by_format(bytes, path, node_file, go_on, result);
   } catch (const ParseError& error) {
     result.code = ReadCode::unreadable;
     const bool at = error.position.unit == Position::Unit::line;
@@ -378,27 +384,35 @@ PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
   } catch (const std::length_error&) {
     result.code = ReadCode::out_of_memory;
     result.error = path + ": out of memory while reading";
+  } catch (const ReadingStopped&) {
+    result.code = ReadCode::stopped;
+    result.error = path + ": stopped while reading";
   }
   return result;
 }
 
-PlaneReadResult read_plane(const std::string& path) {
+PlaneReadResult read_plane(const std::string& path, const std::function<bool()>& go_on) {
   PlaneReadResult result;
   try {
     std::string error;
-    const auto bytes = read_file(path, error);
+    const auto bytes = read_file(path, error, go_on);
     if (!bytes) {
       result.code = ReadCode::unreadable;
       result.error = path + ": " + error;
       return result;
     }
-    return parse_plane(*bytes, path, [&]() -> std::optional<std::string> {
+    const NodeFile node_file = [&]() -> std::optional<std::string> {
       std::string ignored;
-      return read_file(std::filesystem::path(path).replace_extension(".node").string(), ignored);
-    });
+      return read_file(std::filesystem::path(path).replace_extension(".node").string(), ignored,
+                       go_on);
+    };
+    return parse_plane(*bytes, path, node_file, go_on);
   } catch (const std::bad_alloc&) {
     result.code = ReadCode::out_of_memory;
     result.error = path + ": out of memory while reading";
+  } catch (const ReadingStopped&) {
+    result.code = ReadCode::stopped;
+    result.error = path + ": stopped while reading";
   }
   return result;
 }

@@ -20,19 +20,22 @@ struct PlaneReadResult {
   bool ok() const { return code == ReadCode::ok; }
 };
 
-PlaneReadResult read_plane(const std::string& path);
+// `go_on`: ReadOptions::go_on.
+PlaneReadResult read_plane(const std::string& path, const std::function<bool()>& go_on = {});
 
 // The same for a file's bytes; `node_file` returns the .node file beside a .poly without vertices.
 PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
-                            const NodeFile& node_file = nullptr);
+                            const NodeFile& node_file = nullptr,
+                            const std::function<bool()>& go_on = {});
 
-// --- the single formats; they throw ParseError
+// --- the single formats; they throw ParseError and ReadingStopped
 
 // Shewchuk's Triangle: vertices, segments, holes, regions.
-void read_triangle_poly(std::string_view text, const NodeFile& node_file, PlaneReadResult& result);
+void read_triangle_poly(std::string_view text, const NodeFile& node_file, Polling& polling,
+                        PlaneReadResult& result);
 // Rings of "x y" lines, separated by blank lines or lines that begin with '>' (GMT). Equal points
 // are one vertex. An edge that occurs an even number of times divides what is inside (a border).
-void read_polygons(std::string_view text, PlaneReadResult& result);
+void read_polygons(std::string_view text, Polling& polling, PlaneReadResult& result);
 // The outline of a flat surface, and the edges where its labels change. Lines divide what is
 // inside; if there are no faces, they bound it.
 PlanarGraph outline(const Surface& surface,

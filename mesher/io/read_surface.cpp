@@ -75,7 +75,7 @@ void read(std::string_view bytes, Format format, const NodeFile& node_file,
 ReadResult parse(std::string_view bytes, const std::string& path, const NodeFile& node_file,
                  const ReadOptions& options) {
   ReadResult result;
-  SurfaceBuilder builder;
+  SurfaceBuilder builder(options.go_on);
   try {
     const Format format = detect(bytes, path);
     result.format = kNames[static_cast<std::size_t>(format)];
@@ -93,6 +93,9 @@ ReadResult parse(std::string_view bytes, const std::string& path, const NodeFile
   } catch (const std::length_error&) {
     result.code = ReadCode::out_of_memory;
     result.error = path + ": out of memory while reading";
+  } catch (const ReadingStopped&) {
+    result.code = ReadCode::stopped;
+    result.error = path + ": stopped while reading";
   }
   return result;
 }
@@ -103,7 +106,8 @@ struct Closer {
 
 }  // namespace
 
-std::optional<std::string> read_file(const std::string& path, std::string& error) {
+std::optional<std::string> read_file(const std::string& path, std::string& error,
+                                     const std::function<bool()>& go_on) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
     error = "is a directory";
@@ -125,6 +129,7 @@ std::optional<std::string> read_file(const std::string& path, std::string& error
     const std::size_t got = std::fread(bytes.data() + old, 1, piece, file.get());
     bytes.resize(old + got);
     if (got < piece) break;
+    if (go_on && !go_on()) throw ReadingStopped();
     if (bytes.size() > kMaxFileBytes) {
       error = "larger than " + std::to_string(kMaxFileBytes >> 30) + " GiB";
       return std::nullopt;
@@ -146,7 +151,7 @@ ReadResult read_surface(const std::string& path, const ReadOptions& options) {
   ReadResult result;
   try {
     std::string error;
-    const auto bytes = read_file(path, error);
+    const auto bytes = read_file(path, error, options.go_on);
     if (!bytes) {
       result.code = ReadCode::unreadable;
       result.error = path + ": " + error;
@@ -154,12 +159,16 @@ ReadResult read_surface(const std::string& path, const ReadOptions& options) {
     }
     const NodeFile node_file = [&]() -> std::optional<std::string> {
       std::string ignored;
-      return read_file(std::filesystem::path(path).replace_extension(".node").string(), ignored);
+      return read_file(std::filesystem::path(path).replace_extension(".node").string(), ignored,
+                       options.go_on);
     };
     return parse(*bytes, path, node_file, options);
   } catch (const std::bad_alloc&) {
     result.code = ReadCode::out_of_memory;
     result.error = path + ": out of memory while reading";
+  } catch (const ReadingStopped&) {
+    result.code = ReadCode::stopped;
+    result.error = path + ": stopped while reading";
   } catch (const std::exception& error) {
     result.code = ReadCode::unreadable;
     result.error = path + ": " + error.what();

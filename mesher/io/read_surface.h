@@ -1,6 +1,7 @@
 // Reads a surface from a file of any supported format; see formats.md.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,7 +11,12 @@
 
 namespace delmesher::io {
 
-enum class ReadCode : std::uint8_t { ok, unreadable, out_of_memory };
+enum class ReadCode : std::uint8_t {
+  ok,
+  unreadable,
+  out_of_memory,
+  stopped  // ReadOptions::go_on said no
+};
 
 struct ReadResult {
   ReadCode code = ReadCode::ok;
@@ -26,6 +32,8 @@ struct ReadResult {
 struct ReadOptions {
   // OBJ vertices may have two coordinates, and polylines are read; there may be no faces then.
   bool planar = false;
+  // Asked many times a second while a file is read; reading stops when it answers no.
+  std::function<bool()> go_on;
 };
 
 // Larger files are refused.
@@ -38,7 +46,8 @@ ReadResult read_surface(const std::string& path, const ReadOptions& options = {}
 ReadResult parse_surface(std::string_view bytes, const std::string& path,
                          const ReadOptions& options = {});
 
-// A whole file as bytes; nullopt with the reason in `error`.
-std::optional<std::string> read_file(const std::string& path, std::string& error);
+// A whole file as bytes; nullopt with the reason in `error`. Throws ReadingStopped.
+std::optional<std::string> read_file(const std::string& path, std::string& error,
+                                     const std::function<bool()>& go_on = {});
 
 }  // namespace delmesher::io

@@ -184,7 +184,8 @@ TEST(ReadObj, IndicesGroupsAndForwardReferences) {
   expect_error(points + "f 1 2\n", "x.obj", "x.obj:4: a face needs");
   expect_error(points + "f 1 2 3\n\x01\x02", "x.obj", "x.obj:5: unexpected");
   expect_error("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "x.obj", "x.obj:1: a vertex with 2 coordinates");
-  EXPECT_TRUE(parse_surface("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "x.obj", {.planar = true}).ok());
+  EXPECT_TRUE(
+      parse_surface("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "x.obj", {.planar = true, .go_on = {}}).ok());
   const std::string groups = "g a\nf 1 2 3\ng b\nf 3 2 1\n";
   const ReadResult by_group = read(points + "usemtl one\no two\n" + groups, "x.obj");
   EXPECT_EQ(by_group.surface.labels, std::vector<std::int32_t>({0, 1}));

@@ -32,6 +32,7 @@ void SurfaceBuilder::add_vertex(double x, double y, double z, Position position)
     fail(position, "non-finite coordinate");
   }
   if (surface_.vertices.size() >= kMaxVertices) fail(position, "too many vertices");
+  polling_.poll(8);
   surface_.vertices.push_back({x, y, z});
 }
 
@@ -45,6 +46,7 @@ void SurfaceBuilder::add_polygon(std::span<const std::uint32_t> corners, std::in
     fail(position, "a face with " + std::to_string(corners.size()) + " corners (the limit is " +
                        std::to_string(kMaxPolygonCorners) + ")");
   }
+  polling_.poll(8);
   corners_.insert(corners_.end(), corners.begin(), corners.end());
   polygons_.push_back({corners_.size(), label, position});
 }
@@ -120,7 +122,7 @@ void SurfaceBuilder::add_triangle(const std::array<std::uint32_t, 3>& triangle,
 
 void SurfaceBuilder::triangulate(std::span<const std::vector<std::uint32_t>> loops,
                                  std::int32_t label, Position position) {
-  const PolygonTriangulation result = triangulate_polygon(surface_.vertices, loops);
+  const PolygonTriangulation result = triangulate_polygon(surface_.vertices, loops, polling_);
   for (const auto& triangle : result.triangles) add_triangle(triangle, label);
   ++triangulated_;
   if (!result.simple && non_simple_++ == 0) first_non_simple_ = position;
@@ -165,6 +167,7 @@ Surface SurfaceBuilder::finish() {
   for (const Polygon& polygon : polygons_) {
     const std::span<const std::uint32_t> corners(corners_.data() + begin, polygon.end - begin);
     begin = polygon.end;
+    polling_.poll();
     check_corners(corners, polygon.position);
     if (corners.size() == 3) {
       add_triangle({corners[0], corners[1], corners[2]}, polygon.label);

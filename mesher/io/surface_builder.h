@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
+#include "mesher/io/polling.h"
 
 namespace delmesher::io {
 
@@ -39,6 +40,9 @@ inline constexpr std::uint64_t kMaxTriangles = 0xffffffffULL / 3;
 
 class SurfaceBuilder {
  public:
+  // ReadOptions::go_on; every function may throw ReadingStopped.
+  explicit SurfaceBuilder(const std::function<bool()>& go_on) : polling_(go_on) {}
+
   // Room for so many elements as a file of `bytes` more bytes can hold at most.
   void expect(std::uint64_t vertices, std::uint64_t polygons, std::uint64_t bytes);
 
@@ -84,6 +88,7 @@ class SurfaceBuilder {
   void report_polygons();
   void report_unused_vertices();
 
+  Polling polling_;
   Surface surface_;
   bool labelled_ = false;
   std::vector<std::uint32_t> corners_;

@@ -61,7 +61,8 @@ bool segments_meet(const Point2& p, const Point2& q, const Point2& a, const Poin
 // their indicator functions add up to the polygon's winding number, which is 0 or 1.
 class EarClipper {
  public:
-  EarClipper(const std::vector<Point2>& points, const Loop& loop) : points_(points), loop_(loop) {}
+  EarClipper(const std::vector<Point2>& points, const Loop& loop, Polling& polling)
+      : points_(points), loop_(loop), polling_(polling) {}
 
   // False if it got stuck, with the rest of the polygon clipped regardless.
   bool run(std::vector<Triangle>& triangles);
@@ -80,26 +81,48 @@ class EarClipper {
   int turn(std::size_t corner) const {
     return orient2d_sign(at(previous_[corner]), at(corner), at(next_[corner]));
   }
+  void sort_blunt();
   bool is_ear(std::size_t corner) const;
   void examine(std::size_t corner);
   void clip(std::size_t corner, std::vector<Triangle>& triangles);
 
   const std::vector<Point2>& points_;
   const Loop& loop_;
+  Polling& polling_;
   std::vector<std::size_t> previous_, next_;
   std::vector<std::uint32_t> version_;
   std::vector<std::uint8_t> alive_, convex_;
-  std::vector<std::size_t> blunt_;  // corners that turn right or not: only they can block an ear
+  // Corners that turn right or not: only they can block an ear. In the order of their coordinate
+  // along `axis_`, the longer side of the polygon's box.
+  std::vector<std::size_t> blunt_;
+  std::size_t axis_ = 0;
   std::priority_queue<Ear> ears_;
   std::size_t left_ = 0;
 };
+
+void EarClipper::sort_blunt() {
+  std::array<double, 2> low = at(0), high = at(0);
+  for (const std::uint32_t v : loop_) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      low[i] = std::min(low[i], points_[v][i]);
+      high[i] = std::max(high[i], points_[v][i]);
+    }
+  }
+  axis_ = high[1] / 2 - low[1] / 2 > high[0] / 2 - low[0] / 2 ? 1 : 0;
+  std::sort(blunt_.begin(), blunt_.end(),
+            [&](std::size_t a, std::size_t b) { return at(a)[axis_] < at(b)[axis_]; });
+}
 
 bool EarClipper::is_ear(std::size_t corner) const {
   const std::size_t before = previous_[corner], after = next_[corner];
   const Point2 &a = at(before), &b = at(corner), &c = at(after);
   const Point2 low = {std::min({a[0], b[0], c[0]}), std::min({a[1], b[1], c[1]})};
   const Point2 high = {std::max({a[0], b[0], c[0]}), std::max({a[1], b[1], c[1]})};
-  for (std::size_t other : blunt_) {
+  const auto first = std::partition_point(blunt_.begin(), blunt_.end(),
+                                          [&](std::size_t i) { return at(i)[axis_] < low[axis_]; });
+  for (auto i = first; i != blunt_.end() && at(*i)[axis_] <= high[axis_]; ++i) {
+    polling_.poll();
+    const std::size_t other = *i;
     if (alive_[other] == 0 || convex_[other] != 0) continue;
     const std::uint32_t v = loop_[other];
     if (v == loop_[before] || v == loop_[corner] || v == loop_[after]) continue;
@@ -145,6 +168,7 @@ bool EarClipper::run(std::vector<Triangle>& triangles) {
     convex_[i] = turn(i) > 0 ? 1 : 0;
     if (convex_[i] == 0) blunt_.push_back(i);
   }
+  sort_blunt();
   const auto examine_all = [&] {
     for (std::size_t i = 0; i < n; ++i) {
       if (alive_[i] != 0) examine(i);
@@ -193,7 +217,7 @@ bool in_cone(const std::vector<Point2>& points, const Loop& loop, std::size_t i,
 // Joins a clockwise hole to the counter-clockwise outer loop by a bridge between the hole's
 // rightmost corner and the nearest corner that sees it. `edges` are all the facet's boundary edges.
 bool bridge_hole(const std::vector<Point2>& points, const std::vector<Loop>& all, const Loop& hole,
-                 Loop& outer) {
+                 Loop& outer, Polling& polling) {
   const std::size_t start = static_cast<std::size_t>(
       std::max_element(hole.begin(), hole.end(),
                        [&](std::uint32_t a, std::uint32_t b) { return points[a] < points[b]; }) -
@@ -204,12 +228,15 @@ bool bridge_hole(const std::vector<Point2>& points, const std::vector<Loop>& all
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return squared_distance(points[outer[a]], m) < squared_distance(points[outer[b]], m);
   });
+  polling.poll(order.size());
   for (std::size_t i : order) {
+    polling.poll();
     const Point2& v = points[outer[i]];
     if (v == m || !in_cone(points, outer, i, m)) continue;
     bool blocked = false;
     const auto test = [&](const Loop& loop) {
       for (std::size_t j = 0; j < loop.size() && !blocked; ++j) {
+        polling.poll();
         blocked = segments_meet(v, m, points[loop[j]], points[loop[(j + 1) % loop.size()]]);
       }
     };
@@ -261,7 +288,8 @@ Projected project_loops(const std::vector<Point3>& vertices, std::span<const Loo
   return out;
 }
 
-bool triangulate_projected(const Projected& projected, std::vector<Triangle>& triangles) {
+bool triangulate_projected(const Projected& projected, Polling& polling,
+                           std::vector<Triangle>& triangles) {
   Loop outer = projected.loops[0];
   std::vector<Loop> holes(projected.loops.begin() + 1, projected.loops.end());
   const auto rightmost = [&](const Loop& loop) {
@@ -274,9 +302,9 @@ bool triangulate_projected(const Projected& projected, std::vector<Triangle>& tr
                    [&](const Loop& a, const Loop& b) { return rightmost(b) < rightmost(a); });
   bool good = projected.oriented;
   for (const Loop& hole : holes) {
-    good = bridge_hole(projected.points, projected.loops, hole, outer) && good;
+    good = bridge_hole(projected.points, projected.loops, hole, outer, polling) && good;
   }
-  return EarClipper(projected.points, outer).run(triangles) && good;
+  return EarClipper(projected.points, outer, polling).run(triangles) && good;
 }
 
 void measure_planarity(const std::vector<Point3>& vertices, std::span<const Loop> loops,
@@ -338,7 +366,7 @@ bool strictly_inside(const std::vector<Point3>& vertices, std::span<const std::u
 }
 
 PolygonTriangulation triangulate_polygon(const std::vector<Point3>& vertices,
-                                         std::span<const Loop> loops) {
+                                         std::span<const Loop> loops, Polling& polling) {
   PolygonTriangulation best;
   if (loops.size() == 1 && loops[0].size() == 3) {
     best.triangles.push_back({loops[0][0], loops[0][1], loops[0][2]});
@@ -352,7 +380,7 @@ PolygonTriangulation triangulate_polygon(const std::vector<Point3>& vertices,
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Projected projected = project_loops(vertices, loops, (axis + attempt) % 3);
     std::vector<Triangle> triangles;
-    const bool simple = triangulate_projected(projected, triangles);
+    const bool simple = triangulate_projected(projected, polling, triangles);
     if (attempt > 0 && !simple) continue;
     for (Triangle& t : triangles) {
       if (projected.mirrored) std::swap(t[1], t[2]);

@@ -6,12 +6,14 @@
 #include <span>
 #include <vector>
 
+#include "mesher/io/polling.h"
+
 namespace delmesher::io {
 
 using Point3 = std::array<double, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Longer polygons are refused: ear clipping takes quadratic time.
+// Longer polygons are refused: at worst ear clipping takes quadratic time.
 inline constexpr std::size_t kMaxPolygonCorners = 20000;
 
 struct PolygonTriangulation {
@@ -27,9 +29,10 @@ struct PolygonTriangulation {
 // kMaxPolygonCorners corners in all. Ear clipping, shortest diagonal first, with exact signs in the
 // projection along the polygon's dominating normal component (then along the others, should that
 // one not be simple). Always n - 2 + 2 h triangles for n corners and h holes, except that holes
-// that cannot be connected are left out and make it not simple.
+// that cannot be connected are left out and make it not simple. Throws ReadingStopped.
 PolygonTriangulation triangulate_polygon(const std::vector<Point3>& vertices,
-                                         std::span<const std::vector<std::uint32_t>> loops);
+                                         std::span<const std::vector<std::uint32_t>> loops,
+                                         Polling& polling);
 
 // The coordinate axis along which the polygon's normal has its largest component.
 int dominating_axis(const std::vector<Point3>& vertices, std::span<const std::uint32_t> loop);

@@ -26,9 +26,14 @@ double loop_area(const std::vector<Point3>& p, const Loop& loop) {
   return area;
 }
 
+PolygonTriangulation triangulated(const std::vector<Point3>& p, const std::vector<Loop>& loops) {
+  Polling polling;
+  return triangulate_polygon(p, loops, polling);
+}
+
 // All triangles turn like the outer loop, their areas add up, and their outer edges are the loops'.
 void expect_tiling(const std::vector<Point3>& p, const std::vector<Loop>& loops) {
-  const PolygonTriangulation result = triangulate_polygon(p, loops);
+  const PolygonTriangulation result = triangulated(p, loops);
   EXPECT_TRUE(result.simple);
   EXPECT_TRUE(result.planar);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -163,7 +168,7 @@ TEST(Triangulate, HolesInEitherDirection) {
 
 TEST(Triangulate, NonPlanarIsReported) {
   const std::vector<Point3> p = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.25}, {0, 1, 0}};
-  const PolygonTriangulation result = triangulate_polygon(p, std::vector<Loop>{{0, 1, 2, 3}});
+  const PolygonTriangulation result = triangulated(p, {{0, 1, 2, 3}});
   EXPECT_TRUE(result.simple);
   EXPECT_FALSE(result.planar);
   EXPECT_GT(result.deviation, 0.1);
@@ -174,21 +179,36 @@ TEST(Triangulate, DegenerateAndCrossingPolygonsEnd) {
   const std::vector<Point3> p = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}, {3, 3, 0}};
   for (const Loop& loop : {Loop{0, 1, 2, 3}, Loop{0, 1, 4, 5}, Loop{0, 0, 0, 0}, Loop{0, 1, 0, 1},
                            Loop{0, 1, 2, 2, 1}}) {
-    const PolygonTriangulation result = triangulate_polygon(p, std::vector<Loop>{loop});
+    const PolygonTriangulation result = triangulated(p, {loop});
     EXPECT_EQ(result.triangles.size(), loop.size() - 2);
     EXPECT_FALSE(result.simple);
   }
 }
 
-TEST(Triangulate, LargePolygonEndsSoon) {
+// Deep notches from above: as many corners that may block an ear as there can be.
+std::vector<Point3> comb() {
   std::vector<Point3> p;
   for (std::uint32_t i = 0; i < kMaxPolygonCorners / 2; ++i) {
     p.push_back({static_cast<double>(i), i % 2 == 0 ? 0.0 : 1e4, 0});
   }
   p.push_back({static_cast<double>(p.size()), -1, 0});
   p.push_back({-1, -1, 0});
+  return p;
+}
+
+TEST(Triangulate, LargePolygonEndsSoon) {
+  const std::vector<Point3> p = comb();
   const auto n = static_cast<std::uint32_t>(p.size());
   expect_tiling(p, {iota_loop(0, n)});
+}
+
+TEST(Triangulate, AsksWhetherToGoOnWithinOnePolygon) {
+  const std::vector<Point3> p = comb();
+  const std::vector<Loop> loops = {iota_loop(0, static_cast<std::uint32_t>(p.size()))};
+  int asked = 0;
+  Polling polling([&] { return ++asked < 3; });
+  EXPECT_THROW(triangulate_polygon(p, loops, polling), ReadingStopped);
+  EXPECT_EQ(asked, 3);
 }
 
 TEST(StrictlyInside, BoundaryIsOutside) {
