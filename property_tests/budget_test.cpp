@@ -117,5 +117,22 @@ TEST(Budget, PredictionDoesNotDependOnTheScale) {
   }
 }
 
+// Nor on where the model is: coordinates and moves are such that no sum is rounded.
+TEST(Budget, PredictionDoesNotDependOnThePlace) {
+  const auto predicted = [](double x, double y, double z) {
+    Surface surface;
+    add_box(surface, {x, y, z}, {x + 2, y + 1, z + 0.5});
+    add_box(surface, {x + 2.25, y, z}, {x + 3, y + 1, z + 1});
+    const Result result = delmesher::tetrahedralize(surface, Options());
+    EXPECT_TRUE(result.status.ok());
+    return result.statistics.predicted_tetrahedra;
+  };
+  const double here = predicted(0, 0, 0);
+  EXPECT_GT(here, 0);
+  EXPECT_EQ(predicted(1024, 0, 0), here);
+  EXPECT_EQ(predicted(0, -1024, 0), here);
+  EXPECT_EQ(predicted(0, 0, 1024), here);
+}
+
 }  // namespace
 }  // namespace tetproof

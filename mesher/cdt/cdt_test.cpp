@@ -102,6 +102,49 @@ TEST(Cdt, ValidateReportsBrokenPromises) {
   EXPECT_EQ(complaint([&] { validate_segments(delaunay, edges); }), "a subsegment is no edge");
 }
 
+// What the first tetrahedron claims is looked at like what the others claim, and looking does not
+// count as work.
+TEST(Cdt, ValidateLooksAtAllAndCountsNothing) {
+  Model model(box(0, 8));
+  const std::vector<SurfaceFace> surface = model.run().boundary;
+  Tetrahedrization mesh(model.predicates);
+  mesh.build(model.input.vertices, model.control);
+  const Chains chains(model.input, model.points);
+  std::vector<std::uint8_t> inside(mesh.capacity(), 0);
+  for (TetId t = 0; t < mesh.capacity(); ++t) inside[t] = mesh.alive(t) && !mesh.is_ghost(t);
+  const PredicateCounters before = model.predicates.counters;
+  EXPECT_EQ(complaint([&] { validate_facets(mesh, chains, surface, inside); }), "");
+  const PredicateCounters& after = model.predicates.counters;
+  EXPECT_EQ(before.filter, after.filter);
+  EXPECT_EQ(before.support, after.support);
+  EXPECT_EQ(before.extended, after.extended);
+  EXPECT_EQ(before.exact, after.exact);
+  EXPECT_EQ(before.symbolic, after.symbolic);
+  ASSERT_TRUE(mesh.alive(0));
+  inside[0] = 2;
+  EXPECT_EQ(complaint([&] { validate_facets(mesh, chains, surface, inside); }),
+            "a side outside the hull");
+}
+
+// Three edges of a box end at each corner; a point inside an edge has a part of it on both sides.
+TEST(Cdt, ValencesCountSubsegments) {
+  Model model(box(0, 8));
+  Chains chains(model.input, model.points);
+  for (VertexId v = 0; v < 8; ++v) EXPECT_EQ(chains.valence(v), 3U);
+  EXPECT_EQ(chains.valence(8), 0U);
+  for (std::uint32_t e = 0; e < model.topology.edge_count(); ++e) {
+    if (chains.first(e) == kNone) continue;
+    const auto end = model.topology.edge_vertices(e);
+    const VertexId v = model.points.add_on_segment(end[0], end[1], 0.75);
+    const std::uint32_t n = chains.insert_after(chains.first(e), v, {0.25, 0.75});
+    EXPECT_EQ(chains.valence(v), 2U);
+    EXPECT_EQ(chains.node_of(v), n);
+    EXPECT_EQ(chains.length(e), 8);
+    EXPECT_EQ(chains.vertices(e), (std::vector<VertexId>{end[0], v, end[1]}));
+  }
+  for (VertexId v = 0; v < 8; ++v) EXPECT_EQ(chains.valence(v), 3U);
+}
+
 // Cannot be tetrahedrized without further vertices.
 TEST(Cdt, Schoenhardt) {
   for (const double twist : {0.5, 0.2, 0.01, 1e-6, 1e-12}) {

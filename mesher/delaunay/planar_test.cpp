@@ -164,6 +164,37 @@ TEST_F(PlanarTest, Large) {
   expect_delaunay(t, vertices);
 }
 
+// Insertion in rounds along a curve finds its way in a number of steps that does not depend on how
+// many points there are, wherever they lie and in whatever order they come. On a parabola, one end
+// of it first would destroy every triangle with each point.
+TEST_F(PlanarTest, StepsPerPointDoNotDependOnTheirNumber) {
+  const auto per_point = [&](int n, bool parabola, bool flipped) {
+    points_ = PointStore();
+    set_plane({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    std::vector<VertexId> vertices;
+    for (int i = 0; i < n; ++i) {
+      const double x = static_cast<double>(i) / n;
+      const double u = parabola ? x : std::ldexp(random_() >> 8, -24) / 2,
+                   v = parabola ? x * x : std::ldexp(random_() >> 8, -24) / 2;
+      vertices.push_back(points_.add_explicit(flipped ? 1 - u : u, flipped ? 1 - v : v, 0));
+    }
+    std::shuffle(vertices.begin(), vertices.end(), random_);
+    const PredicateCounters& c = predicates_.counters;
+    const auto asked = [&] { return c.filter + c.support + c.extended + c.exact; };
+    const std::uint64_t before = asked();
+    triangulate(vertices);
+    return static_cast<double>(asked() - before) / n;
+  };
+  for (const bool parabola : {false, true}) {
+    for (const bool flipped : {false, true}) {
+      const double few = per_point(2000, parabola, flipped),
+                   many = per_point(32000, parabola, flipped);
+      EXPECT_LT(many, 1.5 * few) << parabola << flipped;
+      EXPECT_LT(many, 60) << parabola << flipped;
+    }
+  }
+}
+
 // The restriction to a plane of the perturbed Delaunay tetrahedrization: a cube's square face, cut
 // by the diagonal that the 3D predicate prefers.
 TEST_F(PlanarTest, AgreesWithThePerturbedInsphere) {

@@ -22,6 +22,8 @@ class DoubleOrientation {
   DoubleOrientation(const DoubleOrientation&) = delete;
   DoubleOrientation& operator=(const DoubleOrientation&) = delete;
   int operator()(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+  // Of the signs that neither plain doubles nor integers of the machine could tell.
+  const PredicateCounters& counters() const { return predicates_.counters; }
 
  private:
   PointStore scratch_;

@@ -521,5 +521,29 @@ TEST(DoubleOrientation, AgreesWithRationalsNearPlanes) {
   for (const int count : seen) EXPECT_GT(count, 500);
 }
 
+// Flat tetrahedra whose coordinates differ by few bits are decided by integers of the machine,
+// however large or small the unit; the predicates are asked where the coordinates span more.
+TEST(DoubleOrientation, AsksPredicatesOnlyWhereIntegersAreTooShort) {
+  const auto asked = [](const DoubleOrientation& orient) {
+    const PredicateCounters& c = orient.counters();
+    return c.filter + c.support + c.extended + c.exact;
+  };
+  for (const int exponent : {-900, -60, -10, 0, 10, 60, 250}) {
+    DoubleOrientation orient;
+    const auto at = [&](double x, double y, double z) {
+      return Vec3{std::ldexp(x, exponent), std::ldexp(y, exponent), std::ldexp(z, exponent)};
+    };
+    const Vec3 a = at(1, 2, 3), b = at(4, -1, 7), c = at(-2, 5, 1);
+    // a + 3 (b - a) - 2 (c - a)
+    EXPECT_EQ(orient(a, b, c, at(16, -13, 19)), 0);
+    EXPECT_EQ(asked(orient), 0U) << exponent;
+    // 1 and 2^-80 have no common unit of 60 bits.
+    Vec3 far = a;
+    far[0] = std::ldexp(1, exponent - 80);
+    EXPECT_EQ(orient(a, b, b, far), 0);
+    EXPECT_EQ(asked(orient), 1U) << exponent;
+  }
+}
+
 }  // namespace
 }  // namespace delmesher
