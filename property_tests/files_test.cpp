@@ -97,6 +97,35 @@ TEST_F(Files, AllFormatsAndTheSidecarAreVerified) {
   }
 }
 
+// A report for programs leaves standard output to JSON; the reason of a failure is one line on
+// standard error. As text, the report has said it.
+TEST_F(Files, AFailureIsExplainedOnce) {
+  write_off("in.off", samples::cube().input);
+  write_off("other.off", samples::l_shape().input);
+  ASSERT_EQ(run("mesh -q " + path("in.off") + " -o " + path("out.mesh")), 0);
+  for (const bool json : {false, true}) {
+    std::vector<std::string> arguments = {path("other.off"), path("out.mesh")};
+    if (json) arguments.push_back("--json");
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const int code = verify(arguments);
+    const std::string out = testing::internal::GetCapturedStdout(),
+                      err = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(code, 1);
+    EXPECT_NE(out.find("broken"), std::string::npos);
+    EXPECT_EQ(out.starts_with("{"), json);
+    if (json) {
+      EXPECT_TRUE(err.starts_with("tetproof: " + path("out.mesh") + ": broken: ")) << err;
+      EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1);
+    } else {
+      EXPECT_EQ(err, "");
+    }
+  }
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(verify({"--help"}), 0);
+  EXPECT_NE(testing::internal::GetCapturedStdout().find("{final|refined}"), std::string::npos);
+}
+
 // What is written is the refined mesh, of the chamfered wedge: with the sidecar it is taken for
 // that.
 TEST_F(Files, ApproximateMeshesAreVerifiedAsRefinedMeshes) {

@@ -10,12 +10,14 @@
 #include <limits>
 #include <random>
 
+#include "oracles/enrichment.h"
 #include "oracles/hull.h"
 #include "oracles/interval.h"
 #include "oracles/measures.h"
 #include "oracles/parallel.h"
 #include "oracles/plane_points.h"
 #include "oracles/regions.h"
+#include "oracles/same_mesh.h"
 #include "oracles/sample.h"
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
@@ -484,6 +486,68 @@ TEST(Reports, NameVerdicts) {
   EXPECT_STREQ(verdict_name(Verdict::broken), "broken");
 }
 
+// --------------------------------------------------------------------------- the record and the
+// file
+
+// The distance of a written vertex from its place is measured, not only compared.
+TEST(Rounding, TheLargestDistanceIsSaid) {
+  const samples::ExactSample sample = samples::exact_sample();
+  const ExactPoints points = [&] {
+    ExactPoints result;
+    EXPECT_EQ(result.assign(sample.exact.points), "");
+    return result;
+  }();
+  MeshFile mesh = sample.sample.mesh;
+  const auto largest = [&] {
+    const OracleReport report =
+        check_rounding(mesh, sample.exact, points, {.ulp = 0x1p-52, .allowed = 0.5});
+    EXPECT_EQ(report.violations, 0U);
+    EXPECT_EQ(report.checked, mesh.vertices.size());
+    EXPECT_EQ(report.figures.at(0).first, "largest distance");
+    return report.figures.at(0).second;
+  };
+  EXPECT_EQ(largest(), 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double was = mesh.vertices[1][axis];
+    mesh.vertices[1][axis] += 0.25;
+    EXPECT_NEAR(largest(), 0.25, 1e-15) << axis;
+    mesh.vertices[1][axis] = was;
+  }
+}
+
+// Every vertex of the last mesh and every tetrahedron of that before repairs is looked at.
+TEST(Repairs, AllIsCounted) {
+  samples::ExactSample sample = samples::exact_sample();
+  sample.exact.unrepaired = sample.exact.final;
+  ExactPoints points;
+  ASSERT_EQ(points.assign(sample.exact.points), "");
+  const auto run = [&] { return check_repairs(sample.exact, points, Promise()); };
+  const auto figure = [](const OracleReport& report, const std::string& name) {
+    for (const auto& [key, value] : report.figures) {
+      if (key == name) return value;
+    }
+    return -1.0;
+  };
+  OracleReport report = run();
+  EXPECT_EQ(report.checked, 6U + 4U);
+  EXPECT_EQ(report.violations, 0U);
+  EXPECT_EQ(figure(report, "tetrahedra changed"), 0);
+  EXPECT_EQ(figure(report, "not positive on doubles"), 0);
+  // One that is turned over is not positive; the last mesh lacks it.
+  std::swap(sample.exact.unrepaired[1].vertices[0], sample.exact.unrepaired[1].vertices[1]);
+  sample.exact.final.erase(sample.exact.final.begin() + 1);
+  report = run();
+  EXPECT_EQ(report.checked, 6U + 4U);
+  EXPECT_EQ(report.violations, 0U);
+  EXPECT_EQ(figure(report, "tetrahedra changed"), 1);
+  EXPECT_EQ(figure(report, "not positive on doubles"), 1);
+  EXPECT_EQ(figure(report, "edges from there"), 0);
+  // A point that no tetrahedron had came with the repairs.
+  sample.exact.final = sample.exact.unrepaired;
+  sample.exact.unrepaired = {sample.exact.final[0]};
+  EXPECT_GT(run().violations, 0U);
+}
+
 // ------------------------------------------------------------------------------------- the plane
 
 PlanePoints plane_points(const std::vector<std::array<double, 2>>& given) {
@@ -517,6 +581,31 @@ TEST(PlaneSigns, OfASquareAndBeside) {
   EXPECT_DOUBLE_EQ(p.distance_to_segment(6, 0, 1), std::sqrt(13.0));  // beyond the second
   EXPECT_NEAR(p.distance_to_segment(1, 0, 2), std::sqrt(0.5), 1e-15);
   EXPECT_EQ(p.distance_to_segment(4, 0, 2), 0);
+}
+
+// Where doubles tell, rationals are not asked: here these are all zero and would say 0, so that
+// what is said comes from the doubles, and it has to be right.
+TEST(PlaneSigns, DoublesTellWhatIsObvious) {
+  std::mt19937_64 random(11);
+  for (int round = 0; round < 2000; ++round) {
+    std::array<std::array<std::int64_t, 2>, 4> x;
+    PlanePoints p;
+    for (auto& point : x) {
+      for (std::int64_t& c : point) c = static_cast<std::int64_t>(random() % 2001) - 1000;
+      p.add({0, 0, static_cast<double>(point[0]), static_cast<double>(point[1])});
+    }
+    const auto sign = [](std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
+    const auto area = [&](int a, int b, int c) {
+      return (x[b][0] - x[a][0]) * (x[c][1] - x[a][1]) - (x[b][1] - x[a][1]) * (x[c][0] - x[a][0]);
+    };
+    EXPECT_EQ(p.orient(0U, 1U, 2U), sign(area(0, 1, 2)));
+    std::int64_t lifted = 0;
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t u = x[i][0] - x[3][0], v = x[i][1] - x[3][1];
+      lifted += (u * u + v * v) * area(3, (i + 1) % 3, (i + 2) % 3);
+    }
+    EXPECT_EQ(p.in_circle(0, 1, 2, 3), sign(lifted));
+  }
 }
 
 TEST(PlaneSigns, AgreeWithMachineIntegersOnALattice) {

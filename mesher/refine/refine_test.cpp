@@ -73,6 +73,15 @@ struct RefinerBreaker {
     r.dt_.insert(p, r.dt_.incident(v[0]));
     r.subfacet_.resize(r.dt_.capacity());
   }
+  std::size_t dead_slots() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(r.subfacets_, [](const auto& s) { return !s.alive; }));
+  }
+  // As if there were enough dead ones for it to pay.
+  void compact() const {
+    r.dead_subfacets_ = 1U << 30U;
+    r.compact_subfacets();
+  }
   void damage_tetrahedra() const {
     TetId t = 0;
     while (!r.dt_.alive(t) || r.dt_.is_ghost(t)) ++t;
@@ -425,6 +434,16 @@ TEST(Refine, ValidateAcceptsWhatTheRefinementLeaves) {
     State state(gabriel);
     EXPECT_NO_THROW(state.refiner->validate());
   }
+}
+
+// Whoever names a subfacet knows its new number: neighbours, subsegments, tetrahedra and queues.
+TEST(Refine, RenumberingSubfacetsLeavesEveryInvariant) {
+  State state(true);
+  const RefinerBreaker inside{*state.refiner};
+  EXPECT_GT(inside.dead_slots(), 0U);
+  inside.compact();
+  EXPECT_EQ(inside.dead_slots(), 0U);
+  EXPECT_NO_THROW(state.refiner->validate());
 }
 
 std::string complaint(const std::function<void(const RefinerBreaker&)>& damage) {
