@@ -40,7 +40,9 @@ void inverse_root(const Lanes& squared, Lanes& result) {
 
 void CosineBatch::measure(std::span<const std::array<double, 3>> coordinates,
                           std::span<const std::array<std::uint32_t, 4>> tetrahedra) {
-  constexpr double kMaxSquared = 1e60, kMaxRatioSquared = 1e8, kMaxCosine = 0.999;
+  // In a triangle whose angles have cosines up to the last, no side is 24 times as long as another;
+  // so no edge is much shorter than the longest one, which alone is bounded.
+  constexpr double kMaxSquared = 1e60, kMaxCosine = 0.999;
   constexpr double kMaxInverseArea = 1e150;  // infinite where a face has no area
   constexpr std::size_t kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
   const std::size_t count = std::min(kLanes, tetrahedra.size());
@@ -53,18 +55,15 @@ void CosineBatch::measure(std::span<const std::array<double, 3>> coordinates,
   }
   std::array<Vectors, 6> edge;
   std::array<Lanes, 6> squared, inverse;
-  Lanes shortest, longest, largest{}, thinnest{};
+  Lanes longest, largest{}, thinnest{};
   for (std::size_t e = 0; e < 6; ++e) {
     subtract(corner[kEdges[e][0]], corner[kEdges[e][1]], edge[e]);
     dot(edge[e], edge[e], squared[e]);
     inverse_root(squared[e], inverse[e]);
   }
-  shortest = longest = squared[0];
+  longest = squared[0];
   for (std::size_t e = 1; e < 6; ++e) {
-    in_lanes([&](auto l) {
-      shortest[l] = squared[e][l] < shortest[l] ? squared[e][l] : shortest[l];
-      longest[l] = squared[e][l] > longest[l] ? squared[e][l] : longest[l];
-    });
+    in_lanes([&](auto l) { longest[l] = squared[e][l] > longest[l] ? squared[e][l] : longest[l]; });
   }
   const auto note = [&](const Lanes& cosine) {
     in_lanes([&](auto l) {
@@ -105,9 +104,8 @@ void CosineBatch::measure(std::span<const std::array<double, 3>> coordinates,
     note(dihedral[e]);
   }
   for (std::size_t l = 0; l < kLanes; ++l) {
-    ordinary[l] = l < count && longest[l] < kMaxSquared && shortest[l] > 1 / kMaxSquared &&
-                  longest[l] < kMaxRatioSquared * shortest[l] && largest[l] < kMaxCosine &&
-                  thinnest[l] < kMaxInverseArea;
+    ordinary[l] = l < count && longest[l] < kMaxSquared && longest[l] > 1 / kMaxSquared &&
+                  largest[l] < kMaxCosine && thinnest[l] < kMaxInverseArea;
   }
 }
 

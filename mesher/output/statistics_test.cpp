@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -71,6 +72,61 @@ TEST(Statistics, OrthogonalCorner) {
   EXPECT_NEAR(s.mean_max_face_angle, (3 * 90 + 60) / 4.0, 1e-12);
   EXPECT_EQ(s.dihedral_histogram[6], 3U);  // 90 opens the seventh bin
   EXPECT_EQ(s.dihedral_histogram[3], 3U);
+}
+
+// Each lane has its own tetrahedron, and all lanes are used; what is degenerate is left to others.
+TEST(CosineBatch, EveryLaneHasItsTetrahedron) {
+  constexpr std::size_t n = CosineBatch::kLanes;
+  Points points;
+  Tets tets;
+  for (std::uint32_t l = 0; l < n; ++l) {  // regular and corners in turn, of different sizes
+    const Points p = scaled(l % 2 == 0 ? kRegular : kCorner, l + 1);
+    points.insert(points.end(), p.begin(), p.end());
+    tets.push_back({4 * l, 4 * l + 1, 4 * l + 2, 4 * l + 3});
+  }
+  CosineBatch batch;
+  batch.measure(points, tets);
+  const auto near = [](double found, double expected) { EXPECT_NEAR(found, expected, 1e-15); };
+  for (std::size_t l = 0; l < n; ++l) {
+    SCOPED_TRACE(l);
+    EXPECT_TRUE(batch.ordinary[l]);
+    const bool regular = l % 2 == 0;
+    for (std::size_t e = 0; e < 6; ++e) {
+      near(batch.dihedral[e][l], regular ? 1.0 / 3 : e < 3 ? 0 : std::sqrt(1.0 / 3));
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      near(batch.face[0][k][l], 0.5);
+      for (std::size_t f = 1; f < 4; ++f) {
+        near(batch.face[f][k][l], regular ? 0.5 : k == 0 ? 0 : std::sqrt(0.5));
+      }
+    }
+  }
+  tets.pop_back();
+  batch.measure(points, tets);
+  EXPECT_TRUE(batch.ordinary[n - 2]);
+  EXPECT_FALSE(batch.ordinary[n - 1]);
+}
+
+TEST(CosineBatch, ExtremesAreNotOrdinary) {
+  CosineBatch batch;
+  const auto ordinary = [&](const Points& points, const Tets& tets = {{0, 1, 2, 3}}) {
+    batch.measure(points, tets);
+    return batch.ordinary[0];
+  };
+  for (const double scale : {1e-20, 1e-3, 1.0, 1e20}) EXPECT_TRUE(ordinary(scaled(kCorner, scale)));
+  for (const double scale : {0.0, 1e-320, 1e-160, 1e-80, 1e80, 1e160, 1e300}) {
+    EXPECT_FALSE(ordinary(scaled(kCorner, scale))) << scale;
+    EXPECT_FALSE(ordinary(scaled(kRegular, scale))) << scale;
+  }
+  // One edge, one height and one vertex of next to nothing, whichever vertices they are at.
+  for (const double tiny : {0.0, 1e-300, 1e-170, 1e-155, 1e-100, 1e-40, 1e-5, 0.01}) {
+    Tets tet = {{0, 1, 2, 3}};
+    do {
+      EXPECT_FALSE(ordinary({{0, 0, 0}, {tiny, 0, 0}, {0, 1, 0}, {0, 0, 1}}, tet)) << tiny;
+      EXPECT_FALSE(ordinary({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, tiny}}, tet)) << tiny;
+      EXPECT_FALSE(ordinary({{0, 0, 0}, {1, 0, 0}, {0.5, tiny, 0}, {0, 0, 1}}, tet)) << tiny;
+    } while (std::next_permutation(tet[0].begin(), tet[0].end()));
+  }
 }
 
 TEST(Statistics, SharedFacesCountOnce) {
