@@ -5,6 +5,7 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/control.h"
+#include "mesher/base/validating.h"
 #include "mesher/delmesher.h"
 #include "mesher/guarded.h"
 #include "mesher/plane/chamfer.h"
@@ -42,8 +43,14 @@ class Run {
         std::count(graph.inside.begin(), graph.inside.end(), 1) == 0) {
       return {StatusCode::invalid_surface, "the segments enclose nothing"};
     }
+    const bool box_is_seen = options_.region == Region::hull || options_.want_exact;
+    if (box_is_seen && !box_is_finite(graph)) {
+      return {StatusCode::invalid_surface,
+              "the rectangle around the graph, which is asked for, ends beyond the largest double"};
+    }
     plane::Chamfered chamfered;
     plane::RefinedMesh refined = chamfer_and_refine(graph, chamfered);
+    if (kValidating) validate(refined.mesh);
     record_refined(graph, chamfered, refined);
     if (options_.approximate) {
       write(graph, plane::select(refined.mesh, refined.side, {}, options_.region));
@@ -51,6 +58,7 @@ class Run {
     }
     control_.enter(Phase::enrich);
     plane::enrich(graph, chamfered, refined.mesh, points_, control_);
+    if (kValidating) validate(refined.mesh);
     control_.enter(Phase::classify);
     const plane::Faces faces = plane::find_faces(graph, refined.mesh, points_, nullptr);
     refined.side.resize(refined.mesh.size());
@@ -74,6 +82,23 @@ class Run {
   }
 
  private:
+  static void validate(const plane::Triangulation& mesh) {
+    const char* const defect = mesh.check(true);
+    DELMESHER_CHECK(defect == nullptr, defect);
+  }
+
+  // As written: in the units of the store it is.
+  bool box_is_finite(const plane::InputGraph& graph) const {
+    for (const VertexId v : {graph.vertices, graph.vertices + 2}) {
+      const Vec3 p = points_.nearest(v);
+      if (!std::isfinite(std::ldexp(p[0], graph.scale)) ||
+          !std::isfinite(std::ldexp(p[1], graph.scale))) {
+        return false;
+      }
+    }
+    return true;
+  }
+
   // Again without what left no room between doubles; in the end without any segments, which always
   // succeeds. Deterministic: lengths decide, never time.
   plane::RefinedMesh chamfer_and_refine(plane::InputGraph& graph, plane::Chamfered& chamfered) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstdlib>
 #include <thread>
@@ -279,6 +280,25 @@ TEST(Plane, RefusesAndSaysWhy) {
   graph.vertices[0] = {-5e-324, 0};
   graph.vertices[2] = {1e300, 1e300};
   EXPECT_NE(refusal(graph).find("orders of magnitude"), std::string::npos);
+}
+
+TEST(Plane, HugeCoordinates) {
+  // The rectangle around them is half as large again: it is no matter unless it is asked for.
+  for (const double size : {0.7e308, 1.5e308}) {
+    const PlanarGraph graph = shapes::polygon({{0, 0}, {size, 0}, {0, size}});
+    const PlaneResult inside = triangulate_polygon(graph, plane_options());
+    EXPECT_TRUE(inside.status.ok()) << inside.status.message;
+    EXPECT_FALSE(inside.mesh.triangles.empty());
+    for (const Region region : {Region::interior, Region::hull}) {
+      Options options = exact_options();
+      options.region = region;
+      if (size > DBL_MAX / 1.5) {
+        EXPECT_NE(refusal(graph, options).find("beyond the largest double"), std::string::npos);
+      } else {
+        expect_verified(graph, options);
+      }
+    }
+  }
 }
 
 TEST(Plane, AcceptsAndWarns) {

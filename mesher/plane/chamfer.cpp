@@ -300,9 +300,12 @@ class Chamferer {
     const Piece& piece = graph_.pieces[id];
     const Point p = point(v), q = point(v == piece.a ? piece.b : piece.a);
     const double t = radius_[v] / distance(p, q);
-    const Vec3 target = {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), 0};
-    const VertexId c =
-        points_.add(place_on_segment(points_, piece.a, piece.b, target, radius_[v] * 0x1p-20));
+    const double dx = t * (q[0] - p[0]), dy = t * (q[1] - p[1]);
+    const Vec3 target = {p[0] + dx, p[1] + dy, 0};
+    // Far from the origin doubles are coarser than the radius asks for.
+    const Vec3 rest = {dx - (target[0] - p[0]), dy - (target[1] - p[1]), 0};
+    const VertexId c = points_.add(
+        place_on_segment(points_, piece.a, piece.b, target, radius_[v] * 0x1p-20, true, rest));
     result_.gaps.push_back({v, c, id});
     return c;
   }

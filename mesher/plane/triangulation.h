@@ -4,7 +4,8 @@
 //
 // Laws (triangulation_test.cpp, check()):
 //  (1) All triangles are counter-clockwise; neighbours agree on their common edge and its piece.
-//  (2) An edge without piece is locally Delaunay under in_circle_perturbed, after every call.
+//  (2) An edge without piece is locally Delaunay under in_circle_perturbed, after every call; but
+//      the rectangle begins with any of its diagonals, which the first point inside replaces.
 //  (3) No point that is inserted, and no segment that is entered, removes an edge with a piece but
 //      the one it splits.
 #pragma once
