@@ -61,9 +61,9 @@ int on_text(const std::uint8_t* data, std::size_t size, Finding (*property)(cons
 
 namespace {
 
-// With the exponent modulo 32.
-double narrowed(double x) {
-  return x == 0 ? x : std::ldexp(x, std::ilogb(x) % 32 - std::ilogb(x));
+// With the exponent modulo `most`.
+double narrowed(double x, int most) {
+  return x == 0 ? x : std::ldexp(x, std::ilogb(x) % most - std::ilogb(x));
 }
 
 }  // namespace
@@ -77,18 +77,23 @@ double Bytes::coordinate() {
       return last_ = static_cast<std::int8_t>(byte()) / 32.0;
     case 3:
       return last_ = static_cast<std::int8_t>(byte()) * 0.1;
-    case 4:
-      return last_ = std::nextafter(last_, (byte() & 1) != 0 ? DBL_MAX : -DBL_MAX);
+    case 4: {
+      const int way = byte();
+      if (!spread_) return last_ = std::nextafter(last_, (way & 1) != 0 ? DBL_MAX : -DBL_MAX);
+      const double step = std::ldexp(last_, -8 - (way >> 1) % 32);
+      return last_ = (way & 1) != 0 ? last_ + step : last_ - step;
+    }
     case 5:
       return last_;
     case 6: {
       const int power = static_cast<std::int8_t>(byte());
-      return last_ = std::ldexp(static_cast<std::int8_t>(byte()), narrow_ ? power / 4 : power);
+      return last_ = std::ldexp(static_cast<std::int8_t>(byte()),
+                                most_exponent_ > 0 ? power * most_exponent_ / 128 : power);
     }
     default: {
       const double any = std::bit_cast<double>(word());
       last_ = std::isfinite(any) ? any : 1;
-      return last_ = narrow_ ? narrowed(last_) : last_;
+      return last_ = most_exponent_ > 0 ? narrowed(last_, most_exponent_) : last_;
     }
   }
 }

@@ -53,9 +53,12 @@ class Bytes {
   // One byte says of which kind: a small integer, a simple fraction, a neighbour of the last one,
   // the last one again, any finite double.
   double coordinate();
-  // Coordinates keep their exponents below 2^5 from here on: exact arithmetic takes its time where
-  // they differ by hundreds of binary digits.
-  void narrow() { narrow_ = true; }
+  // Coordinates keep their exponents below this from here on: exact arithmetic takes its time where
+  // they differ by hundreds of binary digits, and meshes have as many sizes as there are between.
+  void narrow(int most_exponent = 32) { most_exponent_ = most_exponent; }
+  // Neighbours of the last one are 2^-8 to 2^-39 of it away from here on, no longer an ulp: what is
+  // near without being next to each other in doubles has room for a mesh.
+  void spread() { spread_ = true; }
   // In [0, 1], often simple.
   double parameter();
 
@@ -63,7 +66,8 @@ class Bytes {
   const std::uint8_t* data_;
   std::size_t size_, at_ = 0;
   double last_ = 1;
-  bool narrow_ = false;
+  int most_exponent_ = 0;  // 0: any
+  bool spread_ = false;
 };
 
 }  // namespace tetproof::fuzz

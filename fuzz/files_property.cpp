@@ -8,6 +8,7 @@
 #include <set>
 
 #include "corpus/generate/generate.h"
+#include "fuzz/plain_files.h"
 #include "fuzz/properties.h"
 #include "mesher/cli/run.h"
 #include "mesher/io/output.h"
@@ -152,9 +153,22 @@ Finding written_and_read(const delmesher::TetMesh& mesh, const std::string& exte
 
 }  // namespace
 
+// What is plain has to be read, and as it stands.
+Finding plain_is_read(const delmesher::io::ReadResult& read, const TriangleSoup& plain) {
+  if (!read.ok()) return "reader plain: refused, " + read.error;
+  TriangleSoup ours;
+  for (const auto& [a, b, c] : read.surface.triangles) {
+    const auto& v = read.surface.vertices;
+    ours.push_back({v[a], v[b], v[c]});
+  }
+  return ours == plain ? "" : "reader plain: other triangles";
+}
+
 Finding reader_holds(const std::string& text, const std::string& name) {
   judging({&refused, &no_triangles});
   const auto first = delmesher::io::parse_surface(text, name);
+  const auto plain = plain_triangles(text, name);
+  if (plain && !first.ok()) return plain_is_read(first, *plain);
   if (!first.ok()) {
     refused.take();
     return is_one_line(first.error) ? "" : "reader error: not one line";
@@ -166,15 +180,18 @@ Finding reader_holds(const std::string& text, const std::string& name) {
       if (v >= s.vertices.size()) return "reader index: out of range";
     }
   }
-  delmesher::Surface plain = s;
-  plain.labels.clear();
-  if (plain.triangles.empty()) {
+  if (plain) {
+    if (Finding f = plain_is_read(first, *plain); !f.empty()) return f;
+  }
+  delmesher::Surface unlabelled = s;
+  unlabelled.labels.clear();
+  if (unlabelled.triangles.empty()) {
     no_triangles.take();
     return {};
   }
-  const auto again = delmesher::io::parse_surface(to_off(plain), "again.off");
+  const auto again = delmesher::io::parse_surface(to_off(unlabelled), "again.off");
   if (!again.ok()) return "reader round trip: " + again.error;
-  return same_bits(plain, again.surface) ? "" : "reader round trip: differs";
+  return same_bits(unlabelled, again.surface) ? "" : "reader round trip: differs";
 }
 
 Finding writers_hold(Bytes bytes) {

@@ -46,6 +46,30 @@ void move_everything(Surface& surface, Random& random) {
   if (certified_valid(moved)) surface = std::move(moved);
 }
 
+#ifdef TETPROOF_FUZZ_INVALID
+// A small copy at a vertex, point by point on its other side: they have nothing but it in common if
+// the surface is convex there.
+Surface pinched(Surface surface, Random& random) {
+  const auto count = static_cast<std::uint32_t>(surface.vertices.size());
+  const auto at = static_cast<std::uint32_t>(random.below(count));
+  const auto of_copy = [&](std::uint32_t v) { return v == at ? at : count + v - (v > at ? 1 : 0); };
+  const auto p = surface.vertices[at];
+  const double size = random.tiny(20);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    if (v == at) continue;
+    auto q = surface.vertices[v];
+    for (std::size_t i = 0; i < 3; ++i) q[i] = p[i] - (q[i] - p[i]) * size;
+    surface.vertices.push_back(q);
+  }
+  const std::size_t triangles = surface.triangles.size();
+  for (std::size_t t = 0; t < triangles; ++t) {
+    const auto [a, b, c] = surface.triangles[t];
+    surface.triangles.push_back({of_copy(a), of_copy(c), of_copy(b)});
+  }
+  return surface;
+}
+#endif
+
 Surface mutate(Surface surface, Random& random) {
   if (random.chance(0.08)) return fresh(random);
   if (random.chance(0.05)) move_everything(surface, random);
@@ -54,6 +78,7 @@ Surface mutate(Surface surface, Random& random) {
     if (edit(surface, random, kBits)) --changes;
   }
 #ifdef TETPROOF_FUZZ_INVALID
+  if (random.chance(0.1)) return pinched(std::move(surface), random);
   if (random.chance(0.5)) {
     const auto twins = make_twins(surface, random);
     if (!twins.empty()) return twins[random.below(twins.size())].surface;

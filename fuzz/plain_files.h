@@ -1,0 +1,20 @@
+// A second reader, of the plainest text files only: what a reader has to make of them is beyond
+// doubt.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tetproof::fuzz {
+
+// The corners of each triangle.
+using TriangleSoup = std::vector<std::array<std::array<double, 3>, 3>>;
+
+// The triangles of an OFF, OBJ or STL text whose lines are just vertices and triangles, with
+// decimal numbers that doubles hold and distinct corners; null for anything else, valid or not.
+// `name` gives the format by its extension.
+std::optional<TriangleSoup> plain_triangles(const std::string& text, const std::string& name);
+
+}  // namespace tetproof::fuzz
