@@ -1,6 +1,7 @@
 // Mutation and crossover of surfaces for the targets that take one: half-edge edits that keep it
 // valid, so that the fuzzer spends its time behind the input check. Deterministic in the seed.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -15,7 +16,9 @@ namespace {
 
 using delmesher::Surface;
 
-constexpr int kBits = 50;
+// Below 2^-40 doubles leave stages little room: they stop, or chamfer by less than an ulp, and the
+// properties say little. So most changes are larger.
+constexpr int kBits = 32, kManyBits = 50;
 
 std::size_t store(const Surface& surface, std::uint8_t* data, std::size_t size,
                   std::size_t max_size) {
@@ -25,11 +28,30 @@ std::size_t store(const Surface& surface, std::uint8_t* data, std::size_t size,
   return text.size();
 }
 
+int size_exponent(const Surface& surface) {
+  double largest = 0;
+  for (const auto& p : surface.vertices) {
+    for (const double x : p) largest = std::max(largest, std::fabs(x));
+  }
+  return largest > 0 ? std::ilogb(largest) : 0;
+}
+
 // A member of a family, now and then instead of what the corpus offers.
 Surface fresh(Random& random) {
   const Family& family = families()[random.below(families().size())];
   const auto surface = generate(family, random.bits(), 0);
   return surface ? *surface : Surface{};
+}
+
+// By a power of two to the size of another one, but for few: side by side at sizes that differ by
+// hundreds of binary digits one of them is nothing to a mesher.
+Surface resized(Surface surface, const Surface& like, Random& random) {
+  if (random.chance(0.02)) return surface;
+  const int by = size_exponent(like) - size_exponent(surface);
+  for (auto& p : surface.vertices) {
+    for (double& x : p) x = std::ldexp(x, by);
+  }
+  return surface;
 }
 
 void move_everything(Surface& surface, Random& random) {
@@ -73,9 +95,11 @@ Surface pinched(Surface surface, Random& random) {
 Surface mutate(Surface surface, Random& random) {
   if (random.chance(0.08)) return fresh(random);
   if (random.chance(0.05)) move_everything(surface, random);
-  if (random.chance(0.05)) combine(surface, fresh(random), random);
+  if (random.chance(0.05)) {
+    combine(surface, resized(fresh(random), surface, random), random);
+  }
   for (int changes = random.integer(1, 4), attempt = 0; changes > 0 && attempt < 16; ++attempt) {
-    if (edit(surface, random, kBits)) --changes;
+    if (edit(surface, random, random.chance(0.1) ? kManyBits : kBits)) --changes;
   }
 #ifdef TETPROOF_FUZZ_INVALID
   if (random.chance(0.1)) return pinched(std::move(surface), random);
@@ -112,5 +136,6 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std:
       !tetproof::certified_valid(*second)) {
     return 0;
   }
-  return tetproof::combine(*first, *second, random) ? store(*first, out, 0, max_out) : 0;
+  const auto other = resized(*second, *first, random);
+  return tetproof::combine(*first, other, random) ? store(*first, out, 0, max_out) : 0;
 }
