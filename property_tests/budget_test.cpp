@@ -1,6 +1,7 @@
 // Laws of the predicted size and of the budget.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesher/delmesher.h"
@@ -115,6 +116,70 @@ TEST(Budget, PredictionDoesNotDependOnTheScale) {
     EXPECT_EQ(result.statistics.predicted_tetrahedra, other.statistics.predicted_tetrahedra);
     EXPECT_GT(result.statistics.predicted_tetrahedra, 0);
   }
+}
+
+// The integral of 1 / lfs^3 over a box, by the definition of the local feature size: the radius of
+// the smallest ball that meets two faces or edges without a common point.
+double integral_over_box(const std::array<double, 3>& side) {
+  using Span = std::array<std::array<double, 2>, 3>;
+  std::vector<Span> elements;  // 6 faces and 12 edges
+  for (int code = 0; code < 27; ++code) {
+    const std::array<int, 3> place = {code % 3, code / 3 % 3, code / 9};
+    const auto free = std::count(place.begin(), place.end(), 2);
+    if (free != 1 && free != 2) continue;
+    Span span;
+    for (std::size_t k = 0; k < 3; ++k) {
+      span[k] = {place[k] == 1 ? side[k] : 0, place[k] == 0 ? 0 : side[k]};
+    }
+    elements.push_back(span);
+  }
+  const auto touch = [](const Span& a, const Span& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (a[k][1] < b[k][0] || b[k][1] < a[k][0]) return false;
+    }
+    return true;
+  };
+  constexpr int kSteps = 24;
+  double sum = 0;
+  for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
+    const std::array<int, 3> at = {i % kSteps, i / kSteps % kSteps, i / kSteps / kSteps};
+    std::vector<double> distance;
+    for (const Span& e : elements) {
+      double squared = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double x = side[k] * (at[k] + 0.5) / kSteps;
+        const double off = std::max({e[k][0] - x, x - e[k][1], 0.0});
+        squared += off * off;
+      }
+      distance.push_back(std::sqrt(squared));
+    }
+    double size = HUGE_VAL;
+    for (std::size_t a = 0; a < elements.size(); ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        if (!touch(elements[a], elements[b])) {
+          size = std::min(size, std::max(distance[a], distance[b]));
+        }
+      }
+    }
+    sum += 1 / (size * size * size);
+  }
+  return sum * side[0] * side[1] * side[2] / (kSteps * kSteps * kSteps);
+}
+
+TEST(Budget, PredictionsAreAboutTheIntegral) {
+  const std::vector<std::array<double, 3>> sides = {{1, 1, 1}, {2, 1, 0.5}, {4, 1, 1},
+                                                    {1, 8, 2}, {8, 8, 1},   {0.25, 1, 16}};
+  std::vector<double> ratios;
+  for (const auto& side : sides) {
+    Surface surface;
+    add_box(surface, {0, 0, 0}, side);
+    const Result result = delmesher::tetrahedralize(surface, Options());
+    ASSERT_TRUE(result.status.ok());
+    ratios.push_back(result.statistics.predicted_tetrahedra / integral_over_box(side));
+  }
+  const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+  // Each is promised within a factor of 3 of one multiple of it.
+  EXPECT_LT(*most / *least, 9) << testing::PrintToString(ratios);
 }
 
 // Nor on where the model is: coordinates and moves are such that no sum is rounded.

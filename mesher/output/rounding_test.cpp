@@ -99,12 +99,22 @@ struct Scene {
     const std::set<Face> faces = outline(input.tetrahedra, input.inside);
     input.boundary.assign(faces.begin(), faces.end());
   }
-  std::size_t bad_when_rounded() const {
+  std::size_t bad_when_rounded() const { return bad().size(); }
+  std::set<VertexId> disturbed() const {
+    std::set<VertexId> result;
+    for (const Tet& t : bad()) result.insert(t.begin(), t.end());
+    return result;
+  }
+
+ private:
+  std::vector<Tet> bad() const {
     std::vector<Vec3> x;
     for (VertexId v = 0; v < points.size(); ++v) x.push_back(points.nearest(v));
-    std::size_t bad = 0;
-    for (const Tet& t : input.tetrahedra) bad += sign_of(x, t) <= 0;
-    return bad;
+    std::vector<Tet> result;
+    for (const Tet& t : input.tetrahedra) {
+      if (sign_of(x, t) <= 0) result.push_back(t);
+    }
+    return result;
   }
 };
 
@@ -132,6 +142,7 @@ void check(const Scene& scene, const RoundingResult& r) {
   EXPECT_EQ(inverted, r.inverted);
   EXPECT_EQ(flat, r.flat);
   EXPECT_EQ(scene.bad_when_rounded(), r.repaired + inverted + flat);
+  EXPECT_EQ(std::set<VertexId>(r.disturbed.begin(), r.disturbed.end()), scene.disturbed());
   EXPECT_EQ(used.size(), r.vertices.size());
   EXPECT_EQ(outline(in_store, r.inside), outline(scene.input.tetrahedra, scene.input.inside));
   ASSERT_EQ(r.boundary.size(), scene.input.boundary.size());
