@@ -182,6 +182,25 @@ TEST(Budget, PredictionsAreAboutTheIntegral) {
   EXPECT_LT(*most / *least, 9) << testing::PrintToString(ratios);
 }
 
+// Nor on the order of the triangles.
+TEST(Budget, PredictionDoesNotDependOnTheOrder) {
+  const auto predicted = [](std::size_t first) {
+    Surface surface;
+    add_box(surface, {0, 0, 0}, {2, 1, 0.5});
+    add_box(surface, {2.25, 0, 0}, {3, 1, 1});
+    std::rotate(surface.triangles.begin(),
+                surface.triangles.begin() + static_cast<std::ptrdiff_t>(first),
+                surface.triangles.end());
+    const Result result = delmesher::tetrahedralize(surface, Options());
+    EXPECT_TRUE(result.status.ok());
+    return result.statistics.predicted_tetrahedra;
+  };
+  const double expected = predicted(0);
+  for (std::size_t first = 1; first < 24; ++first) {
+    EXPECT_NEAR(predicted(first), expected, 1e-9 * expected) << first;
+  }
+}
+
 // Nor on where the model is: coordinates and moves are such that no sum is rounded.
 TEST(Budget, PredictionDoesNotDependOnThePlace) {
   const auto predicted = [](double x, double y, double z) {

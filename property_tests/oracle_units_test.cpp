@@ -471,6 +471,8 @@ TEST(Reports, LeaveNothingOut) {
     }
     EXPECT_EQ(text.find("finding 5"), std::string::npos);
   }
+  EXPECT_NE(to_text(report).find("7 violations"), std::string::npos);
+  EXPECT_EQ(to_text(report).find("0 violations"), std::string::npos);
   report.oracles = {good};
   EXPECT_TRUE(report.all_passed());
   report.oracles[0].checked = 0;

@@ -159,6 +159,22 @@ TEST(Cdt, ValencesCountSubsegments) {
   for (VertexId v = 0; v < 8; ++v) EXPECT_EQ(chains.valence(v), 3U);
 }
 
+// Where a vertex in an edge has no parameter of its own, its distances from the ends say where.
+TEST(Cdt, ExplicitPointsOnEdgesHaveTheirFractions) {
+  Model model(box(0, 8));
+  model.input.on_edge.resize(model.topology.edge_count());
+  std::uint32_t edge = 0;
+  while (model.topology.edge_is_flat[edge] != 0) ++edge;
+  const auto end = model.topology.edge_vertices(edge);
+  const Vec3 p = model.points.nearest(end[0]), q = model.points.nearest(end[1]);
+  const VertexId v = model.points.add_explicit(0.75 * p[0] + 0.25 * q[0], 0.75 * p[1] + 0.25 * q[1],
+                                               0.75 * p[2] + 0.25 * q[2]);
+  model.input.on_edge[edge].push_back(v);
+  const Chains chains(model.input, model.points);
+  EXPECT_EQ(chains.vertices(edge), (std::vector<VertexId>{end[0], v, end[1]}));
+  EXPECT_EQ(chains.next(chains.first(edge)).from, (std::array<double, 2>{0.25, 0.75}));
+}
+
 // Cannot be tetrahedrized without further vertices.
 TEST(Cdt, Schoenhardt) {
   for (const double twist : {0.5, 0.2, 0.01, 1e-6, 1e-12}) {

@@ -103,6 +103,25 @@ TEST(VertexMoves, TakesTheShortestMove) {
   EXPECT_LE(moved, 0x1p-53);
 }
 
+// A vertex on the base of a tetrahedron that is next to nothing high: what the doubles of its large
+// coordinates are apart is far too much, what those of its smallest are apart is enough.
+TEST(VertexMoves, EachCoordinateHasStepsOfItsOwn) {
+  Scene s;
+  constexpr double kBase = 0x1p-70;
+  s.add(0, 0, kBase, true), s.add(2, 0, kBase, true), s.add(0, 2, kBase, true);
+  s.add(0.5, 0.25, 0x1p-60, true), s.add(0.5, 0.25, kBase, false);
+  s.input.tetrahedra = {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}};
+  RoundedMesh mesh = s.mesh();
+  ASSERT_EQ(mesh.bad(), (std::set<std::uint32_t>{3}));
+  mesh.prepare_repairs();
+  EXPECT_TRUE(VertexMoves(mesh).fix(3));
+  EXPECT_TRUE(mesh.bad().empty());
+  const Vec3& p = mesh.position(4);
+  EXPECT_EQ(p[0], 0.5);
+  EXPECT_EQ(p[1], 0.25);
+  EXPECT_EQ(p[2], std::nextafter(kBase, 1));
+}
+
 TEST(VertexMoves, UntanglingEndsWhereNothingCanMove) {
   Scene s = octahedron(1.5, 0, 0);
   s.input.on_surface[6] = 1;
@@ -113,6 +132,20 @@ TEST(VertexMoves, UntanglingEndsWhereNothingCanMove) {
     EXPECT_FALSE(VertexMoves(mesh).untangle(s.control));
     EXPECT_FALSE(mesh.bad().empty());
   }
+}
+
+// Not even an attempt is made at tetrahedra of which no vertex may move.
+TEST(VertexMoves, UntanglingTriesNothingWhereNothingMayMove) {
+  Scene s = octahedron(1.5, 0, 0);
+  s.input.fixed[6] = 1;
+  RoundedMesh mesh = s.mesh();
+  mesh.prepare_repairs();
+  int asked = 0;
+  Options options;
+  options.progress = [&](const Progress&) { return ++asked < 1000; };
+  Control control(options);
+  EXPECT_FALSE(VertexMoves(mesh).untangle(control));
+  EXPECT_EQ(asked, 0);
 }
 
 TEST(LocalOperations, CollapsesAVolumeVertexOutsideItsStar) {
