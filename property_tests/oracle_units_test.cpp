@@ -19,6 +19,7 @@
 #include "oracles/regions.h"
 #include "oracles/same_mesh.h"
 #include "oracles/sample.h"
+#include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
 #include "property_tests/samples.h"
@@ -490,6 +491,20 @@ TEST(Reports, NameVerdicts) {
 
 // --------------------------------------------------------------------------- the record and the
 // file
+
+TEST(Sidecars, OfNoVersionAreRefusedForThat) {
+  for (const char* version : {"0", "99"}) {
+    std::string said = "nothing";
+    try {
+      read_sidecar(written("version.exact", std::string("delmesher-exact ") + version + "\n"));
+    } catch (const ReadError& error) {
+      said = error.what();
+    }
+    EXPECT_NE(said.find(version == std::string("0") ? "unknown version 0" : "99"),
+              std::string::npos)
+        << said;
+  }
+}
 
 // The distance of a written vertex from its place is measured, not only compared.
 TEST(Rounding, TheLargestDistanceIsSaid) {

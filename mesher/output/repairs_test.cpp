@@ -122,6 +122,34 @@ TEST(VertexMoves, EachCoordinateHasStepsOfItsOwn) {
   EXPECT_EQ(p[2], std::nextafter(kBase, 1));
 }
 
+// The only double above a flat tetrahedron's vertex is taken by another vertex, which has to go
+// first. What cannot be mended is left as it was.
+TEST(VertexMoves, ChainsMakeRoom) {
+  constexpr double kBase = 0x1p-70;
+  const double above = std::nextafter(kBase, 1);
+  for (const bool fixed : {false, true}) {
+    Scene s;
+    s.add(0, 0, kBase, true), s.add(2, 0, kBase, true), s.add(0, 2, kBase, true);
+    s.add(0.5, 0.25, 0x1p-60, true), s.add(0.5, 0.25, kBase, false);
+    s.add(0.5, 0.25, above, fixed);
+    s.input.tetrahedra = {{0, 1, 2, 4}, {4, 1, 2, 5}, {0, 4, 2, 5}, {0, 1, 4, 5},
+                          {5, 1, 2, 3}, {0, 5, 2, 3}, {0, 1, 5, 3}};
+    RoundedMesh mesh = s.mesh();
+    ASSERT_EQ(mesh.bad(), (std::set<std::uint32_t>{0}));
+    mesh.prepare_repairs();
+    VertexMoves moves(mesh);
+    EXPECT_FALSE(moves.fix(0));
+    const std::uint32_t before = mesh.clock();
+    EXPECT_EQ(moves.fix_by_chain(0), !fixed);
+    EXPECT_EQ(mesh.bad().empty(), !fixed);
+    EXPECT_EQ(mesh.position(4)[2] > kBase, !fixed);
+    EXPECT_EQ(mesh.position(5)[2] > above, !fixed);
+    EXPECT_EQ(mesh.position(4) == mesh.home(4), fixed);
+    // Tetrahedra at the vertex that made room have changed, too.
+    EXPECT_EQ(mesh.last_change(6) > before, !fixed);
+  }
+}
+
 TEST(VertexMoves, UntanglingEndsWhereNothingCanMove) {
   Scene s = octahedron(1.5, 0, 0);
   s.input.on_surface[6] = 1;
