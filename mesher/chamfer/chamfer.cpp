@@ -12,11 +12,9 @@ namespace delmesher {
 
 namespace {
 
-// Removes the points that simplification left unused, and renumbers.
-void drop_unused_points(Bridges& bridges, const PointStore& points, NewPoints& new_points,
-                        std::size_t input_vertices) {
+// Removes the new points that simplification left unused, and renumbers.
+void drop_unused_points(Bridges& bridges, const PointStore& points, NewPoints& new_points) {
   std::vector<std::uint8_t> used(points.size());
-  std::fill(used.begin(), used.begin() + static_cast<std::ptrdiff_t>(input_vertices), 1);
   for (VertexId v : bridges.edge_end) {
     if (v != kNone) used[v] = 1;
   }
@@ -79,7 +77,7 @@ ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
   if (options.simplify_bridges) {
     simplify_bridges(surface, acute, cuts, thresholds, predicates, bridges, control);
   }
-  drop_unused_points(bridges, points, new_points, surface.vertex_count());
+  drop_unused_points(bridges, points, new_points);
 
   ChamferResult result;
   result.first_new_point = new_points.first();

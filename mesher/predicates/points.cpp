@@ -118,9 +118,7 @@ void PointStore::pop_back() {
 PointStore::Detail& PointStore::detail(VertexId v) {
   if (detail_of_[v] == kNone) {
     detail_of_[v] = static_cast<std::uint32_t>(details_.size());
-    Detail d;
-    d.first_limb = limbs_.size();
-    details_.push_back(d);
+    details_.push_back({});  // without limbs
   }
   return details_[detail_of_[v]];
 }
