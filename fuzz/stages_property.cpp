@@ -19,6 +19,7 @@ using delmesher::Vec3;
 Leniency too_precise("stopped-features-below-2^-40", 0.05);
 Leniency short_chamfer("acute-chamfer-below-an-ulp", 0.1);
 Leniency no_room("acute-features-below-2^-40", 0.05);
+Leniency turned("acute-by-what-an-ulp-turns", 0.02);
 
 // A property of one stage: failed checks inside the mesher are findings, and so is a stop for want
 // of precision where there is room.
@@ -38,7 +39,7 @@ Finding guarded(const char* stage, const Surface& surface, Body&& body) {
 }
 
 // Points on triangles are rounded to dyadic parameters; the angles are measured in doubles.
-constexpr double kDegreesLost = 0.02;
+constexpr double kDegreesLost = 0.02, kPi = 3.14159265358979323846;
 // The filter compares distances in doubles.
 constexpr double kDistanceRoundings = 1e-9;
 
@@ -72,8 +73,12 @@ Finding chamfered(const Surface& surface, double cosine_squared, double degrees)
   // facets and at angles that narrow, which the filter drops by default) they are at any angle.
   constexpr double kShortest = 0x1p-50;
   if (!(report.smallest() < degrees - kDegreesLost)) return {};
+  // The ends of two segments, each off by half an ulp of the model, turn them by so much.
+  const double most_turned = 2 * 0x1p-53 / report.smallest_segment * 180 / kPi;
   if (!(report.smallest_segment > kShortest)) {
     short_chamfer.take();
+  } else if (!(report.smallest() < degrees - kDegreesLost - most_turned)) {
+    turned.take();
   } else if (!roomy(surface)) {
     no_room.take();
   } else {
@@ -99,7 +104,7 @@ Finding kept_is_apart(const FeatureSizes& sizes, const delmesher::SurfaceTopolog
 }  // namespace
 
 Finding chamfer_holds(const Surface& surface) {
-  judging({&too_precise, &short_chamfer, &no_room});
+  judging({&too_precise, &short_chamfer, &no_room, &turned});
   return guarded("chamfer", surface, [&]() -> Finding {
     if (Finding f = chamfered(surface, 0.25, 60); !f.empty()) return f;
     return chamfered(surface, 0, 90);
