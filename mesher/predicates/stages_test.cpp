@@ -81,6 +81,28 @@ TEST(Stages, PerturbationIsCountedWhereItDecides) {
   EXPECT_EQ(p.counters.symbolic, 1U);
 }
 
+// A coordinate that all four points have proves that they are coplanar; one that only three have
+// proves nothing, although the others' bits are too few for the filter.
+TEST(Stages, SharedCoordinatesProveZeros) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool shared : {true, false}) {
+      PointStore store;
+      const double u[] = {0.1, 0.7, 0.3, 0.9}, v[] = {0.2, 0.4, 0.8, 0.6};
+      for (std::size_t i = 0; i < 4; ++i) {
+        Vec3 p{};
+        p[axis] = i == 3 && !shared ? std::nextafter(0.1, 1) : 0.1;
+        p[(axis + 1) % 3] = u[i];
+        p[(axis + 2) % 3] = v[i];
+        store.add_explicit(p[0], p[1], p[2]);
+      }
+      Predicates p(store);
+      EXPECT_EQ(p.orient3d(0, 1, 2, 3) == 0, shared);
+      EXPECT_EQ(p.counters.support, shared ? 1U : 0U) << axis;
+      EXPECT_EQ(p.counters.extended + p.counters.exact + p.counters.filter, shared ? 0U : 1U);
+    }
+  }
+}
+
 // What the filter leaves over goes to integers where they are short, else to double-doubles: a
 // point that is off the plane of the others by 2^-52, and one of these at 2^-250 instead of zero.
 TEST(Stages, ShortNumbersGoToIntegersLongOnesToDoubleDoubles) {
