@@ -134,6 +134,9 @@ void extrude_face(Mesh& mesh, Random& random, int bits) {
   mesh = to_mesh(surface);
 }
 
+// From so many bits on a nudge may be of ulps, below it is of small steps.
+constexpr int kUlps = 36;
+
 void nudge_vertex(Mesh& mesh, Random& random, int bits) {
   const auto v = random_handle<Mesh::VertexHandle>(mesh.n_vertices(), random);
   Vector p = mesh.point(v);
@@ -150,7 +153,11 @@ void nudge_vertex(Mesh& mesh, Random& random, int bits) {
       // Not from zero: what is 5e-324 beside it no mesher with double coordinates can resolve.
       for (int i = 0; i < 3; ++i) {
         const int steps = random.integer(-3, 3);
-        if (p[i] != 0) p[i] = shapes::ulps_away(p[i], steps);
+        if (bits < kUlps) {
+          p[i] += std::ldexp(p[i] * steps, -bits);
+        } else if (p[i] != 0) {
+          p[i] = shapes::ulps_away(p[i], steps);
+        }
       }
       break;
   }
