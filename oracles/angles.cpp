@@ -20,11 +20,10 @@ class SmallestAngle {
 
   // Is the angle of the triangle at `apex` below the bound?
   bool below(const ExactPoints& points, Index apex, Index b, Index c) const {
-    const IntervalVector &p = points.enclosure(apex), &q = points.enclosure(b),
-                         &r = points.enclosure(c);
+    const IntervalVector p = points.rough_difference(apex, b), q = points.rough_difference(apex, c);
     Interval uv(0), uu(0), vv(0);
     for (int axis = 0; axis < 3; ++axis) {
-      const Interval u = q[axis] - p[axis], v = r[axis] - p[axis];
+      const Interval u = p[axis], v = q[axis];
       uv = uv + u * v;
       uu = uu + u * u;
       vv = vv + v * v;
@@ -92,8 +91,7 @@ Parts<Number> between(const std::array<Number, 3>& u, const std::array<Number, 3
 }
 
 IntervalVector rough(const ExactPoints& points, Index from, Index to) {
-  const IntervalVector &p = points.enclosure(from), &q = points.enclosure(to);
-  return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+  return points.rough_difference(from, to);
 }
 
 // The angle at `apex` between the directions to b and c.

@@ -38,6 +38,17 @@ void lower(long& exponent, double value, long offset) {
   exponent = std::min(exponent, dyadic(value).exponent + offset);
 }
 
+// What `nearest`, made of it by to_double(), leaves of value * 2^exponent: to 2^-52 of itself, and
+// 0 only if nothing. NaN where neither can be had; that decides nothing.
+double rest(const mpz_class& value, long exponent, double nearest) {
+  constexpr double kTiny = 0x1p-900;  // below it bits of the rest could get lost
+  if (nearest == 0 && value == 0) return 0;
+  if (!(std::fabs(nearest) >= kTiny) || !std::isfinite(nearest)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return to_double(value - scaled(dyadic(nearest), exponent), exponent);
+}
+
 std::string check_point(std::span<const ExactPoint> points, std::size_t index) {
   const ExactPoint& p = points[index];
   const std::string name = "point " + std::to_string(index);
@@ -113,22 +124,21 @@ std::string ExactPoints::assign(std::span<const Position> positions) {
 
 std::string ExactPoints::assign(std::span<const ExactPoint> points) {
   integers_.clear();
-  enclosures_.clear();
   nearest_.clear();
+  rest_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::string why = check_point(points, i); !why.empty()) return why;
   }
   exponent_ = common_exponent(points);
   integers_.resize(points.size());
-  enclosures_.resize(points.size());
   nearest_.resize(points.size());
+  rest_.assign(points.size(), {0, 0, 0});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ExactPoint& p = points[i];
     if (p.kind != Kind::explicit_point) continue;
     const Position position = {p.x, p.y, p.z};
     for (int axis = 0; axis < 3; ++axis) {
       integers_[i][axis] = scaled(dyadic(position[axis]), exponent_);
-      enclosures_[i][axis] = Interval(position[axis]);
     }
     nearest_[i] = position;
   }
@@ -144,7 +154,7 @@ std::string ExactPoints::assign(std::span<const ExactPoint> points) {
         add_multiple(value, p.y, integers_[base][axis], integers_[p.j][axis]);
       }
       nearest_[i][axis] = to_double(value, exponent_);
-      enclosures_[i][axis] = Interval::around(nearest_[i][axis], nearest_[i][axis]);
+      rest_[i][axis] = rest(value, exponent_, nearest_[i][axis]);
     }
   }
   bool rounded = false;
@@ -163,8 +173,7 @@ namespace exact {
 namespace {
 
 IntervalVector rough_difference(const ExactPoints& points, Index from, Index to) {
-  const IntervalVector &p = points.enclosure(from), &q = points.enclosure(to);
-  return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+  return points.rough_difference(from, to);
 }
 
 template <class Number>

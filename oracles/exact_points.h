@@ -1,10 +1,11 @@
-// Points with exact coordinates: integers at one common power-of-two scale, with enclosing doubles
-// for the filter. Shares nothing with the mesher's arithmetic.
+// Points with exact coordinates: integers at one common power-of-two scale, with two doubles each
+// for the filter: the nearest one and what it leaves. Shares nothing with the mesher's arithmetic.
 #pragma once
 
 #include <gmpxx.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -36,7 +37,15 @@ class ExactPoints {
   const IntegerVector& integer(Index i) const { return integers_[i]; }
   long exponent() const { return exponent_; }
   // Encloses the coordinates (in true units); a single point if they are doubles.
-  const IntervalVector& enclosure(Index i) const { return enclosures_[i]; }
+  IntervalVector enclosure(Index i) const {
+    const Position &p = nearest_[i], &r = rest_[i];
+    return {around(p[0], r[0]), around(p[1], r[1]), around(p[2], r[2])};
+  }
+  // Encloses the vector between two points, to about an ulp of itself.
+  IntervalVector rough_difference(Index from, Index to) const {
+    const Position &p = nearest_[from], &q = nearest_[to], &r = rest_[from], &s = rest_[to];
+    return {gap(p[0], r[0], q[0], s[0]), gap(p[1], r[1], q[1], s[1]), gap(p[2], r[2], q[2], s[2])};
+  }
   // A double within an ulp of the coordinates, in true units.
   const Position& nearest(Index i) const { return nearest_[i]; }
   double largest_coordinate() const { return largest_coordinate_; }
@@ -44,9 +53,24 @@ class ExactPoints {
   double difference_error() const { return difference_error_; }
 
  private:
+  static Interval around(double x, double rest) {
+    return rest == 0 ? Interval(x) : Interval::around(x, x);
+  }
+  // (q + s) - (p + r). The difference of p and q and its rounding error are exact (Knuth's
+  // two-sum); then there are three roundings, each within what margin() allows of the result or of
+  // its own terms, and the rests are themselves known to 2^-52 of their size.
+  static Interval gap(double p, double r, double q, double s) {
+    const double d = q - p, back = d - q;
+    const double error = (q - (d - back)) - (p + back);
+    if (r == 0 && s == 0) return Interval::around(d, d);
+    const double x = d + (error + (s - r));
+    const double slack =
+        Interval::margin(x) + (std::fabs(r) + std::fabs(s) + std::fabs(error)) * 0x1p-49;
+    return {x - slack, x + slack};
+  }
+
   std::vector<IntegerVector> integers_;
-  std::vector<IntervalVector> enclosures_;
-  std::vector<Position> nearest_;
+  std::vector<Position> nearest_, rest_;
   long exponent_ = 0;
   double largest_coordinate_ = 0, difference_error_ = 0;
 };

@@ -13,16 +13,15 @@ namespace {
 class Centroid {
  public:
   Centroid(const ExactPoints& points, std::span<const Index> corners)
-      : points_(points), corners_(corners) {
-    for (const Index v : corners) {
-      for (int axis = 0; axis < 3; ++axis) sum_[axis] = sum_[axis] + points.enclosure(v)[axis];
-    }
-  }
+      : points_(points), corners_(corners) {}
 
   IntervalVector rough_from(Index vertex) const {
-    const Interval count(static_cast<double>(corners_.size()));
-    const IntervalVector& p = points_.enclosure(vertex);
-    return {sum_[0] - count * p[0], sum_[1] - count * p[1], sum_[2] - count * p[2]};
+    IntervalVector sum;
+    for (const Index v : corners_) {
+      const IntervalVector u = points_.rough_difference(vertex, v);
+      for (int axis = 0; axis < 3; ++axis) sum[axis] = sum[axis] + u[axis];
+    }
+    return sum;
   }
 
   IntegerVector from(Index vertex) const {
@@ -39,21 +38,24 @@ class Centroid {
   IntervalVector position() const {
     const double inverse = 1 / static_cast<double>(corners_.size());
     const Interval factor = Interval::around(inverse, inverse);
-    return {sum_[0] * factor, sum_[1] * factor, sum_[2] * factor};
+    IntervalVector sum;
+    for (const Index v : corners_) {
+      const IntervalVector p = points_.enclosure(v);
+      for (int axis = 0; axis < 3; ++axis) sum[axis] = sum[axis] + p[axis];
+    }
+    return {sum[0] * factor, sum[1] * factor, sum[2] * factor};
   }
 
  private:
   const ExactPoints& points_;
   std::span<const Index> corners_;
-  IntervalVector sum_;
 };
 
 // On which side of a -> b, seen from above, the centroid lies, after moving it by (e, e^2) for an
 // infinitesimal e: never on it unless a and b have the same projection.
 int side_above(const ExactPoints& points, Index a, Index b, const Centroid& q) {
-  const IntervalVector &p = points.enclosure(a), &r = points.enclosure(b);
-  const IntervalVector w = q.rough_from(a);
-  const int rough = ((r[0] - p[0]) * w[1] - (r[1] - p[1]) * w[0]).sign();
+  const IntervalVector along = points.rough_difference(a, b), w = q.rough_from(a);
+  const int rough = (along[0] * w[1] - along[1] * w[0]).sign();
   if (rough != 2 && rough != 0) return rough;
   const IntegerVector u = exact::difference(points, a, b), v = q.from(a);
   if (const int sign = sgn(mpz_class(u[0] * v[1] - u[1] * v[0])); sign != 0) return sign;
@@ -139,8 +141,9 @@ BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corner
     box.low[axis] = std::numeric_limits<double>::infinity();
     box.high[axis] = -box.low[axis];
     for (const Index v : corners) {
-      box.low[axis] = std::min(box.low[axis], points.enclosure(v)[axis].low);
-      box.high[axis] = std::max(box.high[axis], points.enclosure(v)[axis].high);
+      const Interval x = points.enclosure(v)[axis];
+      box.low[axis] = std::min(box.low[axis], x.low);
+      box.high[axis] = std::max(box.high[axis], x.high);
     }
   }
   return box;
@@ -178,8 +181,8 @@ int InputSurface::inside(const ExactPoints& points, std::span<const Index> corne
 
 int InputSurface::rough_side(const ExactPoints& points, Index triangle, Index v) const {
   const IntervalVector& n = rough_normals_[triangle];
-  const IntervalVector &a = points.enclosure(triangles_[triangle][0]), &p = points.enclosure(v);
-  return (n[0] * (p[0] - a[0]) + n[1] * (p[1] - a[1]) + n[2] * (p[2] - a[2])).sign();
+  const IntervalVector w = points.rough_difference(triangles_[triangle][0], v);
+  return (n[0] * w[0] + n[1] * w[1] + n[2] * w[2]).sign();
 }
 
 bool InputSurface::meets_interior(const ExactPoints& points,

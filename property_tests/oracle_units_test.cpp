@@ -202,7 +202,7 @@ TEST(ExactPoints, AreTheirDefinitions) {
         t * c[0] + (1 - t) * c[2], u * c[2] + w * c[0] + (1 - u - w) * c[1], 3 * c[0] - 2 * c[2]};
     for (Index i = 0; i < 3; ++i) {
       EXPECT_EQ(coordinate(points, 3 + i, axis), made[i]);
-      const Interval& around = points.enclosure(3 + i)[axis];
+      const Interval around = points.enclosure(3 + i)[axis];
       EXPECT_LE(mpq_class(around.low), made[i]);
       EXPECT_GE(mpq_class(around.high), made[i]);
       EXPECT_LE(around.high - around.low, 0x1p-48 * std::fabs(made[i].get_d()));
@@ -210,6 +210,13 @@ TEST(ExactPoints, AreTheirDefinitions) {
                   0x1p-51 * std::fabs(made[i].get_d()));
     }
     for (Index v = 0; v < points.size(); ++v) {
+      for (Index to = 0; to < points.size(); ++to) {
+        const mpq_class exact = coordinate(points, to, axis) - coordinate(points, v, axis);
+        const Interval rough = points.rough_difference(v, to)[axis];
+        EXPECT_LE(mpq_class(rough.low), exact);
+        EXPECT_GE(mpq_class(rough.high), exact);
+        EXPECT_LE(rough.high - rough.low, 0x1p-48 * std::fabs(exact.get_d()) + 0x1p-95);
+      }
       largest = std::max(largest, std::fabs(points.nearest(v)[axis]));
     }
   }

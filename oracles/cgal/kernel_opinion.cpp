@@ -21,7 +21,7 @@ using Exact = CGAL::Simple_cartesian<CGAL::Gmpz>;
 
 Rough::Point_3 rough_point(const ExactPoints& points, Index i) {
   const auto coordinate = [&](int axis) {
-    const Interval& x = points.enclosure(i)[axis];
+    const Interval x = points.enclosure(i)[axis];
     return CGAL::Interval_nt<false>(x.low, x.high);
   };
   return {coordinate(0), coordinate(1), coordinate(2)};

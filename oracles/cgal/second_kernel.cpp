@@ -1,6 +1,8 @@
 #include "oracles/cgal/second_kernel.h"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Gmpzf.h>
+#include <CGAL/Interval_nt.h>
+#include <CGAL/Simple_cartesian.h>
 
 #include <array>
 #include <cmath>
@@ -14,11 +16,62 @@ namespace {
 
 using delmesher::ExactPoint;
 using delmesher::ExactRecord;
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Point = Kernel::Point_3;
+// All that is asked needs ring operations only. CGAL's exact floating-point numbers have them; in
+// its lazy kernel, whose fractions are reduced again and again, the same took most of a
+// verification.
+using Number = CGAL::Gmpzf;
+using Kernel = CGAL::Simple_cartesian<Number>;
 using Vector = Kernel::Vector_3;
-using Number = Kernel::FT;
-using Exact = std::decay_t<decltype(CGAL::exact(std::declval<Number>()))>;
+using Rough = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
+
+struct Point {
+  Kernel::Point_3 exact;
+  Rough::Point_3 rough;
+
+  explicit Point(const Kernel::Point_3& p)
+      : exact(p), rough(interval(p.x()), interval(p.y()), interval(p.z())) {}
+  Point(const Number& x, const Number& y, const Number& z) : Point(Kernel::Point_3(x, y, z)) {}
+
+ private:
+  static CGAL::Interval_nt<false> interval(const Number& x) {
+    return CGAL::Interval_nt<false>(CGAL::to_interval(x));
+  }
+};
+
+// CGAL's intervals work with the rounding mode set upwards, and say when they are not certain.
+template <class Predicate, class... Points>
+CGAL::Sign decide(const Predicate& predicate, const Points&... points) {
+  {
+    const CGAL::Protect_FPU_rounding<true> protection;
+    const auto rough = predicate(points.rough...);
+    if (CGAL::is_certain(rough)) return CGAL::get_certain(rough);
+  }
+  return CGAL::make_certain(predicate(points.exact...));
+}
+
+CGAL::Sign orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return decide([](const auto&... p) { return CGAL::orientation(p...); }, a, b, c, d);
+}
+
+// Of the angle between the normal of abc and the direction from p to q, cosine's sign.
+CGAL::Sign along_normal(const Point& a, const Point& b, const Point& c, const Point& p,
+                        const Point& q) {
+  return decide(
+      [](const auto& u, const auto& v, const auto& w, const auto& from, const auto& to) {
+        return CGAL::sign(CGAL::cross_product(v - u, w - u) * (to - from));
+      },
+      a, b, c, p, q);
+}
+
+// Of the angle between the normals of abc and pqr.
+CGAL::Sign between_normals(const Point& a, const Point& b, const Point& c, const Point& p,
+                           const Point& q, const Point& r) {
+  return decide(
+      [](const auto& u, const auto& v, const auto& w, const auto& x, const auto& y, const auto& z) {
+        return CGAL::sign(CGAL::cross_product(v - u, w - u) * CGAL::cross_product(y - x, z - x));
+      },
+      a, b, c, p, q, r);
+}
 
 // --- the text
 
@@ -93,14 +146,14 @@ bool read_points(const std::string& path, std::vector<ExactPoint>& points) {
 // 2^exponent, beyond the range of doubles as well.
 Number power_of_two(long exponent) {
   constexpr long kStep = 900;
-  Number result = 1;
+  Number result(1);
   for (; exponent > kStep; exponent -= kStep) result *= Number(std::ldexp(1.0, kStep));
   for (; exponent < -kStep; exponent += kStep) result *= Number(std::ldexp(1.0, -kStep));
   return result * Number(std::ldexp(1.0, static_cast<int>(exponent)));
 }
 
 Number from_integer(const mpz_class& value, const Number& unit) {
-  Number result = 0, scale = unit;
+  Number result(0), scale = unit;
   mpz_class rest = abs(value), part;
   while (rest != 0) {
     mpz_fdiv_r_2exp(part.get_mpz_t(), rest.get_mpz_t(), 52);
@@ -123,7 +176,9 @@ class SecondKernel {
 
   OracleReport run() {
     compare_points();
-    for (const Position& p : input_.vertices) corners_.emplace_back(p[0], p[1], p[2]);
+    for (const Position& p : input_.vertices) {
+      corners_.emplace_back(Number(p[0]), Number(p[1]), Number(p[2]));
+    }
     check_tetrahedra();
     check_faces();
     check_volumes();
@@ -135,21 +190,21 @@ class SecondKernel {
     return elements <= most ? 1 : elements / std::max<std::size_t>(1, most);
   }
 
-  Point explicit_point(Index v) const {
+  Kernel::Point_3 corner(Index v) const {
     const ExactPoint& p = definitions_[v];
-    return {p.x, p.y, p.z};
+    return {Number(p.x), Number(p.y), Number(p.z)};
   }
   Point expand(Index v) const {
     const ExactPoint& p = definitions_[v];
-    if (p.kind == ExactPoint::Kind::explicit_point) return explicit_point(v);
-    const Point a = explicit_point(p.i), b = explicit_point(p.j);
-    const Number t = p.x;
+    if (p.kind == ExactPoint::Kind::explicit_point) return Point(corner(v));
+    const Kernel::Point_3 a = corner(p.i), b = corner(p.j);
+    const Number t(p.x);
     if (p.kind == ExactPoint::Kind::on_segment) {
-      const Number rest = 1 - t;
+      const Number rest = Number(1) - t;
       return {t * a.x() + rest * b.x(), t * a.y() + rest * b.y(), t * a.z() + rest * b.z()};
     }
-    const Point c = explicit_point(p.k);
-    const Number u = p.y, rest = 1 - t - u;
+    const Kernel::Point_3 c = corner(p.k);
+    const Number u(p.y), rest = Number(1) - t - u;
     return {t * a.x() + u * b.x() + rest * c.x(), t * a.y() + u * b.y() + rest * c.y(),
             t * a.z() + u * b.z() + rest * c.z()};
   }
@@ -160,7 +215,7 @@ class SecondKernel {
     std::size_t asked = 0;
     for (std::size_t v = 0; v < definitions_.size();
          v += step(definitions_.size(), kMost), ++asked) {
-      const Point p = expand(static_cast<Index>(v));
+      const Kernel::Point_3 p = expand(static_cast<Index>(v)).exact;
       const IntegerVector& other = points_.integer(static_cast<Index>(v));
       if (p.x() != from_integer(other[0], unit) || p.y() != from_integer(other[1], unit) ||
           p.z() != from_integer(other[2], unit)) {
@@ -183,12 +238,12 @@ class SecondKernel {
       const std::array<Point, 4> p = {expand(tet.vertices[0]), expand(tet.vertices[1]),
                                       expand(tet.vertices[2]), expand(tet.vertices[3])};
       ++asked;
-      if (CGAL::orientation(p[0], p[1], p[2], p[3]) != CGAL::POSITIVE) {
+      if (orientation(p[0], p[1], p[2], p[3]) != CGAL::POSITIVE) {
         report_.fail("tetrahedron " + std::to_string(t) + " is not positive");
       }
       if (t % every_ray != 0) continue;
       ++cast;
-      const int side = parity(CGAL::centroid(p[0], p[1], p[2], p[3]));
+      const int side = parity(centroid(p));
       if (side != (tet.inside ? 1 : 0)) {
         report_.fail("tetrahedron " + std::to_string(t) + " is said to be " +
                      (tet.inside ? "inside" : "outside") + ", and is not");
@@ -199,19 +254,28 @@ class SecondKernel {
     report_.figures.emplace_back("rays", static_cast<double>(cast));
   }
 
+  static Point centroid(const std::array<Point, 4>& p) {
+    std::array<Number, 3> sum;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Point& corner : p) sum[axis] += corner.exact[axis];
+      sum[axis] *= Number(0.25);
+    }
+    return {sum[0], sum[1], sum[2]};
+  }
+
   // Along rays in several directions, until one meets no edge. -1: the point is on the surface.
   int parity(const Point& from) const {
     for (int attempt = 0; attempt < 16; ++attempt) {
-      const Vector along(0.2718281828 + 0.37 * attempt, 0.5772156649 - 0.11 * attempt, 1);
-      const Point to = from + along;
+      const Vector along(Number(0.2718281828 + 0.37 * attempt),
+                         Number(0.5772156649 - 0.11 * attempt), Number(1));
+      const Point to(from.exact + along);
       int crossings = 0;
       bool sure = true;
       for (const auto& [i, j, k] : triangles_) {
         const Point &a = corners_[i], &b = corners_[j], &c = corners_[k];
-        const CGAL::Sign ab = CGAL::orientation(from, to, a, b),
-                         bc = CGAL::orientation(from, to, b, c);
+        const CGAL::Sign ab = orientation(from, to, a, b), bc = orientation(from, to, b, c);
         if (ab != CGAL::ZERO && bc != CGAL::ZERO && ab != bc) continue;
-        const CGAL::Sign ca = CGAL::orientation(from, to, c, a);
+        const CGAL::Sign ca = orientation(from, to, c, a);
         if (ab == CGAL::ZERO || bc == CGAL::ZERO || ca == CGAL::ZERO) {
           const bool passes =
               (ab == CGAL::POSITIVE || bc == CGAL::POSITIVE || ca == CGAL::POSITIVE) &&
@@ -221,10 +285,9 @@ class SecondKernel {
           break;
         }
         if (ca != ab) continue;
-        const CGAL::Sign above = CGAL::orientation(a, b, c, from);
+        const CGAL::Sign above = orientation(a, b, c, from);
         if (above == CGAL::ZERO) return -1;
-        const Vector normal = CGAL::cross_product(b - a, c - a);
-        if (above != CGAL::sign(normal * along)) ++crossings;
+        if (above != along_normal(a, b, c, from, to)) ++crossings;
       }
       if (sure) return crossings % 2;
     }
@@ -235,9 +298,8 @@ class SecondKernel {
     for (const Index t : facet.triangles) {
       const auto& [i, j, k] = triangles_[t];
       const Point &a = corners_[i], &b = corners_[j], &c = corners_[k];
-      const Vector normal = CGAL::cross_product(b - a, c - a);
       const auto left = [&](const Point& from, const Point& to) {
-        return CGAL::sign(normal * CGAL::cross_product(to - from, p - from)) != CGAL::NEGATIVE;
+        return between_normals(a, b, c, from, to, p) != CGAL::NEGATIVE;
       };
       if (left(a, b) && left(b, c) && left(c, a)) return true;
     }
@@ -261,12 +323,11 @@ class SecondKernel {
       const auto& t = triangles_[facet->second->triangles[0]];
       const Point &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
       const std::array<Point, 3> p = {expand(i), expand(j), expand(k)};
-      const Vector normal = CGAL::cross_product(b - a, c - a);
-      if (CGAL::sign(normal * CGAL::cross_product(p[1] - p[0], p[2] - p[0])) != CGAL::POSITIVE) {
+      if (between_normals(a, b, c, p[0], p[1], p[2]) != CGAL::POSITIVE) {
         report_.fail(name + " is not turned outwards");
       }
       for (const Point& corner : p) {
-        if (!CGAL::coplanar(a, b, c, corner)) {
+        if (orientation(a, b, c, corner) != CGAL::ZERO) {
           report_.fail(name + " is off its plane");
         } else if (!on_facet(corner, *facet->second)) {
           report_.fail(name + " has a corner beside it");
@@ -277,33 +338,32 @@ class SecondKernel {
     report_.figures.emplace_back("faces", static_cast<double>(asked));
   }
 
-  // Six times the volume between a triangle and the origin, or of a tetrahedron.
-  static Exact volume(const Vector& u, const Vector& v, const Vector& w) {
-    return CGAL::exact(Number(CGAL::determinant(u, v, w)));
+  // Six times the volume of a tetrahedron.
+  static Number volume(const Point& origin, const Point& a, const Point& b, const Point& c) {
+    return CGAL::determinant(a.exact - origin.exact, b.exact - origin.exact,
+                             c.exact - origin.exact);
   }
 
   void check_volumes() {
     constexpr std::size_t kMostTetrahedra = 20000, kMostFaces = 20000;
     const Point origin = corners_[0];
-    std::map<Index, std::array<Exact, 3>> areas;
+    std::map<Index, std::array<Number, 3>> areas;
     const auto add_area = [&](Index id, const Point& a, const Point& b, const Point& c, int sign) {
-      const Vector n = CGAL::cross_product(b - a, c - a);
-      std::array<Exact, 3>& sum = areas[id];
-      for (int axis = 0; axis < 3; ++axis) {
-        sum[axis] += sign > 0 ? CGAL::exact(n[axis]) : Exact(-CGAL::exact(n[axis]));
-      }
+      const Vector n = CGAL::cross_product(b.exact - a.exact, c.exact - a.exact);
+      std::array<Number, 3>& sum = areas[id];
+      for (int axis = 0; axis < 3; ++axis) sum[axis] += sign > 0 ? n[axis] : -n[axis];
     };
-    Exact solid = 0;
+    Number solid(0);
     for (const auto& [i, j, k] : triangles_) {
-      solid += volume(corners_[i] - origin, corners_[j] - origin, corners_[k] - origin);
+      solid += volume(origin, corners_[i], corners_[j], corners_[k]);
     }
     const bool faces = record_.final_facets.size() <= kMostFaces;
     const bool tetrahedra = record_.final.size() <= kMostTetrahedra;
     if (faces) {
-      Exact sum = 0;
+      Number sum(0);
       for (const auto& [i, j, k, id] : record_.final_facets) {
         const Point a = expand(i), b = expand(j), c = expand(k);
-        sum += volume(a - origin, b - origin, c - origin);
+        sum += volume(origin, a, b, c);
         add_area(id, a, b, c, 1);
       }
       if (sum != solid) report_.fail("the faces enclose another volume");
@@ -314,18 +374,18 @@ class SecondKernel {
         }
       }
       for (const auto& [id, sum_of_areas] : areas) {
-        if (sum_of_areas[0] != 0 || sum_of_areas[1] != 0 || sum_of_areas[2] != 0) {
+        if (!CGAL::is_zero(sum_of_areas[0]) || !CGAL::is_zero(sum_of_areas[1]) ||
+            !CGAL::is_zero(sum_of_areas[2])) {
           report_.fail("the faces on facet " + std::to_string(id) + " have another area");
         }
       }
     }
     if (tetrahedra) {
-      Exact sum = 0;
+      Number sum(0);
       for (const ExactRecord::Tet& tet : record_.final) {
         if (!tet.inside) continue;
-        const Point a = expand(tet.vertices[0]);
-        sum += volume(expand(tet.vertices[1]) - a, expand(tet.vertices[2]) - a,
-                      expand(tet.vertices[3]) - a);
+        sum += volume(expand(tet.vertices[0]), expand(tet.vertices[1]), expand(tet.vertices[2]),
+                      expand(tet.vertices[3]));
       }
       if (sum != solid) report_.fail("the tetrahedra inside have another volume");
     }
