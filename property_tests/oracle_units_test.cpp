@@ -215,7 +215,12 @@ TEST(ExactPoints, AreTheirDefinitions) {
         const Interval rough = points.rough_difference(v, to)[axis];
         EXPECT_LE(mpq_class(rough.low), exact);
         EXPECT_GE(mpq_class(rough.high), exact);
-        EXPECT_LE(rough.high - rough.low, 0x1p-48 * std::fabs(exact.get_d()) + 0x1p-95);
+        // What a second double per coordinate leaves open is 2^-105 of it, taken 2^5 times for
+        // safety.
+        const double coordinates =
+            std::fabs(points.nearest(v)[axis]) + std::fabs(points.nearest(to)[axis]);
+        EXPECT_LE(rough.high - rough.low,
+                  0x1p-48 * std::fabs(exact.get_d()) + 0x1p-99 * coordinates);
       }
       largest = std::max(largest, std::fabs(points.nearest(v)[axis]));
     }
