@@ -6,8 +6,9 @@
 #include <map>
 #include <set>
 
-#include "oracles/plane_grid.h"
-#include "oracles/plane_points.h"
+#include "oracles/plane_chamfer.h"
+#include "oracles/plane_conformity.h"
+#include "oracles/plane_graph.h"
 
 namespace tetproof {
 namespace {
@@ -17,336 +18,461 @@ using delmesher::Insideness;
 using delmesher::PlanarGraph;
 using delmesher::PlaneRecord;
 using delmesher::Region;
+using oracles::OracleReport;
+using oracles::PlaneFile;
+using oracles::Promise;
+using oracles::Verdict;
+using oracles::VerifyReport;
 using Side = PlaneRecord::Side;
 using Index = PlanePoints::Index;
 using Point = PlanePoints::Point;
+using Edge = std::pair<Index, Index>;
 constexpr Index kNothing = 0xffffffffU;
+// Angles up to here are guaranteed in the plane; beyond, as good as it gets.
+constexpr double kGuaranteed = 20.7;
+constexpr unsigned kVersion = 1;
 
-class Verifier {
+Edge undirected(Index a, Index b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+std::array<Index, 3> smallest_first(std::array<Index, 3> t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+class RecordVerifier {
  public:
-  Verifier(const PlanarGraph& graph, const delmesher::Options& options,
-           const delmesher::PlaneResult& result)
-      : graph_(graph), options_(options), result_(result), record_(result.exact) {}
+  RecordVerifier(PlaneGraph& graph, const PlaneFile& file, const PlaneRecord& record,
+                 const PlaneVerifyOptions& options, VerifyReport& report)
+      : input_(graph),
+        graph_(graph.given()),
+        file_(file),
+        record_(record),
+        options_(options),
+        promise_(options.promised),
+        report_(report) {}
 
-  PlaneVerdict run() {
-    check_all();
-    verdict_.checks = exact_.checks;
-    return verdict_;
-  }
-
- private:
-  void check_all() {
-    if (!read_points()) return;
-    sort_into_cells();
-    verify_corners();
-    Mesh refined = index("refined", record_.refined, record_.refined_edges);
+  // The largest distance of a written vertex from its place.
+  double run() {
+    check_promise();
+    if (!read_points()) return 0;
+    Mesh refined = index("refined-", record_.refined, record_.refined_edges);
+    Mesh final = index("exact-", record_.final, record_.final_edges);
     verify_complex(refined);
-    verify_tiling(refined, false);
     verify_delaunay(refined);
+    const std::vector<oracles::PieceRest> rests = verify_segments(refined);
     verify_refinement(refined);
-    if (!options_.approximate) {
-      Mesh final = index("final", record_.final, record_.final_edges);
+    if (!promise_.approximate) {
       verify_complex(final);
-      verify_tiling(final, true);
       verify_delaunay(final);
+      verify_tiling(final);
       verify_sides(final);
       verify_vertices(final, refined);
       verify_area(final);
     }
-    verify_mesh();
+    verify_refined_sides(refined, final);
+    verify_chamfers(rests, final);
+    verify_same_mesh(promise_.approximate ? refined : final);
+    return verify_rounding();
   }
 
-  using Edge = std::pair<Index, Index>;
+ private:
   struct Mesh {
-    std::string name;
+    std::string prefix;
     const std::vector<PlaneRecord::Triangle>* triangles;
     const std::vector<PlaneRecord::Edge>* edges;
-    std::map<Edge, Index> left_of;  // directed edge to the triangle on its left
-    std::map<Edge, Index> segment;  // undirected (smaller first) to the input segment
+    std::map<Edge, Index> left_of;           // directed edge to the triangle on its left
+    std::map<Edge, Index> segment;           // undirected (smaller first) to the input segment
+    std::map<Index, std::vector<Index>> at;  // the triangles at each vertex
+    PlaneGrid cells;                         // of the triangles
   };
 
-  void fail(const std::string& kind, const std::string& detail) {
-    if (++count_[kind] <= 3) verdict_.failures.push_back(kind + ": " + detail);
-  }
-  static std::string name(const Mesh& mesh, Index t) {
-    return mesh.name + " triangle " + std::to_string(t);
-  }
-  static Edge undirected(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+  void tell(OracleReport oracle) { report_.oracles.push_back(std::move(oracle)); }
+  static std::string name(Index t) { return "triangle " + std::to_string(t); }
+  bool hull() const { return promise_.region == Region::hull; }
+  const std::vector<Point>& points() const { return exact_.all(); }
 
-  // ------------------------------------------------------------------------------ points
+  // ----------------------------------------------------------------------------- the record
+
+  void check_promise() {
+    OracleReport oracle("promise", "promises");
+    const auto demand = [&](bool kept, const std::string& otherwise) {
+      ++oracle.checked;
+      if (!kept) oracle.fail(otherwise);
+    };
+    const auto section = [&](const char* what, std::size_t size) {
+      demand(size > 0, std::string("the record has nothing in its section ") + what);
+    };
+    demand(options_.record_version == kVersion,
+           "the record is of version " + std::to_string(options_.record_version) +
+               ", what is promised needs version " + std::to_string(kVersion));
+    section("points", record_.points.size());
+    section("refined", record_.refined.size());
+    section("refined_edges", record_.refined_edges.size());
+    if (promise_.approximate) {
+      demand(record_.final.empty(), "the record has a final mesh, promised was --approximate");
+    } else {
+      section("final", record_.final.size());
+      section("final_edges", record_.final_edges.size());
+      section("mesh_vertices", record_.mesh_vertices.size());
+    }
+    const auto not_laxer = [&](const char* what, double recorded, double promised) {
+      demand(recorded >= promised && recorded <= 90, std::string("the record has ") + what + " " +
+                                                         number(recorded) + ", promised was " +
+                                                         number(promised));
+    };
+    not_laxer("delta", record_.delta, std::min(promise_.delta, kGuaranteed));
+    not_laxer("acute", record_.acute, promise_.acute);
+    if (record_.delta < promise_.delta) {
+      oracle.figures.emplace_back("delta reached", record_.delta);
+    }
+    tell(std::move(oracle));
+  }
 
   bool read_points() {
+    OracleReport oracle("sidecar", "entries");
     const auto& given = record_.points;
-    if (given.size() < graph_.vertices.size()) {
-      fail("points", "fewer than input vertices");
-      return false;
-    }
-    for (std::size_t i = 0; i < given.size(); ++i) {
+    const std::size_t inputs = graph_.vertices.size();
+    if (given.size() < inputs) oracle.fail("fewer points than input vertices");
+    for (std::size_t i = 0; i < given.size() && oracle.violations == 0; ++i) {
+      ++oracle.checked;
       const ExactPoint& p = given[i];
-      if (i < graph_.vertices.size()) {
+      const std::string what = "point " + std::to_string(i);
+      if (i < inputs) {
         const auto& v = graph_.vertices[i];
         if (p.kind != ExactPoint::Kind::explicit_point || p.x != v[0] || p.y != v[1]) {
-          fail("points", "input vertex " + std::to_string(i) + " was changed");
+          oracle.fail("input vertex " + std::to_string(i) + " was changed");
         }
       }
       Point q;
       if (p.kind == ExactPoint::Kind::explicit_point) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+          oracle.fail(what + " is not finite");
+          break;
+        }
         q.x = p.x;
         q.y = p.y;
       } else {
-        if (p.i >= graph_.vertices.size() || p.j >= graph_.vertices.size() ||
-            !(p.x > 0 && p.x < 1)) {
-          fail("points", "point " + std::to_string(i) + " is not between input vertices");
-          return false;
+        if (p.i >= inputs || p.j >= inputs || p.i >= i || p.j >= i || !(p.x > 0 && p.x < 1)) {
+          oracle.fail(what + " is not between input vertices");
+          break;
         }
         const mpq_class t = p.x;
-        q.x = t * points_[p.i].x + (1 - t) * points_[p.j].x;
-        q.y = t * points_[p.i].y + (1 - t) * points_[p.j].y;
+        q.x = t * points()[p.i].x + (1 - t) * points()[p.j].x;
+        q.y = t * points()[p.i].y + (1 - t) * points()[p.j].y;
       }
       q.dx = q.x.get_d();
       q.dy = q.y.get_d();
       exact_.add(std::move(q));
     }
-    return true;
-  }
-
-  // The segments, then the vertices.
-  void sort_into_cells() {
-    std::vector<PlaneGrid::Box> boxes;
-    const auto enter = [&](Index a, Index b) {
-      const Point &p = points_[a], &q = points_[b];
-      boxes.push_back({{std::min(p.dx, q.dx), std::min(p.dy, q.dy)},
-                       {std::max(p.dx, q.dx), std::max(p.dy, q.dy)}});
+    // What follows takes these for granted.
+    const auto refers = [&](const char* what, const auto& vertices) {
+      ++oracle.checked;
+      for (const Index v : vertices) {
+        if (v >= given.size()) oracle.fail(std::string(what) + " refers to no point");
+      }
     };
-    for (const auto& [a, b] : graph_.segments) enter(a, b);
-    for (Index v = 0; v < graph_.vertices.size(); ++v) enter(v, v);
-    near_ = PlaneGrid(boxes);
+    for (const auto* triangles : {&record_.refined, &record_.final}) {
+      for (const auto& triangle : *triangles) refers("a triangle", triangle.vertices);
+    }
+    for (const auto* edges : {&record_.refined_edges, &record_.final_edges}) {
+      for (const auto& edge : *edges) refers("an edge", edge.vertices);
+    }
+    refers("a written vertex", record_.mesh_vertices);
+    const bool good = oracle.violations == 0;
+    tell(std::move(oracle));
+    return good;
   }
 
-  // A little larger than points, so that rounding hides nothing.
-  template <class Indices>
-  PlaneGrid::Box box(const Indices& indices, double margin = 0) const {
-    PlaneGrid::Box result{{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-    for (const Index v : indices) {
-      const Point& p = points_[v];
-      result.low = {std::min(result.low[0], p.dx), std::min(result.low[1], p.dy)};
-      result.high = {std::max(result.high[0], p.dx), std::max(result.high[1], p.dy)};
-    }
-    margin += 4 * exact_.error();
-    for (std::size_t k = 0; k < 2; ++k) {
-      result.low[k] -= margin;
-      result.high[k] += margin;
-    }
-    return result;
+  // ------------------------------------------------------------------------------ complexes
+
+  PlaneGrid::Box box(const std::array<Index, 3>& v) const {
+    return box_of({&points()[v[0]], &points()[v[1]], &points()[v[2]]}, 0);
   }
 
-  void verify_corners() {
-    // Corners that were promised to be chamfered and are not would spoil the bound.
-    if (!(record_.acute >= options_.acute)) fail("chamfer", "a threshold below what was promised");
-    const auto segments = static_cast<Index>(graph_.segments.size());
-    for (const auto& corner : record_.corners) {
-      radius_[corner.vertex] = corner.radius;
-      const std::string what = "corner " + std::to_string(corner.vertex);
-      if (!(corner.radius > 0)) fail("chamfer", what + " has no radius");
-      if (options_.chamfer_radius > 0 && corner.radius > options_.chamfer_radius * (1 + 1e-9)) {
-        fail("chamfer", what + " is cut farther out than allowed");
-      }
-      double least = HUGE_VAL;
-      near_.visit(box(std::array{corner.vertex}, 3 * corner.radius), [&](Index item) {
-        if (item >= segments) {
-          const Index v = item - segments;
-          if (v != corner.vertex) least = std::min(least, exact_.distance(corner.vertex, v));
-          return;
-        }
-        const auto [a, b] = graph_.segments[item];
-        if (a == corner.vertex || b == corner.vertex) return;
-        if (exact_.orient(a, b, corner.vertex) == 0) return;  // on it, or met by its ends
-        least = std::min(least, exact_.distance_to_segment(corner.vertex, a, b));
-      });
-      if (corner.radius > least / 3 * (1 + 1e-6)) {
-        fail("chamfer", what + " is cut beyond a third of its feature size");
-      }
-    }
-  }
-
-  // ------------------------------------------------------------------------------ complex
-
-  Mesh index(const char* mesh_name, const std::vector<PlaneRecord::Triangle>& triangles,
+  Mesh index(const char* prefix, const std::vector<PlaneRecord::Triangle>& triangles,
              const std::vector<PlaneRecord::Edge>& edges) {
-    Mesh mesh{mesh_name, &triangles, &edges, {}, {}};
+    Mesh mesh{prefix, &triangles, &edges, {}, {}, {}, {}};
+    std::vector<PlaneGrid::Box> boxes;
     for (Index t = 0; t < triangles.size(); ++t) {
       const auto& v = triangles[t].vertices;
+      boxes.push_back(box(v));
       for (std::size_t i = 0; i < 3; ++i) {
-        if (!mesh.left_of.emplace(Edge(v[i], v[(i + 1) % 3]), t).second) {
-          fail("complex", name(mesh, t) + " shares a directed edge");
-        }
+        mesh.left_of.emplace(Edge(v[i], v[(i + 1) % 3]), t);
+        mesh.at[v[i]].push_back(t);
       }
     }
     for (const auto& edge : edges) {
-      const Edge key = undirected(edge.vertices[0], edge.vertices[1]);
-      if (!mesh.segment.emplace(key, edge.segment).second) fail("edges", "an edge listed twice");
-      if (!mesh.left_of.contains(key) && !mesh.left_of.contains({key.second, key.first})) {
-        fail("edges", mesh.name + " edge is not in the mesh");
-      }
+      mesh.segment.emplace(undirected(edge.vertices[0], edge.vertices[1]), edge.segment);
     }
+    mesh.cells = PlaneGrid(boxes);
     return mesh;
   }
 
+  static bool has(const Mesh& mesh, const Edge& edge) {
+    return mesh.left_of.contains(edge) || mesh.left_of.contains({edge.second, edge.first});
+  }
+
   void verify_complex(const Mesh& mesh) {
+    OracleReport oracle(mesh.prefix + "complex", "triangles"),
+        orientation(mesh.prefix + "orientation", "triangles");
     mpq_class area = 0, low_x, low_y, high_x, high_y;
     bool first = true;
     for (Index t = 0; t < mesh.triangles->size(); ++t) {
+      ++oracle.checked;
+      ++orientation.checked;
       const auto& [a, b, c] = (*mesh.triangles)[t].vertices;
-      if (exact_.orient(a, b, c) <= 0) fail("orientation", name(mesh, t) + " is not positive");
+      if (exact_.orient(a, b, c) <= 0) orientation.fail(name(t) + " is not positive");
+      for (const auto& edge : {Edge(a, b), Edge(b, c), Edge(c, a)}) {
+        if (mesh.left_of.at(edge) != t) oracle.fail(name(t) + " shares a directed edge");
+      }
       for (const Index v : {a, b, c}) {
-        const Point& p = points_[v];
+        const Point& p = points()[v];
         if (first || p.x < low_x) low_x = p.x;
         if (first || p.y < low_y) low_y = p.y;
         if (first || p.x > high_x) high_x = p.x;
         if (first || p.y > high_y) high_y = p.y;
         first = false;
       }
-      const Point &p = points_[a], &q = points_[b], &r = points_[c];
+      const Point &p = points()[a], &q = points()[b], &r = points()[c];
       area += (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     }
     if (area != 2 * (high_x - low_x) * (high_y - low_y)) {
-      fail("complex", mesh.name + " does not have the area of its rectangle");
+      oracle.fail("the triangles do not have the area of their rectangle");
     }
+    for (Index v = 0; v < graph_.vertices.size(); ++v) {
+      const Point& p = points()[v];
+      if (first || p.x < low_x || p.x > high_x || p.y < low_y || p.y > high_y) {
+        oracle.fail("input vertex " + std::to_string(v) + " is outside the rectangle");
+      }
+    }
+    const auto on_side = [&](const Edge& edge) {
+      const Point &p = points()[edge.first], &q = points()[edge.second];
+      return (p.x == q.x && (p.x == low_x || p.x == high_x)) ||
+             (p.y == q.y && (p.y == low_y || p.y == high_y));
+    };
     for (const auto& [edge, t] : mesh.left_of) {
       if (mesh.left_of.contains({edge.second, edge.first})) continue;
-      const Point &p = points_[edge.first], &q = points_[edge.second];
-      const bool on_side = (p.x == q.x && (p.x == low_x || p.x == high_x)) ||
-                           (p.y == q.y && (p.y == low_y || p.y == high_y));
-      if (!on_side) fail("complex", name(mesh, t) + " has a border inside the rectangle");
+      if (!on_side(edge)) oracle.fail(name(t) + " has a border inside the rectangle");
     }
-  }
-
-  void verify_tiling(const Mesh& mesh, bool complete) {
-    std::vector<std::vector<std::pair<mpq_class, mpq_class>>> parts(graph_.segments.size());
-    for (const auto& edge : *mesh.edges) {
-      if (edge.segment == kNothing) continue;
-      if (edge.segment >= parts.size()) {
-        fail("tiling", "an edge of no segment");
-        continue;
-      }
-      const auto [a, b] = graph_.segments[edge.segment];
-      const auto [u, v] = edge.vertices;
-      if (exact_.orient(a, b, u) != 0 || exact_.orient(a, b, v) != 0) {
-        fail("tiling", mesh.name + " edge is not on segment " + std::to_string(edge.segment));
-        continue;
-      }
-      mpq_class s = exact_.parameter(u, a, b), t = exact_.parameter(v, a, b);
-      if (t < s) std::swap(s, t);
-      parts[edge.segment].push_back({s, t});
-    }
-    const std::set<Index> dropped(record_.dropped.begin(), record_.dropped.end());
-    std::set<Edge> seen;
-    for (Index i = 0; i < parts.size(); ++i) {
-      // No structured binding: clang 14 cannot capture one.
-      const Index a = graph_.segments[i][0], b = graph_.segments[i][1];
-      if (!seen.insert(undirected(a, b)).second) continue;  // given twice: counted once
-      std::sort(parts[i].begin(), parts[i].end());
-      mpq_class at = 0;
-      const double length = exact_.distance(a, b);
-      parts[i].push_back({1, 1});
-      for (const auto& [s, t] : parts[i]) {
-        const std::string what = mesh.name + " segment " + std::to_string(i);
-        if (s < at) fail("tiling", what + " is covered twice");
-        if (s > at && complete) fail("tiling", what + " has a hole");
-        if (s > at && !complete && !dropped.contains(i)) {
-          // Only what lies around a chamfered corner may be missing (also vertices on the segment).
-          const double from = at.get_d() * length, to = s.get_d() * length;
-          bool explained = false;
-          near_.visit(box(std::array{a, b}), [&](Index item) {
-            const auto corner =
-                item < parts.size() ? radius_.end() : radius_.find(item - Index(parts.size()));
-            if (corner == radius_.end() || exact_.orient(a, b, corner->first) != 0) return;
-            const double place = exact_.parameter(corner->first, a, b).get_d() * length;
-            const double r = corner->second, reach = r * (1 + 1e-5);
-            explained = explained || (place - reach <= from * (1 + 1e-12) + 1e-12 * r &&
-                                      place + reach >= to * (1 - 1e-12) - 1e-12 * r);
-          });
-          if (!explained) fail("tiling", what + " is missing away from chamfered corners");
-        }
-        if (t > at) at = t;
+    // Marked edges: once each, of the mesh; what is of no segment is of the outer rectangle.
+    if (mesh.segment.size() != mesh.edges->size()) oracle.fail("an edge is listed twice");
+    for (const auto& [edge, segment] : mesh.segment) {
+      ++oracle.checked;
+      if (!has(mesh, edge)) oracle.fail("a listed edge is not in the mesh");
+      if (segment == kNothing ? !on_side(edge) : segment >= graph_.segments.size()) {
+        oracle.fail("a listed edge is neither on a segment nor on the outer rectangle");
       }
     }
+    tell(std::move(oracle));
+    tell(std::move(orientation));
   }
 
   void verify_delaunay(const Mesh& mesh) {
+    OracleReport oracle(mesh.prefix + "delaunay", "edges");
     for (const auto& [edge, t] : mesh.left_of) {
       if (edge.first > edge.second || mesh.segment.contains(edge)) continue;
       const auto other = mesh.left_of.find({edge.second, edge.first});
       if (other == mesh.left_of.end()) continue;
+      ++oracle.checked;
       const auto& v = (*mesh.triangles)[t].vertices;
       for (const Index d : (*mesh.triangles)[other->second].vertices) {
         if (d == edge.first || d == edge.second) continue;
-        if (exact_.in_circle(v[0], v[1], v[2], d) > 0) fail("Delaunay", name(mesh, t));
+        if (exact_.in_circle(v[0], v[1], v[2], d) > 0) oracle.fail(name(t));
       }
     }
+    if (mesh.left_of.empty()) return;
+    if (oracle.checked == 0) {  // two triangles beside a segment
+      oracle.checked = 1;
+      oracle.notes.emplace_back("every edge is on a segment");
+    }
+    tell(std::move(oracle));
   }
 
-  // ------------------------------------------------------------------------------ refined
+  // ------------------------------------------------------------------------------- segments
 
-  bool in_region(const PlaneRecord::Triangle& t) const {
-    return options_.region == Region::hull || t.side != Side::outside;
+  struct Part {
+    mpq_class from, to;
+    bool operator<(const Part& other) const {
+      return from != other.from ? from < other.from : to < other.to;
+    }
+  };
+
+  // Of each segment, the edges that are said to be on it, as ranges of its parameter.
+  std::vector<std::vector<Part>> parts_of(const Mesh& mesh, OracleReport& oracle) {
+    std::vector<std::vector<Part>> parts(graph_.segments.size());
+    for (const auto& [edge, segment] : mesh.segment) {
+      if (segment >= parts.size()) continue;
+      ++oracle.checked;
+      const auto [a, b] = graph_.segments[segment];
+      const auto [u, v] = edge;
+      if (exact_.orient(a, b, u) != 0 || exact_.orient(a, b, v) != 0) {
+        oracle.fail("an edge is not on segment " + std::to_string(segment));
+        continue;
+      }
+      mpq_class s = exact_.parameter(u, a, b), t = exact_.parameter(v, a, b);
+      if (t < s) std::swap(s, t);
+      parts[segment].push_back({s, t});
+    }
+    for (auto& of : parts) std::sort(of.begin(), of.end());
+    return parts;
   }
+
+  void verify_tiling(const Mesh& mesh) {
+    OracleReport oracle(mesh.prefix + "conformity", "edges");
+    const auto parts = parts_of(mesh, oracle);
+    for (Index s = 0; s < parts.size(); ++s) {
+      if (input_.pieces_of()[s].empty() && parts[s].empty()) continue;  // given twice
+      const std::string what = "segment " + std::to_string(s);
+      mpq_class at = 0;
+      for (const Part& part : parts[s]) {
+        if (part.from < at) oracle.fail(what + " is covered twice");
+        if (part.from > at) oracle.fail(what + " has a hole");
+        at = part.to;
+      }
+      if (at != 1) oracle.fail(what + " is not covered to its end");
+    }
+    tell(std::move(oracle));
+  }
+
+  // What is left of each piece: in one part, without holes.
+  std::vector<oracles::PieceRest> verify_segments(const Mesh& mesh) {
+    OracleReport oracle("refined-segments", "edges");
+    oracle.checked = input_.pieces().size();
+    const auto parts = parts_of(mesh, oracle);
+    std::vector<oracles::PieceRest> rests(input_.pieces().size());
+    for (Index s = 0; s < parts.size(); ++s) {
+      const auto [a, b] = graph_.segments[s];
+      const std::string what = "segment " + std::to_string(s);
+      auto part = parts[s].begin();
+      for (const Index p : input_.pieces_of()[s]) {
+        const auto& piece = input_.pieces()[p];
+        const mpq_class begin = exact_.parameter(piece.a, a, b),
+                        end = exact_.parameter(piece.b, a, b);
+        if (part == parts[s].end() || part->from >= end) continue;
+        const mpq_class low = part->from;
+        mpq_class at = low;
+        for (; part != parts[s].end() && part->from < end; ++part) {
+          if (part->from < at) oracle.fail(what + " is covered twice");
+          if (part->from > at) oracle.fail(what + " has a hole away from vertices");
+          at = part->to;
+        }
+        if (low < begin || at > end) oracle.fail(what + " has an edge over a vertex");
+        const double length = exact_.distance(a, b);
+        rests[p] = {true, mpq_class(low - begin).get_d() * length,
+                    mpq_class(end - at).get_d() * length};
+      }
+      if (part != parts[s].end()) oracle.fail(what + " has an edge beyond its ends");
+    }
+    tell(std::move(oracle));
+    return rests;
+  }
+
+  // -------------------------------------------------------------------------------- refined
+
+  bool in_region(const PlaneRecord::Triangle& t) const { return hull() || t.side != Side::outside; }
 
   void verify_refinement(const Mesh& mesh) {
-    const long double radians =
-        static_cast<long double>(record_.delta) * 3.14159265358979323846L / 180;
+    OracleReport angles("refined-angles", "triangles"), balls("refined-encroachment", "triangles"),
+        edges("refined-edges", "triangles");
+    // What the record claims, if that is more; what is no angle has been refused.
+    double delta = std::min(promise_.delta, kGuaranteed);
+    if (record_.delta <= 60) delta = std::max(delta, record_.delta);
+    const long double radians = static_cast<long double>(delta) * 3.14159265358979323846L / 180;
     const mpq_class sine_squared =
         static_cast<double>(std::sin(radians) * std::sin(radians) * (1 - 1e-15L));
-    if (!(record_.delta >= std::min(options_.delta, 20.7))) fail("angle", "a bound below 20.7");
+    const mpq_class longest = promise_.max_edge * (1 + 1e-9);
     for (Index t = 0; t < mesh.triangles->size(); ++t) {
       const PlaneRecord::Triangle& triangle = (*mesh.triangles)[t];
       if (!in_region(triangle)) continue;
+      for (OracleReport* oracle : {&angles, &balls, &edges}) ++oracle->checked;
       const auto& v = triangle.vertices;
-      mpq_class length[3];
+      std::array<mpq_class, 3> length;
       for (std::size_t i = 0; i < 3; ++i) {
-        const Point &p = points_[v[i]], &q = points_[v[(i + 1) % 3]];
+        const Point &p = points()[v[i]], &q = points()[v[(i + 1) % 3]];
         length[i] = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
         const Edge edge = undirected(v[i], v[(i + 1) % 3]);
         if (mesh.segment.contains(edge) &&
             exact_.encroaches(edge.first, v[(i + 2) % 3], edge.second)) {
-          fail("encroached", name(mesh, t));
+          balls.fail(name(t) + " has a corner in the disc of an edge on a segment");
         }
       }
-      std::sort(std::begin(length), std::end(length));
-      const Point &p = points_[v[0]], &q = points_[v[1]], &r = points_[v[2]];
+      std::sort(length.begin(), length.end());
+      const Point &p = points()[v[0]], &q = points()[v[1]], &r = points()[v[2]];
       const mpq_class area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-      ++exact_.checks;
-      if (area * area < sine_squared * length[1] * length[2]) fail("angle", name(mesh, t));
+      if (area * area < sine_squared * length[1] * length[2]) {
+        angles.fail(name(t) + " has an angle below " + number(delta));
+      }
+      if (length[2] > longest * longest) edges.fail(name(t) + " has an edge above --max-edge");
     }
+    tell(std::move(angles));
+    tell(std::move(balls));
+    if (promise_.max_edge > 0) tell(std::move(edges));
+  }
+
+  void verify_refined_sides(const Mesh& mesh, const Mesh& final) {
+    OracleReport oracle("refined-sides", "triangles");
+    std::uint64_t unknown = 0;
     for (Index t = 0; t < mesh.triangles->size(); ++t) {
       const PlaneRecord::Triangle& triangle = (*mesh.triangles)[t];
+      ++oracle.checked;
       bool crossed = false;
-      near_.visit(box(triangle.vertices), [&](Index i) {
-        if (i >= graph_.segments.size() || crossed) return;
-        const auto [a, b] = graph_.segments[i];
+      input_.near_segments(box(triangle.vertices), [&](Index s) {
+        if (crossed) return;
+        const auto [a, b] = graph_.segments[s];
         crossed = crosses(a, b, triangle);
       });
       if (crossed != (triangle.side == Side::mixed)) {
-        fail("side", name(mesh, t) + (crossed ? " is crossed by a segment" : " is not mixed"));
-      } else if (!crossed && closed_rings() &&
-                 by_ray(triangle) != (triangle.side == Side::inside)) {
-        fail("side", name(mesh, t) + " is on the other side");
+        oracle.fail(name(t) + (crossed ? " is crossed by a segment" : " is not mixed"));
+      }
+      if (crossed) continue;
+      bool inside = false;
+      if (input_.closed_rings()) {
+        inside = input_.inside_by_ray(centroid(triangle));
+      } else if (const Index found = triangle_beside(final, triangle); found != kNothing) {
+        inside = (*final.triangles)[found].side == Side::inside;
+      } else {
+        ++unknown;
+        continue;
+      }
+      if (inside != (triangle.side == Side::inside)) {
+        oracle.fail(name(t) + (inside ? " is inside" : " is outside"));
       }
     }
+    if (unknown > 0) oracle.figures.emplace_back("of unknown side", static_cast<double>(unknown));
+    tell(std::move(oracle));
+  }
+
+  Point centroid(const PlaneRecord::Triangle& triangle) const {
+    const auto& v = triangle.vertices;
+    Point c;
+    c.x = (points()[v[0]].x + points()[v[1]].x + points()[v[2]].x) / 3;
+    c.y = (points()[v[0]].y + points()[v[1]].y + points()[v[2]].y) / 3;
+    c.dx = c.x.get_d();
+    c.dy = c.y.get_d();
+    return c;
   }
 
   // Does the segment meet the interior of the triangle? (Separating axes.)
   bool crosses(Index a, Index b, const PlaneRecord::Triangle& triangle) {
     const auto& v = triangle.vertices;
     const auto outside_box = [&](double Point::*x) {
-      const auto [low, high] = std::minmax({points_[v[0]].*x, points_[v[1]].*x, points_[v[2]].*x});
-      const double lo = std::min(points_[a].*x, points_[b].*x),
-                   hi = std::max(points_[a].*x, points_[b].*x);
+      const auto [low, high] =
+          std::minmax({points()[v[0]].*x, points()[v[1]].*x, points()[v[2]].*x});
+      const double lo = std::min(points()[a].*x, points()[b].*x),
+                   hi = std::max(points()[a].*x, points()[b].*x);
       return hi < low - 2 * exact_.error() || lo > high + 2 * exact_.error();
     };
     if (outside_box(&Point::dx) || outside_box(&Point::dy)) return false;
-    const int s[] = {exact_.orient(a, b, v[0]), exact_.orient(a, b, v[1]),
-                     exact_.orient(a, b, v[2])};
+    const std::array<int, 3> s = {exact_.orient(a, b, v[0]), exact_.orient(a, b, v[1]),
+                                  exact_.orient(a, b, v[2])};
     const auto [least, most] = std::minmax({s[0], s[1], s[2]});
     if (least >= 0 || most <= 0) return false;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -356,101 +482,95 @@ class Verifier {
     return true;
   }
 
-  // ------------------------------------------------------------------------------ inside
-
-  bool separates(Index segment) const {
-    return graph_.partitions.empty() || graph_.partitions[segment] == 0;
-  }
-
-  // Do the separating segments form closed curves, with parity deciding?
-  bool closed_rings() {
-    if (rings_ >= 0) return rings_ != 0;
-    rings_ = graph_.insideness == Insideness::nested;
-    std::map<Index, int> degree;
-    std::set<Edge> seen;
-    for (Index i = 0; i < graph_.segments.size(); ++i) {
-      const auto [a, b] = graph_.segments[i];
-      if (!seen.insert(undirected(a, b)).second) rings_ = 0;
-      if (!separates(i)) continue;
-      ++degree[a];
-      ++degree[b];
-    }
-    for (const auto& [v, d] : degree) {
-      if (d % 2 != 0) rings_ = 0;
-    }
-    // A single ring encloses what parity says.
-    if (graph_.insideness == Insideness::enclosed && graph_.holes.empty()) {
-      rings_ = degree.size() == graph_.segments.size() &&
-               std::all_of(degree.begin(), degree.end(), [](auto& d) { return d.second == 2; }) &&
-               connected(degree.size());
-    }
-    return rings_ != 0;
-  }
-
-  bool connected(std::size_t vertices) const {
-    std::map<Index, std::vector<Index>> next;
-    for (const auto& [a, b] : graph_.segments) {
-      next[a].push_back(b);
-      next[b].push_back(a);
-    }
-    std::set<Index> seen;
-    std::vector<Index> stack = {graph_.segments[0][0]};
-    while (!stack.empty()) {
-      const Index v = stack.back();
-      stack.pop_back();
-      if (!seen.insert(v).second) continue;
-      for (const Index w : next[v]) stack.push_back(w);
-    }
-    return seen.size() == vertices;
-  }
-
-  // Parity of separating segments on a ray to the right from the centroid.
-  bool by_ray(const PlaneRecord::Triangle& triangle) {
-    const auto& v = triangle.vertices;
-    Point c;
-    c.x = (points_[v[0]].x + points_[v[1]].x + points_[v[2]].x) / 3;
-    c.y = (points_[v[0]].y + points_[v[1]].y + points_[v[2]].y) / 3;
-    c.dx = c.x.get_d();
-    c.dy = c.y.get_d();
-    bool inside = false;
-    near_.visit({{c.dx, c.dy}, {HUGE_VAL, c.dy}}, [&](Index i) {
-      if (i >= graph_.segments.size() || !separates(i)) return;
-      const Point &a = points_[graph_.segments[i][0]], &b = points_[graph_.segments[i][1]];
-      const bool below_a = a.y <= c.y, below_b = b.y <= c.y;
-      if (below_a == below_b) return;
-      if ((exact_.orient(a, b, c) > 0) == below_a) inside = !inside;
-    });
-    return inside;
-  }
-
-  Index triangle_with(const Mesh& mesh, const std::array<double, 2>& at) {
-    Point p{at[0], at[1], at[0], at[1]};
-    for (Index t = 0; t < mesh.triangles->size(); ++t) {
-      const auto& v = (*mesh.triangles)[t].vertices;
-      if (exact_.orient(points_[v[0]], points_[v[1]], p) >= 0 &&
-          exact_.orient(points_[v[1]], points_[v[2]], p) >= 0 &&
-          exact_.orient(points_[v[2]], points_[v[0]], p) >= 0) {
-        return t;
+  // A triangle of the final mesh that has something in common with this one, which no segment
+  // crosses: at one of its corners, towards its middle.
+  Index triangle_beside(const Mesh& final, const PlaneRecord::Triangle& triangle) {
+    const Point c = centroid(triangle);
+    for (const Index v : triangle.vertices) {
+      const auto at = final.at.find(v);
+      if (at == final.at.end()) continue;
+      for (const Index t : at->second) {
+        const auto& w = (*final.triangles)[t].vertices;
+        const auto i = static_cast<std::size_t>(std::find(w.begin(), w.end(), v) - w.begin());
+        const Point &p = points()[w[(i + 1) % 3]], &q = points()[w[(i + 2) % 3]];
+        if (exact_.orient(points()[v], p, c) >= 0 && exact_.orient(points()[v], c, q) >= 0) {
+          return t;
+        }
       }
     }
     return kNothing;
   }
 
-  // A hole point on a segment means no face.
-  bool on_segment(const std::array<double, 2>& at) {
-    const Point p{at[0], at[1], at[0], at[1]};
-    bool found = false;
-    near_.visit({at, at}, [&](Index i) {
-      if (found || i >= graph_.segments.size()) return;
-      const Point &a = points_[graph_.segments[i][0]], &b = points_[graph_.segments[i][1]];
-      found = exact_.orient(a, b, p) == 0 && std::min(a.x, b.x) <= p.x &&
-              p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
+  // A triangle that has the point, on its border at most.
+  Index triangle_with(Mesh& mesh, const Point& p) {
+    Index found = kNothing;
+    mesh.cells.visit(box_of({&p}, 0), [&](Index t) {
+      const auto& v = (*mesh.triangles)[t].vertices;
+      if (found == kNothing && exact_.orient(points()[v[0]], points()[v[1]], p) >= 0 &&
+          exact_.orient(points()[v[1]], points()[v[2]], p) >= 0 &&
+          exact_.orient(points()[v[2]], points()[v[0]], p) >= 0) {
+        found = t;
+      }
     });
     return found;
   }
 
+  void verify_chamfers(const std::vector<oracles::PieceRest>& rests, const Mesh& final) {
+    const auto side_of = [&](Index v, Index from, Index to) {
+      if (promise_.approximate) return side_by_probes(v, from, to);
+      const auto at = final.at.find(v);
+      if (at == final.at.end()) return 0;
+      for (const Index t : at->second) {
+        const PlaneRecord::Triangle& triangle = (*final.triangles)[t];
+        if (triangle.side == Side::inside && between(v, from, to, centroid(triangle))) return 1;
+      }
+      return 0;
+    };
+    oracles::check_plane_chamfers(input_, record_, rests, side_of, promise_, report_);
+  }
+
+  bool between(Index v, Index from, Index to, const Point& p) {
+    return exact_.orient(points()[v], points()[from], p) > 0 &&
+           exact_.orient(points()[v], p, points()[to]) > 0;
+  }
+
+  // Without a final mesh: between every two neighbouring pieces a point close to the vertex.
+  int side_by_probes(Index v, Index from, Index to) {
+    if (!input_.closed_rings()) return -1;
+    std::vector<Index> ends;
+    for (const Index p : input_.pieces_at()[v]) {
+      const auto& piece = input_.pieces()[p];
+      const Index end = piece.a == v ? piece.b : piece.a;
+      if (end == from || end == to || between(v, from, to, points()[end])) ends.push_back(end);
+    }
+    std::sort(ends.begin(), ends.end(), [&](Index p, Index q) {
+      return exact_.orient(points()[v], points()[p], points()[q]) > 0;
+    });
+    double near = HUGE_VAL;
+    for (const Index end : ends) near = std::min(near, exact_.distance(v, end));
+    near = std::min(near, input_.feature_size(v, near)) / 8;
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      const Point& o = points()[v];
+      Point p;
+      p.x = o.x;
+      p.y = o.y;
+      for (const Index end : {ends[k], ends[k + 1]}) {
+        const mpq_class share = near / exact_.distance(v, end);
+        p.x += share * (points()[end].x - o.x);
+        p.y += share * (points()[end].y - o.y);
+      }
+      p.dx = p.x.get_d();
+      p.dy = p.y.get_d();
+      if (input_.inside_by_ray(p)) return 1;
+    }
+    return 0;
+  }
+
+  // ---------------------------------------------------------------------------------- final
+
   // A flood from the border, with the number of separating segments that have to be crossed.
-  void verify_sides(const Mesh& mesh) {
+  void verify_sides(Mesh& mesh) {
+    OracleReport oracle("exact-sides", "triangles");
     const bool nested = graph_.insideness == Insideness::nested;
     std::vector<int> depth(mesh.triangles->size(), -1);
     std::deque<Index> queue;
@@ -463,8 +583,8 @@ class Verifier {
     }
     if (!nested) {
       for (const auto& hole : graph_.holes) {
-        if (on_segment(hole)) continue;
-        const Index t = triangle_with(mesh, hole);
+        if (input_.on_segment(hole)) continue;
+        const Index t = triangle_with(mesh, {hole[0], hole[1], hole[0], hole[1]});
         if (t != kNothing && depth[t] < 0) start(t, 0);
       }
     }
@@ -479,8 +599,8 @@ class Verifier {
         const auto segment = mesh.segment.find(undirected(a, b));
         int cost = 0;
         if (segment != mesh.segment.end()) {
-          if (!nested || segment->second == kNothing) continue;
-          cost = separates(segment->second) ? 1 : 0;
+          if (!nested || segment->second >= graph_.segments.size()) continue;
+          cost = input_.separates(segment->second) ? 1 : 0;
         }
         const int d = depth[t] + cost;
         int& known = depth[other->second];
@@ -494,115 +614,243 @@ class Verifier {
       }
     }
     for (Index t = 0; t < depth.size(); ++t) {
+      ++oracle.checked;
+      const PlaneRecord::Triangle& triangle = (*mesh.triangles)[t];
       const bool inside = nested ? depth[t] % 2 != 0 : depth[t] != 0;
-      if ((*mesh.triangles)[t].side != (inside ? Side::inside : Side::outside)) {
-        fail("side", name(mesh, t) + (inside ? " should be inside" : " should be outside"));
+      if (triangle.side != (inside ? Side::inside : Side::outside)) {
+        oracle.fail(name(t) + (inside ? " should be inside" : " should be outside"));
+      } else if (input_.closed_rings() && input_.inside_by_ray(centroid(triangle)) != inside) {
+        oracle.fail(name(t) + " is on the other side by a ray");
       }
     }
+    tell(std::move(oracle));
   }
 
   void verify_vertices(const Mesh& final, const Mesh& refined) {
-    std::vector<std::uint8_t> there(points_.size(), 0);
+    OracleReport oracle("enrichment", "vertices");
+    std::vector<std::uint8_t> there(points().size(), 0), refined_has(points().size(), 0);
     std::set<std::pair<double, double>> places;
+    for (const auto& triangle : *refined.triangles) {
+      for (const Index v : triangle.vertices) refined_has[v] = 1;
+    }
     for (const auto& triangle : *final.triangles) {
       for (const Index v : triangle.vertices) {
         there[v] = 1;
-        if (v < graph_.vertices.size()) places.insert({points_[v].dx, points_[v].dy});
+        if (v < graph_.vertices.size()) places.insert({points()[v].dx, points()[v].dy});
       }
     }
-    for (Index v = 0; v < graph_.vertices.size(); ++v) {
-      if (there[v] == 0) fail("vertices", "input vertex " + std::to_string(v) + " is missing");
-    }
-    for (const auto& triangle : *refined.triangles) {
-      for (const Index v : triangle.vertices) {
-        if (there[v] == 0 && !places.contains({points_[v].dx, points_[v].dy})) {
-          fail("vertices", "refined vertex " + std::to_string(v) + " is missing");
+    for (Index v = 0; v < there.size(); ++v) {
+      ++oracle.checked;
+      const std::string what = "vertex " + std::to_string(v);
+      if (v < graph_.vertices.size()) {
+        if (there[v] == 0) oracle.fail("input " + what + " is missing");
+      } else if (refined_has[v] != 0) {
+        if (there[v] == 0 && !places.contains({points()[v].dx, points()[v].dy})) {
+          oracle.fail("refined " + what + " is missing");
         }
+      } else if (there[v] != 0) {
+        oracle.fail("final " + what + " is neither of the input nor of the refined mesh");
       }
     }
+    tell(std::move(oracle));
   }
 
   // Of the inside, where a single ring bounds it.
   void verify_area(const Mesh& mesh) {
-    if (!closed_rings() || !graph_.partitions.empty()) return;
-    mpq_class inside = 0, ring = 0;
+    if (input_.area_of_ring() < 0) return;
+    OracleReport oracle("exact-area", "triangles");
+    mpq_class inside = 0;
     for (const auto& triangle : *mesh.triangles) {
+      ++oracle.checked;
       if (triangle.side != Side::inside) continue;
-      const Point &p = points_[triangle.vertices[0]], &q = points_[triangle.vertices[1]],
-                  &r = points_[triangle.vertices[2]];
+      const Point &p = points()[triangle.vertices[0]], &q = points()[triangle.vertices[1]],
+                  &r = points()[triangle.vertices[2]];
       inside += (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
     }
-    std::map<Index, int> degree;
-    for (const auto& [a, b] : graph_.segments) {
-      ++degree[a];
-      ++degree[b];
+    if (inside != input_.area_of_ring()) {
+      oracle.fail("the inside does not have the area of the polygon");
     }
-    const bool simple =
-        std::all_of(degree.begin(), degree.end(), [](auto& d) { return d.second == 2; }) &&
-        connected(degree.size());
-    if (!simple) return;
-    std::map<Index, std::vector<Index>> next;
-    for (const auto& [a, b] : graph_.segments) {
-      next[a].push_back(b);
-      next[b].push_back(a);
-    }
-    Index before = graph_.segments[0][0], at = graph_.segments[0][1];
-    const Index start = before;
-    do {
-      const Point &p = points_[before], &q = points_[at];
-      ring += p.x * q.y - p.y * q.x;
-      const Index after = next[at][0] == before ? next[at][1] : next[at][0];
-      before = at;
-      at = after;
-    } while (before != start);
-    if (inside != abs(ring)) fail("area", "the inside does not have the area of the polygon");
+    tell(std::move(oracle));
   }
 
-  // ------------------------------------------------------------------------------ as written
+  // ---------------------------------------------------------------------- the file is the record
 
-  void verify_mesh() {
-    const delmesher::PlaneMesh& mesh = result_.mesh;
+  void verify_same_mesh(const Mesh& mesh) {
+    OracleReport oracle("same-mesh", "triangles, edges");
     const auto& ids = record_.mesh_vertices;
-    if (ids.size() != mesh.vertices.size()) return fail("written", "vertices do not match");
-    std::vector<Point> written;
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      const auto& p = mesh.vertices[i];
-      written.push_back({p[0], p[1], p[0], p[1]});
-      const double ulps = 16 * 2.3e-16 * std::max(std::fabs(p[0]), std::fabs(p[1])) + 1e-320;
-      if (abs(points_[ids[i]].x - written[i].x) > ulps ||
-          abs(points_[ids[i]].y - written[i].y) > ulps) {
-        fail("written", "vertex " + std::to_string(i) + " is away from its place");
+    if (ids.size() != file_.vertices.size()) {
+      oracle.fail("the record has " + std::to_string(ids.size()) + " written vertices, the file " +
+                  std::to_string(file_.vertices.size()));
+      return tell(std::move(oracle));
+    }
+    std::map<std::array<Index, 3>, bool> expected;  // and whether it is inside
+    for (const auto& triangle : *mesh.triangles) {
+      if (!hull() && triangle.side != Side::inside) continue;
+      expected.emplace(smallest_first(triangle.vertices), triangle.side == Side::inside);
+    }
+    std::set<Edge> edges;  // of the triangles in the file
+    const std::size_t wanted = expected.size();
+    for (std::size_t t = 0; t < file_.triangles.size(); ++t) {
+      ++oracle.checked;
+      const auto& [a, b, c] = file_.triangles[t];
+      const std::string what = "triangle " + std::to_string(t);
+      if (std::max({a, b, c}) >= ids.size()) {
+        oracle.fail(what + " refers to no vertex");
+        continue;
       }
+      const auto found = expected.find(smallest_first({ids[a], ids[b], ids[c]}));
+      if (found == expected.end()) {
+        oracle.fail(what + " of the file is not in the record, or is there twice");
+        continue;
+      }
+      if (t < file_.inside.size() && (file_.inside[t] != 0) != found->second) {
+        oracle.fail(what + " of the file is on the other side in the record");
+      }
+      for (const Edge& edge : {Edge(ids[a], ids[b]), Edge(ids[b], ids[c]), Edge(ids[c], ids[a])}) {
+        edges.insert(undirected(edge.first, edge.second));
+      }
+      expected.erase(found);
     }
-    std::set<std::array<Index, 3>> expected;
-    for (const auto& triangle : options_.approximate ? record_.refined : record_.final) {
-      if (options_.region == Region::interior && triangle.side != Side::inside) continue;
-      expected.insert(triangle.vertices);
+    if (!expected.empty()) {
+      oracle.fail("the file lacks " + std::to_string(expected.size()) + " of " +
+                  std::to_string(wanted) + " triangles of the record");
     }
-    if (expected.size() != mesh.triangles.size()) fail("written", "triangles do not match");
-    std::uint64_t bad = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      if (!expected.contains({ids[a], ids[b], ids[c]})) fail("written", "an unknown triangle");
-      bad += exact_.orient(written[a], written[b], written[c]) <= 0;
-    }
-    // Whether the statistics confess it or not.
-    if (bad > 0) fail("written", std::to_string(bad) + " triangles not positive as written");
+    if (file_.lists_edges) compare_edges(mesh, edges, oracle);
+    if (wanted == 0) ++oracle.checked;
+    tell(std::move(oracle));
   }
 
+  void compare_edges(const Mesh& mesh, const std::set<Edge>& edges, OracleReport& oracle) {
+    std::map<Edge, Index> expected;
+    for (const auto& [edge, segment] : mesh.segment) {
+      if (segment != kNothing && edges.contains(edge)) expected.emplace(edge, segment);
+    }
+    const auto& ids = record_.mesh_vertices;
+    for (std::size_t i = 0; i < file_.edges.size(); ++i) {
+      ++oracle.checked;
+      const auto& [a, b] = file_.edges[i];
+      const std::string what = "listed edge " + std::to_string(i);
+      if (std::max(a, b) >= ids.size()) {
+        oracle.fail(what + " refers to no vertex");
+        continue;
+      }
+      const auto found = expected.find(undirected(ids[a], ids[b]));
+      if (found == expected.end()) {
+        oracle.fail(what + " is no edge on a segment in the record");
+        continue;
+      }
+      const std::int32_t marker = graph_.markers.empty() || found->second >= graph_.segments.size()
+                                      ? 0
+                                      : graph_.markers[found->second];
+      if (i < file_.markers.size() && file_.markers[i] != marker) {
+        oracle.fail(what + " does not have the marker of its segment");
+      }
+      if (i < file_.segments.size() && file_.segments[i] != found->second) {
+        oracle.fail(what + " is on another segment in the record");
+      }
+      expected.erase(found);
+    }
+    if (!expected.empty()) oracle.fail("an edge on a segment is not listed in the file");
+  }
+
+  double verify_rounding() {
+    constexpr double kUlps = 4;
+    OracleReport oracle("rounding", "vertices");
+    const auto& ids = record_.mesh_vertices;
+    double largest = 0;
+    for (const auto& p : file_.vertices) {
+      largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1])});
+    }
+    const double ulp = std::nextafter(largest, HUGE_VAL) - largest;
+    const double allowed = std::max(kUlps * ulp, options_.declared_deviation * input_.diagonal());
+    std::set<Index> seen;
+    double deviation = 0;
+    for (std::size_t i = 0; i < std::min(ids.size(), file_.vertices.size()); ++i) {
+      ++oracle.checked;
+      const std::string what = "vertex " + std::to_string(i);
+      if (!seen.insert(ids[i]).second) oracle.fail(what + " is a point that was written before");
+      const Point& p = points()[ids[i]];
+      const auto& w = file_.vertices[i];
+      if (!std::isfinite(w[0]) || !std::isfinite(w[1])) {
+        oracle.fail(what + " is not finite");
+        continue;
+      }
+      const mpq_class dx = p.x - mpq_class(w[0]), dy = p.y - mpq_class(w[1]);
+      const double off = std::hypot(dx.get_d(), dy.get_d());
+      if (ids[i] < graph_.vertices.size() && off != 0) {
+        oracle.fail(what + " is of the input, and was moved");
+      } else if (off > allowed) {
+        oracle.fail(what + " is " + number(off / ulp) + " ulp away from its place");
+      }
+      deviation = std::max(deviation, off);
+    }
+    if (ids.size() != file_.vertices.size()) oracle.fail("another number of vertices was written");
+    if (ids.empty() && promise_.approximate) ++oracle.checked;
+    oracle.figures.emplace_back("deviation", deviation);
+    tell(std::move(oracle));
+    return deviation;
+  }
+
+  PlaneGraph& input_;
   const PlanarGraph& graph_;
-  const delmesher::Options& options_;
-  const delmesher::PlaneResult& result_;
+  const PlaneFile& file_;
   const PlaneRecord& record_;
-  PlaneVerdict verdict_;
-  std::map<std::string, int> count_;
+  const PlaneVerifyOptions& options_;
+  const Promise& promise_;
+  VerifyReport& report_;
   PlanePoints exact_;
-  const std::vector<Point>& points_ = exact_.all();
-  PlaneGrid near_;
-  std::map<Index, double> radius_;
-  int rings_ = -1;
 };
 
+std::string reason_against(const PlanarGraph& graph) {
+  if (graph.segments.empty()) return "no segments";
+  std::set<std::array<double, 2>> places;
+  for (const auto& p : graph.vertices) {
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1])) return "a vertex is not finite";
+    if (!places.insert({p[0] + 0.0, p[1] + 0.0}).second) return "two vertices coincide";
+  }
+  for (const auto& [a, b] : graph.segments) {
+    if (std::max(a, b) >= graph.vertices.size()) return "a segment refers to no vertex";
+    if (a == b) return "a segment begins and ends at one vertex";
+  }
+  return {};
+}
+
 }  // namespace
+
+std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const PlaneRecord* record,
+                         const PlaneVerifyOptions& options, VerifyReport& report) {
+  constexpr double kUlps = 4;
+  report = {};
+  report.cells = "triangles";
+  if (std::string why = reason_against(graph); !why.empty()) return why;
+  PlaneGraph input(graph);
+  double largest = input.largest();
+  for (const auto& p : file.vertices) {
+    largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1])});
+  }
+  const double ulp = std::nextafter(largest, HUGE_VAL) - largest;
+  oracles::check_plane_file(input, file, options.promised,
+                            options.declared_deviation * input.diagonal(), report,
+                            report.deviation);
+  if (record != nullptr && options.promised.approximate && file.triangles.empty()) {
+    // Corners may have taken all there was; that the record has none either is for same-mesh.
+    for (OracleReport& oracle : report.oracles) {
+      oracle.checked = std::max<std::uint64_t>(oracle.checked, 1);
+      oracle.notes.emplace_back("the file has no triangle");
+    }
+  }
+  if (record != nullptr) {
+    const double off = RecordVerifier(input, file, *record, options, report).run();
+    report.deviation = std::max(report.deviation, off);
+  }
+  report.deviation_ulps = ulp > 0 ? report.deviation / ulp : 0;
+  report.deviation_share = input.diagonal() > 0 ? report.deviation / input.diagonal() : 0;
+  report.verdict = !report.all_passed()              ? Verdict::broken
+                   : report.deviation == 0           ? Verdict::exact
+                   : report.deviation <= kUlps * ulp ? Verdict::rounded
+                                                     : Verdict::deviating;
+  return {};
+}
 
 std::string PlaneVerdict::text() const {
   std::string text;
@@ -610,9 +858,24 @@ std::string PlaneVerdict::text() const {
   return text;
 }
 
-PlaneVerdict verify_plane(const delmesher::PlanarGraph& graph, const delmesher::Options& options,
+PlaneVerdict verify_plane(const PlanarGraph& graph, const delmesher::Options& options,
                           const delmesher::PlaneResult& result) {
-  return Verifier(graph, options, result).run();
+  PlaneVerdict verdict;
+  PlaneVerifyOptions how;
+  how.promised = oracles::promise_of(options, oracles::Task::plane);
+  const std::string why =
+      verify_plane(graph, oracles::plane_file_of(result.mesh), &result.exact, how, verdict.report);
+  if (!why.empty()) verdict.failures.push_back("input: " + why);
+  for (const OracleReport& oracle : verdict.report.oracles) {
+    verdict.checks += oracle.checked;
+    if (!oracle.passed() && oracle.findings.empty()) {
+      verdict.failures.push_back(oracle.name + ": nothing to check");
+    }
+    for (const std::string& finding : oracle.findings) {
+      verdict.failures.push_back(oracle.name + ": " + finding);
+    }
+  }
+  return verdict;
 }
 
 }  // namespace tetproof

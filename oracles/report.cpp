@@ -121,7 +121,7 @@ std::string summary(const VerifyReport& report) {
   }
   if (report.inverted + report.flat > 0) {
     line.add(std::to_string(report.inverted) + " inverted and " + std::to_string(report.flat) +
-             " flat tetrahedra as written");
+             " flat " + report.cells + " as written");
   }
   return line.text();
 }

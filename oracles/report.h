@@ -49,7 +49,8 @@ struct VerifyReport {
   double deviation = 0;        // of the surface as written, in input units, an upper bound
   double deviation_ulps = 0;   // in ulps of the largest coordinate
   double deviation_share = 0;  // as a fraction of the bounding-box diagonal
-  std::uint64_t inverted = 0, flat = 0;  // tetrahedra as written
+  std::uint64_t inverted = 0, flat = 0;  // cells as written
+  const char* cells = "tetrahedra";
   std::vector<OracleReport> oracles;
 
   const OracleReport* find(const std::string& name) const;

@@ -11,6 +11,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "oracles/plane_verify.h"
 #include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
@@ -45,8 +46,12 @@ CLI::Validator one_of(const std::map<std::string, Choice>& choices) {
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
-  app.add_option("INPUT", arguments.input, "surface: OFF, OBJ, STL or PLY")->required();
-  app.add_option("MESH", arguments.mesh, "mesh: .mesh, .msh, .vtu, .node or .ele, .tet")
+  app.add_option("INPUT", arguments.input,
+                 "surface: OFF, OBJ, STL or PLY; in the plane .poly, OFF, OBJ or rings")
+      ->required();
+  app.add_option("MESH", arguments.mesh,
+                 "mesh: .mesh, .msh, .vtu, .node or .ele, .tet; in the plane .node or .ele, .msh, "
+                 ".vtu, .off")
       ->required();
   app.add_option("--exact", arguments.exact, "sidecar with exact coordinates");
   app.add_option("--stage", arguments.stage,
@@ -54,7 +59,8 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->transform(one_of<Stage>({{"refined", Stage::refined}, {"final", Stage::final}}))
       ->type_name("STAGE");
   app.add_option("--promised", arguments.promised,
-                 "what the mesher was asked for: 'mesh OPTIONS', 'cdt OPTIONS' (mesh)");
+                 "what the mesher was asked for: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS' "
+                 "(mesh)");
   app.add_option("--declared-deviation", arguments.options.declared_deviation,
                  "deviation that is no failure, as a fraction of the diagonal (0)");
   app.add_option("--threads", arguments.options.threads,
@@ -132,9 +138,27 @@ std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   return verify(input, mesh, arguments.exact.empty() ? nullptr : &record, options, report);
 }
 
+// The same in the plane.
+std::string verify_plane_quietly(const Arguments& arguments, VerifyReport& report) {
+  Terminal terminal;
+  terminal.say("reading " + arguments.mesh);
+  const delmesher::PlanarGraph graph = read_plane_graph(arguments.input);
+  const PlaneFile file = read_plane_file(arguments.mesh);
+  delmesher::PlaneRecord record;
+  PlaneVerifyOptions options;
+  options.promised = arguments.options.promised;
+  options.declared_deviation = arguments.options.declared_deviation;
+  const bool exact = !arguments.exact.empty();
+  if (exact) record = read_plane_sidecar(arguments.exact, &options.record_version);
+  terminal.say(std::to_string(file.triangles.size()) + " triangles read");
+  return verify_plane(graph, file, exact ? &record : nullptr, options, report);
+}
+
 int verify_files(const Arguments& arguments) {
   VerifyReport report;
-  const std::string why = verify_quietly(arguments, report);
+  const bool plane = arguments.options.promised.task == Task::plane;
+  const std::string why =
+      plane ? verify_plane_quietly(arguments, report) : verify_quietly(arguments, report);
   if (!why.empty()) {
     std::fprintf(stderr, "tetproof: %s: %s\n", arguments.input.c_str(), why.c_str());
     return kInvalid;
@@ -158,7 +182,7 @@ void survive_lack_of_memory() {
 
 int run_verify(int argc, char** argv) {
   using namespace oracles;
-  CLI::App app("Checks a tetrahedral mesh of a surface exactly.", "tetproof verify");
+  CLI::App app("Checks a mesh of a surface, or of a planar graph, exactly.", "tetproof verify");
   Arguments arguments;
   declare(app, arguments);
   try {
@@ -169,6 +193,11 @@ int run_verify(int argc, char** argv) {
   if (const std::string why = parse_promise(arguments.promised, arguments.options.promised);
       !why.empty()) {
     std::fprintf(stderr, "tetproof: --promised: %s\n", why.c_str());
+    return kUsage;
+  }
+  if (arguments.stage && arguments.options.promised.task == Task::plane) {
+    std::fputs("tetproof: --stage: in the plane --promised 'plane --approximate' says it\n",
+               stderr);
     return kUsage;
   }
   try {

@@ -1,4 +1,5 @@
-// tetproof verify INPUT MESH [--exact FILE] [--stage refined|final] [--threads N] [--json]
+// tetproof verify INPUT MESH [--exact FILE] [--promised COMMAND] [--stage refined|final]
+//                 [--threads N] [--json]
 #pragma once
 
 namespace tetproof {

@@ -11,9 +11,12 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <sstream>
 
+#include "mesher/io/read_plane.h"
 #include "mesher/io/read_surface.h"
 #include "oracles/mesh_file.h"
+#include "oracles/plane_file.h"
 #include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
@@ -298,6 +301,137 @@ TEST_F(Files, FacesThatAreNotPlanarAreCutAlikeByBothReaders) {
     }
   }
   EXPECT_GT(bent, 100);
+}
+
+// --- the plane
+
+struct PlaneInput {
+  const char *name, *text;
+};
+constexpr PlaneInput kPlaneInputs[] = {
+    {"arrow.txt", "0 0\n4 0\n1 1\n0 4\n"},
+    // Comments, commas, borders, a segment; numbers from 1, holes, regions.
+    {"rings.txt",
+     "# two that share a border\n0 0\n1 0\n1,1\n0 1\n> second\n1 0\n2 0\n2 1\n1 1\n\n"
+     "0.2 0.2\n0.4 0.2\n0.3 0.21\n\n1.5 0.5\n1.75 0.75 \n"},
+    {"hole.poly",
+     "# a square with a hole\n8 2 1 0\n1 0 0 7\n2 4 0 7\n3 4 4 7\n4 0 4 7\n5 1 1 7\n6 3,1 7\n"
+     "7 3 3 7\n8 1 3 7\n8 1\n1 1 2 5\n2 2 3 5\n3 3 4 5\n4 4 1 5\n5 5 6 9\n6 6 7 9\n7 7 8 9\n"
+     "8 8 5 9\n1\n1 2 2\n1\n1 0.5 0.5 3 0.1\n"},
+    // A loose end, a vertex on a segment, and one alone.
+    {"loose.poly",
+     "8 2 0 0\n0 0 0\n1 4 0\n2 4 3\n3 0 3\n4 2 0\n5 2 1\n6 3.5 1.5\n7 2.2 1.1\n6 0\n0 0 1\n1 1 2\n"
+     "2 2 3\n3 3 0\n4 4 5\n5 4 7\n0\n"},
+    {"faces.off",
+     "OFF\n8 2 0\n0 0 0\n1 0 0\n1.2 0.6 0\n1 1 0\n0 1 0\n-0.1 0.4 0\n2 0.5 0\n2 2 0\n"
+     "6 0 1 2 3 4 5\n4 1 6 7 2\n"},
+    {"labels.obj",
+     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.2 0\nv 0.8 0.35 0\nusemtl a\nf 1 2 3\n"
+     "usemtl b\nf 1 3 4\nl 5 6\n"},
+    {"lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0.1 0\nl 1 2 3 4 1\nl 1 5\n"}};
+
+constexpr const char* kPlaneFormats[] = {"node", "vtu", "msh", "off"};
+
+TEST_F(Files, EveryMeshOfThePlaneIsVerified) {
+  const std::string outputs = " -q -o " + path("o.node") + " -o " + path("o.vtu") + " -o " +
+                              path("o.msh") + " -o " + path("o.off") + " --exact " +
+                              path("o.exact");
+  for (const auto& [name, text] : kPlaneInputs) {
+    write(name, text);
+    for (const char* options :
+         {"", "--region hull", "--approximate", "--approximate --region hull", "--acute 90",
+          "--preset paper", "--max-edge 0.3", "--delta 30 --chamfer-radius 0.05", "--tau 0.2"}) {
+      ASSERT_EQ(run("plane " + path(name) + outputs + " " + options), 0) << name << options;
+      for (const char* format : kPlaneFormats) {
+        SCOPED_TRACE(std::string(name) + " " + options + " " + format);
+        const std::string mesh = path(std::string("o.") + format), promised = "plane ";
+        EXPECT_EQ(verify({path(name), mesh, "--promised", promised + options}), 0);
+        EXPECT_EQ(verify({path(name), mesh, "--exact", path("o.exact"), "--promised",
+                          promised + options}),
+                  0);
+      }
+    }
+  }
+}
+
+std::string contents(const std::string& file) {
+  return oracles::read_whole_file(file);
+}
+
+TEST_F(Files, VerifyOfThePlaneTellsInItsExitCode) {
+  write("in.txt", kPlaneInputs[0].text);
+  const std::string in = path("in.txt"), mesh = path("o.node"), exact = path("o.exact");
+  ASSERT_EQ(run("plane " + in + " -q -o " + mesh + " -o " + path("o.off") + " --exact " + exact),
+            0);
+  const auto verdict = [&](const std::string& promised) {
+    return verify({in, mesh, "--exact", exact, "--promised", promised});
+  };
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(verdict("plane"), 0);
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_TRUE(said.starts_with("verdict: ")) << said;
+  for (std::size_t at = 0; at < said.size(); at = said.find('\n', at) + 1) {
+    EXPECT_LE(said.find('\n', at) - at, 120U) << said.substr(at, 200);
+  }
+  // Not what was promised.
+  EXPECT_EQ(verdict("plane --acute 90"), 1);
+  EXPECT_EQ(verdict("plane --max-edge 0.01"), 1);
+  EXPECT_EQ(verdict("plane --region hull"), 1);
+  EXPECT_EQ(verdict("plane --approximate"), 1);
+  EXPECT_EQ(verdict("plane --chamfer-radius 1e-3"), 1);
+  // No such promise, no such files.
+  EXPECT_EQ(verdict("plain"), 2);
+  EXPECT_EQ(verdict("plane --delta x"), 2);
+  EXPECT_EQ(verify({in, mesh, "--promised", "plane", "--stage", "refined"}), 2);
+  EXPECT_EQ(verdict("mesh"), 3);
+  EXPECT_EQ(verify({in, path("o.svg"), "--promised", "plane"}), 3);
+  write("coinciding.poly", "4 2\n0 0 0\n1 1 0\n2 0 1\n3 0 1\n3 0\n0 0 1\n1 1 2\n2 3 0\n0\n");
+  EXPECT_EQ(verify({path("coinciding.poly"), mesh, "--promised", "plane"}), 4);
+  // Records cut short are no records; all of them would take too long.
+  const std::string record = contents(exact);
+  for (std::size_t size = 0; size + 1 < record.size(); size += 1 + size / 8) {
+    write("o.exact", record.substr(0, size));
+    EXPECT_EQ(verdict("plane"), 3) << size;
+  }
+  write("o.exact", "delmesher-plane-exact 2" + record.substr(record.find('\n')));
+  EXPECT_EQ(verdict("plane"), 3);
+  write("o.exact", "delmesher-plane-exact 0" + record.substr(record.find('\n')));
+  EXPECT_EQ(verdict("plane"), 1);
+  write("o.exact", record);
+  // An inverted triangle, and one that is flat, never pass, with a record or without.
+  const std::string off = contents(path("o.off"));
+  const std::size_t face = off.find("\n3 ") + 1, end = off.find('\n', face);
+  std::istringstream corners(off.substr(face, end - face));
+  std::string three, a, b, c;
+  corners >> three >> a >> b >> c;
+  for (const std::string& spoilt : {b + " " + a + " " + c, a + " " + a + " " + c}) {
+    write("bad.off", off.substr(0, face) + "3 " + spoilt + off.substr(end));
+    EXPECT_EQ(verify({in, path("bad.off"), "--promised", "plane"}), 1);
+    EXPECT_EQ(verify({in, path("bad.off"), "--exact", exact, "--promised", "plane"}), 1);
+  }
+}
+
+// The two readers of planar graphs, which share nothing.
+TEST_F(Files, GraphsAreReadAlikeByBothReaders) {
+  for (const auto& [name, text] : kPlaneInputs) {
+    write(name, text);
+    const delmesher::io::PlaneReadResult mine = delmesher::io::read_plane(path(name));
+    const delmesher::PlanarGraph theirs = oracles::read_plane_graph(path(name));
+    ASSERT_TRUE(mine.ok()) << mine.error;
+    EXPECT_EQ(mine.graph.vertices, theirs.vertices) << name;
+    EXPECT_EQ(mine.graph.markers, theirs.markers) << name;
+    EXPECT_EQ(mine.graph.partitions, theirs.partitions) << name;
+    EXPECT_EQ(mine.graph.holes, theirs.holes) << name;
+    EXPECT_EQ(mine.graph.regions.size(), theirs.regions.size()) << name;
+    EXPECT_EQ(mine.graph.insideness, theirs.insideness) << name;
+    ASSERT_EQ(mine.graph.segments.size(), theirs.segments.size()) << name;
+    for (std::size_t i = 0; i < theirs.segments.size(); ++i) {
+      auto one = mine.graph.segments[i], other = theirs.segments[i];
+      std::sort(one.begin(), one.end());
+      std::sort(other.begin(), other.end());
+      EXPECT_EQ(one, other) << name << " " << i;
+    }
+  }
 }
 
 }  // namespace

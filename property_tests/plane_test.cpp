@@ -421,32 +421,34 @@ TEST(PlaneOracle, NoticesWhatIsWrong) {
     const std::string text = tetproof::verify_plane(graph, options, bad).text();
     EXPECT_NE(text.find(kind), std::string::npos) << kind << " in: " << text;
   };
-  noticed("points", [](PlaneResult& r) { r.exact.points[0].x += 1e-9; });
-  noticed("orientation", [](PlaneResult& r) {
+  noticed("sidecar", [](PlaneResult& r) { r.exact.points[0].x += 1e-9; });
+  noticed("exact-orientation", [](PlaneResult& r) {
     std::swap(r.exact.final[5].vertices[0], r.exact.final[5].vertices[1]);
   });
-  noticed("area", [](PlaneResult& r) { r.exact.refined.pop_back(); });
-  noticed("tiling", [](PlaneResult& r) { r.exact.final_edges.erase(r.exact.final_edges.begin()); });
-  noticed("angle", [](PlaneResult& r) { r.exact.delta = 33; });
+  noticed("refined-complex", [](PlaneResult& r) { r.exact.refined.pop_back(); });
+  noticed("exact-conformity",
+          [](PlaneResult& r) { r.exact.final_edges.erase(r.exact.final_edges.begin()); });
+  noticed("refined-angles", [](PlaneResult& r) { r.exact.delta = 33; });
   for (const auto side : {PlaneRecord::Side::inside, PlaneRecord::Side::outside}) {
-    noticed("side", [side](PlaneResult& r) {
+    noticed("exact-sides", [side](PlaneResult& r) {
       auto& final = r.exact.final;
       std::find_if(final.begin(), final.end(), [&](const auto& t) {
         return t.side == side;
       })->side = PlaneRecord::Side::mixed;
     });
   }
-  noticed("side", [](PlaneResult& r) {
+  noticed("refined-sides", [](PlaneResult& r) {
     for (auto& t : r.exact.refined) t.side = PlaneRecord::Side::inside;
   });
-  noticed("chamfer", [](PlaneResult& r) { r.exact.corners[0].radius *= 2; });
-  noticed("written", [](PlaneResult& r) { r.mesh.vertices[3][0] += 1e-9; });
-  noticed("written", [](PlaneResult& r) { r.mesh.triangles.pop_back(); });
-  noticed("chamfer", [](PlaneResult& r) { r.exact.acute = 1; });
-  noticed("not positive as written", [](PlaneResult& r) {  // confessed, and refused all the same
-    std::swap(r.mesh.triangles[0][0], r.mesh.triangles[0][1]);
-    r.statistics.rounding_inverted = 1;
-  });
+  noticed("refined-chamfer-radius", [](PlaneResult& r) { r.exact.corners[0].radius *= 2; });
+  noticed("rounding", [](PlaneResult& r) { r.mesh.vertices[3][0] += 1e-9; });
+  noticed("same-mesh", [](PlaneResult& r) { r.mesh.triangles.pop_back(); });
+  noticed("promise", [](PlaneResult& r) { r.exact.acute = 1; });
+  noticed("orientation: triangle 0 is inverted",
+          [](PlaneResult& r) {  // confessed, and refused all the same
+            std::swap(r.mesh.triangles[0][0], r.mesh.triangles[0][1]);
+            r.statistics.rounding_inverted = 1;
+          });
 }
 
 TEST(PlaneOracle, NoticesAnEdgeThatIsNotDelaunay) {
@@ -479,7 +481,7 @@ TEST(PlaneOracle, NoticesAnEdgeThatIsNotDelaunay) {
       set(i, apex[0], apex[1], common[0]);
       set(j, apex[0], apex[1], common[1]);
       const std::string text = tetproof::verify_plane(graph, options, result).text();
-      flipped = text.find("Delaunay") != std::string::npos;
+      flipped = text.find("refined-delaunay") != std::string::npos;
       if (!flipped) triangles = before;
     }
   }

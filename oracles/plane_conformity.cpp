@@ -1,0 +1,459 @@
+#include "oracles/plane_conformity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace tetproof::oracles {
+namespace {
+
+using Index = PlaneGraph::Index;
+using Point = PlaneGraph::Point;
+using Edge = std::pair<Index, Index>;
+
+Edge undirected(Index a, Index b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+class FileChecker {
+ public:
+  FileChecker(PlaneGraph& graph, const PlaneFile& file, const Promise& promise, double tolerance,
+              double declared)
+      : graph_(graph), file_(file), promise_(promise), tolerance_(tolerance), declared_(declared) {}
+
+  void run(VerifyReport& report) {
+    check_complex();
+    report.oracles.push_back(complex_);
+    if (indices_right_) {
+      for (const auto& p : file_.vertices) points_.add({p[0], p[1], p[0], p[1]});
+      check_orientation(report);
+      measure_angles();
+      if (promise_.approximate) {  // nothing is tiled where corners were not restored
+        for (OracleReport* r : {&orientation_, &angles_}) report.oracles.push_back(std::move(*r));
+        return;
+      }
+      check_conformity();
+      check_sides();
+      check_list();
+      for (OracleReport* r : {&orientation_, &conformity_, &sides_, &list_, &angles_}) {
+        if (r != &list_ || file_.lists_edges) report.oracles.push_back(std::move(*r));
+      }
+    }
+  }
+  double deviation() const { return deviation_; }
+
+ private:
+  static std::string name(std::size_t t) { return "triangle " + std::to_string(t); }
+
+  void check_complex() {
+    std::vector<std::uint8_t> used(file_.vertices.size(), 0);
+    indices_right_ = file_.inside.empty() || file_.inside.size() == file_.triangles.size();
+    if (!indices_right_) complex_.fail("sides are not one for each triangle");
+    for (std::size_t t = 0; t < file_.triangles.size(); ++t) {
+      ++complex_.checked;
+      const auto& v = file_.triangles[t];
+      if (std::max({v[0], v[1], v[2]}) >= used.size()) {
+        complex_.fail(name(t) + " refers to no vertex");
+        indices_right_ = false;
+        continue;
+      }
+      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
+        complex_.fail(name(t) + " has a corner twice");
+      for (std::size_t i = 0; i < 3; ++i) {
+        used[v[i]] = 1;
+        if (!left_of_.emplace(Edge(v[i], v[(i + 1) % 3]), static_cast<Index>(t)).second) {
+          complex_.fail(name(t) + " shares a directed edge with another");
+        }
+      }
+    }
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      if (used[v] == 0) complex_.fail("vertex " + std::to_string(v) + " is not used");
+      if (!std::isfinite(file_.vertices[v][0]) || !std::isfinite(file_.vertices[v][1])) {
+        complex_.fail("vertex " + std::to_string(v) + " is not finite");
+        indices_right_ = false;
+      }
+    }
+    for (const auto& edge : file_.edges) {
+      if (std::max(edge[0], edge[1]) < used.size()) continue;
+      complex_.fail("a listed edge refers to no vertex");
+      indices_right_ = false;
+    }
+  }
+
+  void check_orientation(VerifyReport& report) {
+    for (std::size_t t = 0; t < file_.triangles.size(); ++t) {
+      ++orientation_.checked;
+      const auto& [a, b, c] = file_.triangles[t];
+      const int sign = points_.orient(a, b, c);
+      if (sign > 0) continue;
+      orientation_.fail(name(t) + (sign == 0 ? " is flat" : " is inverted"));
+      ++(sign == 0 ? report.flat : report.inverted);
+    }
+  }
+
+  bool inside(Index t) const { return file_.inside.empty() || file_.inside[t] != 0; }
+  bool hull() const { return promise_.region == delmesher::Region::hull; }
+
+  double off(Index v, const PlaneGraph::Piece& piece) {
+    return distance(points_.all()[v], graph_.vertex(piece.a), graph_.vertex(piece.b));
+  }
+  // Of a point from a segment, without loss where both are far from the origin.
+  static double distance(const Point& p, const Point& q, const Point& r) {
+    PlanePoints three;
+    for (const Point* x : {&p, &q, &r}) three.add(*x);
+    return three.distance_to_segment(0, 1, 2);
+  }
+
+  // Vertices of a piece in the order along it that a chain of edges joins; empty if there is none.
+  std::vector<Index> chain(const PlaneGraph::Piece& piece) {
+    const auto a = at_.find(place(piece.a)), b = at_.find(place(piece.b));
+    if (a == at_.end() || b == at_.end()) return {};
+    const Point &p = graph_.vertex(piece.a), &q = graph_.vertex(piece.b);
+    // A direction of about unit length, whatever the scale: products of tiny numbers vanish.
+    double dx = q.dx / 2 - p.dx / 2, dy = q.dy / 2 - p.dy / 2;
+    scale_ = -std::ilogb(std::max(std::fabs(dx), std::fabs(dy)));
+    dx = std::ldexp(dx, scale_);
+    dy = std::ldexp(dy, scale_);
+    // Depth first, straight on: the next vertex is beyond this one, and near the piece. Few
+    // vertices have more than one such neighbour.
+    std::vector<Index> path = {a->second};
+    std::vector<std::vector<Index>> open = {next_of(a->second, piece, dx, dy)};
+    for (std::size_t steps = 0; !path.empty() && steps < 4 * points_.all().size() + 16; ++steps) {
+      if (path.back() == b->second) return path;
+      if (open.back().empty()) {
+        path.pop_back();
+        open.pop_back();
+        continue;
+      }
+      const Index v = open.back().back();
+      open.back().pop_back();
+      path.push_back(v);
+      open.push_back(next_of(v, piece, dx, dy));
+    }
+    return {};
+  }
+
+  std::vector<Index> next_of(Index v, const PlaneGraph::Piece& piece, double dx, double dy) {
+    std::vector<std::pair<double, Index>> found;
+    const Point& p = points_.all()[v];
+    for (auto edge = neighbours_.lower_bound({v, 0}); edge != neighbours_.end() && edge->first == v;
+         ++edge) {
+      const Point& q = points_.all()[edge->second];
+      const double on = std::ldexp(q.dx / 2 - p.dx / 2, scale_) * dx +
+                        std::ldexp(q.dy / 2 - p.dy / 2, scale_) * dy;
+      if (!(on > 0)) continue;
+      // A piece has no input vertices but its ends.
+      const bool end = place_of(edge->second) == place(piece.b);
+      if (!end && input_places_.contains(place_of(edge->second))) continue;
+      if (end || off(edge->second, piece) <= allowed(q)) found.emplace_back(-on, edge->second);
+    }
+    std::sort(found.begin(), found.end());  // the nearest is tried first
+    std::vector<Index> result;
+    for (const auto& [on, w] : found) result.push_back(w);
+    return result;
+  }
+
+  // What rounding and the repair of what it has turned may move a point by: some units in the last
+  // place of its own coordinates. A declared deviation is taken at its word.
+  double allowed(const Point& p) const {
+    constexpr double kSteps = 9;
+    if (declared_ > 0) return tolerance_;
+    const auto ulp = [](double x) { return std::nextafter(std::fabs(x), HUGE_VAL) - std::fabs(x); };
+    return std::min(tolerance_, kSteps * std::hypot(ulp(p.dx), ulp(p.dy)));
+  }
+  std::array<double, 2> place_of(Index v) const {
+    return {file_.vertices[v][0] + 0.0, file_.vertices[v][1] + 0.0};
+  }
+  std::array<double, 2> place(Index v) const {
+    return {graph_.vertex(v).dx + 0.0, graph_.vertex(v).dy + 0.0};
+  }
+
+  // Is the middle of a piece well within the triangles?
+  bool covered(const PlaneGraph::Piece& piece) {
+    const Point &p = graph_.vertex(piece.a), &q = graph_.vertex(piece.b);
+    Point m;
+    m.x = (p.x + q.x) / 2;
+    m.y = (p.y + q.y) / 2;
+    m.dx = m.x.get_d();
+    m.dy = m.y.get_d();
+    bool found = false;
+    cells_.visit(box_of({&m}, 0), [&](Index t) {
+      if (found) return;
+      const auto& v = file_.triangles[t];
+      const auto& all = points_.all();
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (points_.orient(all[v[i]], all[v[(i + 1) % 3]], m) < 0) return;
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index a = v[i], b = v[(i + 1) % 3];
+        if (!left_of_.contains({b, a}) && distance(m, all[a], all[b]) <= tolerance_) return;
+      }
+      found = true;
+    });
+    return found;
+  }
+
+  void check_conformity() {
+    const auto& all = points_.all();
+    std::vector<PlaneGrid::Box> boxes;
+    for (const auto& v : file_.triangles) {
+      boxes.push_back(box_of({&all[v[0]], &all[v[1]], &all[v[2]]}, 0));
+    }
+    cells_ = PlaneGrid(boxes);
+    for (Index v = 0; v < file_.vertices.size(); ++v) {
+      const auto& p = file_.vertices[v];
+      if (!at_.emplace(std::array{p[0] + 0.0, p[1] + 0.0}, v).second) {
+        conformity_.fail("vertex " + std::to_string(v) + " is where another is");
+      }
+    }
+    for (Index v = 0; v < graph_.given().vertices.size(); ++v) input_places_.insert(place(v));
+    // Of a file that lists the edges on segments, no others are needed.
+    std::set<Edge> listed;
+    for (const auto& [a, b] : file_.edges) listed.insert(undirected(a, b));
+    for (const auto& [edge, t] : left_of_) {
+      if (file_.lists_edges && !listed.contains(undirected(edge.first, edge.second))) continue;
+      neighbours_.insert(edge);
+      neighbours_.insert({edge.second, edge.first});
+    }
+    for (const PlaneGraph::Piece& piece : graph_.pieces()) check_piece(piece);
+    check_vertices();
+    check_borders();
+    conformity_.figures.emplace_back("deviation", deviation_);
+  }
+
+  void check_piece(const PlaneGraph::Piece& piece) {
+    ++conformity_.checked;
+    const std::vector<Index> path = chain(piece);
+    const std::string what = "segment " + std::to_string(piece.segment);
+    if (path.empty()) {
+      if (hull() || graph_.closed_rings()) {
+        // (A border between two outside faces is in no file of the interior.)
+        const bool needed = hull() || graph_.separates(piece.segment);
+        if (needed) return conformity_.fail(what + " is not tiled by edges");
+      }
+      if (covered(piece)) conformity_.fail(what + " is covered, but not tiled by edges");
+      return;
+    }
+    for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+      chains_.emplace(undirected(path[i], path[i + 1]), piece.segment);
+      deviation_ = std::max(deviation_, off(path[i], piece));
+    }
+  }
+
+  // Vertices that are on no segment: those well within what is inside are vertices of the file.
+  void check_vertices() {
+    for (Index v = 0; v < graph_.given().vertices.size(); ++v) {
+      ++conformity_.checked;
+      if (at_.contains(place(v))) continue;
+      const Point& p = graph_.vertex(v);
+      bool within = false;
+      cells_.visit(box_of({&p}, 0), [&](Index t) {
+        const auto& c = file_.triangles[t];
+        const auto& all = points_.all();
+        within = within || (points_.orient(all[c[0]], all[c[1]], p) > 0 &&
+                            points_.orient(all[c[1]], all[c[2]], p) > 0 &&
+                            points_.orient(all[c[2]], all[c[0]], p) > 0);
+      });
+      if (within || hull()) {
+        conformity_.fail("input vertex " + std::to_string(v) + " is no vertex of the mesh");
+      }
+    }
+  }
+
+  void check_borders() {
+    std::array<double, 2> low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
+    for (const auto& p : file_.vertices) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        low[k] = std::min(low[k], p[k]);
+        high[k] = std::max(high[k], p[k]);
+      }
+    }
+    mpq_class area = 0;
+    for (const auto& [edge, t] : left_of_) {
+      const Point &p = points_.all()[edge.first], &q = points_.all()[edge.second];
+      if (hull()) area += p.x * q.y - p.y * q.x;
+      const auto other = left_of_.find({edge.second, edge.first});
+      if (other != left_of_.end()) {
+        ++conformity_.checked;
+        if (inside(t) != inside(other->second) &&
+            !chains_.contains(undirected(p_(edge), q_(edge)))) {
+          conformity_.fail(name(t) + " and " + name(other->second) +
+                           " are on different sides, with no segment between");
+        }
+        continue;
+      }
+      ++conformity_.checked;
+      const bool on_side = (p.x == q.x && (p.dx == low[0] || p.dx == high[0])) ||
+                           (p.y == q.y && (p.dy == low[1] || p.dy == high[1]));
+      if (hull() ? !on_side : !chains_.contains(undirected(p_(edge), q_(edge)))) {
+        conformity_.fail(name(t) + " has an edge on the border that is on no segment");
+      }
+    }
+    if (!hull()) return;
+    ++conformity_.checked;
+    const mpq_class x0 = low[0], x1 = high[0], y0 = low[1], y1 = high[1];
+    if (area != 2 * (x1 - x0) * (y1 - y0)) {
+      conformity_.fail("the triangles do not have the area of their rectangle");
+    }
+  }
+  static Index p_(const Edge& edge) { return edge.first; }
+  static Index q_(const Edge& edge) { return edge.second; }
+
+  void check_sides() {
+    if (graph_.closed_rings()) {
+      for (Index t = 0; t < file_.triangles.size(); ++t) {
+        ++sides_.checked;
+        const auto& [a, b, c] = file_.triangles[t];
+        Point m;
+        m.x = (points_.all()[a].x + points_.all()[b].x + points_.all()[c].x) / 3;
+        m.y = (points_.all()[a].y + points_.all()[b].y + points_.all()[c].y) / 3;
+        m.dx = m.x.get_d();
+        m.dy = m.y.get_d();
+        const bool truth = graph_.inside_by_ray(m);
+        if (truth != (inside(t) && (!hull() || !file_.inside.empty()))) {
+          if (hull() && file_.inside.empty()) continue;  // nothing is claimed
+          if (near_a_segment(m)) continue;               // thinner than what rounding moves
+          sides_.fail(name(t) + (truth ? " is inside" : " is outside"));
+        }
+      }
+      // Parity changes across them: of every two triangles one is inside, and it is there.
+      for (const auto& [edge, segment] : chains_) {
+        if (!graph_.separates(segment)) continue;
+        ++sides_.checked;
+        int count = 0, there = 0;
+        for (const Edge& side : {edge, Edge(edge.second, edge.first)}) {
+          const auto found = left_of_.find(side);
+          there += found != left_of_.end();
+          count += found != left_of_.end() && inside(found->second);
+        }
+        if (hull() ? there != 2 || (!file_.inside.empty() && count != 1) : count != 1) {
+          sides_.fail("an edge on segment " + std::to_string(segment) +
+                      " is not between an inside and an outside");
+        }
+      }
+    } else {
+      sides_.checked += file_.triangles.size();
+      sides_.notes.emplace_back(
+          "what is inside is not decided by parity: of the file alone, only holes are looked at");
+    }
+    if (graph_.given().insideness != delmesher::Insideness::enclosed) return;
+    for (const auto& hole : graph_.given().holes) {
+      ++sides_.checked;
+      if (graph_.on_segment(hole)) continue;
+      const Point p{hole[0], hole[1], hole[0], hole[1]};
+      cells_.visit({hole, hole}, [&](Index t) {
+        const auto& c = file_.triangles[t];
+        const auto& all = points_.all();
+        if (inside(t) && (!hull() || !file_.inside.empty()) &&
+            points_.orient(all[c[0]], all[c[1]], p) > 0 &&
+            points_.orient(all[c[1]], all[c[2]], p) > 0 &&
+            points_.orient(all[c[2]], all[c[0]], p) > 0) {
+          sides_.fail(name(t) + " covers the point of a hole");
+        }
+      });
+    }
+  }
+
+  // Is a point so close to a segment that rounding may have moved it across?
+  bool near_a_segment(const Point& m) {
+    bool near = false;
+    graph_.near_segments(box_of({&m}, tolerance_), [&](Index s) {
+      const auto& [a, b] = graph_.given().segments[s];
+      near = near || distance(m, graph_.vertex(a), graph_.vertex(b)) <= tolerance_;
+    });
+    return near;
+  }
+
+  void check_list() {
+    std::map<Edge, Index> listed;
+    const auto& markers = graph_.given().markers;
+    for (std::size_t i = 0; i < file_.edges.size(); ++i) {
+      ++list_.checked;
+      const Edge edge = undirected(file_.edges[i][0], file_.edges[i][1]);
+      const std::string what = "listed edge " + std::to_string(i);
+      if (!listed.emplace(edge, static_cast<Index>(i)).second) list_.fail(what + " is there twice");
+      const auto found = chains_.find(edge);
+      if (found == chains_.end()) {
+        list_.fail(what + " is on no segment");
+        continue;
+      }
+      if (i < file_.segments.size() && file_.segments[i] != found->second) {
+        list_.fail(what + " is said to be on another segment");
+      }
+      const std::int32_t marker = markers.empty() ? 0 : markers[found->second];
+      if (i < file_.markers.size() && file_.markers[i] != marker) {
+        list_.fail(what + " does not have the marker of its segment");
+      }
+    }
+    for (const auto& [edge, segment] : chains_) {
+      ++list_.checked;
+      if (!listed.contains(edge)) {
+        list_.fail("an edge on segment " + std::to_string(segment) + " is not listed");
+      }
+    }
+  }
+
+  void measure_angles() {
+    angles_.promised = false;
+    double least = 180, largest = 0;
+    std::array<std::uint64_t, 12> bins{};
+    for (const auto& v : file_.triangles) {
+      ++angles_.checked;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Point &o = points_.all()[v[i]], &p = points_.all()[v[(i + 1) % 3]],
+                    &q = points_.all()[v[(i + 2) % 3]];
+        // Halves, so that the largest doubles do not overflow; of what vanishes nothing is said.
+        const double ux = p.dx / 2 - o.dx / 2, uy = p.dy / 2 - o.dy / 2, wx = q.dx / 2 - o.dx / 2,
+                     wy = q.dy / 2 - o.dy / 2, size = std::hypot(ux, uy),
+                     other = std::hypot(wx, wy);
+        const double cross = ux / size * (wy / other) - uy / size * (wx / other),
+                     dot = ux / size * (wx / other) + uy / size * (wy / other);
+        const double angle = std::atan2(std::fabs(cross), dot) * 57.29577951308232;
+        if (!std::isfinite(angle)) continue;
+        least = std::min(least, angle);
+        largest = std::max(largest, angle);
+        ++bins[std::min<std::size_t>(11, static_cast<std::size_t>(angle / 15))];
+      }
+    }
+    angles_.figures = {{"least", least}, {"largest", largest}};
+    angles_.histograms.emplace_back("angles", bins);
+  }
+
+  PlaneGraph& graph_;
+  const PlaneFile& file_;
+  const Promise& promise_;
+  double tolerance_, declared_;
+  int scale_ = 0;
+  PlanePoints points_;
+  PlaneGrid cells_;
+  bool indices_right_ = true;
+  double deviation_ = 0;
+  std::map<Edge, Index> left_of_;  // directed edge to the triangle on its left
+  std::set<Edge> neighbours_;      // both directions
+  std::map<std::array<double, 2>, Index> at_;
+  std::set<std::array<double, 2>> input_places_;
+  std::map<Edge, Index> chains_;  // edges that tile segments
+  OracleReport complex_{"complex", "triangles"}, orientation_{"orientation", "triangles"},
+      conformity_{"conformity", "pieces of segments, vertices, edges"},
+      sides_{"sides", "triangles, edges"}, list_{"edge-list", "edges"},
+      angles_{"angles", "triangles"};
+};
+
+}  // namespace
+
+void check_plane_file(PlaneGraph& graph, const PlaneFile& file, const Promise& promise,
+                      double declared, VerifyReport& report, double& deviation) {
+  constexpr double kUlps = 4;
+  double largest = graph.largest();
+  for (const auto& p : file.vertices) {
+    largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1])});
+  }
+  const double tolerance =
+      std::max(kUlps * (std::nextafter(largest, HUGE_VAL) - largest), declared);
+  FileChecker checker(graph, file, promise, tolerance, declared);
+  checker.run(report);
+  deviation = checker.deviation();
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,36 @@
+// Files of the plane, read by the oracles' own readers: planar graphs as delmesher reads them
+// (Triangle's .poly, OFF, OBJ, rings), triangulations as it writes them (.node with .ele and
+// .poly, .vtu, .msh, .off), and the record of `delmesher plane --exact`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher.h"
+
+namespace tetproof::oracles {
+
+struct PlaneFile {
+  std::vector<std::array<double, 2>> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint8_t> inside;  // per triangle; empty: the file says nothing
+  bool lists_edges = false;          // those that tile the segments
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  std::vector<std::int32_t> markers;    // per edge
+  std::vector<std::uint32_t> segments;  // per edge: of the input; empty: the file says nothing
+};
+
+// All throw ReadError.
+//
+// The numbers of segments are those of the mesher: in a .poly as listed, else in the order of
+// their first appearance at the triangles, cut as formats.md says.
+delmesher::PlanarGraph read_plane_graph(const std::string& path);
+PlaneFile read_plane_file(const std::string& path);
+delmesher::PlaneRecord read_plane_sidecar(const std::string& path, unsigned* version = nullptr);
+
+// What a run of the library would write.
+PlaneFile plane_file_of(const delmesher::PlaneMesh& mesh);
+
+}  // namespace tetproof::oracles
