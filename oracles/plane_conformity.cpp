@@ -277,7 +277,7 @@ class FileChecker {
       if (other != left_of_.end()) {
         ++conformity_.checked;
         if (inside(t) != inside(other->second) &&
-            !chains_.contains(undirected(p_(edge), q_(edge)))) {
+            !chains_.contains(undirected(edge.first, edge.second))) {
           conformity_.fail(name(t) + " and " + name(other->second) +
                            " are on different sides, with no segment between");
         }
@@ -286,7 +286,7 @@ class FileChecker {
       ++conformity_.checked;
       const bool on_side = (p.x == q.x && (p.dx == low[0] || p.dx == high[0])) ||
                            (p.y == q.y && (p.dy == low[1] || p.dy == high[1]));
-      if (hull() ? !on_side : !chains_.contains(undirected(p_(edge), q_(edge)))) {
+      if (hull() ? !on_side : !chains_.contains(undirected(edge.first, edge.second))) {
         conformity_.fail(name(t) + " has an edge on the border that is on no segment");
       }
     }
@@ -297,8 +297,6 @@ class FileChecker {
       conformity_.fail("the triangles do not have the area of their rectangle");
     }
   }
-  static Index p_(const Edge& edge) { return edge.first; }
-  static Index q_(const Edge& edge) { return edge.second; }
 
   void check_sides() {
     if (graph_.closed_rings()) {

@@ -513,10 +513,11 @@ const Lie kConsistent[] = {
      }},
     {"an edge on a segment not listed, in the file alone", "edge-list",
      [](Told& t) {
-       const auto [a, b] = t.file.edges.back();
-       const auto& ids = t.record.mesh_vertices;
+       const auto& last = t.file.edges.back();
+       const auto a = t.record.mesh_vertices[last[0]];
+       const auto b = t.record.mesh_vertices[last[1]];
        std::erase_if(t.record.final_edges, [&](const auto& e) {
-         return std::minmax(e.vertices[0], e.vertices[1]) == std::minmax(ids[a], ids[b]);
+         return std::minmax(e.vertices[0], e.vertices[1]) == std::minmax(a, b);
        });
        t.file.markers.back() = 78;
      }},
