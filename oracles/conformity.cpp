@@ -58,7 +58,18 @@ class Conformity {
     // The few roundings of measuring stay below this factor.
     result_.deviation = std::max(result_.deviation, distance * (1 + 1e-12));
   }
-  void fail(const std::string& what) { result_.report.fail(what); }
+  void fail(const std::string& what) {
+    ++result_.failed_elsewhere;
+    result_.report.fail(what);
+  }
+  void fail_edge(const InputSurface::Edge& edge, const std::string& what) {
+    result_.failed_edges.push_back(static_cast<Index>(&edge - surface_.edges().data()));
+    result_.report.fail(what);
+  }
+  void fail_facet(Index facet, const std::string& what) {
+    result_.failed_facets.push_back(facet);
+    result_.report.fail(what);
+  }
   std::string input_edge_name(const InputSurface::Edge& e) const {
     return "input edge " + std::to_string(e.from) + "-" + std::to_string(e.to);
   }
@@ -259,8 +270,8 @@ void Conformity::follow_edges() {
   for (const InputSurface::Edge& edge : surface_.edges()) {
     if (match_[edge.from] == kNone || match_[edge.to] == kNone) continue;  // already said
     if (!find_chain(edge, chain)) {
-      fail(input_edge_name(edge) + " is not a chain of boundary edges; it ends at " +
-           complex_.vertex_name(chain.back()));
+      fail_edge(edge, input_edge_name(edge) + " is not a chain of boundary edges; it ends at " +
+                          complex_.vertex_name(chain.back()));
       continue;
     }
     result_.chains[&edge - surface_.edges().data()] = chain;
@@ -269,8 +280,9 @@ void Conformity::follow_edges() {
       const bool fresh = chain_facet_.emplace(edge_key(chain[i - 1], chain[i]), edge.left).second;
       const bool back = chain_facet_.emplace(edge_key(chain[i], chain[i - 1]), edge.right).second;
       if (!fresh || !back) {
-        fail(input_edge_name(edge) + " shares boundary edge " + complex_.vertex_name(chain[i - 1]) +
-             " - " + complex_.vertex_name(chain[i]) + " with another input edge");
+        fail_edge(edge, input_edge_name(edge) + " shares boundary edge " +
+                            complex_.vertex_name(chain[i - 1]) + " - " +
+                            complex_.vertex_name(chain[i]) + " with another input edge");
       }
       ++result_.chain_edges;
       if (options_.exact) continue;
@@ -336,8 +348,9 @@ void Conformity::check_borders() {
     const auto chain = chain_facet_.find(key);
     const Index wanted = chain == chain_facet_.end() ? other : chain->second;
     if (mine != wanted && mine != kNone && wanted != kNone) {
-      fail(name() + " separates facets " + std::to_string(surface_.facets()[mine].id) + " and " +
-           std::to_string(surface_.facets()[wanted].id) + ", which do not meet there");
+      fail_facet(mine, name() + " separates facets " + std::to_string(surface_.facets()[mine].id) +
+                           " and " + std::to_string(surface_.facets()[wanted].id) +
+                           ", which do not meet there");
     }
   }
 }
@@ -353,7 +366,7 @@ void Conformity::check_facets() {
 void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
   const InputSurface::Facet& input = surface_.facets()[facet];
   const std::string name = "facet " + std::to_string(input.id);
-  if (faces.empty()) return fail(name + " has no boundary faces");
+  if (faces.empty()) return fail_facet(facet, name + " has no boundary faces");
   IntegerVector area;
   std::vector<Index> vertices;
   std::vector<std::uint64_t> edges;
@@ -370,7 +383,7 @@ void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
     if (exact::dot(normal, input.normal) <= 0) {
       ++folded;
       if (options_.exact)
-        fail("boundary " + complex_.face_name(face) + " is folded over on " + name);
+        fail_facet(facet, "boundary " + complex_.face_name(face) + " is folded over on " + name);
     }
   }
   const auto make_unique = [](auto& list) {
@@ -385,21 +398,98 @@ void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
     if (off == 0) continue;
     const double distance = std::fabs(to_double(off, 3 * points_.exponent())) / unit;
     if (options_.exact || !(distance <= options_.largest_tolerance * surface_.diagonal())) {
-      fail(complex_.vertex_name(v) + " is off the plane of " + name);
+      fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + name);
     } else {
       deviate(distance);
     }
   }
-  if (options_.exact && area != input.normal) fail("the faces on " + name + " do not add up to it");
+  if (options_.exact && area != input.normal)
+    fail_facet(facet, "the faces on " + name + " do not add up to it");
   const std::int64_t euler = static_cast<std::int64_t>(vertices.size() + faces.size()) -
                              static_cast<std::int64_t>(edges.size());
-  if (euler != input.euler) fail("the faces on " + name + " have another topology than it");
+  if (euler != input.euler)
+    fail_facet(facet, "the faces on " + name + " have another topology than it");
   if (folded > 0 && !options_.exact) {
     result_.report.notes.push_back(std::to_string(folded) + " faces folded over on " + name);
   }
 }
 
+// Of a vertex from an edge of the surface.
+double distance_from(const ExactPoints& points, const InputSurface::Edge& edge, Index v) {
+  const IntegerVector along = exact::difference(points, edge.from, edge.to);
+  const IntegerVector there = exact::difference(points, edge.from, v);
+  const mpz_class at = exact::dot(along, there);
+  if (at <= 0) return exact::distance(points, edge.from, v);
+  if (at >= exact::dot(along, along)) return exact::distance(points, edge.to, v);
+  return length(exact::cross(along, there), 2 * points.exponent()) /
+         length(along, points.exponent());
+}
+
+// Whether the bounding box of an edge, widened, contains a vertex.
+bool boxed(const ExactPoints& points, const InputSurface::Edge& edge, Index v, double distance) {
+  const Position p = points.nearest(edge.from), q = points.nearest(edge.to), x = points.nearest(v);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (x[i] < std::min(p[i], q[i]) - 2 * distance || x[i] > std::max(p[i], q[i]) + 2 * distance) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Finds out of which edges a file cannot tell whether a vertex is on them or on another one.
+class Ambiguity {
+ public:
+  Ambiguity(const TetComplex& complex, const InputSurface& surface,
+            const ConformityResult& conformity, double distance)
+      : points_(*complex.points), surface_(surface), distance_(distance) {
+    for (const Face& face : conformity.faces) {
+      vertices_.insert(vertices_.end(), face.begin(), face.end());
+    }
+    std::sort(vertices_.begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  }
+
+  bool at(Index edge) const {
+    return std::any_of(vertices_.begin(), vertices_.end(), [&](Index v) {
+      const InputSurface::Edge& e = surface_.edges()[edge];
+      if (!near(e, v) || exact::equal(points_, v, e.from) || exact::equal(points_, v, e.to)) {
+        return false;
+      }
+      return std::any_of(
+          surface_.edges().begin(), surface_.edges().end(),
+          [&](const InputSurface::Edge& other) { return &other != &e && near(other, v); });
+    });
+  }
+
+ private:
+  bool near(const InputSurface::Edge& edge, Index v) const {
+    return boxed(points_, edge, v, distance_) && distance_from(points_, edge, v) <= distance_;
+  }
+
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  double distance_;
+  std::vector<Index> vertices_;
+};
+
 }  // namespace
+
+bool undecidable(const TetComplex& complex, const InputSurface& surface,
+                 const ConformityResult& conformity, double distance) {
+  if (conformity.failed_elsewhere > 0 || conformity.report.passed()) return false;
+  const Ambiguity ambiguity(complex, surface, conformity, distance);
+  const auto& edges = surface.edges();
+  return std::all_of(conformity.failed_edges.begin(), conformity.failed_edges.end(),
+                     [&](Index e) { return ambiguity.at(e); }) &&
+         std::all_of(conformity.failed_facets.begin(), conformity.failed_facets.end(),
+                     [&](Index facet) {
+                       for (Index e = 0; e < edges.size(); ++e) {
+                         if (edges[e].left != facet && edges[e].right != facet) continue;
+                         if (ambiguity.at(e)) return true;
+                       }
+                       return false;
+                     });
+}
 
 ConformityResult check_conformity(const TetComplex& complex, const Neighbours& neighbours,
                                   const InputSurface& surface, const ConformityOptions& options) {

@@ -33,11 +33,22 @@ struct ConformityResult {
   std::vector<Index> facets;  // the input facet that each tiles, or kNone
   std::uint64_t chain_edges = 0;
   std::vector<std::vector<Index>> chains;  // per edge of the surface; empty: not found
+  // Where it failed: edges of the surface and facets; and failures that belong to neither.
+  std::vector<Index> failed_edges, failed_facets;
+  std::uint64_t failed_elsewhere = 0;
 };
 
 // `surface` and `complex` use the same points. Only the flags complex.inside say what the solid is.
 ConformityResult check_conformity(const TetComplex& complex, const Neighbours& neighbours,
                                   const InputSurface& surface, const ConformityOptions& options);
+
+// Of a failure without chains from a record: does it lie only where the input's own edges are
+// closer than the doubles of a file can tell? So if beside each edge that failed, and some edge of
+// each facet that failed, there is a vertex of the boundary, not an end of that edge, within
+// `distance` of it and of another edge of the input. Positions do not say then which mesh edge is
+// whose.
+bool undecidable(const TetComplex& complex, const InputSurface& surface,
+                 const ConformityResult& conformity, double distance);
 
 // The triangles listed in a file as the boundary are those faces, in any order and orientation
 // (faces of the hull may be listed too), and each carries the label of its facet (labels may be

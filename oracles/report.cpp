@@ -1,5 +1,6 @@
 #include "oracles/report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,8 @@ const char* verdict_name(Verdict verdict) {
       return "rounded";
     case Verdict::deviating:
       return "deviating";
+    case Verdict::undecided:
+      return "undecided";
     case Verdict::broken:
       return "broken";
   }
@@ -40,6 +43,12 @@ bool VerifyReport::all_passed() const {
     if (!oracle.passed()) return false;
   }
   return !oracles.empty();
+}
+
+bool VerifyReport::any_failed() const {
+  return oracles.empty() || std::any_of(oracles.begin(), oracles.end(), [](const auto& oracle) {
+           return !oracle.passed() && !oracle.undecided;
+         });
 }
 
 std::string to_json(const VerifyReport& report) {
@@ -104,16 +113,20 @@ class Paragraph {
 };
 
 std::string summary(const VerifyReport& report) {
-  std::uint64_t passed = 0, failed = 0, told = 0;
-  std::string names;
+  std::uint64_t passed = 0, failed = 0, told = 0, undecided = 0;
+  std::string names, open_names;
+  const auto list = [](std::string& to, const std::string& name) {
+    to += (to.empty() ? " (" : ", ") + name;
+  };
   for (const OracleReport& oracle : report.oracles) {
-    ++(!oracle.passed() ? failed : oracle.promised ? passed : told);
-    if (!oracle.passed()) names += (names.empty() ? " (" : ", ") + oracle.name;
+    ++(oracle.undecided ? undecided : !oracle.passed() ? failed : oracle.promised ? passed : told);
+    if (!oracle.passed()) list(oracle.undecided ? open_names : names, oracle.name);
   }
   if (!names.empty()) names += ")";
   Paragraph line(std::string("verdict: ") + verdict_name(report.verdict));
   line.add(std::to_string(passed) + " passed, " + std::to_string(failed) + " FAILED" + names +
            ", " + std::to_string(told) + " for information");
+  if (undecided > 0) line.add(std::to_string(undecided) + " undecided" + open_names + ")");
   if (report.verdict == Verdict::rounded || report.verdict == Verdict::deviating) {
     line.add("deviation " + number(report.deviation) + " = " + number(report.deviation_ulps) +
              " ulp of the largest coordinate");

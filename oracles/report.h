@@ -22,7 +22,8 @@ struct OracleReport {
   std::string checked_what;  // e.g. "tetrahedra"
   std::uint64_t checked = 0;
   std::uint64_t violations = 0;
-  bool promised = true;  // false: only counted and measured, because nobody promised it
+  bool promised = true;    // false: only counted and measured, because nobody promised it
+  bool undecided = false;  // what it was given does not tell whether the violations are any
   std::vector<std::string> findings;  // the first violations, each naming its element
   std::vector<std::string> notes;     // no violations, but worth knowing
   std::vector<std::pair<std::string, double>> figures;
@@ -36,11 +37,14 @@ struct OracleReport {
   }
   // An oracle that has looked at nothing has not passed.
   bool passed() const { return violations == 0 && checked > 0; }
-  // "pass", "FAIL", or "info" of what was not promised.
-  const char* status() const { return !passed() ? "FAIL" : promised ? "pass" : "info"; }
+  // "pass", "FAIL", "info" of what was not promised, or "undecided".
+  const char* status() const {
+    if (undecided) return "undecided";
+    return !passed() ? "FAIL" : promised ? "pass" : "info";
+  }
 };
 
-enum class Verdict : std::uint8_t { exact, rounded, deviating, broken };
+enum class Verdict : std::uint8_t { exact, rounded, deviating, undecided, broken };
 
 const char* verdict_name(Verdict verdict);
 
@@ -55,6 +59,7 @@ struct VerifyReport {
 
   const OracleReport* find(const std::string& name) const;
   bool all_passed() const;
+  bool any_failed() const;  // undecided ones have not
 };
 
 std::string to_json(const VerifyReport& report);

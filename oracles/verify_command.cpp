@@ -26,7 +26,7 @@ enum ExitCode {
   kUsage = 2,
   kUnreadable = 3,
   kInvalid = 4,
-  kLimit = 5,
+  kLimit = 5,  // also where a file alone does not tell
   kInternal = 6
 };
 
@@ -108,6 +108,7 @@ std::string reason(const VerifyReport& report) {
   for (const OracleReport& oracle : report.oracles) {
     if (oracle.passed()) continue;
     line += ": " + oracle.name;
+    if (oracle.undecided) return line + ": " + oracle.notes.back();
     return line + ": " + (oracle.findings.empty() ? "nothing to check" : oracle.findings[0]);
   }
   return line + " by more than declared";
@@ -164,11 +165,14 @@ int verify_files(const Arguments& arguments) {
     return kInvalid;
   }
   std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
-  if (!failed(report, arguments.options)) return kDone;
+  const int code = failed(report, arguments.options)      ? kFailed
+                   : report.verdict == Verdict::undecided ? kLimit
+                                                          : kDone;
   // As text, the report has said it.
-  if (!arguments.json) return kFailed;
-  std::fprintf(stderr, "tetproof: %s: %s\n", arguments.mesh.c_str(), reason(report).c_str());
-  return kFailed;
+  if (code != kDone && arguments.json) {
+    std::fprintf(stderr, "tetproof: %s: %s\n", arguments.mesh.c_str(), reason(report).c_str());
+  }
+  return code;
 }
 
 }  // namespace

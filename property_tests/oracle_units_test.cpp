@@ -22,6 +22,7 @@
 #include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
+#include "oracles/verify.h"
 #include "property_tests/samples.h"
 
 namespace tetproof {
@@ -31,6 +32,34 @@ using namespace oracles;  // NOLINT
 using delmesher::ExactPoint;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// ------------------------------------------------------------------------------- the file alone
+
+// A tetrahedron with a needle P A B of width w, cut by s1 in the middle of PA and s2 at a quarter
+// of PB, without an edge from s1 to B. s1 is off PA by a share of w, away from PB: beyond 0.25 the
+// chain of boundary edges that begins nearest to PA is that over s2, and PB is left without one.
+Verdict verdict_on_needle(double w, double share, bool whole = true) {
+  const Position p = {0, 0, 0}, a = {1, 0, 0}, b = {1, w, 0}, c = {0, 0, 1};
+  const Polyhedron input = {
+      {p, a, b, c}, {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}}, {}, {}};
+  MeshFile mesh;
+  mesh.vertices = {p, a, b, c, {0.5, -share * w, 0}, {0.25, 0.25 * w, 0}};
+  mesh.tetrahedra = {{0, 4, 5, 3}, {4, 1, 5, 3}};
+  if (whole) mesh.tetrahedra.push_back({1, 2, 5, 3});
+  mesh.either_orientation = true;
+  VerifyReport report;
+  EXPECT_EQ(verify(input, mesh, nullptr, {}, report), "");
+  return report.verdict;
+}
+
+TEST(FileAlone, IsNotJudgedWhereDoublesDoNotTellEdgesApart) {
+  EXPECT_EQ(verdict_on_needle(0x1p-52, 0), Verdict::exact);
+  EXPECT_EQ(verdict_on_needle(0x1p-20, 0), Verdict::exact);
+  EXPECT_EQ(verdict_on_needle(0x1p-52, 0.35), Verdict::undecided);
+  // That far apart doubles tell, and what is wrong otherwise is wrong there too.
+  EXPECT_EQ(verdict_on_needle(0x1p-20, 0.35), Verdict::broken);
+  EXPECT_EQ(verdict_on_needle(0x1p-52, 0.35, false), Verdict::broken);
+}
 
 // ------------------------------------------------------------------------------------- intervals
 
