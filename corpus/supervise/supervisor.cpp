@@ -33,6 +33,7 @@ constexpr double kGiveUpKillingSeconds = 20;
 constexpr std::size_t kTailBytes = 4096;
 constexpr std::uint64_t kShareable = 8u << 20;  // resident bytes beside the largest process
 constexpr double kProportionalPause = 20;       // times what the last look took
+constexpr int kLooksInVain = 8;                 // while processes end all the time
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -385,10 +386,23 @@ class Job {
       // A process that has just ended has no pages any more; one that cannot be asked counts fully.
       proportional += proportional_bytes(pid).value_or(state.resident_bytes);
     }
+    // What a process shared counts for those that are read after its end as well as for itself: a
+    // sum over such a time is too large and is not taken, unless there is never another one.
+    if (any_has_ended() && ++looks_in_vain_ < kLooksInVain) return largest;
+    looks_in_vain_ = 0;
     proportional = std::clamp(proportional, largest, sum);
     shared_before_ = sum - proportional;
     next_proportional_ = seconds_since(start_time_) + kProportionalPause * seconds_since(begin);
     return proportional;
+  }
+
+  // Of what the last look() saw alive.
+  bool any_has_ended() const {
+    return std::any_of(states_.begin(), states_.end(), [](const auto& seen) {
+      ProcessState now;
+      return seen.second.resident_bytes > 0 &&
+             (!read_state(seen.first, now) || now.resident_bytes == 0);
+    });
   }
 
   // Collects whoever has ended; returns false when there are no children any more.
@@ -458,6 +472,7 @@ class Job {
   double cpu_of_reaped_ = 0, cpu_seen_ = 0, cpu_forgotten_ = 0;
   double next_proportional_ = 0;  // seconds since the start
   std::uint64_t shared_before_ = 0;
+  int looks_in_vain_ = 0;
   std::uint64_t peak_single_ = 0, peak_sum_ = 0;
   Tail stdout_{-1}, stderr_{-1};
   Outcome outcome_;  // its ending is `lost` while undecided
