@@ -17,9 +17,8 @@ using delmesher::Surface;
 using delmesher::Vec3;
 
 Leniency too_precise("stopped-features-below-2^-40", 0.05);
-Leniency short_chamfer("acute-chamfer-below-an-ulp", 0.1);
 Leniency no_room("acute-features-below-2^-40", 0.05);
-Leniency turned("acute-by-what-an-ulp-turns", 0.02);
+Leniency turned("acute-by-what-half-an-ulp-turns", 0.1);
 
 // A property of one stage: failed checks inside the mesher are findings, and so is a stop for want
 // of precision where there is room.
@@ -39,7 +38,7 @@ Finding guarded(const char* stage, const Surface& surface, Body&& body) {
 }
 
 // Points on triangles are rounded to dyadic parameters; the angles are measured in doubles.
-constexpr double kDegreesLost = 0.02, kPi = 3.14159265358979323846;
+constexpr double kDegreesLost = 0.02;
 // The filter compares distances in doubles.
 constexpr double kDistanceRoundings = 1e-9;
 
@@ -69,15 +68,11 @@ Finding chamfered(const Surface& surface, double cosine_squared, double degrees)
   if (Finding f = distances_fit(s, result); !f.empty()) return f;
   const auto report = delmesher::plc_angles::measure(result.plc, s.points);
   if (!report.defect.empty()) return "chamfer complex: " + report.defect;
-  // Chamfers are laid out in doubles: where that makes them shorter than an ulp of the model (in
-  // facets and at angles that narrow, which the filter drops by default) they are at any angle.
-  constexpr double kShortest = 0x1p-50;
   if (!(report.smallest() < degrees - kDegreesLost)) return {};
-  // The ends of two segments, each off by half an ulp of the model, turn them by so much.
-  const double most_turned = 2 * 0x1p-53 / report.smallest_segment * 180 / kPi;
-  if (!(report.smallest_segment > kShortest)) {
-    short_chamfer.take();
-  } else if (!(report.smallest() < degrees - kDegreesLost - most_turned)) {
+  // Chamfers are laid out in doubles. Where a segment is not long beside an ulp of the model (in
+  // facets and at angles that narrow, which the filter drops by default), roundings of its ends
+  // turn the angles at it; others have no excuse.
+  if (!(report.smallest_if_turned < degrees - kDegreesLost)) {
     turned.take();
   } else if (!roomy(surface)) {
     no_room.take();
@@ -104,7 +99,7 @@ Finding kept_is_apart(const FeatureSizes& sizes, const delmesher::SurfaceTopolog
 }  // namespace
 
 Finding chamfer_holds(const Surface& surface) {
-  judging({&too_precise, &short_chamfer, &no_room, &turned});
+  judging({&too_precise, &no_room, &turned});
   return guarded("chamfer", surface, [&]() -> Finding {
     if (Finding f = chamfered(surface, 0.25, 60); !f.empty()) return f;
     return chamfered(surface, 0, 90);

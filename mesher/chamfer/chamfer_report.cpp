@@ -116,14 +116,14 @@ int main(int argc, char** argv) {
       std::printf(
           "%s dropped %llu rounds %llu  triangles %zu facets %zu acute %llu+%llu "
           "points %zu segments %zu topology %.3fs "
-          "chamfer %.3fs ee %.6f ef %.6f dihedral %.6f shortest %.2e %s\n",
+          "chamfer %.3fs ee %.6f ef %.6f dihedral %.6f if turned %.6f %s\n",
           argv[i], static_cast<unsigned long long>(filter.dropped_triangles),
           static_cast<unsigned long long>(filter.rounds), topology.triangles.size(),
           topology.facet_triangles.size(), static_cast<unsigned long long>(result.acute_vertices),
           static_cast<unsigned long long>(result.acute_edges),
           points.size() - surface.vertices.size(), result.plc.segments.size(), topology_seconds,
           seconds, angles.edge_edge.degrees, angles.edge_facet.degrees, angles.dihedral.degrees,
-          angles.smallest_segment, angles.defect.c_str());
+          angles.smallest_if_turned, angles.defect.c_str());
       if (segments != nullptr) write_segments(segments, result.plc, points);
     } catch (const std::exception& error) {
       std::printf("%s: %s\n", argv[i], error.what());

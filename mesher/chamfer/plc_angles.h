@@ -79,11 +79,47 @@ struct Angle {
 
 struct Report {
   Angle edge_edge, edge_facet, dihedral;
-  double smallest_segment = 0;  // over the largest coordinate difference of the complex
-  std::string defect;           // boundary loops that are not closed, and the like
+  // The smallest of all angles, to each of which is added what half an ulp of the complex's size at
+  // the ends of its shortest segment turns it by.
+  double smallest_if_turned = 180;
+  std::string defect;  // boundary loops that are not closed, and the like
   double smallest() const {
     return std::min({edge_edge.degrees, edge_facet.degrees, dihedral.degrees});
   }
+};
+
+// Lengths of segments over the diagonal of the complex.
+class RelativeLengths {
+ public:
+  explicit RelativeLengths(const std::map<VertexId, QuadPoint>& at) : at_(at) {
+    QuadPoint low{}, high{};
+    for (const auto& [v, p] : at) {
+      for (int i = 0; i < 3; ++i) {
+        low[i] = v == at.begin()->first ? p[i] : std::min(low[i], p[i]);
+        high[i] = v == at.begin()->first ? p[i] : std::max(high[i], p[i]);
+      }
+    }
+    diagonal_ = distance(low, high);
+  }
+  double operator()(VertexId v, VertexId w) const {
+    return static_cast<double>(distance(at_.at(v), at_.at(w)) / diagonal_);
+  }
+
+ private:
+  static Quad distance(const QuadPoint& p, const QuadPoint& q) {
+    Quad largest = 0;
+    for (int i = 0; i < 3; ++i)
+      largest = std::max(largest, p[i] < q[i] ? q[i] - p[i] : p[i] - q[i]);
+    double sum = 0;
+    for (int i = 0; i < 3 && largest > 0; ++i) {
+      const auto d = static_cast<double>((p[i] - q[i]) / largest);
+      sum += d * d;
+    }
+    return largest * std::sqrt(sum);
+  }
+
+  const std::map<VertexId, QuadPoint>& at_;
+  Quad diagonal_;
 };
 
 struct SectorAt {
@@ -102,6 +138,12 @@ inline Report measure(const Plc& plc, const PointStore& points) {
       neighbours[s.vertex[k]].push_back(s.vertex[1 - k]);
     }
   }
+  const RelativeLengths length_of(at);
+  const auto offer = [&](Angle& of_kind, double value, VertexId v, double shortest) {
+    of_kind.offer(value, v);
+    const double turned = 2 * 0x1p-53 / shortest * 180 / 3.14159265358979323846;
+    report.smallest_if_turned = std::min(report.smallest_if_turned, value + turned);
+  };
   std::map<VertexId, std::vector<SectorAt>> sectors;
   struct Use {
     std::uint32_t facet;
@@ -142,7 +184,9 @@ inline Report measure(const Plc& plc, const PointStore& points) {
   for (const auto& [segment, use] : uses) {
     if (use.size() > 2) report.defect = "segment of more than two facets";
     if (use.size() == 2) {
-      report.dihedral.offer(degrees(use[0].inward, use[1].inward), plc.segments[segment].vertex[0]);
+      const auto& ends = plc.segments[segment].vertex;
+      offer(report.dihedral, degrees(use[0].inward, use[1].inward), ends[0],
+            length_of(ends[0], ends[1]));
     }
   }
   if (uses.size() != plc.segments.size()) report.defect = "segment of no facet";
@@ -151,7 +195,8 @@ inline Report measure(const Plc& plc, const PointStore& points) {
       const Vector a = direction(at[v], at[list[i]]);
       for (std::size_t j = 0; j < i; ++j) {
         if (list[i] == list[j]) report.defect = "two segments with the same ends";
-        report.edge_edge.offer(degrees(a, direction(at[v], at[list[j]])), v);
+        offer(report.edge_edge, degrees(a, direction(at[v], at[list[j]])), v,
+              std::min(length_of(v, list[i]), length_of(v, list[j])));
       }
       for (const SectorAt& sector : sectors[v]) {
         if (list[i] == sector.out || list[i] == sector.in) continue;
@@ -166,30 +211,11 @@ inline Report measure(const Plc& plc, const PointStore& points) {
         };
         const double size = std::sqrt(dot(flat, flat));
         if (size < 1e-9 || !(turn(flat) < turn(end))) continue;
-        report.edge_facet.offer(std::atan2(std::abs(height), size) * 180 / 3.14159265358979323846,
-                                v);
+        offer(report.edge_facet, std::atan2(std::abs(height), size) * 180 / 3.14159265358979323846,
+              v, length_of(v, list[i]));
       }
     }
   }
-  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, shortest = 1e300;
-  for (const auto& [v, p] : at) {
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], static_cast<double>(p[i]));
-      high[i] = std::max(high[i], static_cast<double>(p[i]));
-    }
-  }
-  for (const PlcSegment& s : plc.segments) {
-    Quad sum = 0;
-    for (int i = 0; i < 3; ++i) {
-      const Quad d = at[s.vertex[0]][i] - at[s.vertex[1]][i];
-      sum += d * d;
-    }
-    shortest = std::min(shortest, std::sqrt(static_cast<double>(sum)));
-  }
-  const double size =
-      std::sqrt((high[0] - low[0]) * (high[0] - low[0]) + (high[1] - low[1]) * (high[1] - low[1]) +
-                (high[2] - low[2]) * (high[2] - low[2]));
-  report.smallest_segment = plc.segments.empty() ? 0 : shortest / size;
   return report;
 }
 
