@@ -275,11 +275,15 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
                                       const InputSurface& surface) {
   ConformityResult conformity = check_conformity(complex, neighbours, surface, {.exact = true});
   if (!conformity.report.passed()) {
-    conformity = check_conformity(complex, neighbours, surface, {.exact = false});
+    // Of a solid that is not much larger than roundings, these are no small part.
+    ConformityOptions rounded{.exact = false};
+    rounded.largest_tolerance =
+        std::max(rounded.largest_tolerance, kRoundedUlps * ulp_ / diagonal_);
+    conformity = check_conformity(complex, neighbours, surface, rounded);
     if (!conformity.report.passed() && exact_ != nullptr && !exact_->final.empty()) {
       const auto chains = recorded_chains(surface);
-      conformity =
-          check_conformity(complex, neighbours, surface, {.exact = false, .chains = &chains});
+      rounded.chains = &chains;
+      conformity = check_conformity(complex, neighbours, surface, rounded);
     }
     if (conformity.report.passed()) {  // else the deviation means nothing
       report_.deviation = conformity.deviation;
