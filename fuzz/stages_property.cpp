@@ -18,7 +18,7 @@ using delmesher::Vec3;
 
 Leniency too_precise("stopped-features-below-2^-40", 0.05);
 Leniency no_room("acute-features-below-2^-40", 0.05);
-Leniency turned("acute-by-what-half-an-ulp-turns", 0.1);
+Leniency turned("acute-by-what-half-an-ulp-turns", 0.03);
 
 // A property of one stage: failed checks inside the mesher are findings, and so is a stop for want
 // of precision where there is room.
