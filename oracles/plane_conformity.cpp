@@ -111,10 +111,8 @@ class FileChecker {
     if (a == at_.end() || b == at_.end()) return {};
     const Point &p = graph_.vertex(piece.a), &q = graph_.vertex(piece.b);
     // A direction of about unit length, whatever the scale: products of tiny numbers vanish.
-    double dx = q.dx / 2 - p.dx / 2, dy = q.dy / 2 - p.dy / 2;
-    scale_ = -std::ilogb(std::max(std::fabs(dx), std::fabs(dy)));
-    dx = std::ldexp(dx, scale_);
-    dy = std::ldexp(dy, scale_);
+    scale_ = -std::max(exponent(p.dx, q.dx), exponent(p.dy, q.dy));
+    const double dx = scaled(p.dx, q.dx), dy = scaled(p.dy, q.dy);
     // Depth first, straight on: the next vertex is beyond this one, and near the piece. Few
     // vertices have more than one such neighbour.
     std::vector<Index> path = {a->second};
@@ -134,14 +132,25 @@ class FileChecker {
     return {};
   }
 
+  // Differences: halved only where they would overflow, since subnormal numbers have no halves.
+  static int exponent(double from, double to) {
+    constexpr int kNothing = -2000;  // below that of any double
+    const double d = to - from;
+    if (!std::isfinite(d)) return std::ilogb(to / 2 - from / 2) + 1;
+    return d == 0 ? kNothing : std::ilogb(d);
+  }
+  double scaled(double from, double to) const {
+    const double d = to - from;
+    return std::isfinite(d) ? std::ldexp(d, scale_) : std::ldexp(to / 2 - from / 2, scale_ + 1);
+  }
+
   std::vector<Index> next_of(Index v, const PlaneGraph::Piece& piece, double dx, double dy) {
     std::vector<std::pair<double, Index>> found;
     const Point& p = points_.all()[v];
     for (auto edge = neighbours_.lower_bound({v, 0}); edge != neighbours_.end() && edge->first == v;
          ++edge) {
       const Point& q = points_.all()[edge->second];
-      const double on = std::ldexp(q.dx / 2 - p.dx / 2, scale_) * dx +
-                        std::ldexp(q.dy / 2 - p.dy / 2, scale_) * dy;
+      const double on = scaled(p.dx, q.dx) * dx + scaled(p.dy, q.dy) * dy;
       if (!(on > 0)) continue;
       // A piece has no input vertices but its ends.
       const bool end = place_of(edge->second) == place(piece.b);
