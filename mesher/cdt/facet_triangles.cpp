@@ -40,12 +40,8 @@ FacetTriangles FacetTriangulator::triangulate(FacetId facet) {
   PlanarTriangulation all = triangulate_planar(predicates_, plane, vertices_);
   if (flipped) {
     for (auto& t : all.triangles) std::swap(t[1], t[2]);
-    for (auto& n : all.neighbors) {
-      std::swap(n[1], n[2]);
-      for (std::uint32_t& side : n) {
-        if (side != kNone && side % 3 != 0) side += side % 3 == 1 ? 1U : -1U;
-      }
-    }
+    // Which side of its triangle a neighbour has in common is not asked for below.
+    for (auto& n : all.neighbors) std::swap(n[1], n[2]);
   }
   return restrict_to_polygon(std::move(all));
 }

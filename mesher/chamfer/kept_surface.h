@@ -36,8 +36,6 @@ class KeptSurface {
   const SurfaceTopology& topology() const { return topology_; }
   std::size_t vertex_count() const { return position_.size(); }
   bool facet_is_kept(FacetId f) const { return kept_[f] != 0; }
-  // Constrained, and on the boundary of a kept facet.
-  bool edge_is_live(std::uint32_t e) const { return edge_is_live_[e] != 0; }
 
   // Positions times scale(), a power of two that brings all coordinates into [-1, 1], so that
   // products neither overflow nor depend on the unit of the input.
@@ -77,7 +75,7 @@ class KeptSurface {
 
   const SurfaceTopology& topology_;
   std::vector<std::uint8_t> kept_;
-  std::vector<std::uint8_t> edge_is_live_;
+  std::vector<std::uint8_t> edge_is_live_;  // constrained, and on the boundary of a kept facet
   double scale_ = 1;
   std::vector<Vec3> position_;
   std::vector<FacetFrame> frame_;
