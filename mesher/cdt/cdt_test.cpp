@@ -30,6 +30,17 @@ TEST(Cdt, Cube) {
   for (const std::uint8_t inside : result.inside) EXPECT_EQ(inside, 1);
 }
 
+// A facet's plane is described from a vertex off it. Here the neighbours of the facet's first
+// triangle lie in the facet, and of the tetrahedron of other candidates (the surface's first
+// triangle 0 4 3 and the first vertex off its plane, 5) only vertex 3 does not.
+TEST(Cdt, AFacetsPlaneIsDescribedFromAnyVertexOffIt) {
+  Surface s;
+  s.vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  s.triangles = {{0, 4, 3}, {5, 4, 6}, {4, 0, 6}, {5, 1, 4}, {6, 2, 5},
+                 {4, 1, 3}, {1, 5, 3}, {5, 2, 3}, {2, 6, 3}, {6, 0, 3}};
+  expect_good(s);
+}
+
 // The checker itself must notice what it is there for.
 TEST(Cdt, CheckerNoticesDefects) {
   Model model(twisted_prism(3, 0.5, 1, true));

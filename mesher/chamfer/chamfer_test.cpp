@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "mesher/chamfer/assemble.h"
+#include "mesher/chamfer/boundary_distance.h"
 #include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
@@ -506,6 +507,59 @@ TEST(Chamfer, FlatVerticesAreIsolatedUnlessNearAChamfer) {
     const ChamferResult sparse = model.run(options);
     EXPECT_TRUE(sparse.plc.facets[sparse.plc_facet[model.topology.facet_of[3]]].isolated.empty());
   }
+}
+
+// Of the edges that touch an edge of a unit square, only the far ends count: the opposite edge is
+// nearest to the middle half of it, an edge beside it would be as near as a quarter.
+TEST(BoundaryDistance, EdgesAtEitherEndOfAPartCountByTheirFarEnds) {
+  Model model(test_polyhedra::prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1));
+  const KeptSurface surface(model.topology, model.points, {});
+  BoundaryDistance distance(surface);
+  for (const Corner& corner : surface.corners()) {
+    const std::uint32_t edge = model.topology.edge_of[corner.outgoing];
+    const auto [v, w] = model.topology.edge_vertices(edge);
+    const Vec3 from = surface.position(v), along = surface.edge_vector(v, w);
+    const std::array<Vec3, 2> part = {add_scaled(from, 0.25, along), add_scaled(from, 0.75, along)};
+    EXPECT_EQ(distance.from_edge_part(corner.facet, edge, part), surface.scale());
+  }
+}
+
+// The reciprocal of subnormal coordinates is no double.
+TEST(KeptSurface, IsScaledByNormalNumbers) {
+  for (const double factor : {0x1p-1060, 0x1p-500, 1.0, 0x1p1000}) {
+    const Surface given =
+        test_polyhedra::scaled(test_polyhedra::prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1), factor);
+    Model model(given);
+    const KeptSurface surface(model.topology, model.points, {});
+    EXPECT_TRUE(std::isnormal(surface.scale())) << factor;
+    EXPECT_TRUE(std::isnormal(1 / surface.scale())) << factor;
+    for (VertexId v = 0; v < surface.vertex_count(); ++v) {
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(std::fabs(surface.position(v)[axis]), 1);
+        EXPECT_EQ(surface.position(v)[axis] / surface.scale(), given.vertices[v][axis]);
+      }
+    }
+  }
+}
+
+// Points are placed to about 2^-20 of their bridges, and take few more bits than that asks for: an
+// interval of a relative width of 2^-b has a number of b + 1 bits in it.
+TEST(Chamfer, ParametersAreShort) {
+  Model model(test_polyhedra::prism({{0, 0}, {20, 0}, {0, 12}}, 16));
+  const ChamferResult result = model.run(below(60));
+  ASSERT_GT(model.points.size(), result.first_new_point);
+  int on_segments = 0, on_triangles = 0;
+  for (VertexId p = result.first_new_point; p < model.points.size(); ++p) {
+    const PointDefinition& d = model.points.definition(p);
+    (d.kind == PointKind::on_segment ? on_segments : on_triangles) += 1;
+    for (const double x : {d.u, d.v}) {
+      int exponent = 0;
+      const double digits = std::ldexp(std::frexp(x, &exponent), 30);
+      EXPECT_EQ(digits, std::floor(digits)) << x << " of point " << p << " has more than 30 bits";
+    }
+  }
+  EXPECT_GT(on_segments, 0);
+  EXPECT_GT(on_triangles, 0);
 }
 
 }  // namespace

@@ -195,6 +195,29 @@ TEST_F(PlanarTest, StepsPerPointDoNotDependOnTheirNumber) {
   }
 }
 
+// Points that are moved exactly are inserted in the same order, and ask as much.
+TEST_F(PlanarTest, StepsDoNotDependOnThePlace) {
+  const auto asked = [&](double offset) {
+    points_ = PointStore();
+    set_plane({offset, offset, 0}, {offset + 1, offset, 0}, {offset, offset + 1, 0});
+    std::mt19937 random(7);
+    std::vector<VertexId> vertices;
+    for (int i = 0; i < 4000; ++i) {
+      const double x = static_cast<double>(random() >> 12), y = static_cast<double>(random() >> 12);
+      vertices.push_back(points_.add_explicit(offset + x, offset + y, 0));
+    }
+    const PredicateCounters before = predicates_.counters;
+    triangulate(vertices);
+    const PredicateCounters& c = predicates_.counters;
+    return c.filter + c.support + c.extended + c.exact -
+           (before.filter + before.support + before.extended + before.exact);
+  };
+  const std::uint64_t here = asked(0);
+  EXPECT_GT(here, 4000U);
+  EXPECT_EQ(asked(0x1p30), here);
+  EXPECT_EQ(asked(-0x1p30), here);
+}
+
 // The restriction to a plane of the perturbed Delaunay tetrahedrization: a cube's square face, cut
 // by the diagonal that the 3D predicate prefers.
 TEST_F(PlanarTest, AgreesWithThePerturbedInsphere) {

@@ -228,6 +228,51 @@ TEST(LocalOperations, RemovesEdges) {
   }
 }
 
+// Around a star of three points, of which every triangulation has a triangle in its middle: one
+// whose sides are all diagonals, or one on a diagonal that is on no side of the star.
+TEST(LocalOperations, RemovesAnEdgeInAStar) {
+  for (int turn = 0; turn < 6; ++turn) {
+    Scene s;
+    const VertexId south = s.add(0.9, 0.4, -1, true), north = s.add(0.9, 0.4, 1, true);
+    for (int i = 0; i < 6; ++i) {
+      const double angle = M_PI / 3 * (i + turn), radius = (i + turn) % 2 == 0 ? 1 : 0.25;
+      s.add(radius * std::cos(angle), radius * std::sin(angle), 0, true);
+    }
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      s.input.tetrahedra.push_back({south, north, 2 + i, 2 + (i + 1) % 6});
+    }
+    RoundedMesh mesh = s.mesh();
+    ASSERT_FALSE(mesh.bad().empty());
+    mesh.prepare_repairs();
+    EXPECT_TRUE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true)) << turn;
+    EXPECT_TRUE(mesh.bad().empty());
+    EXPECT_EQ(alive(mesh), 2U * (6 - 2)) << turn;
+  }
+}
+
+// As RemovesFaces, but the tip is on the edge 0 1: the flip would make 0 1 3 4, which is flat.
+TEST(LocalOperations, MakesNothingFlat) {
+  Scene s;
+  s.add(0, 0, 0, true), s.add(4, 0, 0, true), s.add(0, 4, 0, true);
+  s.add(2, 0, 0, true), s.add(1, 1, 2, true);
+  s.input.tetrahedra = {{0, 1, 2, 4}, {0, 2, 1, 3}};
+  for (const bool exact_too : {false, true}) {
+    RoundedMesh mesh = s.mesh();
+    ASSERT_EQ(mesh.bad().size(), 1U);
+    mesh.prepare_repairs();
+    EXPECT_FALSE(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), exact_too));
+    EXPECT_EQ(alive(mesh), 2U);
+  }
+}
+
+// A sum says how many are not positive, and what is left how many of these are inverted.
+TEST(Badness, CountsWhatIsNotPositiveAndOfThatWhatIsInverted) {
+  Badness sum = 0;
+  for (const int sign : {1, 0, -1, 1, -1, 0, 0}) sum += badness(sign);
+  EXPECT_EQ(sum / kOneBad, 5);
+  EXPECT_EQ(sum % kOneBad, 2);
+}
+
 TEST(LocalOperations, KeepsBoundaryFacesAndFlags) {
   Scene s = ring(5, 1.1);
   s.input.boundary.push_back({1, 3, 0});

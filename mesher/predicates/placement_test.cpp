@@ -297,5 +297,30 @@ TEST(SnapToGrid, NearestMultipleOfAPowerOfTwo) {
   }
 }
 
+// Half of the tolerance is for either parameter: 1 / 2 is the only number of one bit between 0.275
+// and 0.525, 1 / 4 that between 0.175 and 0.425.
+TEST(PlaceOnTriangle, TakesHalfTheToleranceForEitherParameter) {
+  PointStore store;
+  const VertexId p = add(store, {1, 0, 0}), q = add(store, {0, 1, 0}), r = add(store, {0, 0, 0});
+  const PointDefinition d = place_on_triangle(store, p, q, r, {0.4, 0.3, 0}, 0.25);
+  EXPECT_EQ(d.corner, (std::array<VertexId, 3>{p, q, r}));
+  EXPECT_EQ(d.u, 0.5);
+  EXPECT_EQ(d.v, 0.25);
+}
+
+// All corners agree in x, which is far larger than the triangle: products of its edges underflow
+// unless they are scaled by what the corners differ by.
+TEST(PlaceOnTriangle, ScalesByTheDifferencesOfCorners) {
+  constexpr double kEdge = 0x1p-600;
+  PointStore store;
+  const VertexId p = add(store, {1, kEdge, 0}), q = add(store, {1, 0, kEdge});
+  const VertexId r = add(store, {1, 0, 0});
+  const PointDefinition d =
+      place_on_triangle(store, p, q, r, {1, 0.375 * kEdge, 0.25 * kEdge}, 0x1p-20 * kEdge);
+  EXPECT_EQ(d.corner, (std::array<VertexId, 3>{p, q, r}));
+  EXPECT_EQ(d.u, 0.375);
+  EXPECT_EQ(d.v, 0.25);
+}
+
 }  // namespace
 }  // namespace delmesher
