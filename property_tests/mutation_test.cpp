@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -461,6 +462,10 @@ const RecordDamage kRefinedDamages[] = {
      }},
     {"segment listed twice", "refined-segments",
      [](auto& r) { r.segments.push_back(r.segments[input_chain(r, 2)]); }},
+    {"edge called chamfered that is not acute", "refined-chamfer-need",
+     [](auto& r) {
+       r.segments.erase(r.segments.begin() + static_cast<std::ptrdiff_t>(input_chain(r, 2)));
+     }},
     {"artificial segment in another facet", "refined-segments",
      [](auto& r) {
        auto& chain = r.segments[artificial_chain(r, 2)];
@@ -548,6 +553,74 @@ TEST_P(RefinedDamages, AreCaughtByTheOracleMeantForThem) {
 
 INSTANTIATE_TEST_SUITE_P(All, RefinedDamages, testing::ValuesIn(kRefinedDamages),
                          test_name<RecordDamage>);
+
+// A segment inside a facet whose inner vertices change places goes back and forth.
+TEST(RefinedDamage, ASegmentThatTurnsBackIsSaidToDoSo) {
+  MesherRun mutant = good_run();
+  auto& chain = mutant.record.segments[artificial_chain(mutant.record, 4)].vertices;
+  std::swap(chain[1], chain[2]);
+  const VerifyReport report =
+      run(mutant.sample, &mutant.record, {.stage = Stage::refined, .promised = mutant.promise});
+  const auto& findings = report.find("refined-segments")->findings;
+  EXPECT_TRUE(std::ranges::any_of(findings, [](const std::string& finding) {
+    return finding.find("turns back") != std::string::npos;
+  })) << to_text(report);
+}
+
+double figure_of(const OracleReport& report, const std::string& name) {
+  for (const auto& [key, value] : report.figures) {
+    if (key == name) return value;
+  }
+  ADD_FAILURE() << report.name << " says nothing of " << name;
+  return -1;
+}
+
+// What figures say of the filter and of the chamfer is what the record has, and the distance of a
+// chamfer is at most a third of the local feature size (section 4.1).
+TEST(RefinedFigures, AreThoseOfTheRecord) {
+  const MesherRun& good = good_run();
+  const VerifyReport report =
+      run(good.sample, &good.record, {.stage = Stage::refined, .promised = good.promise});
+  std::array<std::uint64_t, 3> facets{};
+  for (const auto& facet : good.record.facets) ++facets.at(facet.filtered);
+  EXPECT_GT(facets[1], 0U);
+  const OracleReport& filter = *report.find("refined-filter");
+  EXPECT_EQ(figure_of(filter, "dropped facets"), facets[1] + facets[2]);
+  EXPECT_EQ(figure_of(filter, "dropped for what chamfering made of them"), facets[2]);
+  EXPECT_EQ(figure_of(filter, "tolerance"), good.record.parameters.tolerance);
+  const OracleReport& need = *report.find("refined-chamfer-need");
+  EXPECT_GT(good.record.corners.size(), 0U);
+  EXPECT_EQ(figure_of(need, "corners"), good.record.corners.size());
+  EXPECT_GT(figure_of(need, "largest radius over local feature size"), 0);
+  EXPECT_LE(figure_of(need, "largest radius over local feature size"), (1 + 1e-9) / 3);
+}
+
+// A tetrahedron with an edge of 1.2 across from one of 1.5, ten apart: nothing is closer than the
+// tolerance of 0.7, but bridges in the narrow corners, which are to be a third of 1.2 from their
+// vertices and 0.15 / 1.5 of that long, are far below a sixteenth of it.
+TEST(RefinedFigures, FacetsDroppedForTheirChamfersAreAccountedFor) {
+  delmesher::Surface s;
+  s.vertices = {{0, 0, 0}, {0, 0, 1.2}, {10, 0, 0}, {10, 1.5, 0}};
+  s.triangles = {{0, 3, 2}, {0, 2, 1}, {0, 1, 3}, {1, 2, 3}};
+  delmesher::Options options;
+  options.want_exact = true;
+  options.tau = 0.07;
+  const delmesher::Result result = delmesher::tetrahedralize(s, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  std::array<std::uint64_t, 3> facets{};
+  for (const auto& facet : result.exact.facets) ++facets.at(facet.filtered);
+  EXPECT_EQ(facets[1], 0U);
+  ASSERT_EQ(facets[2], 2U);
+  const Sample sample = {samples::to_polyhedron(s), samples::to_mesh(result.mesh)};
+  const VerifyReport report =
+      run(sample, &result.exact, {.stage = Stage::refined, .promised = promise_of(options)});
+  const OracleReport& filter = *report.find("refined-filter");
+  EXPECT_TRUE(filter.passed()) << to_text(report);
+  // Any two faces have all four corners and five of the six edges.
+  EXPECT_EQ(filter.checked, 4U + 5U + facets[2]);
+  EXPECT_EQ(figure_of(filter, "dropped facets"), facets[2]);
+  EXPECT_EQ(figure_of(filter, "dropped for what chamfering made of them"), facets[2]);
+}
 
 TEST(ConstrainedDamage, AFlippedFaceIsCaught) {
   MesherRun mutant = good_run();

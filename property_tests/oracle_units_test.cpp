@@ -4,17 +4,23 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <mutex>
 #include <random>
 
+#include "oracles/ball_side.h"
 #include "oracles/enrichment.h"
 #include "oracles/hull.h"
+#include "oracles/input_surface.h"
 #include "oracles/interval.h"
 #include "oracles/measures.h"
 #include "oracles/parallel.h"
+#include "oracles/plane_grid.h"
 #include "oracles/plane_points.h"
 #include "oracles/regions.h"
 #include "oracles/same_mesh.h"
@@ -417,6 +423,111 @@ TEST(Measures, SmallestAltitude) {
   EXPECT_EQ(smallest_altitude(p, {0, 1, 2, 4}), 0);
 }
 
+// Spheres of radius 1 around the origin: through the corners of a tetrahedron, of a triangle and
+// the ends of an edge, diametral ones of the latter two.
+TEST(BallSide, TellsInsideFromOutside) {
+  const ExactPoints p = points_of({{1, 0, 0},
+                                   {0, 1, 0},
+                                   {0, 0, 1},
+                                   {-1, 0, 0},
+                                   {0, -1, 0},
+                                   {0.5, 0.5, 0.5},
+                                   {-0.5, 0.25, -0.75},
+                                   {0.75, -0.75, 0.75},
+                                   {0, 0, -2},
+                                   {0, 0, -1}});
+  // Positively oriented, as all tetrahedra of a mesh are.
+  const bool positive = exact::orient3d(p, 0, 1, 2, 3) > 0;
+  const std::array<Index, 4> tet =
+      positive ? std::array<Index, 4>{0, 1, 2, 3} : std::array<Index, 4>{1, 0, 2, 3};
+  for (const BallSide& ball :
+       {BallSide::circumscribed(p, tet), BallSide::diametral(p, std::array<Index, 3>{0, 1, 3}),
+        BallSide::diametral(p, 0, 3)}) {
+    EXPECT_EQ(ball.side(5), -1);
+    EXPECT_EQ(ball.side(6), -1);
+    EXPECT_EQ(ball.side(7), 1);
+    EXPECT_EQ(ball.side(8), 1);
+    EXPECT_EQ(ball.side(4), 0);  // on the sphere, which nothing rounded tells
+    EXPECT_EQ(ball.side(9), 0);
+  }
+}
+
+// Far from the origin as near it, a small query in a grid of 50 x 50 unit boxes comes to what it
+// meets and to little else.
+TEST(PlaneGrid, VisitsWhatIsNear) {
+  for (const double offset : {-1000.0, -25.0, 0.0, 1000.0}) {
+    std::vector<PlaneGrid::Box> items;
+    for (int i = 0; i < 2500; ++i) {
+      const PlaneGrid::Corner low = {offset + i % 50, offset + i / 50};  // NOLINT: rows of 50
+      items.push_back({low, {low[0] + 1, low[1] + 1}});
+    }
+    PlaneGrid grid(items);
+    for (const double place : {0.5, 20.5, 49.5}) {
+      const PlaneGrid::Corner at = {offset + place, offset + place};
+      std::vector<std::uint32_t> found;
+      grid.visit({at, at}, [&](std::uint32_t item) { found.push_back(item); });
+      const auto here = static_cast<std::uint32_t>(51 * static_cast<int>(place));
+      EXPECT_EQ(std::count(found.begin(), found.end(), here), 1);
+      EXPECT_LE(found.size(), 25U) << offset;
+    }
+  }
+}
+
+// A quadrilateral face is one facet if it is flat, however steep. A saddle is two, though the sum
+// of its triangles' normals is upright.
+TEST(InputSurfaces, PolygonsAreFacetsWhereTheyAreFlat) {
+  const auto facets = [](const Polyhedron& polyhedron) {
+    const ExactPoints points = points_of(polyhedron.vertices);
+    InputSurface surface;
+    EXPECT_EQ(surface.assign(polyhedron, points), "");
+    return surface.facets().size();
+  };
+  const auto box = [](double top, double lift) {
+    Polyhedron p;
+    const std::array<std::array<double, 2>, 4> corner = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+    for (const auto& [x, y] : corner) p.vertices.push_back({2 * x, 2 * y, 0});
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double z = 4 + (i % 2 == 0 ? lift : -lift);
+      p.vertices.push_back({top * corner[i][0], top * corner[i][1], z});
+    }
+    for (const auto& [a, b, c, d] : {std::array<Index, 4>{0, 3, 2, 1},
+                                     {4, 5, 6, 7},
+                                     {0, 1, 5, 4},
+                                     {1, 2, 6, 5},
+                                     {2, 3, 7, 6},
+                                     {3, 0, 4, 7}}) {
+      p.triangles.push_back({a, b, c});
+      p.triangles.push_back({a, c, d});
+      p.polygons.insert(p.polygons.end(), 2, static_cast<Index>(p.polygons.size() / 2));
+    }
+    return p;
+  };
+  EXPECT_EQ(facets(box(1, 0)), 6U);
+  EXPECT_EQ(facets(box(2, 0)), 6U);
+  EXPECT_EQ(facets(box(2, 0.5)), 7U);  // upright sides stay flat
+}
+
+// Faces of the hull may be listed besides faces on facets, all four of a tetrahedron alone.
+TEST(SameMesh, FacesOfTheHullMayBeListed) {
+  delmesher::ExactRecord record;
+  record.points =
+      explicit_points(std::vector<Position>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  record.mesh_vertices = {0, 1, 2, 3};
+  record.final = {{{0, 1, 2, 3}, false}};
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  Promise promise;
+  promise.region = delmesher::Region::hull;
+  for (const Face& face : {Face{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}) {
+    mesh.boundary = {face};
+    EXPECT_EQ(check_same_mesh(mesh, record, promise, false).violations, 0U);
+  }
+  promise.region = delmesher::Region::interior;
+  record.final[0].inside = true;
+  EXPECT_EQ(check_same_mesh(mesh, record, promise, false).violations, 1U);
+}
+
 TEST(Measures, TasksRunOnceEachAndTheFirstErrorIsThrown) {
   for (const unsigned threads : {0U, 1U, 3U}) {
     std::array<std::atomic<int>, 20> runs{};
@@ -429,6 +540,20 @@ TEST(Measures, TasksRunOnceEachAndTheFirstErrorIsThrown) {
                            }),
                  std::runtime_error);
   }
+}
+
+// Three tasks that wait for each other would not end with fewer than three threads.
+TEST(Measures, AsManyTasksRunAtOnceAsThereAreThreads) {
+  std::mutex mutex;
+  std::condition_variable all_here;
+  int here = 0, met = 0;
+  run_tasks(3, 3, [&](std::size_t) {
+    std::unique_lock lock(mutex);
+    ++here;
+    all_here.notify_all();
+    met += all_here.wait_for(lock, std::chrono::seconds(20), [&] { return here == 3; }) ? 1 : 0;
+  });
+  EXPECT_EQ(met, 3);
 }
 
 // ------------------------------------------------------------------------------------- STL files
