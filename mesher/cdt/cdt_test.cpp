@@ -186,6 +186,88 @@ TEST(Cdt, ExplicitPointsOnEdgesHaveTheirFractions) {
   EXPECT_EQ(chains.next(chains.first(edge)).from, (std::array<double, 2>{0.25, 0.75}));
 }
 
+// A solid with the edge 0 1 from the origin to (1, 0, 0) on its border, and beside the edge at the
+// given x the tips of three small tetrahedra, so that every ball through its ends has one of them
+// inside. The first is the nearest to the edge: the reference for its first split.
+Surface beside_an_edge(const Surface& solid, double x, const std::array<double, 3>& directions) {
+  Surface s = solid;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double angle = directions[i] * M_PI / 180, c = std::cos(angle), d = std::sin(angle);
+    const double off = i == 0 ? 0.01 : 0.0125, size = 0.02;
+    const auto at = [&](double along, double radial, double across) -> Point {
+      return {x + along * size, (off + radial * size) * c - across * size * d,
+              (off + radial * size) * d + across * size * c};
+    };
+    Surface tip;
+    tip.vertices = {at(0, 0, 0), at(0.3, 1, 0), at(-0.2, 1, 0.3), at(-0.1, 1, -0.35)};
+    tip.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    append(s, tip);
+  }
+  return s;
+}
+
+// Where the edge 0 1 has been split, as fractions from 0; ascending.
+std::vector<double> splits_of_first_edge(const Surface& s) {
+  Model model(s);
+  EXPECT_TRUE(model.valid);
+  const CdtResult result = model.run();
+  EXPECT_EQ(model.wrong(result), "");
+  std::vector<double> splits;
+  for (VertexId v = 0; v < model.points.size(); ++v) {
+    const PointDefinition d = model.points.definition(v);
+    if (d.kind != PointKind::on_segment || d.corner[0] + d.corner[1] != 1) continue;
+    splits.push_back(model.points.nearest(v)[0]);
+  }
+  std::sort(splits.begin(), splits.end());
+  return splits;
+}
+
+bool has(const std::vector<double>& splits, double place, double tolerance) {
+  return std::any_of(splits.begin(), splits.end(),
+                     [&](double x) { return std::fabs(x - place) <= tolerance; });
+}
+
+// The rule of Si and Gaertner: with no acute end, at the reference's distance from the nearer one.
+TEST(Cdt, WithNoAcuteEndTheNearerOneDecidesWhereAnEdgeIsSplit) {
+  Surface cube = box(0, 1);
+  const auto number = [&](const Point& p) {
+    return static_cast<std::uint32_t>(std::find(cube.vertices.begin(), cube.vertices.end(), p) -
+                                      cube.vertices.begin());
+  };
+  // The edge from the origin first.
+  std::array<std::uint32_t, 2> ends = {number({0, 0, 0}), number({1, 0, 0})};
+  for (std::uint32_t k = 0; k < 2; ++k) {
+    std::swap(cube.vertices[k], cube.vertices[ends[k]]);
+    for (auto& t : cube.triangles) {
+      for (std::uint32_t& v : t) v = v == k ? ends[k] : v == ends[k] ? k : v;
+    }
+    if (ends[1] == k) ends[1] = ends[0];
+  }
+  ASSERT_EQ(cube.vertices[0], (Point{0, 0, 0}));
+  ASSERT_EQ(cube.vertices[1], (Point{1, 0, 0}));
+  const double radius = std::hypot(0.3, 0.01);
+  for (const bool near_end : {true, false}) {
+    const std::vector<double> splits =
+        splits_of_first_edge(beside_an_edge(cube, near_end ? 0.3 : 0.7, {210, 120, 320}));
+    EXPECT_TRUE(has(splits, near_end ? radius : 1 - radius, 1e-5)) << near_end;
+    EXPECT_FALSE(has(splits, 0.5, 0.01)) << near_end;
+  }
+}
+
+// With one acute end, on the sphere around it through the reference, unless that is outside the
+// central 60 %: then in the middle.
+TEST(Cdt, AnEdgeIsSplitOnTheSphereAroundItsAcuteEnd) {
+  Surface solid;
+  solid.vertices = {{0, 0, 0}, {1, 0, 0}, {1.3, 1, 0}, {1.3, -0.1, 1}};
+  solid.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  const std::array<double, 3> directions = {230, 130, 330};
+  const std::vector<double> near = splits_of_first_edge(beside_an_edge(solid, 0.3, directions));
+  EXPECT_TRUE(has(near, std::hypot(0.3, 0.01), 1e-12));
+  EXPECT_FALSE(has(near, 0.5, 0.01));
+  EXPECT_TRUE(has(splits_of_first_edge(beside_an_edge(solid, 0.9, directions)), 0.5, 0));
+  EXPECT_TRUE(has(splits_of_first_edge(beside_an_edge(solid, 0.1, directions)), 0.5, 0));
+}
+
 // Cannot be tetrahedrized without further vertices.
 TEST(Cdt, Schoenhardt) {
   for (const double twist : {0.5, 0.2, 0.01, 1e-6, 1e-12}) {
