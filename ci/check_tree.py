@@ -21,7 +21,8 @@ string_view syncstream system_error thread tuple type_traits typeindex typeinfo 
 valarray variant vector version""".split())
 
 # Layers of the mesher: which layers a folder may include besides itself and mesher/delmesher.h. The stages
-# never include each other; only pipeline.cpp knows them all.
+# never include each other. What stands between stages (enrich), what is told of all of them (results) and
+# what is decided about them (policies) knows those before; only pipeline.cpp knows all.
 FOUNDATION = ("base", "arithmetic", "predicates", "surface", "delaunay")
 LAYERS = {
     "base": (),
@@ -34,6 +35,9 @@ LAYERS = {
     "cdt": FOUNDATION,
     "plane": FOUNDATION,
     "output": FOUNDATION,
+    "enrich": FOUNDATION + ("chamfer", "refine", "cdt"),
+    "results": FOUNDATION + ("chamfer", "refine", "cdt", "output"),
+    "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "results"),
     "io": ("base",),
     "cli": ("base", "io"),
 }

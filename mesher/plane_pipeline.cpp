@@ -5,9 +5,9 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/control.h"
+#include "mesher/base/guarded.h"
 #include "mesher/base/validating.h"
 #include "mesher/delmesher.h"
-#include "mesher/guarded.h"
 #include "mesher/plane/chamfer.h"
 #include "mesher/plane/enrich.h"
 #include "mesher/plane/graph.h"

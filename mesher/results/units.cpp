@@ -1,4 +1,4 @@
-#include "mesher/scaling.h"
+#include "mesher/results/units.h"
 
 #include <algorithm>
 #include <cmath>

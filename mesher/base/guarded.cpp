@@ -1,4 +1,4 @@
-#include "mesher/guarded.h"
+#include "mesher/base/guarded.h"
 
 #include <cmath>
 

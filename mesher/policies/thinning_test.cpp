@@ -1,4 +1,4 @@
-#include "mesher/thinning.h"
+#include "mesher/policies/thinning.h"
 
 #include <gtest/gtest.h>
 

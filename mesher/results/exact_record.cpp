@@ -1,7 +1,6 @@
-// Filling in the exact record (command-line option --exact).
-#include <algorithm>
+#include "mesher/results/exact_record.h"
 
-#include "mesher/assembly.h"
+#include <algorithm>
 
 namespace delmesher {
 namespace {

@@ -1,0 +1,47 @@
+// What chamfering and filtering take from the surface before it is refined: the spheres and
+// cylinders of the chamfers, and the dropped facets.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mesher/chamfer/chamfer.h"
+#include "mesher/surface/bvh.h"
+
+namespace delmesher {
+
+// Boxes that cover it.
+std::vector<Box> removed_boxes(const ChamferResult& chamfered,
+                               const std::vector<std::uint8_t>& facet_kept,
+                               const SurfaceTopology& topology, const PointStore& points);
+
+// Tells which points of the refined mesh are too near it for the last step (section 6): a volume
+// vertex inside a chamfer, or one that crowds a dropped facet, would make needless bad tetrahedra
+// when the surface returns. `facet_kept`: per facet; empty: all.
+class RemovedSurface {
+ public:
+  RemovedSurface(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
+                 const SurfaceTopology& topology, const PointStore& points);
+
+  // `spacing` is the distance of p to its nearest neighbour in the refined mesh.
+  bool crowded(const Vec3& p, double spacing) const;
+
+ private:
+  struct Chamfer {
+    Vec3 a, b;  // the same for a sphere
+    double radius;
+  };
+
+  std::array<Vec3, 3> corners(std::uint32_t triangle) const;
+  void add(VertexId a, VertexId b, double radius, std::vector<Box>& boxes);
+  Bvh build_chamfers(const ChamferResult& chamfered);
+  Bvh build_dropped(const std::vector<std::uint8_t>& facet_kept);
+
+  const PointStore& points_;
+  const SurfaceTopology& topology_;
+  std::vector<Chamfer> items_;
+  std::vector<std::uint32_t> dropped_triangles_;
+  Bvh chamfers_, dropped_;
+};
+
+}  // namespace delmesher

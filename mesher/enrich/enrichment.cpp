@@ -1,0 +1,130 @@
+#include "mesher/enrich/enrichment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/chamfer/removed_surface.h"
+#include "mesher/surface/feature_size.h"
+
+namespace delmesher {
+namespace {
+
+// Per point of the store: distance to its nearest neighbour along an edge of the refined mesh.
+std::vector<double> spacings(const RefineResult& refined, const PointStore& points) {
+  std::vector<double> spacing(points.size(), HUGE_VAL);
+  for (const auto& t : refined.tetrahedra) {
+    for (const auto& e : kEdge) {
+      const Vec3 p = points.nearest(t[e[0]]);
+      const double length =
+          point_segment_distance(p, points.nearest(t[e[1]]), points.nearest(t[e[1]]));
+      for (const int end : e) spacing[t[end]] = std::min(spacing[t[end]], length);
+    }
+  }
+  return spacing;
+}
+
+void sort_unique(std::vector<VertexId>& v) {
+  std::sort(v.begin(), v.end());
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+}
+
+// Points of the refined complex on input edges and inside input facets; everything else on the
+// complex (the box) goes to `vertices`. Not those on artificial segments: beside the edges of the
+// corner that was cut off, inside their diametral balls, they would have these edges split once
+// more, next to the corner, and three of four small angles came from there.
+void add_complex_points(const ChamferResult& chamfered, const RefineResult& refined,
+                        const SurfaceTopology& topology, const PointStore& points,
+                        Predicates& predicates, CdtInput& input) {
+  const Plc& plc = chamfered.plc;
+  for (std::size_t n = 0; n < plc.segments.size(); ++n) {
+    const std::uint32_t e = plc.segments[n].input_edge;
+    if (e == kNone) continue;
+    for (const VertexId v : refined.chain[n]) {
+      if (!points.is_explicit(v)) input.on_edge[e].push_back(v);
+    }
+  }
+  for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
+    const FacetId facet = plc.facets[f].input_facet;
+    std::vector<VertexId>& inside = facet == kNone ? input.vertices : input.on_facet[facet];
+    inside.insert(inside.end(), refined.on_facet[f].begin(), refined.on_facet[f].end());
+    if (facet != kNone) continue;
+    for (const PlcFacet::Side& side : plc.facets[f].boundary) {
+      const std::vector<VertexId>& chain = refined.chain[side.segment];
+      inside.insert(inside.end(), chain.begin(), chain.end());
+    }
+  }
+  for (std::uint32_t e = 0; e < input.on_edge.size(); ++e) {
+    std::vector<VertexId>& chain = input.on_edge[e];
+    const auto ends = topology.edge_vertices(e);
+    sort_unique(chain);
+    std::sort(chain.begin(), chain.end(), [&](VertexId a, VertexId b) {
+      return a != b && predicates.dot_difference_sign(a, b, ends[0], ends[1]) > 0;
+    });
+    input.vertices.insert(input.vertices.end(), chain.begin(), chain.end());
+  }
+  for (std::vector<VertexId>& inside : input.on_facet) {
+    sort_unique(inside);
+    input.vertices.insert(input.vertices.end(), inside.begin(), inside.end());
+  }
+}
+
+// Drops points that coincide with an input vertex which the complex lacks, e.g. the midpoint of a
+// chamfered region that happens to be a flat vertex: one of coincident points stays, the input
+// vertex.
+void drop_coincident(const PointStore& points, Predicates& predicates, CdtInput& input) {
+  std::vector<VertexId>& all = input.vertices;
+  sort_unique(all);
+  std::vector<VertexId> order = all;
+  std::sort(order.begin(), order.end(), [&](VertexId a, VertexId b) {
+    const Vec3 p = points.nearest(a);
+    const Vec3 q = points.nearest(b);
+    return p != q ? p < q : a < b;
+  });
+  std::vector<VertexId> dropped;
+  for (std::size_t n = 0; n + 1 < order.size(); ++n) {
+    // Equal points have equal nearest doubles; a run of those is short.
+    for (std::size_t m = n + 1; m < order.size(); ++m) {
+      if (points.nearest(order[m]) != points.nearest(order[n])) break;
+      if (predicates.compare_xyz(order[n], order[m]) == 0) dropped.push_back(order[m]);
+    }
+  }
+  if (dropped.empty()) return;
+  std::sort(dropped.begin(), dropped.end());
+  const auto prune = [&](std::vector<VertexId>& list) {
+    std::erase_if(
+        list, [&](VertexId v) { return std::binary_search(dropped.begin(), dropped.end(), v); });
+  };
+  prune(all);
+  for (auto& list : input.on_edge) prune(list);
+  for (auto& list : input.on_facet) prune(list);
+}
+
+}  // namespace
+
+CdtInput plain_input(const SurfaceTopology& topology) {
+  CdtInput input;
+  input.topology = &topology;
+  input.on_edge.resize(topology.edge_count());
+  input.on_facet.resize(topology.facet_triangles.size());
+  for (VertexId v = 0; v < topology.vertex_half_edge.size(); ++v) {
+    if (topology.vertex_half_edge[v] != kNone) input.vertices.push_back(v);
+  }
+  return input;
+}
+
+CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
+                        const RefineResult& refined, const SurfaceTopology& topology,
+                        const PointStore& points, Predicates& predicates, Control& control) {
+  CdtInput input = plain_input(topology);
+  add_complex_points(chamfered, refined, topology, points, predicates, input);
+  const RemovedSurface removed(chamfered, facet_kept, topology, points);
+  const std::vector<double> spacing = spacings(refined, points);
+  for (const VertexId v : refined.in_volume) {
+    control.poll(points.size());
+    if (!removed.crowded(points.nearest(v), spacing[v])) input.vertices.push_back(v);
+  }
+  drop_coincident(points, predicates, input);
+  return input;
+}
+
+}  // namespace delmesher

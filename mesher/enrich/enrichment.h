@@ -1,0 +1,21 @@
+// What the last step tetrahedrizes: the input surface, with the vertices of the refined mesh
+// (section 6).
+#pragma once
+
+#include "mesher/cdt/cdt.h"
+#include "mesher/chamfer/filter.h"
+#include "mesher/refine/refine.h"
+
+namespace delmesher {
+
+// The input surface alone.
+CdtInput plain_input(const SurfaceTopology& topology);
+
+// The input surface with the vertices of the refined mesh, without those on artificial segments,
+// volume vertices that crowd what was removed (RemovedSurface), and points that coincide with input
+// vertices.
+CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
+                        const RefineResult& refined, const SurfaceTopology& topology,
+                        const PointStore& points, Predicates& predicates, Control& control);
+
+}  // namespace delmesher

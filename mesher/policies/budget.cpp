@@ -1,0 +1,58 @@
+#include "mesher/policies/budget.h"
+
+#include <algorithm>
+#include <string>
+
+#include "mesher/refine/prediction.h"
+
+namespace delmesher {
+namespace {
+
+double predict(const ChamferedSurface& surface, const Session& session) {
+  PredictionOptions options;
+  options.region = session.options.region;
+  options.max_edge = session.options.max_edge;
+  // What the filter drops comes back in the final step, as at least a tetrahedron and a half each.
+  return 1.5 * static_cast<double>(surface.filter.dropped_triangles) +
+         predict_tetrahedra(surface.chamfer.plc, session.topology, surface.filter.facet_kept,
+                            session.points, options, session.control);
+}
+
+std::string over_budget(double predicted, double tau, std::uint64_t budget) {
+  return "about " + std::to_string(static_cast<std::uint64_t>(predicted)) +
+         " tetrahedra are predicted even with tau " + std::to_string(tau) +
+         ", more than the budget of " + std::to_string(budget);
+}
+
+}  // namespace
+
+ChamferedSurface filter_and_chamfer_by(double tau, const ChamferOptions& options,
+                                       Session& session) {
+  ChamferedSurface result;
+  result.tau = tau;
+  result.chamfer = filter_and_chamfer(session.topology, session.points, session.predicates, options,
+                                      tau * session.diagonal, session.control, result.filter);
+  return result;
+}
+
+ChamferedSurface chamfer_within_budget(const ChamferOptions& options, Session& session,
+                                       Recorder& recorder) {
+  // Beyond this, whole features of the model go.
+  constexpr double kLargestTau = 0.05, kLeastTau = 1e-5;
+  const std::uint64_t budget = session.options.budget;
+  for (double tau = session.options.tau;; tau = std::max(2 * tau, kLeastTau)) {
+    ChamferedSurface result = filter_and_chamfer_by(tau, options, session);
+    const double predicted = predict(result, session);
+    recorder.predicted(predicted);
+    if (budget == 0 || predicted <= static_cast<double>(budget)) {
+      session.control.predict(predicted);
+      return result;
+    }
+    if (tau > kLargestTau) {
+      throw Stopped{{StatusCode::limit_reached, over_budget(predicted, tau, budget), Limit::size}};
+    }
+    session.forget_points(session.input_vertices());
+  }
+}
+
+}  // namespace delmesher

@@ -1,0 +1,45 @@
+// Policy: what to do where the refinement would not end.
+#pragma once
+
+#include <vector>
+
+#include "mesher/chamfer/chamfer.h"
+#include "mesher/delmesher.h"
+#include "mesher/results/recorder.h"
+#include "mesher/surface/session.h"
+
+namespace delmesher {
+
+// Corners below these angles are chamfered, as the options say.
+ChamferOptions chamfer_options(const Options& options);
+
+// Section 4 proves that the refinement ends with empty diametral balls and chamfers up to 90
+// degrees. By default it has neither, and ends all the same almost always. Where it does not, it
+// begins anew: with empty balls, then with chamfers up to 90 degrees around the place where it ran
+// away, at last with them everywhere. Deterministic: the guard looks at lengths, never at time.
+class Fallback {
+ public:
+  explicit Fallback(const Options& options);
+
+  const ChamferOptions& chamfering() const { return chamfering_; }
+  bool gabriel() const { return gabriel_; }
+  InForce in_force(double tau) const;
+  // An edge this short means that corners feed each other for ever; 0: what is in force cannot run
+  // away.
+  double runaway_length(const Session& session, double tau);
+  // The next step, after a refinement that ran away near `place`.
+  void tighten(const Vec3& place, const Session& session);
+
+ private:
+  bool everywhere() const {
+    return chamfering_.cosine_squared == 0 && chamfering_.corner_cosine_squared == 0;
+  }
+
+  const Options& options_;
+  ChamferOptions chamfering_;
+  bool gabriel_;
+  int steps_ = 0;
+  double feature_length_ = -1;  // without a filter; unknown yet
+};
+
+}  // namespace delmesher

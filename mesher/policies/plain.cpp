@@ -1,0 +1,28 @@
+#include "mesher/policies/plain.h"
+
+#include "mesher/enrich/enrichment.h"
+#include "mesher/results/region_statistics.h"
+
+namespace delmesher {
+
+std::optional<CdtResult> plain_if_better(const CdtResult& enriched, Session& session) {
+  constexpr std::size_t kMostTriangles = 1000;
+  const Options& options = session.options;
+  if (options.region != Region::interior || options.max_edge > 0 ||
+      session.topology.triangles.size() > kMostTriangles) {
+    return std::nullopt;
+  }
+  const std::size_t enriched_points = session.points.size();
+  CdtResult plain = constrained_delaunay_tetrahedrization(
+      plain_input(session.topology), session.points, session.predicates, session.control);
+  session.forget_points(enriched_points);
+  if (!plain.steiner.empty()) return std::nullopt;
+  const MeshStatistics p = interior_statistics(plain, session.points, session.control);
+  if (p.min_face_angle < options.delta) return std::nullopt;
+  const MeshStatistics e = interior_statistics(enriched, session.points, session.control);
+  const bool better = p.min_face_angle >= e.min_face_angle && p.min_dihedral >= e.min_dihedral &&
+                      p.tetrahedra <= e.tetrahedra;
+  return better ? std::optional(std::move(plain)) : std::nullopt;
+}
+
+}  // namespace delmesher

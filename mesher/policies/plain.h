@@ -1,0 +1,16 @@
+// Policy: solids that are best left as they are.
+#pragma once
+
+#include <optional>
+
+#include "mesher/cdt/cdt.h"
+#include "mesher/surface/session.h"
+
+namespace delmesher {
+
+// A solid that meets the bound without any further point needs none: its plain constrained
+// tetrahedrization, where that is better than the enriched one in every respect. (TetGen leaves
+// such inputs as they are, too; large ones are never among them.)
+std::optional<CdtResult> plain_if_better(const CdtResult& enriched, Session& session);
+
+}  // namespace delmesher

@@ -1,0 +1,15 @@
+// Policy: fewer points where the doubles to be written are too coarse for all of them.
+#pragma once
+
+#include "mesher/cdt/cdt.h"
+#include "mesher/results/recorder.h"
+#include "mesher/surface/session.h"
+
+namespace delmesher {
+
+// Rounds a final mesh and records it as written. Where tetrahedra are left inverted or flat, points
+// around them are taken out (thin_out), at first those alone, then up to three edges away, as long
+// as that leaves fewer.
+void round_and_write(CdtResult cdt, Session& session, Recorder& recorder);
+
+}  // namespace delmesher

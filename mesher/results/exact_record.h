@@ -1,0 +1,33 @@
+// Filling in the exact record (command-line option --exact). Point indices are ids of the store
+// until record_points renumbers them.
+#pragma once
+
+#include <vector>
+
+#include "mesher/cdt/cdt.h"
+#include "mesher/chamfer/filter.h"
+#include "mesher/delmesher.h"
+#include "mesher/output/rounding.h"
+#include "mesher/refine/refine.h"
+
+namespace delmesher {
+
+// `tolerance`: the filter's, in input units.
+void record_parameters(const Options& options, double tolerance, ExactRecord& record);
+// `filter` is null if nothing was filtered.
+void record_facets(const SurfaceTopology& topology, const FilterResult* filter,
+                   ExactRecord& record);
+void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
+                    const std::vector<double>& vertex_cosine_squared, ExactRecord& record);
+void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
+                    const SurfaceTopology& topology, ExactRecord& record);
+void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
+// Replaces the final tetrahedra by those left after thinning.
+void record_thinned(const CdtResult& thinned, const SurfaceTopology& topology, ExactRecord& record);
+// Replaces the final tetrahedra that were handed to rounding by those that it returned.
+void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& record);
+// Adds the points that the record uses, input vertices first, and renumbers.
+void record_points(const PointStore& points, std::size_t input_vertices,
+                   const RoundingResult& rounded, ExactRecord& record);
+
+}  // namespace delmesher

@@ -1,0 +1,82 @@
+#include "mesher/results/mesh_to_write.h"
+
+#include <algorithm>
+
+namespace delmesher {
+namespace {
+
+using FaceKey = std::array<VertexId, 3>;
+
+FaceKey face_key(VertexId a, VertexId b, VertexId c) {
+  FaceKey key = {a, b, c};
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+RoundingInput rounding_input(const PointStore& points, std::size_t input_vertices) {
+  RoundingInput input;
+  input.points = &points;
+  input.fixed.resize(points.size());
+  input.on_surface.resize(points.size());
+  for (VertexId v = 0; v < points.size(); ++v) {
+    // Only points of the input and of the box have supports.
+    input.on_surface[v] = points.planes(v).empty() ? 0 : 1;
+    input.fixed[v] = v < input_vertices || (points.is_explicit(v) && input.on_surface[v] != 0);
+  }
+  return input;
+}
+
+}  // namespace
+
+MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
+                            const PointStore& points, Region region) {
+  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
+  RoundingInput& input = mesh.rounding;
+  const auto inside = static_cast<std::size_t>(std::count(cdt.inside.begin(), cdt.inside.end(), 1));
+  input.tetrahedra.reserve(region == Region::interior ? inside : cdt.tetrahedra.size());
+  input.inside.reserve(input.tetrahedra.capacity());
+  mesh.repeated_faces.reserve(input.tetrahedra.capacity());
+  for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
+    if (region == Region::interior && cdt.inside[n] == 0) continue;
+    input.tetrahedra.push_back(cdt.tetrahedra[n]);
+    input.inside.push_back(cdt.inside[n]);
+    if (!cdt.repeated_faces.empty()) {
+      mesh.repeated_faces.push_back(repeated_within(region, cdt.repeated_faces[n]));
+    }
+  }
+  for (const SurfaceFace& face : cdt.boundary) {
+    input.boundary.push_back(face.vertices);
+    mesh.boundary_facet.push_back(face.facet);
+  }
+  return mesh;
+}
+
+MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult& refined,
+                             const SurfaceTopology& topology, const PointStore& points,
+                             Region region) {
+  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
+  RoundingInput& input = mesh.rounding;
+  std::vector<FaceKey> written;
+  for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
+    const bool inside = refined.side[n] == Side::inside;
+    if (region == Region::interior && !inside) continue;
+    const auto& t = refined.tetrahedra[n];
+    input.tetrahedra.push_back(t);
+    input.inside.push_back(inside ? 1 : 0);
+    for (const auto& f : kFace) written.push_back(face_key(t[f[0]], t[f[1]], t[f[2]]));
+  }
+  std::sort(written.begin(), written.end());
+  for (const RefinedFace& face : refined.faces) {
+    const FacetId facet = chamfered.plc.facets[face.facet].input_facet;
+    const auto& v = face.vertices;
+    if (facet == kNone ||
+        !std::binary_search(written.begin(), written.end(), face_key(v[0], v[1], v[2]))) {
+      continue;
+    }
+    input.boundary.push_back(v);
+    mesh.boundary_facet.push_back(facet);
+  }
+  return mesh;
+}
+
+}  // namespace delmesher

@@ -1,0 +1,35 @@
+// From the exact meshes of the stages to what is rounded and written.
+#pragma once
+
+#include <vector>
+
+#include "mesher/cdt/cdt.h"
+#include "mesher/chamfer/chamfer.h"
+#include "mesher/output/rounding.h"
+#include "mesher/refine/refine.h"
+
+namespace delmesher {
+
+struct MeshToWrite {
+  RoundingInput rounding;
+  std::vector<FacetId> boundary_facet;  // per face of rounding.boundary
+  // Per tetrahedron: bit i if an earlier one has face i too. May be empty.
+  std::vector<std::uint8_t> repeated_faces;
+};
+
+// Of the faces of a tetrahedron that earlier ones have too (RefineResult, CdtResult), those
+// repeated within the region.
+inline std::uint8_t repeated_within(Region region, std::uint8_t repeated) {
+  return static_cast<std::uint8_t>(region == Region::interior ? repeated >> 4U : repeated & 15U);
+}
+
+MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
+                            const PointStore& points, Region region);
+
+// The refined mesh itself; its boundary is the part of the surface that was neither chamfered nor
+// filtered.
+MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult& refined,
+                             const SurfaceTopology& topology, const PointStore& points,
+                             Region region);
+
+}  // namespace delmesher

@@ -1,0 +1,133 @@
+#include "mesher/results/recorder.h"
+
+#include <algorithm>
+
+#include "mesher/output/statistics.h"
+#include "mesher/results/exact_record.h"
+#include "mesher/results/region_statistics.h"
+
+namespace delmesher {
+namespace {
+
+// With rounded coordinates, for display, in the triangulation that the refinement gave it.
+Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& refined,
+                          const SurfaceTopology& topology, const PointStore& points) {
+  Surface surface;
+  std::vector<std::uint32_t> number(points.size(), kNone);
+  for (const RefinedFace& face : refined.faces) {
+    const FacetId facet = chamfered.plc.facets[face.facet].input_facet;
+    if (facet == kNone) continue;
+    std::array<std::uint32_t, 3> triangle;
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& n = number[face.vertices[k]];
+      if (n == kNone) {
+        n = static_cast<std::uint32_t>(surface.vertices.size());
+        surface.vertices.push_back(points.nearest(face.vertices[k]));
+      }
+      triangle[k] = n;
+    }
+    surface.triangles.push_back(triangle);
+    surface.labels.push_back(topology.labels[topology.facet_triangles[facet][0]]);
+  }
+  return surface;
+}
+
+}  // namespace
+
+void Recorder::checked(const SurfaceReport& report) {
+  result_.warnings = report.warnings;
+  result_.statistics.bbox_diagonal = report.bbox_diagonal;
+}
+
+void Recorder::chamfered(const ChamferResult& chamfered, const FilterResult& filter,
+                         const InForce& force) {
+  Statistics& s = result_.statistics;
+  s.tau = force.tau;
+  s.dropped_triangles = filter.dropped_triangles;
+  s.filter_rounds = filter.rounds;
+  s.acute_vertices = chamfered.acute_vertices;
+  s.acute_edges = chamfered.acute_edges;
+  s.guaranteed_acute = force.acute;
+  s.guaranteed_corner = force.corner;
+  s.gabriel = force.gabriel;
+  const std::vector<double>& tightened = *force.vertex_cosine_squared;
+  s.fallback_corners =
+      static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
+  if (!exact()) return;
+  ExactRecord& record = result_.exact;
+  record_parameters(session_.options, force.tau * session_.diagonal, record);
+  record_facets(session_.topology, &filter, record);
+  record_chamfer(chamfered, force.acute, tightened, record);
+  record.parameters.acute = force.acute;
+  record.parameters.corner = force.corner;
+  record.parameters.gabriel = force.gabriel;
+}
+
+void Recorder::refined(const ChamferResult& chamfered, const RefineResult& refined) {
+  Statistics& s = result_.statistics;
+  s.steiner_on_segments = refined.on_segments;
+  s.steiner_on_facets = refined.on_facets;
+  s.steiner_in_volume = refined.in_volume.size();
+  s.refined =
+      refined_statistics(refined, session_.points, session_.options.region, session_.control);
+  if (exact()) record_refined(chamfered, refined, session_.topology, result_.exact);
+  if (session_.options.want_chamfered) {
+    result_.chamfered = chamfered_surface(chamfered, refined, session_.topology, session_.points);
+  }
+}
+
+void Recorder::tetrahedrized(const CdtResult& cdt) {
+  result_.statistics.steiner_on_segments += cdt.steiner.size();
+  if (!exact()) return;
+  if (result_.exact.facets.empty()) record_facets(session_.topology, nullptr, result_.exact);
+  record_final(cdt, session_.topology, result_.exact);
+}
+
+void Recorder::thinned(const CdtResult& cdt, std::uint64_t vertices) {
+  result_.statistics.rounding_thinned = vertices;
+  if (exact()) record_thinned(cdt, session_.topology, result_.exact);
+}
+
+void Recorder::written(MeshToWrite& exact_mesh, RoundingResult rounded) {
+  Statistics& s = result_.statistics;
+  s.rounding_inverted = rounded.inverted;
+  s.rounding_flat = rounded.flat;
+  s.rounding_repaired = rounded.repaired;
+  s.max_surface_deviation = rounded.max_surface_deviation;
+  std::uint64_t interior = 0;
+  for (const std::uint8_t inside : rounded.inside) interior += inside;
+  // After local operations they are other tetrahedra.
+  if (rounded.operations > 0) exact_mesh.repeated_faces.clear();
+  s.final = mesh_statistics(rounded.coordinates, rounded.tetrahedra, exact_mesh.repeated_faces,
+                            rounded.vertices.size(), interior, session_.control);
+  if (exact()) {
+    if (rounded.operations > 0) {
+      record_repaired(rounded, session_.options.region, result_.exact);
+    }
+    record_points(session_.points, session_.input_vertices(), rounded, result_.exact);
+  }
+  TetMesh& mesh = result_.mesh;
+  mesh.vertices = std::move(rounded.coordinates);
+  mesh.tetrahedra = std::move(rounded.tetrahedra);
+  mesh.inside = std::move(rounded.inside);
+  mesh.boundary = std::move(rounded.boundary);
+  const SurfaceTopology& topology = session_.topology;
+  for (const FacetId f : exact_mesh.boundary_facet) {
+    mesh.boundary_facets.push_back(topology.facet_triangles[f][0]);
+    mesh.boundary_labels.push_back(topology.labels[topology.facet_triangles[f][0]]);
+  }
+}
+
+void Recorder::finish() {
+  const PredicateCounters& c = session_.predicates.counters;
+  Statistics& s = result_.statistics;
+  s.phase_seconds = session_.control.phase_seconds();
+  s.predicate_filter = c.filter;
+  s.predicate_extended = c.extended;
+  s.predicate_exact = c.exact;
+  s.predicate_symbolic = c.symbolic;
+  s.predicate_by_support = c.support;
+  if (!result_.status.ok()) result_.mesh = {};
+}
+
+}  // namespace delmesher

@@ -1,0 +1,49 @@
+// What a run tells its caller besides the mesh: statistics and, if asked for, the exact record and
+// the chamfered surface. The driver calls it after each stage.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/chamfer/filter.h"
+#include "mesher/delmesher.h"
+#include "mesher/results/mesh_to_write.h"
+#include "mesher/surface/session.h"
+
+namespace delmesher {
+
+// What held for the refinement that ended: as asked for, or stricter.
+struct InForce {
+  double tau = 0;                // fraction of the diagonal
+  double acute = 0, corner = 0;  // degrees
+  bool gabriel = false;          // empty diametral balls
+  // Per input vertex, 0 where corners are chamfered up to 90 degrees; empty: nowhere.
+  const std::vector<double>* vertex_cosine_squared = nullptr;
+};
+
+class Recorder {
+ public:
+  Recorder(const Session& session, Result& result) : session_(session), result_(result) {}
+
+  void checked(const SurfaceReport& report);
+  void predicted(double tetrahedra) { result_.statistics.predicted_tetrahedra = tetrahedra; }
+  void chamfered(const ChamferResult& chamfered, const FilterResult& filter, const InForce& force);
+  void refined(const ChamferResult& chamfered, const RefineResult& refined);
+  // The mesh is that of the input alone, without the vertices of the refined one.
+  void plain_taken() { result_.statistics.enriched = false; }
+  void tetrahedrized(const CdtResult& cdt);
+  // `vertices` in all were taken out again before rounding.
+  void thinned(const CdtResult& cdt, std::uint64_t vertices);
+  // The mesh itself, as written.
+  void written(MeshToWrite& exact, RoundingResult rounded);
+  // Times and counters, however the run ended; without a mesh if it failed.
+  void finish();
+
+ private:
+  bool exact() const { return session_.options.want_exact; }
+
+  const Session& session_;
+  Result& result_;
+};
+
+}  // namespace delmesher

@@ -1,0 +1,30 @@
+// One run on one surface: what all its stages share.
+#pragma once
+
+#include <cstddef>
+
+#include "mesher/base/control.h"
+#include "mesher/predicates/predicates.h"
+#include "mesher/surface/topology.h"
+
+namespace delmesher {
+
+struct Session {
+  Session(const Options& run_options, Control& run_control)
+      : options(run_options), control(run_control) {}
+
+  const Options& options;
+  Control& control;
+  PointStore points;  // the input vertices, then what the stages append
+  Predicates predicates{points};
+  SurfaceTopology topology;  // of the input, oriented outwards
+  double diagonal = 0;       // of the input's bounding box, in its units
+
+  std::size_t input_vertices() const { return topology.vertex_half_edge.size(); }
+  // Takes back the points from `first` on.
+  void forget_points(std::size_t first) {
+    while (points.size() > first) points.pop_back();
+  }
+};
+
+}  // namespace delmesher
