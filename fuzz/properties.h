@@ -27,6 +27,10 @@ Finding features_agree(const delmesher::Surface& surface);
 // The tetrahedrization of points passes its own validation and is Delaunay and complete for CGAL.
 Finding delaunay_agrees(Bytes bytes);
 
+// Segments and facets are recovered among random points: the stage's own validation, which takes a
+// hundredth of the oracles' time, finds nothing.
+Finding recovery_holds(const delmesher::Surface& surface);
+
 // The plain constrained tetrahedrization passes the oracles.
 Finding cdt_holds(const delmesher::Surface& surface);
 

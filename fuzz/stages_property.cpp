@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "corpus/generate/random.h"
 #include "fuzz/feature_size.h"
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"
@@ -8,6 +10,8 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/chamfer/filter.h"
 #include "mesher/chamfer/plc_angles.h"
+#include "mesher/enrich/enrichment.h"
+#include "mesher/surface/bvh.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
@@ -96,7 +100,46 @@ Finding kept_is_apart(const FeatureSizes& sizes, const delmesher::SurfaceTopolog
   return {};
 }
 
+// Explicit points in the bounding box, for cavities of recovery to hold; none where doubles are so
+// coarse that they might lie on facets.
+void add_volume_points(const Surface& surface, Random& random, Stages& s,
+                       delmesher::CdtInput& input) {
+  delmesher::Box box = delmesher::Box::empty();
+  for (const auto& p : surface.vertices) box.extend({p, p});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double largest = std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
+    if (!(largest < 0x1p1000) || !(box.hi[i] - box.lo[i] > 0x1p-20 * largest)) return;
+  }
+  for (int count = random.integer(0, 40); count > 0; --count) {
+    input.vertices.push_back(s.points.add_explicit(random.between(box.lo[0], box.hi[0]),
+                                                   random.between(box.lo[1], box.hi[1]),
+                                                   random.between(box.lo[2], box.hi[2])));
+  }
+}
+
 }  // namespace
+
+Finding recovery_holds(const Surface& surface) {
+  judging({&too_precise});
+  return guarded("recovery", surface, [&]() -> Finding {
+    Stages s(surface);
+    delmesher::CdtInput input = plain_input(s.topology);
+    Random random(surface.vertices.size() ^
+                  std::bit_cast<std::uint64_t>(surface.vertices.back()[0]));
+    add_volume_points(surface, random, s, input);
+    input.validate = true;
+    const delmesher::CdtResult result =
+        constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
+    if (result.counters.facet_restarts > 0) return "recovery theory: a facet failed at first";
+    std::vector<std::uint8_t> used(s.points.size(), 0);
+    for (const auto& t : result.tetrahedra) {
+      for (const auto v : t) used[v] = 1;
+    }
+    const bool all = std::all_of(input.vertices.begin(), input.vertices.end(),
+                                 [&](delmesher::VertexId v) { return used[v] != 0; });
+    return all ? Finding() : "recovery vertices: one is in no tetrahedron";
+  });
+}
 
 Finding chamfer_holds(const Surface& surface) {
   judging({&too_precise, &no_room, &turned});
