@@ -1,7 +1,10 @@
-// How long the oracles take for a tetrahedron, as a multiple of CGAL's plain Delaunay of the same
-// vertices. Usage: verify_bench INPUT MESH [EXACT]. Both are measured in one run, reading left out.
-#include <chrono>
+// How long the oracles take, as a multiple of CGAL's plain Delaunay of the mesh's vertices, and how
+// much memory. Usage: verify_bench INPUT MESH [EXACT]. Both are measured in one run, in processor
+// time, because other programs change that less; reading is left out of the time.
+#include <sys/resource.h>
+
 #include <cstdio>
+#include <ctime>
 #include <exception>
 
 #include "oracles/cgal/kernel_opinion.h"
@@ -14,8 +17,9 @@ namespace tetproof::oracles {
 namespace {
 
 double seconds() {
-  using Clock = std::chrono::steady_clock;
-  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 // The time that has gone by since the last oracle is the next one's; so each line includes what
@@ -27,23 +31,28 @@ void measure(const char* input_path, const char* mesh_path, const char* exact_pa
   if (exact_path != nullptr) record = read_sidecar(exact_path);
   double start = seconds();
   const std::size_t delaunay = cgal_delaunay(mesh.vertices).size();
-  const double unit = (seconds() - start) / static_cast<double>(delaunay);
-  std::printf("CGAL's Delaunay: %zu tetrahedra, %.3g microseconds each\n", delaunay, unit * 1e6);
+  const double unit = seconds() - start;
+  std::printf("CGAL's Delaunay: %.3f s for %zu tetrahedra; %zu are written\n", unit, delaunay,
+              mesh.tetrahedra.size());
   VerifyReport report;
   VerifyOptions options;
   if (exact_path != nullptr && !record.refined.empty()) options.stage = Stage::both;
-  const double scale = 1 / (unit * static_cast<double>(mesh.tetrahedra.size()));
   double last = seconds();
   options.progress = [&](const OracleReport& oracle) {
     const double now = seconds();
-    std::printf("%-32s %8.3f s  %7.2f\n", oracle.name.c_str(), now - last, (now - last) * scale);
+    std::printf("%-32s %8.3f s  %7.2f\n", oracle.name.c_str(), now - last, (now - last) / unit);
     last = now;
   };
   start = last;
   verify(input, mesh, exact_path != nullptr ? &record : nullptr, options, report);
   const double all = seconds() - start;
-  std::printf("%-32s %8.3f s  %7.2f times CGAL's Delaunay, per tetrahedron (%zu written)\n",
-              verdict_name(report.verdict), all, all * scale, mesh.tetrahedra.size());
+  std::printf("%-32s %8.3f s  %7.2f times CGAL's Delaunay\n", verdict_name(report.verdict), all,
+              all / unit);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  std::printf("at most %.1f MB, CGAL's and what was read included: %.0f bytes per tetrahedron\n",
+              bytes / 1e6, bytes / static_cast<double>(mesh.tetrahedra.size()));
 }
 
 }  // namespace
