@@ -247,14 +247,16 @@ double distance(const ExactPoints& points, Index a, Index b) {
 }
 
 mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d) {
-  return determinant3(difference(points, a, b), difference(points, a, c), difference(points, a, d));
+  thread_local Volume6 volume6;  // allocating takes longer than the arithmetic
+  return volume6(points, {a, b, c, d});
 }
 
-const mpz_class& Volume6::operator()(const std::array<Index, 4>& tetrahedron) {
-  const IntegerVector& origin = points_.integer(tetrahedron[0]);
+const mpz_class& Volume6::operator()(const ExactPoints& points,
+                                     const std::array<Index, 4>& tetrahedron) {
+  const IntegerVector& origin = points.integer(tetrahedron[0]);
   IntegerVector* const to[3] = {&u_, &v_, &w_};
   for (int i = 0; i < 3; ++i) {
-    const IntegerVector& p = points_.integer(tetrahedron[i + 1]);
+    const IntegerVector& p = points.integer(tetrahedron[i + 1]);
     for (int axis = 0; axis < 3; ++axis) {
       mpz_sub((*to[i])[axis].get_mpz_t(), p[axis].get_mpz_t(), origin[axis].get_mpz_t());
     }
@@ -274,7 +276,9 @@ int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d) {
       determinant3(rough_difference(points, a, b), rough_difference(points, a, c),
                    rough_difference(points, a, d));
   const int sign = rough.sign();
-  return sign != 2 ? sign : sgn(volume6(points, a, b, c, d));
+  if (sign != 2) return sign;
+  thread_local Volume6 volume6;
+  return sgn(volume6(points, {a, b, c, d}));
 }
 
 int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Index e) {

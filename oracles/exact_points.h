@@ -95,11 +95,9 @@ mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d)
 // The same of many tetrahedra, without allocating anew for each.
 class Volume6 {
  public:
-  explicit Volume6(const ExactPoints& points) : points_(points) {}
-  const mpz_class& operator()(const std::array<Index, 4>& tetrahedron);
+  const mpz_class& operator()(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
 
  private:
-  const ExactPoints& points_;
   IntegerVector u_, v_, w_;
   mpz_class minor_, value_;
 };

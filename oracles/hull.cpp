@@ -127,8 +127,8 @@ double Hull::area() const {
 #ifdef TETPROOF_SECOND_OPINIONS
 void Hull::check_volume() {
   mpz_class sum;
-  exact::Volume6 volume6(points_);
-  for (const Tet& tet : complex_.tetrahedra) sum += volume6(tet);
+  exact::Volume6 volume6;
+  for (const Tet& tet : complex_.tetrahedra) sum += volume6(points_, tet);
   std::vector<Index> corners;
   for (Index v = 0; v < corner_.size(); ++v) {
     if (corner_[v]) corners.push_back(v);

@@ -20,10 +20,10 @@ double smallest_altitude(const ExactPoints& points, const Tet& tet) {
 OracleReport check_volume(const TetComplex& complex, const InputSurface& surface, double allowed) {
   OracleReport report("volume", "tetrahedra inside");
   mpz_class sum;
-  exact::Volume6 volume6(*complex.points);
+  exact::Volume6 volume6;
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
     if (!complex.inside[t]) continue;
-    sum += volume6(complex.tetrahedra[t]);
+    sum += volume6(*complex.points, complex.tetrahedra[t]);
     ++report.checked;
   }
   const long exponent = 3 * complex.points->exponent();

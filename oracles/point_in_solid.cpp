@@ -133,6 +133,37 @@ bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
   return false;
 }
 
+double middle(const Interval& x) {
+  return x.low / 2 + x.high / 2;
+}
+
+// A cheap proof that the tetrahedron stays out, of large triangles above all: it lies beyond one of
+// the triangle's edges. Whatever direction has all of one on the far side of all of the other is
+// proof, so that the one across the edge may be rounded; the heights along it may not.
+bool beyond_edge(const ExactPoints& points, const std::array<Index, 3>& triangle,
+                 const IntervalVector& rough_normal, const std::array<Index, 4>& tetrahedron) {
+  const Position n = {middle(rough_normal[0]), middle(rough_normal[1]), middle(rough_normal[2])};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index a = triangle[i], b = triangle[(i + 1) % 3], c = triangle[(i + 2) % 3];
+    const Position &p = points.nearest(a), &q = points.nearest(b);
+    const Position u = {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+    const Position inwards = {n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2],
+                              n[0] * u[1] - n[1] * u[0]};
+    const auto height = [&](Index v) {
+      const IntervalVector w = points.rough_difference(a, v);
+      return w[0] * inwards[0] + w[1] * inwards[1] + w[2] * inwards[2];
+    };
+    const double at_b = height(b).low, at_c = height(c).low;
+    const double low = std::min({0.0, at_b, at_c});
+    if (!(low <= at_b && low <= at_c)) continue;  // not a number
+    if (std::all_of(tetrahedron.begin(), tetrahedron.end(),
+                    [&](Index v) { return height(v).high < low; })) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners) {
@@ -220,7 +251,8 @@ bool InputSurface::meets_interior(const ExactPoints& points,
     return above && below;
   };
   return std::any_of(found.begin(), found.end(), [&](Index t) {
-    return plane_enters(t) && !separated(points, triangles_[t], tetrahedron) &&
+    return plane_enters(t) && !beyond_edge(points, triangles_[t], rough_normals_[t], tetrahedron) &&
+           !separated(points, triangles_[t], tetrahedron) &&
            meets(points, triangles_[t], tetrahedron);
   });
 }

@@ -21,9 +21,9 @@ double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
 Regions::Regions(TetComplex& complex, const std::vector<std::int64_t>& regions)
     : complex_(complex), regions_(regions) {
   std::map<std::int64_t, std::array<mpz_class, 2>> volumes;
-  exact::Volume6 volume6(*complex.points);
+  exact::Volume6 volume6;
   for (std::size_t t = 0; t < regions.size(); ++t) {
-    volumes[regions[t]][complex.inside[t]] += abs(volume6(complex.tetrahedra[t]));
+    volumes[regions[t]][complex.inside[t]] += abs(volume6(*complex.points, complex.tetrahedra[t]));
   }
   count_ = volumes.size();
   for (std::size_t t = 0; t < regions.size(); ++t) {
@@ -49,8 +49,8 @@ OracleReport Regions::check_strays(double allowed) const {
 
 bool fills(const TetComplex& complex, const InputSurface& surface, double rounding) {
   mpz_class sum;
-  exact::Volume6 volume6(*complex.points);
-  for (const Tet& tet : complex.tetrahedra) sum += volume6(tet);
+  exact::Volume6 volume6;
+  for (const Tet& tet : complex.tetrahedra) sum += volume6(*complex.points, tet);
   const mpz_class difference = abs(sum - surface.volume6());
   if (difference * 1000000 <= surface.volume6()) return true;
   const double volume = to_double(difference, 3 * complex.points->exponent()) / 6;

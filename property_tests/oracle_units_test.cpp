@@ -354,7 +354,7 @@ TEST(ExactSigns, AgreeWithMachineIntegersOnALattice) {
       for (int k = 0; k < 3; ++k) {
         x[i][k] = static_cast<std::int64_t>(random() % 3);
         // Offset and steps that doubles hold, but not the products of their differences.
-        positions[i][k] = 0x1p40 + static_cast<double>(x[i][k]) * 0x1.0000001p10;
+        positions[i][k] = 0x1p40 + static_cast<double>(x[i][k]) * 0x1.00001p10;
       }
     }
     const auto minus = [&](int a, int b) {
@@ -374,8 +374,9 @@ TEST(ExactSigns, AgreeWithMachineIntegersOnALattice) {
     const std::int64_t volume = dot(n, w);
     const int orientation = sign(volume);
     ASSERT_EQ(exact::orient3d(p, 0, 1, 2, 3), orientation);
-    exact::Volume6 volume6(p);
-    ASSERT_EQ(volume6({0, 1, 2, 3}), exact::volume6(p, 0, 1, 2, 3));
+    const mpq_class step = std::ldexp(0x1.00001p10, static_cast<int>(-p.exponent()));
+    const mpq_class expected = step * step * step * static_cast<long>(volume);
+    ASSERT_EQ(mpq_class(exact::volume6(p, 0, 1, 2, 3)), expected);
     ++counts[0][orientation + 1];
     const int angle = sign(dot(u, v));
     ASSERT_EQ(exact::dot_sign(p, 0, 1, 2), angle);
@@ -398,6 +399,96 @@ TEST(ExactSigns, AgreeWithMachineIntegersOnALattice) {
   for (const auto& of_predicate : counts) {
     for (const int count : of_predicate) EXPECT_GT(count, 100);
   }
+}
+
+// What is left of a polygon on the inner side of the plane through three points.
+std::vector<std::array<mpq_class, 3>> clipped(const std::vector<std::array<mpq_class, 3>>& polygon,
+                                              const std::array<std::array<int, 3>, 4>& tet,
+                                              int face, bool& touches_inside) {
+  const auto height = [&](const std::array<mpq_class, 3>& x) {
+    const auto &a = tet[(face + 1) % 4], &b = tet[(face + 2) % 4], &c = tet[(face + 3) % 4];
+    const auto at = [&](const auto& p) {
+      mpq_class sum = 0;
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int n = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
+        sum += n * (mpq_class(p[i]) - a[i]);
+      }
+      return sum;
+    };
+    return mpq_class(at(x) * sgn(at(tet[face])));
+  };
+  std::vector<std::array<mpq_class, 3>> result;
+  touches_inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const mpq_class s = height(p), t = height(q);
+    touches_inside = touches_inside || s > 0;
+    if (s >= 0) result.push_back(p);
+    if (sgn(s) * sgn(t) >= 0) continue;
+    std::array<mpq_class, 3> cut;
+    for (int k = 0; k < 3; ++k) cut[k] = (s * q[k] - t * p[k]) / (s - t);
+    result.push_back(cut);
+  }
+  return result;
+}
+
+// Triangles that are larger than tetrahedra, and pass by them at all distances, 0 among them;
+// against clipping in rational coordinates.
+TEST(InputSurface, EntersWhatRationalClippingSaysItEnters) {
+  std::mt19937_64 random(11);
+  std::array<int, 2> counts{};
+  for (int round = 0; round < 3000; ++round) {
+    std::array<std::array<int, 3>, 4> solid, tet;
+    for (auto& x : solid) {
+      for (int& c : x) c = static_cast<int>(random() % 19) - 9;
+    }
+    for (auto& x : tet) {
+      for (int& c : x) c = static_cast<int>(random() % 4);
+    }
+    if (round % 3 == 0) tet[0] = solid[0];
+    std::vector<Position> positions;
+    for (const auto& x : {solid, tet}) {
+      for (const auto& c : x) {
+        positions.push_back({1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+      }
+    }
+    const ExactPoints points = points_of(positions);
+    if (exact::orient3d(points, 0, 1, 2, 3) == 0) continue;
+    std::array<Index, 4> corners = {4, 5, 6, 7};
+    const int orientation = exact::orient3d(points, 4, 5, 6, 7);
+    if (orientation == 0) continue;
+    if (orientation < 0) std::swap(corners[2], corners[3]);
+    const Polyhedron polyhedron = {{positions.begin(), positions.begin() + 4},
+                                   {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}},
+                                   {},
+                                   {}};
+    InputSurface surface;
+    ASSERT_EQ(surface.assign(polyhedron, points), "");
+    bool entered = false;
+    for (int without = 0; without < 4; ++without) {
+      std::vector<std::array<mpq_class, 3>> polygon;
+      for (int v = 0; v < 4; ++v) {
+        if (v != without) polygon.push_back({solid[v][0], solid[v][1], solid[v][2]});
+      }
+      bool inside = true;
+      for (int face = 0; face < 4; ++face) {
+        bool ignored = false;
+        polygon = clipped(polygon, tet, face, ignored);
+      }
+      for (int face = 0; face < 4; ++face) {
+        bool touches = false;
+        clipped(polygon, tet, face, touches);
+        inside = inside && touches;
+      }
+      entered = entered || inside;
+    }
+    InputSurface::PlaneSides known;
+    ASSERT_EQ(surface.meets_interior(points, corners, known), entered) << "round " << round;
+    ++counts[entered];
+  }
+  EXPECT_GT(counts[0], 300);
+  EXPECT_GT(counts[1], 300);
 }
 
 TEST(ExactSigns, LengthsAndDoubles) {
