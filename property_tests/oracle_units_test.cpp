@@ -14,6 +14,7 @@
 #include <random>
 
 #include "oracles/ball_side.h"
+#include "oracles/chamfer_features.h"
 #include "oracles/enrichment.h"
 #include "oracles/hull.h"
 #include "oracles/input_surface.h"
@@ -596,6 +597,37 @@ TEST(InputSurfaces, PolygonsAreFacetsWhereTheyAreFlat) {
   EXPECT_EQ(facets(box(1, 0)), 6U);
   EXPECT_EQ(facets(box(2, 0)), 6U);
   EXPECT_EQ(facets(box(2, 0.5)), 7U);  // upright sides stay flat
+}
+
+// A prism over a triangle whose corner at vertex 0 has the half angle a, tan a = 1 / 4, and whose
+// opposite side is 12 away, so that the chamfer distance is 4 at most. Smallest is the side of the
+// bridge in that corner, sin a / (cos a + 1 / 2) of the chamfer distance (Figure 4).
+TEST(ChamferFeatures, OfASharpPrism) {
+  Polyhedron prism;
+  for (const double z : {0.0, 100.0}) {
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), {12.0, -3.0}, {12.0, 3.0}}) {
+      prism.vertices.push_back({x, y, z});
+    }
+  }
+  prism.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                     {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  const ExactPoints points = points_of(prism.vertices);
+  InputSurface surface;
+  ASSERT_EQ(surface.assign(prism, points), "");
+  const AcuteCorners corners(points, surface);
+  const auto sixty = [](Index) { return 60.0; };
+  const CornerThresholds thresholds = {sixty, sixty};
+  const auto all = [](Index) { return true; };
+  const double side = 1 / (4 + std::sqrt(17.0) / 2);
+  for (const Index v : {0U, 3U}) {
+    EXPECT_NEAR(ChamferFeatures(points, surface, corners, thresholds, 0).smallest(v, all), 4 * side,
+                1e-12);
+    EXPECT_NEAR(ChamferFeatures(points, surface, corners, thresholds, 1).smallest(v, all), side,
+                1e-12);
+  }
+  for (const Index v : {1U, 2U, 4U, 5U}) {  // no angle below 60 degrees
+    EXPECT_EQ(ChamferFeatures(points, surface, corners, thresholds, 0).smallest(v, all), kInfinity);
+  }
 }
 
 // Faces of the hull may be listed besides faces on facets, all four of a tetrahedron alone.

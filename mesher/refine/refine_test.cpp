@@ -77,6 +77,14 @@ struct RefinerBreaker {
     return static_cast<std::size_t>(
         std::ranges::count_if(r.subfacets_, [](const auto& s) { return !s.alive; }));
   }
+  // Where a subsegment of length 1 is split if shells of these radii are around its ends; 0: none.
+  double split_fraction(double around_a, double around_b) const {
+    const auto& s = r.subsegments_[0];
+    r.shell_.assign(std::max(s.a, s.b) + 1, 0);
+    r.shell_[s.a] = around_a;
+    r.shell_[s.b] = around_b;
+    return r.split_fraction(s, 1);
+  }
   // As if there were enough dead ones for it to pay.
   void compact() const {
     r.dead_subfacets_ = 1U << 30U;
@@ -428,6 +436,22 @@ struct State {
     refiner->run();
   }
 };
+
+// Shells halve or double until they cross the subsegment in its middle third; of two, that nearer
+// to the middle is taken.
+TEST(Refine, OfTwoShellsThatNearerToTheMiddleIsTaken) {
+  State state(false);
+  const RefinerBreaker probe{*state.refiner};
+  EXPECT_EQ(probe.split_fraction(0, 0), 0.5);
+  EXPECT_EQ(probe.split_fraction(0.375, 0), 0.375);
+  EXPECT_EQ(probe.split_fraction(0, 0.375), 1 - 0.375);
+  EXPECT_EQ(probe.split_fraction(0.4375, 0.625), 0.4375);
+  EXPECT_EQ(probe.split_fraction(0.625, 0.4375), 1 - 0.4375);
+  EXPECT_EQ(probe.split_fraction(0.5625, 0.375), 0.5625);
+  EXPECT_EQ(probe.split_fraction(0.375, 0.5625), 1 - 0.5625);
+  EXPECT_EQ(probe.split_fraction(4 * 0.4375, 0), 0.4375);
+  EXPECT_EQ(probe.split_fraction(0, 0.625 / 8), 1 - 0.625);
+}
 
 TEST(Refine, ValidateAcceptsWhatTheRefinementLeaves) {
   for (const bool gabriel : {true, false}) {
