@@ -27,9 +27,9 @@ class Conformity {
     collect_edges();
     match_vertices();
     follow_edges();
-    grow_patches();
-    check_borders();
-    check_facets();
+    if (!ended()) grow_patches();
+    if (!ended()) check_borders();
+    if (!ended()) check_facets();
     result_.report.checked = result_.faces.size();
     result_.report.figures.emplace_back("facets", surface_.facets().size());
     result_.report.figures.emplace_back("edges", surface_.edges().size());
@@ -48,6 +48,7 @@ class Conformity {
   bool is_chain(const InputSurface::Edge& edge, const std::vector<Index>& chain) const;
   bool find_chain(const InputSurface::Edge& edge, std::vector<Index>& chain) const;
   double progress(const InputSurface::Edge& edge, Index v, double& distance) const;
+  bool ended() const { return options_.first_failure_ends && result_.report.violations > 0; }
   bool is_matched(Index v) const { return std::binary_search(matched_.begin(), matched_.end(), v); }
   bool advances(const InputSurface::Edge& edge, Index here, Index next) const;
   void grow_patches();
@@ -268,6 +269,7 @@ void Conformity::follow_edges() {
   std::vector<Index> chain;
   result_.chains.resize(surface_.edges().size());
   for (const InputSurface::Edge& edge : surface_.edges()) {
+    if (ended()) return;
     if (match_[edge.from] == kNone || match_[edge.to] == kNone) continue;  // already said
     if (!find_chain(edge, chain)) {
       fail_edge(edge, input_edge_name(edge) + " is not a chain of boundary edges; it ends at " +
@@ -360,7 +362,9 @@ void Conformity::check_facets() {
   for (Index f = 0; f < result_.faces.size(); ++f) {
     if (result_.facets[f] != kNone) patches[result_.facets[f]].push_back(f);
   }
-  for (Index facet = 0; facet < patches.size(); ++facet) check_facet(facet, patches[facet]);
+  for (Index facet = 0; facet < patches.size() && !ended(); ++facet) {
+    check_facet(facet, patches[facet]);
+  }
 }
 
 void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {

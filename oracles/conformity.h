@@ -20,6 +20,8 @@ struct ConformityOptions {
   // are rounded. The same combinatorial structure is demanded, and the largest deviation measured.
   bool exact = true;
   double largest_tolerance = 1e-5;  // fraction of the diagonal
+  // Whether the first failure ends it: for a caller who only asks whether there is one.
+  bool first_failure_ends = false;
   // With a tolerance: chains to try first, one per edge of the surface, as a record says. Where
   // edges are less than the tolerance apart, positions alone do not tell which mesh edge is whose.
   // They prove no less than chains that are found: what is demanded of a chain is checked.

@@ -271,11 +271,14 @@ const mpz_class& Volume6::operator()(const ExactPoints& points,
   return value_;
 }
 
+Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& tetrahedron) {
+  const auto& [a, b, c, d] = tetrahedron;
+  return determinant3(rough_difference(points, a, b), rough_difference(points, a, c),
+                      rough_difference(points, a, d));
+}
+
 int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d) {
-  const Interval rough =
-      determinant3(rough_difference(points, a, b), rough_difference(points, a, c),
-                   rough_difference(points, a, d));
-  const int sign = rough.sign();
+  const int sign = rough_volume6(points, {a, b, c, d}).sign();
   if (sign != 2) return sign;
   thread_local Volume6 volume6;
   return sgn(volume6(points, {a, b, c, d}));

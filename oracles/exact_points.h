@@ -92,6 +92,8 @@ namespace exact {
 int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // The determinant itself: six times the volume.
 mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d);
+// An enclosure of it, in true units.
+Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
 // The same of many tetrahedra, without allocating anew for each.
 class Volume6 {
  public:

@@ -1,7 +1,9 @@
 #include "oracles/regions.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -18,17 +20,74 @@ double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
   return sum;
 }
 
+namespace {
+
+// The absolute values of the numbers that an interval encloses.
+Interval magnitude(const Interval& x) {
+  const bool finite = x.low - x.low == 0 && x.high - x.high == 0;
+  if (!finite) return {0, std::numeric_limits<double>::infinity()};
+  if (x.low >= 0) return x;
+  if (x.high <= 0) return -x;
+  return {0, std::max(-x.low, x.high)};
+}
+
+// Volumes by region, outside and inside.
+template <class Number, class Volume>
+std::map<std::int64_t, std::array<Number, 2>> volumes_of(const TetComplex& complex,
+                                                         const std::vector<std::int64_t>& regions,
+                                                         const Volume& volume) {
+  std::map<std::int64_t, std::array<Number, 2>> volumes;
+  for (std::size_t t = 0; t < regions.size(); ++t) {
+    Number& sum = volumes[regions[t]][complex.inside[t]];
+    sum = sum + volume(complex.tetrahedra[t]);
+  }
+  return volumes;
+}
+
+// Whether more of a region is inside than outside. Only where they are nearly equal it takes exact
+// volumes to tell.
+std::map<std::int64_t, bool> inside_regions(const TetComplex& complex,
+                                            const std::vector<std::int64_t>& regions) {
+  std::map<std::int64_t, bool> result;
+  bool certain = true;
+  for (const auto& [region, sides] :
+       volumes_of<Interval>(complex, regions, [&complex](const Tet& tet) {
+         return magnitude(exact::rough_volume6(*complex.points, tet));
+       })) {
+    const int sign = (sides[1] - sides[0]).sign();
+    certain = certain && (sign == 1 || sign == -1);
+    result[region] = sign == 1;
+  }
+  if (certain) return result;
+  exact::Volume6 volume6;
+  for (const auto& [region, sides] :
+       volumes_of<mpz_class>(complex, regions, [&complex, &volume6](const Tet& tet) {
+         return mpz_class(abs(volume6(*complex.points, tet)));
+       })) {
+    result[region] = sides[1] > sides[0];
+  }
+  return result;
+}
+
+// Certainly at most a millionth of the volume more or less than it?
+bool clearly_fills(const TetComplex& complex, const InputSurface& surface) {
+  Interval sum(0);
+  for (const Tet& tet : complex.tetrahedra) {
+    sum = sum + exact::rough_volume6(*complex.points, tet);
+  }
+  const double nearest = to_double(surface.volume6(), 3 * complex.points->exponent());
+  const Interval volume = Interval::around(nearest, nearest);
+  return (volume - magnitude(sum - volume) * Interval(1000000)).sign() == 1;
+}
+
+}  // namespace
+
 Regions::Regions(TetComplex& complex, const std::vector<std::int64_t>& regions)
     : complex_(complex), regions_(regions) {
-  std::map<std::int64_t, std::array<mpz_class, 2>> volumes;
-  exact::Volume6 volume6;
+  const std::map<std::int64_t, bool> is_inside = inside_regions(complex, regions);
+  count_ = is_inside.size();
   for (std::size_t t = 0; t < regions.size(); ++t) {
-    volumes[regions[t]][complex.inside[t]] += abs(volume6(*complex.points, complex.tetrahedra[t]));
-  }
-  count_ = volumes.size();
-  for (std::size_t t = 0; t < regions.size(); ++t) {
-    const auto& [outside, inside] = volumes[regions[t]];
-    const std::uint8_t side = inside > outside;
+    const std::uint8_t side = is_inside.at(regions[t]);
     if (complex.inside[t] != side) strays_.push_back(t);
     complex.inside[t] = side;
   }
@@ -48,6 +107,7 @@ OracleReport Regions::check_strays(double allowed) const {
 }
 
 bool fills(const TetComplex& complex, const InputSurface& surface, double rounding) {
+  if (clearly_fills(complex, surface)) return true;
   mpz_class sum;
   exact::Volume6 volume6;
   for (const Tet& tet : complex.tetrahedra) sum += volume6(*complex.points, tet);

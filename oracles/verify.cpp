@@ -273,7 +273,8 @@ std::string Verification::check_file() {
 
 void Verification::check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
                                       const InputSurface& surface) {
-  ConformityResult conformity = check_conformity(complex, neighbours, surface, {.exact = true});
+  ConformityResult conformity =
+      check_conformity(complex, neighbours, surface, {.exact = true, .first_failure_ends = true});
   if (!conformity.report.passed()) {
     // Of a solid that is not much larger than roundings, these are no small part.
     ConformityOptions rounded{.exact = false};
