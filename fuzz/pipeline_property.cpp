@@ -178,6 +178,14 @@ Options options_for(const Surface& surface) {
   return options;
 }
 
+// What would have more vertices than are waited for is meshed with a budget instead.
+Result meshed(const Surface& surface, Options& options) {
+  Result result = delmesher::tetrahedralize(surface, options);
+  if (result.status.limit != delmesher::Limit::size) return result;
+  options.budget = kMostVertices / 2;
+  return delmesher::tetrahedralize(surface, options);
+}
+
 }  // namespace
 
 Finding cdt_holds(const Surface& surface) {
@@ -193,7 +201,7 @@ Finding refinement_holds(const Surface& surface) {
   judging({&too_many_vertices, &too_precise, &nothing_refined});
   Options options = options_for(surface);
   options.approximate = true;
-  const Result result = delmesher::tetrahedralize(surface, options);
+  const Result result = meshed(surface, options);
   if (result.status.code == StatusCode::limit_reached) return at_limit(surface, result.status);
   if (!result.status.ok()) return "status: " + result.status.message;
   return verified(surface, result, Stage::refined, options);
@@ -201,8 +209,8 @@ Finding refinement_holds(const Surface& surface) {
 
 Finding pipeline_holds(const Surface& surface) {
   judging({&too_many_vertices, &too_precise, &nothing_refined, &too_large_to_scale, &out_of_range});
-  const Options options = options_for(surface);
-  const Result result = delmesher::tetrahedralize(surface, options);
+  Options options = options_for(surface);
+  const Result result = meshed(surface, options);
   if (Finding f = judged(surface, result, options, true); !f.empty()) return f;
   if (!result.status.ok()) return {};
   const int scales[] = {0, 0, 0, 300, -300, 65, -47, 1};

@@ -26,6 +26,10 @@ constexpr int kMinDepth = 3, kMaxDepth = 60;
 // One level more without that costs twice the time and brings estimates 4 % nearer (root mean
 // square of the logarithms over 459 models).
 constexpr int kSampledDepth = 3;
+// Beyond so many cells (half a minute; the largest models take a tenth) one child stands for all.
+constexpr std::uint64_t kMostCells = 1U << 23U;
+// In smaller cells than so many ulps of the coordinates there, doubles do not tell distances.
+constexpr double kSmallestCell = 16;
 
 // A segment of the complex, a triangle of a kept facet, or a vertex by itself.
 struct Element {
@@ -332,6 +336,7 @@ class Predictor {
 
   void visit(const Cell& cell, Where where) {
     control_.poll();
+    ++cells_;
     if (cell.depth < kMinDepth) return divide(cell, cell.parent, where);
     Surroundings around = surroundings(cell.center, cell.side, cell.parent);
     double size = around.size;
@@ -341,8 +346,9 @@ class Predictor {
       where = inside(cell.center) ? Where::inside : Where::outside;
     }
     if (where == Where::outside) return;
-    if (cell.side > kCellSize * size && cell.depth < kMaxDepth) {
-      return divide(cell, around, where);
+    if (cell.side > kCellSize * size) {
+      if (is_divisible(cell)) return divide(cell, around, where);
+      size = cell.side / kCellSize;
     }
     if (cell.depth == kMinDepth && size >= cell.side) {
       size = surroundings(cell.center, kFarReach * cell.side, around).size;
@@ -353,13 +359,21 @@ class Predictor {
     sum_ += (half ? 0.5 : 1) * cell.weight * ratio * ratio * ratio;
   }
 
+  static bool is_divisible(const Cell& cell) {
+    double largest = 0;
+    for (const double x : cell.center) largest = std::max(largest, std::fabs(x));
+    return cell.depth < kMaxDepth && cell.side > kSmallestCell * 0x1p-52 * largest;
+  }
+
   void divide(const Cell& cell, const Surroundings& around, Where where) {
     const bool sampled = cell.depth >= kSampledDepth;
-    const unsigned colour = next_random() & 1U;
+    const bool too_many = sampled && cells_ > kMostCells;
+    const unsigned random = next_random(), colour = random & 1U;
+    const double each = too_many ? 8 : sampled ? 2 : 1;
     for (unsigned child = 0; child < 8; ++child) {
-      if (sampled && (std::popcount(child) & 1U) != colour) continue;
-      Cell next{cell.center, cell.side / 2, cell.depth + 1, sampled ? 2 * cell.weight : cell.weight,
-                around};
+      if (too_many && child != (random & 7U)) continue;
+      if (sampled && !too_many && (std::popcount(child) & 1U) != colour) continue;
+      Cell next{cell.center, cell.side / 2, cell.depth + 1, each * cell.weight, around};
       for (std::size_t k = 0; k < 3; ++k) {
         next.center[k] += ((child >> k & 1) != 0 ? 0.25 : -0.25) * cell.side;
       }
@@ -383,6 +397,7 @@ class Predictor {
   std::vector<std::uint32_t> nodes_;
   std::vector<std::uint32_t> met_;  // an element of each owner met there
   double sum_ = 0;
+  std::uint64_t cells_ = 0;  // visited
   std::uint32_t random_ = 1;
 };
 
