@@ -418,15 +418,30 @@ void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
   }
 }
 
-// Of a vertex from an edge of the surface.
-double distance_from(const ExactPoints& points, const InputSurface::Edge& edge, Index v) {
-  const IntegerVector along = exact::difference(points, edge.from, edge.to);
-  const IntegerVector there = exact::difference(points, edge.from, v);
+// Of a vertex from an edge.
+double distance_from(const ExactPoints& points, Index from, Index to, Index v) {
+  const IntegerVector along = exact::difference(points, from, to);
+  const IntegerVector there = exact::difference(points, from, v);
   const mpz_class at = exact::dot(along, there);
-  if (at <= 0) return exact::distance(points, edge.from, v);
-  if (at >= exact::dot(along, along)) return exact::distance(points, edge.to, v);
+  if (at <= 0) return exact::distance(points, from, v);
+  if (at >= exact::dot(along, along)) return exact::distance(points, to, v);
   return length(exact::cross(along, there), 2 * points.exponent()) /
          length(along, points.exponent());
+}
+
+// Of a vertex from a triangle of the surface.
+double distance_from(const ExactPoints& points, const std::array<Index, 3>& triangle, Index v) {
+  const IntegerVector n = exact::area2(points, triangle[0], triangle[1], triangle[2]);
+  bool above = !exact::is_zero(n);
+  double nearest = HUGE_VAL;
+  for (int i = 0; i < 3; ++i) {
+    const Index p = triangle[i], q = triangle[(i + 1) % 3];
+    above = above && exact::dot(n, exact::area2(points, p, q, v)) >= 0;
+    nearest = std::min(nearest, distance_from(points, p, q, v));
+  }
+  if (!above) return nearest;
+  const mpz_class height = exact::dot(n, exact::difference(points, triangle[0], v));
+  return std::fabs(to_double(height, 3 * points.exponent())) / length(n, 2 * points.exponent());
 }
 
 // Whether the bounding box of an edge, widened, contains a vertex.
@@ -467,7 +482,8 @@ class Ambiguity {
 
  private:
   bool near(const InputSurface::Edge& edge, Index v) const {
-    return boxed(points_, edge, v, distance_) && distance_from(points_, edge, v) <= distance_;
+    return boxed(points_, edge, v, distance_) &&
+           distance_from(points_, edge.from, edge.to, v) <= distance_;
   }
 
   const ExactPoints& points_;
@@ -476,11 +492,48 @@ class Ambiguity {
   std::vector<Index> vertices_;
 };
 
+// Is every face of the boundary, with all its corners, within `distance` of one facet?
+bool along_surface(const TetComplex& complex, const InputSurface& surface,
+                   const std::vector<Face>& faces, double distance) {
+  const ExactPoints& points = *complex.points;
+  std::unordered_map<Index, std::vector<Index>> near;  // the facets near each vertex, sorted
+  std::vector<Index> found;
+  const auto facets_near = [&](Index v) -> const std::vector<Index>& {
+    const auto [at, fresh] = near.try_emplace(v);
+    if (!fresh) return at->second;
+    BoxTree::Box box = box_around(points, std::array{v});
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] -= 2 * distance;
+      box.high[axis] += 2 * distance;
+    }
+    found.clear();
+    surface.triangles_near(box, found);
+    for (const Index t : found) {
+      if (distance_from(points, surface.triangles()[t], v) > distance) continue;
+      at->second.push_back(surface.facet_of_triangle()[t]);
+    }
+    std::sort(at->second.begin(), at->second.end());
+    at->second.erase(std::unique(at->second.begin(), at->second.end()), at->second.end());
+    return at->second;
+  };
+  return std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
+    const std::vector<Index> first = facets_near(face[0]);
+    return std::any_of(first.begin(), first.end(), [&](Index f) {
+      const auto has = [&](Index v) {
+        const std::vector<Index>& list = facets_near(v);
+        return std::binary_search(list.begin(), list.end(), f);
+      };
+      return has(face[1]) && has(face[2]);
+    });
+  });
+}
+
 }  // namespace
 
 bool undecidable(const TetComplex& complex, const InputSurface& surface,
                  const ConformityResult& conformity, double distance) {
   if (conformity.failed_elsewhere > 0 || conformity.report.passed()) return false;
+  if (!along_surface(complex, surface, conformity.faces, distance)) return false;
   const Ambiguity ambiguity(complex, surface, conformity, distance);
   const auto& edges = surface.edges();
   return std::all_of(conformity.failed_edges.begin(), conformity.failed_edges.end(),

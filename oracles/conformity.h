@@ -45,7 +45,8 @@ ConformityResult check_conformity(const TetComplex& complex, const Neighbours& n
                                   const InputSurface& surface, const ConformityOptions& options);
 
 // Of a failure without chains from a record: does it lie only where the input's own edges are
-// closer than the doubles of a file can tell? So if beside each edge that failed, and some edge of
+// closer than the doubles of a file can tell? So if the whole boundary is within `distance` of the
+// surface, each face of one facet, and beside each edge that failed, and some edge of
 // each facet that failed, there is a vertex of the boundary, not an end of that edge, within
 // `distance` of it and of another edge of the input. Positions do not say then which mesh edge is
 // whose.

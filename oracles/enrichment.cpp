@@ -34,6 +34,14 @@ std::vector<std::uint8_t> used_in(const std::vector<ExactRecord::Tet>& tets, std
   return used;
 }
 
+bool lies_on_surface(const ExactPoints& points, const InputSurface& surface, Index v) {
+  std::vector<Index> found;
+  surface.triangles_near(box_around(points, std::array{v}), found);
+  return std::any_of(found.begin(), found.end(), [&](Index t) {
+    return squared_distance_to_face(points, v, surface.triangles()[t]) == 0;
+  });
+}
+
 class Enrichment {
  public:
   explicit Enrichment(const RefinedMesh& mesh)
@@ -70,20 +78,12 @@ class Enrichment {
       ++report_.checked;
       if (v < inputs_ || refined_[v] != 0) continue;
       ++on_surface;
-      if (!lies_on_surface(v)) {
+      if (!lies_on_surface(points_, surface_, v)) {
         report_.fail(complex_.vertex_name(v) +
                      " of the final mesh is no vertex of the refined one and not on the surface");
       }
     }
     report_.figures.emplace_back("new on the surface", static_cast<double>(on_surface));
-  }
-
-  bool lies_on_surface(Index v) {
-    found_.clear();
-    surface_.triangles_near(box_around(points_, std::array{v}), found_);
-    return std::any_of(found_.begin(), found_.end(), [&](Index t) {
-      return squared_distance_to_face(points_, v, surface_.triangles()[t]) == 0;
-    });
   }
 
   // Nothing but the input, where that alone keeps the bound.
@@ -383,6 +383,23 @@ class Repairs {
 
 OracleReport check_enrichment(const RefinedMesh& mesh) {
   return Enrichment(mesh).run();
+}
+
+OracleReport check_origins(const ExactRecord& record, const ExactPoints& points,
+                           const InputSurface& surface, Index input_vertices) {
+  OracleReport report("origins", "vertices");
+  const std::vector<std::uint8_t> used = used_in(record.final, points.size());
+  std::uint64_t fresh = 0;
+  for (Index v = 0; v < points.size(); ++v) {
+    report.checked += used[v];
+    if (used[v] == 0 || v < input_vertices) continue;
+    ++fresh;
+    if (!lies_on_surface(points, surface, v)) {
+      report.fail("vertex " + std::to_string(v) + " is neither of the input nor on the surface");
+    }
+  }
+  report.figures.emplace_back("new on the surface", static_cast<double>(fresh));
+  return report;
 }
 
 OracleReport check_repairs(const ExactRecord& record, const ExactPoints& points,

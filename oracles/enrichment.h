@@ -22,4 +22,9 @@ OracleReport check_enrichment(const RefinedMesh& mesh);
 OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoints& points,
                            const Promise& promise);
 
+// Of a plain constrained Delaunay tetrahedrization: every vertex is an input vertex or exactly on
+// the surface. Nothing else gives it points, and none may widen the hull.
+OracleReport check_origins(const delmesher::ExactRecord& record, const ExactPoints& points,
+                           const InputSurface& surface, Index input_vertices);
+
 }  // namespace tetproof::oracles

@@ -27,14 +27,34 @@ std::array<Index, size> read_corners(TextReader& reader, std::int64_t first, std
 
 // ------------------------------------------------------------------------------------------ MEDIT
 
+// delmesher's comments after the end: "# TriangleFacets N", then "# id" for every triangle.
+void read_facet_comments(const std::string& path, std::string_view text, MeshFile& mesh) {
+  const std::size_t at = text.find("\n# TriangleFacets ");
+  if (at == std::string_view::npos) return;
+  TextReader reader(path, text.substr(at + 1), '\0');
+  const auto expect = [&](std::string_view wanted) {
+    if (reader.word() != wanted) reader.fail("a damaged list of facets");
+  };
+  expect("#");
+  expect("TriangleFacets");
+  const std::uint64_t count = reader.count();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    expect("#");
+    mesh.facets.push_back(reader.index(0, 0x100000000U));
+  }
+}
+
 MeshFile read_medit(const std::string& path, std::string_view text) {
   TextReader reader(path, text);
   MeshFile mesh;
   // Sections that hold nothing for us, with the integers or numbers of one entry.
   static const std::map<std::string_view, int> kSkipped = {
-      {"Edges", 3},          {"Corners", 1},  {"RequiredVertices", 1},  {"Ridges", 1},
-      {"Quadrilaterals", 5}, {"Normals", 3},  {"RequiredTriangles", 1}, {"RequiredEdges", 1},
-      {"Tangents", 3},       {"Hexahedra", 9}};
+      {"Edges", 3},   {"Corners", 1},           {"RequiredVertices", 1}, {"Ridges", 1},
+      {"Normals", 3}, {"RequiredTriangles", 1}, {"RequiredEdges", 1},    {"Tangents", 3}};
+  // Cells that no oracle would look at.
+  const auto none = [&](const std::string& section) {
+    if (reader.count() > 0) reader.fail("a section of " + section + ", which are not read");
+  };
   if (reader.word() != "MeshVersionFormatted") reader.fail("not a MEDIT file");
   reader.integer();
   for (auto keyword = reader.word(); !keyword.empty() && keyword != "End";
@@ -59,6 +79,8 @@ MeshFile read_medit(const std::string& path, std::string_view text) {
         mesh.tetrahedra.push_back(read_corners<4>(reader, 1, mesh.vertices.size()));
         mesh.regions.push_back(reader.integer());
       }
+    } else if (keyword == "Hexahedra" || keyword == "Quadrilaterals") {
+      none(std::string(keyword));
     } else if (const auto skipped = kSkipped.find(keyword); skipped != kSkipped.end()) {
       const std::uint64_t count = reader.count();
       for (std::uint64_t i = 0; i < count * static_cast<std::uint64_t>(skipped->second); ++i) {
@@ -68,6 +90,7 @@ MeshFile read_medit(const std::string& path, std::string_view text) {
       reader.fail("unknown section " + std::string(keyword.substr(0, 40)));
     }
   }
+  read_facet_comments(path, text, mesh);
   return mesh;
 }
 
@@ -77,6 +100,7 @@ MeshFile read_tet(const std::string& path, std::string_view text) {
   TextReader reader(path, text);
   MeshFile mesh;
   mesh.either_orientation = true;
+  mesh.lists_boundary = false;
   const std::uint64_t vertices = reader.count();
   reader.skip_line();
   const std::uint64_t inner = reader.count();
@@ -195,6 +219,7 @@ class GmshReader {
       for (std::uint64_t i = 0; i < count; ++i) {
         reader_.integer();
         add_element(type, tag);
+        if (type == 2) mesh_.facets.push_back(static_cast<Index>(entity - 1));
       }
     }
   }
@@ -236,8 +261,10 @@ class GmshReader {
       const auto label = labels_.find(tag);
       mesh_.labels.push_back(
           static_cast<std::int32_t>(label == labels_.end() ? tag : label->second));
+    } else if (type == 1 || type == 15) {
+      reader_.skip_line();  // lines and points
     } else {
-      reader_.skip_line();  // points and lines
+      reader_.fail("an element of type " + std::to_string(type) + ", which is not read");
     }
   }
 
@@ -268,6 +295,11 @@ class VtuReader {
     std::vector<double> values = array("<CellData", "region");
     if (values.empty()) values = array("<CellData", "inside");
     const std::vector<double> labels = array("<CellData", "label");
+    const std::vector<double> facets = array("<CellData", "facet");
+    for (const auto* list :
+         std::initializer_list<const std::vector<double>*>{&values, &labels, &facets}) {
+      if (!list->empty() && list->size() != types.size()) fail("an array has not a value per cell");
+    }
     std::size_t start = 0;
     for (std::size_t cell = 0; cell < types.size(); ++cell) {
       const std::size_t end = static_cast<std::size_t>(offsets[cell]);
@@ -280,10 +312,16 @@ class VtuReader {
       };
       if (types[cell] == 10 && end - start == 4) {
         mesh.tetrahedra.push_back({corner(0), corner(1), corner(2), corner(3)});
-        if (cell < values.size()) mesh.regions.push_back(static_cast<std::int64_t>(values[cell]));
+        if (!values.empty()) mesh.regions.push_back(static_cast<std::int64_t>(values[cell]));
       } else if (types[cell] == 5 && end - start == 3) {
         mesh.boundary.push_back({corner(0), corner(1), corner(2)});
-        if (cell < labels.size()) mesh.labels.push_back(static_cast<std::int32_t>(labels[cell]));
+        if (!labels.empty()) mesh.labels.push_back(static_cast<std::int32_t>(labels[cell]));
+        if (!facets.empty()) {
+          const bool known = facets[cell] >= 0 && facets[cell] < 0x1p32;
+          mesh.facets.push_back(known ? static_cast<Index>(facets[cell]) : kNone);
+        }
+      } else if (types[cell] != 1 && types[cell] != 3) {  // points and lines
+        fail("a cell that is no tetrahedron and no triangle");
       }
       start = end;
     }
@@ -366,6 +404,13 @@ MeshFile read_tetgen(const std::string& stem) {
     face.integer();
     mesh.boundary.push_back(read_corners<3>(face, first, count));
     if (markers) mesh.labels.push_back(static_cast<std::int32_t>(face.integer()));
+    // TetGen's own files have no second number, or others; only a record says what it should be.
+    if (const std::string_view facet = face.word_in_line(); !facet.empty() && markers) {
+      Index value = 0;
+      const auto [end, error] = std::from_chars(facet.data(), facet.data() + facet.size(), value);
+      const bool whole = error == std::errc() && end == facet.data() + facet.size();
+      mesh.facets.push_back(whole ? value : kNone);
+    }
     face.skip_line();
   }
   return mesh;

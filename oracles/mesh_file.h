@@ -14,6 +14,8 @@ struct MeshFile {
   std::vector<std::int64_t> regions;  // per tetrahedron; empty if the file says nothing
   std::vector<Face> boundary;         // triangles listed in the file
   std::vector<std::int32_t> labels;   // per triangle; empty if the file says nothing
+  std::vector<Index> facets;          // the same: the facet that it tiles
+  bool lists_boundary = true;         // false of a format that has no triangles
   // Formats without a common convention: tetrahedra that are all turned the same way are right.
   bool either_orientation = false;
 };

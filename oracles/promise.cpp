@@ -206,6 +206,9 @@ class PromiseCheck {
     not_laxer("delta", p.delta, promise_.guaranteed_delta());
     not_laxer("acute", p.acute, promise_.acute);
     not_laxer("corner", p.corner, promise_.corner_in_force());
+    // No angle of a tetrahedron's face, and no threshold, is beyond these.
+    demand(p.delta <= 60, "the record has delta " + number(p.delta));
+    demand(p.acute <= 90 && p.corner <= 90, "the record has a threshold above 90 degrees");
     demand(p.gabriel || !promise_.gabriel, "the record has no empty balls, promised was --gabriel");
     demand(p.region == promise_.region, "the record is of another region than was promised");
     check_tolerance();

@@ -343,6 +343,7 @@ FacetIndex::FacetIndex(const InputSurface& surface, const ExactRecord& record) {
   std::sort(by_id_.begin(), by_id_.end());
   kept_.assign(surface.facets().size(), 1);
   std::uint64_t named = 0;
+  std::vector<std::uint8_t> seen(surface.triangles().size());
   for (const ExactRecord::Facet& facet : record.facets) {
     const Index f = find(facet.id);
     if (f == kNone || surface.facets()[f].label != facet.label) {
@@ -355,7 +356,15 @@ FacetIndex::FacetIndex(const InputSurface& surface, const ExactRecord& record) {
       if (t >= surface.triangles().size() || surface.facet_of_triangle()[t] != f) {
         defect_ = "facet " + std::to_string(facet.id) + " of the record has triangle " +
                   std::to_string(t) + ", which is not its";
+      } else if (seen[t]++ != 0) {
+        defect_ = "triangle " + std::to_string(t) + " is in facets of the record twice";
       }
+    }
+  }
+  if (!record.facets.empty() && defect_.empty()) {
+    const auto missing = std::count(seen.begin(), seen.end(), 0);
+    if (missing > 0) {
+      defect_ = std::to_string(missing) + " triangles are in no facet of the record";
     }
   }
   if (!record.facets.empty() && named != surface.facets().size()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace tetproof::oracles {
 namespace {
@@ -20,8 +21,21 @@ Simplex sorted(Simplex simplex) {
 struct LabelledFace {
   Face face;
   std::int32_t label;
+  Index facet;
+  bool even;  // `face` is an even permutation of what is seen from outside the solid
   auto operator<=>(const LabelledFace&) const = default;
 };
+
+// Sorts, and tells whether that was an even permutation.
+bool sort_face(Face& face) {
+  bool even = true;
+  for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)}) {
+    if (face[a] <= face[b]) continue;
+    std::swap(face[a], face[b]);
+    even = !even;
+  }
+  return even;
+}
 
 class SameMesh {
  public:
@@ -40,7 +54,12 @@ class SameMesh {
       return std::move(report_);
     }
     compare_tetrahedra();
-    if (!mesh_.boundary.empty() && report_.passed()) compare_boundary();
+    if (!report_.passed()) return std::move(report_);
+    if (mesh_.lists_boundary) {
+      compare_boundary();
+    } else if (!mesh_.boundary.empty()) {
+      report_.fail("the file lists boundary triangles, which its format does not have");
+    }
     return std::move(report_);
   }
 
@@ -79,14 +98,22 @@ class SameMesh {
     }
   }
 
-  // No region number stands for tetrahedra on both sides.
+  // Region 1 is inside. What is outside is called 2, or 0 where a format says "inside" or not.
   void compare_regions(std::size_t w, std::size_t r) {
-    if (mesh_.regions.empty()) return;
     const bool inside = tets_[r].inside;
-    const auto [known, fresh] = side_.emplace(mesh_.regions[w], inside);
-    if (!fresh && known->second != inside) {
+    if (w >= mesh_.regions.size()) {
+      // Where all is inside, a file need not say so.
+      if (!inside || !mesh_.regions.empty()) {
+        report_.fail("the file does not say on which side tetrahedron " + std::to_string(w) +
+                     " is");
+      }
+      return;
+    }
+    const std::int64_t region = mesh_.regions[w];
+    if (!inside && region != 1 && !outside_) outside_ = region;
+    if (inside ? region != 1 : (region != 0 && region != 2) || region != *outside_) {
       report_.fail("tetrahedron " + std::to_string(w) + " of the file is in region " +
-                   std::to_string(mesh_.regions[w]) + ", the record calls it " +
+                   std::to_string(region) + ", the record calls it " +
                    (inside ? "inside" : "outside"));
     }
   }
@@ -97,63 +124,71 @@ class SameMesh {
     return labels;
   }
 
-  // Of a refined mesh, those faces on facets are listed whose tetrahedra are written.
-  std::vector<LabelledFace> recorded_faces() const {
-    std::vector<Face> of_tets;
-    if (record_.final.empty()) {
-      for (const ExactRecord::Tet& tet : tets_) {
-        if (!all_ && !tet.inside) continue;
-        for (int i = 0; i < 4; ++i) of_tets.push_back(sorted(face_of(tet.vertices, i)));
+  // The faces of the tetrahedra inside (of a refined mesh: of all that are written), and how they
+  // are seen from there.
+  std::vector<std::pair<Face, bool>> faces_of_tets() const {
+    std::vector<std::pair<Face, bool>> faces;
+    for (const ExactRecord::Tet& tet : tets_) {
+      if (!tet.inside && !(all_ && record_.final.empty())) continue;
+      for (int i = 0; i < 4; ++i) {
+        Face face = face_of(tet.vertices, i);
+        const bool even = sort_face(face);
+        faces.emplace_back(face, even);
       }
-      std::sort(of_tets.begin(), of_tets.end());
-    }
-    const std::map<Index, std::int32_t> labels = labels_of_facets();
-    std::vector<LabelledFace> faces;
-    for (const auto& [a, b, c, id] : faces_) {
-      const Face face = sorted(Face{a, b, c});
-      if (record_.final.empty() && !std::binary_search(of_tets.begin(), of_tets.end(), face)) {
-        continue;
-      }
-      const auto label = labels.find(id);
-      faces.push_back({face, labelled_ && label != labels.end() ? label->second : 0});
     }
     std::sort(faces.begin(), faces.end());
     return faces;
   }
 
-  std::vector<Face> hull_faces() const {
-    std::vector<Face> faces, once;
-    if (!all_) return once;
-    for (const ExactRecord::Tet& tet : tets_) {
-      for (int i = 0; i < 4; ++i) faces.push_back(sorted(face_of(tet.vertices, i)));
+  // Of a refined mesh, those faces on facets are listed whose tetrahedra are written.
+  std::vector<LabelledFace> recorded_faces() const {
+    const std::vector<std::pair<Face, bool>> of_tets = faces_of_tets();
+    const std::map<Index, std::int32_t> labels = labels_of_facets();
+    std::vector<LabelledFace> faces;
+    for (const auto& [a, b, c, id] : faces_) {
+      Face face = {a, b, c};
+      bool even = sort_face(face);
+      const auto at = std::lower_bound(of_tets.begin(), of_tets.end(), std::pair(face, false));
+      const bool found = at != of_tets.end() && at->first == face;
+      if (record_.final.empty()) {
+        // Tetrahedra on both sides may be written: the faces oracle decides which way it is turned.
+        if (!found) continue;
+      } else if (found) {
+        even = at->second;
+      }
+      const auto label = labels.find(id);
+      faces.push_back({face, labelled_ && label != labels.end() ? label->second : 0, id, even});
     }
     std::sort(faces.begin(), faces.end());
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      const bool pair = i + 1 < faces.size() && faces[i + 1] == faces[i];
-      if (!pair) once.push_back(faces[i]);
-      i += pair;
-    }
-    return once;
+    return faces;
   }
 
   void compare_boundary() {
+    if (!mesh_.facets.empty() && mesh_.facets.size() != mesh_.boundary.size()) {
+      report_.fail("the file names " + std::to_string(mesh_.facets.size()) + " facets for " +
+                   std::to_string(mesh_.boundary.size()) + " boundary triangles");
+    }
     const std::vector<LabelledFace> recorded = recorded_faces();
-    const std::vector<Face> hull = hull_faces();
     std::vector<std::uint8_t> seen(recorded.size());
     for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {
       Face face = mesh_.boundary[n];
       for (Index& v : face) v = v < record_.mesh_vertices.size() ? record_.mesh_vertices[v] : kNone;
-      const LabelledFace listed = {sorted(face), labelled_ ? mesh_.labels[n] : 0};
+      const bool even = sort_face(face);
       const auto found = std::lower_bound(
-          recorded.begin(), recorded.end(), listed.face,
+          recorded.begin(), recorded.end(), face,
           [](const LabelledFace& other, const Face& wanted) { return other.face < wanted; });
       const std::string name = "boundary triangle " + std::to_string(n) + " of the file";
-      if (found == recorded.end() || found->face != listed.face) {
-        if (std::binary_search(hull.begin(), hull.end(), listed.face)) continue;
+      if (found == recorded.end() || found->face != face) {
         report_.fail(name + " is no face on a facet of the record");
         continue;
       }
-      if (found->label != listed.label) report_.fail(name + " has another label in the record");
+      if (labelled_ && found->label != mesh_.labels[n]) {
+        report_.fail(name + " has another label in the record");
+      }
+      if (n < mesh_.facets.size() && found->facet != mesh_.facets[n]) {
+        report_.fail(name + " is on another facet in the record");
+      }
+      if (found->even != even) report_.fail(name + " is turned inwards");
       if (seen[found - recorded.begin()]++ != 0) report_.fail(name + " is listed twice");
     }
     const auto missing = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 0));
@@ -167,7 +202,7 @@ class SameMesh {
   bool labelled_, all_;
   const std::vector<ExactRecord::Tet>& tets_;
   const std::vector<std::array<std::uint32_t, 4>>& faces_;
-  std::map<std::int64_t, bool> side_;
+  std::optional<std::int64_t> outside_;
   OracleReport report_{"same-mesh", "tetrahedra of the file"};
 };
 

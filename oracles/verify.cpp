@@ -44,6 +44,19 @@ TetComplex complex_of(const std::vector<ExactRecord::Tet>& tets, const ExactPoin
   return complex;
 }
 
+// Which number of the record, beside its points, nothing can be decided with; or null.
+std::string endless(const ExactRecord& record) {
+  const ExactRecord::Parameters& p = record.parameters;
+  if (!std::isfinite(p.delta)) return "delta";
+  if (!std::isfinite(p.acute) || !std::isfinite(p.corner)) return "a threshold";
+  if (!std::isfinite(p.tolerance)) return "the tolerance";
+  for (const ExactRecord::Corner& corner : record.corners) {
+    if (std::isfinite(corner.threshold) && std::isfinite(corner.radius)) continue;
+    return "the threshold or radius of corner " + std::to_string(corner.vertex);
+  }
+  return {};
+}
+
 // What several parts of a verification ask, made by the first that does.
 class Shared {
  public:
@@ -102,6 +115,9 @@ void Shared::read_sidecar() {
       s.report.fail("input vertex " + std::to_string(v) + " is not point " + std::to_string(v));
     }
   }
+  if (const std::string name = endless(*exact_); !name.empty()) {
+    s.report.fail(name + " is not finite");
+  }
   if (!s.report.passed()) return;
   s.why = s.surface.assign(input_, s.points);
   s.usable = s.why.empty();
@@ -136,6 +152,7 @@ class Verification {
                           const InputSurface& surface, const ConformityResult& conformity);
   void turn_all(TetComplex& complex) const;
   std::string check_sidecar();
+  OracleReport check_facet_list(const InputSurface& surface) const;
   std::string check_exact_final();
   void check_final_complex(const ExactPoints& points, const InputSurface& surface);
   std::string check_refined_complex();
@@ -197,9 +214,10 @@ void Verification::move_to(VerifyReport& report, double& ulp, double& diagonal) 
   if (diagonal_ > 0) diagonal = diagonal_;
 }
 
-// Some formats have no convention: there the sign of the majority is the right one.
+// Some formats have no convention: there the sign of the majority is the right one. A file with a
+// record was written by delmesher, which has one.
 void Verification::turn_all(TetComplex& complex) const {
-  if (!mesh_.either_orientation) return;
+  if (!mesh_.either_orientation || exact_ != nullptr) return;
   std::int64_t balance = 0;
   for (const auto& [a, b, c, d] : complex.tetrahedra) {
     balance += exact::orient3d(*complex.points, a, b, c, d);
@@ -239,13 +257,14 @@ std::string Verification::check_file() {
   for (Tet& tet : complex.tetrahedra) {
     for (Index& v : tet) v = v < mesh_.vertices.size() ? v + offset : kNone;
   }
+  const bool in_range = std::none_of(
+      complex.tetrahedra.begin(), complex.tetrahedra.end(),
+      [](const Tet& tet) { return *std::max_element(tet.begin(), tet.end()) == kNone; });
+  // Neighbours are told by face, so that nothing may be turned after they are.
+  if (in_range) turn_all(complex);
   Neighbours neighbours;
   add(check_complex(complex, neighbours, options_.stage == Stage::refined));
-  for (const Tet& tet : complex.tetrahedra) {
-    if (*std::max_element(tet.begin(), tet.end()) == kNone)
-      return {};  // said by the complex oracle
-  }
-  turn_all(complex);
+  if (!in_range) return {};  // said by the complex oracle
   OracleReport orientation = check_orientation(complex);
   report_.inverted = static_cast<std::uint64_t>(figure(orientation, "inverted"));
   report_.flat = static_cast<std::uint64_t>(figure(orientation, "flat"));
@@ -371,10 +390,21 @@ std::string Verification::check_sidecar() {
   ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);
   diagonal_ = sidecar.surface.diagonal();
   add(check_promise(options_.promised, *exact_, options_.record_version, diagonal_));
+  add(check_facet_list(sidecar.surface));
   add(check_same_mesh(mesh_, *exact_, options_.promised, !input_.labels.empty()));
   add(check_rounding(mesh_, *exact_, sidecar.points,
                      {.ulp = ulp_, .allowed = options_.declared_deviation * diagonal_}));
   return {};
+}
+
+// The facets of the record are those of the input, once each, with their triangles.
+OracleReport Verification::check_facet_list(const InputSurface& surface) const {
+  OracleReport report("facet-list", "facets");
+  report.checked = surface.facets().size();
+  if (const FacetIndex facets(surface, *exact_); !facets.defect().empty()) {
+    report.fail(facets.defect());
+  }
+  return report;
 }
 
 std::string Verification::check_exact_final() {
@@ -404,6 +434,9 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
   add(check_hull(complex, neighbours), "exact-");
   check_constrained(complex, neighbours, surface);
   add(check_facet_ids(complex, conformity, surface, exact_->final_facets), "exact-");
+  if (options_.promised.task == Task::cdt) {
+    add(check_origins(*exact_, points, surface, static_cast<Index>(input_.vertices.size())));
+  }
 }
 
 // The faces that are said to tile facets are those that do.
@@ -453,14 +486,17 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
   add(std::move(shape), "unrepaired-");
   if (!usable) return;
   add(check_orientation(before), "unrepaired-");
-  if (!exact_->unrepaired_facets.empty()) {
-    const ConformityResult conformity =
-        check_conformity(before, neighbours_before, surface, {.exact = true});
-    add(conformity.report, "unrepaired-");
-    add(check_facet_ids(before, conformity, surface, exact_->unrepaired_facets), "unrepaired-");
-    constraints.clear();
-    for (const auto& [a, b, c, id] : exact_->unrepaired_facets) constraints.push_back({a, b, c});
-  }
+  // Else it could leave out what is wrong with the final mesh.
+  add(check_hull(before, neighbours_before), "unrepaired-");
+  // None are listed if repairs did not change them.
+  const auto& listed =
+      exact_->unrepaired_facets.empty() ? exact_->final_facets : exact_->unrepaired_facets;
+  const ConformityResult conformity =
+      check_conformity(before, neighbours_before, surface, {.exact = true});
+  add(conformity.report, "unrepaired-");
+  add(check_facet_ids(before, conformity, surface, listed), "unrepaired-");
+  constraints.clear();
+  for (const auto& [a, b, c, id] : listed) constraints.push_back({a, b, c});
   add(check_constrained_delaunay(before, neighbours_before, surface, constraints), "unrepaired-");
 }
 
@@ -508,7 +544,10 @@ void Verification::check_promises(const RefinedMesh& mesh) {
   add(check_chamfer_need(mesh), "refined-");
   if (!exact_->refined_facets.empty()) add(check_chamfer_cuts(mesh), "refined-");
   if (!exact_->chamfer_points.empty()) add(check_chamfer_extent(mesh), "refined-");
-  if (options_.promised.tau > 0 || exact_->parameters.tolerance > 0) {
+  const bool dropped = std::any_of(exact_->facets.begin(), exact_->facets.end(),
+                                   [](const auto& facet) { return facet.filtered != 0; });
+  // Without a tolerance nothing may have been dropped.
+  if (options_.promised.tau > 0 || exact_->parameters.tolerance > 0 || dropped) {
     add(check_filter(mesh), "refined-");
   }
   if (options_.promised.max_edge > 0) add(check_edges(*mesh.complex), "refined-");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "mesher/delmesher.h"
@@ -37,8 +38,8 @@ Options honest_options() {
   return options;
 }
 
-Told run_of(const Options& options, Task task = Task::mesh) {
-  const delmesher::Surface surface = samples::wedge_and_slab();
+Told run_of(const Options& options, Task task = Task::mesh,
+            const delmesher::Surface& surface = samples::wedge_and_slab()) {
   const delmesher::Result result = task == Task::cdt
                                        ? delmesher::constrained_delaunay(surface, options)
                                        : delmesher::tetrahedralize(surface, options);
@@ -187,6 +188,164 @@ void take_facet_out(ExactRecord& r) {
                 [id](const auto& chain) { return chain.artificial && chain.facet == id; });
 }
 
+// A run of the hull, told as it was.
+void run_hull(Told& told, Task task = Task::mesh) {
+  Options options = honest_options();
+  options.region = delmesher::Region::hull;
+  told = run_of(options, task);
+}
+
+// The constrained Delaunay tetrahedrization of the hull, told as it was.
+void run_cdt(Told& told) {
+  run_hull(told, Task::cdt);
+}
+
+// Mesh and record of the wedge alone, all of their indices as if the slab had been there.
+void leave_slab_out(Told& told) {
+  delmesher::Surface wedge = samples::wedge_and_slab();
+  constexpr Index kWedge = 6, kWedgeTriangles = 8;
+  const auto slab = static_cast<Index>(wedge.vertices.size()) - kWedge;
+  wedge.vertices.resize(kWedge);
+  wedge.triangles.resize(kWedgeTriangles);
+  const delmesher::Result run = delmesher::tetrahedralize(wedge, honest_options());
+  ASSERT_TRUE(run.status.ok());
+  const auto moved = [&](Index v) { return v < kWedge ? v : v + slab; };
+  ExactRecord& r = told.record;
+  const ExactRecord::Parameters promised = r.parameters;
+  const std::vector<ExactPoint> input(r.points.begin(), r.points.begin() + kWedge + slab);
+  std::vector<ExactRecord::Facet> facets = r.facets;
+  r = run.exact;
+  r.parameters = promised;
+  for (auto& facet : facets) facet.filtered = facet.id < kWedgeTriangles ? 0 : 1;
+  r.facets = facets;
+  for (ExactPoint& p : r.points) {
+    if (p.kind == ExactPoint::Kind::explicit_point) continue;
+    p.i = moved(p.i);
+    p.j = moved(p.j);
+    if (p.kind == ExactPoint::Kind::on_triangle) p.k = moved(p.k);
+  }
+  r.points.erase(r.points.begin(), r.points.begin() + kWedge);
+  r.points.insert(r.points.begin(), input.begin(), input.end());
+  const auto move_tets = [&](std::vector<ExactRecord::Tet>& tets) {
+    for (auto& tet : tets) {
+      for (Index& v : tet.vertices) v = moved(v);
+    }
+  };
+  move_tets(r.refined);
+  move_tets(r.final);
+  move_tets(r.unrepaired);
+  for (auto* faces : {&r.refined_facets, &r.final_facets, &r.unrepaired_facets}) {
+    for (auto& face : *faces) {
+      for (int i = 0; i < 3; ++i) face[i] = moved(face[i]);
+    }
+  }
+  for (auto& chain : r.segments) {
+    for (Index& v : chain.vertices) v = moved(v);
+  }
+  for (auto& corner : r.corners) corner.vertex = moved(corner.vertex);
+  for (auto& made : r.chamfer_points) made = {moved(made[0]), moved(made[1])};
+  for (auto& ball : r.balls) {
+    ball.vertex = moved(ball.vertex);
+    for (Index& v : ball.tetrahedron) v = moved(v);
+  }
+  for (Index& v : r.mesh_vertices) v = moved(v);
+  told.sample.mesh = samples::to_mesh(run.mesh);
+}
+
+// What is not Delaunay is put into the final mesh: outside, the face between two tetrahedra becomes
+// an edge. It is told to have come with a repair of a mesh that had nothing outside.
+void flip_and_hide(Told& told, bool hide) {
+  // Of the wedge and the slab, nothing can be flipped.
+  for (const samples::NamedSurface& model : samples::surfaces(1)) {
+    Options options = honest_options();
+    options.region = delmesher::Region::hull;
+    if (model.name == "pebble") told = run_of(options, Task::cdt, model.surface);
+  }
+  ExactRecord& r = told.record;
+  ExactPoints points;
+  points.assign(r.points);
+  std::set<std::set<Index>> constraints;
+  for (const auto& [a, b, c, id] : r.final_facets) constraints.insert({a, b, c});
+  for (std::size_t s = 0; s < r.final.size(); ++s) {
+    for (std::size_t t = 0; t < s; ++t) {
+      if (r.final[s].inside || r.final[t].inside) continue;
+      const auto& p = r.final[s].vertices;
+      std::vector<Index> common, apices;
+      for (const Index v : p) {
+        const auto& q = r.final[t].vertices;
+        (std::find(q.begin(), q.end(), v) != q.end() ? common : apices).push_back(v);
+      }
+      if (common.size() != 3 || constraints.contains({common.begin(), common.end()})) continue;
+      for (const Index v : r.final[t].vertices) {
+        if (std::find(common.begin(), common.end(), v) == common.end()) apices.push_back(v);
+      }
+      std::vector<ExactRecord::Tet> three;
+      bool convex = true;
+      int turned = 0;
+      for (int i = 0; i < 3; ++i) {
+        std::array<Index, 4> tet = {common[i], common[(i + 1) % 3], apices[1], apices[0]};
+        const int sign = exact::orient3d(points, tet[0], tet[1], tet[2], tet[3]);
+        // The edge between the apices passes through the face if all three turn the same way.
+        turned += sign;
+        convex = convex && std::abs(turned) == i + 1;
+        if (sign < 0) std::swap(tet[0], tet[1]);
+        three.push_back({tet, r.final[s].inside});
+      }
+      if (!convex) continue;
+      std::set<std::set<Index>> gone;
+      for (const std::size_t n : {s, t}) {
+        gone.insert({r.final[n].vertices.begin(), r.final[n].vertices.end()});
+      }
+      std::vector<ExactRecord::Tet> rest = r.final;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(s));
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(t));
+      std::set<Index> used;
+      for (const auto& tet : rest) used.insert(tet.vertices.begin(), tet.vertices.end());
+      if (!used.contains(apices[0]) || !used.contains(apices[1])) continue;
+      r.final = rest;
+      r.final.insert(r.final.end(), three.begin(), three.end());
+      if (hide) {
+        r.unrepaired = rest;
+        std::erase_if(r.unrepaired, [](const auto& tet) { return !tet.inside; });
+      }
+      std::vector<Index> written(r.points.size(), kNone);
+      for (Index i = 0; i < r.mesh_vertices.size(); ++i) written[r.mesh_vertices[i]] = i;
+      MeshFile& mesh = told.sample.mesh;
+      for (std::size_t n = mesh.tetrahedra.size(); n-- > 0;) {
+        std::set<Index> corners;
+        for (const Index v : mesh.tetrahedra[n]) corners.insert(r.mesh_vertices[v]);
+        if (!gone.contains(corners)) continue;
+        mesh.tetrahedra.erase(mesh.tetrahedra.begin() + static_cast<std::ptrdiff_t>(n));
+        mesh.regions.erase(mesh.regions.begin() + static_cast<std::ptrdiff_t>(n));
+      }
+      for (const auto& tet : three) {
+        Tet here = tet.vertices;
+        for (Index& v : here) v = written[v];
+        mesh.tetrahedra.push_back(here);
+        mesh.regions.push_back(tet.inside ? 1 : 0);
+      }
+      return;
+    }
+  }
+  ADD_FAILURE() << "nothing to flip";
+}
+
+// Every input triangle with a label of its own facet.
+void give_labels(Told& told) {
+  auto& labels = told.sample.input.labels;
+  labels.assign(told.sample.input.triangles.size(), 0);
+  std::map<Index, std::int32_t> of_facet;
+  for (auto& facet : told.record.facets) {
+    facet.label = static_cast<std::int32_t>(facet.id) + 1;
+    for (const Index t : facet.triangles) labels[t] = facet.label;
+    of_facet[facet.id] = facet.label;
+  }
+  auto& mesh = told.sample.mesh;
+  for (std::size_t n = 0; n < mesh.boundary.size(); ++n) {
+    mesh.labels[n] = of_facet.at(mesh.facets[n]);
+  }
+}
+
 struct Lie {
   const char* name;
   const char* oracle;  // the one meant to catch it
@@ -237,6 +396,38 @@ const Lie kRelaxed[] = {
      [](Told& t) {
        t.record.parameters = {};
        t.record.parameters.tolerance = 0x1p60;
+     }},
+    {"delta that is no number", "sidecar",
+     [](Told& t) { t.record.parameters.delta = std::nan(""); }},
+    {"delta infinite", "sidecar", [](Told& t) { t.record.parameters.delta = HUGE_VAL; }},
+    {"delta that the mesh does not have", "refined-angles",
+     [](Told& t) { t.record.parameters.delta = 30; }},
+    {"threshold of corners infinite", "sidecar",
+     [](Told& t) { t.record.parameters.acute = HUGE_VAL; }},
+    {"threshold of corners above a right angle", "promise",
+     [](Told& t) { t.record.parameters.acute = t.record.parameters.corner = 120; }},
+    {"threshold of one corner that is no number", "sidecar",
+     [](Told& t) { t.record.corners.front().threshold = std::nan(""); }},
+    {"tolerance that is no number", "sidecar",
+     [](Told& t) {
+       t.promise.budget = 1000;
+       t.record.parameters.tolerance = std::nan("");
+     }},
+    {"tolerance negative", "promise",
+     [](Told& t) { t.record.parameters.tolerance = -t.record.parameters.tolerance; }},
+    {"tolerance denormal", "promise", [](Told& t) { t.record.parameters.tolerance = 0x1p-1070; }},
+    {"a radius that is no number", "sidecar",
+     [](Told& t) { t.record.corners.front().radius = std::nan(""); }},
+    {"a radius negative", "refined-chamfer-need",
+     [](Told& t) { t.record.corners.front().radius *= -1; }},
+    {"a radius denormal", "refined-chamfer-extent",
+     [](Told& t) { t.record.corners.front().radius = 0x1p-1070; }},
+    {"empty balls that the mesh does not have", "refined-encroachment",
+     [](Told& t) {
+       Options options = honest_options();
+       options.gabriel = false;
+       t = run_of(options);
+       t.record.parameters.gabriel = true;
      }},
     {"an old version", "promise", [](Told& t) { t.version = 2; }},
     {"version 1, which lacks what could be asked", "promise",
@@ -301,6 +492,48 @@ const Lie kSections[] = {
          return tet.inside;
        })->inside = false;
      }},
+    {"a facet twice, another one not at all", "facet-list",
+     [](Told& t) { t.record.facets.back() = t.record.facets.front(); }},
+    {"a facet without its triangles", "facet-list",
+     [](Told& t) { t.record.facets.front().triangles.clear(); }},
+    {"a triangle twice in its facet", "facet-list",
+     [](Told& t) {
+       auto& triangles = t.record.facets.front().triangles;
+       triangles.push_back(triangles.front());
+     }},
+    {"facets of a plain tetrahedrization exchanged", "facet-list",
+     [](Told& t) {
+       run_cdt(t);
+       std::swap(t.record.facets.front().id, t.record.facets.back().id);
+     }},
+    {"a segment cut short", "refined-segments",
+     [](Told& t) {
+       for (auto& chain : t.record.segments) {
+         if (!chain.artificial && chain.vertices.size() > 2) return chain.vertices.pop_back();
+       }
+     }},
+    {"a segment in two pieces", "refined-segments",
+     [](Told& t) {
+       for (std::size_t n = 0; n < t.record.segments.size(); ++n) {
+         auto chain = t.record.segments[n];
+         if (chain.artificial || chain.vertices.size() < 3) continue;
+         t.record.segments[n].vertices.resize(2);
+         chain.vertices.erase(chain.vertices.begin());
+         t.record.segments.push_back(chain);
+         return;
+       }
+     }},
+    {"a segment twice", "refined-segments",
+     [](Told& t) { t.record.segments.push_back(t.record.segments.front()); }},
+    {"tetrahedra of balls exchanged", "refined-steiner-balls",
+     [](Told& t) {
+       auto& balls = t.record.balls;
+       std::swap(balls.front().tetrahedron, balls.back().tetrahedron);
+     }},
+    {"all tetrahedra of the final mesh turned over", "exact-orientation",
+     [](Told& t) {
+       for (auto& tet : t.record.final) std::swap(tet.vertices[0], tet.vertices[1]);
+     }},
     {"two input vertices exchanged", "sidecar",
      [](Told& t) { std::swap(t.record.points[0], t.record.points[1]); }},
     {"labels of facets exchanged", "refined-segments",
@@ -357,6 +590,63 @@ const Lie kForeign[] = {
        t.sample.input.labels.assign(t.sample.input.triangles.size(), 0);
        t.sample.mesh.labels.assign(t.sample.mesh.boundary.size(), 0);
        t.sample.mesh.labels.back() = 4;
+     }},
+    {"no boundary triangles in the file", "same-mesh",
+     [](Told& t) {
+       t.sample.mesh.boundary.clear();
+       t.sample.mesh.labels.clear();
+       t.sample.mesh.facets.clear();
+     }},
+    {"a boundary triangle in the file turned inwards", "same-mesh",
+     [](Told& t) {
+       auto& face = t.sample.mesh.boundary.front();
+       std::swap(face[0], face[1]);
+     }},
+    {"facets of boundary triangles in the file exchanged", "same-mesh",
+     [](Told& t) { std::swap(t.sample.mesh.facets.front(), t.sample.mesh.facets.back()); }},
+    {"facets of boundary triangles cut short", "same-mesh",
+     [](Told& t) { t.sample.mesh.facets.pop_back(); }},
+    {"a face of the hull listed as boundary", "same-mesh",
+     [](Told& t) {
+       run_hull(t);
+       std::set<std::set<Index>> seen;
+       for (const Tet& tet : t.sample.mesh.tetrahedra) {
+         for (int i = 0; i < 4; ++i) {
+           const Face face = face_of(tet, i);
+           const std::set<Index> corners(face.begin(), face.end());
+           if (!seen.insert(corners).second) seen.erase(corners);
+         }
+       }
+       for (const Face& face : t.sample.mesh.boundary) seen.erase({face.begin(), face.end()});
+       const std::vector<Index> face(seen.begin()->begin(), seen.begin()->end());
+       t.sample.mesh.boundary.push_back({face[0], face[1], face[2]});
+       t.sample.mesh.labels.push_back(0);
+       t.sample.mesh.facets.push_back(0);
+     }},
+    {"all tetrahedra of the file turned over, in a format without convention", "orientation",
+     [](Told& t) {
+       t.sample.mesh.either_orientation = true;
+       for (Tet& tet : t.sample.mesh.tetrahedra) std::swap(tet[0], tet[1]);
+     }},
+    {"inside and outside exchanged in the file", "same-mesh",
+     [](Told& t) {
+       run_hull(t);
+       for (auto& region : t.sample.mesh.regions) region = 1 - region;
+     }},
+    {"half of the inside renamed in the file", "same-mesh",
+     [](Told& t) {
+       auto& regions = t.sample.mesh.regions;
+       std::fill_n(regions.begin(), regions.size() / 2, 7);
+     }},
+    {"sides left out of a file of the hull", "same-mesh",
+     [](Told& t) {
+       run_hull(t);
+       t.sample.mesh.regions.clear();
+     }},
+    {"sides of a file cut short", "same-mesh",
+     [](Told& t) {
+       run_hull(t);
+       t.sample.mesh.regions.resize(t.sample.mesh.regions.size() / 2);
      }},
     {"a face on a facet fewer in the record", "same-mesh",
      [](Told& t) { t.record.final_facets.pop_back(); }},
@@ -421,6 +711,78 @@ const Lie kConsistent[] = {
        t.record.facets[kept_facet(t.record)].filtered = 2;
        take_facet_out(t.record);
      }},
+    {"a run with a filter, told to have none", "refined-filter",
+     [](Told& t) { t.promise.tau = t.record.parameters.tolerance = 0; }},
+    {"no filter, and all facets dropped, an empty box refined", "refined-filter",
+     [](Told& t) {
+       empty_box(t.record, 1);
+       t.promise.tau = t.record.parameters.tolerance = 0;
+     }},
+    {"a mesh with Steiner points told to be a plain tetrahedrization", "origins",
+     [](Told& t) {
+       run_hull(t);
+       t.promise.task = Task::cdt;
+     }},
+    {"outside left out before repairs and not Delaunay after them", "unrepaired-hull",
+     [](Told& t) { flip_and_hide(t, true); }},
+    {"a flip that is not Delaunay", "exact-constrained-delaunay",
+     [](Told& t) { flip_and_hide(t, false); }},
+    {"other facets before repairs that never were", "unrepaired-facets",
+     [](Told& t) {
+       t.record.unrepaired = t.record.final;
+       t.record.unrepaired_facets = t.record.final_facets;
+       t.record.unrepaired_facets.pop_back();
+     }},
+    {"a component left out of everything", "exact-conformity", leave_slab_out},
+    {"all of the hull called inside", "exact-interior",
+     [](Told& t) {
+       run_hull(t);
+       for (auto& tet : t.record.final) tet.inside = true;
+       std::fill(t.sample.mesh.regions.begin(), t.sample.mesh.regions.end(), 1);
+     }},
+    {"labels of two facets exchanged in file and record", "boundary-list",
+     [](Told& t) {
+       give_labels(t);
+       std::swap(t.record.facets.front().label, t.record.facets.back().label);
+       std::map<Index, std::int32_t> of_facet;
+       for (const auto& facet : t.record.facets) of_facet[facet.id] = facet.label;
+       auto& mesh = t.sample.mesh;
+       for (std::size_t n = 0; n < mesh.boundary.size(); ++n) {
+         mesh.labels[n] = of_facet.at(mesh.facets[n]);
+       }
+     }},
+    {"facets exchanged in file and record", "exact-facets",
+     [](Told& t) {
+       const Index a = t.record.final_facets.front()[3], b = t.record.final_facets.back()[3];
+       const auto other = [a, b](Index id) { return id == a ? b : id == b ? a : id; };
+       for (auto& face : t.record.final_facets) face[3] = other(face[3]);
+       for (Index& id : t.sample.mesh.facets) id = other(id);
+     }},
+    {"the outside of a hull left out in file and record", "exact-hull",
+     [](Told& t) {
+       run_hull(t);
+       std::erase_if(t.record.final, [](const auto& tet) { return !tet.inside; });
+       auto& mesh = t.sample.mesh;
+       std::vector<Tet> kept;
+       for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
+         if (mesh.regions[n] == 1) kept.push_back(mesh.tetrahedra[n]);
+       }
+       mesh.tetrahedra = kept;
+       mesh.regions.assign(kept.size(), 1);
+     }},
+    {"a vertex of the mesh put where another one is", "exact-orientation",
+     [](Told& t) {
+       const Index v = t.record.mesh_vertices.back();
+       const Index w = t.record.mesh_vertices[t.record.mesh_vertices.size() - 2];
+       t.record.points[v] = t.record.points[w];
+       t.sample.mesh.vertices.back() = t.sample.mesh.vertices[t.sample.mesh.vertices.size() - 2];
+     }},
+    {"the final mesh told to be that of --approximate", "same-mesh",
+     [](Told& t) {
+       t.promise.approximate = true;
+       t.record.final.clear();
+       t.record.final_facets.clear();
+     }},
     {"tetrahedra doubled in file and record", "exact-complex",
      [](Told& t) {
        t.sample.mesh.tetrahedra.push_back(t.sample.mesh.tetrahedra.front());
@@ -439,10 +801,14 @@ TEST_P(Lies, AreCaughtByTheOracleMeantForThem) {
   Told told = honest();
   const auto verdict = [](const Told& t) {
     VerifyReport report;
-    EXPECT_EQ(
-        verify(t.sample.input, t.sample.mesh, &t.record,
-               {.stage = Stage::both, .promised = t.promise, .record_version = t.version}, report),
-        "");
+    EXPECT_EQ(verify(t.sample.input, t.sample.mesh, &t.record,
+                     {.stage = t.promise.approximate         ? Stage::refined
+                               : t.promise.task == Task::cdt ? Stage::final
+                                                             : Stage::both,
+                      .promised = t.promise,
+                      .record_version = t.version},
+                     report),
+              "");
     return report;
   };
   static const VerifyReport good = verdict(told);

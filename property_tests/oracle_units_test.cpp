@@ -68,6 +68,69 @@ TEST(FileAlone, IsNotJudgedWhereDoublesDoNotTellEdgesApart) {
   EXPECT_EQ(verdict_on_needle(0x1p-52, 0.35, false), Verdict::broken);
 }
 
+// A square pyramid upside down. Its base has a facet as thin as a needle P A B, whose edges a
+// vertex on PA and one on PB do not let anybody tell apart, and two vertices of the base are pushed
+// in and out by as much, which changes no volume.
+Verdict verdict_on_dented_base(double dent) {
+  constexpr double kThin = 0x1p-52;
+  const Polyhedron input = {{{0, 0, 0},
+                             {1, 0, 0},
+                             {1, kThin, 0},
+                             {-1, -2, 0},
+                             {2, -2, 0},
+                             {2, 2, 0},
+                             {-1, 2, 0},
+                             {0.5, 0, -3}},
+                            {{{0, 1, 2}},
+                             {{0, 3, 1}},
+                             {{3, 4, 1}},
+                             {{4, 2, 1}},
+                             {{4, 5, 2}},
+                             {{5, 6, 2}},
+                             {{6, 0, 2}},
+                             {{6, 3, 0}},
+                             {{3, 6, 7}},
+                             {{4, 3, 7}},
+                             {{5, 4, 7}},
+                             {{6, 5, 7}}},
+                            {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+                            {}};
+  MeshFile mesh;
+  mesh.vertices = input.vertices;
+  mesh.vertices.push_back({0.5, -0.35 * kThin, 0});
+  mesh.vertices.push_back({0.25, 0.25 * kThin, 0});
+  // In the triangles 3 4 1 and 5 6 2, of equal size.
+  mesh.vertices.push_back({0.5, -1, dent});
+  mesh.vertices.push_back({0.5, 1, -dent});
+  // Seen from above: the needle without an edge from vertex 8 to B, and what is around it.
+  const std::vector<Face> base = {
+      {0, 8, 9}, {8, 1, 9}, {1, 2, 9},  {0, 3, 8},  {3, 1, 8},  {3, 4, 10}, {4, 1, 10}, {1, 3, 10},
+      {4, 2, 1}, {4, 5, 2}, {5, 6, 11}, {6, 2, 11}, {2, 5, 11}, {6, 0, 9},  {6, 9, 2},  {6, 3, 0}};
+  for (const auto& [a, b, c] : base) mesh.tetrahedra.push_back({a, b, c, 7});
+  mesh.either_orientation = true;
+  VerifyReport report;
+  EXPECT_EQ(verify(input, mesh, nullptr, {}, report), "");
+  return report.verdict;
+}
+
+TEST(FileAlone, MayBeTurnedOverWhereTheFormatHasNoConvention) {
+  const samples::Sample honest = samples::l_shape();
+  for (const bool either : {true, false}) {
+    MeshFile turned = honest.mesh;
+    turned.either_orientation = either;
+    for (Tet& tet : turned.tetrahedra) std::swap(tet[0], tet[1]);
+    VerifyReport report;
+    EXPECT_EQ(verify(honest.input, turned, nullptr, {}, report), "");
+    EXPECT_EQ(report.verdict, either ? Verdict::exact : Verdict::broken) << to_text(report);
+  }
+}
+
+TEST(FileAlone, IsNoExcuseForWhatIsFarFromTheSurface) {
+  EXPECT_EQ(verdict_on_dented_base(0), Verdict::undecided);
+  EXPECT_EQ(verdict_on_dented_base(0x1p-10), Verdict::broken);
+  EXPECT_EQ(verdict_on_dented_base(0x1p-30), Verdict::broken);
+}
+
 // ------------------------------------------------------------------------------------- intervals
 
 TEST(Intervals, HaveTheSignOfAllTheyHold) {
@@ -630,25 +693,33 @@ TEST(ChamferFeatures, OfASharpPrism) {
   }
 }
 
-// Faces of the hull may be listed besides faces on facets, all four of a tetrahedron alone.
-TEST(SameMesh, FacesOfTheHullMayBeListed) {
+// The boundary that delmesher lists tiles the surface: faces of the hull are none of it.
+TEST(SameMesh, FacesOfTheHullAreNoBoundary) {
   delmesher::ExactRecord record;
   record.points =
       explicit_points(std::vector<Position>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   record.mesh_vertices = {0, 1, 2, 3};
-  record.final = {{{0, 1, 2, 3}, false}};
+  record.final = {{{0, 1, 2, 3}, true}};
+  record.final_facets = {{1, 2, 3, 7}};
   MeshFile mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.tetrahedra = {{0, 1, 2, 3}};
-  Promise promise;
-  promise.region = delmesher::Region::hull;
-  for (const Face& face : {Face{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}) {
-    mesh.boundary = {face};
-    EXPECT_EQ(check_same_mesh(mesh, record, promise, false).violations, 0U);
+  mesh.regions = {1};
+  const auto violations = [&](const std::vector<Face>& boundary, Index facet = 7) {
+    mesh.boundary = boundary;
+    mesh.facets.assign(boundary.size(), facet);
+    Promise promise;
+    promise.region = delmesher::Region::hull;
+    return check_same_mesh(mesh, record, promise, false).violations;
+  };
+  EXPECT_EQ(violations({{1, 2, 3}}), 0U);
+  EXPECT_EQ(violations({{3, 1, 2}}), 0U);
+  EXPECT_EQ(violations({{2, 1, 3}}), 1U);
+  EXPECT_EQ(violations({{1, 2, 3}}, 0), 1U);
+  EXPECT_EQ(violations({}), 1U);
+  for (const Face& face : {Face{0, 3, 2}, {0, 1, 3}, {0, 2, 1}}) {
+    EXPECT_EQ(violations({{1, 2, 3}, face}), 1U);
   }
-  promise.region = delmesher::Region::interior;
-  record.final[0].inside = true;
-  EXPECT_EQ(check_same_mesh(mesh, record, promise, false).violations, 1U);
 }
 
 TEST(Measures, TasksRunOnceEachAndTheFirstErrorIsThrown) {
