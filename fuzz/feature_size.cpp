@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "fuzz/stages.h"
-#include "oracles/filter.h"
+#include "oracles/distances.h"
 
 namespace tetproof::fuzz {
 

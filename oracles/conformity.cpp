@@ -4,6 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "oracles/distances.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -418,30 +420,9 @@ void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
   }
 }
 
-// Of a vertex from an edge.
-double distance_from(const ExactPoints& points, Index from, Index to, Index v) {
-  const IntegerVector along = exact::difference(points, from, to);
-  const IntegerVector there = exact::difference(points, from, v);
-  const mpz_class at = exact::dot(along, there);
-  if (at <= 0) return exact::distance(points, from, v);
-  if (at >= exact::dot(along, along)) return exact::distance(points, to, v);
-  return length(exact::cross(along, there), 2 * points.exponent()) /
-         length(along, points.exponent());
-}
-
-// Of a vertex from a triangle of the surface.
-double distance_from(const ExactPoints& points, const std::array<Index, 3>& triangle, Index v) {
-  const IntegerVector n = exact::area2(points, triangle[0], triangle[1], triangle[2]);
-  bool above = !exact::is_zero(n);
-  double nearest = HUGE_VAL;
-  for (int i = 0; i < 3; ++i) {
-    const Index p = triangle[i], q = triangle[(i + 1) % 3];
-    above = above && exact::dot(n, exact::area2(points, p, q, v)) >= 0;
-    nearest = std::min(nearest, distance_from(points, p, q, v));
-  }
-  if (!above) return nearest;
-  const mpz_class height = exact::dot(n, exact::difference(points, triangle[0], v));
-  return std::fabs(to_double(height, 3 * points.exponent())) / length(n, 2 * points.exponent());
+// Is a squared distance at most that of `distance`?
+bool within(const ExactPoints& points, const mpq_class& squared, double distance) {
+  return square_root(squared, points.exponent()) <= distance;
 }
 
 // Whether the bounding box of an edge, widened, contains a vertex.
@@ -483,7 +464,7 @@ class Ambiguity {
  private:
   bool near(const InputSurface::Edge& edge, Index v) const {
     return boxed(points_, edge, v, distance_) &&
-           distance_from(points_, edge.from, edge.to, v) <= distance_;
+           within(points_, squared_distance_to_segment(points_, v, edge.from, edge.to), distance_);
   }
 
   const ExactPoints& points_;
@@ -501,15 +482,11 @@ bool along_surface(const TetComplex& complex, const InputSurface& surface,
   const auto facets_near = [&](Index v) -> const std::vector<Index>& {
     const auto [at, fresh] = near.try_emplace(v);
     if (!fresh) return at->second;
-    BoxTree::Box box = box_around(points, std::array{v});
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] -= 2 * distance;
-      box.high[axis] += 2 * distance;
-    }
     found.clear();
-    surface.triangles_near(box, found);
+    surface.triangles_near(enlarged(box_around(points, std::array{v}), 2 * distance), found);
     for (const Index t : found) {
-      if (distance_from(points, surface.triangles()[t], v) > distance) continue;
+      const auto& triangle = surface.triangles()[t];
+      if (!within(points, squared_distance_to_triangle(points, v, triangle), distance)) continue;
       at->second.push_back(surface.facet_of_triangle()[t]);
     }
     std::sort(at->second.begin(), at->second.end());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracles/filter.h"
+#include "oracles/distances.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -13,10 +13,6 @@ mpq_class squared_cosine(double degrees, Doubt doubt) {
   if (degrees == 60) return mpq_class(1, 4);
   const double cosine = std::cos(degrees * (3.14159265358979323846 / 180));
   return mpq_class(cosine * cosine * (doubt == Doubt::acute ? 1 - 1e-9 : 1 + 1e-12));
-}
-
-double square_root(const mpq_class& value, long exponent) {
-  return std::ldexp(std::sqrt(value.get_d()), static_cast<int>(exponent));
 }
 
 }  // namespace

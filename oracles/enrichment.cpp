@@ -6,25 +6,13 @@
 #include <unordered_map>
 
 #include "oracles/angles.h"
-#include "oracles/filter.h"
+#include "oracles/distances.h"
 
 namespace tetproof::oracles {
 namespace {
 
 using delmesher::ExactPoint;
 using delmesher::ExactRecord;
-
-BoxTree::Box enlarged(BoxTree::Box box, double by) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] -= by;
-    box.high[axis] += by;
-  }
-  return box;
-}
-
-double square_root(const mpq_class& value, long exponent) {
-  return std::ldexp(std::sqrt(value.get_d()), static_cast<int>(exponent));
-}
 
 std::vector<std::uint8_t> used_in(const std::vector<ExactRecord::Tet>& tets, std::size_t points) {
   std::vector<std::uint8_t> used(points);
@@ -228,13 +216,7 @@ class Enrichment {
     surface_.triangles_near(enlarged(box_around(points_, std::array{v}), reach), found_);
     return std::any_of(found_.begin(), found_.end(), [&](Index t) {
       if (facets_.kept(surface_.facet_of_triangle()[t])) return false;
-      const auto& [a, b, c] = surface_.triangles()[t];
-      mpq_class square = squared_distance_to_face(points_, v, {a, b, c});
-      if (square < 0) {
-        square = std::min({squared_distance_to_segment(points_, v, a, b),
-                           squared_distance_to_segment(points_, v, b, c),
-                           squared_distance_to_segment(points_, v, c, a)});
-      }
+      const mpq_class square = squared_distance_to_triangle(points_, v, surface_.triangles()[t]);
       return square_root(square, points_.exponent()) <= reach;
     });
   }

@@ -249,4 +249,12 @@ void InputSurface::build_edges() {
   }
 }
 
+BoxTree::Box enlarged(BoxTree::Box box, double by) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] -= by;
+    box.high[axis] += by;
+  }
+  return box;
+}
+
 }  // namespace tetproof::oracles

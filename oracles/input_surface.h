@@ -122,5 +122,6 @@ class InputSurface {
 
 // The smallest box around points as far as their enclosures tell.
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners);
+BoxTree::Box enlarged(BoxTree::Box box, double by);
 
 }  // namespace tetproof::oracles

@@ -435,10 +435,10 @@ class RecordReader {
   RecordReader(const std::string& path, std::string_view text) : reader_(path, text) {}
 
   PlaneRecord read(unsigned* version) {
-    expect("delmesher-plane-exact");
+    reader_.expect("delmesher-plane-exact");
     const std::uint32_t found = reader_.index(0, 2);
     if (version != nullptr) *version = found;
-    list("points", record_.points, [&](ExactPoint& p) {
+    reader_.list("points", record_.points, [&](ExactPoint& p) {
       const std::string_view kind = reader_.required_word("E or S");
       if (kind != "E" && kind != "S") reader_.fail("unknown kind of point");
       if (kind == "S") {
@@ -449,42 +449,29 @@ class RecordReader {
       p.x = reader_.number();
       if (kind == "E") p.y = reader_.number();
     });
-    list("corners", record_.corners, [&](auto& corner) {
+    reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = vertex();
       corner.radius = reader_.number();
     });
-    list("dropped", record_.dropped, [&](auto& segment) { segment = number(); });
-    expect("bounds");
+    reader_.list("dropped", record_.dropped, [&](auto& segment) { segment = number(); });
+    reader_.expect("bounds");
     record_.delta = reader_.number();
     record_.acute = reader_.number();
     read_mesh("refined", record_.refined, record_.refined_edges);
     read_mesh("final", record_.final, record_.final_edges);
-    list("mesh_vertices", record_.mesh_vertices, [&](auto& v) { v = vertex(); });
-    expect("end");
-    if (!reader_.at_end()) reader_.fail("something follows the end");
+    reader_.list("mesh_vertices", record_.mesh_vertices, [&](auto& v) { v = vertex(); });
+    reader_.expect_end("end");
     return std::move(record_);
   }
 
  private:
-  void expect(const std::string& wanted) {
-    const std::string_view word = reader_.required_word(wanted.c_str());
-    if (word != wanted) {
-      reader_.fail("\"" + std::string(word.substr(0, 40)) + "\" where " + wanted + " should be");
-    }
-  }
-  template <class Item, class Read>
-  void list(const std::string& name, std::vector<Item>& items, const Read& read_item) {
-    expect(name);
-    items.resize(reader_.count());
-    for (Item& item : items) read_item(item);
-  }
   void read_mesh(const std::string& name, std::vector<PlaneRecord::Triangle>& triangles,
                  std::vector<PlaneRecord::Edge>& edges) {
-    list(name, triangles, [&](auto& triangle) {
+    reader_.list(name, triangles, [&](auto& triangle) {
       for (auto& v : triangle.vertices) v = vertex();
       triangle.side = static_cast<PlaneRecord::Side>(reader_.index(0, 3));
     });
-    list(name + "_edges", edges, [&](auto& edge) {
+    reader_.list(name + "_edges", edges, [&](auto& edge) {
       for (auto& v : edge.vertices) v = vertex();
       edge.segment = number();
     });

@@ -15,24 +15,24 @@ class SidecarReader {
   SidecarReader(const std::string& path, std::string_view text) : reader_(path, text) {}
 
   ExactRecord read() {
-    expect("delmesher-exact");
+    reader_.expect("delmesher-exact");
     version_ = reader_.index(0, 4);
     if (version_ == 0) reader_.fail("unknown version 0");
     if (version_ >= 2) read_parameters();
     read_points();
-    list("facets", record_.facets, [&](auto& facet) {
+    reader_.list("facets", record_.facets, [&](auto& facet) {
       facet.id = number();
       facet.label = static_cast<std::int32_t>(reader_.integer());
       facet.filtered = static_cast<std::uint8_t>(reader_.index(0, 3));
       numbers(facet.triangles);
     });
-    list("segments", record_.segments, [&](auto& chain) {
+    reader_.list("segments", record_.segments, [&](auto& chain) {
       chain.artificial = reader_.required_word("I or A") == "A";
       chain.facet = chain.artificial ? number() : kNone;
-      if (!chain.artificial) expect("-");
+      if (!chain.artificial) reader_.expect("-");
       numbers(chain.vertices);
     });
-    list("corners", record_.corners, [&](auto& corner) {
+    reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = point();
       corner.threshold = reader_.number();
       corner.radius = reader_.number();
@@ -41,18 +41,17 @@ class SidecarReader {
     read_faces("refined_facets", record_.refined_facets);
     read_tets("final", record_.final);
     read_faces("final_facets", record_.final_facets);
-    list("mesh_vertices", record_.mesh_vertices, [&](auto& vertex) { vertex = point(); });
+    reader_.list("mesh_vertices", record_.mesh_vertices, [&](auto& vertex) { vertex = point(); });
     if (version_ >= 2) read_additions();
-    expect("end");
-    if (!reader_.at_end()) reader_.fail("something follows the end");
+    reader_.expect_end("end");
     return std::move(record_);
   }
   unsigned version() const { return version_; }
 
  private:
   void read_parameters() {
-    expect("parameters");
-    expect("1");
+    reader_.expect("parameters");
+    reader_.expect("1");
     auto& p = record_.parameters;
     p.delta = reader_.number();
     p.acute = reader_.number();
@@ -63,10 +62,10 @@ class SidecarReader {
   }
 
   void read_additions() {
-    list("chamfer_points", record_.chamfer_points, [&](auto& made) {
+    reader_.list("chamfer_points", record_.chamfer_points, [&](auto& made) {
       for (Index& v : made) v = point();
     });
-    list("balls", record_.balls, [&](auto& ball) {
+    reader_.list("balls", record_.balls, [&](auto& ball) {
       ball.vertex = point();
       for (Index& v : ball.tetrahedron) v = point();
     });
@@ -74,22 +73,8 @@ class SidecarReader {
     if (version_ >= 3) read_faces("unrepaired_facets", record_.unrepaired_facets);
   }
 
-  void expect(const std::string& wanted) {
-    const std::string_view word = reader_.required_word(wanted.c_str());
-    if (word != wanted) {
-      reader_.fail("\"" + std::string(word.substr(0, 40)) + "\" where " + wanted + " should be");
-    }
-  }
-
-  template <class Item, class Read>
-  void list(const std::string& name, std::vector<Item>& items, const Read& read_item) {
-    expect(name);
-    items.resize(reader_.count());
-    for (Item& item : items) read_item(item);
-  }
-
   void read_points() {
-    list("points", record_.points, [&](ExactPoint& p) {
+    reader_.list("points", record_.points, [&](ExactPoint& p) {
       const std::string_view kind = reader_.required_word("E, S or T");
       if (kind != "E" && kind != "S" && kind != "T") reader_.fail("unknown kind of point");
       p.kind = kind == "E"   ? ExactPoint::Kind::explicit_point
@@ -107,14 +92,14 @@ class SidecarReader {
   }
 
   void read_tets(const std::string& name, std::vector<ExactRecord::Tet>& tets) {
-    list(name, tets, [&](ExactRecord::Tet& tet) {
+    reader_.list(name, tets, [&](ExactRecord::Tet& tet) {
       for (Index& v : tet.vertices) v = point();
       tet.inside = number() != 0;
     });
   }
 
   void read_faces(const std::string& name, std::vector<std::array<Index, 4>>& faces) {
-    list(name, faces, [&](std::array<Index, 4>& face) {
+    reader_.list(name, faces, [&](std::array<Index, 4>& face) {
       for (int i = 0; i < 3; ++i) face[i] = point();
       face[3] = number();
     });

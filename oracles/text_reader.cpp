@@ -88,6 +88,18 @@ double TextReader::number() {
   return negative ? -value : value;
 }
 
+void TextReader::expect(const std::string& wanted) {
+  const std::string_view word = required_word(wanted.c_str());
+  if (word != wanted) {
+    fail("\"" + std::string(word.substr(0, 40)) + "\" where " + wanted + " should be");
+  }
+}
+
+void TextReader::expect_end(const std::string& wanted) {
+  expect(wanted);
+  if (!at_end()) fail("something follows the end");
+}
+
 std::int64_t TextReader::integer() {
   std::string_view text = required_word("an integer");
   if (text.starts_with('+')) text.remove_prefix(1);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tetproof::oracles {
 
@@ -28,6 +29,17 @@ class TextReader {
   std::string_view required_word(const char* what);
   void skip_line();
   bool at_end();
+  // The next word has to be this one.
+  void expect(const std::string& wanted);
+  // Nothing but this last word has to follow.
+  void expect_end(const std::string& wanted);
+  // A list of a record: its name, a count, and the items.
+  template <class Item, class Read>
+  void list(const std::string& name, std::vector<Item>& items, const Read& read_item) {
+    expect(name);
+    items.resize(count());
+    for (Item& item : items) read_item(item);
+  }
 
   double number();  // decimal or hexadecimal ("0x1.8p3"), exact to the nearest
   std::int64_t integer();

@@ -5,6 +5,17 @@
 #include "mesher/surface/feature_size.h"
 
 namespace delmesher {
+namespace {
+
+Box enlarged(Box box, double by) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.lo[k] -= by;
+    box.hi[k] += by;
+  }
+  return box;
+}
+
+}  // namespace
 
 std::vector<Box> removed_boxes(const ChamferResult& chamfered,
                                const std::vector<std::uint8_t>& facet_kept,
@@ -16,11 +27,7 @@ std::vector<Box> removed_boxes(const ChamferResult& chamfered,
   const auto add = [&](std::span<const VertexId> corners, double radius) {
     Box box = Box::empty();
     for (const VertexId v : corners) box.extend({points.nearest(v), points.nearest(v)});
-    for (int k = 0; k < 3; ++k) {
-      box.lo[k] -= radius;
-      box.hi[k] += radius;
-    }
-    boxes.push_back(box);
+    boxes.push_back(enlarged(box, radius));
   };
   for (VertexId v = 0; v < chamfered.vertex_radius.size(); ++v) {
     const double radius = chamfered.vertex_radius[v];
@@ -53,12 +60,7 @@ bool RemovedSurface::crowded(const Vec3& p, double spacing) const {
   // angles.
   constexpr double kCrowding = 0.3;
   const double reach = kCrowding * spacing;
-  Box box{p, p};
-  for (int k = 0; k < 3; ++k) {
-    box.lo[k] -= reach;
-    box.hi[k] += reach;
-  }
-  return !dropped_.query(box, [&](std::uint32_t n) {
+  return !dropped_.query(enlarged({p, p}, reach), [&](std::uint32_t n) {
     return !(point_triangle_distance(p, corners(dropped_triangles_[n])) <= reach);
   });
 }
@@ -71,12 +73,8 @@ std::array<Vec3, 3> RemovedSurface::corners(std::uint32_t t) const {
 void RemovedSurface::add(VertexId a, VertexId b, double radius, std::vector<Box>& boxes) {
   if (!(radius > 0)) return;
   items_.push_back({points_.nearest(a), points_.nearest(b), radius});
-  Box box = Box::around(std::array<Vec3, 2>{items_.back().a, items_.back().b});
-  for (int k = 0; k < 3; ++k) {
-    box.lo[k] -= radius;
-    box.hi[k] += radius;
-  }
-  boxes.push_back(box);
+  const Box box = Box::around(std::array<Vec3, 2>{items_.back().a, items_.back().b});
+  boxes.push_back(enlarged(box, radius));
 }
 
 Bvh RemovedSurface::build_chamfers(const ChamferResult& chamfered) {

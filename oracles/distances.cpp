@@ -1,0 +1,68 @@
+#include "oracles/distances.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetproof::oracles {
+
+mpq_class squared_distance_to_segment(const ExactPoints& points, Index v, Index a, Index b) {
+  const IntegerVector d = exact::difference(points, a, b), w = exact::difference(points, a, v);
+  if (exact::dot(d, w) <= 0) return exact::squared(w);
+  const IntegerVector u = exact::difference(points, b, v);
+  if (exact::dot(d, u) >= 0) return exact::squared(u);
+  mpq_class result(exact::squared(exact::cross(d, w)), exact::squared(d));
+  result.canonicalize();
+  return result;
+}
+
+mpq_class squared_distance_inside(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  const IntegerVector u = exact::difference(points, a, b), v = exact::difference(points, c, d),
+                      w = exact::difference(points, a, c), n = exact::cross(u, v);
+  const mpz_class nn = exact::squared(n);
+  if (nn == 0) return -1;
+  // a + s u and c + t v are closest at s = det(w, v, n) / |n|^2, t = det(w, u, n) / |n|^2.
+  const mpz_class s = exact::dot(exact::cross(w, v), n), t = exact::dot(exact::cross(w, u), n);
+  if (s <= 0 || s >= nn || t <= 0 || t >= nn) return -1;
+  const mpz_class height = exact::dot(w, n);
+  mpq_class result(mpz_class(height * height), nn);
+  result.canonicalize();
+  return result;
+}
+
+mpq_class squared_distance_to_face(const ExactPoints& points, Index v,
+                                   const std::array<Index, 3>& triangle) {
+  const IntegerVector n = exact::area2(points, triangle[0], triangle[1], triangle[2]);
+  if (exact::is_zero(n)) return -1;
+  for (int i = 0; i < 3; ++i) {
+    const Index p = triangle[i], q = triangle[(i + 1) % 3];
+    if (exact::dot(n, exact::area2(points, p, q, v)) < 0) return -1;
+  }
+  const mpz_class height = exact::dot(n, exact::difference(points, triangle[0], v));
+  mpq_class result(mpz_class(height * height), exact::squared(n));
+  result.canonicalize();
+  return result;
+}
+
+mpq_class squared_distance_to_triangle(const ExactPoints& points, Index v,
+                                       const std::array<Index, 3>& triangle) {
+  const mpq_class face = squared_distance_to_face(points, v, triangle);
+  if (face >= 0) return face;
+  const auto& [a, b, c] = triangle;
+  return std::min({squared_distance_to_segment(points, v, a, b),
+                   squared_distance_to_segment(points, v, b, c),
+                   squared_distance_to_segment(points, v, c, a)});
+}
+
+double square_root(const mpq_class& squared, long exponent) {
+  long above = 0, below = 0;
+  double ratio = mpz_get_d_2exp(&above, squared.get_num_mpz_t()) /
+                 mpz_get_d_2exp(&below, squared.get_den_mpz_t());
+  long power = above - below;
+  if (power % 2 != 0) {
+    ratio *= 2;
+    --power;
+  }
+  return std::ldexp(std::sqrt(ratio), static_cast<int>(power / 2 + exponent));
+}
+
+}  // namespace tetproof::oracles
