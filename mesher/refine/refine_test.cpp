@@ -437,6 +437,30 @@ struct State {
   }
 };
 
+// Around a solid one rounding high, sums of a coordinate and a margin of less than a rounding can be
+// that coordinate: a side of the box would lie on the solid.
+TEST(Refine, TheOuterBoxKeepsItsMarginWhereDoublesAreWide) {
+  constexpr double kFar = 56419016.86848649;
+  for (const double y : {kFar, -kFar}) {
+    const double beyond = std::nextafter(y, HUGE_VAL);
+    Surface s;
+    s.vertices = {{0, y, 0}, {1e-8, y, 0}, {0, y, 1e-8}, {0, beyond, 0}};
+    s.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    PointStore points;
+    Predicates predicates{points};
+    const SurfaceTopology topology = build_topology(s, points, predicates);
+    Plc plc;
+    add_outer_box(topology, points, plc);
+    ASSERT_EQ(plc.facets.size(), 6U);
+    for (const PlcFacet& facet : plc.facets) {
+      for (const VertexId corner : facet.frame) {
+        const Vec3 p = points.nearest(corner);
+        EXPECT_TRUE(y - p[1] >= 2.5e-9 || p[1] - beyond >= 2.5e-9) << p[1];
+      }
+    }
+  }
+}
+
 // Shells halve or double until they cross the subsegment in its middle third; of two, that nearer
 // to the middle is taken.
 TEST(Refine, OfTwoShellsThatNearerToTheMiddleIsTaken) {
