@@ -16,10 +16,10 @@ using delmesher::Surface;
 using oracles::Stage;
 
 // A run that reaches it has said nothing wrong; a campaign is not the place for large meshes.
-constexpr std::uint64_t kMostVertices = 6000;
+constexpr std::uint64_t kMostVertices = 3000;
 constexpr std::uint64_t kFewVertices = 1000;
 
-Leniency too_many_vertices("stopped-at-6000-vertices", 0.03);
+Leniency too_many_vertices("stopped-at-3000-vertices", 0.03);
 Leniency too_precise("stopped-features-below-2^-40", 0.05);
 Leniency nothing_refined("refined-oracle-without-work", 0.2);
 Leniency too_large_to_scale("too-large-to-mesh-twice", 0.1);
@@ -178,11 +178,21 @@ Options options_for(const Surface& surface) {
   return options;
 }
 
+// Without what asks for many vertices whatever the surface is, and with less of the surface in the
+// refinement.
+Options coarser(Options options, std::uint64_t budget) {
+  options.budget = budget;
+  options.max_edge = options.chamfer_radius = 0;
+  options.region = delmesher::Region::interior;
+  options.tau = std::max(options.tau, 1e-2);
+  return options;
+}
+
 // What would have more vertices than are waited for is meshed with a budget instead.
 Result meshed(const Surface& surface, Options& options) {
   Result result = delmesher::tetrahedralize(surface, options);
   if (result.status.limit != delmesher::Limit::size) return result;
-  options.budget = kMostVertices / 2;
+  options = coarser(options, kMostVertices / 2);
   return delmesher::tetrahedralize(surface, options);
 }
 
@@ -216,11 +226,16 @@ Finding pipeline_holds(const Surface& surface) {
   const int scales[] = {0, 0, 0, 300, -300, 65, -47, 1};
   const int exponent = scales[(hash_of(surface) >> 13) % 8];
   if (exponent == 0) return {};
-  if (result.mesh.vertices.size() > kFewVertices) {
-    too_large_to_scale.take();
-    return {};
+  if (result.mesh.vertices.size() <= kFewVertices) {
+    return same_when_scaled(surface, result, options, exponent);
   }
-  return same_when_scaled(surface, result, options, exponent);
+  options = coarser(options, kFewVertices);
+  options.max_vertices = kFewVertices;
+  const Result few = delmesher::tetrahedralize(surface, options);
+  if (few.status.ok()) return same_when_scaled(surface, few, options, exponent);
+  if (few.status.limit != delmesher::Limit::size) return "coarser status: " + few.status.message;
+  too_large_to_scale.take();
+  return {};
 }
 
 Finding default_pipeline_holds(const Surface& surface) {
