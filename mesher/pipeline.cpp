@@ -6,6 +6,7 @@
 #include "mesher/base/control.h"
 #include "mesher/base/guarded.h"
 #include "mesher/cdt/cdt.h"
+#include "mesher/chamfer/filter.h"
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/delmesher.h"
 #include "mesher/enrich/enrichment.h"
@@ -23,6 +24,18 @@
 namespace delmesher {
 namespace {
 
+Phase phase_of(RefineStep step) {
+  static constexpr Phase kPhase[] = {Phase::delaunay, Phase::segments, Phase::facets,
+                                     Phase::refine};
+  return kPhase[static_cast<std::size_t>(step)];
+}
+
+Phase phase_of(CdtStep step) {
+  static constexpr Phase kPhase[] = {Phase::delaunay, Phase::segments, Phase::facets,
+                                     Phase::classify};
+  return kPhase[static_cast<std::size_t>(step)];
+}
+
 // The surface as all stages see it: valid, oriented outwards.
 Status check(const Surface& surface, Session& s, Recorder& recorder) {
   s.control.enter(Phase::check);
@@ -34,17 +47,32 @@ Status check(const Surface& surface, Session& s, Recorder& recorder) {
   return {};
 }
 
-RefineResult refine(ChamferedSurface& chamfered, Fallback& fallback, Session& s) {
+// Sections 4 and 7, in turn until neither leaves anything to the other.
+ChamferedSurface filter_and_chamfer(double tau, const ChamferOptions& options, Session& s) {
+  FilteredSurface surface(s.topology, s.points, s.predicates, options, tau * s.diagonal, s.control);
+  s.control.enter(Phase::filter);
+  surface.drop_close();
+  do {
+    s.control.enter(Phase::chamfer);
+    surface.chamfer();
+    s.control.enter(Phase::filter);
+  } while (surface.drop_small());
+  s.control.enter(Phase::chamfer);
+  return surface.result();
+}
+
+RefineResult refine(ChamferedSurface& chamfered, double tau, Fallback& fallback, Session& s) {
   add_outer_box(s.topology, s.points, chamfered.chamfer.plc);
   RefineOptions options;
   options.delta = s.options.delta;
   options.slivers = s.options.slivers;
   options.max_edge = s.options.max_edge;
   options.region = s.options.region;
-  options.runaway_length = fallback.runaway_length(s, chamfered.tau);
+  options.runaway_length = fallback.runaway_length(s, tau);
   options.want_balls = s.options.want_exact;
   options.gabriel = fallback.gabriel();
   options.apex = chamfered.chamfer.vertex_is_apex;
+  options.on_step = [&s](RefineStep step) { s.control.enter(phase_of(step)); };
   options.removed =
       removed_boxes(chamfered.chamfer, chamfered.filter.facet_kept, s.topology, s.points);
   return refine(chamfered.chamfer.plc, s.topology, s.points, s.predicates, options, s.control);
@@ -54,9 +82,12 @@ RefineResult refine(ChamferedSurface& chamfered, Fallback& fallback, Session& s)
 CdtResult enriched_cdt(const ChamferedSurface& chamfered, RefineResult refined, Session& s) {
   s.control.enter(Phase::enrich);
   std::unique_ptr<Tetrahedrization> delaunay = std::move(refined.delaunay);
-  const CdtInput input = enriched_input(chamfered.chamfer, chamfered.filter.facet_kept, refined,
-                                        s.topology, s.points, s.predicates, s.control);
+  CdtInput input = enriched_input(chamfered.chamfer, chamfered.filter.facet_kept, refined,
+                                  s.topology, s.points, s.predicates, s.control);
   refined = {};
+  input.on_step = [&s](CdtStep step) {
+    s.control.enter(step == CdtStep::classify ? Phase::classify : Phase::enrich);
+  };
   return constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control,
                                                std::move(delaunay));
 }
@@ -74,16 +105,21 @@ void write_refined(const ChamferedSurface& chamfered, RefineResult refined, Sess
 Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
   if (Status status = check(surface, s, recorder); !status.ok()) return status;
 
+  Budget budget(s.options);
   Fallback fallback(s.options);
-  ChamferedSurface chamfered = chamfer_within_budget(fallback.chamfering(), s, recorder);
-  RefineResult refined = refine(chamfered, fallback, s);
+  ChamferedSurface chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
+  while (!budget.allows(chamfered, s, recorder)) {
+    s.forget_points(s.input_vertices());
+    chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
+  }
+  RefineResult refined = refine(chamfered, budget.tau(), fallback, s);
   while (refined.runaway) {
     fallback.tighten(*refined.runaway, s);
     s.forget_points(s.input_vertices());
-    chamfered = filter_and_chamfer_by(chamfered.tau, fallback.chamfering(), s);
-    refined = refine(chamfered, fallback, s);
+    chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
+    refined = refine(chamfered, budget.tau(), fallback, s);
   }
-  recorder.chamfered(chamfered.chamfer, chamfered.filter, fallback.in_force(chamfered.tau));
+  recorder.chamfered(chamfered.chamfer, chamfered.filter, fallback.in_force(budget.tau()));
   recorder.refined(chamfered.chamfer, refined);
   if (s.options.approximate) {
     write_refined(chamfered, std::move(refined), s, recorder);
@@ -91,6 +127,7 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
   }
 
   CdtResult cdt = enriched_cdt(chamfered, std::move(refined), s);
+  s.control.enter(Phase::enrich);
   if (std::optional<CdtResult> plain = plain_if_better(cdt, s)) {
     cdt = std::move(*plain);
     recorder.plain_taken();
@@ -105,7 +142,7 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
 Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
   if (Status status = check(surface, s, recorder); !status.ok()) return status;
   CdtInput input = plain_input(s.topology);
-  input.phase_by_phase = true;
+  input.on_step = [&s](CdtStep step) { s.control.enter(phase_of(step)); };
   CdtResult cdt = constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
   recorder.tetrahedrized(cdt);
   s.control.enter(Phase::round);

@@ -52,15 +52,15 @@ class CdtBuilder {
   FacetId constrain(Tetrahedrization& mesh) {
     std::vector<VertexId> vertices = input_.vertices;
     vertices.insert(vertices.end(), steiner_.begin(), steiner_.end());
-    enter(Phase::delaunay);
+    begin(CdtStep::delaunay);
     mesh.change_to(vertices, control_);
-    enter(Phase::segments);
+    begin(CdtStep::segments);
     const std::vector<VertexId> added = recover_segments(mesh, chains_, points_, control_);
     steiner_.insert(steiner_.end(), added.begin(), added.end());
     if (input_.validate) validate_segments(mesh, chains_);
     surface_.clear();
     found_.clear();
-    enter(Phase::facets);
+    begin(CdtStep::facets);
     FacetTriangulator triangulator(input_, chains_, predicates_);
     FacetRecovery recovery(mesh, topology_, chains_, control_);
     const auto facets = static_cast<FacetId>(topology_.facet_triangles.size());
@@ -72,14 +72,16 @@ class CdtBuilder {
     }
     result_.counters = recovery.counters();
     result_.counters.facet_restarts = restarts_;
-    control_.enter(Phase::classify);
+    begin(CdtStep::classify);
     std::size_t missing = 0;
     inside_ = classify_tetrahedra(mesh, surface_, found_, chains_, control_, &missing);
     if (input_.validate && !inside_.empty()) validate_facets(mesh, chains_, surface_, inside_);
     return inside_.empty() ? surface_[missing].facet : kNone;
   }
 
-  void enter(Phase phase) { control_.enter(input_.phase_by_phase ? phase : Phase::enrich); }
+  void begin(CdtStep step) const {
+    if (input_.on_step) input_.on_step(step);
+  }
 
   void split_boundary(FacetId facet) {
     std::vector<std::uint32_t> nodes;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +17,14 @@
 
 namespace delmesher {
 
+// The steps, in their order. They begin anew if facet recovery fails (CdtCounters::facet_restarts).
+enum class CdtStep : std::uint8_t {
+  delaunay,  // Delaunay tetrahedrization of the vertices
+  segments,  // Steiner points on missing segments
+  facets,    // cavities of missing triangles, tetrahedrized by gift wrapping
+  classify   // inside and outside
+};
+
 // What to tetrahedrize: points of a store and where each lies on the input.
 struct CdtInput {
   const SurfaceTopology* topology = nullptr;
@@ -26,9 +35,8 @@ struct CdtInput {
   std::vector<std::vector<VertexId>> on_edge;
   // Per facet: enriching points strictly inside it (not on its constrained edges).
   std::vector<std::vector<VertexId>> on_facet;
-  // Account for the phases delaunay, segments and facets one by one, as nothing before used them;
-  // else all is Phase::enrich up to Phase::classify.
-  bool phase_by_phase = false;
+  // Told when a step begins; empty: nobody asks.
+  std::function<void(CdtStep)> on_step;
   // Check after each step what it promises, InternalError if it does not hold: the tetrahedrization
   // is Delaunay with every subsegment an edge; then it has every triangle of every facet as a face,
   // is Delaunay wherever no facet hides, and changes sides at the facets and nowhere else.

@@ -113,18 +113,13 @@ TEST(Cdt, ValidateReportsBrokenPromises) {
   EXPECT_EQ(complaint([&] { validate_segments(delaunay, edges); }), "a subsegment is no edge");
 }
 
-// As part of something else, all until the sides are known is one phase.
-TEST(Cdt, PhasesAreToldApartOnDemand) {
-  for (const bool each : {false, true}) {
-    Model model(box(0, 8));
-    if (each) model.input.phase_by_phase = true;
-    model.run();
-    const auto& seconds = model.control.phase_seconds();
-    for (const Phase phase : {Phase::delaunay, Phase::segments, Phase::facets}) {
-      EXPECT_EQ(seconds[static_cast<std::size_t>(phase)] > 0, each);
-    }
-    EXPECT_EQ(seconds[static_cast<std::size_t>(Phase::enrich)] > 0, !each);
-  }
+TEST(Cdt, StepsAreToldInTheirOrder) {
+  Model model(box(0, 8));
+  std::vector<CdtStep> steps;
+  model.input.on_step = [&](CdtStep step) { steps.push_back(step); };
+  model.run();
+  EXPECT_EQ(steps, (std::vector<CdtStep>{CdtStep::delaunay, CdtStep::segments, CdtStep::facets,
+                                         CdtStep::classify}));
 }
 
 // What the first tetrahedron claims is looked at like what the others claim, and looking does not

@@ -233,50 +233,77 @@ void mark_neighbours(const SurfaceTopology& topology, std::vector<std::uint8_t>&
 
 }  // namespace
 
-ChamferResult filter_and_chamfer(const SurfaceTopology& topology, PointStore& points,
+FilteredSurface::FilteredSurface(const SurfaceTopology& topology, PointStore& points,
                                  Predicates& predicates, ChamferOptions options, double tolerance,
-                                 Control& control, FilterResult& filter,
-                                 double chamfered_fraction) {
-  control.enter(Phase::filter);
-  filter = filter_input(topology, points, tolerance, control);
-  control.enter(Phase::chamfer);
-  options.facet_kept = filter.facet_kept;
-  options.isolated_clearance = std::max(options.isolated_clearance, tolerance);
-  const std::size_t first_point = points.size();
-  std::vector<std::uint8_t> changed(topology.vertex_half_edge.size(), 1), active;
-  ChamferResult result = chamfer(topology, points, predicates, options, control);
-  while (tolerance > 0) {
-    const KeptSurface surface(topology, points, options.facet_kept);
-    // The first round was chamfered above; later ones only where something changed.
-    if (!active.empty()) {
-      control.enter(Phase::chamfer);
-      result = chamfer_surface(surface, points, predicates, options, active, control);
-    }
-    control.enter(Phase::filter);
-    FacetSet facets(surface);
-    const double smallest = chamfered_fraction * tolerance * surface.scale();
-    const std::vector<FacetId> dropped =
-        drop_for_chamfered_features(surface, points, result, smallest, changed, facets, control);
-    if (dropped.empty()) break;
-    ++filter.rounds;
-    changed.assign(changed.size(), 0);
-    for (FacetId f : dropped) {
-      filter.dropped_triangles += topology.facet_triangles[f].size();
-      for (std::uint32_t t : topology.facet_triangles[f]) {
-        for (VertexId v : topology.triangles[t]) changed[v] = 1;
-      }
-    }
-    // The height of a strip depends on both ends of its edge, a chamfer on its neighbours' strips.
-    mark_neighbours(topology, changed);
-    active = changed;
-    mark_neighbours(topology, active);
-    options.facet_kept = filter.facet_kept = facets.kept();
-    while (points.size() > first_point) points.pop_back();
+                                 Control& control, double chamfered_fraction)
+    : topology_(topology),
+      points_(points),
+      predicates_(predicates),
+      control_(control),
+      options_(std::move(options)),
+      tolerance_(tolerance),
+      chamfered_fraction_(chamfered_fraction),
+      first_point_(points.size()),
+      changed_(topology.vertex_half_edge.size(), 1) {
+  options_.isolated_clearance = std::max(options_.isolated_clearance, tolerance);
+}
+
+void FilteredSurface::drop_close() {
+  result_.filter = filter_input(topology_, points_, tolerance_, control_);
+  options_.facet_kept = result_.filter.facet_kept;
+}
+
+void FilteredSurface::chamfer() {
+  if (active_.empty()) {
+    result_.chamfer = delmesher::chamfer(topology_, points_, predicates_, options_, control_);
+    return;
   }
-  control.enter(Phase::chamfer);
-  if (active.empty()) return result;
-  while (points.size() > first_point) points.pop_back();
-  return chamfer(topology, points, predicates, options, control);
+  kept_.emplace(topology_, points_, options_.facet_kept);
+  result_.chamfer = chamfer_surface(*kept_, points_, predicates_, options_, active_, control_);
+}
+
+bool FilteredSurface::drop_small() {
+  if (!(tolerance_ > 0)) return false;
+  if (!kept_) kept_.emplace(topology_, points_, options_.facet_kept);
+  FacetSet facets(*kept_);
+  const double smallest = chamfered_fraction_ * tolerance_ * kept_->scale();
+  const std::vector<FacetId> dropped = drop_for_chamfered_features(
+      *kept_, points_, result_.chamfer, smallest, changed_, facets, control_);
+  if (dropped.empty()) return false;
+  mark_changed(dropped);
+  FilterResult& filter = result_.filter;
+  ++filter.rounds;
+  for (const FacetId f : dropped) filter.dropped_triangles += topology_.facet_triangles[f].size();
+  options_.facet_kept = filter.facet_kept = facets.kept();
+  kept_.reset();
+  forget_chamfer();
+  return true;
+}
+
+void FilteredSurface::mark_changed(const std::vector<FacetId>& dropped) {
+  changed_.assign(changed_.size(), 0);
+  for (const FacetId f : dropped) {
+    for (const std::uint32_t t : topology_.facet_triangles[f]) {
+      for (const VertexId v : topology_.triangles[t]) changed_[v] = 1;
+    }
+  }
+  // The height of a strip depends on both ends of its edge, a chamfer on its neighbours' strips.
+  mark_neighbours(topology_, changed_);
+  active_ = changed_;
+  mark_neighbours(topology_, active_);
+}
+
+void FilteredSurface::forget_chamfer() {
+  while (points_.size() > first_point_) points_.pop_back();
+}
+
+ChamferedSurface FilteredSurface::result() {
+  if (!active_.empty()) {
+    forget_chamfer();
+    active_.clear();
+    chamfer();
+  }
+  return std::move(result_);
 }
 
 }  // namespace delmesher

@@ -2,7 +2,11 @@
 // tolerance.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "mesher/chamfer/chamfer.h"
+#include "mesher/chamfer/kept_surface.h"
 
 namespace delmesher {
 
@@ -25,12 +29,49 @@ FilterResult filter_input(const SurfaceTopology& topology, const PointStore& poi
 // 80 % without a second step).
 inline constexpr double kChamferedFraction = 1.0 / 16;
 
-// Both steps: filters the input, then alternates chamfering and dropping the facets responsible for
-// chamfered edges shorter than chamfered_fraction * tolerance (or elements closer), until none
-// remain. Returns the last chamfering; the points of rejected rounds are removed from the store.
-ChamferResult filter_and_chamfer(const SurfaceTopology& topology, PointStore& points,
-                                 Predicates& predicates, ChamferOptions options, double tolerance,
-                                 Control& control, FilterResult& filter,
-                                 double chamfered_fraction = kChamferedFraction);
+// What the refinement gets: the facets that the filter keeps, chamfered.
+struct ChamferedSurface {
+  FilterResult filter;
+  ChamferResult chamfer;
+};
+
+// Both steps of section 7 around the chamfering of section 4, for the driver to alternate:
+//   drop_close(); do chamfer(); while (drop_small()); result()
+// Appends the points of the last chamfering to the store; those of earlier ones are taken back.
+class FilteredSurface {
+ public:
+  // `tolerance` is an absolute distance, 0: nothing is dropped. options.facet_kept is not looked
+  // at.
+  FilteredSurface(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
+                  ChamferOptions options, double tolerance, Control& control,
+                  double chamfered_fraction = kChamferedFraction);
+
+  // The first step, as filter_input().
+  void drop_close();
+  // Chamfers what is kept: all of it, and later only what drop_small() has changed.
+  void chamfer();
+  // The second step: drops facets responsible for chamfered edges shorter than chamfered_fraction *
+  // tolerance, or for elements closer than that. False if there are none.
+  bool drop_small();
+  // Chamfers all that is kept, unless chamfer() just did. The object is empty then.
+  ChamferedSurface result();
+
+ private:
+  void mark_changed(const std::vector<FacetId>& dropped);
+  void forget_chamfer();
+
+  const SurfaceTopology& topology_;
+  PointStore& points_;
+  Predicates& predicates_;
+  Control& control_;
+  ChamferOptions options_;
+  const double tolerance_, chamfered_fraction_;
+  const std::size_t first_point_;
+  // Per vertex: did the last drop change what is made for it; and its neighbours too, which is what
+  // has to be chamfered again. `active_` is empty as long as nothing was dropped.
+  std::vector<std::uint8_t> changed_, active_;
+  std::optional<KeptSurface> kept_;  // by options_.facet_kept; empty until needed
+  ChamferedSurface result_;
+};
 
 }  // namespace delmesher

@@ -173,17 +173,23 @@ TEST(Filter, SmallestPartGoes) {
   EXPECT_GT(result.dropped_triangles, 0U);
 }
 
+ChamferedSurface filter_and_chamfer(Model& model, double tolerance,
+                                    double fraction = kChamferedFraction) {
+  FilteredSurface surface(model.topology, model.points, model.predicates, {}, tolerance,
+                          model.control, fraction);
+  surface.drop_close();
+  do surface.chamfer();
+  while (surface.drop_small());
+  return surface.result();
+}
+
 TEST(Filter, ScalesByPowersOfTwo) {
   for (const Sample& sample : cases()) {
     for (int exponent : {-10, 20, -300, -1015, 1000}) {
       Model model(sample.surface);
       Model other(test_polyhedra::scaled(sample.surface, std::ldexp(1.0, exponent)));
-      ChamferOptions options;
-      FilterResult result, same;
-      filter_and_chamfer(model.topology, model.points, model.predicates, options, 20, model.control,
-                         result);
-      filter_and_chamfer(other.topology, other.points, other.predicates, options,
-                         std::ldexp(20.0, exponent), other.control, same);
+      const FilterResult result = filter_and_chamfer(model, 20).filter;
+      const FilterResult same = filter_and_chamfer(other, std::ldexp(20.0, exponent)).filter;
       EXPECT_EQ(result.facet_kept, same.facet_kept) << sample.name;
       EXPECT_EQ(model.points.size(), other.points.size());
     }
@@ -252,10 +258,9 @@ TEST(Filter, ChamferedFeaturesAreNotBelowTheirTolerance) {
         Model model(sample.surface);
         const FilterResult first =
             filter_input(model.topology, model.points, tolerance, model.control);
-        FilterResult both;
-        const ChamferResult result =
-            filter_and_chamfer(model.topology, model.points, model.predicates, {}, tolerance,
-                               model.control, both, fraction);
+        const ChamferedSurface chamfered = filter_and_chamfer(model, tolerance, fraction);
+        const FilterResult& both = chamfered.filter;
+        const ChamferResult& result = chamfered.chamfer;
         EXPECT_GE(smallest_segment_feature(result.plc, model.points),
                   fraction * tolerance * (1 - 1e-9));
         EXPECT_GE(smallest_facet_feature(result.plc, model.points),
@@ -279,8 +284,7 @@ TEST(Filter, ChamferedFeaturesAreNotBelowTheirTolerance) {
 
 TEST(Filter, NoToleranceNoFilter) {
   Model model(block(1000, 1000, 3));
-  FilterResult result;
-  filter_and_chamfer(model.topology, model.points, model.predicates, {}, 0, model.control, result);
+  const FilterResult result = filter_and_chamfer(model, 0).filter;
   EXPECT_EQ(result.dropped_triangles, 0U);
   EXPECT_EQ(result.facet_kept, std::vector<std::uint8_t>(6, 1));
 }

@@ -38,14 +38,14 @@ class Refiner {
         bad_(points, box(graph, points)) {}
 
   RefinedMesh run() {
-    control_.enter(Phase::delaunay);
+    begin(RefineStep::delaunay);
     build();
-    control_.enter(Phase::segments);
+    begin(RefineStep::segments);
     splits_.assign(graph_.pieces.size(), 0);
     sides_.start();
     queue_all_segments();
     split_segments();
-    control_.enter(Phase::refine);
+    begin(RefineStep::triangles);
     result_.delta = std::min(options_.delta, kProvenDelta);
     refine_to(result_.delta, 0);
     if (options_.delta > kProvenDelta) try_for(options_.delta);
@@ -57,6 +57,10 @@ class Refiner {
   }
 
  private:
+  void begin(RefineStep step) const {
+    if (options_.on_step) options_.on_step(step);
+  }
+
   static SpatialKey box(const InputGraph& graph, const PointStore& points) {
     const Vec3 low = points.nearest(graph.vertices), high = points.nearest(graph.vertices + 2);
     return {{low[0], low[1]}, {high[0], high[1]}};

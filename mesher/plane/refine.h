@@ -2,6 +2,8 @@
 // 2004; Shewchuk 2002 for corners of 60 degrees and more).
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "mesher/base/control.h"
@@ -13,12 +15,20 @@ namespace delmesher::plane {
 // Proven to end up to here.
 inline constexpr double kProvenDelta = 20.7;
 
+// The steps, in their order.
+enum class RefineStep : std::uint8_t {
+  delaunay,   // constrained Delaunay triangulation of the chamfered graph
+  segments,   // until no vertex is in the open disc of an edge on a segment
+  triangles,  // until none is bad
+};
+
 struct RefineOptions {
   double delta = kProvenDelta;
   double max_edge = 0;      // in the units of the store; 0: no bound
   bool everywhere = false;  // triangles outside count as well
   // A piece that is split more often counts as crowded; 0: no bound.
   std::uint64_t most_splits = 0;
+  std::function<void(RefineStep)> on_step;  // told when a step begins; empty: nobody asks
 };
 
 struct RefinedMesh {

@@ -26,33 +26,21 @@ std::string over_budget(double predicted, double tau, std::uint64_t budget) {
 
 }  // namespace
 
-ChamferedSurface filter_and_chamfer_by(double tau, const ChamferOptions& options,
-                                       Session& session) {
-  ChamferedSurface result;
-  result.tau = tau;
-  result.chamfer = filter_and_chamfer(session.topology, session.points, session.predicates, options,
-                                      tau * session.diagonal, session.control, result.filter);
-  return result;
-}
-
-ChamferedSurface chamfer_within_budget(const ChamferOptions& options, Session& session,
-                                       Recorder& recorder) {
+bool Budget::allows(const ChamferedSurface& surface, Session& session, Recorder& recorder) {
   // Beyond this, whole features of the model go.
   constexpr double kLargestTau = 0.05, kLeastTau = 1e-5;
   const std::uint64_t budget = session.options.budget;
-  for (double tau = session.options.tau;; tau = std::max(2 * tau, kLeastTau)) {
-    ChamferedSurface result = filter_and_chamfer_by(tau, options, session);
-    const double predicted = predict(result, session);
-    recorder.predicted(predicted);
-    if (budget == 0 || predicted <= static_cast<double>(budget)) {
-      session.control.predict(predicted);
-      return result;
-    }
-    if (tau > kLargestTau) {
-      throw Stopped{{StatusCode::limit_reached, over_budget(predicted, tau, budget), Limit::size}};
-    }
-    session.forget_points(session.input_vertices());
+  const double predicted = predict(surface, session);
+  recorder.predicted(predicted);
+  if (budget == 0 || predicted <= static_cast<double>(budget)) {
+    session.control.predict(predicted);
+    return true;
   }
+  if (tau_ > kLargestTau) {
+    throw Stopped{{StatusCode::limit_reached, over_budget(predicted, tau_, budget), Limit::size}};
+  }
+  tau_ = std::max(2 * tau_, kLeastTau);
+  return false;
 }
 
 }  // namespace delmesher

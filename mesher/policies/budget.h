@@ -7,18 +7,21 @@
 
 namespace delmesher {
 
-// A surface ready for the refinement (sections 4 and 7).
-struct ChamferedSurface {
-  double tau = 0;  // filter tolerance, a fraction of the diagonal
-  FilterResult filter;
-  ChamferResult chamfer;
+// The filter's tolerance is Options::tau, and doubled as long as more tetrahedra are predicted than
+// Options::budget says (0: never).
+class Budget {
+ public:
+  explicit Budget(const Options& options) : tau_(options.tau) {}
+
+  // In force: a fraction of the diagonal.
+  double tau() const { return tau_; }
+
+  // Is the mesh of that surface, which was filtered with tau(), predicted to keep to the budget? If
+  // not, tau() is doubled; throws Stopped where it is too large for that.
+  bool allows(const ChamferedSurface& surface, Session& session, Recorder& recorder);
+
+ private:
+  double tau_;
 };
-
-ChamferedSurface filter_and_chamfer_by(double tau, const ChamferOptions& options, Session& session);
-
-// With the smallest of tau, 2 tau, 4 tau ... for which no more tetrahedra are predicted than
-// Options::budget says (0: with tau). Throws Stopped if none of them does.
-ChamferedSurface chamfer_within_budget(const ChamferOptions& options, Session& session,
-                                       Recorder& recorder);
 
 }  // namespace delmesher

@@ -8,8 +8,12 @@
 
 namespace delmesher {
 
+void Refiner::begin(RefineStep step) const {
+  if (options_.on_step) options_.on_step(step);
+}
+
 void Refiner::run() {
-  control_.enter(Phase::delaunay);
+  begin(RefineStep::delaunay);
   std::vector<VertexId> vertices = plc_.free_vertices;
   for (const PlcSegment& segment : plc_.segments) {
     vertices.insert(vertices.end(), segment.vertex.begin(), segment.vertex.end());
@@ -22,14 +26,14 @@ void Refiner::run() {
   dt_.build(vertices, control_);
   subfacet_.resize(dt_.capacity());
 
-  control_.enter(Phase::segments);
+  begin(RefineStep::segments);
   recover_segments();
   if (options_.validate) validate();
-  control_.enter(Phase::facets);
+  begin(RefineStep::facets);
   build_facets();
   recover_facets();
   if (options_.validate) validate();
-  control_.enter(Phase::refine);
+  begin(RefineStep::tetrahedra);
   refine_tetrahedra();
   if (options_.validate) validate();
 }

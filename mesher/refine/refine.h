@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,6 +18,14 @@
 #include "mesher/surface/topology.h"
 
 namespace delmesher {
+
+// The steps of algorithm 1, in its order.
+enum class RefineStep : std::uint8_t {
+  delaunay,    // Delaunay tetrahedrization of the complex's vertices
+  segments,    // until every subsegment is an edge of it
+  facets,      // until every subfacet is a face of it
+  tetrahedra,  // until none is bad
+};
 
 struct RefineOptions {
   double delta = 14.47;  // degrees
@@ -35,7 +44,8 @@ struct RefineOptions {
   std::vector<std::uint8_t> apex;
   // Boxes that cover the part of the input surface that the complex lacks.
   std::vector<Box> removed;
-  bool want_balls = false;      // fill RefineResult::ball
+  std::function<void(RefineStep)> on_step;  // told when a step begins; empty: nobody asks
+  bool want_balls = false;                  // fill RefineResult::ball
   bool validate = kValidating;  // check the invariants after each step (Refiner::validate)
 };
 

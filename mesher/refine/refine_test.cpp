@@ -437,8 +437,8 @@ struct State {
   }
 };
 
-// Around a solid one rounding high, sums of a coordinate and a margin of less than a rounding can be
-// that coordinate: a side of the box would lie on the solid.
+// Around a solid one rounding high, sums of a coordinate and a margin of less than a rounding can
+// be that coordinate: a side of the box would lie on the solid.
 TEST(Refine, TheOuterBoxKeepsItsMarginWhereDoublesAreWide) {
   constexpr double kFar = 56419016.86848649;
   for (const double y : {kFar, -kFar}) {

@@ -68,6 +68,8 @@ class Refiner {
     double max_cosine_squared;  // a face angle is too small if its squared cosine exceeds this
     bool slivers;
   };
+  void begin(RefineStep step) const;
+
   // segments.cpp
   void collect_segment_facets();
   void recover_segments();

@@ -1,0 +1,20 @@
+// One run on one graph: what all its stages share.
+#pragma once
+
+#include "mesher/base/control.h"
+#include "mesher/plane/plane_predicates.h"
+#include "mesher/predicates/points.h"
+
+namespace delmesher::plane {
+
+struct Session {
+  Session(const Options& run_options, Control& run_control)
+      : options(run_options), control(run_control) {}
+
+  const Options& options;
+  Control& control;
+  PointStore points;  // the input vertices, the corners of the box, then what the stages append
+  PlanePredicates predicates{points};
+};
+
+}  // namespace delmesher::plane
