@@ -20,9 +20,10 @@ scoped_allocator semaphore set shared_mutex source_location span sstream stack s
 string_view syncstream system_error thread tuple type_traits typeindex typeinfo unordered_map unordered_set utility
 valarray variant vector version""".split())
 
-# Layers of the mesher: which layers a folder may include besides itself and mesher/delmesher.h. The stages
-# never include each other. What stands between stages (enrich), what is told of all of them (results) and
-# what is decided about them (policies) knows those before; only pipeline.cpp knows all.
+# Layers of the mesher: which layers a folder may include besides itself and the types of the public headers
+# (mesher/delmesher/). The stages never include each other, nor a header of the root. What stands between stages
+# (enrich), what they share in a run (run), what is told of all of them (results) and what is decided about them
+# (policies) knows those before; only the drivers (pipeline.cpp, plane_pipeline.cpp) know all.
 FOUNDATION = ("base", "arithmetic", "predicates", "surface", "delaunay")
 LAYERS = {
     "base": (),
@@ -36,8 +37,9 @@ LAYERS = {
     "plane": FOUNDATION,
     "output": FOUNDATION,
     "enrich": FOUNDATION + ("chamfer", "refine", "cdt"),
-    "results": FOUNDATION + ("chamfer", "refine", "cdt", "output"),
-    "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "results"),
+    "run": FOUNDATION + ("plane",),
+    "results": FOUNDATION + ("chamfer", "refine", "cdt", "output", "plane", "run"),
+    "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "plane", "run", "results"),
     "io": ("base",),
     "cli": ("base", "io"),
 }
@@ -45,7 +47,9 @@ PIPELINE = tuple(layer for layer in LAYERS if layer not in ("io", "cli"))
 
 # Top-level folders: which others each may include. None of these but mesher itself sees more of the mesher
 # than the public header, except the property tests and the fuzz targets.
-PUBLIC_HEADER = "mesher/delmesher.h"
+PUBLIC_HEADERS = ("mesher/delmesher.h", "mesher/delmesher_plane.h")
+PUBLIC_TYPES = "mesher/delmesher/"  # what they are made of; installed beside them
+USE_PUBLIC_HEADERS = ("run", "results", "policies", "io", "cli")
 FOLDERS = {
     "oracles": (),
     "corpus": ("oracles", "reports"),
@@ -95,8 +99,11 @@ def mesher_angle(layer, is_test, header):
 
 def mesher_quoted(layer, is_test, header):
     parts = header.split("/")
-    if header == PUBLIC_HEADER:
+    if header.startswith(PUBLIC_TYPES):
         return None
+    if header in PUBLIC_HEADERS:
+        seen = is_test or layer is None or layer in USE_PUBLIC_HEADERS
+        return None if seen else "mesher/%s must not include a header of the root, but %s" % (layer, PUBLIC_TYPES)
     if parts[0] != "mesher" or len(parts) < 3 and layer is not None:
         return "mesher files include only mesher headers, not \"%s\"" % header
     if header.endswith("_reference.h") and not is_test:
@@ -112,6 +119,16 @@ def mesher_quoted(layer, is_test, header):
     return "mesher/%s must not include mesher/%s" % (layer or "pipeline", target)
 
 
+def public_include(path, kind, header, root):
+    """Public headers find each other relative to their own folder, in the sources as where they are installed."""
+    if kind == "<":
+        return None if header in STANDARD else "a public header includes the standard library only, not %s" % header
+    target = os.path.normpath(os.path.join(os.path.dirname(path), header))
+    if target not in PUBLIC_HEADERS and not target.startswith(PUBLIC_TYPES):
+        return "a public header includes no other than public headers, not %s" % header
+    return None if os.path.isfile(os.path.join(root, target)) else "no such file: \"%s\"" % header
+
+
 def check_include(path, kind, header, root):
     """Reason why `path` must not include `header`, or None."""
     parts = path.split("/")
@@ -119,19 +136,19 @@ def check_include(path, kind, header, root):
     is_test = path.endswith(("_test.cpp", "_reference.h"))
     layer = parts[1] if len(parts) > 2 else None
     if parts[0] == "mesher":
-        if path == PUBLIC_HEADER and (kind == '"' or header not in STANDARD):
-            return "the public header includes the standard library only, not %s" % header
+        if path in PUBLIC_HEADERS or path.startswith(PUBLIC_TYPES) and path.endswith(".h"):
+            return public_include(path, kind, header, root)
         rule = mesher_angle if kind == "<" else mesher_quoted
         reason = rule(layer, is_test, header)
     elif parts[0] == "ci" or kind == "<":
-        reason = "other projects' view of the mesher is \"%s\"" % PUBLIC_HEADER if header.startswith("mesher/") else None
+        reason = "other projects see installed headers, not <%s>" % header if header.startswith("mesher/") else None
     else:
         target = header.split("/")[0]
         adapter = any(path.startswith(a) and header.startswith(h) for a, h in ADAPTERS.items())
-        if target == parts[0] or header == PUBLIC_HEADER or target in FOLDERS.get(parts[0], ()) or adapter:
+        if target == parts[0] or header in PUBLIC_HEADERS or target in FOLDERS.get(parts[0], ()) or adapter:
             reason = None
         elif target == "mesher":
-            reason = "%s may include %s only, no stage of the mesher" % (parts[0], PUBLIC_HEADER)
+            reason = "%s may include %s only, no stage of the mesher" % (parts[0], " and ".join(PUBLIC_HEADERS))
         else:
             reason = "%s must not include %s" % (parts[0], header)
     if reason is None and kind == '"' and parts[0] != "ci" and not os.path.isfile(os.path.join(root, header)):

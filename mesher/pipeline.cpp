@@ -18,7 +18,8 @@
 #include "mesher/results/recorder.h"
 #include "mesher/results/units.h"
 #include "mesher/surface/feature_size.h"
-#include "mesher/surface/session.h"
+#include "mesher/run/options.h"
+#include "mesher/run/session.h"
 #include "mesher/surface/validity.h"
 
 namespace delmesher {
@@ -158,7 +159,7 @@ Result run(const Surface& surface, const Options& options, Pipeline pipeline) {
   Session session(options, control);
   Recorder recorder(session, result);
   result.status = guarded(control, [&]() -> Status {
-    if (const std::string defect = options_defect(options, 30, 0); !defect.empty()) {
+    if (const std::string defect = options_defect(options, kBounds); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
     return pipeline(surface, session, recorder);

@@ -7,15 +7,16 @@
 #include "mesher/base/control.h"
 #include "mesher/base/guarded.h"
 #include "mesher/base/validating.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 #include "mesher/plane/chamfer.h"
 #include "mesher/plane/enrich.h"
 #include "mesher/plane/graph.h"
 #include "mesher/plane/output.h"
-#include "mesher/plane/recorder.h"
+#include "mesher/results/plane_recorder.h"
 #include "mesher/plane/refine.h"
-#include "mesher/plane/session.h"
-#include "mesher/plane/sparing.h"
+#include "mesher/run/options.h"
+#include "mesher/run/plane_session.h"
+#include "mesher/policies/sparing.h"
 
 namespace delmesher::plane {
 namespace {
@@ -157,7 +158,7 @@ PlaneResult triangulate_polygon(const PlanarGraph& graph, const Options& given) 
   plane::Session session(options, control);
   plane::Recorder recorder(session, result);
   result.status = guarded(control, [&]() -> Status {
-    if (const std::string defect = options_defect(options, 34, 60); !defect.empty()) {
+    if (const std::string defect = options_defect(options, kPlaneBounds); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
     plane::mesh(graph, session, recorder);

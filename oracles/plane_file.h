@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 
 namespace tetproof::oracles {
 

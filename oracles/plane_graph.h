@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 #include "oracles/plane_grid.h"
 #include "oracles/plane_points.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 
 namespace tetproof::shapes {
 

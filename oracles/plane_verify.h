@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 #include "oracles/plane_file.h"
 #include "oracles/promise.h"
 #include "oracles/report.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 #include "oracles/plane_verify.h"
 #include "property_tests/score_table.h"
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 #include "oracles/plane_shapes.h"
 #include "oracles/plane_verify.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 #include "reports/thread_seconds.h"
 
 namespace tetproof::plane_bench {

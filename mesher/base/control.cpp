@@ -18,9 +18,9 @@ double seconds_between(std::chrono::steady_clock::time_point a,
 namespace {
 
 // What the callback answers; what it throws ends the run like the answer no.
-bool goes_on(const Options& options, const Progress& progress) {
+bool goes_on(const Limits& limits, const Progress& progress) {
   try {
-    return options.progress(progress);
+    return limits.progress(progress);
   } catch (const std::bad_alloc&) {
     throw;  // memory is a limit, whoever asked for it
   } catch (const std::exception& error) {
@@ -40,10 +40,10 @@ void stop_at_precision(const std::string& where) {
                  Limit::precision}};
 }
 
-Control::Control(const Options& options)
-    : options_(options),
+Control::Control(const Limits& limits)
+    : limits_(limits),
       threads_(std::max(
-          1U, options.threads == 0 ? std::thread::hardware_concurrency() : options.threads)),
+          1U, limits.threads == 0 ? std::thread::hardware_concurrency() : limits.threads)),
       start_(Clock::now()),
       phase_start_(start_) {}
 
@@ -66,17 +66,17 @@ void Control::poll(std::uint64_t vertices, double done) {
 }
 
 void Control::poll_now(std::uint64_t vertices, double done) {
-  if (options_.max_vertices != 0 && vertices > options_.max_vertices) {
+  if (limits_.max_vertices != 0 && vertices > limits_.max_vertices) {
     throw Stopped{
         {StatusCode::limit_reached,
-         "vertex limit reached (" + std::to_string(options_.max_vertices) + "), see --max-vertices",
+         "vertex limit reached (" + std::to_string(limits_.max_vertices) + "), see --max-vertices",
          Limit::size}};
   }
-  if (options_.time_limit_seconds > 0 &&
-      seconds_between(start_, Clock::now()) > options_.time_limit_seconds) {
+  if (limits_.time_limit_seconds > 0 &&
+      seconds_between(start_, Clock::now()) > limits_.time_limit_seconds) {
     throw Stopped{{StatusCode::limit_reached, "time limit reached, see --time-limit", Limit::time}};
   }
-  if (options_.progress && !goes_on(options_, Progress{phase_, done, vertices, predicted_})) {
+  if (limits_.progress && !goes_on(limits_, Progress{phase_, done, vertices, predicted_})) {
     throw Stopped{{StatusCode::interrupted, "interrupted"}};
   }
 }

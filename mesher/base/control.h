@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/run.h"
 
 namespace delmesher {
 
@@ -22,14 +22,14 @@ struct Stopped {
 // Not thread-safe: one Control belongs to one call of the public API.
 class Control {
  public:
-  explicit Control(const Options& options);
+  explicit Control(const Limits& limits);
 
   // Starts a phase and reports it; closes the previous one (its time is kept in phase_seconds()).
   void enter(Phase phase);
 
   // To be called in every long loop, at least a few times per millisecond; costs a counter
   // increment most of the time. Throws Stopped when the run has to end. `vertices` is the present
-  // number of mesh vertices, checked against Options::max_vertices; `done` in [0, 1] is the
+  // number of mesh vertices, checked against Limits::max_vertices; `done` in [0, 1] is the
   // fraction of the phase, or negative if unknown.
   void poll(std::uint64_t vertices = 0, double done = -1);
 
@@ -43,13 +43,13 @@ class Control {
   const std::array<double, kPhaseCount>& phase_seconds() const { return seconds_; }
   void finish();
 
-  // How many threads may share the work: Options::threads, at least 1 (see base/parallel.h).
+  // How many threads may share the work: Limits::threads, at least 1 (see base/parallel.h).
   unsigned threads() const { return threads_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  const Options& options_;
+  const Limits& limits_;
   unsigned threads_;
   Clock::time_point start_;
   Clock::time_point phase_start_;

@@ -9,7 +9,7 @@ namespace delmesher {
 namespace {
 
 Status status_with(std::function<bool(const Progress&)> progress) {
-  Options options;
+  Limits options;
   options.progress = std::move(progress);
   Control control(options);
   try {

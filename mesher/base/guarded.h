@@ -7,12 +7,9 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/control.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/run.h"
 
 namespace delmesher {
-
-// Names the option whose value makes no sense; empty if all do. Degrees.
-std::string options_defect(const Options& options, int most_delta, int least_acute);
 
 // Runs `body` and turns everything it may throw into a status: the public API reports errors as
 // values.

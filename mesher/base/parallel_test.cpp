@@ -10,8 +10,8 @@
 namespace delmesher {
 namespace {
 
-Options with_threads(unsigned threads) {
-  Options options;
+Limits with_threads(unsigned threads) {
+  Limits options;
   options.threads = threads;
   return options;
 }
@@ -19,7 +19,7 @@ Options with_threads(unsigned threads) {
 TEST(Threads, EveryItemIsVisitedOnceInChunksThatDoNotDependOnTheirNumber) {
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
     for (const std::size_t count : {0, 1, 9, 10, 11, 1000}) {
-      const Options options = with_threads(threads);
+      const Limits options = with_threads(threads);
       Control control(options);
       std::vector<int> visits(count, 0);
       for_chunks(control, count, 10, [&](Worker& worker, const Chunk& chunk) {
@@ -36,7 +36,7 @@ TEST(Threads, EveryItemIsVisitedOnceInChunksThatDoNotDependOnTheirNumber) {
 
 TEST(Threads, GatheredListsAreInTheOrderOfTheItems) {
   for (const unsigned threads : {1U, 2U, 8U}) {
-    const Options options = with_threads(threads);
+    const Limits options = with_threads(threads);
     Control control(options);
     const auto list = gather<std::size_t>(
         control, 5000, 7, [](Worker&, std::size_t i, std::vector<std::size_t>& out) {
@@ -49,7 +49,7 @@ TEST(Threads, GatheredListsAreInTheOrderOfTheItems) {
 }
 
 TEST(Threads, OneThreadIsTheCallers) {
-  const Options options = with_threads(1);
+  const Limits options = with_threads(1);
   Control control(options);
   const auto caller = std::this_thread::get_id();
   for_items(control, 100, 1,
@@ -58,7 +58,7 @@ TEST(Threads, OneThreadIsTheCallers) {
 
 TEST(Threads, ChunksBeforeTheOneThatEndsTheLoopAreCompleted) {
   for (const unsigned threads : {1U, 3U, 8U}) {
-    const Options options = with_threads(threads);
+    const Limits options = with_threads(threads);
     Control control(options);
     std::vector<std::uint8_t> done(1000, 0);
     for_chunks(control, done.size(), 1, [&](Worker& worker, const Chunk& chunk) {
@@ -74,7 +74,7 @@ TEST(Threads, ChunksBeforeTheOneThatEndsTheLoopAreCompleted) {
 
 TEST(Threads, TheErrorOfTheFirstChunkThatFailsReachesTheCaller) {
   for (const unsigned threads : {1U, 2U, 8U}) {
-    const Options options = with_threads(threads);
+    const Limits options = with_threads(threads);
     Control control(options);
     std::string caught;
     try {
@@ -91,7 +91,7 @@ TEST(Threads, TheErrorOfTheFirstChunkThatFailsReachesTheCaller) {
 // Workers that are not the caller would go on for an hour.
 TEST(Threads, CancellingEndsTheChunksOfAllThreads) {
   for (const unsigned threads : {1U, 2U, 8U}) {
-    Options options = with_threads(threads);
+    Limits options = with_threads(threads);
     const auto caller = std::this_thread::get_id();
     options.progress = [&](const Progress&) {
       EXPECT_EQ(std::this_thread::get_id(), caller);
@@ -110,7 +110,7 @@ TEST(Threads, CancellingEndsTheChunksOfAllThreads) {
 }
 
 TEST(Threads, CancellingHoldsWhileTheCallerWaitsForOthers) {
-  Options options = with_threads(2);
+  Limits options = with_threads(2);
   std::atomic<bool> other_has_begun = false;
   options.progress = [&](const Progress&) { return !other_has_begun; };
   Control control(options);
@@ -127,7 +127,7 @@ TEST(Threads, CancellingHoldsWhileTheCallerWaitsForOthers) {
 }
 
 TEST(Threads, TimeLimitsHold) {
-  Options options = with_threads(2);
+  Limits options = with_threads(2);
   options.time_limit_seconds = 0.01;
   Control control(options);
   try {
@@ -146,7 +146,7 @@ TEST(Threads, EveryWorkerHasItsOwnObject) {
     explicit Counter(const int& start) : value(start) {}
     int value;
   };
-  const Options options = with_threads(4);
+  const Limits options = with_threads(4);
   Control control(options);
   const int start = 5;
   PerWorker<Counter> counters(control, start);

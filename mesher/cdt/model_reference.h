@@ -32,7 +32,7 @@ struct Model {
     return rational::Checker(topology, points, result).run();
   }
 
-  Options options;
+  Limits options;
   Control control;
   PointStore points;
   Predicates predicates;

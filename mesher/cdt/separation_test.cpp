@@ -121,7 +121,7 @@ std::set<Tetrahedron> as_set(std::vector<Tetrahedron> tetrahedra) {
 TEST(Polyhedron, ConvexIsDelaunay) {
   std::mt19937 random(17);
   std::size_t all_isolated = 0;
-  Options options;
+  Limits options;
   Control control(options);
   for (const unsigned range : {4U, 16U, 1000U}) {
     for (const std::size_t n : {5U, 9U, 30U}) {
@@ -187,7 +187,7 @@ TEST(Polyhedron, ConvexIsDelaunay) {
 TEST(Polyhedron, OpenSurfaceIsRefused) {
   PointStore points;
   Predicates predicates(points);
-  Options options;
+  Limits options;
   Control control(options);
   points.add_explicit(0, 0, 0);
   points.add_explicit(1, 0, 0);

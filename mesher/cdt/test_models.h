@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/surface.h"
 
 namespace delmesher::test_models {
 

@@ -38,7 +38,7 @@ struct Model {
     return chamfer(topology, points, predicates, options, control);
   }
 
-  Options control_options;
+  Limits control_options;
   PointStore points;
   Predicates predicates;
   Control control;
@@ -144,7 +144,7 @@ class ChamferSamples : public testing::TestWithParam<double> {};
 
 TEST_P(ChamferSamples, AreValidSurfaces) {
   for (const Sample& sample : test_polyhedra::samples()) {
-    Options options;
+    Limits options;
     Control control(options);
     const ValidityResult validity = check_validity(sample.surface, false, control);
     EXPECT_TRUE(validity.report.status.ok()) << sample.name << validity.report.status.message;

@@ -21,7 +21,7 @@ struct Model {
         control(control_options),
         topology(build_topology(surface, points, predicates)) {}
 
-  Options control_options;
+  Limits control_options;
   PointStore points;
   Predicates predicates;
   Control control;

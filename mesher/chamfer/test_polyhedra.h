@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/surface.h"
 
 namespace delmesher::test_polyhedra {
 

@@ -25,10 +25,11 @@ struct Given {
   bool approximate = false, gabriel = false, no_bridges = false, paper = false;
 };
 
-struct Bounds {
-  double low, high;
-  bool open_low;  // the lower bound itself is not allowed
-};
+// (The option of the command line is to be left out where the library says 0 for none.)
+Bounds positive(Bounds bounds) {
+  bounds.above_low = true;
+  return bounds;
+}
 
 CLI::Validator number_within(Bounds bounds) {
   return CLI::Validator(
@@ -36,7 +37,7 @@ CLI::Validator number_within(Bounds bounds) {
         double value = 0;
         if (io::parse_double(text, value) != io::NumberStatus::ok) return "not a number: " + text;
         const bool low_enough = value <= bounds.high;
-        const bool high_enough = bounds.open_low ? value > bounds.low : value >= bounds.low;
+        const bool high_enough = bounds.above_low ? value > bounds.low : value >= bounds.low;
         return low_enough && high_enough ? "" : "out of range: " + text;
       },
       "NUMBER");
@@ -49,8 +50,6 @@ void add_number(CLI::App& app, Given& given, const std::string& name, const char
       ->check(number_within(bounds))
       ->type_name("X");
 }
-
-constexpr double kHuge = 1e308;
 
 constexpr const char* kSurfaces = "surface: OFF, OBJ, STL, PLY, .smesh or .poly";
 constexpr const char* kMeshes = "mesh to write: .mesh, .msh, .vtu, .node or .tet; may be repeated";
@@ -77,7 +76,8 @@ void add_run(CLI::App& app, Command& command, Given& given, const char* outputs 
       ->check(CLI::IsMember({"interior", "hull"}));
   add_number(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
              {1, 4294967294.0, false});
-  add_number(app, given, "time-limit", "stop after this many seconds (exit 5)", {0, kHuge, true});
+  add_number(app, given, "time-limit", "stop after this many seconds (exit 5)",
+             positive(kBounds.seconds));
   app.add_option("--stats", command.stats_file, "write statistics as JSON");
   app.add_option("--exact", command.exact_file, "write the exact form of everything");
 }
@@ -85,14 +85,14 @@ void add_run(CLI::App& app, Command& command, Given& given, const char* outputs 
 void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_common(app, command);
   add_run(app, command, given);
-  add_number(app, given, "delta", "smallest face angle, degrees (14.47)", {0, 60, true});
+  add_number(app, given, "delta", "smallest face angle, degrees (14.47)", kBounds.delta);
   add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
-             {0, 1, false});
+             kBounds.tau);
   add_number(app, given, "budget", "raise tau until no more tetrahedra than this are predicted",
              {0, 1e15, true});
-  add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", {0, 90, false});
+  add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", kBounds.acute);
   add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",
-             {0, 90, false});
+             kBounds.corner);
   app.add_flag("--gabriel", given.gabriel,
                "split constraints until their diametral balls are empty");
   app.add_option_function<std::string>(
@@ -101,8 +101,8 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
       ->check(CLI::IsMember({"on", "off"}));
   app.add_flag("--approximate", given.approximate,
                "stop before restoring the input: a mesh of the chamfered surface");
-  add_number(app, given, "chamfer-radius", "largest chamfer distance", {0, kHuge, true});
-  add_number(app, given, "max-edge", "largest edge", {0, kHuge, true});
+  add_number(app, given, "chamfer-radius", "largest chamfer distance", positive(kBounds.length));
+  add_number(app, given, "max-edge", "largest edge", positive(kBounds.length));
   app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
@@ -116,15 +116,16 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
 void add_plane(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, "planar graph: .poly, OFF or OBJ with z = 0, or rings of x y lines");
   add_run(app, command, given, "mesh to write: .node, .vtu, .off, .msh or .svg; may be repeated");
-  add_number(app, given, "delta", "smallest angle, degrees (20.7)", {0, 34, true});
+  add_number(app, given, "delta", "smallest angle, degrees (20.7)", kPlaneBounds.delta);
   add_number(app, given, "tau", "narrowest channel refined, width over length, 0 is off (1e-4)",
-             {0, 1, false});
+             kPlaneBounds.tau);
   add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)",
-             {60, 90, false});
+             kPlaneBounds.acute);
   app.add_flag("--approximate", given.approximate,
                "stop before restoring the input: a mesh of the chamfered graph");
-  add_number(app, given, "chamfer-radius", "largest chamfer distance", {0, kHuge, true});
-  add_number(app, given, "max-edge", "largest edge", {0, kHuge, true});
+  add_number(app, given, "chamfer-radius", "largest chamfer distance",
+             positive(kPlaneBounds.length));
+  add_number(app, given, "max-edge", "largest edge", positive(kPlaneBounds.length));
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
          "paper: delta 20.7, tau 0, acute 90, region hull; other options override it")
@@ -133,21 +134,13 @@ void add_plane(CLI::App& app, Command& command, Given& given) {
 }
 
 void apply(const Given& given, Command& command) {
-  if (command.job == Job::plane) command.options = plane_options();
   Options& options = command.options;
+  if (command.job == Job::plane) {
+    options = given.paper ? paper_plane_options() : plane_options();
+  } else if (given.paper) {
+    options = paper_options();
+  }
   if (command.job == Job::cdt) options.region = Region::hull;
-  if (given.paper) {
-    options.delta = 14.47;
-    options.tau = 1e-4;
-    options.acute = 90;
-    options.corner = 90;
-    options.gabriel = true;
-    options.region = Region::hull;
-  }
-  if (given.paper && command.job == Job::plane) {
-    options.delta = plane_options().delta;
-    options.tau = 0;
-  }
   const auto number = [&](const char* name, double& target) {
     const auto found = given.numbers.find(name);
     if (found != given.numbers.end()) io::parse_double(found->second, target);
@@ -244,9 +237,9 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   add_common(*check, command);
   check->add_flag("--json", command.json, "report as JSON");
   add_number(*check, given, "acute", "corners below this angle are acute, degrees (60)",
-             {0, 90, false});
+             kBounds.acute);
   add_number(*check, given, "corner", "the same for the angle of two edges, degrees (20)",
-             {0, 90, false});
+             kBounds.corner);
   add_threads(*check, given);
 
   default_to_mesh(arguments);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 
 namespace delmesher::cli {
 

@@ -6,7 +6,7 @@
 #include "mesher/cli/progress.h"
 #include "mesher/cli/run.h"
 #include "mesher/cli/signals.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 
 namespace delmesher {
 namespace {

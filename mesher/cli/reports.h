@@ -5,7 +5,7 @@
 #include <string>
 
 #include "mesher/cli/arguments.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_plane.h"
 
 namespace delmesher::cli {
 

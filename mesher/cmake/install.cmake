@@ -4,7 +4,8 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/delmesher)
 
 install(TARGETS delmesher EXPORT delmesherTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES delmesher.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES delmesher.h delmesher_plane.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY delmesher DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT delmesherTargets NAMESPACE delmesher:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/delmesherConfig.cmake.in delmesherConfig.cmake
                               INSTALL_DESTINATION ${package_dir})

@@ -38,7 +38,7 @@ using TetSet = std::set<std::array<VertexId, 4>>;
 struct Fixture {
   PointStore points;
   Predicates predicates{points};
-  Options options;
+  Limits options;
   Control control{options};
 
   std::vector<VertexId> all() const {

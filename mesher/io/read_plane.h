@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/planar_graph.h"
 #include "mesher/io/read_surface.h"
 #include "mesher/io/readers.h"
 

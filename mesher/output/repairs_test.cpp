@@ -14,7 +14,7 @@ namespace {
 struct Scene {
   PointStore points;
   RoundingInput input;
-  Options options;
+  Limits options;
   Control control{options};
 
   VertexId add(double x, double y, double z, bool fixed, bool on_surface = false) {
@@ -169,7 +169,7 @@ TEST(VertexMoves, UntanglingTriesNothingWhereNothingMayMove) {
   RoundedMesh mesh = s.mesh();
   mesh.prepare_repairs();
   int asked = 0;
-  Options options;
+  Limits options;
   options.progress = [&](const Progress&) { return ++asked < 1000; };
   Control control(options);
   EXPECT_FALSE(VertexMoves(mesh).untangle(control));

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/run.h"
 #include "mesher/predicates/points.h"
 
 namespace delmesher {

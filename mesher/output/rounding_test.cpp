@@ -119,7 +119,7 @@ struct Scene {
 };
 
 RoundingResult run(const Scene& scene) {
-  const Options options;
+  const Limits options;
   Control control(options);
   return round_mesh(scene.input, control);
 }
@@ -291,7 +291,7 @@ Scene make_ridge(std::uint64_t seed, double scale, double angle, double shift = 
   }
   Predicates predicates(s.points);
   Tetrahedrization delaunay(predicates);
-  const Options options;
+  const Limits options;
   Control control(options);
   delaunay.build(all, control);
   for (TetId t = 0; t < delaunay.capacity(); ++t) {
@@ -359,7 +359,7 @@ TEST(Rounding, FarFromTheOrigin) {
 
 // How many tetrahedra are bad when rounded, and that untangling leaves none.
 std::size_t untangled(const Scene& scene) {
-  const Options options;
+  const Limits options;
   Control control(options);
   RoundingInput given = scene.input;
   RoundedMesh mesh(given, control);
@@ -466,7 +466,7 @@ TEST(Rounding, CoincidentVerticesAreSeparated) {
 }
 
 TEST(Rounding, Cancels) {
-  Options options;
+  Limits options;
   options.progress = [](const Progress&) { return false; };
   Control control(options);
   const Scene s = make_ridge(0, 1, 3e-16);

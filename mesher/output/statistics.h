@@ -6,7 +6,7 @@
 #include <span>
 
 #include "mesher/base/control.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/statistics.h"
 
 namespace delmesher {
 

@@ -18,7 +18,7 @@ using Points = std::vector<std::array<double, 3>>;
 using Tets = std::vector<std::array<std::uint32_t, 4>>;
 
 MeshStatistics of(const Points& points, const Tets& tets = {{0, 1, 2, 3}}) {
-  const Options options;
+  const Limits options;
   Control control(options);
   return mesh_statistics(points, tets, {}, points.size(), tets.size(), control);
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/planar_graph.h"
 #include "mesher/plane/triangulation.h"
 
 namespace delmesher::plane {

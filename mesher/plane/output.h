@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/planar_graph.h"
 #include "mesher/plane/chamfer.h"
 #include "mesher/plane/graph.h"
 #include "mesher/plane/refine.h"

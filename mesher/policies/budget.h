@@ -3,7 +3,7 @@
 
 #include "mesher/chamfer/filter.h"
 #include "mesher/results/recorder.h"
-#include "mesher/surface/session.h"
+#include "mesher/run/session.h"
 
 namespace delmesher {
 

@@ -6,7 +6,7 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/delmesher.h"
 #include "mesher/results/recorder.h"
-#include "mesher/surface/session.h"
+#include "mesher/run/session.h"
 
 namespace delmesher {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "mesher/cdt/cdt.h"
-#include "mesher/surface/session.h"
+#include "mesher/run/session.h"
 
 namespace delmesher {
 

@@ -3,7 +3,7 @@
 
 #include "mesher/cdt/cdt.h"
 #include "mesher/results/recorder.h"
-#include "mesher/surface/session.h"
+#include "mesher/run/session.h"
 
 namespace delmesher {
 

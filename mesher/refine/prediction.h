@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/run.h"
 #include "mesher/surface/plc.h"
 #include "mesher/surface/topology.h"
 

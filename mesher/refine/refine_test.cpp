@@ -148,7 +148,7 @@ Surface tent() {
 struct Refinement {
   PointStore points;
   Predicates predicates{points};
-  Options limits;
+  Limits limits;
   Control control{limits};
   SurfaceTopology topology;
   ChamferResult chamfered;
@@ -418,7 +418,7 @@ TEST(Refine, MaxEdgeBoundsEdgesInside) {
 struct State {
   PointStore points;
   Predicates predicates{points};
-  Options limits;
+  Limits limits;
   Control control{limits};
   SurfaceTopology topology;
   ChamferResult chamfered;

@@ -8,7 +8,7 @@
 #include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
 #include "mesher/results/mesh_to_write.h"
-#include "mesher/surface/session.h"
+#include "mesher/run/session.h"
 
 namespace delmesher {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesher/cdt/cdt.h"
+#include "mesher/delmesher/statistics.h"
 #include "mesher/refine/refine.h"
 
 namespace delmesher {

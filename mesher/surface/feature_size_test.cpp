@@ -16,7 +16,7 @@ double smallest(const Surface& s) {
   PointStore points;
   Predicates predicates(points);
   const SurfaceTopology topology = build_topology(s, points, predicates);
-  const Options options;
+  const Limits options;
   Control control(options);
   return smallest_local_feature_size(topology, points, control);
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/surface.h"
 
 namespace delmesher::test_surfaces {
 

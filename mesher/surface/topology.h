@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/base/ids.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/surface.h"
 #include "mesher/predicates/predicates.h"
 
 namespace delmesher {

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "mesher/base/control.h"
-#include "mesher/delmesher.h"
+#include "mesher/delmesher/surface.h"
+#include "mesher/delmesher/surface_report.h"
 
 namespace delmesher {
 

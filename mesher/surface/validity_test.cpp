@@ -18,7 +18,7 @@ using namespace test_surfaces;
 using Kind = Defect::Kind;
 
 ValidityResult check(const Surface& s, bool stop_at_first = false) {
-  const Options options;
+  const Limits options;
   Control control(options);
   return check_validity(s, stop_at_first, control);
 }
@@ -297,7 +297,7 @@ TEST(Validity, ListsAreShortButCountsComplete) {
 }
 
 TEST(Validity, Cancels) {
-  Options options;
+  Limits options;
   options.progress = [](const Progress&) { return false; };
   Control control(options);
   EXPECT_THROW(check_validity(box(kOrigin, {1, 1, 1}, 30), true, control), Stopped);

@@ -4,8 +4,9 @@
 
 #include <vector>
 
+#include "mesher/delmesher_plane.h"
 #include "mesher/plane/output.h"
-#include "mesher/plane/session.h"
+#include "mesher/run/plane_session.h"
 
 namespace delmesher::plane {
 

@@ -1,5 +1,6 @@
-// Names of the enumerators of the public header, and defaults.
-#include "mesher/delmesher.h"
+// Names of the enumerators of the public headers.
+#include "mesher/delmesher/run.h"
+#include "mesher/delmesher/surface_report.h"
 
 namespace delmesher {
 
@@ -22,17 +23,6 @@ const char* defect_name(Defect::Kind kind) {
                                            "duplicate triangle",
                                            "self-intersection"};
   return kNames[static_cast<std::size_t>(kind)];
-}
-
-// (Here, so that the command line does not need the mesher to know its defaults.)
-Options plane_options() {
-  Options options;
-  options.delta = 20.7;
-  return options;
-}
-
-const char* version() {
-  return "0.1.0";
 }
 
 }  // namespace delmesher

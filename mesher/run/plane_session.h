@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesher/base/control.h"
+#include "mesher/delmesher.h"
 #include "mesher/plane/plane_predicates.h"
 #include "mesher/predicates/points.h"
 

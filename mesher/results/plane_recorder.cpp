@@ -1,4 +1,4 @@
-#include "mesher/plane/recorder.h"
+#include "mesher/results/plane_recorder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "mesher/base/control.h"
+#include "mesher/delmesher.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/topology.h"
 

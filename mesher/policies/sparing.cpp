@@ -1,4 +1,4 @@
-#include "mesher/plane/sparing.h"
+#include "mesher/policies/sparing.h"
 
 #include <algorithm>
 

@@ -1,0 +1,82 @@
+// The exact form of a run: everything an independent program needs to decide every claim without
+// rounding. mesher/io/exact_format.md describes it as a file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "run.h"
+
+namespace delmesher {
+
+// How a point is given exactly; i, j, k are indices of explicit points of the same list.
+struct ExactPoint {
+  enum class Kind : std::uint8_t {
+    explicit_point,  // (x, y, z)
+    on_segment,      // t p_i + (1 - t) p_j, t = x
+    on_triangle      // u p_i + v p_j + (1 - u - v) p_k, u = x, v = y
+  };
+  Kind kind = Kind::explicit_point;
+  std::uint32_t i = 0, j = 0, k = 0;
+  double x = 0, y = 0, z = 0;
+};
+
+// The exact form of a run (command-line option --exact): everything an independent program needs
+// to decide every claim without rounding. Point indices are into `points`.
+struct ExactRecord {
+  struct Parameters {  // what the run promised
+    double delta = 0;  // face angles of the refined mesh, degrees; 0: not recorded
+    double acute = 0;  // corners are chamfered below this, where none of `corners` says otherwise
+    // The same for two edges at a vertex that is not chamfered; 0: as acute.
+    double corner = 0;
+    double tolerance = 0;  // of the filter, in input units
+    Region region = Region::interior;
+    bool gabriel = true;  // no vertex is in the open diametral ball of a constraint
+  } parameters;
+  std::vector<ExactPoint> points;  // the input vertices first, in input order
+  struct Facet {
+    std::uint32_t id;  // smallest input triangle index
+    std::int32_t label;
+    // 0: kept. Dropped by the filter: 1 for what is too close in the input, 2 for what chamfering
+    // made of that, after all of 1.
+    std::uint8_t filtered;
+    std::vector<std::uint32_t> triangles;  // input triangles
+  };
+  std::vector<Facet> facets;
+  struct Chain {                          // a straight (input) or nearly straight edge
+    bool artificial;                      // created by the chamfering
+    std::uint32_t facet;                  // for artificial ones: the facet's id
+    std::vector<std::uint32_t> vertices;  // from end to end, in the refined mesh
+  };
+  std::vector<Chain> segments;
+  struct Corner {  // a chamfered input vertex
+    std::uint32_t vertex;
+    double threshold;  // degrees: 60, or 90 where the guard fell back
+    double radius;     // chamfer distance along its edges, rounded to nearest
+  };
+  std::vector<Corner> corners;
+  // Points made by chamfering, each with the input vertex that it was made for.
+  std::vector<std::array<std::uint32_t, 2>> chamfer_points;
+  struct Tet {
+    std::array<std::uint32_t, 4> vertices;
+    bool inside;
+  };
+  std::vector<Tet> refined;  // every tetrahedron down to the outer box
+  std::vector<std::array<std::uint32_t, 4>> refined_facets;  // a, b, c, facet id
+  struct Ball {  // a volume Steiner point and the tetrahedron in whose circumball it was put
+    std::uint32_t vertex;
+    std::array<std::uint32_t, 4> tetrahedron;
+  };
+  std::vector<Ball> balls;
+  std::vector<Tet> final;
+  std::vector<std::array<std::uint32_t, 4>> final_facets;  // a, b, c, facet id
+  // `final` before local repairs of rounding; empty if there were none.
+  std::vector<Tet> unrepaired;
+  // `final_facets` then; empty if they were the same.
+  std::vector<std::array<std::uint32_t, 4>> unrepaired_facets;
+  // Indices into `points` of the vertices of TetMesh, in its order.
+  std::vector<std::uint32_t> mesh_vertices;
+};
+
+}  // namespace delmesher

@@ -1,0 +1,44 @@
+// Sizes, angles, times and counters of a run.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "run.h"
+
+namespace delmesher {
+
+// Size and angles of a mesh, in degrees; angles over the tetrahedra that Options::region covers.
+struct MeshStatistics {
+  std::uint64_t vertices = 0, tetrahedra = 0, interior_tetrahedra = 0;
+  double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
+  double mean_min_face_angle = 0, mean_max_face_angle = 0;  // per face
+  double mean_min_dihedral = 0, mean_max_dihedral = 0;      // per tetrahedron
+  std::array<std::uint64_t, 12> face_angle_histogram{};     // 15-degree bins
+  std::array<std::uint64_t, 12> dihedral_histogram{};
+};
+
+struct Statistics {
+  std::array<double, kPhaseCount> phase_seconds{};
+  double bbox_diagonal = 0;
+  MeshStatistics refined, final;
+  double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement
+  double tau = 0;                   // in force: Options::tau, or more for the budget
+  std::uint64_t dropped_triangles = 0, filter_rounds = 0;
+  std::uint64_t acute_vertices = 0, acute_edges = 0;
+  double guaranteed_acute = 0;         // threshold in force away from the fallback corners
+  double guaranteed_corner = 0;        // the same for the angle of two edges
+  bool gabriel = false;                // the constraints of the refined mesh have empty balls
+  std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
+  std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;
+  // Does the final mesh have the points of the refined one? Not where the input alone is better.
+  bool enriched = true;
+  std::uint64_t rounding_inverted = 0, rounding_flat = 0, rounding_repaired = 0;
+  // Points of the last step taken out again where doubles are too coarse for them.
+  std::uint64_t rounding_thinned = 0;
+  double max_surface_deviation = 0;  // input units
+  std::uint64_t predicate_filter = 0, predicate_extended = 0, predicate_exact = 0;
+  std::uint64_t predicate_symbolic = 0, predicate_by_support = 0;
+};
+
+}  // namespace delmesher

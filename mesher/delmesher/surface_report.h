@@ -1,0 +1,48 @@
+// Is a surface valid input? What is wrong with it, and what is it like?
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "run.h"
+
+namespace delmesher {
+
+// What is wrong with a surface, and what it is like.
+struct Defect {
+  enum class Kind : std::uint8_t {
+    non_finite,                // vertex
+    index_out_of_range,        // triangle
+    empty,                     // no triangles
+    degenerate_triangle,       // triangle: repeated vertex or collinear corners
+    open_edge,                 // edge of one triangle
+    non_manifold_edge,         // edge of more than two triangles
+    non_manifold_vertex,       // triangles around the vertex do not form one fan
+    inconsistent_orientation,  // edge traversed twice in the same direction
+    duplicate_triangle,        // two triangles with the same corners
+    self_intersection          // two triangles meeting outside a shared vertex or edge
+  };
+  Kind kind;
+  std::vector<std::uint32_t> vertices, triangles;  // the offending elements
+  std::string message;  // one line naming them, e.g. "triangles 12 and 840 intersect"
+};
+
+struct SurfaceReport {
+  Status status;                // ok, invalid_surface, interrupted ...
+  std::vector<Defect> defects;  // at most a few of each kind; counts below are complete
+  std::array<std::uint64_t, 10> defect_counts{};  // indexed by Defect::Kind
+  std::vector<std::string> warnings;
+  bool flipped = false;  // the surface was inside out
+  std::uint64_t vertices = 0, triangles = 0, components = 0, unused_vertices = 0;
+  std::int64_t euler_characteristic = 0;
+  double bbox_diagonal = 0, volume = 0;  // volume of the solid, rounded
+  std::uint64_t facets = 0, acute_vertices = 0, acute_edges = 0;
+  double smallest_local_feature_size = 0;  // distance of the closest non-incident elements
+};
+
+// Name of a kind of defect: "open edge", "self-intersection", ...
+const char* defect_name(Defect::Kind kind);
+
+}  // namespace delmesher

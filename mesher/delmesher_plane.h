@@ -1,0 +1,37 @@
+// delmesher in the plane: graded triangulations of planar straight-line graphs (section 3).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "delmesher.h"
+#include "delmesher/planar_graph.h"
+
+namespace delmesher {
+
+struct PlaneResult {
+  Status status;
+  std::vector<std::string> warnings;
+  PlaneMesh mesh;         // empty unless status.ok()
+  PlanarGraph chamfered;  // if Options::want_chamfered: rounded, for display
+  PlaneRecord exact;      // if Options::want_exact
+  PlaneStatistics statistics;
+};
+
+// Options with the defaults of the plane: delta is 20.7, which is guaranteed. In the plane, tau is
+// the narrowest channel between two segments, as a fraction of its length, that is refined;
+// slivers and simplify_bridges mean nothing; max_vertices 0 is 1e7 and 64 more per input vertex.
+Options plane_options();
+
+// The paper's parameters in the plane: chamfers up to 90 degrees, no filter, everything down to the
+// outer box.
+Options paper_plane_options();
+
+inline constexpr OptionBounds kPlaneBounds{{0, 34, true}, {0, 1},        {60, 90},
+                                           {0, 90},       {0, kNoBound}, {0, kNoBound}};
+
+// Meshes the inside of a planar straight-line graph (section 3). An invalid graph is
+// StatusCode::invalid_surface with a message that names the offending vertices or segments.
+PlaneResult triangulate_polygon(const PlanarGraph& graph, const Options& options = plane_options());
+
+}  // namespace delmesher
