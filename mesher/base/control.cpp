@@ -42,8 +42,8 @@ void stop_at_precision(const std::string& where) {
 
 Control::Control(const Limits& limits)
     : limits_(limits),
-      threads_(std::max(
-          1U, limits.threads == 0 ? std::thread::hardware_concurrency() : limits.threads)),
+      threads_(
+          std::max(1U, limits.threads == 0 ? std::thread::hardware_concurrency() : limits.threads)),
       start_(Clock::now()),
       phase_start_(start_) {}
 
