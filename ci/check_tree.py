@@ -97,6 +97,11 @@ def mesher_angle(layer, is_test, header):
     return "the mesher may use the standard library and GMP only, not <%s>" % header
 
 
+def for_tests(header):
+    """A *_reference.h is a plain second opinion, a test_*.h what several tests have in common."""
+    return header.endswith("_reference.h") or re.match(r"test_.*\.h$", os.path.basename(header)) is not None
+
+
 def mesher_quoted(layer, is_test, header):
     parts = header.split("/")
     if header.startswith(PUBLIC_TYPES):
@@ -106,7 +111,7 @@ def mesher_quoted(layer, is_test, header):
         return None if seen else "mesher/%s must not include a header of the root, but %s" % (layer, PUBLIC_TYPES)
     if parts[0] != "mesher" or len(parts) < 3 and layer is not None:
         return "mesher files include only mesher headers, not \"%s\"" % header
-    if header.endswith("_reference.h") and not is_test:
+    if for_tests(header) and not is_test:
         return "%s is for tests" % header
     target = parts[1]
     if len(parts) == 2:
@@ -132,8 +137,7 @@ def public_include(path, kind, header, root):
 def check_include(path, kind, header, root):
     """Reason why `path` must not include `header`, or None."""
     parts = path.split("/")
-    # A *_reference.h is a plain second opinion for tests.
-    is_test = path.endswith(("_test.cpp", "_reference.h"))
+    is_test = path.endswith("_test.cpp") or for_tests(path)
     layer = parts[1] if len(parts) > 2 else None
     if parts[0] == "mesher":
         if path in PUBLIC_HEADERS or path.startswith(PUBLIC_TYPES) and path.endswith(".h"):

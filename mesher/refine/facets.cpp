@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/arithmetic/bounded.h"
 #include "mesher/base/check.h"
 #include "mesher/base/numbering.h"
 #include "mesher/predicates/vector.h"
@@ -10,9 +9,6 @@
 
 namespace delmesher {
 namespace {
-
-// A facet's Steiner point keeps within this fraction of the circumradius of the circumcentre.
-constexpr double kCenterTolerance = 1.0 / 1024;
 
 struct DirectedSide {
   VertexId from, to;
@@ -43,8 +39,8 @@ bool Refiner::in_circle(const Subfacet& f, VertexId v) {
 void Refiner::make_apex(std::uint32_t f) {
   const PlcFacet& facet = plc_.facets[f];
   const Vec3 a = points_.nearest(facet.frame[0]);
-  const Vec3 ab = relative(facet.frame[1], a);
-  const Vec3 ac = relative(facet.frame[2], a);
+  const Vec3 ab = subtract(points_.nearest(facet.frame[1]), a);
+  const Vec3 ac = subtract(points_.nearest(facet.frame[2]), a);
   double size = 0;
   for (int k = 0; k < 3; ++k) size = std::max({size, std::abs(ab[k]), std::abs(ac[k])});
   VertexId apex = kNone;
@@ -185,35 +181,6 @@ void Refiner::check_subfacet(std::uint32_t s, std::uint32_t face) {
   }
 }
 
-Refiner::Place Refiner::beside(VertexId origin, const Vec3& offset) const {
-  const Approximation &near = points_.approximation(origin), left = points_.remainder(origin);
-  Place place;
-  two_sum(near.x, offset[0], place.nearest[0], place.rest[0]);
-  two_sum(near.y, offset[1], place.nearest[1], place.rest[1]);
-  two_sum(near.z, offset[2], place.nearest[2], place.rest[2]);
-  place.rest = {place.rest[0] + left.x, place.rest[1] + left.y, place.rest[2] + left.z};
-  return place;
-}
-
-VertexId Refiner::place_in(std::uint32_t facet, VertexId origin, const Vec3& offset,
-                           double tolerance) {
-  const PlcFacet& f = plc_.facets[facet];
-  const auto [target, rest] = beside(origin, offset);
-  std::array<VertexId, 3> frame = f.frame;
-  if (f.input_facet != kNone) {
-    frame = topology_.triangles[locator_.triangle_at(f.input_facet, target)];
-  }
-  const PointDefinition p =
-      place_on_triangle(points_, frame[0], frame[1], frame[2], target, tolerance, rest);
-  const VertexId v = points_.add_on_triangle(p.corner[0], p.corner[1], p.corner[2], p.u, p.v);
-  const PlaneId plane = f.input_facet != kNone
-                            ? topology_.facet_plane[f.input_facet]
-                            : static_cast<PlaneId>(topology_.plane_count) +
-                                  static_cast<PlaneId>(2 * f.axis + (f.axis_sign > 0 ? 1 : 0));
-  points_.set_supports(v, std::array<PlaneId, 1>{plane}, {});
-  return v;
-}
-
 std::uint32_t Refiner::locate_subfacet(VertexId v, std::uint32_t start, std::uint32_t* blocked) {
   *blocked = kNone;
   std::uint32_t s = start;
@@ -236,20 +203,8 @@ std::uint32_t Refiner::locate_subfacet(VertexId v, std::uint32_t start, std::uin
 }
 
 void Refiner::split_subfacet(std::uint32_t s) {
-  const VertexId origin = subfacets_[s].v[0];
-  const Vec3 a = points_.difference(origin, subfacets_[s].v[1]);
-  const Vec3 b = points_.difference(origin, subfacets_[s].v[2]);
-  const Vec3 n = cross(a, b);
-  const double aa = dot(a, a);
-  const double bb = dot(b, b);
-  const Vec3 towards =
-      cross({aa * b[0] - bb * a[0], aa * b[1] - bb * a[1], aa * b[2] - bb * a[2]}, n);
-  const double scale = 0.5 / dot(n, n);
-  const Vec3 offset = {towards[0] * scale, towards[1] * scale, towards[2] * scale};
-  const double radius = std::sqrt(dot(offset, offset));
-  DELMESHER_CHECK(std::isfinite(radius), "subfacet too flat for its circumcentre");
   const std::uint32_t facet = subfacets_[s].facet;
-  const VertexId v = place_in(facet, origin, offset, radius * kCenterTolerance);
+  const VertexId v = steiner_.in_facet(facet, subfacets_[s].v);
   std::uint32_t blocked = kNone;
   const std::uint32_t container = locate_subfacet(v, s, &blocked);
   if (container == kNone) {

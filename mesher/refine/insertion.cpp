@@ -23,17 +23,11 @@ Refiner::Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& po
       control_(control),
       dt_(predicates),
       solid_(topology, predicates, options.removed),
-      locator_(topology, points),
-      removed_(options.removed) {}
-
-Vec3 Refiner::relative(VertexId v, const Vec3& origin) const {
-  const Approximation& p = points_.approximation(v);
-  return {p.x - origin[0], p.y - origin[1], p.z - origin[2]};
-}
-
-void Refiner::guard(double squared_length, const Vec3& place) const {
-  if (squared_length < options_.runaway_length * options_.runaway_length) throw Runaway{place};
-}
+      removed_(options.removed),
+      segment_facets_(plc),
+      steiner_(plc, segment_facets_, topology, points, predicates, options),
+      bad_(dt_, points),
+      goal_(options.delta, options.slivers, options.max_edge) {}
 
 void Refiner::queue_subsegment(std::uint32_t s) {
   if (subsegments_[s].queued || !subsegments_[s].alive) return;
@@ -226,12 +220,7 @@ void Refiner::after_insertion() {
     check_subfacet(s, face);
   }
   requeue_lost();
-  if (!refining_) return;
-  for (const TetId t : dt_.created()) {
-    if (note(t, kWaiting) == kFresh) continue;
-    note(t, kWaiting) = kFresh;
-    fresh_.push_back(t);
-  }
+  if (refining_) bad_.add_fresh(dt_.created());
 }
 
 }  // namespace delmesher

@@ -49,7 +49,7 @@ RefineResult Refiner::result() {
     ++count;
   }
   // The memory of the queues and marks goes before that of the result comes.
-  clear_bad();
+  bad_.release();
   subfacet_.release();
   edge_map_ = {};
   r.tetrahedra.reserve(count);

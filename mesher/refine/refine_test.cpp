@@ -1,7 +1,6 @@
 // Laws of the refinement, checked by brute force on small complexes: nothing is encroached, angles
 // are bounded, the pieces add up.
 #include "mesher/refine/refine.h"
-#include "mesher/predicates/vector.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +12,10 @@
 #include <string>
 
 #include "mesher/base/check.h"
-#include "mesher/chamfer/chamfer.h"
 #include "mesher/delaunay/tetrahedrization.h"
+#include "mesher/predicates/vector.h"
 #include "mesher/refine/refiner.h"
+#include "mesher/refine/test_complexes.h"
 
 namespace delmesher {
 
@@ -77,14 +77,6 @@ struct RefinerBreaker {
     return static_cast<std::size_t>(
         std::ranges::count_if(r.subfacets_, [](const auto& s) { return !s.alive; }));
   }
-  // Where a subsegment of length 1 is split if shells of these radii are around its ends; 0: none.
-  double split_fraction(double around_a, double around_b) const {
-    const auto& s = r.subsegments_[0];
-    r.shell_.assign(std::max(s.a, s.b) + 1, 0);
-    r.shell_[s.a] = around_a;
-    r.shell_[s.b] = around_b;
-    return r.split_fraction(s, 1);
-  }
   // As if there were enough dead ones for it to pay.
   void compact() const {
     r.dead_subfacets_ = 1U << 30U;
@@ -99,67 +91,11 @@ struct RefinerBreaker {
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
-Surface prism(const std::vector<std::array<double, 2>>& outline, double height) {
-  Surface s;
-  const auto n = static_cast<std::uint32_t>(outline.size());
-  for (const double z : {0.0, height}) {
-    for (const auto& p : outline) s.vertices.push_back({p[0], p[1], z});
-  }
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t j = (i + 1) % n;
-    s.triangles.push_back({i, j, n + j});
-    s.triangles.push_back({i, n + j, n + i});
-  }
-  // Fans from vertex 0, which must see the whole outline.
-  for (std::uint32_t i = 1; i + 1 < n; ++i) {
-    s.triangles.push_back({0, i + 1, i});
-    s.triangles.push_back({n, n + i, n + i + 1});
-  }
-  return s;
-}
-
-Surface box() {
-  return prism({{0, 0}, {3, 0}, {3, 2}, {0, 2}}, 1);
-}
-// The reflex corner comes first, so that the fans are inside.
-Surface ell() {
-  return prism({{1, 1}, {0, 1}, {0, 0}, {2, 0}, {2, 1}}, 0.5);
-}
-Surface wedge() {
-  return prism({{0, 0}, {4, 0}, {4, 0.5}}, 1);
-}
-
-// A decagonal prism with a shallow conical roof: ten facets have corners of about 35 degrees at its
-// apex, vertex 20; nothing else is below 60 degrees.
-Surface tent() {
-  std::vector<std::array<double, 2>> outline;
-  for (int i = 0; i < 10; ++i) {
-    outline.push_back({std::cos(36 * i * kDegree), std::sin(36 * i * kDegree)});
-  }
-  Surface s = prism(outline, 1);
-  std::erase_if(s.triangles, [](const auto& t) { return std::ranges::min(t) >= 10; });
-  s.vertices.push_back({0, 0, 1.25});
-  for (std::uint32_t i = 0; i < 10; ++i) s.triangles.push_back({10 + i, 10 + (i + 1) % 10, 20});
-  return s;
-}
-
-struct Refinement {
-  PointStore points;
-  Predicates predicates{points};
-  Limits limits;
-  Control control{limits};
-  SurfaceTopology topology;
-  ChamferResult chamfered;
+struct Refinement : Complex {
   RefineResult result;
 
-  Refinement(const Surface& surface, RefineOptions options, double corner = 60) {
-    topology = build_topology(surface, points, predicates);
-    ChamferOptions chamfering;
-    chamfering.corner_cosine_squared = cosine_squared(corner);
-    chamfered = chamfer(topology, points, predicates, chamfering, control);
-    add_outer_box(topology, points, chamfered.plc);
+  Refinement(const Surface& surface, RefineOptions options, double corner = 60)
+      : Complex(surface, corner) {
     for (const auto& t : topology.triangles) {
       Box all = Box::empty();
       for (const VertexId v : t) all.extend({points.nearest(v), points.nearest(v)});
@@ -167,7 +103,7 @@ struct Refinement {
     }
     options.apex = chamfered.vertex_is_apex;
     options.validate = true;  // in every build
-    result = refine(chamfered.plc, topology, points, predicates, options, control);
+    result = refine(plc(), topology, points, predicates, options, control);
   }
 
   std::set<VertexId> vertices() const {
@@ -416,23 +352,14 @@ TEST(Refine, MaxEdgeBoundsEdgesInside) {
 
 // A refinement of the box, with its state.
 struct State {
-  PointStore points;
-  Predicates predicates{points};
-  Limits limits;
-  Control control{limits};
-  SurfaceTopology topology;
-  ChamferResult chamfered;
+  Complex complex{box()};
   RefineOptions options;
   std::optional<Refiner> refiner;
 
   explicit State(bool gabriel) {
-    topology = build_topology(box(), points, predicates);
-    ChamferOptions chamfering;
-    chamfering.corner_cosine_squared = cosine_squared(60);
-    chamfered = chamfer(topology, points, predicates, chamfering, control);
-    add_outer_box(topology, points, chamfered.plc);
     options.gabriel = gabriel;
-    refiner.emplace(chamfered.plc, topology, points, predicates, options, control);
+    refiner.emplace(complex.plc(), complex.topology, complex.points, complex.predicates, options,
+                    complex.control);
     refiner->run();
   }
 };
@@ -459,22 +386,6 @@ TEST(Refine, TheOuterBoxKeepsItsMarginWhereDoublesAreWide) {
       }
     }
   }
-}
-
-// Shells halve or double until they cross the subsegment in its middle third; of two, that nearer
-// to the middle is taken.
-TEST(Refine, OfTwoShellsThatNearerToTheMiddleIsTaken) {
-  State state(false);
-  const RefinerBreaker probe{*state.refiner};
-  EXPECT_EQ(probe.split_fraction(0, 0), 0.5);
-  EXPECT_EQ(probe.split_fraction(0.375, 0), 0.375);
-  EXPECT_EQ(probe.split_fraction(0, 0.375), 1 - 0.375);
-  EXPECT_EQ(probe.split_fraction(0.4375, 0.625), 0.4375);
-  EXPECT_EQ(probe.split_fraction(0.625, 0.4375), 1 - 0.4375);
-  EXPECT_EQ(probe.split_fraction(0.5625, 0.375), 0.5625);
-  EXPECT_EQ(probe.split_fraction(0.375, 0.5625), 1 - 0.5625);
-  EXPECT_EQ(probe.split_fraction(4 * 0.4375, 0), 0.4375);
-  EXPECT_EQ(probe.split_fraction(0, 0.625 / 8), 1 - 0.625);
 }
 
 TEST(Refine, ValidateAcceptsWhatTheRefinementLeaves) {

@@ -11,24 +11,20 @@
 //  by its subsegments.
 #pragma once
 
-#include <cmath>
 #include <deque>
 
 #include "mesher/base/flat_map.h"
 #include "mesher/base/growing_array.h"
 #include "mesher/delaunay/planar.h"
 #include "mesher/delaunay/tetrahedrization.h"
-#include "mesher/predicates/placement.h"
-#include "mesher/refine/facet_locator.h"
+#include "mesher/refine/bad_tetrahedra.h"
+#include "mesher/refine/notes.h"
 #include "mesher/refine/refine.h"
+#include "mesher/refine/segment_facets.h"
+#include "mesher/refine/steiner_points.h"
 #include "mesher/surface/bvh.h"
 
 namespace delmesher {
-
-// Thrown by the guard against endless refinement; caught by refine().
-struct Runaway {
-  Vec3 place;
-};
 
 class Refiner {
  public:
@@ -63,21 +59,11 @@ class Refiner {
     bool alive = true;
     bool queued = false;
   };
-  // What makes a tetrahedron bad.
-  struct Goal {
-    double max_cosine_squared;  // a face angle is too small if its squared cosine exceeds this
-    bool slivers;
-  };
   void begin(RefineStep step) const;
 
   // segments.cpp
-  void collect_segment_facets();
   void recover_segments();
   void split_subsegment(std::uint32_t s);
-  void find_shells();
-  double shell_fraction(VertexId v, double length) const;
-  double split_fraction(const Subsegment& s, double length) const;
-  VertexId place_on(const Subsegment& s);
   bool subsegment_encroached(std::uint32_t s, TetId having_edge);
   void check_subsegment(std::uint32_t s, TetId t);
   TetId created_with(VertexId v) const;
@@ -90,13 +76,6 @@ class Refiner {
   void build_facet(std::uint32_t f);
   void recover_facets();
   void split_subfacet(std::uint32_t s);
-  // `origin` + `offset` and what the doubles of that leave over.
-  struct Place {
-    Vec3 nearest{}, rest{};
-  };
-  Place beside(VertexId origin, const Vec3& offset) const;
-  // A new point in the plane of the facet, within about `tolerance` of `origin` + `offset`.
-  VertexId place_in(std::uint32_t facet, VertexId origin, const Vec3& offset, double tolerance);
   // The subfacet of the facet that contains v, walking from `start`; if a subsegment is in the way,
   // kNone and that subsegment.
   std::uint32_t locate_subfacet(VertexId v, std::uint32_t start, std::uint32_t* blocked);
@@ -115,15 +94,10 @@ class Refiner {
   void refine_tetrahedra();
   // Splits bad tetrahedra until there are none, or the store has `cap` points; then false.
   bool reach(const Goal& goal, std::size_t cap);
-  void judge_fresh();
-  void queue_if_bad(TetId t);
-  void queue_tetrahedron(TetId t, std::uint8_t level);
-  // The last queued of the worst ones, or kNone.
-  TetId next_bad();
-  void sort_level(std::size_t n);
-  void clear_bad();
+  // 0 if it is not to be split.
+  std::uint8_t badness(TetId t) const;
   void split_tetrahedron(TetId t);
-  bool try_volume_point(TetId t, const Vec3& center, double grid);
+  bool try_volume_point(TetId t, VertexId v);
 
   // sides.cpp
   bool near_removed(TetId t) const;
@@ -141,9 +115,6 @@ class Refiner {
 
   // insertion.cpp
   void drain();  // splits queued subsegments, then subfacets, until none is left
-  // Throws Runaway if an edge of that squared length at that place means that the refinement does
-  // not end.
-  void guard(double squared_length, const Vec3& place) const;
   void queue_subsegment(std::uint32_t s);
   void queue_subfacet(std::uint32_t s);
   void begin_constraints();
@@ -165,7 +136,6 @@ class Refiner {
   // Finds the new subfacets among the new tetrahedra, requeues what was lost, judges the new
   // tetrahedra.
   void after_insertion();
-  Vec3 relative(VertexId v, const Vec3& origin) const;
 
   const Plc& plc_;
   const SurfaceTopology& topology_;
@@ -175,15 +145,12 @@ class Refiner {
   Control& control_;
   Tetrahedrization dt_;
   Solid solid_;
-  FacetLocator locator_;
   Bvh removed_;
+  SegmentFacets segment_facets_;
+  SteinerPoints steiner_;
+  BadTetrahedra bad_;
+  Goal goal_;
 
-  struct FacetUse {
-    std::uint32_t facet;
-    bool reversed;
-  };
-  std::vector<std::array<FacetUse, 2>> segment_facets_;  // per segment of the complex; kNone unused
-  std::vector<double> shell_;  // per input vertex: largest radius of the shells around it; 0: none
   std::vector<Subsegment> subsegments_;
   std::vector<std::uint32_t> first_subsegment_;  // per segment of the complex
   FlatMap edge_map_;                             // of live subsegments, by their ends
@@ -197,30 +164,12 @@ class Refiner {
 
   // Per tetrahedron.
   enum : std::uint8_t { kUnknown, kOutside, kInside, kStraddling, kAsked };
-  // The notes of a tetrahedron in dt_.
-  enum Note : std::uint8_t {
-    kEdges,   // bit e: kEdge[e] is a subsegment
-    kFaces,   // bit i: face i is a subfacet, subfacet_[t][i]
-    kSide,    // kUnknown, ...
-    kWaiting  // its level in bad_, kFresh, or 0
-  };
-  std::uint8_t& note(TetId t, Note kind) { return dt_.notes(t)[kind]; }
-  std::uint8_t note(TetId t, Note kind) const { return dt_.notes(t)[kind]; }
+  static constexpr Note kEdges = Note::edges, kFaces = Note::faces, kSide = Note::side;
+  std::uint8_t& note(TetId t, Note kind) { return delmesher::note(dt_, t, kind); }
+  std::uint8_t note(TetId t, Note kind) const { return delmesher::note(dt_, t, kind); }
   GrowingArray<std::array<std::uint32_t, 4>> subfacet_;
 
   std::deque<std::uint32_t> subsegment_queue_, subfacet_queue_;
-  Goal goal_{};
-  // Squared height, per squared base, of a triangle whose apex angle just meets the goal.
-  double offcentre2_ = 0;
-  // Bad tetrahedra by level, that is by radius-edge ratio, worst last. Entries are not removed when
-  // their tetrahedron dies: one counts only if the tetrahedron is alive and waits at this level.
-  std::array<std::vector<TetId>, 255> bad_;
-  std::size_t worst_ = 0;   // no level above has entries
-  std::size_t sorted_ = 0;  // the lowest level that has been brought into spatial order
-  static constexpr std::uint8_t kFresh = 255;
-  // Tetrahedra created since the last judge_fresh(), some dead again: most of those that appear
-  // while subsegments and subfacets are split do not live to be judged.
-  std::vector<TetId> fresh_;
   bool facets_built_ = false;
   bool refining_ = false;
 

@@ -29,6 +29,7 @@ void Refiner::validate() {
     validate_in_facet(s);
     if (!subfacets_[s].queued) validate_subfacet(s);
   }
+  bad_.validate();
   predicates_.counters = counters;
 }
 
@@ -57,10 +58,10 @@ void Refiner::validate_chains() const {
       DELMESHER_CHECK(++chained <= subsegments_.size(), "a chain of subsegments does not end");
       DELMESHER_CHECK(sub.alive && sub.segment == n && sub.a == at, "a chain of subsegments broke");
       DELMESHER_CHECK(find_subsegment(sub.a, sub.b) == s, "a subsegment is not found by its ends");
-      std::size_t sides = 0, uses = 0;
+      int sides = 0;
       for (const std::uint32_t side : sub.side) sides += side != kNone ? 1 : 0;
-      for (const FacetUse& use : segment_facets_[n]) uses += use.facet != kNone ? 1 : 0;
-      DELMESHER_CHECK(!facets_built_ || sides == uses, "a subsegment lacks a subfacet beside it");
+      DELMESHER_CHECK(!facets_built_ || sides == segment_facets_.count(n),
+                      "a subsegment lacks a subfacet beside it");
       for (const std::uint32_t side : sub.side) {
         if (side == kNone) continue;
         DELMESHER_CHECK(side / 3 < subfacets_.size() && subfacets_[side / 3].alive &&

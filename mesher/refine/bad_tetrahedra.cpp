@@ -1,0 +1,96 @@
+#include "mesher/refine/bad_tetrahedra.h"
+
+#include <algorithm>
+
+#include "mesher/base/check.h"
+#include "mesher/base/spatial_sort.h"
+
+namespace delmesher {
+
+void BadTetrahedra::start() {
+  release();
+  sorted_ = level_.size();
+  for (TetId t = 0; t < dt_.capacity(); ++t) dismiss(t);
+}
+
+void BadTetrahedra::release() {
+  for (std::vector<TetId>& level : level_) level = {};
+  fresh_ = {};
+  worst_ = 0;
+}
+
+void BadTetrahedra::add(TetId t, std::uint8_t level) {
+  note(dt_, t, Note::waiting) = level;
+  level_[level].push_back(t);
+  worst_ = std::max(worst_, std::size_t{level});
+}
+
+TetId BadTetrahedra::next() {
+  constexpr std::size_t kAhead = 8;  // entries, of which nine in ten are dead
+  for (; worst_ > 0; --worst_) {
+    if (worst_ < sorted_) {
+      sorted_ = worst_;
+      sort_level(sorted_);
+    }
+    std::vector<TetId>& level = level_[worst_];
+    while (!level.empty()) {
+      const TetId t = level.back();
+      if (level.size() > kAhead) dt_.prefetch(level[level.size() - 1 - kAhead]);
+      if (dt_.alive(t) && note(dt_, t, Note::waiting) == worst_) return t;
+      level.pop_back();
+    }
+  }
+  return kNone;
+}
+
+// In a spatial order, without the dead.
+void BadTetrahedra::sort_level(std::size_t n) {
+  std::vector<TetId>& level = level_[n];
+  std::vector<TetId> waiting;
+  std::vector<Vec3> place;
+  for (const TetId t : level) {
+    if (!dt_.alive(t) || note(dt_, t, Note::waiting) != n) continue;
+    waiting.push_back(t);
+    place.push_back(points_.nearest(dt_.vertex(t, 0)));
+  }
+  std::vector<std::uint32_t> order(waiting.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  spatial_sort(order, place);
+  level.clear();
+  for (const std::uint32_t i : order) level.push_back(waiting[i]);
+}
+
+void BadTetrahedra::add_fresh(std::span<const TetId> created) {
+  for (const TetId t : created) {
+    std::uint8_t& waiting = note(dt_, t, Note::waiting);
+    if (waiting == kFresh) continue;
+    waiting = kFresh;
+    fresh_.push_back(t);
+  }
+}
+
+void BadTetrahedra::validate() const {
+  std::vector<std::uint8_t> fresh(dt_.capacity(), 0);
+  for (const TetId t : fresh_) {
+    DELMESHER_CHECK(t < fresh.size() && fresh[t] == 0, "a tetrahedron is to be judged twice");
+    fresh[t] = 1;
+  }
+  std::vector<std::uint8_t> found(dt_.capacity(), 0);
+  for (std::size_t n = 0; n < level_.size(); ++n) {
+    DELMESHER_CHECK(level_[n].empty() || (n > 0 && n <= worst_),
+                    "a bad tetrahedron waits above the worst level");
+    for (const TetId t : level_[n]) {
+      DELMESHER_CHECK(t < found.size(), "there is no such bad tetrahedron");
+      if (note(dt_, t, Note::waiting) == n) found[t] = 1;
+    }
+  }
+  for (TetId t = 0; t < dt_.capacity(); ++t) {
+    const std::uint8_t waiting = note(dt_, t, Note::waiting);
+    DELMESHER_CHECK((waiting == kFresh) == (fresh[t] != 0),
+                    "a fresh tetrahedron is not to be judged, or another one is");
+    if (!dt_.alive(t) || waiting == 0 || waiting == kFresh) continue;
+    DELMESHER_CHECK(found[t] != 0, "a bad tetrahedron waits at no level");
+  }
+}
+
+}  // namespace delmesher

@@ -1,0 +1,74 @@
+// The bad tetrahedra of a refinement, worst first, and those that are still to be judged.
+//
+// A tetrahedron's note (Note::waiting) is its level of badness, kFresh while it is to be judged, or
+// 0. Entries are not removed when their tetrahedron dies: one counts only if the tetrahedron is
+// alive and waits at the entry's level.
+//
+// Invariants:
+//  - a live tetrahedron that waits at a level has an entry there;
+//  - no level above the worst one has entries;
+//  - a tetrahedron, dead or alive, is noted as fresh if and only if it is in the list of fresh
+//  ones,
+//    where it is once.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "mesher/refine/goal.h"
+#include "mesher/refine/notes.h"
+
+namespace delmesher {
+
+class BadTetrahedra {
+ public:
+  BadTetrahedra(Tetrahedrization& dt, const PointStore& points) : dt_(dt), points_(points) {}
+
+  // Forgets everything. What is added until the first next() is brought into a spatial order, level
+  // by level.
+  void start();
+  // `level`: 1 to Goal::kWorst.
+  void add(TetId t, std::uint8_t level);
+  // The last added of the worst ones, or kNone. It waits on until it dies or is dismissed.
+  TetId next();
+  // It will not be split after all.
+  void dismiss(TetId t) { note(dt_, t, Note::waiting) = 0; }
+
+  // To be judged later: most of the tetrahedra that appear while subsegments and subfacets are
+  // split do not live to be judged.
+  void add_fresh(std::span<const TetId> created);
+  // Judges the fresh ones that live: judge(t) is a level of badness, 0 for a good one.
+  template <class Judge>
+  void judge_fresh(Judge&& judge) {
+    for (const TetId t : fresh_) {
+      dismiss(t);
+      if (!dt_.alive(t)) continue;
+      const std::uint8_t level = judge(t);
+      if (level != 0) add(t, level);
+    }
+    fresh_.clear();
+  }
+
+  // Gives the memory back; nothing may be asked afterwards.
+  void release();
+
+  // Throws InternalError at the first broken invariant.
+  void validate() const;
+
+ private:
+  friend struct BadTetrahedraBreaker;  // of the tests of validate()
+
+  static constexpr std::uint8_t kFresh = Goal::kWorst + 1;
+
+  void sort_level(std::size_t level);
+
+  Tetrahedrization& dt_;
+  const PointStore& points_;
+  std::array<std::vector<TetId>, Goal::kWorst + 1> level_;  // level 0 stays empty
+  std::size_t worst_ = 0;                                   // no level above has entries
+  std::size_t sorted_ = 0;  // the lowest level that has been brought into spatial order
+  std::vector<TetId> fresh_;
+};
+
+}  // namespace delmesher

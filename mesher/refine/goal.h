@@ -1,0 +1,33 @@
+// What makes a tetrahedron bad (sections 5.4 and 5.7), and how bad it is.
+#pragma once
+
+#include <cstdint>
+
+#include "mesher/predicates/points.h"
+
+namespace delmesher {
+
+class Goal {
+ public:
+  // Face angles of at least `delta` degrees; no slivers, if asked; no edge longer than `max_edge`
+  // unless that is 0.
+  Goal(double delta, bool slivers, double max_edge);
+
+  // Levels of badness grow with the squared radius-edge ratio, by a few per doubling.
+  static constexpr std::uint8_t kWorst = 254;
+
+  // 1 to kWorst, or 0 if the tetrahedron is not bad. Judged in doubles; when in doubt a tetrahedron
+  // is bad, which costs at most a split.
+  std::uint8_t badness(const PointStore& points, const VertexId* v) const;
+
+  // Squared height, per squared base, of an isosceles triangle whose angle at the apex is delta.
+  double offcentre2() const { return offcentre2_; }
+
+ private:
+  double max_cosine_squared_;  // a face angle is too small if its squared cosine exceeds this
+  bool slivers_;
+  double max_edge_;
+  double offcentre2_;
+};
+
+}  // namespace delmesher

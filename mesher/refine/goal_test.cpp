@@ -1,0 +1,75 @@
+// What is bad, on tetrahedra whose angles and edges are known.
+#include "mesher/refine/goal.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesher/refine/test_complexes.h"
+
+namespace delmesher {
+namespace {
+
+std::uint8_t badness(const Goal& goal, const std::array<Vec3, 4>& p) {
+  PointStore points;
+  for (const Vec3& x : p) points.add_explicit(x[0], x[1], x[2]);
+  const VertexId v[4] = {0, 1, 2, 3};
+  return goal.badness(points, v);
+}
+
+constexpr std::array<Vec3, 4> kRegular = {Vec3{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+
+// A spire of height h over an equilateral triangle with sides of length 1: the angles at its top
+// have the cosine 1 - 1 / (2 h^2 + 2 / 3).
+std::array<Vec3, 4> spire(double height) {
+  const double r = 1 / std::sqrt(3.0);
+  return {Vec3{r, 0, 0}, {-r / 2, 0.5, 0}, {-r / 2, -0.5, 0}, {0, 0, height}};
+}
+
+TEST(Goal, AFaceAngleBelowTheBoundIsBad) {
+  for (const double height : {1.0, 2.0, 4.0, 8.0}) {
+    const double angle = std::acos(1 - 1 / (2 * height * height + 2.0 / 3)) / kDegree;
+    EXPECT_EQ(badness(Goal(angle - 0.01, false, 0), spire(height)), 0) << height;
+    EXPECT_GT(badness(Goal(angle + 0.01, false, 0), spire(height)), 0) << height;
+  }
+}
+
+TEST(Goal, WorseRatiosHaveHigherLevels) {
+  std::uint8_t last = 0;
+  for (const double height : {2.0, 4.0, 8.0, 16.0, 1e3, 1e9}) {
+    const std::uint8_t level = badness(Goal(40, false, 0), spire(height));
+    EXPECT_GT(level, last);
+    last = level;
+  }
+  // Four points of a line have no circumcentre.
+  const std::array<Vec3, 4> flat = {Vec3{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  EXPECT_EQ(badness(Goal(10, false, 0), flat), Goal::kWorst);
+}
+
+TEST(Goal, SliversAreBadIfAsked) {
+  // A square with its diagonals a little apart: no small face angle.
+  const auto sliver = [](double apart) {
+    return std::array{Vec3{1, 0, apart}, Vec3{0, 1, 0}, Vec3{-1, 0, apart}, Vec3{0, -1, 0}};
+  };
+  // Its shortest edge is the root of 2 (with the square of `apart` added), 7.2 times 0.1964.
+  EXPECT_EQ(badness(Goal(14, false, 0), sliver(0.01)), 0);
+  EXPECT_EQ(badness(Goal(14, true, 0), sliver(0.21)), 0);
+  EXPECT_GT(badness(Goal(14, true, 0), sliver(0.19)), 0);
+}
+
+TEST(Goal, LongEdgesAreBadIfBounded) {
+  const double edge = std::sqrt(8.0);
+  EXPECT_EQ(badness(Goal(30, true, 0), kRegular), 0);
+  EXPECT_EQ(badness(Goal(30, true, edge * 1.001), kRegular), 0);
+  EXPECT_GT(badness(Goal(30, true, edge * 0.999), kRegular), 0);
+}
+
+TEST(Goal, TheOffCentreMeetsTheAngle) {
+  for (const double delta : {5.0, 14.0, 25.0}) {
+    const double height = std::sqrt(Goal(delta, false, 0).offcentre2());
+    EXPECT_NEAR(2 * std::atan(0.5 / height) / kDegree, delta, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace delmesher

@@ -1,0 +1,19 @@
+#include "mesher/refine/segment_facets.h"
+
+#include "mesher/base/check.h"
+
+namespace delmesher {
+
+SegmentFacets::SegmentFacets(const Plc& plc)
+    : facets_(plc.segments.size(), std::array<std::uint32_t, 2>{kNone, kNone}) {
+  for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
+    for (const PlcFacet::Side& side : plc.facets[f].boundary) {
+      auto& [first, second] = facets_[side.segment];
+      std::uint32_t& use = first == kNone ? first : second;
+      DELMESHER_CHECK(use == kNone, "segment of three facets");
+      use = f;
+    }
+  }
+}
+
+}  // namespace delmesher
