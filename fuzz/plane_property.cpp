@@ -19,7 +19,6 @@ using delmesher::PlanarGraph;
 using delmesher::PlaneResult;
 using delmesher::StatusCode;
 using Point = std::array<double, 2>;
-using Direction = std::array<mpq_class, 2>;
 
 // A run that reaches it has said nothing wrong.
 constexpr std::uint64_t kMostVertices = 3000;
@@ -29,7 +28,6 @@ Leniency too_precise("stopped-features-below-2^-40", 0.1);
 Leniency nothing_to_mesh("refused-encloses-nothing", 0.3);
 Leniency no_numbers("refused-out-of-range", 0.1);
 Leniency invalid_graph("refused-segments-conflict", 0.5);
-Leniency not_positive("inverted-features-below-2^-46", 0.01);
 Leniency reader_refused("refused-in-one-line", 0.999);
 
 int orient(const Point& a, const Point& b, const Point& c) {
@@ -190,49 +188,6 @@ bool features_above(const PlanarGraph& graph, double share) {
   return true;
 }
 
-mpq_class dot(const Direction& u, const Direction& w) {
-  return u[0] * w[0] + u[1] * w[1];
-}
-
-// The squared distance from a vertex to the nearest vertex or segment that it is not on.
-mpq_class squared_feature_size(const PlanarGraph& graph, const Point& at) {
-  mpq_class least = -1;
-  const auto consider = [&](const mpq_class& d) {
-    if (d != 0 && (least < 0 || d < least)) least = d;
-  };
-  for (const Point& p : graph.vertices) consider(squared_distance(at, p, p));
-  for (const auto& [a, b] : graph.segments) {
-    consider(squared_distance(at, graph.vertices[a], graph.vertices[b]));
-  }
-  return least;
-}
-
-// Where two segments leave a vertex at an acute angle: are they this far apart, as a share of the
-// largest coordinate, where the next feature is? Meshes that grade to that feature have points
-// there, and if doubles do not hold them beside each other, nobody can write them.
-bool angles_above(const PlanarGraph& graph, double share) {
-  const mpq_class least = mpq_class(share) * mpq_class(largest_coordinate(graph));
-  const mpq_class squared = least * least;
-  for (const Point& v : graph.vertices) {
-    std::vector<Direction> ways;
-    for (const auto& [a, b] : graph.segments) {
-      if (squared_distance(v, graph.vertices[a], graph.vertices[b]) != 0) continue;
-      for (const Point& end : {graph.vertices[a], graph.vertices[b]}) {
-        if (end != v) ways.push_back({mpq_class(end[0]) - v[0], mpq_class(end[1]) - v[1]});
-      }
-    }
-    const mpq_class size = squared_feature_size(graph, v);
-    for (const Direction& u : ways) {
-      for (const Direction& w : ways) {
-        const mpq_class area = u[0] * w[1] - u[1] * w[0];
-        if (area <= 0 || dot(u, w) <= 0) continue;
-        if (size * area * area < squared * dot(u, u) * dot(w, w)) return false;
-      }
-    }
-  }
-  return true;
-}
-
 // Refused although no two segments conflict: is it for one of the reasons that are left?
 bool other_reason(const PlanarGraph& graph, const std::string& message) {
   if (message == "no segments" || message == "the segments enclose nothing") {
@@ -277,26 +232,11 @@ Finding judged(const PlanarGraph& graph, const Options& options) {
   if (refused && other_reason(graph, result.status.message)) return {};
   if (result.status.code == StatusCode::limit_reached) return at_limit(graph, result.status);
   if (!result.status.ok()) return "plane status: " + result.status.message;
-  const std::uint64_t confessed =
-      result.statistics.rounding_inverted + result.statistics.rounding_flat;
-  if (confessed > 0) {
-    if (features_above(graph, 0x1p-46) && angles_above(graph, 0x1p-46)) {
-      return "plane rounding: inverted or flat triangles left";
-    }
-    not_positive.take();
+  if (result.statistics.rounding_inverted + result.statistics.rounding_flat > 0) {
+    return "plane rounding: inverted or flat triangles left";
   }
   const PlaneVerdict verdict = verify_plane(graph, options, result);
-  std::size_t forgiven = 0;
-  if (confessed > 0) {  // the oracle has to find these, no more and no fewer
-    const oracles::OracleReport* found = verdict.report.find("orientation");
-    if (found == nullptr || found->violations != confessed) {
-      return "plane rounding: another number confessed";
-    }
-    forgiven = found->findings.size();
-  }
-  for (const std::string& failure : verdict.failures) {
-    if (forgiven == 0 || !failure.starts_with("orientation: ")) return "plane " + failure;
-  }
+  if (!verdict.failures.empty()) return "plane " + verdict.failures[0];
   return {};
 }
 
@@ -324,8 +264,7 @@ void print(const PlanarGraph& graph, const Options& options) {
 }  // namespace
 
 Finding plane_holds(Bytes bytes) {
-  judging({&too_many_vertices, &too_precise, &nothing_to_mesh, &no_numbers, &invalid_graph,
-           &not_positive});
+  judging({&too_many_vertices, &too_precise, &nothing_to_mesh, &no_numbers, &invalid_graph});
   // Most graphs are of one scale, so that they are meshed: others are refused, or are stopped among
   // thousands of vertices that get from one size to the other. And most have room between what is
   // near.

@@ -17,9 +17,9 @@
 #include "mesher/refine/refine.h"
 #include "mesher/results/recorder.h"
 #include "mesher/results/units.h"
-#include "mesher/surface/feature_size.h"
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
+#include "mesher/surface/feature_size.h"
 #include "mesher/surface/validity.h"
 
 namespace delmesher {

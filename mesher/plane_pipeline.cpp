@@ -12,11 +12,11 @@
 #include "mesher/plane/enrich.h"
 #include "mesher/plane/graph.h"
 #include "mesher/plane/output.h"
-#include "mesher/results/plane_recorder.h"
 #include "mesher/plane/refine.h"
+#include "mesher/policies/sparing.h"
+#include "mesher/results/plane_recorder.h"
 #include "mesher/run/options.h"
 #include "mesher/run/plane_session.h"
-#include "mesher/policies/sparing.h"
 
 namespace delmesher::plane {
 namespace {
@@ -106,13 +106,13 @@ std::vector<double> enrich(const InputGraph& graph, const Chamfered& chamfered, 
   return std::move(faces.attributes);
 }
 
-void round_and_write(const InputGraph& graph, const RefinedMesh& mesh,
-                     const std::vector<double>& attributes, Session& s, Recorder& recorder) {
+RoundedPlane round(const InputGraph& graph, const RefinedMesh& mesh,
+                   const std::vector<double>& attributes, Session& s) {
   s.control.enter(Phase::round);
   const MeshToWrite exact = select(mesh.mesh, mesh.side, attributes, s.options.region);
   RoundedPlane rounded = round_plane(graph, exact, s.points, s.control);
   s.control.poll_now(rounded.mesh.vertices.size(), 1);  // small meshes are hardly asked before
-  recorder.written(graph, std::move(rounded));
+  return rounded;
 }
 
 void mesh(const PlanarGraph& input, Session& s, Recorder& recorder) {
@@ -120,23 +120,31 @@ void mesh(const PlanarGraph& input, Session& s, Recorder& recorder) {
 
   const std::size_t input_points = s.points.size();
   Sparing sparing;
-  Chamfered chamfered = filter_and_chamfer(graph, sparing, s, recorder);
-  RefinedMesh refined = refine(graph, chamfered, s);
-  while (refined.crowded) {
-    sparing.spare(graph, refined);
-    while (s.points.size() > input_points) s.points.pop_back();
-    chamfered = filter_and_chamfer(graph, sparing, s, recorder);
-    refined = refine(graph, chamfered, s);
-  }
-  validate(refined.mesh);
-  recorder.refined(graph, chamfered, sparing.spared(), refined);
+  for (;;) {
+    Chamfered chamfered = filter_and_chamfer(graph, sparing, s, recorder);
+    RefinedMesh refined = refine(graph, chamfered, s);
+    while (refined.crowded) {
+      sparing.spare(graph, refined);
+      while (s.points.size() > input_points) s.points.pop_back();
+      chamfered = filter_and_chamfer(graph, sparing, s, recorder);
+      refined = refine(graph, chamfered, s);
+    }
+    validate(refined.mesh);
+    recorder.refined(graph, chamfered, sparing.spared(), refined);
 
-  std::vector<double> attributes;
-  if (!s.options.approximate) {
-    attributes = enrich(graph, chamfered, refined, s);
-    recorder.enriched(graph, refined);
+    std::vector<double> attributes;
+    if (!s.options.approximate) {
+      attributes = enrich(graph, chamfered, refined, s);
+      recorder.enriched(graph, refined);
+    }
+    RoundedPlane rounded = round(graph, refined, attributes, s);
+    if (rounded.disturbed.empty() ||
+        !sparing.spare_disturbed(graph, chamfered, refined, rounded.disturbed)) {
+      recorder.written(graph, std::move(rounded));
+      return;
+    }
+    while (s.points.size() > input_points) s.points.pop_back();
   }
-  round_and_write(graph, refined, attributes, s, recorder);
 }
 
 // Narrow channels and extreme scales may ask for any number of triangles. Unless told otherwise,

@@ -62,9 +62,16 @@ class Repairer {
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     for (const std::uint32_t t : bad) {
       const int s = sign(t);
+      if (s > 0) continue;
       result.flat += s == 0;
       result.inverted += s < 0;
+      for (const std::uint32_t v : mesh_.triangles[t]) {
+        result.disturbed.push_back(result.vertices[v]);
+      }
     }
+    std::vector<VertexId>& disturbed = result.disturbed;
+    std::sort(disturbed.begin(), disturbed.end());
+    disturbed.erase(std::unique(disturbed.begin(), disturbed.end()), disturbed.end());
   }
 
  private:
@@ -338,6 +345,8 @@ void record_points(const InputGraph& graph, const PointStore& points, PlaneRecor
 void record_triangles(const InputGraph& graph, const Triangulation& mesh,
                       const std::vector<Side>& side, std::vector<PlaneRecord::Triangle>& triangles,
                       std::vector<PlaneRecord::Edge>& edges) {
+  triangles.clear();
+  edges.clear();
   for (TriangleId t = 0; t < mesh.size(); ++t) {
     const auto& [a, b, c] = mesh[t].vertex;
     triangles.push_back({{graph.number_of(a), graph.number_of(b), graph.number_of(c)}, side[t]});

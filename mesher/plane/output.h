@@ -30,6 +30,9 @@ struct RoundedPlane {
   PlaneMesh mesh;
   std::vector<VertexId> vertices;  // id of each vertex of the mesh
   std::uint64_t inverted = 0, flat = 0, repaired = 0;
+  // Ids of the corners of triangles that are inverted or flat, each once, in order. Empty: all are
+  // positive.
+  std::vector<VertexId> disturbed;
   double max_deviation = 0;  // of points on segments, in input units
 };
 

@@ -1,4 +1,5 @@
-// Policy: what the refinement is spared where doubles leave it no room. The last step restores it.
+// Policy: what the refinement is spared where doubles leave no room, for it or for what is written.
+// The last step restores it.
 #pragma once
 
 #include "mesher/plane/chamfer.h"
@@ -17,12 +18,21 @@ class Sparing {
   // After a refinement that came to grief: its crowded pieces and vertices. Where it names nothing
   // new, or has failed several times, all segments of the input, with which it always succeeds.
   void spare(const InputGraph& graph, const RefinedMesh& refined);
+  // After a rounding that left triangles inverted or flat: the pieces on which points were made
+  // that are corners of these. In the end all, again: triangles of the input's vertices alone are
+  // not rounded. False if all were spared before.
+  bool spare_disturbed(const InputGraph& graph, const Chamfered& chamfered,
+                       const RefinedMesh& refined, const std::vector<VertexId>& disturbed);
 
  private:
   void drop(std::uint8_t& flag);
+  // Also the pieces of spared vertices; all, unless more is spared than `before`, and not too
+  // often.
+  void complete(const InputGraph& graph, std::size_t before);
 
   Spared spared_;
   int failures_ = 0;
+  bool all_ = false;
 };
 
 }  // namespace delmesher::plane

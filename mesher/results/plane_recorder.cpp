@@ -29,11 +29,6 @@ void Recorder::chamfered(const Chamfered& chamfered) {
 void Recorder::refined(const InputGraph& graph, const Chamfered& chamfered, const Spared& spared,
                        const RefinedMesh& refined) {
   const Options& options = session_.options;
-  if (refined.delta < options.delta) {
-    result_.warnings.push_back(
-        "the angle bound asked for was not reached within the limit of points; 20.7 degrees are "
-        "kept");
-  }
   std::vector<std::uint32_t> dropped = dropped_segments(graph, spared);
   PlaneStatistics& s = result_.statistics;
   s.guaranteed_delta = refined.delta;
@@ -92,6 +87,11 @@ void Recorder::written(const InputGraph& graph, RoundedPlane rounded) {
 
 void Recorder::finish() {
   PlaneStatistics& s = result_.statistics;
+  if (result_.status.ok() && s.guaranteed_delta < session_.options.delta) {
+    result_.warnings.push_back(
+        "the angle bound asked for was not reached within the limit of points; 20.7 degrees are "
+        "kept");
+  }
   s.phase_seconds = session_.control.phase_seconds();
   s.predicate_filter = session_.predicates.counters.filter;
   s.predicate_exact = session_.predicates.counters.exact;
