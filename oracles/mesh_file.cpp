@@ -28,24 +28,23 @@ std::array<Index, size> read_corners(TextReader& reader, std::int64_t first, std
 // ------------------------------------------------------------------------------------------ MEDIT
 
 // delmesher's comments after the end: "# TriangleFacets N", then "# id" for every triangle.
-void read_facet_comments(const std::string& path, std::string_view text, MeshFile& mesh) {
-  const std::size_t at = text.find("\n# TriangleFacets ");
-  if (at == std::string_view::npos) return;
-  TextReader reader(path, text.substr(at + 1), '\0');
-  const auto expect = [&](std::string_view wanted) {
-    if (reader.word() != wanted) reader.fail("a damaged list of facets");
-  };
-  expect("#");
-  expect("TriangleFacets");
+void read_facet_comments(TextReader& reader, MeshFile& mesh) {
+  reader.without_comments();
+  for (;;) {
+    const std::string_view word = reader.word();
+    if (word.empty()) return;
+    if (word != "#") continue;
+    if (reader.word_in_line() == "TriangleFacets") break;
+  }
   const std::uint64_t count = reader.count();
   for (std::uint64_t i = 0; i < count; ++i) {
-    expect("#");
+    if (reader.word() != "#") reader.fail("a damaged list of facets");
     mesh.facets.push_back(reader.index(0, 0x100000000U));
   }
 }
 
-MeshFile read_medit(const std::string& path, std::string_view text) {
-  TextReader reader(path, text);
+MeshFile read_medit(const std::string& path) {
+  TextReader reader = TextReader::of_file(path);
   MeshFile mesh;
   // Sections that hold nothing for us, with the integers or numbers of one entry.
   static const std::map<std::string_view, int> kSkipped = {
@@ -90,14 +89,14 @@ MeshFile read_medit(const std::string& path, std::string_view text) {
       reader.fail("unknown section " + std::string(keyword.substr(0, 40)));
     }
   }
-  read_facet_comments(path, text, mesh);
+  read_facet_comments(reader, mesh);
   return mesh;
 }
 
 // ------------------------------------------------------------------------------------------- .tet
 
-MeshFile read_tet(const std::string& path, std::string_view text) {
-  TextReader reader(path, text);
+MeshFile read_tet(const std::string& path) {
+  TextReader reader = TextReader::of_file(path);
   MeshFile mesh;
   mesh.either_orientation = true;
   mesh.lists_boundary = false;
@@ -124,7 +123,7 @@ MeshFile read_tet(const std::string& path, std::string_view text) {
 
 class GmshReader {
  public:
-  GmshReader(const std::string& path, std::string_view text) : reader_(path, text, '\0') {}
+  explicit GmshReader(const std::string& path) : reader_(TextReader::of_file(path, '\0')) {}
 
   MeshFile read() {
     for (auto word = reader_.word(); !word.empty(); word = reader_.word()) {
@@ -280,7 +279,9 @@ class GmshReader {
 
 class VtuReader {
  public:
-  VtuReader(const std::string& path, std::string_view text) : path_(path), text_(text) {}
+  explicit VtuReader(const std::string& path)
+      : path_(path), contents_(read_whole_file(path)), text_(contents_) {}
+  VtuReader(const VtuReader&) = delete;
 
   MeshFile read() {
     MeshFile mesh;
@@ -362,7 +363,7 @@ class VtuReader {
     return {};
   }
 
-  std::string path_;
+  std::string path_, contents_;
   std::string_view text_;
 };
 
@@ -371,8 +372,7 @@ class VtuReader {
 MeshFile read_tetgen(const std::string& stem) {
   MeshFile mesh;
   mesh.either_orientation = true;
-  const std::string nodes = read_whole_file(stem + ".node");
-  TextReader reader(stem + ".node", nodes);
+  TextReader reader = TextReader::of_file(stem + ".node");
   const std::uint64_t count = reader.count();
   reader.skip_line();
   std::int64_t first = 0;
@@ -383,8 +383,7 @@ MeshFile read_tetgen(const std::string& stem) {
     read_positions(reader, 1, mesh.vertices);
     reader.skip_line();
   }
-  const std::string elements = read_whole_file(stem + ".ele");
-  TextReader ele(stem + ".ele", elements);
+  TextReader ele = TextReader::of_file(stem + ".ele");
   const std::uint64_t tets = ele.count();
   const std::int64_t corners = ele.integer();
   const bool regions = ele.integer() != 0;
@@ -396,8 +395,7 @@ MeshFile read_tetgen(const std::string& stem) {
     ele.skip_line();
   }
   if (!std::filesystem::exists(stem + ".face")) return mesh;
-  const std::string faces = read_whole_file(stem + ".face");
-  TextReader face(stem + ".face", faces);
+  TextReader face = TextReader::of_file(stem + ".face");
   const std::uint64_t triangles = face.count();
   const bool markers = face.integer() != 0;
   for (std::uint64_t i = 0; i < triangles; ++i) {
@@ -424,11 +422,10 @@ MeshFile read_mesh(const std::string& path) {
   if (extension == ".node" || extension == ".ele" || extension == ".face") {
     return read_tetgen((file.parent_path() / file.stem()).string());
   }
-  const std::string text = read_whole_file(path);
-  if (extension == ".tet") return read_tet(path, text);
-  if (extension == ".msh") return GmshReader(path, text).read();
-  if (extension == ".vtu") return VtuReader(path, text).read();
-  return read_medit(path, text);
+  if (extension == ".tet") return read_tet(path);
+  if (extension == ".msh") return GmshReader(path).read();
+  if (extension == ".vtu") return VtuReader(path).read();
+  return read_medit(path);
 }
 
 }  // namespace tetproof::oracles

@@ -12,7 +12,7 @@ using delmesher::ExactRecord;
 
 class SidecarReader {
  public:
-  SidecarReader(const std::string& path, std::string_view text) : reader_(path, text) {}
+  explicit SidecarReader(const std::string& path) : reader_(TextReader::of_file(path)) {}
 
   ExactRecord read() {
     reader_.expect("delmesher-exact");
@@ -75,7 +75,7 @@ class SidecarReader {
 
   void read_points() {
     reader_.list("points", record_.points, [&](ExactPoint& p) {
-      const std::string_view kind = reader_.required_word("E, S or T");
+      const std::string kind(reader_.required_word("E, S or T"));
       if (kind != "E" && kind != "S" && kind != "T") reader_.fail("unknown kind of point");
       p.kind = kind == "E"   ? ExactPoint::Kind::explicit_point
                : kind == "S" ? ExactPoint::Kind::on_segment
@@ -120,8 +120,7 @@ class SidecarReader {
 }  // namespace
 
 ExactRecord read_sidecar(const std::string& path, unsigned* version) {
-  const std::string text = read_whole_file(path);
-  SidecarReader reader(path, text);
+  SidecarReader reader(path);
   ExactRecord record = reader.read();
   if (version != nullptr) *version = reader.version();
   return record;

@@ -1,7 +1,10 @@
 #include "oracles/text_reader.h"
 
 #include <charconv>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace tetproof::oracles {
@@ -15,23 +18,61 @@ std::string read_whole_file(const std::string& path) {
   return std::move(contents).str();
 }
 
+struct TextReader::Source {
+  std::ifstream stream;
+  std::vector<char> piece;
+};
+
 TextReader::TextReader(std::string name, std::string_view text, char comment)
-    : name_(std::move(name)), text_(text), comment_(comment) {}
+    : name_(std::move(name)), text_(text), comment_(comment), size_(text.size()) {}
+
+TextReader::TextReader(TextReader&&) noexcept = default;
+TextReader& TextReader::operator=(TextReader&&) noexcept = default;
+TextReader::~TextReader() = default;
+
+TextReader TextReader::of_file(const std::string& path, char comment) {
+  TextReader reader(path, {}, comment);
+  reader.source_ = std::make_unique<Source>();
+  reader.source_->stream.open(path, std::ios::binary);
+  if (!reader.source_->stream) throw ReadError(path + ": cannot be opened");
+  std::error_code unknown;  // of what is no regular file
+  reader.size_ = std::filesystem::file_size(path, unknown);
+  if (unknown) reader.size_ = std::numeric_limits<std::uint64_t>::max();
+  if (!reader.refill()) throw ReadError(path + ": cannot be read, or is empty");
+  return reader;
+}
+
+bool TextReader::refill() {
+  constexpr std::size_t kPiece = std::size_t{1} << 18;
+  if (source_ == nullptr) return false;
+  std::vector<char>& piece = source_->piece;
+  const std::size_t left = text_.size() - kept_;
+  if (left > 0) std::memmove(piece.data(), piece.data() + kept_, left);
+  piece.resize(left + kPiece);
+  source_->stream.read(piece.data() + left, kPiece);
+  const auto got = static_cast<std::size_t>(source_->stream.gcount());
+  text_ = std::string_view(piece.data(), left + got);
+  at_ -= kept_;
+  kept_ = 0;
+  return got > 0;
+}
 
 void TextReader::fail(const std::string& reason) const {
   throw ReadError(name_ + ":" + std::to_string(line_) + ": " + reason);
 }
 
 void TextReader::skip_blanks(bool over_lines) {
-  for (; at_ < text_.size(); ++at_) {
+  for (kept_ = at_; !at_its_end(); kept_ = at_) {
     const char c = text_[at_];
     if (c == '\n') {
       if (!over_lines) return;
       ++line_;
+      ++at_;
     } else if (c == comment_ && comment_ != '\0') {
-      while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-      --at_;
-    } else if (c != ' ' && c != '\t' && c != '\r') {
+      skip_line();
+    } else if (c == ' ' || c == '\t' || c == '\r') {
+      ++at_;
+    } else {
       return;
     }
   }
@@ -44,12 +85,11 @@ std::string_view TextReader::word() {
 
 std::string_view TextReader::word_in_line() {
   skip_blanks(false);
-  const std::size_t start = at_;
-  while (at_ < text_.size() && text_[at_] != ' ' && text_[at_] != '\t' && text_[at_] != '\r' &&
+  while (!at_its_end() && text_[at_] != ' ' && text_[at_] != '\t' && text_[at_] != '\r' &&
          text_[at_] != '\n') {
     ++at_;
   }
-  return text_.substr(start, at_ - start);
+  return text_.substr(kept_, at_ - kept_);
 }
 
 std::string_view TextReader::required_word(const char* what) {
@@ -59,12 +99,12 @@ std::string_view TextReader::required_word(const char* what) {
 }
 
 void TextReader::skip_line() {
-  while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  while (!at_its_end() && text_[at_] != '\n') kept_ = ++at_;
 }
 
 bool TextReader::at_end() {
   skip_blanks(true);
-  return at_ >= text_.size();
+  return at_its_end();
 }
 
 double TextReader::number() {
@@ -121,7 +161,7 @@ std::uint32_t TextReader::index(std::int64_t first, std::uint64_t count) {
 
 std::uint64_t TextReader::count() {
   const std::int64_t value = integer();
-  if (value < 0 || static_cast<std::uint64_t>(value) > text_.size() / 2 + 1) {
+  if (value < 0 || static_cast<std::uint64_t>(value) > size_ / 2 + 1) {
     fail("count " + std::to_string(value) + " is more than the file can hold");
   }
   return static_cast<std::uint64_t>(value);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -17,11 +18,20 @@ struct ReadError : std::runtime_error {
 // Whole contents of a file; throws ReadError.
 std::string read_whole_file(const std::string& path);
 
+// A word that is handed out lasts until the next one is asked for.
 class TextReader {
  public:
   // The text must outlive the reader. A comment sign ends its line; '\0' if there are no comments.
   TextReader(std::string name, std::string_view text, char comment = '#');
+  // Of a file, of which it holds a piece at a time. Throws ReadError if it cannot be read, or is
+  // empty.
+  static TextReader of_file(const std::string& path, char comment = '#');
+  TextReader(TextReader&&) noexcept;
+  TextReader& operator=(TextReader&&) noexcept;
+  ~TextReader();
 
+  // From here on.
+  void without_comments() { comment_ = '\0'; }
   // Next word, empty at the end of the text.
   std::string_view word();
   // Next word of this line, empty if there is none.
@@ -52,12 +62,19 @@ class TextReader {
   std::uint64_t line() const { return line_; }
 
  private:
+  struct Source;  // where the rest of a file comes from
+
+  // Is nothing left? Moves text_ on, from kept_, if it has to.
+  bool at_its_end() { return at_ >= text_.size() && !refill(); }
+  bool refill();
   void skip_blanks(bool over_lines);
 
   std::string name_;
-  std::string_view text_;
+  std::string_view text_;  // what is there of it
   char comment_;
-  std::size_t at_ = 0;
+  std::unique_ptr<Source> source_;  // null: text_ is all
+  std::uint64_t size_;              // of all of it
+  std::size_t at_ = 0, kept_ = 0;   // kept_: where the last word begins
   std::uint64_t line_ = 1;
 };
 
