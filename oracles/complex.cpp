@@ -1,24 +1,25 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
 namespace {
 
-// Sixteen bytes, because there are four for every tetrahedron.
+// A face within those that have the same lowest corner.
 struct FaceRecord {
-  Face sorted;
+  Index middle, high, apex;  // the other corners, and the tetrahedron's fourth
   Index packed;
   Index tet_face() const { return packed & ~kEven; }
   bool even() const { return (packed & kEven) != 0; }
-  // Set if `sorted` is an even permutation of the face seen from outside.
+  // Set if the face sorted is an even permutation of the face seen from outside.
   static constexpr Index kEven = 0x80000000U;
-  bool operator<(const FaceRecord& other) const { return sorted < other.sorted; }
+  auto operator<=>(const FaceRecord&) const = default;
 };
 
-FaceRecord face_record(const Tet& tet, Index t, int i) {
-  Face face = face_of(tet, i);
+// Sorts the corners; is that an even permutation?
+bool sort_face(Face& face) {
   bool even = true;
   const auto order = [&](int a, int b) {
     if (face[a] > face[b]) {
@@ -29,15 +30,35 @@ FaceRecord face_record(const Tet& tet, Index t, int i) {
   order(0, 1);
   order(1, 2);
   order(0, 1);
-  return {face, (4 * t + static_cast<Index>(i)) | (even ? FaceRecord::kEven : 0)};
+  return even;
 }
 
-// Indices in range, four different corners, no two tetrahedra on the same corners. False if faces
-// make no sense.
+// Lists by vertex, one after the other: entries are counted, then put where they belong.
+class Buckets {
+ public:
+  explicit Buckets(std::size_t vertices) : ends_(vertices + 1, 0) {}
+
+  void count(Index vertex) { ++ends_[vertex + 1]; }
+  void allot() {
+    for (std::size_t v = 1; v < ends_.size(); ++v) ends_[v] += ends_[v - 1];
+    entries_.resize(ends_.back());
+  }
+  // Once for every entry counted; from the first one on, ends_[v] is the end of list v so far.
+  void put(Index vertex, Index entry) { entries_[ends_[vertex]++] = entry; }
+  // Of a vertex all of whose entries, and those of the vertices before, are there.
+  std::span<const Index> of(Index vertex) const {
+    const std::uint64_t first = vertex == 0 ? 0 : ends_[vertex - 1];
+    return std::span(entries_).subspan(first, ends_[vertex] - first);
+  }
+
+ private:
+  std::vector<std::uint64_t> ends_;
+  std::vector<Index> entries_;
+};
+
+// Indices in range, four different corners. False if faces make no sense.
 bool check_corners(const TetComplex& complex, OracleReport& report) {
   bool usable = true;
-  std::vector<std::pair<Tet, Index>> sorted;
-  sorted.reserve(complex.tetrahedra.size());
   for (Index t = 0; t < complex.tetrahedra.size(); ++t) {
     Tet corners = complex.tetrahedra[t];
     std::sort(corners.begin(), corners.end());
@@ -47,14 +68,6 @@ bool check_corners(const TetComplex& complex, OracleReport& report) {
     } else if (std::adjacent_find(corners.begin(), corners.end()) != corners.end()) {
       report.fail(complex.tet_name(t) + " repeats a corner");
       usable = false;
-    }
-    sorted.emplace_back(corners, t);
-  }
-  std::sort(sorted.begin(), sorted.end());
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    if (sorted[i].first == sorted[i - 1].first) {
-      report.fail(complex.tet_name(sorted[i].second) + " duplicates " +
-                  complex.tet_name(sorted[i - 1].second));
     }
   }
   return usable;
@@ -111,10 +124,33 @@ std::int64_t check_closed(const TetComplex& complex, const std::vector<Face>& bo
   return distinct;
 }
 
+// Edges of the mesh, each by its lower vertex; the same one comes once for every tetrahedron.
+std::int64_t count_edges(const TetComplex& complex) {
+  const auto for_each = [&complex](const auto& visit) {
+    for (const Tet& t : complex.tetrahedra) {
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < i; ++j) visit(std::min(t[i], t[j]), std::max(t[i], t[j]));
+      }
+    }
+  };
+  Buckets higher(complex.points->size());
+  for_each([&higher](Index low, Index) { higher.count(low); });
+  higher.allot();
+  for_each([&higher](Index low, Index high) { higher.put(low, high); });
+  std::vector<Index> seen_from(complex.points->size(), kNone);
+  std::int64_t edges = 0;
+  for (Index v = 0; v < seen_from.size(); ++v) {
+    for (const Index high : higher.of(v)) {
+      edges += seen_from[high] != v;
+      seen_from[high] = v;
+    }
+  }
+  return edges;
+}
+
 void check_euler(const TetComplex& complex, std::uint64_t faces, const std::vector<Face>& boundary,
                  std::int64_t boundary_edges, bool is_part, OracleReport& report) {
-  const std::int64_t euler = count_used(complex, complex.tetrahedra) -
-                             static_cast<std::int64_t>(mesh_edges(complex).size()) +
+  const std::int64_t euler = count_used(complex, complex.tetrahedra) - count_edges(complex) +
                              static_cast<std::int64_t>(faces) -
                              static_cast<std::int64_t>(complex.tetrahedra.size());
   const std::int64_t of_boundary =
@@ -124,6 +160,74 @@ void check_euler(const TetComplex& complex, std::uint64_t faces, const std::vect
     report.fail("the Euler characteristic is " + std::to_string(euler) + ", that of the boundary " +
                 std::to_string(of_boundary) + " and not twice as much");
   }
+}
+
+// What is known of the tetrahedra with one face.
+void match_face(const TetComplex& complex, const Face& sorted, std::span<const FaceRecord> faces,
+                Neighbours& neighbours, std::vector<Face>& boundary, OracleReport& report) {
+  // The same four corners are said at the face without the highest one.
+  for (std::size_t i = 1; i < faces.size(); ++i) {
+    if (faces[i].apex == faces[i - 1].apex && faces[i].apex > sorted[2]) {
+      report.fail(complex.tet_name(faces[i].tet_face() / 4) + " duplicates " +
+                  complex.tet_name(faces[i - 1].tet_face() / 4));
+    }
+  }
+  const Index first = faces[0].tet_face();
+  if (faces.size() == 1) {
+    boundary.push_back(face_of(complex.tetrahedra[first / 4], static_cast<int>(first % 4)));
+    return;
+  }
+  if (faces.size() > 2) {
+    report.fail(complex.face_name(sorted) + " belongs to " + std::to_string(faces.size()) +
+                " tetrahedra");
+    return;
+  }
+  const Index second = faces[1].tet_face();
+  if (faces[0].even() == faces[1].even()) {
+    report.fail(complex.face_name(sorted) + " has both its tetrahedra, " +
+                std::to_string(first / 4) + " and " + std::to_string(second / 4) +
+                ", on the same side");
+  }
+  neighbours.across[first] = second;
+  neighbours.across[second] = first;
+}
+
+// The number of faces. Of all faces at once only their numbers are held, by lowest corner: sorting
+// the whole of them takes four times the memory and most of the time.
+std::uint64_t match_faces(const TetComplex& complex, Neighbours& neighbours,
+                          std::vector<Face>& boundary, OracleReport& report) {
+  const auto lowest = [&complex](Index tet_face) {
+    const Face face = face_of(complex.tetrahedra[tet_face / 4], static_cast<int>(tet_face % 4));
+    return std::min({face[0], face[1], face[2]});
+  };
+  const auto count = static_cast<Index>(4 * complex.tetrahedra.size());
+  Buckets by_lowest(complex.points->size());
+  for (Index i = 0; i < count; ++i) by_lowest.count(lowest(i));
+  by_lowest.allot();
+  for (Index i = 0; i < count; ++i) by_lowest.put(lowest(i), i);
+  std::vector<FaceRecord> faces;
+  std::uint64_t distinct = 0;
+  for (Index v = 0; v < complex.points->size(); ++v) {
+    faces.clear();
+    for (const Index i : by_lowest.of(v)) {
+      const Tet& tet = complex.tetrahedra[i / 4];
+      Face face = face_of(tet, static_cast<int>(i % 4));
+      const bool even = sort_face(face);
+      faces.push_back({face[1], face[2], tet[i % 4], i | (even ? FaceRecord::kEven : 0)});
+    }
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 0; i < faces.size(); ++distinct) {
+      std::size_t j = i + 1;
+      while (j < faces.size() && faces[j].middle == faces[i].middle &&
+             faces[j].high == faces[i].high) {
+        ++j;
+      }
+      match_face(complex, {v, faces[i].middle, faces[i].high}, std::span(faces).subspan(i, j - i),
+                 neighbours, boundary, report);
+      i = j;
+    }
+  }
+  return distinct;
 }
 
 }  // namespace
@@ -180,36 +284,8 @@ OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours, bo
   if (!check_corners(complex, report)) return report;
   check_used(complex, report);
 
-  std::vector<FaceRecord> faces;
-  faces.reserve(4 * complex.tetrahedra.size());
-  for (Index t = 0; t < complex.tetrahedra.size(); ++t) {
-    for (int i = 0; i < 4; ++i) faces.push_back(face_record(complex.tetrahedra[t], t, i));
-  }
-  std::sort(faces.begin(), faces.end());
   std::vector<Face> boundary;
-  std::uint64_t distinct = 0;
-  for (std::size_t i = 0; i < faces.size(); ++distinct) {
-    std::size_t j = i + 1;
-    while (j < faces.size() && faces[j].sorted == faces[i].sorted) ++j;
-    const Index first = faces[i].tet_face();
-    if (j - i > 2) {
-      report.fail(complex.face_name(faces[i].sorted) + " belongs to " + std::to_string(j - i) +
-                  " tetrahedra");
-    } else if (j - i == 2) {
-      const Index second = faces[i + 1].tet_face();
-      if (faces[i].even() == faces[i + 1].even()) {
-        report.fail(complex.face_name(faces[i].sorted) + " has both its tetrahedra, " +
-                    std::to_string(first / 4) + " and " + std::to_string(second / 4) +
-                    ", on the same side");
-      }
-      neighbours.across[first] = second;
-      neighbours.across[second] = first;
-    } else {
-      boundary.push_back(face_of(complex.tetrahedra[first / 4], static_cast<int>(first % 4)));
-    }
-    i = j;
-  }
-  faces = {};
+  const std::uint64_t distinct = match_faces(complex, neighbours, boundary, report);
   const std::int64_t boundary_edges = check_closed(complex, boundary, report);
   check_euler(complex, distinct, boundary, boundary_edges, is_part, report);
   report.figures.emplace_back("faces", distinct);

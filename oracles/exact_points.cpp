@@ -261,12 +261,23 @@ const mpz_class& Volume6::operator()(const ExactPoints& points,
       mpz_sub((*to[i])[axis].get_mpz_t(), p[axis].get_mpz_t(), origin[axis].get_mpz_t());
     }
   }
+  return determinant(u_, v_, w_);
+}
+
+const mpz_class& Volume6::from_origin(const ExactPoints& points,
+                                      const std::array<Index, 3>& triangle) {
+  return determinant(points.integer(triangle[0]), points.integer(triangle[1]),
+                     points.integer(triangle[2]));
+}
+
+const mpz_class& Volume6::determinant(const IntegerVector& u, const IntegerVector& v,
+                                      const IntegerVector& w) {
   value_ = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    mpz_mul(minor_.get_mpz_t(), v_[j].get_mpz_t(), w_[k].get_mpz_t());
-    mpz_submul(minor_.get_mpz_t(), v_[k].get_mpz_t(), w_[j].get_mpz_t());
-    mpz_addmul(value_.get_mpz_t(), u_[i].get_mpz_t(), minor_.get_mpz_t());
+    mpz_mul(minor_.get_mpz_t(), v[j].get_mpz_t(), w[k].get_mpz_t());
+    mpz_submul(minor_.get_mpz_t(), v[k].get_mpz_t(), w[j].get_mpz_t());
+    mpz_addmul(value_.get_mpz_t(), u[i].get_mpz_t(), minor_.get_mpz_t());
   }
   return value_;
 }
@@ -320,8 +331,7 @@ IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c) {
 }
 
 IntervalVector rough_area2(const ExactPoints& points, Index a, Index b, Index c) {
-  const IntervalVector u = rough_difference(points, a, b), v = rough_difference(points, a, c);
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  return cross(rough_difference(points, a, b), rough_difference(points, a, c));
 }
 
 bool collinear(const ExactPoints& points, Index a, Index b, Index c) {

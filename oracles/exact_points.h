@@ -98,8 +98,14 @@ Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& te
 class Volume6 {
  public:
   const mpz_class& operator()(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
+  // Of the tetrahedron between the origin and a triangle: positive if that is seen clockwise from
+  // there.
+  const mpz_class& from_origin(const ExactPoints& points, const std::array<Index, 3>& triangle);
 
  private:
+  const mpz_class& determinant(const IntegerVector& u, const IntegerVector& v,
+                               const IntegerVector& w);
+
   IntegerVector u_, v_, w_;
   mpz_class minor_, value_;
 };
@@ -116,7 +122,13 @@ IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c);
 IntervalVector rough_area2(const ExactPoints& points, Index a, Index b, Index c);
 IntegerVector difference(const ExactPoints& points, Index from, Index to);
 mpz_class dot(const IntegerVector& u, const IntegerVector& v);
+inline Interval dot(const IntervalVector& u, const IntervalVector& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
 IntegerVector cross(const IntegerVector& u, const IntegerVector& v);
+inline IntervalVector cross(const IntervalVector& u, const IntervalVector& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
 bool is_zero(const IntegerVector& v);
 bool equal(const ExactPoints& points, Index a, Index b);
 // Right to a few roundings, however far from the origin both are.

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "oracles/measures.h"
 #ifdef TETPROOF_SECOND_OPINIONS
 #include "oracles/cgal/kernel_opinion.h"
 #endif
@@ -16,7 +17,10 @@ namespace {
 class Hull {
  public:
   Hull(const TetComplex& complex, const Neighbours& neighbours, const HullOptions& options)
-      : complex_(complex), points_(*complex.points), allowed_(options.allowed) {
+      : complex_(complex),
+        neighbours_(neighbours),
+        points_(*complex.points),
+        allowed_(options.allowed) {
     for (Index i = 0; i < neighbours.across.size(); ++i) {
       if (neighbours.across[i] != kNone) continue;
       faces_.push_back(face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4)));
@@ -43,6 +47,7 @@ class Hull {
   double area() const;
 
   const TetComplex& complex_;
+  const Neighbours& neighbours_;
   const ExactPoints& points_;
   double allowed_;
   std::vector<Face> faces_;
@@ -126,9 +131,7 @@ double Hull::area() const {
 
 #ifdef TETPROOF_SECOND_OPINIONS
 void Hull::check_volume() {
-  mpz_class sum;
-  exact::Volume6 volume6;
-  for (const Tet& tet : complex_.tetrahedra) sum += volume6(points_, tet);
+  const mpz_class sum = sum_of_volumes6(complex_, neighbours_, {});
   std::vector<Index> corners;
   for (Index v = 0; v < corner_.size(); ++v) {
     if (corner_[v]) corners.push_back(v);

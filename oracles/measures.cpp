@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace tetproof::oracles {
+
 double smallest_altitude(const ExactPoints& points, const Tet& tet) {
   const auto& [a, b, c, d] = tet;
   double largest = 0;
@@ -17,15 +18,42 @@ double smallest_altitude(const ExactPoints& points, const Tet& tet) {
   return volume > 0 ? volume / largest : 0;
 }
 
-OracleReport check_volume(const TetComplex& complex, const InputSurface& surface, double allowed) {
-  OracleReport report("volume", "tetrahedra inside");
+namespace {
+
+bool opposite(const Face& f, const Face& g) {
+  for (int i = 0; i < 3; ++i) {
+    if (f[0] == g[i]) return f[1] == g[(i + 2) % 3] && f[2] == g[(i + 1) % 3];
+  }
+  return false;
+}
+
+}  // namespace
+
+mpz_class sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours,
+                          const std::vector<std::uint8_t>& selected) {
+  const auto& tets = complex.tetrahedra;
+  const auto& across = neighbours.across;
   mpz_class sum;
   exact::Volume6 volume6;
-  for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
-    if (!complex.inside[t]) continue;
-    sum += volume6(*complex.points, complex.tetrahedra[t]);
-    ++report.checked;
+  for (Index t = 0; t < tets.size(); ++t) {
+    if (!selected.empty() && selected[t] == 0) continue;
+    for (int i = 0; i < 4; ++i) {
+      const Index here = 4 * t + static_cast<Index>(i), other = across[here];
+      const Face face = face_of(tets[t], i);
+      const bool cancels = other != kNone && across[other] == here &&
+                           (selected.empty() || selected[other / 4] != 0) &&
+                           opposite(face, face_of(tets[other / 4], static_cast<int>(other % 4)));
+      if (!cancels) sum += volume6.from_origin(*complex.points, face);
+    }
   }
+  return sum;
+}
+
+OracleReport check_volume(const TetComplex& complex, const Neighbours& neighbours,
+                          const InputSurface& surface, double allowed) {
+  OracleReport report("volume", "tetrahedra inside");
+  for (const std::uint8_t inside : complex.inside) report.checked += inside;
+  const mpz_class sum = sum_of_volumes6(complex, neighbours, complex.inside);
   const long exponent = 3 * complex.points->exponent();
   const double volume = to_double(surface.volume6(), exponent) / 6;
   if (sum != surface.volume6()) {

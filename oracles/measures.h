@@ -8,7 +8,15 @@ namespace tetproof::oracles {
 
 // Volume oracle: the tetrahedra inside add up to exactly the volume of the polyhedron, or, for
 // rounded vertices, to within `allowed` of it.
-OracleReport check_volume(const TetComplex& complex, const InputSurface& surface, double allowed);
+OracleReport check_volume(const TetComplex& complex, const Neighbours& neighbours,
+                          const InputSurface& surface, double allowed);
+
+// Six times the sum of the signed volumes of the tetrahedra with selected[t], or of all if it is
+// empty; exactly, in integer units. A tetrahedron's is the sum over its faces of what lies between
+// them and the origin, and faces that two of them share from opposite sides cancel: only the others
+// take arithmetic. `neighbours` only says where to look, and is not believed.
+mpz_class sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours,
+                          const std::vector<std::uint8_t>& selected);
 
 // Interior oracle: the centroid of every tetrahedron is inside by ray parity exactly if its flag
 // says so. The surface and the complex must use the same points.

@@ -318,7 +318,8 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
     }
   }
   add(conformity.report);
-  add(check_volume(complex, surface, 2 * slack_ * surface_area(complex, conformity.faces)));
+  add(check_volume(complex, neighbours, surface,
+                   2 * slack_ * surface_area(complex, conformity.faces)));
   check_file_quality(complex, neighbours, surface, conformity);
   // Where the faces' facets are unknown, so are the labels they should have.
   if (mesh_.boundary.empty() || conformity.report.undecided) return;
@@ -430,7 +431,7 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
   const ConformityResult conformity =
       check_conformity(complex, neighbours, surface, {.exact = true});
   add(conformity.report, "exact-");
-  add(check_volume(complex, surface, 0), "exact-");
+  add(check_volume(complex, neighbours, surface, 0), "exact-");
   add(check_hull(complex, neighbours), "exact-");
   check_constrained(complex, neighbours, surface);
   add(check_facet_ids(complex, conformity, surface, exact_->final_facets), "exact-");

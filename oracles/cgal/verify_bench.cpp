@@ -22,6 +22,13 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+// The peak so far.
+double megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024e-6 * static_cast<double>(usage.ru_maxrss);
+}
+
 // The time that has gone by since the last oracle is the next one's; so each line includes what
 // had to be prepared for it.
 void measure(const char* input_path, const char* mesh_path, const char* exact_path) {
@@ -29,6 +36,7 @@ void measure(const char* input_path, const char* mesh_path, const char* exact_pa
   const MeshFile mesh = read_mesh(mesh_path);
   delmesher::ExactRecord record;
   if (exact_path != nullptr) record = read_sidecar(exact_path);
+  std::printf("%-32s %42.1f MB\n", "reading", megabytes());
   double start = seconds();
   const std::size_t delaunay = cgal_delaunay(mesh.vertices).size();
   const double unit = seconds() - start;
@@ -40,7 +48,8 @@ void measure(const char* input_path, const char* mesh_path, const char* exact_pa
   double last = seconds();
   options.progress = [&](const OracleReport& oracle) {
     const double now = seconds();
-    std::printf("%-32s %8.3f s  %7.2f\n", oracle.name.c_str(), now - last, (now - last) / unit);
+    std::printf("%-32s %8.3f s  %7.2f  %20.1f MB\n", oracle.name.c_str(), now - last,
+                (now - last) / unit, megabytes());
     last = now;
   };
   start = last;
@@ -48,11 +57,8 @@ void measure(const char* input_path, const char* mesh_path, const char* exact_pa
   const double all = seconds() - start;
   std::printf("%-32s %8.3f s  %7.2f times CGAL's Delaunay\n", verdict_name(report.verdict), all,
               all / unit);
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const double bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
   std::printf("at most %.1f MB, CGAL's and what was read included: %.0f bytes per tetrahedron\n",
-              bytes / 1e6, bytes / static_cast<double>(mesh.tetrahedra.size()));
+              megabytes(), 1e6 * megabytes() / static_cast<double>(mesh.tetrahedra.size()));
 }
 
 }  // namespace
