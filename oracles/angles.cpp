@@ -2,12 +2,104 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tetproof::oracles {
 namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr int kBins = 12;
+
+double dot(const Position& u, const Position& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+Position cross(const Position& u, const Position& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+// A tetrahedron in doubles: each edge and normal once for all of its angles, which takes a fraction
+// of what intervals do angle by angle.
+//
+// Edges have components of at most h, with an error of at most e = h u + E, where E is that of a
+// difference of rounded points. As in ball_side.cpp: of a polynomial of degree d whose monomials
+// add up to m h^d, rounding costs less than 16 m h^d u and the error of the edges less than d m
+// h^(d-1) e, and everything is taken twice or more.
+class RoughTet {
+ public:
+  // Sine and cosine up to a common positive factor, with an error of at most `error` each.
+  struct Angle {
+    double sine, cosine, error;
+    bool certain() const { return error <= 1e-9 * sine; }
+  };
+
+  RoughTet(const ExactPoints& points, const Tet& tet) {
+    for (int i = 0; i < 4; ++i) {
+      const Position& p = points.nearest(tet[i]);
+      for (int j = 0; j < i; ++j) {
+        const Position& q = points.nearest(tet[j]);
+        for (int axis = 0; axis < 3; ++axis) {
+          const double x = p[axis] - q[axis];
+          edges_[j][i][axis] = x;
+          edges_[i][j][axis] = -x;
+          size_ = std::max(size_, std::fabs(x));
+        }
+      }
+    }
+    error_ = size_ * 0x1p-53 + points.difference_error();
+    // Else something could over- or underflow.
+    if (!(size_ > 0x1p-100 && size_ < 0x1p100)) error_ = std::numeric_limits<double>::infinity();
+  }
+
+  // Are the face's angles certainly not below the one whose squared cosine this is? Then c2 |u|^2
+  // |v|^2 > (u . v)^2, of degree 4 with m = 18, or u . v < 0, of degree 2 with m = 3.
+  bool no_face_angle_below(double squared_cosine) const {
+    const double error2 = 120 * size_ * error_, error4 = 800 * size_ * size_ * size_ * error_;
+    for (int a = 0; a < 4; ++a) {
+      double squares[4];
+      for (int b = 0; b < 4; ++b) squares[b] = dot(edges_[a][b], edges_[a][b]);
+      for (int b = 0; b < 4; ++b) {
+        for (int c = 0; c < b; ++c) {
+          if (a == b || a == c) continue;
+          const double uv = dot(edges_[a][b], edges_[a][c]);
+          if (uv < -error2) continue;
+          if (!(squares[b] * squares[c] * squared_cosine - uv * uv > error4)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  // Twice the areas, as vectors, are of degree 2 with m = 2 for each component.
+  void find_normals() {
+    for (int i = 0; i < 4; ++i) {
+      const auto& [a, b, c] = kFaces[i];
+      normals_[i] = cross(edges_[a][b], edges_[a][c]);
+    }
+    volume6_ = std::fabs(dot(edges_[0][3], normals_[3]));
+  }
+
+  // At corner k of face i, as face_of has them.
+  Angle face_angle(int i, int k) const {
+    const int a = kFaces[i][k], b = kFaces[i][(k + 1) % 3], c = kFaces[i][(k + 2) % 3];
+    return {std::sqrt(dot(normals_[i], normals_[i])), dot(edges_[a][b], edges_[a][c]),
+            300 * size_ * error_};
+  }
+
+  // At edge ab, opposite to edge cd: |m x n| = |ab| |det|, of degrees 1 and 3, for the normals m
+  // and n of the faces opposite to c and d, and m . n is of degree 4 with m = 12.
+  Angle dihedral_angle(int a, int b, int c, int d) const {
+    return {volume6_ * std::sqrt(dot(edges_[a][b], edges_[a][b])), -dot(normals_[c], normals_[d]),
+            1000 * size_ * size_ * size_ * error_};
+  }
+
+ private:
+  // As face_of: counter-clockwise seen from outside.
+  static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+  Position edges_[4][4] = {}, normals_[4] = {};
+  double size_ = 0, error_ = 0, volume6_ = 0;
+};
 
 // Certifies that angles are not below a bound: cos^2 <= c2 for acute ones.
 class SmallestAngle {
@@ -17,6 +109,8 @@ class SmallestAngle {
     bound_ = cosine * cosine * (1 + 1e-9);
     exact_bound_ = bound_;
   }
+
+  double squared_cosine() const { return bound_; }
 
   // Is the angle of the triangle at `apex` below the bound?
   bool below(const ExactPoints& points, Index apex, Index b, Index c) const {
@@ -53,6 +147,7 @@ class SmallestAngle {
 // The first angle below the bound, as face and corner; false if there is none.
 bool find_small_angle(const ExactPoints& points, const Tet& tet, const SmallestAngle& bound,
                       Face& corner_first) {
+  if (RoughTet(points, tet).no_face_angle_below(bound.squared_cosine())) return false;
   for (int i = 0; i < 4; ++i) {
     const Face face = face_of(tet, i);
     for (int corner = 0; corner < 3; ++corner) {
@@ -136,17 +231,19 @@ class Distribution {
  public:
   explicit Distribution(const ExactPoints& points) : points_(points) {}
 
-  // In degrees.
+  // In degrees, to a relative 1e-9, also of angles near 0 and 180 degrees. Doubles tell what they
+  // can, intervals of the rest what they can.
   template <class Angle>
-  double add(const Angle& angle) {
-    const Parts<Interval> p = angle.roughly(points_);
-    const double cosine = middle(p.cosine), sine2 = middle(p.sine_squared);
-    const double sine = std::sqrt(std::max(0.0, sine2));
+  double add(const RoughTet::Angle& guess, const Angle& angle) {
     double degrees = 0;
     int bin = -1;
-    // Relative accuracy also of angles near 0 and 180 degrees.
-    if (narrow(p.sine_squared, sine2) && narrow(p.cosine, std::fabs(cosine) + sine)) {
-      degrees = std::atan2(sine, cosine) * kDegrees;
+    bool known = guess.certain();
+    if (known) {
+      degrees = std::atan2(guess.sine, guess.cosine) * kDegrees;
+    } else {
+      known = roughly(angle, degrees);
+    }
+    if (known) {
       const double bins = degrees / 15;
       if (std::fabs(bins - std::round(bins)) > 1e-6) bin = static_cast<int>(bins);
     } else {
@@ -172,6 +269,16 @@ class Distribution {
 
  private:
   static double middle(const Interval& x) { return x.low / 2 + x.high / 2; }
+
+  template <class Angle>
+  bool roughly(const Angle& angle, double& degrees) const {
+    const Parts<Interval> p = angle.roughly(points_);
+    const double cosine = middle(p.cosine), sine2 = middle(p.sine_squared);
+    const double sine = std::sqrt(std::max(0.0, sine2));
+    degrees = std::atan2(sine, cosine) * kDegrees;
+    return narrow(p.sine_squared, sine2) && narrow(p.cosine, std::fabs(cosine) + sine);
+  }
+
   const ExactPoints& points_;
 };
 
@@ -199,10 +306,13 @@ class AngleMeasure {
   void run(OracleReport& report) {
     for (std::size_t t = 0; t < complex_.tetrahedra.size(); ++t) {
       if (!selected_[t]) continue;
+      const Tet& tet = complex_.tetrahedra[t];
+      RoughTet rough(*complex_.points, tet);
+      rough.find_normals();
       for (int i = 0; i < 4; ++i) {
-        if (counts(4 * t + i)) add_face(face_of(complex_.tetrahedra[t], i));
+        if (counts(4 * t + i)) add_face(rough, i, face_of(tet, i));
       }
-      add_dihedrals(complex_.tetrahedra[t]);
+      add_dihedrals(rough, tet);
     }
     if (smallest_dihedral_.count == 0) return;
     report.figures.emplace_back("smallest face angle", face_.smallest);
@@ -224,20 +334,21 @@ class AngleMeasure {
     return other == kNone || !selected_[other / 4] || tet_face < other;
   }
 
-  void add_face(const Face& f) {
-    const double a = face_.add(FaceAngle{f[0], f[1], f[2]});
-    const double b = face_.add(FaceAngle{f[1], f[2], f[0]});
-    const double c = face_.add(FaceAngle{f[2], f[0], f[1]});
+  void add_face(const RoughTet& rough, int i, const Face& f) {
+    const double a = face_.add(rough.face_angle(i, 0), FaceAngle{f[0], f[1], f[2]});
+    const double b = face_.add(rough.face_angle(i, 1), FaceAngle{f[1], f[2], f[0]});
+    const double c = face_.add(rough.face_angle(i, 2), FaceAngle{f[2], f[0], f[1]});
     smallest_face_.add(std::min({a, b, c}));
     largest_face_.add(std::max({a, b, c}));
   }
 
-  void add_dihedrals(const Tet& t) {
+  void add_dihedrals(const RoughTet& rough, const Tet& t) {
     static constexpr int kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
                                          {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
     double low = 180, high = 0;
     for (const auto& [a, b, c, d] : kEdges) {
-      const double angle = dihedral_.add(DihedralAngle{t[a], t[b], t[c], t[d]});
+      const double angle =
+          dihedral_.add(rough.dihedral_angle(a, b, c, d), DihedralAngle{t[a], t[b], t[c], t[d]});
       low = std::min(low, angle);
       high = std::max(high, angle);
     }

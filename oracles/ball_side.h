@@ -10,7 +10,7 @@ namespace tetproof::oracles {
 // sign with it and never guesses.
 class BallSide {
  public:
-  // The circumsphere of a tetrahedron, positively oriented.
+  // The circumsphere of a tetrahedron, positively oriented; of another one, with sides exchanged.
   static BallSide circumscribed(const ExactPoints& points, const std::array<Index, 4>& tet);
   // The smallest spheres through the corners of a triangle and the ends of an edge.
   static BallSide diametral(const ExactPoints& points, const std::array<Index, 3>& triangle);

@@ -1,6 +1,7 @@
 #include "oracles/delaunay.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "oracles/ball_side.h"
 #ifdef TETPROOF_SECOND_OPINIONS
@@ -11,15 +12,34 @@
 namespace tetproof::oracles {
 namespace {
 
+// The sphere of the tetrahedron that was asked about last: its faces are asked about in turn. What
+// BallSide evaluates is the in-sphere determinant with the opposite sign, whatever the orientation.
+class Circumsphere {
+ public:
+  void move_to(const ExactPoints& points, const Tet& t, Index number) {
+    if (ball_ && number == number_) return;
+    ball_ = BallSide::circumscribed(points, t);
+    number_ = number;
+  }
+  int insphere(const ExactPoints& points, const Tet& t, Index e) const {
+    const int side = ball_->side(e);
+    return side != 0 ? -side : exact::insphere(points, t[0], t[1], t[2], t[3], e);
+  }
+
+ private:
+  std::optional<BallSide> ball_;
+  Index number_ = 0;
+};
+
 #ifdef TETPROOF_SECOND_OPINIONS
-// The in-sphere sign of our integers, checked against CGAL's.
+// The in-sphere sign of our arithmetic, checked against CGAL's.
 class TwoOpinions {
  public:
   explicit TwoOpinions(const ExactPoints& points) : points_(points), cgal_(points) {}
 
   void tell(OracleReport&) const {}
-  int insphere(const Tet& t, Index e, OracleReport& report) {
-    const int ours = exact::insphere(points_, t[0], t[1], t[2], t[3], e);
+  int insphere(const Circumsphere& sphere, const Tet& t, Index e, OracleReport& report) {
+    const int ours = sphere.insphere(points_, t, e);
     const int theirs = cgal_.insphere(t[0], t[1], t[2], t[3], e);
     if (ours != theirs) {
       report.fail("the in-sphere tests of this program (" + std::to_string(ours) +
@@ -33,14 +53,14 @@ class TwoOpinions {
   const KernelOpinion cgal_;
 };
 #else
-// The in-sphere sign of our integers alone.
+// The in-sphere sign of our arithmetic alone.
 class TwoOpinions {
  public:
   explicit TwoOpinions(const ExactPoints& points) : points_(points) {}
 
   void tell(OracleReport& report) const { report.notes.push_back(kNoSecondOpinion); }
-  int insphere(const Tet& t, Index e, OracleReport&) const {
-    return exact::insphere(points_, t[0], t[1], t[2], t[3], e);
+  int insphere(const Circumsphere& sphere, const Tet& t, Index e, OracleReport&) const {
+    return sphere.insphere(points_, t, e);
   }
 
  private:
@@ -147,12 +167,15 @@ OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbo
   const ViolationNames names{complex};
   TwoOpinions opinions(*complex.points);
   opinions.tell(report);
+  Circumsphere sphere;
   for (Index i = 0; i < neighbours.across.size(); ++i) {
     const Index j = neighbours.across[i];
     if (j == kNone || j < i) continue;
     const Index apex = complex.tetrahedra[j / 4][j % 4];
     ++report.checked;
-    if (opinions.insphere(complex.tetrahedra[i / 4], apex, report) > 0) {
+    const Tet& tet = complex.tetrahedra[i / 4];
+    sphere.move_to(*complex.points, tet, i / 4);
+    if (opinions.insphere(sphere, tet, apex, report) > 0) {
       report.fail(names.face(i, apex));
     }
   }
@@ -172,21 +195,32 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
   const ViolationNames names{complex};
   for (Face& face : constraints) std::sort(face.begin(), face.end());
   std::sort(constraints.begin(), constraints.end());
+  // Most faces have a corner off the surface, and need not be searched for.
+  std::vector<std::uint8_t> constrained(complex.points->size());
+  for (const Face& face : constraints) {
+    for (const Index v : face) {
+      if (v < constrained.size()) constrained[v] = 1;
+    }
+  }
   std::uint64_t not_delaunay = 0;
+  Circumsphere sphere;
   TwoOpinions opinions(*complex.points);
   opinions.tell(report);
   for (Index i = 0; i < neighbours.across.size(); ++i) {
     const Index j = neighbours.across[i];
     if (j == kNone || j < i) continue;
     Face face = face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4));
-    std::sort(face.begin(), face.end());
-    if (std::binary_search(constraints.begin(), constraints.end(), face)) continue;
+    if (constrained[face[0]] != 0 && constrained[face[1]] != 0 && constrained[face[2]] != 0) {
+      std::sort(face.begin(), face.end());
+      if (std::binary_search(constraints.begin(), constraints.end(), face)) continue;
+    }
     const Index apex = complex.tetrahedra[j / 4][j % 4];
     ++report.checked;
+    const Tet& tet = complex.tetrahedra[i / 4];
+    sphere.move_to(*complex.points, tet, i / 4);
     // What is only counted needs no second opinion.
-    const auto& [a, b, c, d] = complex.tetrahedra[i / 4];
-    const int side = options.gate ? opinions.insphere(complex.tetrahedra[i / 4], apex, report)
-                                  : exact::insphere(*complex.points, a, b, c, d, apex);
+    const int side = options.gate ? opinions.insphere(sphere, tet, apex, report)
+                                  : sphere.insphere(*complex.points, tet, apex);
     if (side <= 0) continue;
     ++not_delaunay;
     if (options.gate) report.fail(names.face(i, apex));
