@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "oracles/input_surface.h"
 
@@ -28,12 +29,30 @@ double centre(const BoxTree::Box& box, int axis) {
 
 }  // namespace
 
+// Of the corner that is deepest in the complement; a sum of three products, each of which rounds
+// twice at most, is within 2^-50 of the sum of their sizes.
+bool BoxTree::HalfSpace::contains(const Box& box) const {
+  double height = 0, size = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double term =
+        normal[axis] > 0 ? normal[axis] * box.low[axis] : normal[axis] * box.high[axis];
+    height += term;
+    size += std::fabs(term);
+  }
+  return height - size * 0x1p-50 > offset;
+}
+
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   order_.resize(boxes_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<Index>(i);
   nodes_.reserve(boxes_.size() + 2);
   nodes_.emplace_back();
-  if (!boxes_.empty()) build(0, 0, static_cast<Index>(order_.size()), 0);
+  if (boxes_.empty()) return;
+  build(0, 0, static_cast<Index>(order_.size()), 0);
+  std::vector<Box> sorted;  // those of a leaf beside each other
+  sorted.reserve(boxes_.size());
+  for (const Index i : order_) sorted.push_back(boxes_[i]);
+  boxes_ = std::move(sorted);
 }
 
 void BoxTree::build(std::size_t node, Index first, Index last, int depth) {
@@ -62,21 +81,27 @@ void BoxTree::build(std::size_t node, Index first, Index last, int depth) {
   build(child + 1, middle, last, depth + 1);
 }
 
-void BoxTree::query(const Box& query, std::vector<Index>& found) const {
+void BoxTree::query(const Box& query, std::vector<Index>& found,
+                    std::span<const HalfSpace> but_in) const {
   if (boxes_.empty()) return;
+  const auto wanted = [&](const Box& box) {
+    return meet(box, query) &&
+           std::none_of(but_in.begin(), but_in.end(),
+                        [&](const HalfSpace& half) { return half.contains(box); });
+  };
   std::array<std::size_t, 2 * kMaxDepth + 4> stack;
   std::size_t top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const Node& node = nodes_[stack[--top]];
-    if (!meet(node.box, query)) continue;
+    if (!wanted(node.box)) continue;
     if (node.count == 0) {
       stack[top++] = node.first;
       stack[top++] = node.first + 1;
       continue;
     }
     for (Index i = node.first; i < node.first + node.count; ++i) {
-      if (meet(boxes_[order_[i]], query)) found.push_back(order_[i]);
+      if (wanted(boxes_[i])) found.push_back(order_[i]);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "oracles/angles.h"
+#include "oracles/corners.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -16,30 +17,14 @@ using delmesher::ExactRecord;
 // within 2^-20 of the chamfer distance, and the shortest bridges are a few hundredths of it.
 constexpr double kRounding = 1e-3;
 
-// cos^2 of a threshold; exact for 60 and 90 degrees, rounded upwards otherwise, to the safe side.
-mpq_class cosine_squared(double degrees) {
-  if (degrees == 90) return 0;
-  if (degrees == 60) return mpq_class(1, 4);
-  const double cosine = std::cos(degrees * (3.14159265358979323846 / 180));
-  return mpq_class(cosine * cosine * (1 + 1e-12));
-}
-
-class Threshold {
+// An angle as good as at the threshold is not below it.
+class Threshold : public AngleBound {
  public:
-  explicit Threshold(double degrees) : degrees_(degrees), bound_(cosine_squared(degrees)) {}
+  explicit Threshold(double degrees) : AngleBound(degrees, Doubt::not_acute), degrees_(degrees) {}
   double degrees() const { return degrees_; }
-  // Is the angle with this cosine, and this product of squared norms, below it?
-  bool above(const mpz_class& cosine, const mpz_class& norms) const {
-    return cosine > 0 && beyond(cosine * cosine, norms);
-  }
-  // The same of the squared cosine of an angle that is not obtuse.
-  bool beyond(const mpz_class& squared_cosine, const mpz_class& norms) const {
-    return squared_cosine * bound_.get_den() > bound_.get_num() * norms;
-  }
 
  private:
   double degrees_;
-  mpq_class bound_;
 };
 
 struct Segment {
@@ -278,11 +263,15 @@ void ChamferAngles::offend(double angle, const Threshold& threshold, bool rounde
 
 void ChamferAngles::check_dihedral(const Segment& s) {
   ++report_.checked;
-  const IntegerVector &m = surface_.facets()[s.left].normal, &n = surface_.facets()[s.right].normal;
+  const InputSurface::Facet &left = surface_.facets()[s.left], &right = surface_.facets()[s.right];
+  const IntervalVector &p = left.rough_normal, &q = right.rough_normal;
+  const Threshold threshold = chamfered_.at_edge(s.input_edge);
+  if (threshold.surely_not_above(-exact::dot(p, q), exact::dot(p, p) * exact::dot(q, q))) return;
+  const IntegerVector &m = left.normal, &n = right.normal;
   const mpz_class cosine = -exact::dot(m, n);
   if (cosine <= 0) return;
   judge(cosine, exact::squared(m) * exact::squared(n), exact::squared(exact::cross(m, n)),
-        chamfered_.at_edge(s.input_edge), false,
+        threshold, false,
         "facets " + std::to_string(surface_.facets()[s.left].id) + " and " +
             std::to_string(surface_.facets()[s.right].id) + " at " + segment_name(s));
 }
@@ -305,11 +294,14 @@ void ChamferAngles::check_vertex(std::size_t slot) {
 void ChamferAngles::check_pair(Index v, const Segment& s, const Segment& t) {
   ++report_.checked;
   const Index p = s.from == v ? s.to : s.from, q = t.from == v ? t.to : t.from;
+  const IntervalVector x = points_.rough_difference(v, p), y = points_.rough_difference(v, q);
+  const Threshold threshold = chamfered_.of_edges(v);
+  if (threshold.surely_not_above(exact::dot(x, y), exact::dot(x, x) * exact::dot(y, y))) return;
   if (exact::dot_sign(points_, v, p, q) <= 0) return;
   const IntegerVector a = exact::difference(points_, v, p), b = exact::difference(points_, v, q);
   const mpz_class cosine = exact::dot(a, b), norms = exact::squared(a) * exact::squared(b);
-  judge(cosine, norms, exact::squared(exact::cross(a, b)), chamfered_.of_edges(v),
-        s.artificial || t.artificial, segment_name(s) + " and " + segment_name(t));
+  judge(cosine, norms, exact::squared(exact::cross(a, b)), threshold, s.artificial || t.artificial,
+        segment_name(s) + " and " + segment_name(t));
 }
 
 // The angle of a segment and a facet counts if the segment projects into the sector's interior.
@@ -317,21 +309,21 @@ void ChamferAngles::check_sector(Index v, const Segment& s, const Sector& sector
                                  const Threshold& threshold) {
   ++report_.checked;
   const InputSurface::Facet& facet = surface_.facets()[sector.facet];
+  const Index end = s.from == v ? s.to : s.from;
+  const IntervalVector &r = facet.rough_normal, w = points_.rough_difference(v, end);
+  const Interval rough_height = exact::dot(r, w);
+  const Interval rough_norms = exact::dot(r, r) * exact::dot(w, w);
+  if (threshold.surely_not_beyond(rough_norms - rough_height * rough_height, rough_norms)) return;
+  const auto left = [&](Index x, Index y) { return left_turn(points_, facet, v, x, y); };
+  const Index o = sector.out, i = sector.in;
+  const bool inside = left(o, i) > 0 ? left(o, end) > 0 && left(end, i) > 0
+                                     : !(left(i, end) >= 0 && left(end, o) >= 0);
+  if (!inside) return;
   const IntegerVector& n = facet.normal;
-  const IntegerVector d = exact::difference(points_, v, s.from == v ? s.to : s.from);
+  const IntegerVector d = exact::difference(points_, v, end);
   const mpz_class height = exact::dot(n, d);
   const mpz_class norms = exact::squared(n) * exact::squared(d), sine_squared = height * height;
-  // cos^2 = 1 - sin^2; compared before the sector is looked at, because that is rarely passed.
-  if (!threshold.beyond(norms - sine_squared, norms)) return;
-  const IntegerVector o = exact::difference(points_, v, sector.out),
-                      i = exact::difference(points_, v, sector.in);
-  const auto left = [&](const IntegerVector& x, const IntegerVector& y) {
-    return sgn(exact::dot(n, exact::cross(x, y)));
-  };
-  const int turn = left(o, i);
-  const bool inside =
-      turn > 0 ? left(o, d) > 0 && left(d, i) > 0 : !(left(i, d) >= 0 && left(d, o) >= 0);
-  if (!inside) return;
+  if (!threshold.beyond(norms - sine_squared, norms)) return;  // cos^2 = 1 - sin^2
   const double angle = 90 - exact_angle(norms - sine_squared, abs(height));
   offend(angle, threshold, true, segment_name(s) + " and facet " + std::to_string(facet.id));
 }

@@ -17,7 +17,19 @@ mpq_class squared_cosine(double degrees, Doubt doubt) {
 
 }  // namespace
 
-AngleBound::AngleBound(double degrees, Doubt doubt) : bound_(squared_cosine(degrees, doubt)) {}
+// The square of the cosine above is truncated to a double, at most an ulp below.
+AngleBound::AngleBound(double degrees, Doubt doubt)
+    : bound_(squared_cosine(degrees, doubt)),
+      rough_bound_(Interval::around(bound_.get_d(), bound_.get_d())) {}
+
+int left_turn(const ExactPoints& points, const InputSurface::Facet& facet, Index v, Index p,
+              Index q) {
+  const IntervalVector x = points.rough_difference(v, p), y = points.rough_difference(v, q);
+  const IntervalVector c = exact::cross(x, y);
+  if (const int sign = exact::dot(facet.rough_normal, c).sign(); sign != 2) return sign;
+  return sgn(exact::dot(facet.normal, exact::cross(exact::difference(points, v, p),
+                                                   exact::difference(points, v, q))));
+}
 
 AcuteCorners::AcuteCorners(const ExactPoints& points, const InputSurface& surface)
     : points_(points), surface_(surface) {
@@ -41,12 +53,14 @@ bool AcuteCorners::edge_is_acute(Index e, const Present& present,
                                  const CornerThresholds& thresholds, Doubt doubt) const {
   const InputSurface::Edge& edge = surface_.edges()[e];
   if (!present(edge.left) || !present(edge.right)) return false;
+  const AngleBound bound(std::max(thresholds.at(edge.from), thresholds.at(edge.to)), doubt);
+  // The normals point away from each other where the facets enclose a sharp wedge, on either side.
+  const IntervalVector &r = rough_normal(edge.left), &s = rough_normal(edge.right);
+  if (bound.surely_not_above(-exact::dot(r, s), exact::dot(r, r) * exact::dot(s, s))) return false;
   const IntegerVector &m = surface_.facets()[edge.left].normal,
                       &n = surface_.facets()[edge.right].normal;
-  // The normals point away from each other where the facets enclose a sharp wedge, on either side.
   const mpz_class cosine = -exact::dot(m, n);
   if (cosine <= 0) return false;
-  const AngleBound bound(std::max(thresholds.at(edge.from), thresholds.at(edge.to)), doubt);
   return bound.above(cosine, exact::squared(m) * exact::squared(n));
 }
 
@@ -63,9 +77,13 @@ std::string AcuteCorners::why_acute(Index v, const Present& present,
   }
   const AngleBound of_edges(thresholds.of_edges(v), doubt), of_facets(thresholds.at(v), doubt);
   for (std::size_t i = 0; i < spokes.size(); ++i) {
-    const IntegerVector a = exact::difference(points_, v, spokes[i]);
+    const IntervalVector r = points_.rough_difference(v, spokes[i]);
     for (std::size_t j = 0; j < i; ++j) {
+      const IntervalVector s = points_.rough_difference(v, spokes[j]);
+      if (of_edges.surely_not_above(exact::dot(r, s), exact::dot(r, r) * exact::dot(s, s)))
+        continue;
       if (exact::dot_sign(points_, v, spokes[i], spokes[j]) <= 0) continue;
+      const IntegerVector a = exact::difference(points_, v, spokes[i]);
       const IntegerVector b = exact::difference(points_, v, spokes[j]);
       if (of_edges.above(exact::dot(a, b), exact::squared(a) * exact::squared(b))) {
         return "edges to " + std::to_string(spokes[i]) + " and " + std::to_string(spokes[j]);
@@ -84,7 +102,7 @@ std::string AcuteCorners::why_acute(Index v, const Present& present,
 // of one.
 bool AcuteCorners::edge_meets_facet(Index v, Index to, const Present& present,
                                     const AngleBound& bound) const {
-  const IntegerVector d = exact::difference(points_, v, to);
+  const IntervalVector rough = points_.rough_difference(v, to);
   for (const Index t : triangles_at_[v]) {
     const Index f = surface_.facet_of_triangle()[t];
     if (!present(f)) continue;
@@ -92,17 +110,19 @@ bool AcuteCorners::edge_meets_facet(Index v, Index to, const Present& present,
     const int i = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
     const Index p = corner[(i + 1) % 3], q = corner[(i + 2) % 3];
     if (p == to || q == to) continue;
-    const IntegerVector& n = surface_.facets()[f].normal;
-    const mpz_class height = exact::dot(n, d), norms = exact::squared(n) * exact::squared(d);
-    if (!bound.beyond(norms - height * height, norms)) continue;
-    const auto left = [&](const IntegerVector& x, const IntegerVector& y) {
-      return sgn(exact::dot(n, exact::cross(x, y)));
-    };
-    const int after = left(exact::difference(points_, v, p), d),
-              before = left(d, exact::difference(points_, v, q));
+    const Interval rough_height = exact::dot(rough_normal(f), rough);
+    const Interval rough_norms =
+        exact::dot(rough_normal(f), rough_normal(f)) * exact::dot(rough, rough);
+    if (bound.surely_not_beyond(rough_norms - rough_height * rough_height, rough_norms)) continue;
+    const int after = left_turn(points_, surface_.facets()[f], v, p, to),
+              before = left_turn(points_, surface_.facets()[f], v, to, q);
     if (after < 0 || (after == 0 && !is_flat(t, i))) continue;
     if (before < 0 || (before == 0 && !is_flat(t, (i + 2) % 3))) continue;
-    if (after > 0 || before > 0) return true;
+    if (after <= 0 && before <= 0) continue;
+    const IntegerVector d = exact::difference(points_, v, to);
+    const IntegerVector& n = surface_.facets()[f].normal;
+    const mpz_class height = exact::dot(n, d), norms = exact::squared(n) * exact::squared(d);
+    if (bound.beyond(norms - height * height, norms)) return true;
   }
   return false;
 }

@@ -27,9 +27,17 @@ class AngleBound {
   bool beyond(const mpz_class& squared_cosine, const mpz_class& norms) const {
     return squared_cosine * bound_.get_den() > bound_.get_num() * norms;
   }
+  // Is it certainly not, as far as intervals tell?
+  bool surely_not_above(const Interval& cosine, const Interval& norms) const {
+    return cosine.sign() == -1 || surely_not_beyond(cosine * cosine, norms);
+  }
+  bool surely_not_beyond(const Interval& squared_cosine, const Interval& norms) const {
+    return (squared_cosine - rough_bound_ * norms).sign() == -1;
+  }
 
  private:
   mpq_class bound_;
+  Interval rough_bound_;
 };
 
 // The thresholds in force, in degrees.
@@ -37,6 +45,11 @@ struct CornerThresholds {
   std::function<double(Index vertex)> at;        // of edges and facets, and of two facets
   std::function<double(Index vertex)> of_edges;  // of two edges
 };
+
+// Sign of the turn from the direction v -> p to v -> q, projected onto the facet and seen from
+// outside: positive to the left.
+int left_turn(const ExactPoints& points, const InputSurface::Facet& facet, Index v, Index p,
+              Index q);
 
 // The surface of those facets that are present.
 class AcuteCorners {
@@ -71,6 +84,9 @@ class AcuteCorners {
   bool is_flat(Index t, int i) const {
     return surface_.facet_of_triangle()[surface_.neighbour(t, i)] ==
            surface_.facet_of_triangle()[t];
+  }
+  const IntervalVector& rough_normal(Index facet) const {
+    return surface_.facets()[facet].rough_normal;
   }
   template <class Visit>
   void boundary_near(Index v, double distance, const Present& present, Visit visit) const;

@@ -58,10 +58,6 @@ std::string InputSurface::assign(const Polyhedron& polyhedron, const ExactPoints
   orient_components(points);
   build_facets(polyhedron, points);
   build_edges();
-  rough_normals_.clear();
-  for (const auto& [a, b, c] : triangles_) {
-    rough_normals_.push_back(exact::rough_area2(points, a, b, c));
-  }
   volume6_ = 0;
   const Index origin = triangles_[0][0];
   for (const auto& [a, b, c] : triangles_) volume6_ += exact::volume6(points, origin, a, b, c);
@@ -159,12 +155,8 @@ void InputSurface::orient_components(const ExactPoints& points) {
 
 void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints& points) {
   const auto label = [&](Index t) { return polyhedron.labels.empty() ? 0 : polyhedron.labels[t]; };
-  std::vector<IntegerVector> area(triangles_.size());
-  for (Index t = 0; t < triangles_.size(); ++t) {
-    area[t] = exact::area2(points, triangles_[t][0], triangles_[t][1], triangles_[t][2]);
-  }
   UnionFind groups(triangles_.size());
-  unite_polygons(polyhedron, points, area, [&](Index a, Index b) { groups.unite(a, b); });
+  unite_polygons(polyhedron, points, [&](Index a, Index b) { groups.unite(a, b); });
   for (Index t = 0; t < triangles_.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       const Index n = neighbours_[t][i];
@@ -174,7 +166,7 @@ void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints&
       const bool flat = std::all_of(corners.begin(), corners.end(), [&](Index v) {
         return v == a || v == b || v == c || exact::orient3d(points, a, b, c, v) == 0;
       });
-      if (flat && exact::dot(area[t], area[n]) > 0) groups.unite(t, n);
+      if (flat && exact::dot(area2(points, t), area2(points, n)) > 0) groups.unite(t, n);
     }
   }
   facets_.clear();
@@ -183,19 +175,30 @@ void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints&
     const Index root = groups.find(t);
     if (root == t) {
       facet_of_triangle_[t] = static_cast<Index>(facets_.size());
-      facets_.push_back({t, label(t), {}, triangles_[t][0], 0});
+      facets_.push_back({t, label(t), {}, triangles_[t][0], 0, {}});
     }
     facet_of_triangle_[t] = facet_of_triangle_[root];
     Facet& facet = facets_[facet_of_triangle_[t]];
-    for (int axis = 0; axis < 3; ++axis) facet.normal[axis] += area[t][axis];
+    const IntegerVector area = area2(points, t);
+    for (int axis = 0; axis < 3; ++axis) facet.normal[axis] += area[axis];
+  }
+  for (Facet& facet : facets_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = to_double(facet.normal[axis], 2 * points.exponent());
+      facet.rough_normal[axis] = Interval::around(x, x);
+    }
   }
   count_euler();
+}
+
+IntegerVector InputSurface::area2(const ExactPoints& points, Index t) const {
+  const auto& [a, b, c] = triangles_[t];
+  return exact::area2(points, a, b, c);
 }
 
 // The triangles of a planar polygon belong together whatever their shape (a fan may hold degenerate
 // ones).
 void InputSurface::unite_polygons(const Polyhedron& polyhedron, const ExactPoints& points,
-                                  const std::vector<IntegerVector>& area,
                                   const std::function<void(Index, Index)>& unite) const {
   const std::vector<Index>& polygon = polyhedron.polygons;
   for (std::size_t first = 0; first < polygon.size();) {
@@ -203,7 +206,8 @@ void InputSurface::unite_polygons(const Polyhedron& polyhedron, const ExactPoint
     while (last < polygon.size() && polygon[last] == polygon[first]) ++last;
     IntegerVector normal;
     for (std::size_t t = first; t < last; ++t) {
-      for (int axis = 0; axis < 3; ++axis) normal[axis] += area[t][axis];
+      const IntegerVector area = area2(points, static_cast<Index>(t));
+      for (int axis = 0; axis < 3; ++axis) normal[axis] += area[axis];
     }
     bool flat = true;
     for (std::size_t t = first; t < last && flat; ++t) {

@@ -31,8 +31,17 @@ class BoxTree {
     Position low, high;
   };
   explicit BoxTree(std::vector<Box> boxes);
-  // Appends to `found` the indices of the boxes that meet the query, in no particular order.
-  void query(const Box& query, std::vector<Index>& found) const;
+  // All x with normal . x >= offset.
+  struct HalfSpace {
+    Position normal;
+    double offset;
+    // Certainly; without a promise where doubles overflow.
+    bool contains(const Box& box) const;
+  };
+  // Appends to `found` the indices of the boxes that meet the query, in no particular order; of
+  // those that are certainly in one of the half-spaces it may leave out what it likes.
+  void query(const Box& query, std::vector<Index>& found,
+             std::span<const HalfSpace> but_in = {}) const;
 
  private:
   struct Node {
@@ -41,8 +50,8 @@ class BoxTree {
   };
   void build(std::size_t node, Index first, Index last, int depth);
 
-  std::vector<Box> boxes_;
-  std::vector<Index> order_;
+  std::vector<Box> boxes_;    // in the order of the leaves
+  std::vector<Index> order_;  // what their indices were
   std::vector<Node> nodes_;
 };
 
@@ -57,9 +66,10 @@ class InputSurface {
   struct Facet {
     Index id;  // smallest triangle index
     std::int32_t label;
-    IntegerVector normal;  // twice its area vector, outwards; exact
-    Index vertex;          // one of its corners
-    std::int64_t euler;    // of the union of its closed triangles, flat edges included
+    IntegerVector normal;         // twice its area vector, outwards; exact
+    Index vertex;                 // one of its corners
+    std::int64_t euler;           // of the union of its closed triangles, flat edges included
+    IntervalVector rough_normal;  // encloses the normal, in units of length
   };
 
   // Null on success, else why the polyhedron bounds no solid (open, not orientable, no volume).
@@ -97,8 +107,8 @@ class InputSurface {
   void orient_components(const ExactPoints& points);
   void build_facets(const Polyhedron& polyhedron, const ExactPoints& points);
   void unite_polygons(const Polyhedron& polyhedron, const ExactPoints& points,
-                      const std::vector<IntegerVector>& area,
                       const std::function<void(Index, Index)>& unite) const;
+  IntegerVector area2(const ExactPoints& points, Index t) const;
   void count_euler();
   void build_edges();
   int crossings_above(const ExactPoints& points, std::span<const Index> corners,
@@ -109,7 +119,6 @@ class InputSurface {
 
   std::vector<std::array<Index, 3>> triangles_;
   std::vector<std::array<Index, 3>> neighbours_;  // across edge corner i -> i + 1
-  std::vector<IntervalVector> rough_normals_;     // per triangle, twice its area vector
   std::vector<Facet> facets_;
   std::vector<Index> facet_of_triangle_;
   std::vector<Edge> edges_;

@@ -1,6 +1,7 @@
 // Exact answers about the solid: parity along a vertical ray, and does the surface enter a
 // tetrahedron.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "oracles/input_surface.h"
@@ -13,7 +14,32 @@ namespace {
 class Centroid {
  public:
   Centroid(const ExactPoints& points, std::span<const Index> corners)
-      : points_(points), corners_(corners) {}
+      : points_(points), corners_(corners) {
+    for (const Index v : corners) {
+      for (int axis = 0; axis < 3; ++axis) nearest_[axis] += points.nearest(v)[axis];
+    }
+    for (double& x : nearest_) x /= static_cast<double>(corners.size());
+    // Each of up to four points is within that of its nearest doubles, and all roundings of the sum
+    // and the quotient are within eight of the largest coordinate.
+    error_ = points.difference_error() + points.largest_coordinate() * 0x1p-50;
+  }
+
+  // On which side of a -> b, seen from above, it lies, or 0 where doubles do not tell. Of the
+  // determinant of two differences the errors are those of the differences times the other one,
+  // and of rounding; all is taken twice or more.
+  int rough_side_above(Index a, Index b) const {
+    const Position &p = points_.nearest(a), &q = points_.nearest(b);
+    const double u = q[0] - p[0], v = q[1] - p[1];
+    const double x = nearest_[0] - p[0], y = nearest_[1] - p[1];
+    const double along = std::fabs(u) + std::fabs(v), off = std::fabs(x) + std::fabs(y);
+    const double along_error = along * 0x1p-53 + points_.difference_error();
+    const double off_error = off * 0x1p-53 + points_.difference_error() + error_;
+    const double error =
+        2 * (along * (off_error + off * 0x1p-50) + off * along_error + along_error * off_error) +
+        0x1p-1000;
+    const double value = u * y - v * x;
+    return value > error ? 1 : value < -error ? -1 : 0;
+  }
 
   IntervalVector rough_from(Index vertex) const {
     IntervalVector sum;
@@ -49,11 +75,14 @@ class Centroid {
  private:
   const ExactPoints& points_;
   std::span<const Index> corners_;
+  Position nearest_ = {};
+  double error_ = 0;
 };
 
 // On which side of a -> b, seen from above, the centroid lies, after moving it by (e, e^2) for an
 // infinitesimal e: never on it unless a and b have the same projection.
 int side_above(const ExactPoints& points, Index a, Index b, const Centroid& q) {
+  if (const int side = q.rough_side_above(a, b); side != 0) return side;
   const IntervalVector along = points.rough_difference(a, b), w = q.rough_from(a);
   const int rough = (along[0] * w[1] - along[1] * w[0]).sign();
   if (rough != 2 && rough != 0) return rough;
@@ -164,6 +193,68 @@ bool beyond_edge(const ExactPoints& points, const std::array<Index, 3>& triangle
   return false;
 }
 
+// Beyond each face of a tetrahedron, more or less: normals may be rounded, as long as all of the
+// tetrahedron is short of the offset.
+std::array<BoxTree::HalfSpace, 4> beyond_faces(const ExactPoints& points,
+                                               const std::array<Index, 4>& tetrahedron) {
+  std::array<BoxTree::HalfSpace, 4> result;
+  for (int i = 0; i < 4; ++i) {
+    const Index a = tetrahedron[(i + 1) % 4], b = tetrahedron[(i + 2) % 4],
+                c = tetrahedron[(i + 3) % 4];
+    const IntervalVector area = exact::rough_area2(points, a, b, c);
+    Position normal = {middle(area[0]), middle(area[1]), middle(area[2])};
+    const auto height = [&](Index v) {
+      const IntervalVector x = points.enclosure(v);
+      return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2];
+    };
+    const Index apex = tetrahedron[i];
+    if (middle(height(apex)) > middle(height(a))) {
+      for (double& x : normal) x = -x;
+    }
+    result[i] = {normal,
+                 std::max({height(a).high, height(b).high, height(c).high, height(apex).high})};
+  }
+  return result;
+}
+
+// A cheap proof that triangle and tetrahedron have at most one corner in common: a direction in
+// which all other corners of one are on the far side of those of the other. Rosenblatt's perceptron
+// looks for it among the differences, in doubles; intervals decide.
+bool apart(const ExactPoints& points, const std::array<Index, 3>& triangle,
+           const std::array<Index, 4>& tetrahedron) {
+  constexpr int kRounds = 30;
+  std::array<Position, 12> differences;
+  std::array<IntervalVector, 12> exact;
+  std::size_t count = 0;
+  Position along = {};
+  for (const Index v : tetrahedron) {
+    for (const Index w : triangle) {
+      if (v == w) continue;
+      exact[count] = points.rough_difference(v, w);
+      Position& u = differences[count++];
+      for (int axis = 0; axis < 3; ++axis) u[axis] = middle(exact[count - 1][axis]);
+      const double norm = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+      for (int axis = 0; axis < 3; ++axis) along[axis] += u[axis] /= norm;
+    }
+  }
+  const auto height = [&along](const auto& u) {
+    return along[0] * u[0] + along[1] * u[1] + along[2] * u[2];
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    std::size_t worst = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+      if (height(differences[i]) < height(differences[worst])) worst = i;
+    }
+    if (height(differences[worst]) > 0 &&
+        std::all_of(exact.begin(), exact.begin() + static_cast<std::ptrdiff_t>(count),
+                    [&](const IntervalVector& u) { return height(u).low > 0; })) {
+      return true;
+    }
+    for (int axis = 0; axis < 3; ++axis) along[axis] += differences[worst][axis];
+  }
+  return false;
+}
+
 }  // namespace
 
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners) {
@@ -211,7 +302,7 @@ int InputSurface::inside(const ExactPoints& points, std::span<const Index> corne
 }
 
 int InputSurface::rough_side(const ExactPoints& points, Index triangle, Index v) const {
-  const IntervalVector& n = rough_normals_[triangle];
+  const IntervalVector& n = facets_[facet_of_triangle_[triangle]].rough_normal;
   const IntervalVector w = points.rough_difference(triangles_[triangle][0], v);
   return (n[0] * w[0] + n[1] * w[1] + n[2] * w[2]).sign();
 }
@@ -220,7 +311,7 @@ bool InputSurface::meets_interior(const ExactPoints& points,
                                   const std::array<Index, 4>& tetrahedron,
                                   PlaneSides& known) const {
   std::vector<Index> found;
-  tree_->query(box_around(points, tetrahedron), found);
+  tree_->query(box_around(points, tetrahedron), found, beyond_faces(points, tetrahedron));
   const auto side = [&](Index t, Index v) {
     const auto key = static_cast<std::uint64_t>(facet_of_triangle_[t]) << 32 | v;
     const auto [at, fresh] = known.try_emplace(key, 0);
@@ -251,9 +342,11 @@ bool InputSurface::meets_interior(const ExactPoints& points,
     return above && below;
   };
   return std::any_of(found.begin(), found.end(), [&](Index t) {
-    return plane_enters(t) && !beyond_edge(points, triangles_[t], rough_normals_[t], tetrahedron) &&
+    return plane_enters(t) &&
+           !beyond_edge(points, triangles_[t], facets_[facet_of_triangle_[t]].rough_normal,
+                        tetrahedron) &&
            !separated(points, triangles_[t], tetrahedron) &&
-           meets(points, triangles_[t], tetrahedron);
+           !apart(points, triangles_[t], tetrahedron) && meets(points, triangles_[t], tetrahedron);
   });
 }
 

@@ -11,10 +11,13 @@
 #include <fstream>
 #include <limits>
 #include <mutex>
+#include <numeric>
 #include <random>
 
+#include "oracles/angles.h"
 #include "oracles/ball_side.h"
 #include "oracles/chamfer_features.h"
+#include "oracles/corners.h"
 #include "oracles/enrichment.h"
 #include "oracles/hull.h"
 #include "oracles/input_surface.h"
@@ -192,6 +195,44 @@ TEST(TextReader, ReadsWordsAndCountsLines) {
   EXPECT_TRUE(reader.at_end());
   EXPECT_EQ(reader.word(), "");
   EXPECT_THROW(reader.required_word("a word"), ReadError);
+}
+
+TEST(TextReader, ReadsAFilePieceByPieceAsItReadsTheWhole) {
+  std::mt19937 random(7);
+  std::string text;
+  while (text.size() < 1500000) {
+    // Words and comments of many lengths, now and then one that is longer than a piece.
+    const std::size_t length = random() % 20000 == 0 ? 300000 : 1 + random() % 40;
+    if (random() % 50 == 0) text += '#';
+    text.append(length, static_cast<char>('a' + random() % 26));
+    text += " \t\r\n\n "[random() % 6];
+  }
+  const std::string path = testing::TempDir() + "pieces.txt";
+  std::ofstream(path, std::ios::binary) << text;
+  for (const char comment : {'#', '\0'}) {
+    TextReader whole(path, text, comment), pieces = TextReader::of_file(path, comment);
+    for (std::size_t i = 0;; ++i) {
+      if (i % 7 == 3) {
+        whole.skip_line();
+        pieces.skip_line();
+      }
+      const std::string_view wanted = i % 3 == 0 ? whole.word_in_line() : whole.word();
+      ASSERT_EQ(i % 3 == 0 ? pieces.word_in_line() : pieces.word(), wanted) << "word " << i;
+      ASSERT_EQ(pieces.line(), whole.line());
+      if (i % 3 != 0 && wanted.empty()) break;
+    }
+    EXPECT_TRUE(pieces.at_end());
+    EXPECT_GT(whole.line(), 1000U);
+  }
+  // A count is judged by the whole file, not by the piece.
+  std::ofstream(path, std::ios::binary) << "500000 " << std::string(1000000, 'x');
+  EXPECT_EQ(TextReader::of_file(path).count(), 500000U);
+  std::ofstream(path, std::ios::binary) << "500006 " << std::string(1000000, 'x');
+  EXPECT_THROW(TextReader::of_file(path).count(), ReadError);
+  EXPECT_THROW(TextReader::of_file(testing::TempDir()), ReadError);
+  EXPECT_THROW(TextReader::of_file(path + ".none"), ReadError);
+  std::ofstream(path, std::ios::binary | std::ios::trunc).flush();
+  EXPECT_THROW(TextReader::of_file(path), ReadError);
 }
 
 TEST(TextReader, ACommentMayEndTheText) {
@@ -553,6 +594,214 @@ TEST(InputSurface, EntersWhatRationalClippingSaysItEnters) {
   }
   EXPECT_GT(counts[0], 300);
   EXPECT_GT(counts[1], 300);
+}
+
+Position position(const std::array<long, 3>& x) {
+  return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
+}
+
+TEST(BoxTree, FindsWhatMeetsTheQueryAndNothingFarInAHalfSpace) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> real(-1, 1);
+  std::vector<BoxTree::Box> boxes(500);
+  for (BoxTree::Box& box : boxes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = real(random);
+      box.high[axis] = box.low[axis] + 0.1 * std::fabs(real(random));
+    }
+  }
+  const BoxTree tree(boxes);
+  std::size_t left_out = 0, kept = 0;
+  for (int round = 0; round < 200; ++round) {
+    BoxTree::Box query;
+    for (int axis = 0; axis < 3; ++axis) {
+      query.low[axis] = real(random);
+      query.high[axis] = query.low[axis] + std::fabs(real(random));
+    }
+    const std::array<BoxTree::HalfSpace, 2> but_in = {
+        {{{real(random), real(random), real(random)}, 0.5 * real(random)},
+         {{real(random), real(random), real(random)}, 0.5 * real(random)}}};
+    std::vector<Index> found;
+    tree.query(query, found, but_in);
+    std::sort(found.begin(), found.end());
+    for (Index i = 0; i < boxes.size(); ++i) {
+      bool meets = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        meets = meets && boxes[i].low[axis] <= query.high[axis] &&
+                query.low[axis] <= boxes[i].high[axis];
+      }
+      double depth = -kInfinity;  // of the box in one of them
+      for (const BoxTree::HalfSpace& half : but_in) {
+        double height = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          height += std::min(half.normal[axis] * boxes[i].low[axis],
+                             half.normal[axis] * boxes[i].high[axis]);
+        }
+        depth = std::max(depth, height - half.offset);
+      }
+      const bool is_found = std::binary_search(found.begin(), found.end(), i);
+      if (!meets) {
+        ASSERT_FALSE(is_found);
+      } else if (depth <= 0) {
+        ASSERT_TRUE(is_found);
+        ++kept;
+      } else if (depth > 1e-12) {
+        ASSERT_FALSE(is_found);
+        ++left_out;
+      }
+    }
+  }
+  EXPECT_GT(kept, 200U);
+  EXPECT_GT(left_out, 500U);
+}
+
+TEST(Measures, VolumesAddUpWhateverTheNeighbours) {
+  std::mt19937 random(13);
+  std::vector<Position> positions(12);
+  for (Position& p : positions) {
+    for (double& x : p) x = static_cast<int>(random() % 21) - 10;
+  }
+  const ExactPoints points = points_of(positions);
+  for (int round = 0; round < 300; ++round) {
+    // Any tetrahedra, turned as they come, that share faces or not; and what is said of them may be
+    // right or wrong.
+    TetComplex complex;
+    complex.points = &points;
+    Neighbours neighbours;
+    std::vector<std::uint8_t> selected;
+    mpz_class sum = 0;
+    for (std::size_t t = 0; t < 30; ++t) {
+      std::array<Index, 12> order;
+      std::iota(order.begin(), order.end(), 0U);
+      std::shuffle(order.begin(), order.begin() + 6, random);
+      complex.tetrahedra.push_back({order[0], order[1], order[2], order[3]});
+      complex.inside.push_back(1);
+      selected.push_back(random() % 3 != 0);
+      if (selected.back() != 0)
+        sum += exact::volume6(points, order[0], order[1], order[2], order[3]);
+    }
+    neighbours.across.assign(4 * complex.tetrahedra.size(), kNone);
+    for (Index i = 0; i < neighbours.across.size(); ++i) {
+      for (Index j = 0; j < i; ++j) {
+        Face f = face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4)),
+             g = face_of(complex.tetrahedra[j / 4], static_cast<int>(j % 4));
+        std::sort(f.begin(), f.end());
+        std::sort(g.begin(), g.end());
+        if (f != g && random() % 200 != 0) continue;
+        neighbours.across[i] = j;
+        neighbours.across[j] = i;
+      }
+    }
+    ASSERT_EQ(sum_of_volumes6(complex, neighbours, selected), sum);
+  }
+}
+
+TEST(Angles, BelowTheBoundAreFoundAmongMachineIntegers) {
+  std::mt19937 random(17);
+  std::size_t counts[2] = {};
+  for (int round = 0; round < 3000; ++round) {
+    const long size = round % 2 == 0 ? 4 : 1000;
+    std::array<std::array<long, 3>, 4> p;
+    std::vector<Position> positions;
+    for (auto& x : p) {
+      for (long& c : x) c = static_cast<long>(random() % static_cast<unsigned long>(size));
+      positions.push_back(position(x));
+    }
+    const ExactPoints points = points_of(positions);
+    const int orientation = exact::orient3d(points, 0, 1, 2, 3);
+    if (orientation == 0) continue;
+    TetComplex complex;
+    complex.points = &points;
+    complex.tetrahedra = {orientation > 0 ? Tet{0, 1, 2, 3} : Tet{0, 1, 3, 2}};
+    complex.inside = {1};
+    Neighbours neighbours;
+    neighbours.across.assign(4, kNone);
+    const Polyhedron polyhedron = {
+        positions, {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}}, {}, {}};
+    InputSurface surface;
+    ASSERT_EQ(surface.assign(polyhedron, points), "");
+    for (const double delta : {20.0, 45.0, 45.001}) {
+      bool below = false, close = false;
+      for (int a = 0; a < 4; ++a) {
+        for (int b = 0; b < 4; ++b) {
+          for (int c = 0; c < b; ++c) {
+            if (a == b || a == c) continue;
+            long uv = 0, uu = 0, vv = 0;
+            for (int axis = 0; axis < 3; ++axis) {
+              const long u = p[b][axis] - p[a][axis], v = p[c][axis] - p[a][axis];
+              uv += u * v;
+              uu += u * u;
+              vv += v * v;
+            }
+            const long double cosine2 = static_cast<long double>(uv) * uv / uu / vv;
+            const long double bound = std::pow(std::cos(delta * std::acos(-1.0L) / 180), 2);
+            // An angle of exactly 45 degrees is not below 45.
+            const bool equal = delta == 45 && 2 * uv * uv == uu * vv;
+            below = below || (uv > 0 && !equal && cosine2 > bound);
+            close = close || (uv > 0 && !equal && std::fabs(cosine2 - bound) < 1e-7L);
+          }
+        }
+      }
+      if (close) continue;
+      const OracleReport report =
+          check_angles(complex, neighbours, surface, delta, AngleScope::all);
+      ASSERT_EQ(report.violations > 0, below) << "round " << round << ", " << delta;
+      ++counts[below];
+    }
+  }
+  EXPECT_GT(counts[0], 300U);
+  EXPECT_GT(counts[1], 300U);
+}
+
+TEST(AngleBound, IntervalsNeverContradictIntegers) {
+  std::mt19937 random(19);
+  std::size_t decided = 0, not_above = 0;
+  for (const double degrees : {25.0, 60.0, 90.0}) {
+    for (const Doubt doubt : {Doubt::acute, Doubt::not_acute}) {
+      const AngleBound bound(degrees, doubt);
+      for (int round = 0; round < 2000; ++round) {
+        std::array<std::array<long, 3>, 2> u;
+        for (auto& x : u) {
+          for (long& c : x) c = static_cast<long>(random() % 9) - 4;
+        }
+        const auto dot = [&](int i, int j) {
+          return u[i][0] * u[j][0] + u[i][1] * u[j][1] + u[i][2] * u[j][2];
+        };
+        const long cosine = dot(0, 1), norms = dot(0, 0) * dot(1, 1);
+        const bool surely = bound.surely_not_above(Interval(static_cast<double>(cosine)),
+                                                   Interval(static_cast<double>(norms)));
+        const bool above = bound.above(cosine, norms);
+        ASSERT_FALSE(surely && above) << degrees << ": " << cosine << " of " << norms;
+        decided += surely ? 1 : 0;
+        not_above += above ? 0 : 1;
+      }
+    }
+  }
+  EXPECT_GT(decided, not_above / 2);  // most are far from the bound
+}
+
+TEST(AngleBound, TurnsOnAFacetAreThoseOfTheirProjections) {
+  std::mt19937 random(23);
+  std::size_t counts[3] = {};
+  for (int round = 0; round < 2000; ++round) {
+    // A facet in the plane z = 0, seen from above, and points over and under it.
+    std::vector<Position> positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    std::array<std::array<long, 3>, 3> p;
+    for (auto& x : p) {
+      for (long& c : x) c = static_cast<long>(random() % 7) - 3;
+      positions.push_back(position(x));
+    }
+    const ExactPoints points = points_of(positions);
+    InputSurface::Facet facet;
+    facet.normal = exact::area2(points, 0, 1, 2);
+    facet.rough_normal = exact::rough_area2(points, 0, 1, 2);
+    const long turn =
+        (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
+    const int wanted = turn > 0 ? 1 : turn < 0 ? -1 : 0;
+    ASSERT_EQ(left_turn(points, facet, 3, 4, 5), wanted);
+    ++counts[wanted + 1];
+  }
+  for (const std::size_t count : counts) EXPECT_GT(count, 100U);
 }
 
 TEST(ExactSigns, LengthsAndDoubles) {
