@@ -17,10 +17,14 @@ NumberStatus parse_double(std::string_view token, double& value);
 // A hexadecimal floating-point number as append_hex writes it ("-0x1.8p+3").
 NumberStatus parse_hex_double(std::string_view token, double& value);
 
-// A decimal integer, optional sign; false if malformed or out of the type's range.
+// A decimal integer, optional sign; false if malformed or out of the type's range. "-0" is 0 of any
+// type.
 template <typename T>
 bool parse_integer(std::string_view token, T& value) {
   if (token.size() > 1 && token[0] == '+' && token[1] != '-') token.remove_prefix(1);
+  if (token.starts_with("-0") && token.find_first_not_of('0', 1) == std::string_view::npos) {
+    token.remove_prefix(1);
+  }
   const char* end = token.data() + token.size();
   const auto [last, error] = std::from_chars(token.data(), end, value);
   return error == std::errc() && last == end;

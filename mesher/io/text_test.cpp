@@ -112,6 +112,9 @@ TEST(ParseInteger, Ranges) {
   EXPECT_TRUE(parse_integer("4294967295", u));
   EXPECT_FALSE(parse_integer("4294967296", u));
   EXPECT_FALSE(parse_integer("-1", u));
+  EXPECT_TRUE(parse_integer("-00", u));
+  EXPECT_EQ(u, 0U);
+  EXPECT_FALSE(parse_integer("-01", u));
   EXPECT_FALSE(parse_integer("1.0", u));
   EXPECT_FALSE(parse_integer("", u));
   EXPECT_TRUE(parse_integer("+7", u));
