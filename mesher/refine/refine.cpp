@@ -3,10 +3,16 @@
 
 #include <algorithm>
 
-#include "mesher/base/check.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher {
+namespace {
+
+// The proof of termination needs a radius-edge ratio above 2, that is an angle below asin(1/4)
+// (design: the paper's 20.7 is the planar bound).
+constexpr double kGuaranteedDelta = 14.4775;
+
+}  // namespace
 
 void Refiner::begin(RefineStep step) const {
   if (options_.on_step) options_.on_step(step);
@@ -14,6 +20,19 @@ void Refiner::begin(RefineStep step) const {
 
 void Refiner::run() {
   begin(RefineStep::delaunay);
+  triangulate_vertices();
+  begin(RefineStep::segments);
+  recover_segments();
+  if (options_.validate) validate();
+  begin(RefineStep::facets);
+  recover_facets();
+  if (options_.validate) validate();
+  begin(RefineStep::tetrahedra);
+  refine_tetrahedra();
+  if (options_.validate) validate();
+}
+
+void Refiner::triangulate_vertices() {
   std::vector<VertexId> vertices = plc_.free_vertices;
   for (const PlcSegment& segment : plc_.segments) {
     vertices.insert(vertices.end(), segment.vertex.begin(), segment.vertex.end());
@@ -24,34 +43,86 @@ void Refiner::run() {
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   dt_.build(vertices, control_);
-  subfacet_.resize(dt_.capacity());
+}
 
-  begin(RefineStep::segments);
-  recover_segments();
-  if (options_.validate) validate();
-  begin(RefineStep::facets);
-  build_facets();
-  recover_facets();
-  if (options_.validate) validate();
-  begin(RefineStep::tetrahedra);
-  refine_tetrahedra();
-  if (options_.validate) validate();
+void Refiner::recover_segments() {
+  const std::uint32_t count = subsegments_.size();
+  for (std::uint32_t s = 0; s < count; ++s) {
+    subsegments_.settle(s, dt_.find_edge(subsegments_[s].a, subsegments_[s].b));
+  }
+  drain();
+}
+
+void Refiner::recover_facets() {
+  subfacets_.build(control_);
+  result_.on_facet.resize(plc_.facets.size());
+  const std::uint32_t count = subfacets_.size();
+  for (std::uint32_t s = 0; s < count; ++s) {
+    control_.poll(points_.size());
+    const auto& v = subfacets_[s].v;
+    subfacets_.settle(s, dt_.find_face(v[0], v[1], v[2]));
+  }
+  drain();
+}
+
+// First what is guaranteed to end; then, with a cap on insertions, what is not: slivers and angles
+// above the bound. Where a cap strikes, the guaranteed goal is reached once more, so that it holds
+// in any case.
+void Refiner::refine_tetrahedra() {
+  refining_ = true;
+  constexpr std::size_t kUnlimited = ~std::size_t{0};
+  constexpr std::size_t kCapFactor = 4;
+  const Goal guaranteed(std::min(options_.delta, kGuaranteedDelta), false, options_.max_edge);
+  const Goal wanted(options_.delta, options_.slivers, options_.max_edge);
+  reach(guaranteed, kUnlimited);
+  if (!options_.slivers && options_.delta <= kGuaranteedDelta) return;
+  if (!reach(wanted, kCapFactor * points_.size())) reach(guaranteed, kUnlimited);
+}
+
+bool Refiner::reach(const Goal& goal, std::size_t cap) {
+  goal_ = goal;
+  bad_.start();
+  for (TetId t = 0; t < dt_.capacity(); ++t) {
+    control_.poll(points_.size());
+    if (!dt_.alive(t)) continue;
+    const std::uint8_t level = badness(t);
+    if (level != 0) bad_.add(t, level);
+  }
+  for (;;) {
+    control_.poll(points_.size());
+    drain();
+    bad_.judge_fresh([&](TetId t) { return badness(t); });
+    const TetId t = bad_.next();
+    if (t == kNone) return true;
+    if (points_.size() > cap) return false;
+    if (options_.region == Region::interior && sides_.of(t) == Side::outside) {
+      bad_.dismiss(t);
+    } else {
+      split_tetrahedron(t);
+    }
+  }
+}
+
+std::uint8_t Refiner::badness(TetId t) const {
+  if (dt_.is_ghost(t)) return 0;
+  if (options_.region == Region::interior && sides_.known_outside(t)) return 0;
+  return goal_.badness(points_, dt_.vertices(t));
 }
 
 RefineResult Refiner::result() {
-  RefineResult r;
-  classify_near_removed();
+  sides_.classify_near_removed(control_);
   std::size_t count = 0;
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
     control_.poll(points_.size());
-    side_of(t);
+    sides_.of(t);
     ++count;
   }
   // The memory of the queues and marks goes before that of the result comes.
   bad_.release();
-  subfacet_.release();
-  edge_map_ = {};
+  subfacets_.release_marks();
+  subsegments_.release_lookup();
+  RefineResult r = std::move(result_);
   r.tetrahedra.reserve(count);
   r.side.reserve(count);
   r.repeated_faces.reserve(count);
@@ -59,29 +130,18 @@ RefineResult Refiner::result() {
     if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
     const VertexId* v = dt_.vertices(t);
     r.tetrahedra.push_back({v[0], v[1], v[2], v[3]});
-    r.side.push_back(note(t, kSide) == kInside    ? Side::inside
-                     : note(t, kSide) == kOutside ? Side::outside
-                                                  : Side::straddling);
-    const bool inside = note(t, kSide) == kInside;
+    r.side.push_back(sides_.of(t));
+    const bool inside = sides_.known_inside(t);
     r.repeated_faces.push_back(
-        dt_.repeated_faces(t, [&](TetId u) { return (note(u, kSide) == kInside) == inside; }));
+        dt_.repeated_faces(t, [&](TetId u) { return sides_.known_inside(u) == inside; }));
   }
-  for (const Subfacet& f : subfacets_) {
+  for (const Subfacets::Subfacet& f : subfacets_) {
     if (f.alive) r.faces.push_back({f.v, f.facet});
   }
-  r.chain.resize(plc_.segments.size());
-  for (std::size_t n = 0; n < plc_.segments.size(); ++n) {
-    r.chain[n].push_back(plc_.segments[n].vertex[0]);
-    for (std::uint32_t s = first_subsegment_[n]; s != kNone; s = subsegments_[s].next) {
-      r.chain[n].push_back(subsegments_[s].b);
-    }
+  for (std::uint32_t n = 0; n < plc_.segments.size(); ++n) {
+    r.chain.push_back(subsegments_.chain(n));
   }
   r.delaunay = std::make_unique<Tetrahedrization>(std::move(dt_));
-  r.on_facet = std::move(on_facet_);
-  r.in_volume = std::move(in_volume_);
-  r.ball = std::move(ball_);
-  r.on_segments = on_segments_;
-  r.on_facets = on_facets_;
   return r;
 }
 

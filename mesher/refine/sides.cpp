@@ -1,15 +1,11 @@
-// Which tetrahedra are inside the solid (section 5.5), asked for one at a time during refinement.
-//
-// Away from the removed part of the surface (chamfered or filtered) the surface is a union of
-// subfacets, so no open tetrahedron meets it there and a side is passed on from tetrahedron to
-// tetrahedron: kept across an ordinary face, changed across a subfacet of the input. Only
-// tetrahedra near the removed part need the exact test against the whole surface.
+#include "mesher/refine/sides.h"
+
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/base/check.h"
 #include "mesher/base/parallel.h"
 #include "mesher/predicates/vector.h"
-#include "mesher/refine/refiner.h"
 
 namespace delmesher {
 namespace {
@@ -35,11 +31,32 @@ bool beyond_a_face(const std::array<Vec3, 4>& corner, double error, const Box& b
   return false;
 }
 
+Sides::State classify_exactly(Solid& solid, const VertexId* v) {
+  switch (solid.classify({v[0], v[1], v[2], v[3]})) {
+    case Side::outside:
+      return Sides::State::outside;
+    case Side::inside:
+      return Sides::State::inside;
+    case Side::straddling:
+      break;
+  }
+  return Sides::State::straddling;
+}
+
 }  // namespace
 
-// May the tetrahedron touch the removed part? Conservative.
-bool Refiner::near_removed(TetId t) const {
-  if (removed_.empty()) return false;
+Sides::Sides(const Plc& plc, const SurfaceTopology& topology, const PointStore& points,
+             Tetrahedrization& dt, const Subfacets& subfacets, std::span<const Box> removed)
+    : plc_(plc),
+      points_(points),
+      dt_(dt),
+      subfacets_(subfacets),
+      removed_(removed),
+      removed_boxes_(removed),
+      solid_(topology, dt.predicates(), removed) {}
+
+bool Sides::near_removed(TetId t) const {
+  if (removed_boxes_.empty()) return false;
   std::array<Vec3, 4> corner;
   double error = 0;
   for (int i = 0; i < 4; ++i) {
@@ -52,99 +69,130 @@ bool Refiner::near_removed(TetId t) const {
     box.lo[k] -= error;
     box.hi[k] += error;
   }
-  return !removed_.query(
-      box, [&](std::uint32_t i) { return beyond_a_face(corner, error, options_.removed[i]); });
+  return !removed_boxes_.query(
+      box, [&](std::uint32_t i) { return beyond_a_face(corner, error, removed_[i]); });
 }
 
-std::uint8_t Refiner::classify_exactly(Solid& solid, const VertexId* v) {
-  switch (solid.classify({v[0], v[1], v[2], v[3]})) {
-    case Side::outside:
-      return kOutside;
-    case Side::inside:
-      return kInside;
-    case Side::straddling:
-      break;
+bool Sides::on_surface(TetId t, int i) const {
+  const std::uint32_t s = subfacets_.on_face(t, i);
+  return s != kNone && plc_.facets[subfacets_[s].facet].input_facet != kNone;
+}
+
+Sides::State Sides::common_of_cavity() const {
+  State common = State::unknown;
+  bool first = true;
+  for (const TetId t : dt_.cavity()) {
+    if (dt_.is_ghost(t)) continue;
+    const State known = state(t);
+    if (first) common = known;
+    if (known != common) common = State::unknown;
+    first = false;
   }
-  return kStraddling;
+  return common == State::straddling ? State::unknown : common;
 }
 
-// What side_of() would do for each of them, shared among threads. The notes of a tetrahedron are
-// written by one of them and read by no other.
-void Refiner::classify_near_removed() {
+// The notes of a tetrahedron are written by one of the threads and read by no other.
+void Sides::classify_near_removed(Control& control) {
   constexpr std::size_t kChunk = 256;
-  if (control_.threads() == 1 || removed_.empty()) return;
+  if (control.threads() == 1 || removed_boxes_.empty()) return;
   struct Mine {
     Mine(const PointStore& points, const Solid& solid)
         : predicates(points), own(solid, predicates) {}
     Predicates predicates;
     Solid own;
   };
-  PerWorker<Mine> mine(control_, points_, solid_);
-  for_items(control_, dt_.capacity(), kChunk, [&](Worker& worker, std::size_t n) {
+  PerWorker<Mine> mine(control, points_, solid_);
+  for_items(control, dt_.capacity(), kChunk, [&](Worker& worker, std::size_t n) {
     const auto t = static_cast<TetId>(n);
-    if (!dt_.alive(t) || dt_.is_ghost(t) || note(t, kSide) != kUnknown || !near_removed(t)) return;
-    note(t, kSide) = classify_exactly(mine[worker].own, dt_.vertices(t));
+    if (!dt_.alive(t) || dt_.is_ghost(t) || state(t) != State::unknown || !near_removed(t)) return;
+    set(t, classify_exactly(mine[worker].own, dt_.vertices(t)));
   });
-  mine.for_each([&](const Mine& m) { predicates_.counters += m.predicates.counters; });
+  mine.for_each([&](const Mine& m) { dt_.predicates().counters += m.predicates.counters; });
 }
 
-// The side seen through face i of a tetrahedron away from the removed part, kUnknown if the
+// The side seen through face i of a tetrahedron away from the removed part, unknown if the
 // neighbour cannot tell.
-std::uint8_t Refiner::side_through(TetId t, int i) const {
+Sides::State Sides::through(TetId t, int i) const {
   const TetId u = dt_.neighbor(t, i);
-  const std::uint8_t beyond = dt_.is_ghost(u) ? std::uint8_t{kOutside} : note(u, kSide);
-  if (beyond == kUnknown || beyond == kStraddling) return kUnknown;
-  const std::uint32_t s = subfacet_on(t, i);
-  const bool crosses =
-      s != kNone && subfacets_[s].alive && plc_.facets[subfacets_[s].facet].input_facet != kNone;
-  if (!crosses) return beyond;
-  return beyond == kInside ? kOutside : kInside;
+  const State beyond = dt_.is_ghost(u) ? State::outside : state(u);
+  if (beyond == State::unknown || beyond == State::straddling) return State::unknown;
+  if (!on_surface(t, i)) return beyond;
+  return beyond == State::inside ? State::outside : State::inside;
 }
 
-// Requires empty queues: every subfacet is a face of the tetrahedrization.
-std::uint8_t Refiner::side_of(TetId start) {
-  if (note(start, kSide) != kUnknown) return note(start, kSide);
-  if (near_removed(start))
-    return note(start, kSide) = classify_exactly(solid_, dt_.vertices(start));
+Side Sides::of(TetId t) {
+  State known = state(t);
+  if (known == State::unknown) known = find_out(t);
+  return known == State::inside    ? Side::inside
+         : known == State::outside ? Side::outside
+                                   : Side::straddling;
+}
+
+Sides::State Sides::find_out(TetId start) {
+  if (near_removed(start)) {
+    set(start, classify_exactly(solid_, dt_.vertices(start)));
+    return state(start);
+  }
   // Search for a tetrahedron that knows, through those that do not, then tell all that were asked.
   std::vector<TetId> asked = {start};
-  note(start, kSide) = kAsked;
-  std::uint8_t found = kUnknown;
+  set(start, State::asked);
+  State found = State::unknown;
   std::size_t n = 0;
-  for (; n < asked.size() && found == kUnknown; ++n) {
+  for (; n < asked.size() && found == State::unknown; ++n) {
     const TetId t = asked[n];
-    for (int i = 0; i < 4 && found == kUnknown; ++i) {
+    for (int i = 0; i < 4 && found == State::unknown; ++i) {
       const TetId u = dt_.neighbor(t, i);
-      if (!dt_.is_ghost(u) && note(u, kSide) == kAsked) continue;
-      if (!dt_.is_ghost(u) && note(u, kSide) == kUnknown) {
+      if (!dt_.is_ghost(u) && state(u) == State::asked) continue;
+      if (!dt_.is_ghost(u) && state(u) == State::unknown) {
         if (near_removed(u)) {
-          note(u, kSide) = classify_exactly(solid_, dt_.vertices(u));
+          set(u, classify_exactly(solid_, dt_.vertices(u)));
         } else {
-          note(u, kSide) = kAsked;
+          set(u, State::asked);
           asked.push_back(u);
           continue;
         }
       }
-      found = side_through(t, i);
+      found = through(t, i);
     }
   }
   // Nobody knows (an island among straddling ones): the test on one of them serves all.
   const TetId source = asked[n - 1];
-  if (found == kUnknown) found = classify_exactly(solid_, dt_.vertices(source));
-  for (const TetId t : asked) note(t, kSide) = kUnknown;
-  note(source, kSide) = found;
-  std::vector<TetId> tell = {source};
-  while (!tell.empty()) {
-    const TetId t = tell.back();
-    tell.pop_back();
+  if (found == State::unknown) found = classify_exactly(solid_, dt_.vertices(source));
+  for (const TetId t : asked) set(t, State::unknown);
+  set(source, found);
+  tell(source);
+  return state(start);
+}
+
+// Passes the side of a tetrahedron on to all that do not know theirs, as far as they are connected.
+void Sides::tell(TetId source) {
+  std::vector<TetId> telling = {source};
+  while (!telling.empty()) {
+    const TetId t = telling.back();
+    telling.pop_back();
     for (int i = 0; i < 4; ++i) {
       const TetId u = dt_.neighbor(t, i);
-      if (dt_.is_ghost(u) || note(u, kSide) != kUnknown || near_removed(u)) continue;
-      note(u, kSide) = side_through(u, dt_.mirror(t, i));
-      tell.push_back(u);
+      if (dt_.is_ghost(u) || state(u) != State::unknown || near_removed(u)) continue;
+      set(u, through(u, dt_.mirror(t, i)));
+      telling.push_back(u);
     }
   }
-  return note(start, kSide);
+}
+
+void Sides::validate() const {
+  for (TetId t = 0; t < dt_.capacity(); ++t) {
+    if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
+    const State here = state(t);
+    DELMESHER_CHECK(here < State::asked, "a tetrahedron is being asked for its side");
+    if (here != State::inside && here != State::outside) continue;
+    for (int i = 0; i < 4; ++i) {
+      const State seen = through(t, i);
+      if (seen == State::unknown || seen == here) continue;
+      const TetId u = dt_.neighbor(t, i);
+      DELMESHER_CHECK(near_removed(t) || (!dt_.is_ghost(u) && near_removed(u)),
+                      "two tetrahedra disagree about the surface between them");
+    }
+  }
 }
 
 }  // namespace delmesher

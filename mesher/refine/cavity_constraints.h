@@ -1,0 +1,57 @@
+// The subsegments and subfacets in and on the cavity of a new point: the only ones that the point
+// can encroach upon, because the diametral ball of an edge or face is covered by the circumballs of
+// the tetrahedra around it (unless the centres of two are on one side, which without the Gabriel
+// property may be so).
+//
+// Law: after begin(), each element of the tetrahedra collected is listed once.
+#pragma once
+
+#include <vector>
+
+#include "mesher/refine/subfacets.h"
+#include "mesher/refine/subsegments.h"
+
+namespace delmesher {
+
+class CavityConstraints {
+ public:
+  CavityConstraints(Tetrahedrization& dt, Subsegments& subsegments, Subfacets& subfacets)
+      : dt_(dt), subsegments_(subsegments), subfacets_(subfacets) {}
+
+  void begin();
+  void collect(TetId t);
+
+  // How many are listed: those from a count on are the ones collected since.
+  struct Count {
+    std::size_t subsegments = 0, subfacets = 0;
+  };
+  Count count() const { return {found_subsegments_.size(), found_subfacets_.size()}; }
+
+  // Queue those from `first` on that v encroaches. True if there are any.
+  bool queue_encroached_subsegments(VertexId v, Count first, std::uint32_t except = kNone);
+  bool queue_encroached_subfacets(VertexId v, Count first);
+  // Queues the subfacets of t with both their tetrahedra in the cavity: they would be lost. Without
+  // the Gabriel property one may hide the new point from the tetrahedron that the point was made
+  // for. One that has a ghost there is a side of the box, which only rounding can put the point
+  // beyond. True if there are any.
+  bool queue_lost_subfacets(TetId t);
+
+  // When the cavity has been filled: queues the elements that are in the tetrahedrization no more.
+  void requeue_lost();
+
+ private:
+  struct FoundSubfacet {
+    std::uint32_t id;
+    bool internal;  // both its tetrahedra are in the cavity
+  };
+
+  Tetrahedrization& dt_;
+  Subsegments& subsegments_;
+  Subfacets& subfacets_;
+  std::vector<std::uint32_t> found_subsegments_;
+  std::vector<FoundSubfacet> found_subfacets_;
+  std::vector<std::uint32_t> subsegment_mark_, subfacet_mark_;
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace delmesher

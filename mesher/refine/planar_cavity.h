@@ -1,0 +1,37 @@
+// The planar cavity of a new point of a facet: the subfacets whose circumcircles contain it, and
+// the edges around them.
+//
+// Laws: the cavity is connected and does not reach beyond subsegments; the point sees every edge of
+// the rim from its inner side, so that the triangles from the point to the rim fill the cavity.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/refine/subfacet_edge.h"
+
+namespace delmesher {
+
+class Subfacets;
+
+class PlanarCavity {
+ public:
+  // `start`: a subfacet that contains v. `split`: the edge of it on which v lies, or none; it is
+  // not on the rim.
+  void find(const Subfacets& subfacets, VertexId v, std::uint32_t start, SubfacetEdge split);
+
+  // In the order in which they were met, as the rim is.
+  const std::vector<std::uint32_t>& subfacets() const { return subfacets_; }
+  const std::vector<SubfacetEdge>& rim() const { return rim_; }
+
+ private:
+  void grow(const Subfacets& all, VertexId v, std::uint32_t start, SubfacetEdge split);
+  bool contains(std::uint32_t s) const;
+  bool excludes(std::uint32_t s) const;
+
+  std::vector<std::uint32_t> subfacets_;
+  std::vector<SubfacetEdge> rim_;
+  std::vector<std::uint32_t> excluded_;
+};
+
+}  // namespace delmesher

@@ -1,0 +1,68 @@
+// Which tetrahedra are inside the solid (section 5.5), asked for one at a time during refinement.
+//
+// Away from the removed part of the surface (chamfered or filtered) the surface is a union of
+// subfacets, so no open tetrahedron meets it there and a side is passed on from tetrahedron to
+// tetrahedron: kept across an ordinary face, changed across a subfacet of the input. Only
+// tetrahedra near the removed part need the exact test against the whole surface.
+//
+// A tetrahedron's note (Note::side) is what is known of it. Invariant, whenever every subfacet is a
+// face: of two neighbours with known sides, none of them straddling or near the removed part, one
+// is inside and one outside if and only if a subfacet of the input is between them; beyond the hull
+// is outside.
+#pragma once
+
+#include <span>
+
+#include "mesher/refine/notes.h"
+#include "mesher/refine/subfacets.h"
+#include "mesher/surface/bvh.h"
+#include "mesher/surface/solid.h"
+
+namespace delmesher {
+
+class Sides {
+ public:
+  // `removed`: boxes that cover the part of the surface that the complex lacks.
+  Sides(const Plc& plc, const SurfaceTopology& topology, const PointStore& points,
+        Tetrahedrization& dt, const Subfacets& subfacets, std::span<const Box> removed);
+
+  // Requires every subfacet to be a face of the tetrahedrization.
+  Side of(TetId t);
+  // What of() has said before, or has been inherited.
+  bool known_outside(TetId t) const { return state(t) == State::outside; }
+  bool known_inside(TetId t) const { return state(t) == State::inside; }
+
+  enum class State : std::uint8_t { unknown, outside, inside, straddling, asked };
+  // What every tetrahedron of a cavity is, and so all that replace them.
+  State common_of_cavity() const;
+  void inherit(TetId created, State common) { set(created, common); }
+
+  // What of() would find out for each tetrahedron near the removed part, shared among threads.
+  void classify_near_removed(Control& control);
+
+  // Requires every subfacet to be a face. Throws InternalError if the invariant is broken.
+  void validate() const;
+
+ private:
+  friend struct SidesBreaker;  // of the tests of validate()
+
+  State state(TetId t) const { return static_cast<State>(note(dt_, t, Note::side)); }
+  void set(TetId t, State s) { note(dt_, t, Note::side) = static_cast<std::uint8_t>(s); }
+  // May the tetrahedron touch the removed part? Conservative.
+  bool near_removed(TetId t) const;
+  // Is face i of t part of the input surface?
+  bool on_surface(TetId t, int i) const;
+  State through(TetId t, int i) const;
+  State find_out(TetId start);
+  void tell(TetId source);
+
+  const Plc& plc_;
+  const PointStore& points_;
+  Tetrahedrization& dt_;
+  const Subfacets& subfacets_;
+  std::span<const Box> removed_;
+  Bvh removed_boxes_;
+  Solid solid_;
+};
+
+}  // namespace delmesher

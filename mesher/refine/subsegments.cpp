@@ -1,0 +1,167 @@
+#include "mesher/refine/subsegments.h"
+
+#include "mesher/base/check.h"
+#include "mesher/base/numbering.h"
+
+namespace delmesher {
+namespace {
+
+bool same_ends(VertexId a, VertexId b, VertexId x, VertexId y) {
+  return (a == x && b == y) || (a == y && b == x);
+}
+
+}  // namespace
+
+Subsegments::Subsegments(const Plc& plc, Tetrahedrization& dt, bool gabriel)
+    : plc_(plc), dt_(dt), gabriel_(gabriel) {
+  for (std::uint32_t n = 0; n < plc.segments.size(); ++n) {
+    add(plc.segments[n].vertex[0], plc.segments[n].vertex[1], n);
+  }
+}
+
+std::uint32_t Subsegments::add(VertexId a, VertexId b, std::uint32_t segment) {
+  if (list_.size() >= kNone) stop_at_size(kNone, "subsegments");
+  const std::uint32_t s = size();
+  list_.push_back({a, b, segment, kNone, {}});
+  by_ends_.set(pair_key(a, b), s);
+  return s;
+}
+
+std::vector<VertexId> Subsegments::chain(std::uint32_t segment) const {
+  std::vector<VertexId> vertices = {plc_.segments[segment].vertex[0]};
+  for (std::uint32_t s = segment; s != kNone; s = list_[s].next) vertices.push_back(list_[s].b);
+  return vertices;
+}
+
+std::uint32_t Subsegments::split(std::uint32_t s, VertexId v) {
+  const VertexId a = list_[s].a, b = list_[s].b;
+  by_ends_.erase(pair_key(a, b));
+  by_ends_.set(pair_key(a, v), s);
+  const std::uint32_t half = add(v, b, list_[s].segment);
+  list_[half].next = list_[s].next;
+  list_[s].next = half;
+  list_[s].b = v;
+  return half;
+}
+
+void Subsegments::settle(std::uint32_t s, TetId t) {
+  if (t == kNone) {
+    queue(s);
+    return;
+  }
+  mark(s, t);
+  if (gabriel_ && encroached(s, t)) queue(s);
+}
+
+void Subsegments::mark(std::uint32_t s, TetId having_edge) {
+  const VertexId a = list_[s].a, b = list_[s].b;
+  dt_.edge_ring(having_edge, a, b, ring_);
+  for (const TetId t : ring_) {
+    for (int e = 0; e < 6; ++e) {
+      const VertexId x = dt_.vertex(t, kEdge[e][0]), y = dt_.vertex(t, kEdge[e][1]);
+      if (same_ends(x, y, a, b)) note(dt_, t, Note::edges) |= std::uint8_t(1U << e);
+    }
+  }
+}
+
+// For an edge of a Delaunay tetrahedrization only the vertices around it (its link) can be in its
+// diametral ball without one of them being there.
+bool Subsegments::encroached(std::uint32_t s, TetId having_edge) {
+  const VertexId a = list_[s].a, b = list_[s].b;
+  dt_.edge_ring(having_edge, a, b, ring_);
+  for (const TetId t : ring_) {
+    for (int i = 0; i < 4; ++i) {
+      const VertexId v = dt_.vertex(t, i);
+      if (v == a || v == b || v == kInfinite) continue;
+      if (dt_.predicates().dot_sign(a, v, b) < 0) return true;
+    }
+  }
+  return false;
+}
+
+void Subsegments::queue(std::uint32_t s) {
+  if (list_[s].queued) return;
+  list_[s].queued = true;
+  queue_.push_back(s);
+}
+
+std::uint32_t Subsegments::take_queued() {
+  if (queue_.empty()) return kNone;
+  const std::uint32_t s = queue_.front();
+  queue_.pop_front();
+  list_[s].queued = false;
+  return s;
+}
+
+void Subsegments::attach(std::uint32_t s, SubfacetEdge side) {
+  auto& sides = list_[s].side;
+  DELMESHER_CHECK(!sides[0].exists() || !sides[1].exists(), "a subsegment beside three subfacets");
+  (sides[0].exists() ? sides[1] : sides[0]) = side;
+}
+
+void Subsegments::replace_side(std::uint32_t s, SubfacetEdge from, SubfacetEdge to) {
+  for (SubfacetEdge& side : list_[s].side) {
+    if (side == from) side = to;
+  }
+}
+
+// ------------------------------------------------------------------------------------ validation
+
+void Subsegments::validate(Control& control) {
+  validate_queue();
+  validate_chains();
+  for (const Subsegment& sub : list_) {
+    control.poll();
+    if (!sub.queued) validate_in_mesh(sub);
+  }
+}
+
+void Subsegments::validate_queue() const {
+  std::size_t flagged = 0;
+  for (const Subsegment& sub : list_) flagged += sub.queued ? 1 : 0;
+  DELMESHER_CHECK(flagged == queue_.size(), "a queued subsegment waits in no queue, or twice");
+  for (const std::uint32_t s : queue_) {
+    DELMESHER_CHECK(s < list_.size() && list_[s].queued, "a waiting subsegment is not queued");
+  }
+}
+
+void Subsegments::validate_chains() const {
+  std::size_t chained = 0;
+  for (std::uint32_t n = 0; n < plc_.segments.size(); ++n) {
+    VertexId at = plc_.segments[n].vertex[0];
+    for (std::uint32_t s = n; s != kNone; s = list_[s].next) {
+      DELMESHER_CHECK(s < list_.size(), "a chain of subsegments leads nowhere");
+      const Subsegment& sub = list_[s];
+      DELMESHER_CHECK(++chained <= list_.size(), "a chain of subsegments does not end");
+      DELMESHER_CHECK(sub.segment == n && sub.a == at, "a chain of subsegments broke");
+      DELMESHER_CHECK(find(sub.a, sub.b) == s, "a subsegment is not found by its ends");
+      at = sub.b;
+    }
+    DELMESHER_CHECK(at == plc_.segments[n].vertex[1], "a chain of subsegments ends too soon");
+  }
+  DELMESHER_CHECK(chained == list_.size(), "a subsegment is in no chain");
+  DELMESHER_CHECK(by_ends_.size() == chained, "something is found that is no subsegment");
+}
+
+void Subsegments::validate_in_mesh(const Subsegment& sub) {
+  const TetId t = dt_.find_edge(sub.a, sub.b);
+  DELMESHER_CHECK(t != kNone, "a subsegment is no edge");
+  std::vector<TetId> ring;
+  dt_.edge_ring(t, sub.a, sub.b, ring);
+  for (const TetId u : ring) {
+    for (int e = 0; e < 6; ++e) {
+      const VertexId x = dt_.vertex(u, kEdge[e][0]), y = dt_.vertex(u, kEdge[e][1]);
+      DELMESHER_CHECK(!same_ends(x, y, sub.a, sub.b) || (note(dt_, u, Note::edges) >> e & 1) != 0,
+                      "a tetrahedron does not know of its subsegment");
+    }
+    if (!gabriel_) continue;
+    for (int i = 0; i < 4; ++i) {
+      const VertexId v = dt_.vertex(u, i);
+      if (v == sub.a || v == sub.b || v == kInfinite) continue;
+      DELMESHER_CHECK(dt_.predicates().dot_sign(sub.a, v, sub.b) >= 0,
+                      "a subsegment is encroached");
+    }
+  }
+}
+
+}  // namespace delmesher
