@@ -39,6 +39,9 @@ struct RefinerBreaker {
   void take_side_of_another() const {
     r.subsegments_.replace_side(0, r.subsegments_[0].side[0], r.subsegments_[1].side[0]);
   }
+  void take_one_side_twice() const {
+    r.subsegments_.replace_side(0, r.subsegments_[0].side[0], r.subsegments_[0].side[1]);
+  }
   void take_dead_side() const {
     std::uint32_t s = 0;
     while (r.subfacets_[s].alive) ++s;
@@ -368,6 +371,7 @@ TEST(Refine, ValidateReportsWhatIsBrokenInAnyPartOrBetweenThem) {
       {&Breaker::leave_subfacet_queued, "wait to be split"},
       {&Breaker::lose_side, "lacks a subfacet beside it"},
       {&Breaker::take_side_of_another, "a subsegment and the subfacet beside it disagree"},
+      {&Breaker::take_one_side_twice, "a subfacet and its subsegment disagree"},
       {&Breaker::take_dead_side, "a subsegment and the subfacet beside it disagree"},
       {&Breaker::forget_edges, "does not know of its subsegment"},
       {&Breaker::forget_faces, "does not know of its subfacet"},

@@ -92,10 +92,10 @@ struct Complex {
 };
 
 // What validate() of a part says of a broken invariant; "nothing" if it sees none.
-template <class Part>
-std::string complaint_of(Part& part) {
+template <class Part, class... Arguments>
+std::string complaint_of(Part& part, Arguments&... arguments) {
   try {
-    part.validate();
+    part.validate(arguments...);
   } catch (const InternalError& error) {
     return error.what();
   }
