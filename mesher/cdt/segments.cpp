@@ -20,6 +20,8 @@ constexpr double kPlacementTolerance = 0x1p-20;
 // Edges are only said to run along each other up to this distance, relative to the length of a
 // part.
 constexpr double kBeside = 0x1p-6;
+// Parts of an edge, as a share of it, below which short ends are accepted around an acute vertex.
+constexpr double kDeep = 0x1p-6;
 
 Vec3 scaled_difference(const Vec3& a, const Vec3& b, double scale) {
   return {(a[0] - b[0]) / scale, (a[1] - b[1]) / scale, (a[2] - b[2]) / scale};
@@ -370,7 +372,11 @@ class SegmentRecovery {
     const ChainNode& far = centre == 0 ? w : u;
     const double step = radius - near.from[centre], rest = far.from[centre] - radius;
     const double width = fraction_between(u, w);
-    if (!(step >= 0.2 * width && rest >= 0.2 * width)) return middle;
+    // Points on different spheres that halve their parts instead may be each other's references,
+    // all the way down to the apex; at some depth they have to meet on one.
+    const bool deep = width < kDeep;
+    const double least = (deep ? 0.02 : 0.2) * width;
+    if (!(step >= least && rest >= least)) return middle;
     Target t;
     t.anchor = centre;
     t.tolerance = 0;
@@ -380,7 +386,7 @@ class SegmentRecovery {
     const Vec3 p = points_.nearest(near.vertex), q = points_.nearest(far.vertex);
     Vec3 x;
     for (int k = 0; k < 3; ++k) x[k] = p[k] + (q[k] - p[k]) * (step / width);
-    if (rest * length < safe_distance(x, points_.nearest(reference))) return middle;
+    if (!deep && rest * length < safe_distance(x, points_.nearest(reference))) return middle;
     return t;
   }
 
