@@ -15,6 +15,7 @@ struct SidesBreaker {
   void turn(TetId t) const {
     sides.set(t, sides.known_inside(t) ? Sides::State::outside : Sides::State::inside);
   }
+  void straddle(TetId t) const { sides.set(t, Sides::State::straddling); }
   void leave_asked(TetId t) const { sides.set(t, Sides::State::asked); }
   bool unknown(TetId t) const { return sides.state(t) == Sides::State::unknown; }
 };
@@ -130,6 +131,15 @@ TEST(Sides, WhatACavityHasInCommonIsInherited) {
       }
     }
   }
+}
+
+// Parts of what the surface cuts need not be cut.
+TEST(Sides, StraddlingIsNotInherited) {
+  Sided box;
+  for (const TetId t : box.finite()) SidesBreaker{*box.sides}.straddle(t);
+  box.find_cavity(box.points.add_explicit(1.5, 1, 0.5));
+  ASSERT_FALSE(box.dt.cavity().empty());
+  EXPECT_EQ(box.sides->common_of_cavity(), Sides::State::unknown);
 }
 
 TEST(Sides, ValidateReportsEveryBrokenInvariant) {

@@ -283,6 +283,25 @@ TEST(Subfacets, RenumberingKeepsOrderAndInvariants) {
   EXPECT_EQ(complaint_of(part, parts.control), "nothing");
 }
 
+// A face of the tetrahedrization may outlive its subfacet, and forgets it when all are renumbered.
+TEST(Subfacets, TetrahedraDoNotNameTheDead) {
+  Parts parts;
+  const std::uint32_t bottom = parts.facet_through(kBottom);
+  const std::uint32_t container = parts.live_in(bottom).front();
+  const VertexId v = parts.points.add_explicit(1.25, 0.75, 0);
+  const auto& c = parts.subfacets[container].v;
+  const std::uint32_t face = parts.dt.find_face(c[0], c[1], c[2]);
+  const TetId t = face >> 2;
+  const int i = static_cast<int>(face & 3U);
+  ASSERT_EQ(parts.subfacets.on_face(t, i), container);
+  parts.subfacets.insert(v, parts.subfacets.locate(v, container).subfacet);
+  ASSERT_FALSE(parts.subfacets[container].alive);
+  EXPECT_EQ(parts.subfacets.on_face(t, i), kNone);
+  SubfacetsBreaker{parts}.renumber();
+  EXPECT_EQ(note(parts.dt, t, Note::faces) >> i & 1, 0);
+  EXPECT_EQ(parts.subfacets.on_face(t, i), kNone);
+}
+
 TEST(Subfacets, TheyAreRenumberedOnlyWhereManyAreDead) {
   Parts parts;
   parts.insert_some();
