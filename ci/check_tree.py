@@ -47,7 +47,7 @@ PIPELINE = tuple(layer for layer in LAYERS if layer not in ("io", "cli"))
 
 # Top-level folders: which others each may include. None of these but mesher itself sees more of the mesher
 # than the public header, except the property tests and the fuzz targets.
-PUBLIC_HEADERS = ("mesher/delmesher.h", "mesher/delmesher_plane.h")
+PUBLIC_HEADERS = ("mesher/delmesher.h", "mesher/delmesher_files.h", "mesher/delmesher_plane.h")
 PUBLIC_TYPES = "mesher/delmesher/"  # what they are made of; installed beside them
 USE_PUBLIC_HEADERS = ("run", "results", "policies", "io", "cli")
 FOLDERS = {

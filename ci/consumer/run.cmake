@@ -1,15 +1,24 @@
 # cmake -DBUILD=<build tree> -DWORK=<scratch folder> -P run.cmake: installs the build tree into the scratch
 # folder, then configures, builds and runs the consumer against that installation only.
+# cmake -DSOURCE=<source tree> -DWORK=<scratch folder> -P run.cmake: the same with the source tree as a subproject.
 function(step)
-  execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT RESULT_VARIABLE code)
+  execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT RESULT_VARIABLE code WORKING_DIRECTORY ${WORK})
   if(NOT code EQUAL 0)
     message(FATAL_ERROR "failed with ${code}")
   endif()
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})
-step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix
-     -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${CXXFLAGS}" -DCMAKE_BUILD_TYPE=Release)
-step(${CMAKE_COMMAND} --build ${WORK}/build)
+file(MAKE_DIRECTORY ${WORK})
+set(compiler -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${CXXFLAGS}" -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+if(SOURCE)
+  # In no build type at all code is slow to run and quick to build.
+  step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -DDELMESHER_SOURCE=${SOURCE} ${compiler})
+  step(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2 --target consumer)
+else()
+  step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
+  step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix ${compiler}
+       -DCMAKE_BUILD_TYPE=Release)
+  step(${CMAKE_COMMAND} --build ${WORK}/build)
+endif()
 step(${WORK}/build/consumer)

@@ -1,10 +1,10 @@
-# `cmake --install`: library, header, command line and a package for find_package(delmesher).
+# `cmake --install`: libraries, headers, command line and a package for find_package(delmesher).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/delmesher)
 
-install(TARGETS delmesher EXPORT delmesherTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES delmesher.h delmesher_plane.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS delmesher delmesher_io EXPORT delmesherTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES delmesher.h delmesher_files.h delmesher_plane.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY delmesher DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT delmesherTargets NAMESPACE delmesher:: DESTINATION ${package_dir})
 configure_package_config_file(cmake/delmesherConfig.cmake.in delmesherConfig.cmake

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_files.h"
 #include "mesher/io/output.h"
 
 namespace delmesher::io {
@@ -13,13 +13,7 @@ inline constexpr int kExactVersion = 3;
 
 WriteStatus write_exact(OutputSet& outputs, const std::string& path, const ExactRecord& record);
 
-struct ExactResult {
-  std::string error;  // "file:line: reason"; empty if read
-  ExactRecord record;
-  bool ok() const { return error.empty(); }
-};
-
-ExactResult read_exact(const std::string& path);
+// read_exact() of a file's bytes; `path` names it in errors.
 ExactResult parse_exact(std::string_view text, const std::string& path);
 
 }  // namespace delmesher::io

@@ -11,13 +11,9 @@
 #include <string_view>
 #include <vector>
 
-namespace delmesher::io {
+#include "mesher/delmesher_files.h"
 
-// Why something could not be written: "file: reason"; empty if all is well.
-struct WriteStatus {
-  std::string error;
-  bool ok() const { return error.empty(); }
-};
+namespace delmesher::io {
 
 // Buffered text. Errors of the disk are remembered until the file is closed.
 class TextSink {

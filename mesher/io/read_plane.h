@@ -1,29 +1,18 @@
-// Reads a planar straight-line graph from a file of any supported format; see formats.md.
+// What reading a planar straight-line graph is made of; see formats.md. read_plane() is public.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "mesher/delmesher/planar_graph.h"
+#include "mesher/delmesher_files.h"
 #include "mesher/io/read_surface.h"
 #include "mesher/io/readers.h"
 
 namespace delmesher::io {
 
-struct PlaneReadResult {
-  ReadCode code = ReadCode::ok;
-  std::string error;  // "file:line: reason" or "file: reason"
-  PlanarGraph graph;
-  std::string format;  // "poly", "OFF", "OBJ", "polygons"
-  std::vector<std::string> warnings;
-  bool ok() const { return code == ReadCode::ok; }
-};
-
-// `go_on`: ReadOptions::go_on.
-PlaneReadResult read_plane(const std::string& path, const std::function<bool()>& go_on = {});
-
-// The same for a file's bytes; `node_file` returns the .node file beside a .poly without vertices.
+// read_plane() of a file's bytes; `node_file` returns the .node file beside a .poly without
+// vertices.
 PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
                             const NodeFile& node_file = nullptr,
                             const std::function<bool()>& go_on = {});

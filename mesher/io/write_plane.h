@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "mesher/delmesher/planar_graph.h"
 #include "mesher/io/output.h"
 
 namespace delmesher::io {

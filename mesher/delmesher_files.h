@@ -1,0 +1,92 @@
+// Files of surfaces, planar graphs, meshes and exact records, as the command line reads and writes
+// them: library delmesher::io, which needs the standard library alone. mesher/io/formats.md and
+// mesher/io/exact_format.md describe the formats.
+//
+// Nothing is thrown but std::bad_alloc. What cannot be read or written is said in one line that
+// names the file, and the line or byte where there is one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "delmesher.h"
+#include "delmesher_plane.h"
+
+namespace delmesher::io {
+
+enum class ReadCode : std::uint8_t {
+  ok,
+  unreadable,
+  out_of_memory,
+  stopped  // ReadOptions::go_on said no
+};
+
+struct ReadResult {
+  ReadCode code = ReadCode::ok;
+  std::string error;  // "file:line: reason", "file: byte N: reason" or "file: reason"
+  Surface surface;
+  std::string format;                               // "OFF", "OBJ", "STL", "PLY", "smesh", "poly"
+  std::vector<std::string> warnings;                // what the user should know
+  std::vector<std::string> notes;                   // what a log may tell
+  std::vector<std::array<std::uint32_t, 2>> lines;  // ReadOptions::planar: edges of polylines
+  bool ok() const { return code == ReadCode::ok; }
+};
+
+struct ReadOptions {
+  // OBJ vertices may have two coordinates, and polylines are read; there may be no faces then.
+  bool planar = false;
+  // Asked many times a second while a file is read; reading stops when it answers no.
+  std::function<bool()> go_on;
+};
+
+// A surface from OFF, OBJ, STL, PLY, or TetGen's .smesh and .poly, by content and extension. Faces
+// of more than three corners are cut by the rule of formats.md; whether the surface is valid is for
+// check_surface() and tetrahedralize() to say.
+ReadResult read_surface(const std::string& path, const ReadOptions& options = {});
+
+struct PlaneReadResult {
+  ReadCode code = ReadCode::ok;
+  std::string error;  // "file:line: reason" or "file: reason"
+  PlanarGraph graph;
+  std::string format;  // "poly", "OFF", "OBJ", "polygons"
+  std::vector<std::string> warnings;
+  bool ok() const { return code == ReadCode::ok; }
+};
+
+// A planar straight-line graph from Triangle's .poly, flat OFF and OBJ, or rings of "x y" lines.
+// `go_on`: ReadOptions::go_on.
+PlaneReadResult read_plane(const std::string& path, const std::function<bool()>& go_on = {});
+
+struct ExactResult {
+  std::string error;  // "file:line: reason"; empty if read
+  ExactRecord record;
+  bool ok() const { return error.empty(); }
+};
+
+// What write_exact() has written.
+ExactResult read_exact(const std::string& path);
+
+// Why something could not be written: "file: reason"; empty if all is well.
+struct WriteStatus {
+  std::string error;
+  bool ok() const { return error.empty(); }
+};
+
+// Each file, or set of files, is complete or what it was before. The format is that of the
+// extension: .mesh (MEDIT), .msh (Gmsh 4.1), .vtu, .node (TetGen, with .ele and .face beside it),
+// .tet.
+WriteStatus write_mesh(const std::string& path, const TetMesh& mesh);
+// OFF; labels are not kept, as the format has none.
+WriteStatus write_off(const std::string& path, const Surface& surface);
+// .node (Triangle, with .ele and .poly), .vtu, .off, .msh, .svg. The holes and regions of `graph`,
+// if any, go into a .poly, so that it means the same as the input.
+WriteStatus write_plane(const std::string& path, const PlaneMesh& mesh,
+                        const PlanarGraph* graph = nullptr);
+// The sidecars of --exact.
+WriteStatus write_exact(const std::string& path, const ExactRecord& record);
+WriteStatus write_plane_exact(const std::string& path, const PlaneRecord& record);
+
+}  // namespace delmesher::io
