@@ -227,7 +227,7 @@ class PlyReader {
       header_.skip_line();
     }
     find_label();
-    at_ = text_.find("end_header");
+    at_ = text_.find("\nend_header") + 1;
     at_ = text_.find('\n', at_) + 1;
   }
 

@@ -455,6 +455,11 @@ const Lie kSections[] = {
     {"one ball fewer", "refined-steiner-balls", [](Told& t) { t.record.balls.pop_back(); }},
     {"one ball twice", "refined-steiner-balls",
      [](Told& t) { t.record.balls.push_back(t.record.balls.front()); }},
+    {"a ball of a flat tetrahedron", "refined-steiner-balls",
+     [](Told& t) {
+       auto& corners = t.record.balls.front().tetrahedron;
+       corners[3] = corners[2];
+     }},
     {"a ball for an input vertex", "refined-steiner-balls",
      [](Told& t) {
        t.record.balls.push_back(t.record.balls.front());
@@ -672,6 +677,8 @@ const Lie kConsistent[] = {
      [](Told& t) { claim_for(t, [](Options& o) { o.tau = 0.06; }); }},
     {"a run with chamfers wider than promised", "refined-chamfer-need",
      [](Told& t) { t.promise.chamfer_radius = 0x1p-8; }},
+    {"a run with chamfers wider than promised, by their points", "refined-chamfer-extent",
+     [](Told& t) { t.promise.chamfer_radius = 0x1p-8; }},
     {"a run with edges longer than promised", "refined-edges",
      [](Told& t) { t.promise.max_edge = 0x1p-4; }},
     {"a run of the other region", "promise",
@@ -697,6 +704,21 @@ const Lie kConsistent[] = {
      [](Told& t) { split_in_both(t, t.sample.mesh.tetrahedra.size() / 2, kNone); }},
     {"a point of no origin that was not put where it is", "exact-constrained-delaunay",
      [](Told& t) { split_in_both(t, t.sample.mesh.tetrahedra.size() / 2, kNone); }},
+    {"a cavity away from all facets, its faces said to be on one", "exact-conformity",
+     [](Told& t) {
+       // Three points, each inside a tetrahedron that the last one made: a tetrahedron of them and
+       // one vertex has no edge on the surface.
+       const auto& tets = t.sample.mesh.tetrahedra;
+       split_in_both(t, tets.size() / 2, kNone);
+       split_in_both(t, tets.size() - 2, kNone);
+       split_in_both(t, tets.size() - 1, kNone);
+       auto& cavity = t.record.final[t.record.final.size() - 3];
+       cavity.inside = false;
+       for (int i = 0; i < 4; ++i) {
+         const auto [a, b, c] = face_of(cavity.vertices, i);
+         t.record.final_facets.push_back({a, b, c, t.record.facets.front().id});
+       }
+     }},
     {"all facets dropped for their chamfers, an empty box refined", "refined-filter",
      [](Told& t) { empty_box(t.record, 2); }},
     {"all facets dropped for each other, an empty box refined", "refined-filter",
@@ -829,6 +851,81 @@ INSTANTIATE_TEST_SUITE_P(Relaxed, Lies, testing::ValuesIn(kRelaxed), lie_name);
 INSTANTIATE_TEST_SUITE_P(Sections, Lies, testing::ValuesIn(kSections), lie_name);
 INSTANTIATE_TEST_SUITE_P(Foreign, Lies, testing::ValuesIn(kForeign), lie_name);
 INSTANTIATE_TEST_SUITE_P(Consistent, Lies, testing::ValuesIn(kConsistent), lie_name);
+
+VerifyReport verdict_on(const Told& told) {
+  VerifyReport report;
+  EXPECT_EQ(verify(told.sample.input, told.sample.mesh, &told.record,
+                   {.stage = Stage::both, .promised = told.promise}, report),
+            "");
+  return report;
+}
+
+std::map<std::string, double> figures_of(const VerifyReport& report, const std::string& oracle) {
+  const OracleReport* found = report.find(oracle);
+  EXPECT_NE(found, nullptr) << oracle;
+  if (found == nullptr) return {};
+  return {found->figures.begin(), found->figures.end()};
+}
+
+// What is told of an honest run besides that it passes.
+TEST(Truths, FiguresAreThoseOfTheRun) {
+  const ExactRecord& r = honest().record;
+  const VerifyReport report = verdict_on(honest());
+  // The largest coordinate is 3.
+  EXPECT_GT(report.deviation, 0);
+  EXPECT_DOUBLE_EQ(report.deviation_ulps, report.deviation / 0x1p-51);
+  std::set<Index> refined, created;
+  for (const auto& tet : r.refined) refined.insert(tet.vertices.begin(), tet.vertices.end());
+  for (const auto& tet : r.unrepaired.empty() ? r.final : r.unrepaired) {
+    for (const Index v : tet.vertices) {
+      if (v >= honest().sample.input.vertices.size() && !refined.contains(v)) created.insert(v);
+    }
+  }
+  EXPECT_EQ(figures_of(report, "enrichment").at("new on the surface"),
+            static_cast<double>(created.size()));
+}
+
+// Chamfers that obey a bound pass.
+TEST(Truths, ChamfersWithinTheirBoundPass) {
+  Options options = honest_options();
+  options.chamfer_radius = 0x1p-5;
+  const Told told = run_of(options);
+  EXPECT_FALSE(told.record.chamfer_points.empty());
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+}
+
+// A cut point is the same point from either end of its edge.
+TEST(Truths, CutPointsMayBeGivenFromEitherEnd) {
+  Told told = honest();
+  std::size_t turned = 0;
+  for (ExactPoint& p : told.record.points) {
+    if (p.kind != ExactPoint::Kind::on_segment) continue;
+    if (mpq_class(1) - mpq_class(p.x) != mpq_class(1 - p.x)) continue;
+    std::swap(p.i, p.j);
+    p.x = 1 - p.x;
+    ++turned;
+  }
+  EXPECT_GT(turned, 0U);
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+}
+
+// The edges to the apex of this pyramid rise at 45 degrees over the diagonals of its base: angles
+// of a segment and a facet that are as large as they have to be, and none is called smaller.
+TEST(Truths, AnAngleAtTheThresholdIsNotBelowIt) {
+  delmesher::Surface pyramid;
+  pyramid.vertices = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
+  pyramid.triangles = {{0, 3, 1}, {1, 3, 2}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  Options options = honest_options();
+  options.acute = 45;
+  const Told told = run_of(options, Task::mesh, pyramid);
+  EXPECT_TRUE(told.record.corners.empty());
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+  const auto figures = figures_of(report, "refined-chamfer-angles");
+  EXPECT_EQ(figures.at("below the threshold by rounding"), 0);
+}
 
 }  // namespace
 }  // namespace tetproof

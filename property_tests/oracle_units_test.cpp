@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <numeric>
 #include <random>
@@ -24,8 +25,12 @@
 #include "oracles/interval.h"
 #include "oracles/measures.h"
 #include "oracles/parallel.h"
+#include "oracles/plane_file.h"
+#include "oracles/plane_graph.h"
 #include "oracles/plane_grid.h"
 #include "oracles/plane_points.h"
+#include "oracles/promise.h"
+#include "oracles/refinement.h"
 #include "oracles/regions.h"
 #include "oracles/same_mesh.h"
 #include "oracles/sample.h"
@@ -132,6 +137,32 @@ TEST(FileAlone, IsNoExcuseForWhatIsFarFromTheSurface) {
   EXPECT_EQ(verdict_on_dented_base(0), Verdict::undecided);
   EXPECT_EQ(verdict_on_dented_base(0x1p-10), Verdict::broken);
   EXPECT_EQ(verdict_on_dented_base(0x1p-30), Verdict::broken);
+}
+
+// A cube has six faces, twelve edges and eight corners, however it is triangulated.
+TEST(FileAlone, IsComparedWithTheWholeSurface) {
+  const samples::Sample cube = samples::cube();
+  VerifyReport report;
+  EXPECT_EQ(verify(cube.input, cube.mesh, nullptr, {}, report), "");
+  const OracleReport* conformity = report.find("conformity");
+  ASSERT_NE(conformity, nullptr);
+  const std::map<std::string, double> figures(conformity->figures.begin(),
+                                              conformity->figures.end());
+  EXPECT_EQ(figures.at("facets"), 6);
+  EXPECT_EQ(figures.at("edges"), 12);
+  EXPECT_EQ(figures.at("input vertices"), 8);
+}
+
+// The inside of a refined mesh may be nothing; a mesh may not.
+TEST(Complex, OnlyAPartMayBeEmpty) {
+  TetComplex complex;
+  const ExactPoints none;
+  complex.points = &none;
+  Neighbours neighbours;
+  EXPECT_EQ(check_complex(complex, neighbours, true).violations, 0U);
+  const OracleReport report = check_complex(complex, neighbours);
+  EXPECT_EQ(report.violations, 1U);
+  EXPECT_EQ(report.findings, std::vector<std::string>{"there are no tetrahedra"});
 }
 
 // ------------------------------------------------------------------------------------- intervals
@@ -971,6 +1002,95 @@ TEST(SameMesh, FacesOfTheHullAreNoBoundary) {
   }
 }
 
+// Formats without a region 0 have 2 for the outside; no other number is one, nor are both at once.
+TEST(SameMesh, TheOutsideIsOneOfTwoRegions) {
+  delmesher::ExactRecord record;
+  record.points = explicit_points(
+      std::vector<Position>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, -1}});
+  record.mesh_vertices = {0, 1, 2, 3, 4, 5};
+  record.final = {{{0, 1, 2, 3}, true}, {{1, 2, 3, 4}, false}, {{0, 2, 1, 5}, false}};
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, -1}};
+  for (const auto& tet : record.final) mesh.tetrahedra.push_back(tet.vertices);
+  Promise promise;
+  promise.region = delmesher::Region::hull;
+  const auto violations = [&](std::vector<std::int64_t> regions) {
+    mesh.regions.assign(regions.begin(), regions.end());
+    return check_same_mesh(mesh, record, promise, false).violations;
+  };
+  EXPECT_EQ(violations({1, 0, 0}), 0U);
+  EXPECT_EQ(violations({1, 2, 2}), 0U);
+  EXPECT_EQ(violations({1, 0, 2}), 1U);
+  EXPECT_EQ(violations({1, 3, 3}), 2U);
+  EXPECT_EQ(violations({1, -1, -1}), 2U);
+  EXPECT_EQ(violations({2, 2, 2}), 1U);
+}
+
+// ------------------------------------------------------------------------------- encroachment
+
+// One edge after another of 16 is encroached by a corner of its own tetrahedron. With that many
+// vertices only a few edges can be tried against all of them, yet each has to be found.
+TEST(Encroachment, ByANeighbourIsFoundWhateverIsSampled) {
+  constexpr std::size_t kVertices = 1U << 16U, kEdges = 16;
+  std::vector<Position> positions;
+  TetComplex complex;
+  delmesher::ExactRecord record;
+  record.parameters.gabriel = true;
+  while (positions.size() < kVertices) {
+    const auto first = static_cast<Index>(positions.size());
+    const double x = 10.0 * first;
+    for (const Position& p : {Position{0, 0, 0}, {2, 0, 0}, {1, 0.5, 0}, {1, 3, 3}}) {
+      positions.push_back({x + p[0], p[1], p[2]});
+    }
+    complex.tetrahedra.push_back({first, first + 1, first + 2, first + 3});
+    if (record.segments.size() < kEdges) {
+      record.segments.push_back({false, kNone, {first, first + 1}});
+    }
+  }
+  const ExactPoints points = points_of(positions);
+  complex.points = &points;
+  RefinedMesh mesh;
+  mesh.record = &record;
+  mesh.points = &points;
+  mesh.complex = &complex;
+  const OracleReport report = check_encroachment(mesh);
+  EXPECT_EQ(report.checked, kEdges);
+  EXPECT_GE(report.violations, kEdges);
+}
+
+// The vertex is of another tetrahedron, and doubles do not tell on which side of the ball around
+// the edge or the face it is: centre (1, 0, 0), radius 1.
+TEST(Encroachment, ByAnotherTetrahedronIsDecidedExactly) {
+  const auto violations = [](const Position& v) {
+    std::array<std::uint64_t, 2> result{};  // of the edge, of the face
+    for (const bool face : {false, true}) {
+      const ExactPoints points = points_of(
+          {{0, 0, 0}, {2, 0, 0}, {1, -1, 0}, {1, 0, 5}, v, {50, 0, 0}, {50, 1, 0}, {50, 0, 1}});
+      TetComplex complex;
+      complex.points = &points;
+      complex.tetrahedra = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+      delmesher::ExactRecord record;
+      record.parameters.gabriel = true;
+      if (face) {
+        record.refined_facets.push_back({0, 1, 2, 0});
+      } else {
+        record.segments.push_back({false, kNone, {0, 1}});
+      }
+      RefinedMesh mesh;
+      mesh.record = &record;
+      mesh.points = &points;
+      mesh.complex = &complex;
+      result[face ? 1 : 0] = check_encroachment(mesh).violations;
+    }
+    return result;
+  };
+  using Two = std::array<std::uint64_t, 2>;
+  EXPECT_EQ(violations({1, 0, 0.5}), (Two{1, 1}));
+  EXPECT_EQ(violations({1, 0, 1 - 0x1p-53}), (Two{1, 1}));
+  EXPECT_EQ(violations({1, 0, 1}), (Two{0, 0}));
+  EXPECT_EQ(violations({1, 0, 1 + 0x1p-52}), (Two{0, 0}));
+}
+
 TEST(Measures, TasksRunOnceEachAndTheFirstErrorIsThrown) {
   for (const unsigned threads : {0U, 1U, 3U}) {
     std::array<std::atomic<int>, 20> runs{};
@@ -1046,6 +1166,56 @@ TEST(Stl, BinaryFilesHaveTheirCornersWhereTheFormatSays) {
   EXPECT_EQ(surface.vertices[3], (Position{1, 1, 0.5}));
 }
 
+// ------------------------------------------------------------------------------------- PLY files
+
+template <class Value>
+void append(std::string& bytes, Value value, bool big) {
+  char of_value[sizeof value];
+  std::memcpy(of_value, &value, sizeof value);
+  if (big) std::reverse(of_value, of_value + sizeof value);
+  bytes.append(of_value, sizeof value);
+}
+
+// A triangle with one coordinate and one index of this type, in both orders of bytes. (That of this
+// machine is little-endian.)
+template <class Value>
+void expect_binary_ply(const char* type, Value value) {
+  for (const bool big : {false, true}) {
+    std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                        "_endian 1.0\ncomment no end_header yet\nelement vertex 3\n"
+                        "property double x\nproperty " +
+                        type + " y\nproperty float z\nelement face 1\nproperty list uchar " + type +
+                        " vertex_indices\nproperty int label\nend_header\n";
+    for (int v = 0; v < 3; ++v) {
+      append(bytes, 0.1 * v, big);
+      append(bytes, v == 0 ? value : static_cast<Value>(v), big);
+      append(bytes, 0.5F, big);
+    }
+    append(bytes, std::uint8_t{3}, big);
+    for (const int v : {2, 0, 1}) append(bytes, static_cast<Value>(v), big);
+    append(bytes, std::int32_t{-7}, big);
+    const Polyhedron surface = read_surface(written("binary.ply", bytes));
+    EXPECT_EQ(surface.vertices,
+              (std::vector<Position>{
+                  {0, static_cast<double>(value), 0.5}, {0.1, 1, 0.5}, {0.1 * 2, 2, 0.5}}))
+        << type;
+    EXPECT_EQ(surface.triangles, (std::vector<std::array<Index, 3>>{{2, 0, 1}})) << type;
+    EXPECT_EQ(surface.labels, std::vector<std::int32_t>{-7}) << type;
+    EXPECT_THROW(read_surface(written("cut.ply", bytes.substr(0, bytes.size() - 1))), ReadError);
+  }
+}
+
+TEST(Ply, BinaryFilesHaveEightTypesOfNumbers) {
+  for (const char* type : {"double", "float64"}) expect_binary_ply<double>(type, 0.3);
+  for (const char* type : {"float", "float32"}) expect_binary_ply<float>(type, 0.3F);
+  for (const char* type : {"int", "int32"}) expect_binary_ply<std::int32_t>(type, -2000000000);
+  for (const char* type : {"uint", "uint32"}) expect_binary_ply<std::uint32_t>(type, 4000000000U);
+  for (const char* type : {"short", "int16"}) expect_binary_ply<std::int16_t>(type, -30000);
+  for (const char* type : {"ushort", "uint16"}) expect_binary_ply<std::uint16_t>(type, 60000);
+  for (const char* type : {"char", "int8"}) expect_binary_ply<std::int8_t>(type, -100);
+  for (const char* type : {"uchar", "uint8"}) expect_binary_ply<std::uint8_t>(type, 200);
+}
+
 // ---------------------------------------------------------------------------------------- reports
 
 // Whatever an oracle says stands in both forms of the report.
@@ -1097,6 +1267,49 @@ TEST(Reports, NameVerdicts) {
   EXPECT_STREQ(verdict_name(Verdict::rounded), "rounded");
   EXPECT_STREQ(verdict_name(Verdict::deviating), "deviating");
   EXPECT_STREQ(verdict_name(Verdict::broken), "broken");
+}
+
+// Whatever is said, and wherever it has to go on in another line.
+TEST(Reports, NoLineOfTextIsLongerThan120Characters) {
+  for (std::size_t length = 1; length <= 100; ++length) {
+    VerifyReport report;
+    OracleReport oracle("an-oracle", "things");
+    oracle.checked = 1;
+    oracle.figures = {{std::string(length, 'x'), 1}, {"y", 2}, {std::string(100, 'z'), 3}};
+    oracle.notes = {std::string(length, 'n') + " goes on " + std::string(100, 'm')};
+    report.oracles = {oracle};
+    const std::string text = to_text(report);
+    for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1) {
+      ASSERT_LE(text.find('\n', at) - at, 120U) << text.substr(at, 200);
+    }
+  }
+}
+
+// --------------------------------------------------------------------------------------- promises
+
+// The defaults are those of README's table of options.
+TEST(Promises, AreReadFromCommandLines) {
+  Promise p;
+  EXPECT_EQ(parse_promise("", p), "");
+  EXPECT_EQ(p.delta, 14.47);
+  EXPECT_EQ(parse_promise("plane", p), "");
+  EXPECT_EQ(p.delta, 20.7);
+  for (const char* text : {"mesh --delta=3 --tau 0.5", "--delta 3 --tau=0.5"}) {
+    EXPECT_EQ(parse_promise(text, p), "") << text;
+    EXPECT_EQ(p.delta, 3) << text;
+    EXPECT_EQ(p.tau, 0.5) << text;
+    EXPECT_EQ(p.acute, 60) << text;
+  }
+  for (const char* text : {"--preset=paper --delta=3", "--delta 3 --preset paper"}) {
+    EXPECT_EQ(parse_promise(text, p), "") << text;
+    EXPECT_EQ(p.delta, 3) << text;
+    EXPECT_EQ(p.acute, 90) << text;
+    EXPECT_TRUE(p.gabriel) << text;
+  }
+  for (const char* text : {"paper", "--preset", "mesh --preset", "--preset=", "--preset paperback",
+                           "--delta", "--delta=", "--delta=3x", "--nothing=3"}) {
+    EXPECT_NE(parse_promise(text, p), "") << text;
+  }
 }
 
 // --------------------------------------------------------------------------- the record and the
@@ -1265,6 +1478,49 @@ TEST(PlaneSigns, AgreeWithMachineIntegersOnALattice) {
   for (const auto& of_predicate : counts) {
     for (const int count : of_predicate) EXPECT_GT(count, 100);
   }
+}
+
+// What lies on a segment cuts it, whichever vertex it is; what lies beside it, beyond its end or
+// at it does not.
+TEST(PlaneGraph, SegmentsAreCutWhereVerticesLieOnThem) {
+  delmesher::PlanarGraph graph;
+  graph.vertices = {{1, 0}, {0, 0}, {4, 0}, {2, 0x1p-40}, {3, 0}, {5, 0}};
+  graph.segments = {{1, 2}, {2, 1}};
+  PlaneGraph cut(graph);
+  ASSERT_EQ(cut.pieces().size(), 3U);
+  const std::array<Index, 4> along = {1, 0, 4, 2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(cut.pieces()[i].a, along[i]);
+    EXPECT_EQ(cut.pieces()[i].b, along[i + 1]);
+    EXPECT_EQ(cut.pieces()[i].segment, 0U);
+  }
+}
+
+TEST(PlaneGraph, KnowsTheAreaOfASingleRing) {
+  delmesher::PlanarGraph graph;
+  graph.vertices = {{0, 0}, {4, 0}, {4, 3}, {10, 0}, {11, 0}, {11, 1}};
+  const auto twice_area = [&](const std::vector<std::array<Index, 2>>& segments) {
+    graph.segments.assign(segments.begin(), segments.end());
+    return PlaneGraph(graph).area_of_ring();
+  };
+  EXPECT_EQ(twice_area({{0, 1}, {1, 2}, {2, 0}}), 12);
+  EXPECT_EQ(twice_area({{2, 1}, {0, 2}, {0, 1}}), 12);  // clockwise, as they come
+  EXPECT_LT(twice_area({{0, 1}, {1, 2}}), 0);
+  EXPECT_LT(twice_area({{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}}), 0);
+  graph.segments = {{0, 1}, {1, 2}, {2, 0}};
+  EXPECT_TRUE(PlaneGraph(graph).closed_rings());
+  graph.segments.pop_back();
+  EXPECT_FALSE(PlaneGraph(graph).closed_rings());
+}
+
+// The last line is a line, with or without its end.
+TEST(PlaneFiles, AreReadToTheirLastCharacter) {
+  const std::string ring = "0 0\n4 0\n0 4";
+  for (const char* end : {"", "\n", "\n\n", "\r\n", "\n>"}) {
+    EXPECT_EQ(read_plane_graph(written("ring.txt", ring + end)).vertices.size(), 3U);
+  }
+  EXPECT_THROW(read_plane_graph(written("ring.txt", ring + "\n7")), ReadError);
+  EXPECT_THROW(read_plane_graph(written("ring.txt", ring + "\nx")), ReadError);
 }
 
 }  // namespace

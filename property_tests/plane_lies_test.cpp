@@ -417,6 +417,8 @@ const Lie kForeign[] = {
     {"an input vertex an ulp off", "rounding", [](Told& t) { t.file.vertices[0][0] = 0x1p-60; }},
     {"a written vertex that is infinite", "complex",
      [](Told& t) { t.file.vertices[steiner(t)][0] = HUGE_VAL; }},
+    {"an input vertex that is infinite", "complex",
+     [](Told& t) { t.file.vertices[0][0] = HUGE_VAL; }},
     {"a triangle of the file twice, another missing", "same-mesh",
      [](Told& t) { t.file.triangles[1] = t.file.triangles[0]; }},
     {"the corners of two triangles of the file exchanged", "same-mesh",
@@ -555,6 +557,52 @@ INSTANTIATE_TEST_SUITE_P(Consistent, PlaneLies, testing::ValuesIn(kConsistent), 
 TEST(PlaneLies, AreToldOfARunThatChamfersAndDrops) {
   EXPECT_GE(honest().record.corners.size(), 2U);
   EXPECT_EQ(honest().record.dropped.size(), 1U);
+}
+
+oracles::VerifyReport verdict_on(const Told& told, bool with_record = true) {
+  oracles::VerifyReport report;
+  EXPECT_EQ(
+      verify_plane(told.graph, told.file, with_record ? &told.record : nullptr, told.how, report),
+      "");
+  return report;
+}
+
+TEST(PlaneTruths, DeviationIsToldInUnitsOfTheLargestCoordinate) {
+  Told told = honest();
+  told.file.vertices[steiner(told)][0] += 3 * 0x1p-50;  // of the largest, 4.5
+  for (const bool with_record : {false, true}) {
+    const oracles::VerifyReport report = verdict_on(told, with_record);
+    EXPECT_GT(report.deviation, 0x1p-50);
+    EXPECT_DOUBLE_EQ(report.deviation_ulps, report.deviation / 0x1p-50);
+  }
+}
+
+// A vertex that the file has not, by one.
+TEST(PlaneLies, NamesTheTriangleThatRefersToNoVertex) {
+  Told told = honest();
+  told.file.triangles[2][1] = static_cast<Index>(told.file.vertices.size());
+  const oracles::VerifyReport report = verdict_on(told, false);
+  const oracles::OracleReport* complex = report.find("complex");
+  ASSERT_NE(complex, nullptr);
+  EXPECT_NE(std::find(complex->findings.begin(), complex->findings.end(),
+                      "triangle 2 refers to no vertex"),
+            complex->findings.end());
+}
+
+// Of a single ring, the area is known from the input alone.
+TEST(PlaneLies, AboutTheInsideOfASingleRingShowInItsArea) {
+  PlanarGraph arrow;
+  arrow.vertices = {{0, 0}, {4, 0}, {1, 1}, {0, 4}};
+  arrow.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  Told told = run_of(honest_options(), arrow);
+  const oracles::VerifyReport good = verdict_on(told);
+  ASSERT_TRUE(good.all_passed()) << to_text(good);
+  ASSERT_NE(good.find("exact-area"), nullptr);
+  EXPECT_EQ(good.find("exact-area")->checked, told.record.final.size());
+  some(told.record.final, Side::inside).side = Side::outside;
+  const oracles::VerifyReport bad = verdict_on(told);
+  ASSERT_NE(bad.find("exact-area"), nullptr);
+  EXPECT_EQ(bad.find("exact-area")->violations, 1U);
 }
 
 }  // namespace
