@@ -3,6 +3,7 @@
 
 Usage: check_tree.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
 """
+import itertools
 import os
 import re
 import subprocess
@@ -43,6 +44,9 @@ LAYERS = {
     "io": ("base",),
     "cli": ("base", "io"),
 }
+# Folders that are namespaces under delmesher; the public types and the tables of their names are in delmesher itself.
+NAMESPACES = tuple(LAYERS)
+OF_NO_FOLDER = ("mesher/base/namespaces.h", "mesher/cli/main.cpp")
 PIPELINE = tuple(layer for layer in LAYERS if layer not in ("io", "cli"))
 
 # Top-level folders: which others each may include. None of these but mesher itself sees more of the mesher
@@ -186,16 +190,23 @@ def classes_defined(lines):
                 yield number, "::".join(namespaces + [match.group(1)])
 
 
-def check_classes(texts):
-    """One definition per class (the one-definition rule): the linker takes either of two and says nothing."""
-    first = {}
-    for path, text in sorted(texts.items()):
-        if not path.endswith(SOURCE) or path.split("/")[0] not in TOP:
-            continue
-        for number, name in classes_defined(text.split("\n")):
-            if name in first:
-                yield path, number, "%s is defined in %s too" % (name, first[name])
-            first.setdefault(name, path)
+def check_namespaces(path, lines, texts):
+    """A folder of the mesher is a namespace, and a class that a source file defines for itself is in an unnamed one, unless a
+    header beside it declares it: then nothing is defined twice under one name, of which the linker would take either and say
+    nothing (the one-definition rule)."""
+    parts = path.split("/")
+    if path.endswith(".cpp"):
+        for number, name in classes_defined(lines):
+            declaration = re.compile(r"\b(?:class|struct) %s;" % name.split("::")[-1])
+            if not any(os.path.dirname(h) == os.path.dirname(path) and h.endswith(".h") and declaration.search(t)
+                       for h, t in texts.items()):
+                yield number, "%s is defined in a source file outside of an unnamed namespace" % name
+    if parts[0] != "mesher" or len(parts) < 3 or parts[1] not in NAMESPACES or path in OF_NO_FOLDER:
+        return
+    opened = [o.group(1) for o in map(OPENED.match, lines) if o and o.group(1)]
+    wanted = "delmesher::" + parts[1]
+    if opened and not any(n == wanted or n.startswith((wanted + "::", "delmesher::plane")) for n in opened):
+        yield 1, "a file of mesher/%s opens namespace %s" % (parts[1], wanted)
 
 
 def licences_used(path, text):
@@ -239,9 +250,8 @@ def check_tree(root):
             if MACHINE_PATH.search(line):
                 yield path, number, "path of one machine: " + line.strip()[:80]
         if path.endswith(SOURCE) and path.split("/")[0] in TOP:
-            for number, reason in check_source(path, lines, root):
+            for number, reason in itertools.chain(check_source(path, lines, root), check_namespaces(path, lines, texts)):
                 yield path, number, reason
-    yield from check_classes(texts)
     yield from check_licences(files, texts, root)
 
 

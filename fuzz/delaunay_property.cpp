@@ -257,21 +257,21 @@ Finding delaunay_agrees(Bytes bytes) {
     not_spatial.take();
     return {};
   }
-  delmesher::PointStore store;
-  std::vector<delmesher::VertexId> ids;
+  delmesher::predicates::PointStore store;
+  std::vector<delmesher::base::VertexId> ids;
   for (const auto& [x, y, z] : coordinates) ids.push_back(store.add_explicit(x, y, z));
-  delmesher::Predicates predicates(store);
-  delmesher::Tetrahedrization mesh(predicates);
+  delmesher::predicates::Predicates predicates(store);
+  delmesher::delaunay::Tetrahedrization mesh(predicates);
   const delmesher::Options options;
-  delmesher::Control control(options);
+  delmesher::base::Control control(options);
   try {
     mesh.build(ids, control);
     mesh.validate(true);
-  } catch (const delmesher::InternalError& error) {
+  } catch (const delmesher::base::InternalError& error) {
     return std::string("delaunay check: ") + error.what();
   }
   std::vector<Cell> ours;
-  for (delmesher::TetId t = 0; t < mesh.capacity(); ++t) {
+  for (delmesher::base::TetId t = 0; t < mesh.capacity(); ++t) {
     if (!mesh.alive(t) || mesh.is_ghost(t)) continue;
     ours.push_back({mesh.vertex(t, 0), mesh.vertex(t, 1), mesh.vertex(t, 2), mesh.vertex(t, 3)});
   }

@@ -13,7 +13,7 @@
 namespace tetproof::fuzz {
 namespace {
 
-using namespace delmesher;
+using namespace delmesher::predicates;
 
 Leniency no_bound("infinite-error-bound", 0.01);
 

@@ -12,19 +12,20 @@ namespace tetproof::fuzz {
 struct Stages {
   explicit Stages(const delmesher::Surface& surface)
       : control(options),
-        topology(delmesher::build_topology(oriented(surface, control), points, predicates)) {}
+        topology(
+            delmesher::surface::build_topology(oriented(surface, control), points, predicates)) {}
 
   static delmesher::Surface oriented(const delmesher::Surface& surface,
-                                     delmesher::Control& control) {
-    const auto validity = delmesher::check_validity(surface, true, control);
-    return delmesher::oriented_outwards(surface, validity);
+                                     delmesher::base::Control& control) {
+    const auto validity = delmesher::surface::check_validity(surface, true, control);
+    return delmesher::surface::oriented_outwards(surface, validity);
   }
 
   delmesher::Options options;
-  delmesher::Control control;
-  delmesher::PointStore points;
-  delmesher::Predicates predicates{points};
-  delmesher::SurfaceTopology topology;
+  delmesher::base::Control control;
+  delmesher::predicates::PointStore points;
+  delmesher::predicates::Predicates predicates{points};
+  delmesher::surface::SurfaceTopology topology;
 };
 
 // Are doubles fine enough for the surface? Its features are thousands of roundings apart.

@@ -18,7 +18,7 @@ namespace tetproof::fuzz {
 namespace {
 
 using delmesher::Surface;
-using delmesher::Vec3;
+using delmesher::predicates::Vec3;
 
 Leniency too_precise("stopped-features-below-2^-40", 0.05);
 Leniency no_room("acute-features-below-2^-40", 0.05);
@@ -30,13 +30,13 @@ template <class Body>
 Finding guarded(const char* stage, const Surface& surface, Body&& body) {
   try {
     return body();
-  } catch (const delmesher::Stopped& stopped) {
+  } catch (const delmesher::base::Stopped& stopped) {
     if (stopped.status.limit != delmesher::Limit::precision || roomy(surface)) {
       return std::string(stage) + " stop: " + stopped.status.message;
     }
     too_precise.take();
     return {};
-  } catch (const delmesher::InternalError& error) {
+  } catch (const delmesher::base::InternalError& error) {
     return std::string(stage) + " check: " + error.what();
   }
 }
@@ -46,13 +46,14 @@ constexpr double kDegreesLost = 0.02;
 // The filter compares distances in doubles.
 constexpr double kDistanceRoundings = 1e-9;
 
-double length(const delmesher::PointStore& points, const std::array<delmesher::VertexId, 2>& ends) {
+double length(const delmesher::predicates::PointStore& points,
+              const std::array<delmesher::base::VertexId, 2>& ends) {
   const Vec3 p = points.nearest(ends[0]), q = points.nearest(ends[1]);
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
 // An edge is chamfered by no more than a third of itself from either end.
-Finding distances_fit(const Stages& s, const delmesher::ChamferResult& result) {
+Finding distances_fit(const Stages& s, const delmesher::chamfer::ChamferResult& result) {
   for (std::uint32_t e = 0; e < s.topology.edge_count(); ++e) {
     if (s.topology.edge_is_flat[e] != 0) continue;
     const auto ends = s.topology.edge_vertices(e);
@@ -66,11 +67,11 @@ Finding distances_fit(const Stages& s, const delmesher::ChamferResult& result) {
 
 Finding chamfered(const Surface& surface, double cosine_squared, double degrees) {
   Stages s(surface);
-  delmesher::ChamferOptions options;
+  delmesher::chamfer::ChamferOptions options;
   options.cosine_squared = cosine_squared;
   const auto result = chamfer(s.topology, s.points, s.predicates, options, s.control);
   if (Finding f = distances_fit(s, result); !f.empty()) return f;
-  const auto report = delmesher::plc_angles::measure(result.plc, s.points);
+  const auto report = delmesher::chamfer::plc_angles::measure(result.plc, s.points);
   if (!report.defect.empty()) return "chamfer complex: " + report.defect;
   if (!(report.smallest() < degrees - kDegreesLost)) return {};
   // Chamfers are laid out in doubles. Where a segment is not long beside an ulp of the model (in
@@ -88,7 +89,8 @@ Finding chamfered(const Surface& surface, double cosine_squared, double degrees)
 }
 
 // Kept triangles of facets that share no vertex are not closer than the tolerance.
-Finding kept_is_apart(const FeatureSizes& sizes, const delmesher::SurfaceTopology& topology,
+Finding kept_is_apart(const FeatureSizes& sizes,
+                      const delmesher::surface::SurfaceTopology& topology,
                       const std::vector<std::uint8_t>& kept, double tolerance) {
   const auto is_kept = [&](std::uint32_t t) { return kept[topology.facet_of[t]] != 0; };
   for (std::uint32_t i = 0; i < topology.triangles.size(); ++i) {
@@ -103,8 +105,8 @@ Finding kept_is_apart(const FeatureSizes& sizes, const delmesher::SurfaceTopolog
 // Explicit points in the bounding box, for cavities of recovery to hold; none where doubles are so
 // coarse that they might lie on facets.
 void add_volume_points(const Surface& surface, Random& random, Stages& s,
-                       delmesher::CdtInput& input) {
-  delmesher::Box box = delmesher::Box::empty();
+                       delmesher::cdt::CdtInput& input) {
+  delmesher::surface::Box box = delmesher::surface::Box::empty();
   for (const auto& p : surface.vertices) box.extend({p, p});
   for (std::size_t i = 0; i < 3; ++i) {
     const double largest = std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
@@ -123,12 +125,12 @@ Finding recovery_holds(const Surface& surface) {
   judging({&too_precise});
   return guarded("recovery", surface, [&]() -> Finding {
     Stages s(surface);
-    delmesher::CdtInput input = plain_input(s.topology);
+    delmesher::cdt::CdtInput input = delmesher::enrich::plain_input(s.topology);
     Random random(surface.vertices.size() ^
                   std::bit_cast<std::uint64_t>(surface.vertices.back()[0]));
     add_volume_points(surface, random, s, input);
     input.validate = true;
-    const delmesher::CdtResult result =
+    const delmesher::cdt::CdtResult result =
         constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
     if (result.counters.facet_restarts > 0) return "recovery theory: a facet failed at first";
     std::vector<std::uint8_t> used(s.points.size(), 0);
@@ -136,7 +138,7 @@ Finding recovery_holds(const Surface& surface) {
       for (const auto v : t) used[v] = 1;
     }
     const bool all = std::all_of(input.vertices.begin(), input.vertices.end(),
-                                 [&](delmesher::VertexId v) { return used[v] != 0; });
+                                 [&](delmesher::base::VertexId v) { return used[v] != 0; });
     return all ? Finding() : "recovery vertices: one is in no tetrahedron";
   });
 }
@@ -157,7 +159,8 @@ Finding filter_holds(const Surface& surface) {
     if (!sizes.assign(surface).empty()) return "filter input: the oracles cannot read it";
     const double diagonal = sizes.surface().diagonal(), apart = sizes.smallest();
     for (const double tau : {1e-4, 0.02}) {
-      const auto result = filter_input(s.topology, s.points, tau * diagonal, s.control);
+      const auto result =
+          delmesher::chamfer::filter_input(s.topology, s.points, tau * diagonal, s.control);
       if (result.facet_kept.size() != s.topology.facet_triangles.size()) {
         return "filter result: wrong size";
       }

@@ -20,7 +20,7 @@ using delmesher::Surface;
 // Facets as sets of triangles, by our topology and by the oracles'.
 using Partition = std::set<std::vector<std::uint32_t>>;
 
-Partition our_facets(const delmesher::SurfaceTopology& topology) {
+Partition our_facets(const delmesher::surface::SurfaceTopology& topology) {
   return {topology.facet_triangles.begin(), topology.facet_triangles.end()};
 }
 
@@ -88,8 +88,8 @@ Finding features_agree(const Surface& surface) {
   if (our_facets(stages.topology) != oracle_facets(sizes.surface())) {
     return "features facets: differ";
   }
-  const double ours =
-      delmesher::smallest_local_feature_size(stages.topology, stages.points, stages.control);
+  const double ours = delmesher::surface::smallest_local_feature_size(
+      stages.topology, stages.points, stages.control);
   const double theirs = sizes.smallest(), largest = sizes.largest_coordinate();
   // Ours is measured in doubles.
   const double off = std::fabs(ours - theirs);

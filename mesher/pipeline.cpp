@@ -25,13 +25,16 @@
 namespace delmesher {
 namespace {
 
-Phase phase_of(RefineStep step) {
+// And what those see: results, the session, what all stages share. Stages are named.
+using namespace policies;  // NOLINT(google-build-using-namespace)
+
+Phase phase_of(refine::RefineStep step) {
   static constexpr Phase kPhase[] = {Phase::delaunay, Phase::segments, Phase::facets,
                                      Phase::refine};
   return kPhase[static_cast<std::size_t>(step)];
 }
 
-Phase phase_of(CdtStep step) {
+Phase phase_of(cdt::CdtStep step) {
   static constexpr Phase kPhase[] = {Phase::delaunay, Phase::segments, Phase::facets,
                                      Phase::classify};
   return kPhase[static_cast<std::size_t>(step)];
@@ -49,8 +52,10 @@ Status check(const Surface& surface, Session& s, Recorder& recorder) {
 }
 
 // Sections 4 and 7, in turn until neither leaves anything to the other.
-ChamferedSurface filter_and_chamfer(double tau, const ChamferOptions& options, Session& s) {
-  FilteredSurface surface(s.topology, s.points, s.predicates, options, tau * s.diagonal, s.control);
+chamfer::ChamferedSurface filter_and_chamfer(double tau, const chamfer::ChamferOptions& options,
+                                             Session& s) {
+  chamfer::FilteredSurface surface(s.topology, s.points, s.predicates, options, tau * s.diagonal,
+                                   s.control);
   s.control.enter(Phase::filter);
   surface.drop_close();
   do {
@@ -62,9 +67,10 @@ ChamferedSurface filter_and_chamfer(double tau, const ChamferOptions& options, S
   return surface.result();
 }
 
-RefineResult refine(ChamferedSurface& chamfered, double tau, Fallback& fallback, Session& s) {
-  add_outer_box(s.topology, s.points, chamfered.chamfer.plc);
-  RefineOptions options;
+refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double tau,
+                                 Fallback& fallback, Session& s) {
+  refine::add_outer_box(s.topology, s.points, chamfered.chamfer.plc);
+  refine::RefineOptions options;
   options.delta = s.options.delta;
   options.slivers = s.options.slivers;
   options.max_edge = s.options.max_edge;
@@ -73,33 +79,36 @@ RefineResult refine(ChamferedSurface& chamfered, double tau, Fallback& fallback,
   options.want_balls = s.options.want_exact;
   options.gabriel = fallback.gabriel();
   options.apex = chamfered.chamfer.vertex_is_apex;
-  options.on_step = [&s](RefineStep step) { s.control.enter(phase_of(step)); };
+  options.on_step = [&s](refine::RefineStep step) { s.control.enter(phase_of(step)); };
   options.removed =
-      removed_boxes(chamfered.chamfer, chamfered.filter.facet_kept, s.topology, s.points);
-  return refine(chamfered.chamfer.plc, s.topology, s.points, s.predicates, options, s.control);
+      chamfer::removed_boxes(chamfered.chamfer, chamfered.filter.facet_kept, s.topology, s.points);
+  return refine::refine(chamfered.chamfer.plc, s.topology, s.points, s.predicates, options,
+                        s.control);
 }
 
 // Without the refined mesh, whose memory the last step needs.
-CdtResult enriched_cdt(const ChamferedSurface& chamfered, RefineResult refined, Session& s) {
+cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
+                            refine::RefineResult refined, Session& s) {
   s.control.enter(Phase::enrich);
   std::unique_ptr<Tetrahedrization> delaunay = std::move(refined.delaunay);
-  CdtInput input = enriched_input(chamfered.chamfer, chamfered.filter.facet_kept, refined,
-                                  s.topology, s.points, s.predicates, s.control);
+  cdt::CdtInput input =
+      enrich::enriched_input(chamfered.chamfer, chamfered.filter.facet_kept, refined, s.topology,
+                             s.points, s.predicates, s.control);
   refined = {};
-  input.on_step = [&s](CdtStep step) {
-    s.control.enter(step == CdtStep::classify ? Phase::classify : Phase::enrich);
+  input.on_step = [&s](cdt::CdtStep step) {
+    s.control.enter(step == cdt::CdtStep::classify ? Phase::classify : Phase::enrich);
   };
-  return constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control,
-                                               std::move(delaunay));
+  return cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control,
+                                                    std::move(delaunay));
 }
 
-void write_refined(const ChamferedSurface& chamfered, RefineResult refined, Session& s,
-                   Recorder& recorder) {
+void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineResult refined,
+                   Session& s, Recorder& recorder) {
   refined.delaunay.reset();
   s.control.enter(Phase::round);
   MeshToWrite exact =
       approximate_mesh(chamfered.chamfer, refined, s.topology, s.points, s.options.region);
-  RoundingResult rounded = round_mesh(std::move(exact.rounding), s.control);
+  output::RoundingResult rounded = output::round_mesh(std::move(exact.rounding), s.control);
   recorder.written(exact, std::move(rounded));
 }
 
@@ -108,17 +117,17 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
 
   Budget budget(s.options);
   Fallback fallback(s.options);
-  ChamferedSurface chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
+  chamfer::ChamferedSurface chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
   while (!budget.allows(chamfered, s, recorder)) {
     s.forget_points(s.input_vertices());
     chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
   }
-  RefineResult refined = refine(chamfered, budget.tau(), fallback, s);
+  refine::RefineResult refined = refine_mesh(chamfered, budget.tau(), fallback, s);
   while (refined.runaway) {
     fallback.tighten(*refined.runaway, s);
     s.forget_points(s.input_vertices());
     chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
-    refined = refine(chamfered, budget.tau(), fallback, s);
+    refined = refine_mesh(chamfered, budget.tau(), fallback, s);
   }
   recorder.chamfered(chamfered.chamfer, chamfered.filter, fallback.in_force(budget.tau()));
   recorder.refined(chamfered.chamfer, refined);
@@ -127,9 +136,9 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
     return {};
   }
 
-  CdtResult cdt = enriched_cdt(chamfered, std::move(refined), s);
+  cdt::CdtResult cdt = enriched_cdt(chamfered, std::move(refined), s);
   s.control.enter(Phase::enrich);
-  if (std::optional<CdtResult> plain = plain_if_better(cdt, s)) {
+  if (std::optional<cdt::CdtResult> plain = plain_if_better(cdt, s)) {
     cdt = std::move(*plain);
     recorder.plain_taken();
   }
@@ -142,9 +151,10 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
 // Without refinement: the surface alone.
 Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
   if (Status status = check(surface, s, recorder); !status.ok()) return status;
-  CdtInput input = plain_input(s.topology);
-  input.on_step = [&s](CdtStep step) { s.control.enter(phase_of(step)); };
-  CdtResult cdt = constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
+  cdt::CdtInput input = enrich::plain_input(s.topology);
+  input.on_step = [&s](cdt::CdtStep step) { s.control.enter(phase_of(step)); };
+  cdt::CdtResult cdt =
+      cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
   recorder.tetrahedrized(cdt);
   s.control.enter(Phase::round);
   round_and_write(std::move(cdt), s, recorder);
@@ -153,7 +163,7 @@ Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
 
 using Pipeline = Status (*)(const Surface&, Session&, Recorder&);
 
-Result run(const Surface& surface, const Options& options, Pipeline pipeline) {
+Result run_pipeline(const Surface& surface, const Options& options, Pipeline pipeline) {
   Result result;
   Control control(options);
   Session session(options, control);
@@ -171,12 +181,14 @@ Result run(const Surface& surface, const Options& options, Pipeline pipeline) {
 }  // namespace
 
 Result tetrahedralize(const Surface& surface, const Options& options) {
-  const auto in_units = [](const Surface& s, const Options& o) { return run(s, o, mesh); };
+  const auto in_units = [](const Surface& s, const Options& o) { return run_pipeline(s, o, mesh); };
   return in_ordinary_units(surface, options, in_units);
 }
 
 Result constrained_delaunay(const Surface& surface, const Options& options) {
-  const auto in_units = [](const Surface& s, const Options& o) { return run(s, o, plain_cdt); };
+  const auto in_units = [](const Surface& s, const Options& o) {
+    return run_pipeline(s, o, plain_cdt);
+  };
   return in_ordinary_units(surface, options, in_units);
 }
 
@@ -194,8 +206,8 @@ SurfaceReport check_surface(const Surface& surface, const Options& options) {
         build_topology(oriented_outwards(surface, validity), points, predicates);
     report.facets = topology.facet_triangles.size();
     report.smallest_local_feature_size = smallest_local_feature_size(topology, points, control);
-    const AcuteCount acute =
-        count_acute(topology, points, predicates, chamfer_options(options), control);
+    const chamfer::AcuteCount acute =
+        chamfer::count_acute(topology, points, predicates, chamfer_options(options), control);
     report.acute_vertices = acute.vertices;
     report.acute_edges = acute.edges;
     return {};

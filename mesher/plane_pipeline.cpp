@@ -162,11 +162,11 @@ PlaneResult triangulate_polygon(const PlanarGraph& graph, const Options& given) 
   PlaneResult result;
   Options options = given;
   if (options.max_vertices == 0) options.max_vertices = plane::default_limit(graph);
-  Control control(options);
+  base::Control control(options);
   plane::Session session(options, control);
   plane::Recorder recorder(session, result);
-  result.status = guarded(control, [&]() -> Status {
-    if (const std::string defect = options_defect(options, kPlaneBounds); !defect.empty()) {
+  result.status = base::guarded(control, [&]() -> Status {
+    if (const std::string defect = run::options_defect(options, kPlaneBounds); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
     plane::mesh(graph, session, recorder);

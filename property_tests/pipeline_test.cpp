@@ -70,8 +70,8 @@ void expect_faces_counted_once(const NamedSurface& model, const Options& options
   SCOPED_TRACE(model.name);
   const Result result = delmesher::tetrahedralize(model.surface, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
-  delmesher::Control control(options);
-  const delmesher::MeshStatistics compared = delmesher::mesh_statistics(
+  delmesher::base::Control control(options);
+  const delmesher::MeshStatistics compared = delmesher::output::mesh_statistics(
       result.mesh.vertices, result.mesh.tetrahedra, {}, result.mesh.vertices.size(), 0, control);
   const delmesher::MeshStatistics& told = result.statistics.final;
   EXPECT_EQ(told.face_angle_histogram, compared.face_angle_histogram);

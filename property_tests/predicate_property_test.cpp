@@ -16,16 +16,16 @@
 namespace tetproof {
 namespace {
 
-using delmesher::PointKind;
-using delmesher::Predicates;
-using delmesher::VertexId;
-using delmesher::families::Family;
-using delmesher::families::Random;
+using delmesher::base::VertexId;
+using delmesher::predicates::PointKind;
+using delmesher::predicates::Predicates;
+using delmesher::predicates::families::Family;
+using delmesher::predicates::families::Random;
 
-oracles::ExactPoints exact_points(const delmesher::PointStore& store) {
+oracles::ExactPoints exact_points(const delmesher::predicates::PointStore& store) {
   std::vector<delmesher::ExactPoint> points;
   for (VertexId v = 0; v < store.size(); ++v) {
-    const delmesher::PointDefinition d = store.definition(v);
+    const delmesher::predicates::PointDefinition d = store.definition(v);
     delmesher::ExactPoint p;
     if (d.kind == PointKind::explicit_point) {
       const auto x = store.nearest(v);
@@ -55,7 +55,7 @@ struct Tally {
 // One family: every mix of kinds for five points, a few times.
 void check_family(const Family& family, std::uint64_t seed, int rounds, Tally& tally) {
   Random random(seed);
-  delmesher::families::Sample sample;
+  delmesher::predicates::families::Sample sample;
   fill(sample, family, 12, random);
   Predicates predicates(sample.store);
   const oracles::ExactPoints points = exact_points(sample.store);
@@ -75,15 +75,15 @@ void check_family(const Family& family, std::uint64_t seed, int rounds, Tally& t
       const int orientation = oracles::exact::orient3d(points, a, b, c, d);
       ASSERT_EQ(predicates.orient3d(a, b, c, d), orientation) << family.name << mix;
       ASSERT_EQ(cgal.orient3d(a, b, c, d), orientation) << family.name << mix;
-      const int quick = delmesher::filters::orient3d(approximation(a), approximation(b),
-                                                     approximation(c), approximation(d));
+      const int quick = delmesher::predicates::filters::orient3d(
+          approximation(a), approximation(b), approximation(c), approximation(d));
       if (quick != 0) {
         ASSERT_EQ(quick, orientation) << "a filter was certain and wrong";
       }
       const int sphere = oracles::exact::insphere(points, a, b, c, d, e);
       ASSERT_EQ(predicates.insphere(a, b, c, d, e), sphere) << family.name << mix;
       ASSERT_EQ(cgal.insphere(a, b, c, d, e), sphere) << family.name << mix;
-      const int quick_sphere = delmesher::filters::insphere(
+      const int quick_sphere = delmesher::predicates::filters::insphere(
           approximation(a), approximation(b), approximation(c), approximation(d), approximation(e));
       if (quick_sphere != 0) {
         ASSERT_EQ(quick_sphere, sphere) << "a filter was certain and wrong";
@@ -108,7 +108,7 @@ TEST(PredicateLaws, AllMixesAgreeWithIntegersAndWithCgalAndFiltersAreNeverWrong)
   Tally tally;
   const int rounds = samples::iterations(1);
   std::uint64_t seed = 42;
-  for (const Family& family : delmesher::families::all()) {
+  for (const Family& family : delmesher::predicates::families::all()) {
     check_family(family, seed++, rounds, tally);
     if (HasFatalFailure()) return;
   }

@@ -34,17 +34,17 @@ constexpr double kDegrees = 180 / 3.14159265358979323846;
 // ------------------------------------------------------------------------------------- Delaunay
 
 std::vector<Tet> our_delaunay(const std::vector<Position>& points) {
-  delmesher::PointStore store;
-  std::vector<delmesher::VertexId> vertices;
+  delmesher::predicates::PointStore store;
+  std::vector<delmesher::base::VertexId> vertices;
   for (const Position& p : points) vertices.push_back(store.add_explicit(p[0], p[1], p[2]));
-  delmesher::Predicates predicates(store);
-  delmesher::Tetrahedrization dt(predicates);
+  delmesher::predicates::Predicates predicates(store);
+  delmesher::delaunay::Tetrahedrization dt(predicates);
   const Options options;
-  delmesher::Control control(options);
+  delmesher::base::Control control(options);
   dt.build(vertices, control);
   dt.validate(true);  // throws
   std::vector<Tet> tets;
-  for (delmesher::TetId t = 0; t < dt.capacity(); ++t) {
+  for (delmesher::base::TetId t = 0; t < dt.capacity(); ++t) {
     if (!dt.alive(t) || dt.is_ghost(t)) continue;
     tets.push_back({dt.vertex(t, 0), dt.vertex(t, 1), dt.vertex(t, 2), dt.vertex(t, 3)});
   }

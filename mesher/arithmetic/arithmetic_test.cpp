@@ -10,7 +10,7 @@
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/arithmetic/fixed_integer.h"
 
-namespace delmesher {
+namespace delmesher::arithmetic {
 namespace {
 
 mpz_class import(const std::uint64_t* limbs, std::size_t n) {
@@ -267,4 +267,4 @@ TEST(BoundedPair, ContainsTheExactNumber) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::arithmetic

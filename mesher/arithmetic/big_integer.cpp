@@ -2,7 +2,7 @@
 
 #include <bit>
 
-namespace delmesher {
+namespace delmesher::arithmetic {
 
 BigInteger::BigInteger(std::int64_t value) {
   if (value == 0) return;
@@ -156,4 +156,4 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::arithmetic

@@ -7,7 +7,9 @@
 #include <cstring>
 #include <memory>
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::arithmetic {
 
 static_assert(GMP_NUMB_BITS == 64, "limbs of 64 bits, no nails");
 
@@ -62,4 +64,4 @@ class BigInteger {
   Limb inline_[kInlineLimbs];
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::arithmetic

@@ -10,8 +10,9 @@
 #include <cmath>
 
 #include "mesher/arithmetic/floating_point.h"
+#include "mesher/base/namespaces.h"
 
-namespace delmesher {
+namespace delmesher::arithmetic {
 
 inline constexpr int kUnknownSign = 2;
 inline constexpr double kRoundoff = 0x1p-53;
@@ -127,4 +128,4 @@ inline BoundedPair operator*(const BoundedPair& a, const BoundedPair& b) {
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::arithmetic

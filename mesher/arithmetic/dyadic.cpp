@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace delmesher {
+namespace delmesher::arithmetic {
 namespace {
 
 Dyadic normalised(BigInteger mantissa, std::int64_t exponent) {
@@ -75,4 +75,4 @@ Rounded round_to_double(const Dyadic& number) {
   return {sign * value, std::ldexp(1.0, std::max(exponent - 1, -1074))};
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::arithmetic

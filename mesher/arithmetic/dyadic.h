@@ -6,8 +6,9 @@
 #include <cstdint>
 
 #include "mesher/arithmetic/big_integer.h"
+#include "mesher/base/namespaces.h"
 
-namespace delmesher {
+namespace delmesher::arithmetic {
 
 // mantissa * 2^exponent with an odd mantissa, or zero with exponent 0.
 struct Dyadic {
@@ -48,4 +49,4 @@ inline DoubleParts decompose(double value) {
   return {magnitude >> zeros, std::max(biased, 1) - 1075 + zeros, (bits >> 63) != 0};
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::arithmetic

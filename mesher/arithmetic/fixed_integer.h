@@ -8,7 +8,9 @@
 #include <array>
 #include <cstdint>
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::arithmetic {
 
 // ISO C++ has no 128-bit integers: an extension that gcc and clang share.
 __extension__ using Wide = unsigned __int128;
@@ -126,4 +128,4 @@ inline FixedInteger<N> fixed_integer(const std::uint64_t* limbs, int size, bool 
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::arithmetic

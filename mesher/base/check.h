@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::base {
 
 // Thrown by DELMESHER_CHECK; the public API turns it into StatusCode::internal_error.
 class InternalError : public std::logic_error {
@@ -16,8 +18,8 @@ class InternalError : public std::logic_error {
   throw InternalError(std::string(file) + ":" + std::to_string(line) + ": " + what);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::base
 
 // Always evaluated, also in release builds: cheap conditions only.
 #define DELMESHER_CHECK(condition, what) \
-  ((condition) ? void(0) : ::delmesher::fail_check(__FILE__, __LINE__, what))
+  ((condition) ? void(0) : ::delmesher::base::fail_check(__FILE__, __LINE__, what))

@@ -5,7 +5,7 @@
 #include <new>
 #include <thread>
 
-namespace delmesher {
+namespace delmesher::base {
 namespace {
 
 double seconds_between(std::chrono::steady_clock::time_point a,
@@ -81,4 +81,4 @@ void Control::poll_now(std::uint64_t vertices, double done) {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::base

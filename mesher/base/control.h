@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <string>
 
+#include "mesher/base/namespaces.h"
 #include "mesher/delmesher/run.h"
 
-namespace delmesher {
+namespace delmesher::base {
 
 // Thrown out of a stage when the caller cancelled or a limit was reached; caught by the public API.
 struct Stopped {
@@ -60,4 +61,4 @@ class Control {
   std::array<double, kPhaseCount> seconds_{};
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::base

@@ -5,7 +5,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace delmesher {
+namespace delmesher::base {
 namespace {
 
 Status status_with(std::function<bool(const Progress&)> progress) {
@@ -38,4 +38,4 @@ TEST(Control, MemoryIsALimitInTheCallbackToo) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::base

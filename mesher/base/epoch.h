@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::base {
 
 // Begins the next epoch of some marks, which are 0 (never marked) or an earlier epoch. When all
 // numbers have been used, the marks are set to 0 and the count begins anew.
@@ -15,4 +17,4 @@ void next_epoch(std::uint32_t& epoch, Marks&... marks) {
   epoch = 1;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::base

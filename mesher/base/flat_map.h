@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::base {
 
 // Key of the undirected pair ab.
 inline std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
@@ -82,4 +84,4 @@ class FlatMap {
   int shift_ = 64;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::base

@@ -5,7 +5,7 @@
 #include <map>
 #include <random>
 
-namespace delmesher {
+namespace delmesher::base {
 namespace {
 
 TEST(FlatMap, AnswersLikeAnOrderedMap) {
@@ -41,4 +41,4 @@ TEST(FlatMap, EmptyHasNothing) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::base

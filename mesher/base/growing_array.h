@@ -12,7 +12,9 @@
 #include <type_traits>
 #include <utility>
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::base {
 
 template <class T>
 class GrowingArray {
@@ -109,4 +111,4 @@ class GrowingArray {
   std::size_t size_ = 0, capacity_ = 0;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::base

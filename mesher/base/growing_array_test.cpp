@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace delmesher {
+namespace delmesher::base {
 namespace {
 
 struct alignas(32) Wide {
@@ -74,4 +74,4 @@ TEST(GrowingArray, OverAlignedElementsSurviveEveryMove) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::base

@@ -7,9 +7,10 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/control.h"
+#include "mesher/base/namespaces.h"
 #include "mesher/delmesher/run.h"
 
-namespace delmesher {
+namespace delmesher::base {
 
 // Runs `body` and turns everything it may throw into a status: the public API reports errors as
 // values.
@@ -33,4 +34,4 @@ Status guarded(Control& control, Body&& body) {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::base

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::base {
 
 // Index of a point in a PointStore; also the rank used by symbolic perturbation.
 using VertexId = std::uint32_t;
@@ -17,4 +19,4 @@ using PlaneId = std::uint32_t;
 // "No such element" for every identifier type.
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
-}  // namespace delmesher
+}  // namespace delmesher::base

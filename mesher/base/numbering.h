@@ -5,8 +5,9 @@
 #include <string>
 
 #include "mesher/base/control.h"
+#include "mesher/base/namespaces.h"
 
-namespace delmesher {
+namespace delmesher::base {
 
 // Throws Stopped, as a limit of size: there are more of `what` ("tetrahedra") than `most`, which is
 // what indices can number.
@@ -17,4 +18,4 @@ namespace delmesher {
        Limit::size}};
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::base

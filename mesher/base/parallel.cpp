@@ -8,7 +8,7 @@
 #include <system_error>
 #include <thread>
 
-namespace delmesher {
+namespace delmesher::base {
 namespace {
 
 // Thrown out of a chunk that is no longer wanted.
@@ -138,4 +138,4 @@ void for_chunks(Control& control, std::size_t count, std::size_t size,
   SharedLoop(control, count, size, work).run();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::base

@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/base/namespaces.h"
 
-namespace delmesher {
+namespace delmesher::base {
 
 // Consecutive items of a loop.
 struct Chunk {
@@ -106,4 +107,4 @@ class PerWorker {
   std::deque<Slot> slots_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::base

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace delmesher {
+namespace delmesher::base {
 namespace {
 
 Limits with_threads(unsigned threads) {
@@ -157,4 +157,4 @@ TEST(Threads, EveryWorkerHasItsOwnObject) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::base

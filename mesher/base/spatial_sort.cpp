@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace delmesher {
+namespace delmesher::base {
 namespace {
 
 constexpr int kBits = 20;  // per axis: three of them fit a 64-bit key, with room for the round
@@ -93,4 +93,4 @@ void spatial_sort(std::span<std::uint32_t> order,
   for (std::size_t n = 0; n < items.size(); ++n) order[n] = items[n].point;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::base

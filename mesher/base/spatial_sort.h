@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <span>
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::base {
 
 // The rounds of doubling size of a biased randomized insertion order: point n of them is in the
 // last round with probability 1/2, in the one before with 1/4, ... Below 64 points a round is not
@@ -27,4 +29,4 @@ class InsertionRounds {
 void spatial_sort(std::span<std::uint32_t> order,
                   std::span<const std::array<double, 3>> coordinates);
 
-}  // namespace delmesher
+}  // namespace delmesher::base

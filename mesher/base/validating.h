@@ -1,7 +1,9 @@
 // Whether the stages check what they promise of their own state.
 #pragma once
 
-namespace delmesher {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::base {
 
 // Do the stages check their invariants after each step, at about the cost of the step itself? In
 // debug and fuzz builds; a test asks for it in any build.
@@ -11,4 +13,4 @@ inline constexpr bool kValidating = true;
 inline constexpr bool kValidating = false;
 #endif
 
-}  // namespace delmesher
+}  // namespace delmesher::base

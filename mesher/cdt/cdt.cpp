@@ -10,7 +10,7 @@
 #include "mesher/cdt/segments.h"
 #include "mesher/cdt/validate.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 class CdtBuilder {
@@ -145,4 +145,4 @@ CdtResult constrained_delaunay_tetrahedrization(const CdtInput& input, PointStor
   return CdtBuilder(input, points, predicates, control, std::move(delaunay)).run();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

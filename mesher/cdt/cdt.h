@@ -15,7 +15,7 @@
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 // The steps, in their order. They begin anew if facet recovery fails (CdtCounters::facet_restarts).
 enum class CdtStep : std::uint8_t {
@@ -81,4 +81,4 @@ CdtResult constrained_delaunay_tetrahedrization(
     const CdtInput& input, PointStore& points, Predicates& predicates, Control& control,
     std::unique_ptr<Tetrahedrization> delaunay = nullptr);
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -12,7 +12,7 @@
 
 #include "mesher/cdt/cdt.h"
 
-namespace delmesher::rational {
+namespace delmesher::cdt::rational {
 
 using Vector = std::array<mpq_class, 3>;
 
@@ -185,4 +185,4 @@ class Checker {
   std::vector<Vector> x_;
 };
 
-}  // namespace delmesher::rational
+}  // namespace delmesher::cdt::rational

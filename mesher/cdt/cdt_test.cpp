@@ -8,7 +8,7 @@
 #include "mesher/cdt/test_models.h"
 #include "mesher/cdt/validate.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 using namespace test_models;
@@ -522,4 +522,4 @@ TEST(Cdt, StopsWhenTold) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -5,7 +5,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 double safe_distance(const Vec3& a, const Vec3& b) {
   const Vec3 d = {std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])};
@@ -99,4 +99,4 @@ std::uint32_t find_face(Tetrahedrization& mesh, const Chains& chains,
   return mesh.find_face(face[0], face[1], face[2]);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

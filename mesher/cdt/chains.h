@@ -7,7 +7,7 @@
 
 #include "mesher/cdt/cdt.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 // A vertex of a chain. The position along the edge is kept as a fraction of its length from either
 // end, because near an end only the fraction from that end is accurate.
@@ -61,4 +61,4 @@ std::uint32_t find_face(Tetrahedrization& mesh, const Chains& chains, std::array
 // Distance of two points given by their coordinates, without overflow or underflow of squares.
 double safe_distance(const Vec3& a, const Vec3& b);
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

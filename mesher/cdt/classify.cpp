@@ -2,7 +2,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 // Is that face (4 * tetrahedron + face, or kNone) of the mesh this one?
@@ -65,4 +65,4 @@ std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
   return inside;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -7,7 +7,7 @@
 
 #include "mesher/cdt/chains.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 // Per tetrahedron id: 1 if it is inside the surface made of these faces of the mesh, 0 outside.
 // `found` says where each face was (4 * tetrahedron + face, or kNone), which may be out of date.
@@ -18,4 +18,4 @@ std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
                                               const Chains& chains, Control& control,
                                               std::size_t* missing);
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -4,7 +4,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 std::uint64_t directed(VertexId from, VertexId to) {
@@ -146,4 +146,4 @@ FacetTriangles FacetTriangulator::restrict_to_polygon(PlanarTriangulation&& all)
   return out;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

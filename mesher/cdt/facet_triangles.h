@@ -9,7 +9,7 @@
 #include "mesher/cdt/chains.h"
 #include "mesher/delaunay/planar.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 struct FacetTriangles {
   std::vector<std::array<VertexId, 3>> triangles;  // counter-clockwise seen from outside the solid
@@ -40,4 +40,4 @@ class FacetTriangulator {
   std::vector<std::uint64_t> boundary_;    // sorted (from << 32 | to), interior on the left
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -5,7 +5,7 @@
 #include "mesher/base/flat_map.h"
 #include "mesher/cdt/separation.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 class GiftWrapper {
@@ -137,4 +137,4 @@ bool gift_wrap(Predicates& predicates, Control& control, const std::vector<Trian
   return GiftWrapper(predicates, control, faces, vertices, tetrahedra, counters).run();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

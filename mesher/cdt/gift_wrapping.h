@@ -3,7 +3,7 @@
 
 #include "mesher/cdt/polyhedron.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 // As PolyhedronFiller::fill, by gift wrapping alone: quadratic or worse, for small polyhedra.
 // `vertices` are those of the faces and the isolated ones, without repetition.
@@ -11,4 +11,4 @@ bool gift_wrap(Predicates& predicates, Control& control, const std::vector<Trian
                const std::vector<VertexId>& vertices, std::vector<Tetrahedron>& tetrahedra,
                FillCounters& counters);
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -11,7 +11,7 @@
 #include "mesher/cdt/cdt_reference.h"
 #include "mesher/surface/validity.h"
 
-namespace delmesher::test_models {
+namespace delmesher::cdt::test_models {
 
 struct Model {
   explicit Model(const Surface& given) : control(options), predicates(points) {
@@ -103,4 +103,4 @@ inline void enrich(Model& model, int density, std::uint32_t seed) {
   }
 }
 
-}  // namespace delmesher::test_models
+}  // namespace delmesher::cdt::test_models

@@ -7,7 +7,7 @@
 #include "mesher/cdt/gift_wrapping.h"
 #include "mesher/cdt/separation.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 // Fewer vertices are not worth a Delaunay tetrahedrization of their own.
@@ -170,4 +170,4 @@ bool PolyhedronFiller::fill(std::vector<Triangle> faces, std::vector<VertexId> i
   return false;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

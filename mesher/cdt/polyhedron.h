@@ -12,7 +12,7 @@
 #include "mesher/base/control.h"
 #include "mesher/delaunay/tetrahedrization.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 using Triangle = std::array<VertexId, 3>;
 using Tetrahedron = std::array<VertexId, 4>;
@@ -47,4 +47,4 @@ class PolyhedronFiller {
   FillCounters counters_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -6,7 +6,7 @@
 #include "mesher/base/flat_map.h"
 #include "mesher/base/numbering.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 Triangle reversed(const Triangle& t) {
@@ -287,4 +287,4 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
   return true;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

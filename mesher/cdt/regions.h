@@ -18,7 +18,7 @@
 #include "mesher/cdt/facet_triangles.h"
 #include "mesher/cdt/polyhedron.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 class FacetRecovery {
  public:
@@ -77,4 +77,4 @@ class FacetRecovery {
   std::vector<VertexId> local_;            // vertices of the cavity, ascending
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -11,7 +11,7 @@
 #include "mesher/base/flat_map.h"
 #include "mesher/predicates/placement.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 // Relative to the shorter part of a split: how far a point may be from its target so that its
@@ -543,4 +543,4 @@ VertexId split_in_the_middle(Chains& chains, std::uint32_t node, PointStore& poi
   return chains.node(Placer(chains, points, predicates).split(node, middle)).vertex;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

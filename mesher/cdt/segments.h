@@ -6,7 +6,7 @@
 
 #include "mesher/cdt/chains.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 // Inserts the points that make every subsegment an edge of `mesh`, which must be the Delaunay
 // tetrahedrization of the input's vertices. Returns the new points, in the order of insertion.
@@ -18,4 +18,4 @@ std::vector<VertexId> recover_segments(Tetrahedrization& mesh, Chains& chains, P
 VertexId split_in_the_middle(Chains& chains, std::uint32_t node, PointStore& points,
                              Predicates& predicates);
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 enum : unsigned { kInTetrahedron = 1, kInTriangle = 2, kInBoth = 3 };
@@ -106,4 +106,4 @@ bool boxes_disjoint(const PointStore& points, const std::array<VertexId, 4>& tet
   return false;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

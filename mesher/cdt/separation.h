@@ -5,7 +5,7 @@
 
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 // Do the open tetrahedron and the closed triangle have a point in common? They do not iff some
 // plane through three of their vertices weakly separates them: weakly separating planes form a
@@ -22,4 +22,4 @@ bool may_meet_improperly(Predicates& predicates, const std::array<VertexId, 4>& 
 bool boxes_disjoint(const PointStore& points, const std::array<VertexId, 4>& tetrahedron,
                     const std::array<VertexId, 3>& triangle);
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

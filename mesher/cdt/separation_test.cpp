@@ -9,7 +9,7 @@
 #include "mesher/cdt/gift_wrapping.h"
 #include "mesher/cdt/polyhedron.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 using rational::Vector;
@@ -205,4 +205,4 @@ TEST(Polyhedron, OpenSurfaceIsRefused) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::cdt

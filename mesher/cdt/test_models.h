@@ -11,7 +11,7 @@
 
 #include "mesher/delmesher/surface.h"
 
-namespace delmesher::test_models {
+namespace delmesher::cdt::test_models {
 
 using Point = std::array<double, 3>;
 
@@ -334,4 +334,4 @@ inline Surface chazelle(int n, double gap) {
   return s;
 }
 
-}  // namespace delmesher::test_models
+}  // namespace delmesher::cdt::test_models

@@ -4,7 +4,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 namespace {
 
 void validate_edges(Tetrahedrization& mesh, const Chains& chains) {
@@ -56,4 +56,4 @@ void validate_facets(Tetrahedrization& mesh, const Chains& chains,
   predicates.counters = counters;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

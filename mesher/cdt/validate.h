@@ -6,7 +6,7 @@
 
 #include "mesher/cdt/chains.h"
 
-namespace delmesher {
+namespace delmesher::cdt {
 
 // Throws InternalError unless the tetrahedrization is Delaunay, its structure is sound and every
 // subsegment of the chains is an edge. A few predicates per tetrahedron, which are not counted.
@@ -18,4 +18,4 @@ void validate_segments(Tetrahedrization& mesh, const Chains& chains);
 void validate_facets(Tetrahedrization& mesh, const Chains& chains,
                      std::span<const SurfaceFace> surface, std::span<const std::uint8_t> inside);
 
-}  // namespace delmesher
+}  // namespace delmesher::cdt

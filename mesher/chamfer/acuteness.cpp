@@ -2,7 +2,7 @@
 
 #include "mesher/base/parallel.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 namespace {
 
@@ -132,4 +132,4 @@ Acuteness find_acute(const KeptSurface& surface, Predicates& predicates,
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -8,7 +8,7 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/chamfer/kept_surface.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // The threshold in force at every vertex; an edge obeys the stricter of its ends.
 class Thresholds {
@@ -48,4 +48,4 @@ Acuteness find_acute(const KeptSurface& surface, Predicates& predicates,
 bool projects_into_wedge(Predicates& predicates, VertexId q, VertexId a, VertexId b, VertexId c,
                          bool with_ab = false, bool with_ac = false);
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

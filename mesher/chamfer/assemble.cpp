@@ -6,7 +6,7 @@
 #include "mesher/chamfer/boundary_distance.h"
 #include "mesher/chamfer/closest.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 namespace {
 
@@ -208,4 +208,4 @@ void assemble_plc(const KeptSurface& surface, const Acuteness& acute, const Cuts
   for (PlcFacet& facet : result.plc.facets) facet.isolated = isolated.of_facet(facet.input_facet);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -4,7 +4,7 @@
 
 #include "mesher/chamfer/closest.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 BoundaryDistance::BoundaryDistance(const KeptSurface& surface)
     : surface_(surface), tree_(surface.topology().facet_triangles.size()) {}
@@ -68,4 +68,4 @@ double BoundaryDistance::from_point(FacetId f, const Vec3& point) {
   });
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -9,7 +9,7 @@
 #include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/kept_surface.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 class BoundaryDistance {
  public:
@@ -35,4 +35,4 @@ class BoundaryDistance {
   std::vector<std::unique_ptr<BoxTree>> tree_;  // per facet, when first needed
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -5,7 +5,7 @@
 
 #include "mesher/base/ids.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 BoxTree::BoxTree(std::vector<ItemBox> boxes) : boxes_(std::move(boxes)) {
   if (boxes_.empty()) return;
@@ -55,4 +55,4 @@ void BoxTree::remove(std::uint32_t item) {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -9,7 +9,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 struct ItemBox {
   Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
@@ -118,4 +118,4 @@ class BoxTree {
   std::vector<Node> nodes_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -7,7 +7,7 @@
 #include "mesher/base/check.h"
 #include "mesher/predicates/placement.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 VertexId NewPoints::add(const NewPoint& point) {
   list_.push_back(point);
@@ -222,4 +222,4 @@ Bridges build_bridges(const KeptSurface& surface, const Acuteness& acute, const 
   return BridgeBuilder(surface, acute, cuts, thresholds, new_points).run(control);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

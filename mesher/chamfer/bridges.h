@@ -6,7 +6,7 @@
 
 #include "mesher/chamfer/cuts.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // A point to be appended to the store, with its supports.
 struct NewPoint {
@@ -57,4 +57,4 @@ struct Bridges {
 Bridges build_bridges(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
                       const Thresholds& thresholds, NewPoints& new_points, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

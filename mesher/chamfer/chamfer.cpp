@@ -8,7 +8,7 @@
 #include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/simplify.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 namespace {
 
@@ -108,4 +108,4 @@ AcuteCount count_acute(const SurfaceTopology& topology, const PointStore& points
   return counted(find_acute(surface, predicates, Thresholds(options), {}, control));
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

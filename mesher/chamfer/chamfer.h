@@ -10,7 +10,7 @@
 #include "mesher/surface/plc.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 struct ChamferOptions {
   double cosine_squared = 0.25;  // corners with a smaller angle are acute (0.25: 60 degrees)
@@ -62,4 +62,4 @@ struct AcuteCount {
 AcuteCount count_acute(const SurfaceTopology& topology, const PointStore& points,
                        Predicates& predicates, const ChamferOptions& options, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -6,7 +6,7 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/chamfer/kept_surface.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // As chamfer(); options.facet_kept must be that of the surface. If `active` is not empty, vertices
 // v with active[v] == 0 are taken not to be acute, and facets without active vertices are left out
@@ -15,4 +15,4 @@ ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
                               Predicates& predicates, const ChamferOptions& options,
                               const std::vector<std::uint8_t>& active, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -15,7 +15,7 @@
 #include "mesher/chamfer/test_polyhedra.h"
 #include "mesher/surface/validity.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 namespace {
 
 using plc_angles::degrees;
@@ -563,4 +563,4 @@ TEST(Chamfer, ParametersAreShort) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

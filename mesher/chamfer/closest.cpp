@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 ClosestOnSegment closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 direction = subtract(b, a);
@@ -65,4 +65,4 @@ ClosestOnTriangle closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& 
   return best;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -5,7 +5,7 @@
 
 #include "mesher/predicates/vector.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 struct ClosestOnSegment {
   double squared_distance;
@@ -29,4 +29,4 @@ struct ClosestOnTriangle {
 
 ClosestOnTriangle closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& t);
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -6,7 +6,7 @@
 #include "mesher/chamfer/boundary_distance.h"
 #include "mesher/predicates/placement.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 namespace {
 
@@ -151,4 +151,4 @@ Cuts find_cuts(const KeptSurface& surface, const Acuteness& acute, Predicates& p
   return Cutter(surface, acute, max_radius).run(predicates, control);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

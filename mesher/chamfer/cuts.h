@@ -8,7 +8,7 @@
 #include "mesher/chamfer/acuteness.h"
 #include "mesher/chamfer/kept_surface.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // The directions that divide a corner of an acute vertex into equal parts of at most 120 degrees,
 // each of which gets one bridge A-P-Q-B with |AP| = |PQ| = |QB| = step * distance.
@@ -44,4 +44,4 @@ Cuts find_cuts(const KeptSurface& surface, const Acuteness& acute, Predicates& p
 // Positional accuracy wanted for the points of a bridge, in units of the chamfer distance.
 double bridge_accuracy(const SplitCorner& split);
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

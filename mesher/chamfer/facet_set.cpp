@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 FacetSet::FacetSet(const KeptSurface& surface) : topology_(surface.topology()) {
   const std::size_t facet_count = topology_.facet_triangles.size();
@@ -67,4 +67,4 @@ std::vector<FacetId> FacetSet::facets_at(VertexId v) const {
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

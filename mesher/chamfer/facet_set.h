@@ -6,7 +6,7 @@
 
 #include "mesher/chamfer/kept_surface.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // A vertex, constrained edge or facet.
 struct Element {
@@ -56,4 +56,4 @@ class FacetSet {
   std::vector<double> cost_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -12,7 +12,7 @@
 #include "mesher/chamfer/facet_set.h"
 #include "mesher/chamfer/filter_chamfered.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 namespace {
 
@@ -255,7 +255,7 @@ void FilteredSurface::drop_close() {
 
 void FilteredSurface::chamfer() {
   if (active_.empty()) {
-    result_.chamfer = delmesher::chamfer(topology_, points_, predicates_, options_, control_);
+    result_.chamfer = chamfer::chamfer(topology_, points_, predicates_, options_, control_);
     return;
   }
   kept_.emplace(topology_, points_, options_.facet_kept);
@@ -306,4 +306,4 @@ ChamferedSurface FilteredSurface::result() {
   return std::move(result_);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

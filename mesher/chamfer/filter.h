@@ -8,7 +8,7 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/chamfer/kept_surface.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 struct FilterResult {
   std::vector<std::uint8_t> facet_kept;     // per facet
@@ -74,4 +74,4 @@ class FilteredSurface {
   ChamferedSurface result_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

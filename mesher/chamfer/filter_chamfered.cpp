@@ -7,7 +7,7 @@
 #include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/closest.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 namespace {
 
@@ -235,4 +235,4 @@ std::vector<FacetId> drop_for_chamfered_features(const KeptSurface& surface,
   return dropped;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -7,7 +7,7 @@
 #include "mesher/chamfer/facet_set.h"
 #include "mesher/chamfer/kept_surface.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // Drops from the set facets responsible for segments shorter than the tolerance (in the scaled
 // coordinates of the surface) and for points, segments and facets without a common point that are
@@ -20,4 +20,4 @@ std::vector<FacetId> drop_for_chamfered_features(const KeptSurface& surface,
                                                  const std::vector<std::uint8_t>& changed,
                                                  FacetSet& facets, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

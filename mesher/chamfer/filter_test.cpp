@@ -10,7 +10,7 @@
 #include "mesher/chamfer/test_polyhedra.h"
 #include "mesher/surface/feature_size.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 namespace {
 
 using test_polyhedra::Sample;
@@ -290,4 +290,4 @@ TEST(Filter, NoToleranceNoFilter) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

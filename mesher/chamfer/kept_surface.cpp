@@ -4,7 +4,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 namespace {
 
@@ -142,4 +142,4 @@ std::vector<std::uint32_t> KeptSurface::fan(const Corner& corner) const {
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -9,7 +9,7 @@
 #include "mesher/predicates/vector.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // A sector of a kept facet at a vertex of its boundary, between two boundary edges. A vertex may
 // have several in one facet. The sector extends counter-clockwise (seen from outside) from the
@@ -84,4 +84,4 @@ class KeptSurface {
   std::vector<std::uint32_t> corner_of_outgoing_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -12,7 +12,7 @@
 #include "mesher/predicates/points.h"
 #include "mesher/surface/plc.h"
 
-namespace delmesher::plc_angles {
+namespace delmesher::chamfer::plc_angles {
 
 __extension__ using Quad = __float128;
 using QuadPoint = std::array<Quad, 3>;
@@ -219,4 +219,4 @@ inline Report measure(const Plc& plc, const PointStore& points) {
   return report;
 }
 
-}  // namespace delmesher::plc_angles
+}  // namespace delmesher::chamfer::plc_angles

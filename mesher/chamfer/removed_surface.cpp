@@ -4,7 +4,7 @@
 
 #include "mesher/surface/feature_size.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 namespace {
 
 Box enlarged(Box box, double by) {
@@ -99,4 +99,4 @@ Bvh RemovedSurface::build_dropped(const std::vector<std::uint8_t>& facet_kept) {
   return Bvh(boxes);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -8,7 +8,7 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/surface/bvh.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // Boxes that cover it.
 std::vector<Box> removed_boxes(const ChamferResult& chamfered,
@@ -44,4 +44,4 @@ class RemovedSurface {
   Bvh chamfers_, dropped_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 namespace {
 
@@ -189,4 +189,4 @@ void simplify_bridges(const KeptSurface& surface, const Acuteness& acute, const 
   Simplifier(surface, acute, cuts, thresholds, predicates, bridges).run(control);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -3,7 +3,7 @@
 
 #include "mesher/chamfer/bridges.h"
 
-namespace delmesher {
+namespace delmesher::chamfer {
 
 // Replaces chains by a single edge, or drops some of their points, where that makes no angle below
 // the threshold.
@@ -11,4 +11,4 @@ void simplify_bridges(const KeptSurface& surface, const Acuteness& acute, const 
                       const Thresholds& thresholds, Predicates& predicates, Bridges& bridges,
                       Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::chamfer

@@ -9,7 +9,7 @@
 
 #include "mesher/delmesher/surface.h"
 
-namespace delmesher::test_polyhedra {
+namespace delmesher::chamfer::test_polyhedra {
 
 using Point2 = std::array<std::int64_t, 2>;
 using Polygon = std::vector<Point2>;
@@ -214,4 +214,4 @@ inline std::vector<Sample> samples() {
   return result;
 }
 
-}  // namespace delmesher::test_polyhedra
+}  // namespace delmesher::chamfer::test_polyhedra

@@ -5,7 +5,7 @@
 #include "mesher/base/check.h"
 #include "mesher/base/epoch.h"
 
-namespace delmesher {
+namespace delmesher::delaunay {
 namespace {
 
 using Index = std::uint32_t;
@@ -278,4 +278,4 @@ PlanarTriangulation triangulate_planar(Predicates& predicates, const FacetPlane&
   return PlanarBuilder(predicates, plane, vertices).run();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::delaunay

@@ -9,7 +9,7 @@
 #include "mesher/base/ids.h"
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher {
+namespace delmesher::delaunay {
 
 // The plane of a facet, for planar predicates on its points.
 struct FacetPlane {
@@ -32,4 +32,4 @@ struct PlanarTriangulation {
 PlanarTriangulation triangulate_planar(Predicates& predicates, const FacetPlane& plane,
                                        std::span<const VertexId> vertices);
 
-}  // namespace delmesher
+}  // namespace delmesher::delaunay

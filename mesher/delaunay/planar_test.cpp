@@ -8,7 +8,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::delaunay {
 namespace {
 
 // Points of the plane through three explicit points, and an explicit point above it.
@@ -239,4 +239,4 @@ TEST_F(PlanarTest, AgreesWithThePerturbedInsphere) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::delaunay

@@ -8,7 +8,7 @@
 #include "mesher/base/validating.h"
 #include "mesher/delaunay/tetrahedrization.h"
 
-namespace delmesher {
+namespace delmesher::delaunay {
 
 namespace {
 
@@ -166,4 +166,4 @@ void Tetrahedrization::change_to(std::span<const VertexId> vertices, Control& co
   if (kValidating) validate(true);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::delaunay

@@ -12,7 +12,7 @@
 #include "mesher/base/spatial_sort.h"
 #include "mesher/base/validating.h"
 
-namespace delmesher {
+namespace delmesher::delaunay {
 
 Tetrahedrization::Tetrahedrization(Predicates& predicates, std::uint32_t most)
     : predicates_(predicates), most_(std::min(most, kMostTetrahedra)) {}
@@ -408,4 +408,4 @@ void Tetrahedrization::validate(bool delaunay) {
   predicates_.counters = counters;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::delaunay

@@ -17,7 +17,7 @@
 #include "mesher/base/ids.h"
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher {
+namespace delmesher::delaunay {
 
 inline constexpr VertexId kInfinite = kNone - 1;
 
@@ -198,4 +198,4 @@ class Tetrahedrization {
   std::uint32_t star_epoch_ = 0;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::delaunay

@@ -12,7 +12,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::delaunay {
 
 // Breaks a tetrahedrization, or brings it to the end of its numbers.
 struct TetrahedrizationBreaker {
@@ -307,4 +307,4 @@ TEST(Tetrahedrization, StarsAreFoundAfterTheLastEpoch) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::delaunay

@@ -6,11 +6,11 @@
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/surface/feature_size.h"
 
-namespace delmesher {
+namespace delmesher::enrich {
 namespace {
 
 // Per point of the store: distance to its nearest neighbour along an edge of the refined mesh.
-std::vector<double> spacings(const RefineResult& refined, const PointStore& points) {
+std::vector<double> spacings(const refine::RefineResult& refined, const PointStore& points) {
   std::vector<double> spacing(points.size(), HUGE_VAL);
   for (const auto& t : refined.tetrahedra) {
     for (const auto& e : kEdge) {
@@ -32,9 +32,9 @@ void sort_unique(std::vector<VertexId>& v) {
 // complex (the box) goes to `vertices`. Not those on artificial segments: beside the edges of the
 // corner that was cut off, inside their diametral balls, they would have these edges split once
 // more, next to the corner, and three of four small angles came from there.
-void add_complex_points(const ChamferResult& chamfered, const RefineResult& refined,
-                        const SurfaceTopology& topology, const PointStore& points,
-                        Predicates& predicates, CdtInput& input) {
+void add_complex_points(const chamfer::ChamferResult& chamfered,
+                        const refine::RefineResult& refined, const SurfaceTopology& topology,
+                        const PointStore& points, Predicates& predicates, cdt::CdtInput& input) {
   const Plc& plc = chamfered.plc;
   for (std::size_t n = 0; n < plc.segments.size(); ++n) {
     const std::uint32_t e = plc.segments[n].input_edge;
@@ -71,7 +71,7 @@ void add_complex_points(const ChamferResult& chamfered, const RefineResult& refi
 // Drops points that coincide with an input vertex which the complex lacks, e.g. the midpoint of a
 // chamfered region that happens to be a flat vertex: one of coincident points stays, the input
 // vertex.
-void drop_coincident(const PointStore& points, Predicates& predicates, CdtInput& input) {
+void drop_coincident(const PointStore& points, Predicates& predicates, cdt::CdtInput& input) {
   std::vector<VertexId>& all = input.vertices;
   sort_unique(all);
   std::vector<VertexId> order = all;
@@ -101,8 +101,8 @@ void drop_coincident(const PointStore& points, Predicates& predicates, CdtInput&
 
 }  // namespace
 
-CdtInput plain_input(const SurfaceTopology& topology) {
-  CdtInput input;
+cdt::CdtInput plain_input(const SurfaceTopology& topology) {
+  cdt::CdtInput input;
   input.topology = &topology;
   input.on_edge.resize(topology.edge_count());
   input.on_facet.resize(topology.facet_triangles.size());
@@ -112,12 +112,13 @@ CdtInput plain_input(const SurfaceTopology& topology) {
   return input;
 }
 
-CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
-                        const RefineResult& refined, const SurfaceTopology& topology,
-                        const PointStore& points, Predicates& predicates, Control& control) {
-  CdtInput input = plain_input(topology);
+cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
+                             const std::vector<std::uint8_t>& facet_kept,
+                             const refine::RefineResult& refined, const SurfaceTopology& topology,
+                             const PointStore& points, Predicates& predicates, Control& control) {
+  cdt::CdtInput input = plain_input(topology);
   add_complex_points(chamfered, refined, topology, points, predicates, input);
-  const RemovedSurface removed(chamfered, facet_kept, topology, points);
+  const chamfer::RemovedSurface removed(chamfered, facet_kept, topology, points);
   const std::vector<double> spacing = spacings(refined, points);
   for (const VertexId v : refined.in_volume) {
     control.poll(points.size());
@@ -127,4 +128,4 @@ CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::u
   return input;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::enrich

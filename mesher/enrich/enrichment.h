@@ -6,16 +6,17 @@
 #include "mesher/chamfer/filter.h"
 #include "mesher/refine/refine.h"
 
-namespace delmesher {
+namespace delmesher::enrich {
 
 // The input surface alone.
-CdtInput plain_input(const SurfaceTopology& topology);
+cdt::CdtInput plain_input(const SurfaceTopology& topology);
 
 // The input surface with the vertices of the refined mesh, without those on artificial segments,
 // volume vertices that crowd what was removed (RemovedSurface), and points that coincide with input
 // vertices.
-CdtInput enriched_input(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
-                        const RefineResult& refined, const SurfaceTopology& topology,
-                        const PointStore& points, Predicates& predicates, Control& control);
+cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
+                             const std::vector<std::uint8_t>& facet_kept,
+                             const refine::RefineResult& refined, const SurfaceTopology& topology,
+                             const PointStore& points, Predicates& predicates, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::enrich

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 constexpr std::size_t kLanes = CosineBatch::kLanes;
@@ -139,4 +139,4 @@ void degrees_of_cosines(std::span<double> values) {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::output

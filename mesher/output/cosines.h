@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace delmesher {
+namespace delmesher::output {
 
 // The cosines of the angles of several tetrahedra without very long or short edges and without
 // angles near 0 or 180, where cosines do as well as the robust formulas, in a fraction of their
@@ -29,4 +29,4 @@ struct CosineBatch {
 // In place: cosines in [-1, 1] to degrees. The error is below 1e-15 of 180 degrees.
 void degrees_of_cosines(std::span<double> values);
 
-}  // namespace delmesher
+}  // namespace delmesher::output

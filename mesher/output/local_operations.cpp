@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 // Longest ring of an edge that is considered for removal.
@@ -212,4 +212,4 @@ bool LocalOperations::collapse_to(std::uint32_t v, std::uint32_t w) {
   return replace();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::output

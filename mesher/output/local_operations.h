@@ -7,7 +7,7 @@
 
 #include "mesher/output/rounded_mesh.h"
 
-namespace delmesher {
+namespace delmesher::output {
 
 class LocalOperations {
  public:
@@ -41,4 +41,4 @@ class LocalOperations {
   std::vector<std::uint32_t> ring_;  // vertices around the edge being removed
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::output

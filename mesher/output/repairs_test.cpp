@@ -8,7 +8,7 @@
 #include "mesher/output/local_operations.h"
 #include "mesher/output/vertex_moves.h"
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 struct Scene {
@@ -332,4 +332,4 @@ TEST(LocalOperations, MayAskForExactPositions) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::output

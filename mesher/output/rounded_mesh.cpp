@@ -7,7 +7,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 constexpr double kHuge = 0x1p300;
@@ -320,4 +320,4 @@ void RoundedMesh::replace(std::span<const std::uint32_t> removed, std::span<cons
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::output

@@ -11,7 +11,7 @@
 #include "mesher/output/rounding.h"
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher {
+namespace delmesher::output {
 
 using Tet = std::array<std::uint32_t, 4>;
 
@@ -115,4 +115,4 @@ class RoundedMesh {
   std::map<Vec3, std::uint32_t> moved_to_;  // how many moved vertices are there
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::output

@@ -8,7 +8,7 @@
 #include "mesher/output/rounded_mesh.h"
 #include "mesher/output/vertex_moves.h"
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 // What is done about tetrahedra that are not positive: only what lessens them, or moves that may
@@ -202,4 +202,4 @@ RoundingResult round_mesh(RoundingInput input, Control& control, bool thoroughly
   return best;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::output

@@ -13,7 +13,7 @@
 #include "mesher/delmesher/run.h"
 #include "mesher/predicates/points.h"
 
-namespace delmesher {
+namespace delmesher::output {
 
 // What rounding works on: tetrahedra of positive orientation on exact points. Repairs may move
 // non-explicit vertices to nearby doubles, move volume vertices, and change the tetrahedra by local
@@ -59,4 +59,4 @@ inline constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
 // times as long.
 RoundingResult round_mesh(RoundingInput input, Control& control, bool thoroughly = true);
 
-}  // namespace delmesher
+}  // namespace delmesher::output

@@ -13,7 +13,7 @@
 #include "mesher/output/rounded_mesh.h"
 #include "mesher/output/vertex_moves.h"
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 using Face = std::array<std::uint32_t, 3>;
@@ -559,4 +559,4 @@ TEST(DoubleOrientation, AsksPredicatesOnlyWhereIntegersAreTooShort) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::output

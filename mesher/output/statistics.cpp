@@ -9,7 +9,7 @@
 #include "mesher/output/cosines.h"
 #include "mesher/predicates/vector.h"
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 using Vec3 = std::array<double, 3>;
@@ -396,4 +396,4 @@ MeshStatistics mesh_statistics(std::span<const Vec3> coordinates, std::span<cons
   return statistics;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::output

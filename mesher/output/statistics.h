@@ -8,7 +8,7 @@
 #include "mesher/base/control.h"
 #include "mesher/delmesher/statistics.h"
 
-namespace delmesher {
+namespace delmesher::output {
 
 // Statistics over the tetrahedra given; `interior` is only reported, `vertices` likewise. A face
 // shared by two of the tetrahedra counts once in the face angles' means and histogram: bit i of
@@ -20,4 +20,4 @@ MeshStatistics mesh_statistics(std::span<const std::array<double, 3>> coordinate
                                std::span<const std::uint8_t> repeated_faces, std::uint64_t vertices,
                                std::uint64_t interior, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::output

@@ -11,7 +11,7 @@
 
 #include "mesher/output/cosines.h"
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 using Points = std::vector<std::array<double, 3>>;
@@ -295,4 +295,4 @@ TEST(Cosines, ABatchKnowsItsOrdinaryTetrahedra) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::output

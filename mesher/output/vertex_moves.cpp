@@ -5,7 +5,7 @@
 
 #include "mesher/predicates/vector.h"
 
-namespace delmesher {
+namespace delmesher::output {
 namespace {
 
 // Most moves that a chain may look at, so that hopeless tetrahedra do not take forever.
@@ -398,4 +398,4 @@ bool VertexMoves::untangle(Control& control) {
   return mesh_.bad().empty();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::output

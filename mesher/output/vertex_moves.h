@@ -7,7 +7,7 @@
 
 #include "mesher/output/rounded_mesh.h"
 
-namespace delmesher {
+namespace delmesher::output {
 
 // Surface vertices stay within kSurfaceUlps units in the last place of the largest coordinate of
 // the surface from their exact position; fixed vertices stay; others move as far as needed, but the
@@ -56,4 +56,4 @@ class VertexMoves {
   std::int64_t untangle_budget_ = 0;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::output

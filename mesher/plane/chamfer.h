@@ -48,7 +48,7 @@ inline constexpr double kFloor = 0x1p-42;
 // Largest distance of a point of the store from the axes.
 inline double magnitude(const PointStore& points, VertexId v) {
   const Approximation& a = points.approximation(v);
-  return filters::larger(std::fabs(a.x), std::fabs(a.y));
+  return predicates::filters::larger(std::fabs(a.x), std::fabs(a.y));
 }
 
 }  // namespace delmesher::plane

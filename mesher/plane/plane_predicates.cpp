@@ -11,7 +11,7 @@ int PlanePredicates::orient_exact(VertexId a, VertexId b, VertexId c) {
   if (a == b || b == c || a == c) return 0;
   ++counters.exact;
   const VertexId ids[] = {a, b, c};
-  return stages::exact(points_, delmesher::polynomials::Orient2d{2}, ids);
+  return stages::exact(points_, predicates::polynomials::Orient2d{2}, ids);
 }
 
 int PlanePredicates::in_circle_exact(VertexId a, VertexId b, VertexId c, VertexId d) {

@@ -25,7 +25,7 @@ namespace delmesher::plane {
 
 namespace polynomials {
 
-using delmesher::polynomials::Triple;
+using predicates::polynomials::Triple;
 
 // Degree 4: below 3 * (2 * 2^(2 B)) * (2 * 2^(2 B)) < 2^(4 B + 4).
 struct InCircle {
@@ -58,9 +58,9 @@ struct Dot {
 // plane and is sharper.
 namespace filters {
 
-using delmesher::filters::certain_sign;
-using delmesher::filters::kDifferenceError;
-using delmesher::filters::larger;
+using predicates::filters::certain_sign;
+using predicates::filters::kDifferenceError;
+using predicates::filters::larger;
 
 // 2 monomials; roundings: 2 differences, 1 product, 1 sum, k = 4, bound 4 u; the sum of the
 // absolute values is rounded once more.

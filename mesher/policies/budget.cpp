@@ -5,17 +5,18 @@
 
 #include "mesher/refine/prediction.h"
 
-namespace delmesher {
+namespace delmesher::policies {
 namespace {
 
-double predict(const ChamferedSurface& surface, const Session& session) {
-  PredictionOptions options;
+double predict(const chamfer::ChamferedSurface& surface, const Session& session) {
+  refine::PredictionOptions options;
   options.region = session.options.region;
   options.max_edge = session.options.max_edge;
   // What the filter drops comes back in the final step, as at least a tetrahedron and a half each.
   return 1.5 * static_cast<double>(surface.filter.dropped_triangles) +
-         predict_tetrahedra(surface.chamfer.plc, session.topology, surface.filter.facet_kept,
-                            session.points, options, session.control);
+         refine::predict_tetrahedra(surface.chamfer.plc, session.topology,
+                                    surface.filter.facet_kept, session.points, options,
+                                    session.control);
 }
 
 std::string over_budget(double predicted, double tau, std::uint64_t budget) {
@@ -26,7 +27,8 @@ std::string over_budget(double predicted, double tau, std::uint64_t budget) {
 
 }  // namespace
 
-bool Budget::allows(const ChamferedSurface& surface, Session& session, Recorder& recorder) {
+bool Budget::allows(const chamfer::ChamferedSurface& surface, Session& session,
+                    Recorder& recorder) {
   // Beyond this, whole features of the model go.
   constexpr double kLargestTau = 0.05, kLeastTau = 1e-5;
   const std::uint64_t budget = session.options.budget;
@@ -43,4 +45,4 @@ bool Budget::allows(const ChamferedSurface& surface, Session& session, Recorder&
   return false;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::policies

@@ -5,7 +5,7 @@
 #include "mesher/results/recorder.h"
 #include "mesher/run/session.h"
 
-namespace delmesher {
+namespace delmesher::policies {
 
 // The filter's tolerance is Options::tau, and doubled as long as more tetrahedra are predicted than
 // Options::budget says (0: never).
@@ -18,10 +18,10 @@ class Budget {
 
   // Is the mesh of that surface, which was filtered with tau(), predicted to keep to the budget? If
   // not, tau() is doubled; throws Stopped where it is too large for that.
-  bool allows(const ChamferedSurface& surface, Session& session, Recorder& recorder);
+  bool allows(const chamfer::ChamferedSurface& surface, Session& session, Recorder& recorder);
 
  private:
   double tau_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::policies

@@ -4,7 +4,7 @@
 
 #include "mesher/surface/feature_size.h"
 
-namespace delmesher {
+namespace delmesher::policies {
 namespace {
 
 // The threshold for the angle of two edges. A facet's triangle at a corner that is not chamfered
@@ -42,8 +42,8 @@ void tighten_corners(const Vec3& place, double otherwise, const SurfaceTopology&
 
 }  // namespace
 
-ChamferOptions chamfer_options(const Options& options) {
-  ChamferOptions result;
+chamfer::ChamferOptions chamfer_options(const Options& options) {
+  chamfer::ChamferOptions result;
   result.cosine_squared = cosine_squared(options.acute);
   result.corner_cosine_squared = cosine_squared(corner_threshold(options));
   result.max_radius = options.chamfer_radius;
@@ -87,4 +87,4 @@ void Fallback::tighten(const Vec3& place, const Session& session) {
   ++steps_;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::policies

@@ -8,10 +8,10 @@
 #include "mesher/results/recorder.h"
 #include "mesher/run/session.h"
 
-namespace delmesher {
+namespace delmesher::policies {
 
 // Corners below these angles are chamfered, as the options say.
-ChamferOptions chamfer_options(const Options& options);
+chamfer::ChamferOptions chamfer_options(const Options& options);
 
 // Section 4 proves that the refinement ends with empty diametral balls and chamfers up to 90
 // degrees. By default it has neither, and ends all the same almost always. Where it does not, it
@@ -21,7 +21,7 @@ class Fallback {
  public:
   explicit Fallback(const Options& options);
 
-  const ChamferOptions& chamfering() const { return chamfering_; }
+  const chamfer::ChamferOptions& chamfering() const { return chamfering_; }
   bool gabriel() const { return gabriel_; }
   InForce in_force(double tau) const;
   // An edge this short means that corners feed each other for ever; 0: what is in force cannot run
@@ -36,10 +36,10 @@ class Fallback {
   }
 
   const Options& options_;
-  ChamferOptions chamfering_;
+  chamfer::ChamferOptions chamfering_;
   bool gabriel_;
   int steps_ = 0;
   double feature_length_ = -1;  // without a filter; unknown yet
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::policies

@@ -3,9 +3,9 @@
 #include "mesher/enrich/enrichment.h"
 #include "mesher/results/region_statistics.h"
 
-namespace delmesher {
+namespace delmesher::policies {
 
-std::optional<CdtResult> plain_if_better(const CdtResult& enriched, Session& session) {
+std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Session& session) {
   constexpr std::size_t kMostTriangles = 1000;
   const Options& options = session.options;
   if (options.region != Region::interior || options.max_edge > 0 ||
@@ -13,8 +13,8 @@ std::optional<CdtResult> plain_if_better(const CdtResult& enriched, Session& ses
     return std::nullopt;
   }
   const std::size_t enriched_points = session.points.size();
-  CdtResult plain = constrained_delaunay_tetrahedrization(
-      plain_input(session.topology), session.points, session.predicates, session.control);
+  cdt::CdtResult plain = cdt::constrained_delaunay_tetrahedrization(
+      enrich::plain_input(session.topology), session.points, session.predicates, session.control);
   session.forget_points(enriched_points);
   if (!plain.steiner.empty()) return std::nullopt;
   const MeshStatistics p = interior_statistics(plain, session.points, session.control);
@@ -25,4 +25,4 @@ std::optional<CdtResult> plain_if_better(const CdtResult& enriched, Session& ses
   return better ? std::optional(std::move(plain)) : std::nullopt;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::policies

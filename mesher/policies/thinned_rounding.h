@@ -5,11 +5,11 @@
 #include "mesher/results/recorder.h"
 #include "mesher/run/session.h"
 
-namespace delmesher {
+namespace delmesher::policies {
 
 // Rounds a final mesh and records it as written. Where tetrahedra are left inverted or flat, points
 // around them are taken out (thin_out), at first those alone, then up to three edges away, as long
 // as that leaves fewer.
-void round_and_write(CdtResult cdt, Session& session, Recorder& recorder);
+void round_and_write(cdt::CdtResult cdt, Session& session, Recorder& recorder);
 
-}  // namespace delmesher
+}  // namespace delmesher::policies

@@ -6,7 +6,7 @@
 
 #include "mesher/output/rounded_mesh.h"
 
-namespace delmesher {
+namespace delmesher::policies {
 namespace {
 
 using Face = std::array<VertexId, 3>;
@@ -19,7 +19,7 @@ bool has(const Simplex& simplex, VertexId v) {
 class Thinning {
  public:
   Thinning(std::size_t fixed_vertices, const PointStore& points, Predicates& predicates,
-           CdtResult& mesh)
+           cdt::CdtResult& mesh)
       : fixed_vertices_(fixed_vertices), points_(points), predicates_(predicates), mesh_(mesh) {
     tets_.resize(points.size());
     faces_.resize(points.size());
@@ -73,7 +73,7 @@ class Thinning {
       mesh_.tetrahedra[tets] = mesh_.tetrahedra[t];
       mesh_.inside[tets++] = mesh_.inside[t];
     }
-    for (const SurfaceFace& face : mesh_.boundary) {
+    for (const cdt::SurfaceFace& face : mesh_.boundary) {
       if (face.vertices[0] != kNone) mesh_.boundary[faces++] = face;
     }
     mesh_.tetrahedra.resize(tets);
@@ -232,8 +232,8 @@ class Thinning {
   std::size_t fixed_vertices_;
   const PointStore& points_;
   Predicates& predicates_;
-  CdtResult& mesh_;
-  DoubleOrientation rounded_;
+  cdt::CdtResult& mesh_;
+  output::DoubleOrientation rounded_;
   std::vector<std::vector<std::uint32_t>> tets_, faces_;  // around each vertex
 };
 
@@ -241,7 +241,7 @@ class Thinning {
 
 std::size_t thin_out(std::span<const VertexId> around, int rings, std::size_t fixed_vertices,
                      const PointStore& points, Predicates& predicates, Control& control,
-                     CdtResult& mesh) {
+                     cdt::CdtResult& mesh) {
   Thinning thinning(fixed_vertices, points, predicates, mesh);
   std::vector<VertexId> left = thinning.removable_around(around, rings);
   const std::size_t candidates = left.size();
@@ -257,4 +257,4 @@ std::size_t thin_out(std::span<const VertexId> around, int rings, std::size_t fi
   return candidates - left.size();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::policies

@@ -8,7 +8,7 @@
 #include "mesher/cdt/cdt.h"
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher {
+namespace delmesher::policies {
 
 // Collapses vertices of a conforming mesh along its edges: `around` and those up to `rings` edges
 // away, except the first `fixed_vertices` of the store and explicit points of the surface and the
@@ -17,6 +17,6 @@ namespace delmesher {
 // constrained Delaunay any more; repeated_faces is emptied. Returns how many vertices have gone.
 std::size_t thin_out(std::span<const VertexId> around, int rings, std::size_t fixed_vertices,
                      const PointStore& points, Predicates& predicates, Control& control,
-                     CdtResult& mesh);
+                     cdt::CdtResult& mesh);
 
-}  // namespace delmesher
+}  // namespace delmesher::policies

@@ -7,28 +7,31 @@
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
 
-namespace delmesher {
+namespace delmesher::policies {
+
+namespace rational = cdt::rational;
+
 namespace {
 
-using namespace test_models;
+using namespace cdt::test_models;
 
 std::size_t input_vertices(const Model& model) {
   return model.topology.vertex_half_edge.size();
 }
 
-std::size_t thin(Model& model, std::span<const VertexId> around, int rings, CdtResult& mesh) {
+std::size_t thin(Model& model, std::span<const VertexId> around, int rings, cdt::CdtResult& mesh) {
   return thin_out(around, rings, input_vertices(model), model.points, model.predicates,
                   model.control, mesh);
 }
 
-std::set<VertexId> vertices(const CdtResult& mesh) {
+std::set<VertexId> vertices(const cdt::CdtResult& mesh) {
   std::set<VertexId> used;
   for (const auto& t : mesh.tetrahedra) used.insert(t.begin(), t.end());
   return used;
 }
 
 // Six times the volume of all tetrahedra, exactly.
-mpq_class volume(const Model& model, const CdtResult& mesh) {
+mpq_class volume(const Model& model, const cdt::CdtResult& mesh) {
   mpq_class sum = 0;
   for (const auto& t : mesh.tetrahedra) {
     rational::Vector x[4];
@@ -38,7 +41,7 @@ mpq_class volume(const Model& model, const CdtResult& mesh) {
   return sum;
 }
 
-std::string wrong(const Model& model, const CdtResult& mesh) {
+std::string wrong(const Model& model, const cdt::CdtResult& mesh) {
   return rational::Checker(model.topology, model.points, mesh, false).run();
 }
 
@@ -57,8 +60,8 @@ TEST(Thinning, KeepsTheSurfaceAndTheHull) {
     for (const int density : {1, 3}) {
       Model model(s);
       ASSERT_TRUE(model.valid);
-      enrich(model, density, seed++);
-      CdtResult mesh = model.run();
+      cdt::test_models::enrich(model, density, seed++);
+      cdt::CdtResult mesh = model.run();
       const mpq_class hull = volume(model, mesh);
       const std::set<VertexId> before = vertices(mesh);
       const std::vector<VertexId> all(before.begin(), before.end());
@@ -100,7 +103,7 @@ TEST(Thinning, KeepsAHullThatIsTheSurface) {
   Model model(box(0, 1));
   ASSERT_TRUE(model.valid);
   split_edges(model, {0.5});
-  CdtResult mesh = model.run();
+  cdt::CdtResult mesh = model.run();
   const std::set<VertexId> before = vertices(mesh);
   const std::vector<VertexId> all(before.begin(), before.end());
   EXPECT_GT(thin(model, all, 0, mesh), 0U);
@@ -109,7 +112,7 @@ TEST(Thinning, KeepsAHullThatIsTheSurface) {
 }
 
 // How many tetrahedra are inverted or flat on nearest doubles.
-std::size_t bad_as_written(const Model& model, const CdtResult& mesh) {
+std::size_t bad_as_written(const Model& model, const cdt::CdtResult& mesh) {
   return static_cast<std::size_t>(
       std::count_if(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), [&](const auto& t) {
         rational::Vector x[4];
@@ -126,7 +129,7 @@ TEST(Thinning, LeavesNoMoreThatDoublesInvert) {
   Model model(box(1.1, 2.3));
   ASSERT_TRUE(model.valid);
   split_edges(model, {0.3, 0.3 + 0x1p-53, 0.3 + 0x1p-52});
-  CdtResult mesh = model.run();
+  cdt::CdtResult mesh = model.run();
   const std::size_t bad = bad_as_written(model, mesh);
   EXPECT_GT(bad, 0U);  // otherwise the test says nothing
   const std::set<VertexId> before = vertices(mesh);
@@ -140,8 +143,8 @@ TEST(Thinning, LeavesNoMoreThatDoublesInvert) {
 TEST(Thinning, LeavesWhatIsNeeded) {
   Model model(twisted_prism(3, 0.5, 1, true));
   ASSERT_TRUE(model.valid);
-  enrich(model, 2, 1);
-  CdtResult mesh = model.run();
+  cdt::test_models::enrich(model, 2, 1);
+  cdt::CdtResult mesh = model.run();
   const std::set<VertexId> before = vertices(mesh);
   const std::vector<VertexId> all(before.begin(), before.end());
   EXPECT_GT(thin(model, all, 0, mesh), 0U);
@@ -156,8 +159,8 @@ TEST(Thinning, LeavesWhatIsNeeded) {
 TEST(Thinning, ReachesAsFarAsItIsTold) {
   Model model(box(0, 1));
   ASSERT_TRUE(model.valid);
-  enrich(model, 3, 7);
-  const CdtResult given = model.run();
+  cdt::test_models::enrich(model, 3, 7);
+  const cdt::CdtResult given = model.run();
   const std::set<VertexId> before = vertices(given);
   std::map<VertexId, int> distance{{0, 0}};  // from the input vertex 0, in edges
   for (int ring = 1; ring <= 2; ++ring) {
@@ -170,7 +173,7 @@ TEST(Thinning, ReachesAsFarAsItIsTold) {
   }
   const std::vector<VertexId> around{0};
   for (const int rings : {0, 1, 2}) {
-    CdtResult mesh = given;
+    cdt::CdtResult mesh = given;
     const std::size_t gone = thin(model, around, rings, mesh);
     EXPECT_EQ(gone > 0, rings > 0);
     const std::set<VertexId> after = vertices(mesh);
@@ -183,4 +186,4 @@ TEST(Thinning, ReachesAsFarAsItIsTold) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::policies

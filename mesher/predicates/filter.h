@@ -26,7 +26,7 @@
 #include "mesher/arithmetic/floating_point.h"
 #include "mesher/predicates/points.h"
 
-namespace delmesher::filters {
+namespace delmesher::predicates::filters {
 
 inline double larger(double a, double b) {
   return a > b ? a : b;
@@ -173,4 +173,4 @@ inline int in_diametral_ball(const Approximation& a, const Approximation& b, con
   return certain_sign(value, bound);
 }
 
-}  // namespace delmesher::filters
+}  // namespace delmesher::predicates::filters

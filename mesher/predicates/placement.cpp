@@ -9,7 +9,7 @@
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 namespace {
 
 // The smallest number with at most `bits` significant bits that is not below x > 0.
@@ -197,4 +197,4 @@ Vec3 snap_to_grid(const Vec3& point, double tolerance) {
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::predicates

@@ -9,7 +9,7 @@
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/rational_reference.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 namespace {
 
 using families::Random;
@@ -323,4 +323,4 @@ TEST(PlaceOnTriangle, ScalesByTheDifferencesOfCorners) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::predicates

@@ -9,7 +9,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher::families {
+namespace delmesher::predicates::families {
 
 class Random {
  public:
@@ -128,4 +128,4 @@ inline void fill(Sample& sample, const Family& family, int n, Random& random) {
   }
 }
 
-}  // namespace delmesher::families
+}  // namespace delmesher::predicates::families

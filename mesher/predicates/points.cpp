@@ -7,7 +7,7 @@
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -193,4 +193,4 @@ void PointStore::exact(VertexId v, ExactPosition& out) const {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::predicates

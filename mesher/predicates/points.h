@@ -17,7 +17,7 @@
 #include "mesher/base/growing_array.h"
 #include "mesher/base/ids.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 
 using Vec3 = std::array<double, 3>;
 
@@ -121,4 +121,4 @@ class PointStore {
   GrowingArray<std::uint32_t> supports_;  // per detail: planes, then lines
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::predicates

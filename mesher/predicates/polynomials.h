@@ -4,7 +4,7 @@
 // coordinates below 2^B in magnitude, a value of degree d must stay below 2^(d (B + 2) - 1).
 #pragma once
 
-namespace delmesher::polynomials {
+namespace delmesher::predicates::polynomials {
 
 template <class T>
 struct Triple {
@@ -209,4 +209,4 @@ struct EdgePlaneExcess {
   }
 };
 
-}  // namespace delmesher::polynomials
+}  // namespace delmesher::predicates::polynomials

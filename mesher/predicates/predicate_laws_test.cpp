@@ -12,7 +12,7 @@
 #include "mesher/predicates/rational_reference.h"
 #include "mesher/predicates/stages.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 namespace {
 
 using families::Random;
@@ -480,4 +480,4 @@ TEST(Counters, EveryStageDecides) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::predicates

@@ -5,7 +5,7 @@
 
 #include "mesher/predicates/stages.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 namespace {
 
 // Is some id in all of the sorted lists?
@@ -229,4 +229,4 @@ double cosine_squared(double degrees) {
   return 1 - s * s;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::predicates

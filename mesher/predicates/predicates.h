@@ -13,7 +13,7 @@
 #include "mesher/predicates/filter.h"
 #include "mesher/predicates/points.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 
 struct PredicateCounters {
   std::uint64_t filter = 0;    // decided by the double filter
@@ -129,4 +129,4 @@ class Predicates {
 // the same double in every build (libm differs between builds). Exact for 0, 60 and 90.
 double cosine_squared(double degrees);
 
-}  // namespace delmesher
+}  // namespace delmesher::predicates

@@ -11,7 +11,7 @@
 #include "mesher/predicates/rational_reference.h"
 #include "mesher/predicates/stages.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 namespace {
 
 using families::Family;
@@ -244,4 +244,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::predicates

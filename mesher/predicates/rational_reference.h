@@ -9,7 +9,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher::reference {
+namespace delmesher::predicates::reference {
 
 using Point = std::array<mpq_class, 3>;
 
@@ -138,4 +138,4 @@ inline bool edge_plane_angle_below(const Point* p, double cosine_squared) {
   return below(w, projection, cosine_squared);
 }
 
-}  // namespace delmesher::reference
+}  // namespace delmesher::predicates::reference

@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-namespace delmesher::stages {
+namespace delmesher::predicates::stages {
 
 ExactArguments::ExactArguments(const PointStore& points, const VertexId* ids, int n) : count(n) {
   std::int32_t low = std::numeric_limits<std::int32_t>::max();
@@ -24,4 +24,4 @@ ExactArguments::ExactArguments(const PointStore& points, const VertexId* ids, in
   bits = high - low;
 }
 
-}  // namespace delmesher::stages
+}  // namespace delmesher::predicates::stages

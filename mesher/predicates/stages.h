@@ -9,7 +9,8 @@
 #include "mesher/predicates/points.h"
 #include "mesher/predicates/polynomials.h"
 
-namespace delmesher {
+// Of the numbers, and beside them: the polynomials find it by its arguments.
+namespace delmesher::arithmetic {
 
 // Positive multiples of s - constant * t, see AngleExcess.
 inline Bounded minus_multiple(const Bounded& s, double constant, const Bounded& t) {
@@ -27,6 +28,10 @@ inline BigInteger minus_multiple(const BigInteger& s, double constant, const Big
   const BigInteger factor(&parts.magnitude, 1, false);
   return (s << static_cast<std::size_t>(-parts.exponent)) - factor * t;
 }
+
+}  // namespace delmesher::arithmetic
+
+namespace delmesher::predicates {
 
 namespace stages {
 
@@ -152,4 +157,4 @@ int exact(const PointStore& points, const Polynomial& polynomial, const VertexId
 }
 
 }  // namespace stages
-}  // namespace delmesher
+}  // namespace delmesher::predicates

@@ -11,7 +11,7 @@
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/vector.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 namespace {
 
 using families::Random;
@@ -222,4 +222,4 @@ TEST(PointStore, DifferencesUseWhatDoublesLeaveOver) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::predicates

@@ -6,7 +6,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher {
+namespace delmesher::predicates {
 
 struct Vec2 {
   double x = 0, y = 0;
@@ -61,4 +61,4 @@ inline double distance(const Vec3& a, const Vec3& b) {
   return norm(subtract(a, b));
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::predicates

@@ -5,7 +5,7 @@
 #include "mesher/base/check.h"
 #include "mesher/base/spatial_sort.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 void BadTetrahedra::start() {
   release();
@@ -93,4 +93,4 @@ void BadTetrahedra::validate() const {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -19,7 +19,7 @@
 #include "mesher/refine/goal.h"
 #include "mesher/refine/notes.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class BadTetrahedra {
  public:
@@ -71,4 +71,4 @@ class BadTetrahedra {
   std::vector<TetId> fresh_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

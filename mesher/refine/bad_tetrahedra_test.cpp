@@ -8,7 +8,7 @@
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/test_complexes.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // Breaks one invariant at a time.
 struct BadTetrahedraBreaker {
@@ -142,4 +142,4 @@ TEST(BadTetrahedra, ValidateReportsEveryBrokenInvariant) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

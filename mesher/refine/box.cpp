@@ -5,7 +5,7 @@
 #include "mesher/base/check.h"
 #include "mesher/refine/refine.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // Margin on each side: half the extent of the axis, but not less than a quarter of the largest
@@ -90,4 +90,4 @@ void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -2,7 +2,7 @@
 
 #include "mesher/base/epoch.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 void CavityConstraints::begin() {
   next_epoch(epoch_, subfacet_mark_, subsegment_mark_);
@@ -87,4 +87,4 @@ void CavityConstraints::requeue_lost() {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

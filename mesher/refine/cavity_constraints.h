@@ -11,7 +11,7 @@
 #include "mesher/refine/subfacets.h"
 #include "mesher/refine/subsegments.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class CavityConstraints {
  public:
@@ -54,4 +54,4 @@ class CavityConstraints {
   std::uint32_t epoch_ = 0;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -6,7 +6,7 @@
 
 #include "mesher/refine/test_parts.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // In the volume and on the bottom of the box, near edges, near faces, and far from both.
@@ -148,4 +148,4 @@ TEST(CavityConstraints, SidesOfTheBoxAreLostWithTheirGhosts) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

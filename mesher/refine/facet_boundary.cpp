@@ -5,7 +5,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 constexpr auto kEnds = [](const DirectedSide& side) { return std::pair{side.from, side.to}; };
@@ -66,4 +66,4 @@ std::vector<std::uint8_t> FacetBoundary::inside(const PlanarTriangulation& plana
   return place;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -6,7 +6,7 @@
 
 #include "mesher/delaunay/planar.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // A subsegment on the boundary of a facet, with the facet on its left seen from outside.
 struct DirectedSide {
@@ -34,4 +34,4 @@ class FacetBoundary {
   std::vector<DirectedSide> sides_;  // sorted by their ends
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

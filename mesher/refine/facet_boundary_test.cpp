@@ -4,7 +4,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // A square of side 3 in the plane z = 0 with a square hole of side 1 in its middle: corners 0 to 3
@@ -92,4 +92,4 @@ TEST(FacetBoundary, WhatDoesNotSeparateIsRefused) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 constexpr std::size_t kBruteForce = 8;  // triangles; below it a grid does not pay
@@ -117,4 +117,4 @@ std::uint32_t FacetLocator::triangle_at(FacetId facet, const Vec3& p) {
   return best;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

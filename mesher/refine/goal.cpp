@@ -7,7 +7,7 @@
 #include "mesher/predicates/predicates.h"
 #include "mesher/refine/tetrahedron_shape.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // Section 5.7: shortest edge over smallest distance of opposite edges.
@@ -81,4 +81,4 @@ std::uint8_t Goal::badness(const PointStore& points, const VertexId* v) const {
   return level_of(s.radius2 / shortest2);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

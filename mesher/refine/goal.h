@@ -5,7 +5,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class Goal {
  public:
@@ -30,4 +30,4 @@ class Goal {
   double offcentre2_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -7,7 +7,7 @@
 
 #include "mesher/refine/test_complexes.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 std::uint8_t badness(const Goal& goal, const std::array<Vec3, 4>& p) {
@@ -72,4 +72,4 @@ TEST(Goal, TheOffCentreMeetsTheAngle) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -4,7 +4,7 @@
 
 #include "mesher/delaunay/tetrahedrization.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 enum class Note : std::uint8_t {
   edges,   // Subsegments: bit e: kEdge[e] is a subsegment
@@ -20,4 +20,4 @@ inline std::uint8_t note(const Tetrahedrization& dt, TetId t, Note kind) {
   return dt.notes(t)[static_cast<std::size_t>(kind)];
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -5,7 +5,7 @@
 #include "mesher/base/check.h"
 #include "mesher/refine/subfacets.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 bool PlanarCavity::contains(std::uint32_t s) const {
   return std::find(subfacets_.begin(), subfacets_.end(), s) != subfacets_.end();
@@ -53,4 +53,4 @@ void PlanarCavity::grow(const Subfacets& all, VertexId v, std::uint32_t start, S
   });
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

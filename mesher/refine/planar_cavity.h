@@ -10,7 +10,7 @@
 
 #include "mesher/refine/subfacet_edge.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class Subfacets;
 
@@ -34,4 +34,4 @@ class PlanarCavity {
   std::vector<std::uint32_t> excluded_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -6,7 +6,7 @@
 
 #include "mesher/refine/test_parts.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // The bottom of the box with some points in it.
@@ -128,4 +128,4 @@ TEST(PlanarCavity, APointThatSeesItsRimFromBehindIsRefused) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

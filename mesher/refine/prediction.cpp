@@ -10,7 +10,7 @@
 #include "mesher/predicates/vector.h"
 #include "mesher/surface/bvh.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // A cell of the octree is split while its side exceeds this multiple of the local feature size at
@@ -409,4 +409,4 @@ double predict_tetrahedra(const Plc& plc, const SurfaceTopology& topology,
   return Predictor(plc, topology, facet_kept, points, options, control).run();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -13,7 +13,7 @@
 #include "mesher/surface/plc.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 struct PredictionOptions {
   Region region = Region::interior;
@@ -28,4 +28,4 @@ double predict_tetrahedra(const Plc& plc, const SurfaceTopology& topology,
                           const std::vector<std::uint8_t>& facet_kept, const PointStore& points,
                           const PredictionOptions& options, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -5,7 +5,7 @@
 
 #include "mesher/refine/refiner.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // The proof of termination needs a radius-edge ratio above 2, that is an angle below asin(1/4)
@@ -158,4 +158,4 @@ RefineResult refine(const Plc& plc, const SurfaceTopology& topology, PointStore&
   return refiner.result();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

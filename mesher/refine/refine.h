@@ -17,7 +17,7 @@
 #include "mesher/surface/solid.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // The steps of algorithm 1, in its order.
 enum class RefineStep : std::uint8_t {
@@ -82,4 +82,4 @@ void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc
 RefineResult refine(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
                     Predicates& predicates, const RefineOptions& options, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

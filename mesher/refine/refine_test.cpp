@@ -15,7 +15,7 @@
 #include "mesher/refine/refiner.h"
 #include "mesher/refine/test_complexes.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // Breaks what links the parts of a refinement, and one invariant of each: its own tests break the
 // others.
@@ -407,4 +407,4 @@ TEST(Refine, AnglesAboveTheBoundAreBestEffort) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -6,7 +6,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 Refiner::Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
                  Predicates& predicates, const RefineOptions& options, Control& control)
@@ -219,4 +219,4 @@ void Refiner::validate_links() const {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

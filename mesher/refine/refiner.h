@@ -28,7 +28,7 @@
 #include "mesher/refine/subfacets.h"
 #include "mesher/refine/subsegments.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class Refiner {
  public:
@@ -93,4 +93,4 @@ class Refiner {
   RefineResult result_;    // what is known of it so far: the points and their counts
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

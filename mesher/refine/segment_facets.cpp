@@ -2,7 +2,7 @@
 
 #include "mesher/base/check.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 SegmentFacets::SegmentFacets(const Plc& plc)
     : facets_(plc.segments.size(), std::array<std::uint32_t, 2>{kNone, kNone}) {
@@ -16,4 +16,4 @@ SegmentFacets::SegmentFacets(const Plc& plc)
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -7,7 +7,7 @@
 
 #include "mesher/surface/plc.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class SegmentFacets {
  public:
@@ -25,4 +25,4 @@ class SegmentFacets {
   std::vector<std::array<std::uint32_t, 2>> facets_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -4,7 +4,7 @@
 
 #include "mesher/predicates/vector.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 Shells::Shells(const Plc& plc, const PointStore& points, std::span<const std::uint8_t> apex)
     : radius_(apex.size(), 0) {
@@ -34,4 +34,4 @@ double Shells::split_fraction(VertexId a, VertexId b, double length) const {
   return at_a ? from_a : 1 - from_b;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -12,7 +12,7 @@
 #include "mesher/predicates/points.h"
 #include "mesher/surface/plc.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class Shells {
  public:
@@ -29,4 +29,4 @@ class Shells {
   std::vector<double> radius_;  // per input vertex; 0: none
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

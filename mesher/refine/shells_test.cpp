@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // A subsegment of length 1 between two vertices with a segment of the given length at each; 0: the
@@ -47,4 +47,4 @@ TEST(Shells, OnlyInputVerticesHaveThem) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -7,7 +7,7 @@
 #include "mesher/base/parallel.h"
 #include "mesher/predicates/vector.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // Is the box certainly beyond the plane of a face of the tetrahedron, whose corners are known up to
@@ -195,4 +195,4 @@ void Sides::validate() const {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

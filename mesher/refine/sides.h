@@ -18,7 +18,7 @@
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/solid.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class Sides {
  public:
@@ -65,4 +65,4 @@ class Sides {
   Solid solid_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

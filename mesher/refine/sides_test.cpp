@@ -6,7 +6,7 @@
 
 #include "mesher/refine/test_parts.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // Breaks one invariant at a time.
 struct SidesBreaker {
@@ -188,4 +188,4 @@ TEST(Sides, ThoseOfARefinementAreExact) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -9,7 +9,7 @@
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/tetrahedron_shape.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 // Split points keep within this fraction of the subsegment of its midpoint. On input lines a point
@@ -171,4 +171,4 @@ VertexId SteinerPoints::in_volume(const Vec3& target, double grid) {
   return points_.add_explicit(p[0], p[1], p[2]);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

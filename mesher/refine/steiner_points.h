@@ -19,7 +19,7 @@
 #include "mesher/refine/segment_facets.h"
 #include "mesher/refine/shells.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // Thrown by the guard against endless refinement; caught by refine().
 struct Runaway {
@@ -75,4 +75,4 @@ class SteinerPoints {
   double runaway_length_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -7,7 +7,7 @@
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/test_complexes.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 struct Placing : Complex {
@@ -137,4 +137,4 @@ TEST(SteinerPoints, TheGuardStopsAtShortEdges) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -6,7 +6,7 @@
 
 #include "mesher/base/ids.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class SubfacetEdge {
  public:
@@ -26,4 +26,4 @@ class SubfacetEdge {
   std::uint32_t code_ = kNone;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

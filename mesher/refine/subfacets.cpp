@@ -8,7 +8,7 @@
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/facet_boundary.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 std::uint32_t Subfacets::add(const std::array<VertexId, 3>& v, std::uint32_t facet) {
   constexpr std::size_t kMost = SubfacetEdge::kMostSubfacets;
@@ -329,4 +329,4 @@ void Subfacets::validate_in_mesh(std::uint32_t s) {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

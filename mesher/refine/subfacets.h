@@ -27,7 +27,7 @@
 #include "mesher/refine/subsegments.h"
 #include "mesher/surface/plc.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class Subfacets {
  public:
@@ -164,4 +164,4 @@ class Subfacets {
   std::vector<Spoke> spokes_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

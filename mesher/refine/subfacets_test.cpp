@@ -6,7 +6,7 @@
 
 #include "mesher/refine/test_parts.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // Breaks one invariant at a time.
 struct SubfacetsBreaker {
@@ -358,4 +358,4 @@ TEST(Subfacets, ValidateFindsALostFace) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -3,7 +3,7 @@
 #include "mesher/base/check.h"
 #include "mesher/base/numbering.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 namespace {
 
 bool same_ends(VertexId a, VertexId b, VertexId x, VertexId y) {
@@ -164,4 +164,4 @@ void Subsegments::validate_in_mesh(const Subsegment& sub) {
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

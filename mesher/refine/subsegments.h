@@ -21,7 +21,7 @@
 #include "mesher/refine/subfacet_edge.h"
 #include "mesher/surface/plc.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 class Subsegments {
  public:
@@ -110,4 +110,4 @@ class Subsegments {
   std::vector<TetId> ring_;  // scratch
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -6,7 +6,7 @@
 
 #include "mesher/refine/test_parts.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // Breaks one invariant at a time.
 struct SubsegmentsBreaker {
@@ -186,4 +186,4 @@ TEST(Subsegments, ValidateFindsALostEdge) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::refine

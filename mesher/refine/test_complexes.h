@@ -12,7 +12,7 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/refine/refine.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 inline constexpr double kDegree = 3.14159265358979323846 / 180;
 
@@ -67,13 +67,13 @@ struct Complex {
   Limits limits;
   Control control{limits};
   SurfaceTopology topology;
-  ChamferResult chamfered;
+  chamfer::ChamferResult chamfered;
 
   explicit Complex(const Surface& surface, double corner = 60) {
     topology = build_topology(surface, points, predicates);
-    ChamferOptions chamfering;
-    chamfering.corner_cosine_squared = cosine_squared(corner);
-    chamfered = chamfer(topology, points, predicates, chamfering, control);
+    chamfer::ChamferOptions chamfering;
+    chamfering.corner_cosine_squared = chamfer::cosine_squared(corner);
+    chamfered = chamfer::chamfer(topology, points, predicates, chamfering, control);
     add_outer_box(topology, points, chamfered.plc);
   }
 
@@ -102,4 +102,4 @@ std::string complaint_of(Part& part, Arguments&... arguments) {
   return "nothing";
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -11,7 +11,7 @@
 #include "mesher/refine/subsegments.h"
 #include "mesher/refine/test_complexes.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 // In the Delaunay tetrahedrization of the complex's vertices. That of the box has all of them: its
 // corners are on one sphere, with nothing inside, and those of the outer box are the hull.
@@ -163,4 +163,4 @@ std::vector<std::uint32_t> taken_from(Part& part) {
   return taken;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

@@ -7,7 +7,7 @@
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/vector.h"
 
-namespace delmesher {
+namespace delmesher::refine {
 
 struct TetrahedronShape {
   std::array<Vec3, 4> p;          // relative to vertex 0
@@ -46,4 +46,4 @@ inline void add_circumsphere(TetrahedronShape& s) {
   s.radius2 = dot(s.center, s.center);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::refine

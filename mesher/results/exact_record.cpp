@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace delmesher {
+namespace delmesher::results {
 namespace {
 
 template <class Visit>
@@ -38,7 +38,7 @@ void record_parameters(const Options& options, double tolerance, ExactRecord& re
   record.parameters.region = options.region;
 }
 
-void record_facets(const SurfaceTopology& topology, const FilterResult* filter,
+void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult* filter,
                    ExactRecord& record) {
   for (FacetId f = 0; f < topology.facet_triangles.size(); ++f) {
     const auto& triangles = topology.facet_triangles[f];
@@ -50,7 +50,7 @@ void record_facets(const SurfaceTopology& topology, const FilterResult* filter,
   }
 }
 
-void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
+void record_chamfer(const chamfer::ChamferResult& chamfered, double threshold_degrees,
                     const std::vector<double>& vertex_cosine_squared, ExactRecord& record) {
   for (VertexId v = 0; v < chamfered.vertex_is_acute.size(); ++v) {
     if (chamfered.vertex_is_acute[v] == 0) continue;
@@ -62,7 +62,7 @@ void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
   }
 }
 
-void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
+void record_refined(const chamfer::ChamferResult& chamfered, const refine::RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record) {
   const Plc& plc = chamfered.plc;
   const auto facet_id = [&](std::uint32_t f) {
@@ -87,24 +87,24 @@ void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
   for (std::size_t n = 0; n < refined.in_volume.size(); ++n) {
     record.balls.push_back({refined.in_volume[n], refined.ball[n]});
   }
-  for (const RefinedFace& face : refined.faces) {
+  for (const refine::RefinedFace& face : refined.faces) {
     const std::uint32_t id = facet_id(face.facet);
     if (id == kNone) continue;
     record.refined_facets.push_back({face.vertices[0], face.vertices[1], face.vertices[2], id});
   }
 }
 
-void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record) {
+void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record) {
   for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
     record.final.push_back({cdt.tetrahedra[n], cdt.inside[n] != 0});
   }
-  for (const SurfaceFace& face : cdt.boundary) {
+  for (const cdt::SurfaceFace& face : cdt.boundary) {
     record.final_facets.push_back({face.vertices[0], face.vertices[1], face.vertices[2],
                                    topology.facet_triangles[face.facet][0]});
   }
 }
 
-void record_thinned(const CdtResult& thinned, const SurfaceTopology& topology,
+void record_thinned(const cdt::CdtResult& thinned, const SurfaceTopology& topology,
                     ExactRecord& record) {
   if (record.unrepaired.empty()) {
     record.unrepaired = std::move(record.final);
@@ -115,7 +115,7 @@ void record_thinned(const CdtResult& thinned, const SurfaceTopology& topology,
   record_final(thinned, topology, record);
 }
 
-void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& record) {
+void record_repaired(const output::RoundingResult& rounded, Region region, ExactRecord& record) {
   if (record.final.empty()) return;  // the refined mesh itself was written
   if (record.unrepaired.empty()) record.unrepaired = record.final;
   std::erase_if(record.final,
@@ -128,7 +128,7 @@ void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& 
 }
 
 void record_points(const PointStore& points, std::size_t input_vertices,
-                   const RoundingResult& rounded, ExactRecord& record) {
+                   const output::RoundingResult& rounded, ExactRecord& record) {
   record.mesh_vertices = rounded.vertices;
   std::vector<std::uint32_t> number(points.size(), 0);
   const auto use = [&](std::uint32_t v) { number[v] = 1; };
@@ -172,4 +172,4 @@ void record_points(const PointStore& points, std::size_t input_vertices,
   for (auto& point : record.chamfer_points) point[1] = number[point[1]];
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::results

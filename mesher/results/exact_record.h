@@ -10,24 +10,25 @@
 #include "mesher/output/rounding.h"
 #include "mesher/refine/refine.h"
 
-namespace delmesher {
+namespace delmesher::results {
 
 // `tolerance`: the filter's, in input units.
 void record_parameters(const Options& options, double tolerance, ExactRecord& record);
 // `filter` is null if nothing was filtered.
-void record_facets(const SurfaceTopology& topology, const FilterResult* filter,
+void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult* filter,
                    ExactRecord& record);
-void record_chamfer(const ChamferResult& chamfered, double threshold_degrees,
+void record_chamfer(const chamfer::ChamferResult& chamfered, double threshold_degrees,
                     const std::vector<double>& vertex_cosine_squared, ExactRecord& record);
-void record_refined(const ChamferResult& chamfered, const RefineResult& refined,
+void record_refined(const chamfer::ChamferResult& chamfered, const refine::RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
-void record_final(const CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
+void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
 // Replaces the final tetrahedra by those left after thinning.
-void record_thinned(const CdtResult& thinned, const SurfaceTopology& topology, ExactRecord& record);
+void record_thinned(const cdt::CdtResult& thinned, const SurfaceTopology& topology,
+                    ExactRecord& record);
 // Replaces the final tetrahedra that were handed to rounding by those that it returned.
-void record_repaired(const RoundingResult& rounded, Region region, ExactRecord& record);
+void record_repaired(const output::RoundingResult& rounded, Region region, ExactRecord& record);
 // Adds the points that the record uses, input vertices first, and renumbers.
 void record_points(const PointStore& points, std::size_t input_vertices,
-                   const RoundingResult& rounded, ExactRecord& record);
+                   const output::RoundingResult& rounded, ExactRecord& record);
 
-}  // namespace delmesher
+}  // namespace delmesher::results

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace delmesher {
+namespace delmesher::results {
 namespace {
 
 using FaceKey = std::array<VertexId, 3>;
@@ -13,8 +13,8 @@ FaceKey face_key(VertexId a, VertexId b, VertexId c) {
   return key;
 }
 
-RoundingInput rounding_input(const PointStore& points, std::size_t input_vertices) {
-  RoundingInput input;
+output::RoundingInput rounding_input(const PointStore& points, std::size_t input_vertices) {
+  output::RoundingInput input;
   input.points = &points;
   input.fixed.resize(points.size());
   input.on_surface.resize(points.size());
@@ -28,10 +28,10 @@ RoundingInput rounding_input(const PointStore& points, std::size_t input_vertice
 
 }  // namespace
 
-MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
+MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& topology,
                             const PointStore& points, Region region) {
   MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
-  RoundingInput& input = mesh.rounding;
+  output::RoundingInput& input = mesh.rounding;
   const auto inside = static_cast<std::size_t>(std::count(cdt.inside.begin(), cdt.inside.end(), 1));
   input.tetrahedra.reserve(region == Region::interior ? inside : cdt.tetrahedra.size());
   input.inside.reserve(input.tetrahedra.capacity());
@@ -44,18 +44,18 @@ MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topolog
       mesh.repeated_faces.push_back(repeated_within(region, cdt.repeated_faces[n]));
     }
   }
-  for (const SurfaceFace& face : cdt.boundary) {
+  for (const cdt::SurfaceFace& face : cdt.boundary) {
     input.boundary.push_back(face.vertices);
     mesh.boundary_facet.push_back(face.facet);
   }
   return mesh;
 }
 
-MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult& refined,
-                             const SurfaceTopology& topology, const PointStore& points,
-                             Region region) {
+MeshToWrite approximate_mesh(const chamfer::ChamferResult& chamfered,
+                             const refine::RefineResult& refined, const SurfaceTopology& topology,
+                             const PointStore& points, Region region) {
   MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
-  RoundingInput& input = mesh.rounding;
+  output::RoundingInput& input = mesh.rounding;
   std::vector<FaceKey> written;
   for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
     const bool inside = refined.side[n] == Side::inside;
@@ -66,7 +66,7 @@ MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult&
     for (const auto& f : kFace) written.push_back(face_key(t[f[0]], t[f[1]], t[f[2]]));
   }
   std::sort(written.begin(), written.end());
-  for (const RefinedFace& face : refined.faces) {
+  for (const refine::RefinedFace& face : refined.faces) {
     const FacetId facet = chamfered.plc.facets[face.facet].input_facet;
     const auto& v = face.vertices;
     if (facet == kNone ||
@@ -79,4 +79,4 @@ MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult&
   return mesh;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::results

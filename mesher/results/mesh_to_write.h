@@ -8,10 +8,10 @@
 #include "mesher/output/rounding.h"
 #include "mesher/refine/refine.h"
 
-namespace delmesher {
+namespace delmesher::results {
 
 struct MeshToWrite {
-  RoundingInput rounding;
+  output::RoundingInput rounding;
   std::vector<FacetId> boundary_facet;  // per face of rounding.boundary
   // Per tetrahedron: bit i if an earlier one has face i too. May be empty.
   std::vector<std::uint8_t> repeated_faces;
@@ -23,13 +23,13 @@ inline std::uint8_t repeated_within(Region region, std::uint8_t repeated) {
   return static_cast<std::uint8_t>(region == Region::interior ? repeated >> 4U : repeated & 15U);
 }
 
-MeshToWrite conforming_mesh(const CdtResult& cdt, const SurfaceTopology& topology,
+MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& topology,
                             const PointStore& points, Region region);
 
 // The refined mesh itself; its boundary is the part of the surface that was neither chamfered nor
 // filtered.
-MeshToWrite approximate_mesh(const ChamferResult& chamfered, const RefineResult& refined,
-                             const SurfaceTopology& topology, const PointStore& points,
-                             Region region);
+MeshToWrite approximate_mesh(const chamfer::ChamferResult& chamfered,
+                             const refine::RefineResult& refined, const SurfaceTopology& topology,
+                             const PointStore& points, Region region);
 
-}  // namespace delmesher
+}  // namespace delmesher::results

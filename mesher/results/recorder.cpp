@@ -6,15 +6,16 @@
 #include "mesher/results/exact_record.h"
 #include "mesher/results/region_statistics.h"
 
-namespace delmesher {
+namespace delmesher::results {
 namespace {
 
 // With rounded coordinates, for display, in the triangulation that the refinement gave it.
-Surface chamfered_surface(const ChamferResult& chamfered, const RefineResult& refined,
-                          const SurfaceTopology& topology, const PointStore& points) {
+Surface chamfered_surface(const chamfer::ChamferResult& chamfered,
+                          const refine::RefineResult& refined, const SurfaceTopology& topology,
+                          const PointStore& points) {
   Surface surface;
   std::vector<std::uint32_t> number(points.size(), kNone);
-  for (const RefinedFace& face : refined.faces) {
+  for (const refine::RefinedFace& face : refined.faces) {
     const FacetId facet = chamfered.plc.facets[face.facet].input_facet;
     if (facet == kNone) continue;
     std::array<std::uint32_t, 3> triangle;
@@ -39,8 +40,8 @@ void Recorder::checked(const SurfaceReport& report) {
   result_.statistics.bbox_diagonal = report.bbox_diagonal;
 }
 
-void Recorder::chamfered(const ChamferResult& chamfered, const FilterResult& filter,
-                         const InForce& force) {
+void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
+                         const chamfer::FilterResult& filter, const InForce& force) {
   Statistics& s = result_.statistics;
   s.tau = force.tau;
   s.dropped_triangles = filter.dropped_triangles;
@@ -63,7 +64,8 @@ void Recorder::chamfered(const ChamferResult& chamfered, const FilterResult& fil
   record.parameters.gabriel = force.gabriel;
 }
 
-void Recorder::refined(const ChamferResult& chamfered, const RefineResult& refined) {
+void Recorder::refined(const chamfer::ChamferResult& chamfered,
+                       const refine::RefineResult& refined) {
   Statistics& s = result_.statistics;
   s.steiner_on_segments = refined.on_segments;
   s.steiner_on_facets = refined.on_facets;
@@ -76,19 +78,19 @@ void Recorder::refined(const ChamferResult& chamfered, const RefineResult& refin
   }
 }
 
-void Recorder::tetrahedrized(const CdtResult& cdt) {
+void Recorder::tetrahedrized(const cdt::CdtResult& cdt) {
   result_.statistics.steiner_on_segments += cdt.steiner.size();
   if (!exact()) return;
   if (result_.exact.facets.empty()) record_facets(session_.topology, nullptr, result_.exact);
   record_final(cdt, session_.topology, result_.exact);
 }
 
-void Recorder::thinned(const CdtResult& cdt, std::uint64_t vertices) {
+void Recorder::thinned(const cdt::CdtResult& cdt, std::uint64_t vertices) {
   result_.statistics.rounding_thinned = vertices;
   if (exact()) record_thinned(cdt, session_.topology, result_.exact);
 }
 
-void Recorder::written(MeshToWrite& exact_mesh, RoundingResult rounded) {
+void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) {
   Statistics& s = result_.statistics;
   s.rounding_inverted = rounded.inverted;
   s.rounding_flat = rounded.flat;
@@ -98,8 +100,9 @@ void Recorder::written(MeshToWrite& exact_mesh, RoundingResult rounded) {
   for (const std::uint8_t inside : rounded.inside) interior += inside;
   // After local operations they are other tetrahedra.
   if (rounded.operations > 0) exact_mesh.repeated_faces.clear();
-  s.final = mesh_statistics(rounded.coordinates, rounded.tetrahedra, exact_mesh.repeated_faces,
-                            rounded.vertices.size(), interior, session_.control);
+  s.final =
+      output::mesh_statistics(rounded.coordinates, rounded.tetrahedra, exact_mesh.repeated_faces,
+                              rounded.vertices.size(), interior, session_.control);
   if (exact()) {
     if (rounded.operations > 0) {
       record_repaired(rounded, session_.options.region, result_.exact);
@@ -130,4 +133,4 @@ void Recorder::finish() {
   if (!result_.status.ok()) result_.mesh = {};
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::results

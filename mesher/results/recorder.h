@@ -10,7 +10,7 @@
 #include "mesher/results/mesh_to_write.h"
 #include "mesher/run/session.h"
 
-namespace delmesher {
+namespace delmesher::results {
 
 // What held for the refinement that ended: as asked for, or stricter.
 struct InForce {
@@ -27,15 +27,16 @@ class Recorder {
 
   void checked(const SurfaceReport& report);
   void predicted(double tetrahedra) { result_.statistics.predicted_tetrahedra = tetrahedra; }
-  void chamfered(const ChamferResult& chamfered, const FilterResult& filter, const InForce& force);
-  void refined(const ChamferResult& chamfered, const RefineResult& refined);
+  void chamfered(const chamfer::ChamferResult& chamfered, const chamfer::FilterResult& filter,
+                 const InForce& force);
+  void refined(const chamfer::ChamferResult& chamfered, const refine::RefineResult& refined);
   // The mesh is that of the input alone, without the vertices of the refined one.
   void plain_taken() { result_.statistics.enriched = false; }
-  void tetrahedrized(const CdtResult& cdt);
+  void tetrahedrized(const cdt::CdtResult& cdt);
   // `vertices` in all were taken out again before rounding.
-  void thinned(const CdtResult& cdt, std::uint64_t vertices);
+  void thinned(const cdt::CdtResult& cdt, std::uint64_t vertices);
   // The mesh itself, as written.
-  void written(MeshToWrite& exact, RoundingResult rounded);
+  void written(MeshToWrite& exact, output::RoundingResult rounded);
   // Times and counters, however the run ended; without a mesh if it failed.
   void finish();
 
@@ -46,4 +47,4 @@ class Recorder {
   Result& result_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::results

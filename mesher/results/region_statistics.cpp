@@ -5,7 +5,7 @@
 #include "mesher/output/statistics.h"
 #include "mesher/results/mesh_to_write.h"
 
-namespace delmesher {
+namespace delmesher::results {
 namespace {
 
 // Of those tetrahedra of the region that `is_inside` tells apart by their number.
@@ -29,23 +29,23 @@ MeshStatistics region_statistics(const std::vector<std::array<VertexId, 4>>& all
     for (const VertexId v : all[n]) used[v] = 1;
   }
   const auto vertices = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), 1));
-  return mesh_statistics(coordinates, tetrahedra, repeated, vertices, interior, control);
+  return output::mesh_statistics(coordinates, tetrahedra, repeated, vertices, interior, control);
 }
 
 }  // namespace
 
-MeshStatistics refined_statistics(const RefineResult& refined, const PointStore& points,
+MeshStatistics refined_statistics(const refine::RefineResult& refined, const PointStore& points,
                                   Region region, Control& control) {
   const auto is_inside = [&](std::size_t n) { return refined.side[n] == Side::inside; };
   return region_statistics(refined.tetrahedra, is_inside, refined.repeated_faces, points, region,
                            control);
 }
 
-MeshStatistics interior_statistics(const CdtResult& cdt, const PointStore& points,
+MeshStatistics interior_statistics(const cdt::CdtResult& cdt, const PointStore& points,
                                    Control& control) {
   const auto is_inside = [&](std::size_t n) { return cdt.inside[n] != 0; };
   return region_statistics(cdt.tetrahedra, is_inside, cdt.repeated_faces, points, Region::interior,
                            control);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::results

@@ -5,13 +5,13 @@
 #include "mesher/delmesher/statistics.h"
 #include "mesher/refine/refine.h"
 
-namespace delmesher {
+namespace delmesher::results {
 
-MeshStatistics refined_statistics(const RefineResult& refined, const PointStore& points,
+MeshStatistics refined_statistics(const refine::RefineResult& refined, const PointStore& points,
                                   Region region, Control& control);
 
 // Of a final mesh's inside, before rounding.
-MeshStatistics interior_statistics(const CdtResult& cdt, const PointStore& points,
+MeshStatistics interior_statistics(const cdt::CdtResult& cdt, const PointStore& points,
                                    Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::results

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <new>
 
-namespace delmesher {
+namespace delmesher::results {
 namespace {
 
 // Tenth powers of lengths of ordinary size, and of a 2^-20th of them, are far from the limits.
@@ -94,4 +94,4 @@ Result in_ordinary_units(const Surface& surface, const Options& options,
   }
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::results

@@ -7,11 +7,11 @@
 
 #include "mesher/delmesher.h"
 
-namespace delmesher {
+namespace delmesher::results {
 
 // Calls `task` with surface and options, in other units if the model's size calls for it and if
 // that is exact for every coordinate.
 Result in_ordinary_units(const Surface& surface, const Options& options,
                          const std::function<Result(const Surface&, const Options&)>& task);
 
-}  // namespace delmesher
+}  // namespace delmesher::results

@@ -4,7 +4,7 @@
 
 #include "mesher/delmesher_plane.h"
 
-namespace delmesher {
+namespace delmesher::run {
 namespace {
 
 bool within(double x, const Bounds& bounds) {
@@ -31,6 +31,10 @@ std::string options_defect(const Options& o, const OptionBounds& bounds) {
   if (!within(o.time_limit_seconds, bounds.seconds)) return "time limit must not be negative";
   return {};
 }
+
+}  // namespace delmesher::run
+
+namespace delmesher {
 
 Options paper_options() {
   Options options;

@@ -5,9 +5,9 @@
 
 #include "mesher/delmesher.h"
 
-namespace delmesher {
+namespace delmesher::run {
 
 // Names the option whose value makes no sense; empty if all do.
 std::string options_defect(const Options& options, const OptionBounds& bounds);
 
-}  // namespace delmesher
+}  // namespace delmesher::run

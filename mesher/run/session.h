@@ -8,7 +8,7 @@
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::run {
 
 struct Session {
   Session(const Options& run_options, Control& run_control)
@@ -28,4 +28,4 @@ struct Session {
   }
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::run

@@ -8,7 +8,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 // The plane through three points known up to their errors.
 class ApproximatePlane {
@@ -54,4 +54,4 @@ class ApproximatePlane {
   double error_ = 0;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

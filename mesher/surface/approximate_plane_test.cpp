@@ -7,7 +7,7 @@
 
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 // orient3d of the corners and the point, and the plane's answer.
@@ -89,4 +89,4 @@ TEST_F(PlaneSides, CornersMayBeImplicit) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::surface

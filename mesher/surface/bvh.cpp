@@ -6,7 +6,7 @@
 
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
@@ -123,4 +123,4 @@ std::uint32_t Bvh::build(std::span<const Box> boxes, std::uint32_t begin, std::u
   return index;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -8,7 +8,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 // A closed axis-parallel box.
 struct Box {
@@ -145,4 +145,4 @@ bool Bvh::pairs_between(std::uint32_t m, std::uint32_t n, Visit& visit) const {
   return pairs_between(m, n + 1, visit) && pairs_between(m, b.right, visit);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 using Residue = std::uint64_t;
@@ -87,4 +87,4 @@ CarrierKey line_key(const Vec3& a, const Vec3& b) {
   return normalized({{d[0], d[1], d[2], m[0], m[1], m[2]}});
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -7,7 +7,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 // Homogeneous coordinates of a plane or line (Pluecker), computed exactly modulo the prime 2^61 - 1
 // and divided by the first that is not zero. Doubles are integers times powers of two, so they have
@@ -21,4 +21,4 @@ struct CarrierKey {
 CarrierKey plane_key(const Vec3& a, const Vec3& b, const Vec3& c);
 CarrierKey line_key(const Vec3& a, const Vec3& b);
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

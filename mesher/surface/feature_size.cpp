@@ -6,7 +6,7 @@
 
 #include "mesher/surface/bvh.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 Vec3 operator-(const Vec3& a, const Vec3& b) {
@@ -89,7 +89,7 @@ struct Normal {
     for (int pass = 0; pass < 2 && longest > 0; ++pass) {
       direction = moved(direction, -dot(direction, e) / longest, e);
     }
-    length = delmesher::length(direction);
+    length = surface::length(direction);
   }
 
   double height(const Vec3& p) const { return dot(direction, p - anchor) / length; }
@@ -288,4 +288,4 @@ double smallest_local_feature_size(const SurfaceTopology& topology, const PointS
   return ClosestElements(topology, points, control).run();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

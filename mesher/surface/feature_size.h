@@ -5,7 +5,7 @@
 #include "mesher/base/control.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 // Distances between closed simplices, relative accuracy about 1e-12 of the coordinates'
 // differences.
@@ -19,4 +19,4 @@ double triangle_triangle_distance(const std::array<Vec3, 3>& s, const std::array
 double smallest_local_feature_size(const SurfaceTopology& topology, const PointStore& points,
                                    Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -7,7 +7,7 @@
 
 #include "mesher/surface/test_surfaces.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 using namespace test_surfaces;
@@ -143,4 +143,4 @@ TEST(FeatureSize, ScalesByPowersOfTwo) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::surface

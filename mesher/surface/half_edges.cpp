@@ -5,7 +5,7 @@
 
 #include "mesher/base/ids.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 // Half-edges sorted by the smaller end, then the larger one, then their index: a counting sort on
@@ -96,4 +96,4 @@ void DisjointSets::unite(std::uint32_t i, std::uint32_t j) {
   if (i != j) parent_[std::max(i, j)] = std::min(i, j);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace delmesher {
+namespace delmesher::surface {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
@@ -38,4 +38,4 @@ class DisjointSets {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -9,7 +9,7 @@
 #include "mesher/base/check.h"
 #include "mesher/surface/triangle_contact.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 // Owns an mpz_t.
@@ -172,4 +172,4 @@ std::vector<ComponentNesting> analyze_nesting(const Triangles& triangles,
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

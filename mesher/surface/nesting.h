@@ -10,7 +10,7 @@
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/half_edges.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 struct ComponentNesting {
   int volume_sign = 0;      // +1: its triangles are oriented away from the bounded side
@@ -25,4 +25,4 @@ std::vector<ComponentNesting> analyze_nesting(const Triangles& triangles,
                                               std::size_t components, Predicates& predicates,
                                               const Bvh& bvh, Control& control);
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

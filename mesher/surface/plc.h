@@ -8,7 +8,7 @@
 
 #include "mesher/base/ids.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 // A straight constraint between two points.
 struct PlcSegment {
@@ -43,4 +43,4 @@ struct Plc {
   std::vector<VertexId> free_vertices;  // on no facet: e.g. vertices whose facets were all filtered
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

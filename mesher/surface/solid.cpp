@@ -12,7 +12,7 @@
 #include "mesher/surface/tetrahedron_contact.h"
 #include "mesher/surface/triangle_contact.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -346,4 +346,4 @@ Side Solid::classify(const std::array<VertexId, 4>& tetrahedron) {
   return impl_->classify(tetrahedron);
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -10,7 +10,7 @@
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 enum class Side : std::uint8_t { outside, inside, straddling };
 
@@ -37,4 +37,4 @@ class Solid {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -7,7 +7,7 @@
 
 #include "mesher/delmesher/surface.h"
 
-namespace delmesher::test_surfaces {
+namespace delmesher::surface::test_surfaces {
 
 using Point = std::array<double, 3>;
 
@@ -92,4 +92,4 @@ inline Surface scaled(Surface s, double factor) {
   return s;
 }
 
-}  // namespace delmesher::test_surfaces
+}  // namespace delmesher::surface::test_surfaces

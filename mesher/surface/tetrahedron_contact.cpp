@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 // Corners 0..3 are the tetrahedron's, 4..6 the triangle's.
@@ -94,4 +94,4 @@ bool meets_interior(Predicates& predicates, const std::array<VertexId, 4>& tetra
   return !SeparatingPlanes(predicates, tetrahedron, triangle).exist();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -7,7 +7,7 @@
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/triangle_contact.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 // Does the closed triangle meet the interior of the tetrahedron (orient3d > 0)? Points of any kind;
 // the triangle must not be degenerate. Uses orient3d only.
@@ -22,4 +22,4 @@ namespace delmesher {
 bool meets_interior(Predicates& predicates, const std::array<VertexId, 4>& tetrahedron,
                     const Corners& triangle);
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -10,7 +10,7 @@
 #include "mesher/surface/test_surfaces.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 using namespace test_surfaces;
@@ -276,4 +276,4 @@ TEST(Solid, ThinTetrahedra) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::surface

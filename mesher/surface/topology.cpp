@@ -9,7 +9,7 @@
 #include "mesher/surface/half_edges.h"
 #include "mesher/surface/triangle_contact.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 // Groups equal keys: class_of[i] is the smallest j whose carrier is verified to be the same as
@@ -206,4 +206,4 @@ SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predi
   return Builder(surface, points, predicates).build();
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

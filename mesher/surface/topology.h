@@ -9,7 +9,7 @@
 #include "mesher/delmesher/surface.h"
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 // A valid surface (closed, manifold, oriented, not self-intersecting) with its adjacency. Points 0
 // .. vertices-1 of the store are the input vertices.
@@ -58,4 +58,4 @@ struct SurfaceTopology {
 // must have passed check_surface and be oriented outwards.
 SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates);
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

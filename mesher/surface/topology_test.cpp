@@ -8,7 +8,7 @@
 #include "mesher/surface/carrier_key.h"
 #include "mesher/surface/test_surfaces.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 using namespace test_surfaces;
@@ -149,4 +149,4 @@ TEST(Topology, HugeAndTinyCoordinates) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::surface

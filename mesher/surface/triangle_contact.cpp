@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 // Absolute components of the normal of triangle abc up to a common factor, in doubles. Differences
@@ -209,4 +209,4 @@ bool ray_crosses(Predicates& predicates, VertexId p, int axis, int direction,
   return predicates.orient3d(a, b, c, p) * sign * direction < 0;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

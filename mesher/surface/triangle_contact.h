@@ -6,7 +6,7 @@
 
 #include "mesher/predicates/predicates.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 using Corners = std::array<VertexId, 3>;
 
@@ -31,4 +31,4 @@ bool meet_outside_shared(Predicates& predicates, const Corners& s, const Corners
 bool ray_crosses(Predicates& predicates, VertexId p, int axis, int direction,
                  const Corners& triangle);
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 using Rational = std::array<mpq_class, 3>;
@@ -126,4 +126,4 @@ TEST(ContactInPlane, NestedTriangles) {
 INSTANTIATE_TEST_SUITE_P(Shared, Contact, testing::Values(0, 1, 2));
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::surface

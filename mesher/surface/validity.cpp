@@ -14,7 +14,7 @@
 #include "mesher/surface/nesting.h"
 #include "mesher/surface/triangle_contact.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 constexpr std::uint64_t kListed = 10;  // defects of each kind that are described
@@ -436,4 +436,4 @@ Surface oriented_outwards(const Surface& surface, const ValidityResult& validity
   return result;
 }
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -6,7 +6,7 @@
 #include "mesher/delmesher/surface.h"
 #include "mesher/delmesher/surface_report.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 
 // Everything check_surface() reports except facets, acute corners and local feature size. With
 // `stop_at_first`, ends at the first kind of defect found (what tetrahedralize() needs to refuse);
@@ -23,4 +23,4 @@ ValidityResult check_validity(const Surface& surface, bool stop_at_first, Contro
 // The surface with the triangles marked by check_validity reversed: outwards by parity.
 Surface oriented_outwards(const Surface& surface, const ValidityResult& validity);
 
-}  // namespace delmesher
+}  // namespace delmesher::surface

@@ -11,7 +11,7 @@
 #include "mesher/surface/nesting.h"
 #include "mesher/surface/test_surfaces.h"
 
-namespace delmesher {
+namespace delmesher::surface {
 namespace {
 
 using namespace test_surfaces;
@@ -334,4 +334,4 @@ TEST(Validity, DoesNotDependOnNumberingOrAxes) {
 }
 
 }  // namespace
-}  // namespace delmesher
+}  // namespace delmesher::surface

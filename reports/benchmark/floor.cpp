@@ -14,14 +14,14 @@ namespace tetproof::benchmark {
 namespace {
 
 using delmesher::ExactPoint;
-using delmesher::PointStore;
-using delmesher::VertexId;
+using delmesher::base::VertexId;
+using delmesher::predicates::PointStore;
 
 Timing timed_build(PointStore& points, const std::vector<VertexId>& vertices) {
   const delmesher::Options options;
-  delmesher::Control control(options);
-  delmesher::Predicates predicates(points);
-  delmesher::Tetrahedrization mesh(predicates);
+  delmesher::base::Control control(options);
+  delmesher::predicates::Predicates predicates(points);
+  delmesher::delaunay::Tetrahedrization mesh(predicates);
   const double start = thread_seconds();
   mesh.build(vertices, control);
   Timing timing;

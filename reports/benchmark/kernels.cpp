@@ -10,9 +10,9 @@
 namespace tetproof::benchmark {
 namespace {
 
-using delmesher::PointStore;
-using delmesher::Predicates;
-using delmesher::VertexId;
+using delmesher::base::VertexId;
+using delmesher::predicates::PointStore;
+using delmesher::predicates::Predicates;
 
 constexpr std::size_t kPoints = 4096;
 

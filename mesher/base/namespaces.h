@@ -1,0 +1,60 @@
+// Each folder of the mesher is a namespace of its own and sees the names of those that it may
+// include (ci/check_tree.py), as if they were its own. The public namespace, delmesher, holds what
+// delmesher.h and its companions declare, and nothing else.
+#pragma once
+
+namespace delmesher {
+
+namespace base {}
+namespace arithmetic {
+using namespace base;  // NOLINT(google-build-using-namespace): the layers, stated once
+}
+namespace predicates {
+using namespace base;        // NOLINT(google-build-using-namespace)
+using namespace arithmetic;  // NOLINT(google-build-using-namespace)
+}  // namespace predicates
+namespace surface {
+using namespace predicates;  // NOLINT(google-build-using-namespace): and what that sees
+}
+namespace delaunay {
+using namespace predicates;  // NOLINT(google-build-using-namespace)
+}
+
+// What all stages share.
+namespace foundation {
+using namespace surface;   // NOLINT(google-build-using-namespace)
+using namespace delaunay;  // NOLINT(google-build-using-namespace)
+}  // namespace foundation
+
+namespace chamfer {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+}
+namespace refine {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+}
+namespace cdt {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+}
+namespace output {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+}
+namespace plane {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+}
+namespace enrich {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+}
+namespace run {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+}
+namespace results {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+using namespace run;         // NOLINT(google-build-using-namespace)
+}  // namespace results
+namespace policies {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+using namespace run;         // NOLINT(google-build-using-namespace)
+using namespace results;     // NOLINT(google-build-using-namespace)
+}  // namespace policies
+
+}  // namespace delmesher
