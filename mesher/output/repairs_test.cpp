@@ -150,6 +150,64 @@ TEST(VertexMoves, ChainsMakeRoom) {
   }
 }
 
+// A vertex on a face of its star may go there by a step, but so may the corners of that face.
+TEST(VertexMoves, MovesVerticesOfTheVolumeFirst) {
+  Scene s = octahedron(0.5, 0.25, 0.25);
+  std::fill(s.input.fixed.begin(), s.input.fixed.end(), 0);
+  RoundedMesh mesh = s.mesh();
+  ASSERT_EQ(mesh.bad().size(), 1U);
+  mesh.prepare_repairs();
+  EXPECT_TRUE(VertexMoves(mesh).fix(*mesh.bad().begin()));
+  EXPECT_TRUE(mesh.bad().empty());
+  for (std::uint32_t v = 0; v < 6; ++v) EXPECT_EQ(mesh.position(v), mesh.home(v)) << v;
+  EXPECT_NE(mesh.position(6), mesh.home(6));
+}
+
+// Two vertices are in one place. The first must not leave it through the face that is one double
+// away from it, whichever of its coordinates that limits.
+TEST(VertexMoves, SeparatingDoesNoHarm) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Scene s;
+      // Axes in turn, so that a, b, c are counter-clockwise seen from the vertex.
+      const auto add = [&](double x, double y, double z, bool fixed) {
+        Vec3 p = {x, y, z};
+        std::rotate(p.begin(), p.begin() + (3 - axis) % 3, p.end());
+        return s.add(p[0], p[1], p[2], fixed);
+      };
+      const double face = std::nextafter(0.5, side > 0 ? 0 : 1);
+      const VertexId v = add(0.5, 0.5, 0.5, false), w = add(0.5, 0.5, 0.5, true);
+      VertexId a = add(face, 0, 0, true), b = add(face, 4, 0, true);
+      const VertexId c = add(face, 0, 4, true);
+      if (side < 0) std::swap(a, b);
+      s.input.tetrahedra = {{a, b, c, v}};
+      const VertexId d = add(8, 0, 0, true), e = add(8, 4, 0, true), f = add(8, 0, 4, true);
+      s.input.tetrahedra.push_back({e, d, f, w});
+      RoundedMesh mesh = s.mesh();
+      ASSERT_TRUE(mesh.bad().empty());
+      ASSERT_EQ(mesh.coincident().size(), 1U);
+      mesh.prepare_repairs();
+      EXPECT_TRUE(VertexMoves(mesh).separate(v));
+      EXPECT_TRUE(mesh.bad().empty()) << axis << " " << side;
+      EXPECT_TRUE(mesh.coincident().empty());
+    }
+  }
+}
+
+// A vertex near the origin below the base of its tetrahedron, which is not enclosed: its own
+// doubles are far too near each other to lead it back, those of the surface are not.
+TEST(VertexMoves, UntanglingTakesStepsOfTheSurface) {
+  Scene s;
+  s.add(0, 0, 0, true), s.add(2, 0, 0, true), s.add(0, 2, 0, true);
+  s.add(0x1p-60, 0x1p-60, -0x1p-60, false);
+  s.input.tetrahedra = {{0, 1, 2, 3}};
+  RoundedMesh mesh = s.mesh();
+  ASSERT_EQ(mesh.bad().size(), 1U);
+  mesh.prepare_repairs();
+  EXPECT_TRUE(VertexMoves(mesh).untangle(s.control));
+  EXPECT_TRUE(mesh.bad().empty());
+}
+
 TEST(VertexMoves, UntanglingEndsWhereNothingCanMove) {
   Scene s = octahedron(1.5, 0, 0);
   s.input.on_surface[6] = 1;
@@ -312,6 +370,32 @@ TEST(LocalOperations, MakesNoEdgeTwice) {
   mesh.prepare_repairs();
   EXPECT_FALSE(LocalOperations(mesh, s.points).fix(1, true));
   EXPECT_EQ(alive(mesh), 3U);
+}
+
+// Removing the edge between the poles of a ring of three makes the triangle of the ring an inner
+// face, which is one of another tetrahedron already; whatever the vertices' numbers are.
+TEST(LocalOperations, MakesNoFaceThrice) {
+  for (const bool poles_last : {false, true}) {
+    for (const bool taken : {false, true}) {
+      const Scene given = ring(3, 1.1);
+      Scene s;
+      const std::uint32_t shift = poles_last ? 3 : 0;
+      const auto moved = [&](std::uint32_t v) { return (v + shift) % 5; };
+      for (std::uint32_t i = 0; i < 5; ++i) {
+        const Vec3 p = given.points.nearest((i + 5 - shift) % 5);
+        s.add(p[0], p[1], p[2], true);
+      }
+      s.add(0, 0, 9, true);
+      for (const Tet& t : given.input.tetrahedra) {
+        s.input.tetrahedra.push_back({moved(t[0]), moved(t[1]), moved(t[2]), moved(t[3])});
+      }
+      if (taken) s.input.tetrahedra.push_back({moved(2), moved(3), moved(4), 5});
+      RoundedMesh mesh = s.mesh();
+      ASSERT_FALSE(mesh.bad().empty());
+      mesh.prepare_repairs();
+      EXPECT_EQ(LocalOperations(mesh, s.points).fix(*mesh.bad().begin(), true), !taken);
+    }
+  }
 }
 
 TEST(LocalOperations, MayAskForExactPositions) {

@@ -421,6 +421,8 @@ TEST(Rounding, WhatCannotMoveIsCounted) {
   EXPECT_EQ(r.repaired, 0U);
   EXPECT_EQ(r.inverted + r.flat, before);
   EXPECT_EQ(r.tetrahedra, s.input.tetrahedra);
+  EXPECT_EQ(r.operations, 0U);
+  EXPECT_EQ(r.inexact_operations, 0U);
 }
 
 TEST(Rounding, FlipsWhereNothingMoves) {
@@ -432,6 +434,9 @@ TEST(Rounding, FlipsWhereNothingMoves) {
     const RoundingResult r = run(s);
     check(s, r);
     EXPECT_EQ(r.vertices.size(), s.points.size());
+    // Each operation mends something, and nothing else does.
+    EXPECT_LE(r.operations, r.repaired);
+    EXPECT_EQ(r.operations > 0, r.repaired > 0);
     after += r.inverted + r.flat;
   }
   EXPECT_GT(before, 10U);

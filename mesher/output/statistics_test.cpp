@@ -74,6 +74,24 @@ TEST(Statistics, OrthogonalCorner) {
   EXPECT_EQ(s.dihedral_histogram[3], 3U);
 }
 
+// Three vertices close together and one far away: whichever of them is given first, the dihedral
+// angles are the same, though computed from the far one the volume would lose half of its digits.
+TEST(Statistics, OrderOfCornersDoesNotCostDigits) {
+  const double far = 0x1.5555555555555p20;
+  const Points given = {{0.1, 0.2, 0.3}, {1.1, 0.3, 0.1}, {0.3, 1.2, 0.4}, {far, far / 3, far / 7}};
+  std::array<std::uint32_t, 4> order = {0, 1, 2, 3};
+  const MeshStatistics first = of(given);
+  do {
+    Points points;
+    for (const std::uint32_t i : order) points.push_back(given[i]);
+    const MeshStatistics s = of(points);
+    EXPECT_NEAR(s.min_dihedral, first.min_dihedral, 1e-11);
+    EXPECT_NEAR(s.max_dihedral, first.max_dihedral, 1e-11);
+    EXPECT_NEAR(s.min_face_angle, first.min_face_angle, 1e-11);
+    EXPECT_NEAR(s.mean_min_dihedral, first.mean_min_dihedral, 1e-11);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
 // Each lane has its own tetrahedron, and all lanes are used; what is degenerate is left to others.
 TEST(CosineBatch, EveryLaneHasItsTetrahedron) {
   constexpr std::size_t n = CosineBatch::kLanes;
