@@ -514,6 +514,36 @@ TEST(Cdt, VertexOnNoFaceOfACavityStays) {
   EXPECT_EQ(used_vertices(result), model.input.vertices.size() + result.steiner.size());
 }
 
+// No more vertices are told of, and held against a limit, than there are.
+TEST(Cdt, ALimitOfAllVerticesIsEnough) {
+  Model model(plate_between_crumbs(8, 0x1p-6, 1));
+  ASSERT_TRUE(model.valid);
+  std::size_t asked = 0;
+  model.options.progress = [&](const Progress& progress) {
+    EXPECT_LE(progress.vertices, model.points.size());
+    ++asked;
+    return true;
+  };
+  model.run();
+  EXPECT_GT(asked, 10U);
+}
+
+// An edge begins at all of its first end and ends at all of its last.
+TEST(Cdt, ChainsBeginAndEndWithWholeFractions) {
+  const Model model(box(0, 8));
+  const Chains chains(model.input, model.points);
+  int edges = 0;
+  for (std::uint32_t e = 0; e < model.topology.edge_count(); ++e) {
+    const std::uint32_t n = chains.first(e);
+    if (n == kNone) continue;
+    ++edges;
+    const std::array<double, 2> first = chains.node(n).from, last = chains.next(n).from;
+    EXPECT_EQ(first, (std::array<double, 2>{0, 1}));
+    EXPECT_EQ(last, (std::array<double, 2>{1, 0}));
+  }
+  EXPECT_EQ(edges, 12);
+}
+
 TEST(Cdt, StopsWhenTold) {
   Model model(star(3, 0.05, 1));
   ASSERT_TRUE(model.valid);

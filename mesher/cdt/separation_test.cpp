@@ -110,6 +110,57 @@ TEST_F(SeparationTest, AgreesWithRationalClipping) {
   EXPECT_LT(overcautious, (apart + proper) / 4);
 }
 
+TEST(Boxes, AreDisjointWhereOneCoordinateTells) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double offset : {-3.0, -1.0, 1.0, 3.0}) {  // 1: they touch
+      PointStore points;
+      const auto add = [&](double x, double y, double z) {
+        std::array<double, 3> p = {x, y, z};
+        std::rotate(p.begin(), p.begin() + axis, p.end());
+        return points.add_explicit(p[0], p[1], p[2]);
+      };
+      const std::array<VertexId, 4> tet = {add(0, 0, 0), add(1, 0, 0), add(0, 1, 0), add(0, 0, 1)};
+      const std::array<VertexId, 3> triangle = {add(offset, 0, 0), add(offset, 1, 0),
+                                                add(offset, 0, 1)};
+      // The tetrahedron reaches from 0 to 1.
+      EXPECT_EQ(boxes_disjoint(points, tet, triangle), offset < 0 || offset > 1);
+    }
+  }
+}
+
+// A vertex of the tetrahedron is known only roughly, and the triangle has one at the nearest
+// doubles of it: in no coordinate may the two be called apart, whichever of them is on which side.
+TEST(Boxes, OfRoughlyKnownPointsAreLargeEnough) {
+  int rough = 0;
+  for (const double u : {0.1, 0.2, 0.3, 1.0 / 3, 0.7}) {
+    for (const double side : {-1.0, 1.0}) {
+      for (int place = 0; place < 4; ++place) {
+        for (const bool swapped : {false, true}) {
+          PointStore points;
+          const VertexId a = points.add_explicit(0.1, 0.2, 0.3),
+                         b = points.add_explicit(0.7, 1.1, 0.9);
+          const VertexId p = points.add_on_segment(a, b, u);
+          rough += points.approximation(p).error > 0 ? 1 : 0;
+          const Vec3 n = points.nearest(p);
+          const auto away = [&](double step, int k) {
+            return points.add_explicit(n[0] + step * (1 + k), n[1] + step * (1 + k % 2),
+                                       n[2] + step * (2 - k % 3));
+          };
+          const VertexId q = points.add_explicit(n[0], n[1], n[2]);
+          std::array<VertexId, 4> tet;
+          for (int k = 0; k < 4; ++k) tet[k] = k == place ? (swapped ? q : p) : away(side, k);
+          std::array<VertexId, 3> triangle;
+          for (int k = 0; k < 3; ++k) {
+            triangle[k] = k == place % 3 ? (swapped ? p : q) : away(-side, k);
+          }
+          EXPECT_FALSE(boxes_disjoint(points, tet, triangle)) << u << " " << side << " " << place;
+        }
+      }
+    }
+  }
+  EXPECT_GT(rough, 0);
+}
+
 // ------------------------------------------------------------------------- filling of polyhedra
 
 std::set<Tetrahedron> as_set(std::vector<Tetrahedron> tetrahedra) {

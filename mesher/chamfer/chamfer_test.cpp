@@ -12,6 +12,7 @@
 #include "mesher/chamfer/boundary_distance.h"
 #include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/plc_angles.h"
+#include "mesher/chamfer/removed_surface.h"
 #include "mesher/chamfer/test_polyhedra.h"
 #include "mesher/surface/validity.h"
 
@@ -222,6 +223,60 @@ TEST_P(ChamferSamples, RemovedPartsStayWithinTheRadius) {
         EXPECT_LE(std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]),
                   result.vertex_radius[v] * (1 + 1e-9));
       }
+    }
+  }
+}
+
+// A cut point is as far from its vertex along the edge as the chamfer distance says, but for the
+// bits that are saved on its fraction: 2^-20 of it.
+TEST_P(ChamferSamples, EdgesAreCutAtTheChamferDistance) {
+  std::size_t cut = 0;
+  for (const Sample& sample : test_polyhedra::samples()) {
+    SCOPED_TRACE(sample.name);
+    Model model(sample.surface);
+    const ChamferResult result = model.run(below(GetParam()));
+    for (VertexId p = result.first_new_point; p < model.points.size(); ++p) {
+      if (model.points.definition(p).kind != PointKind::on_segment) continue;
+      const VertexId v = result.new_point_vertex[p - result.first_new_point];
+      const Vec3 a = model.points.nearest(p), b = model.points.nearest(v);
+      const double distance = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+      EXPECT_NEAR(distance / result.vertex_distance[v], 1, 0x1p-20 + 1e-12);
+      ++cut;
+    }
+  }
+  EXPECT_GT(cut, 0U);
+}
+
+// One facet of a box was dropped: what is near the middle of one of its triangles is crowded, what
+// is near another facet is not.
+TEST(RemovedSurface, IsTheDroppedFacetsAndNothingElse) {
+  Surface box;
+  for (int v = 0; v < 8; ++v) {
+    box.vertices.push_back({1.0 * (v & 1), 1.0 * (v >> 1 & 1), 1.0 * (v >> 2)});
+  }
+  for (const auto& [a, b, c, d] : {std::array{0U, 2U, 3U, 1U},
+                                   {4U, 5U, 7U, 6U},
+                                   {0U, 1U, 5U, 4U},
+                                   {2U, 6U, 7U, 3U},
+                                   {0U, 4U, 6U, 2U},
+                                   {1U, 3U, 7U, 5U}}) {
+    box.triangles.push_back({a, b, c});
+    box.triangles.push_back({a, c, d});
+  }
+  Model model(box);
+  const ChamferResult result = model.run(untouched());
+  for (FacetId f = 0; f < 6; ++f) {
+    std::vector<std::uint8_t> kept(6, 1);
+    kept[f] = 0;
+    const RemovedSurface removed(result, kept, model.topology, model.points);
+    const RemovedSurface nothing(result, {}, model.topology, model.points);
+    for (std::uint32_t t = 0; t < model.topology.triangles.size(); ++t) {
+      Vec3 middle = {0, 0, 0};
+      for (const VertexId v : model.topology.triangles[t]) {
+        for (int k = 0; k < 3; ++k) middle[k] += model.points.nearest(v)[k] / 3;
+      }
+      EXPECT_EQ(removed.crowded(middle, 0.5), model.topology.facet_of[t] == f) << t;
+      EXPECT_FALSE(nothing.crowded(middle, 0.5));
     }
   }
 }

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "mesher/chamfer/closest.h"
 #include "mesher/chamfer/plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
+#include "mesher/predicates/vector.h"
 #include "mesher/surface/feature_size.h"
 
 namespace delmesher::chamfer {
@@ -280,6 +282,33 @@ TEST(Filter, ChamferedFeaturesAreNotBelowTheirTolerance) {
     }
   }
   EXPECT_GT(second_step, 20);
+}
+
+// Where the nearest point is an end, the distance is that of this end, to the last digit.
+TEST(Closest, AtTheEndsOfASegmentIsTheEnd) {
+  const auto squared = [](const Vec3& p, const Vec3& q) {
+    const Vec3 d = subtract(p, q);
+    return dot(d, d);
+  };
+  for (const double x : {0.1, 0.3, 0.7, 1.1, 3.3}) {
+    for (const double y : {0.1, 0.2, 0.3, 0.6, 0.7}) {
+      const Vec3 a = {0, 0, 0}, b = {x, 0, 0};
+      // Over the ends themselves, and beyond them.
+      for (const Vec3& p : {Vec3{0, y, 0}, Vec3{0, y, 2 * y}, Vec3{-y, y, 0}}) {
+        const ClosestOnSegment there = closest_on_segment(p, a, b);
+        EXPECT_EQ(there.squared_distance, squared(p, a));
+        EXPECT_EQ(there.s, 0);
+      }
+      for (const Vec3& p : {Vec3{x, y, 0}, Vec3{x, y, 2 * y}, Vec3{x + y, y, 0}}) {
+        const ClosestOnSegment there = closest_on_segment(p, a, b);
+        EXPECT_EQ(there.squared_distance, squared(p, b));
+        EXPECT_EQ(there.s, 1);
+      }
+      const ClosestOnSegment middle = closest_on_segment({0.5 * x, y, 0}, a, b);
+      EXPECT_DOUBLE_EQ(middle.squared_distance, y * y);
+      EXPECT_DOUBLE_EQ(middle.s, 0.5);
+    }
+  }
 }
 
 TEST(Filter, NoToleranceNoFilter) {

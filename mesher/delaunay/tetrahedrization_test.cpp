@@ -234,6 +234,23 @@ TEST(Tetrahedrization, RefusesDuplicatesAndFlatInput) {
   EXPECT_THROW(none.build(flat.all(), flat.control), InternalError);
 }
 
+// Where there was a vertex before, locate() says whether there is one now.
+TEST(Tetrahedrization, LocateTellsOfDuplicates) {
+  Fixture f;
+  add_grid(f.points, 3);
+  Tetrahedrization dt(f.predicates);
+  dt.build(f.all(), f.control);
+  VertexId duplicate = 0;
+  const VertexId fresh = f.points.add_explicit(0.5, 0.25, 0.125);
+  const TetId t = dt.locate(fresh, dt.incident(26), &duplicate);
+  EXPECT_EQ(duplicate, kNone);
+  EXPECT_FALSE(dt.is_ghost(t));
+  dt.locate(f.points.add_explicit(1, 1, 1), dt.incident(26), &duplicate);
+  EXPECT_EQ(duplicate, 13U);
+  dt.locate(fresh, dt.incident(26), &duplicate);
+  EXPECT_EQ(duplicate, kNone);
+}
+
 TEST(Tetrahedrization, MixedPointsOnAnEdgeAndATriangle) {
   Fixture f;
   add_random(f.points, 50, 5);

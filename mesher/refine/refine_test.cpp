@@ -12,6 +12,7 @@
 
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/vector.h"
+#include "mesher/refine/facet_locator.h"
 #include "mesher/refine/refiner.h"
 #include "mesher/refine/test_complexes.h"
 
@@ -80,6 +81,78 @@ struct Refinement : Complex {
     return used;
   }
 };
+
+// The faces of the outer box lie in six planes of their own, and its corners say in which: zeros
+// follow from that without arithmetic.
+TEST(OuterBox, HasSixPlanesOfItsOwn) {
+  Complex complex(ell(), 60);
+  const std::size_t before = complex.points.size();
+  Plc plc;
+  add_outer_box(complex.topology, complex.points, plc);
+  ASSERT_EQ(complex.points.size(), before + 8);
+  const auto planes_of = [&](VertexId v) {
+    const auto planes = complex.points.planes(v);
+    return std::set<PlaneId>(planes.begin(), planes.end());
+  };
+  std::set<PlaneId> all;
+  for (auto v = static_cast<VertexId>(before); v < before + 8; ++v) {
+    const std::set<PlaneId> mine = planes_of(v);
+    EXPECT_EQ(mine.size(), 3U);
+    all.insert(mine.begin(), mine.end());
+    for (auto w = static_cast<VertexId>(before); w < v; ++w) {
+      const Vec3 p = complex.points.nearest(v), q = complex.points.nearest(w);
+      std::size_t equal = 0, common = 0;
+      for (int k = 0; k < 3; ++k) equal += p[k] == q[k] ? 1 : 0;
+      for (const PlaneId plane : planes_of(w)) common += mine.count(plane);
+      EXPECT_EQ(common, equal);
+    }
+  }
+  EXPECT_EQ(all.size(), 6U);
+  EXPECT_GE(*all.begin(), static_cast<PlaneId>(complex.topology.plane_count));
+}
+
+// What is inside a triangle of a facet is found there, in facets of few triangles and of many.
+TEST(FacetLocator, FindsTheTriangleAroundAPoint) {
+  for (const int corners : {5, 7, 60}) {
+    std::vector<std::array<double, 2>> outline;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 360.0 * i / corners * kDegree;
+      outline.push_back({3 + std::cos(angle), 5 + std::sin(angle)});
+    }
+    const Complex complex(prism(outline, 1), 60);
+    FacetLocator locator(complex.topology, complex.points);
+    for (std::uint32_t t = 0; t < complex.topology.triangles.size(); ++t) {
+      const auto& v = complex.topology.triangles[t];
+      for (int near = 0; near < 3; ++near) {  // a point near this corner
+        Vec3 p{};
+        for (int k = 0; k < 3; ++k) {
+          const Vec3 corner = complex.points.nearest(v[k]);
+          for (int i = 0; i < 3; ++i) p[i] += (k == near ? 0.8 : 0.1) * corner[i];
+        }
+        EXPECT_EQ(locator.triangle_at(complex.topology.facet_of[t], p), t) << corners;
+      }
+    }
+  }
+}
+
+// No more vertices are told of, and held against a limit, than there are.
+TEST(Refinement, ALimitOfAllVerticesIsEnough) {
+  std::vector<std::array<double, 2>> outline;
+  for (int i = 0; i < 60; ++i) {
+    outline.push_back({std::cos(6 * i * kDegree), std::sin(6 * i * kDegree)});
+  }
+  Complex complex(prism(outline, 1), 60);
+  Limits limits;
+  std::size_t asked = 0;
+  limits.progress = [&](const Progress& progress) {
+    EXPECT_LE(progress.vertices, complex.points.size());
+    ++asked;
+    return true;
+  };
+  Control control(limits);
+  refine(complex.plc(), complex.topology, complex.points, complex.predicates, {}, control);
+  EXPECT_GT(asked, 3U);
+}
 
 double smallest_angle(const PointStore& points, const std::array<VertexId, 4>& t) {
   double smallest = 180;
