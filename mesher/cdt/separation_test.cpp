@@ -110,6 +110,55 @@ TEST_F(SeparationTest, AgreesWithRationalClipping) {
   EXPECT_LT(overcautious, (apart + proper) / 4);
 }
 
+// Where no four vertices are coplanar there is no false alarm either.
+TEST_F(SeparationTest, IsExactInGeneralPosition) {
+  std::array<int, 2> counts{};
+  for (int round = 0; round < 1000; ++round) {
+    draw(1000);
+    const auto shared = static_cast<VertexId>(round % 3);
+    std::array<VertexId, 4> tet = {0, 1, 2, 3};
+    const std::array<VertexId, 3> triangle = {4 - shared, 5 - shared, 6 - shared};
+    bool general = true;
+    for (VertexId a = 0; a < 7 - shared; ++a) {
+      for (VertexId b = 0; b < a; ++b) {
+        for (VertexId c = 0; c < b; ++c) {
+          for (VertexId d = 0; d < c; ++d) {
+            general = general && sgn(rational::volume(at(a), at(b), at(c), at(d))) != 0;
+          }
+        }
+      }
+    }
+    if (!general || !usable(tet, triangle)) continue;
+    bool improper = false;
+    for (const Vector& p : clip({at(tet[0]), at(tet[1]), at(tet[2]), at(tet[3])},
+                                {at(triangle[0]), at(triangle[1]), at(triangle[2])})) {
+      bool known = false;
+      for (VertexId v = 4 - shared; v < 4; ++v) known = known || p == at(v);
+      improper = improper || !known;
+    }
+    ASSERT_EQ(may_meet_improperly(*predicates_, tet, triangle), improper) << round;
+    ++counts[improper ? 1 : 0];
+  }
+  EXPECT_GT(counts[0], 100);
+  EXPECT_GT(counts[1], 100);
+}
+
+// Three common vertices: what the two meet in is the simplex that these span.
+TEST_F(SeparationTest, AFaceMeetsItsTetrahedronProperly) {
+  int faces = 0;
+  for (int round = 0; round < 200; ++round) {
+    draw(3 + round % 3);
+    std::array<VertexId, 4> tet = {0, 1, 2, 3};
+    if (!usable(tet, {0, 1, 2})) continue;
+    for (const auto& [a, b, c] : {std::array<VertexId, 3>{0, 1, 2}, {3, 1, 0}, {2, 3, 1}}) {
+      EXPECT_FALSE(interior_meets(*predicates_, tet, {a, b, c}));
+      EXPECT_FALSE(may_meet_improperly(*predicates_, tet, {a, b, c}));
+      ++faces;
+    }
+  }
+  EXPECT_GT(faces, 100);
+}
+
 TEST(Boxes, AreDisjointWhereOneCoordinateTells) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const double offset : {-3.0, -1.0, 1.0, 3.0}) {  // 1: they touch

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesher/refine/test_complexes.h"
@@ -31,6 +33,58 @@ TEST(Goal, AFaceAngleBelowTheBoundIsBad) {
     const double angle = std::acos(1 - 1 / (2 * height * height + 2.0 / 3)) / kDegree;
     EXPECT_EQ(badness(Goal(angle - 0.01, false, 0), spire(height)), 0) << height;
     EXPECT_GT(badness(Goal(angle + 0.01, false, 0), spire(height)), 0) << height;
+  }
+}
+
+// The tetrahedron is so small that the doubles of its vertices do not tell its angles: whatever may
+// be below the bound is bad. (Its one implicit point is known in extended precision.)
+TEST(Goal, WhatRoundingMayHideIsBad) {
+  using Exact = std::array<long double, 3>;
+  for (const double u : {0.1, 0.2, 0.3, 0.6, 0.7}) {
+    PointStore points;
+    const Vec3 a = {1, 0.3, 0.7}, b = {-0.2, 1.1, 0.4};
+    const VertexId v = points.add_explicit(a[0], a[1], a[2]),
+                   w = points.add_explicit(b[0], b[1], b[2]);
+    const VertexId top = points.add_on_segment(v, w, u);
+    ASSERT_GT(points.approximation(top).error, 0);
+    std::array<VertexId, 4> tet = {0, 0, 0, top};
+    std::array<Exact, 4> p;
+    const std::array<Vec3, 4> shape = spire(2);
+    for (int i = 0; i < 4; ++i) {
+      Vec3 x = points.nearest(top);
+      for (int k = 0; k < 3; ++k) {
+        x[k] += 0x1p-40 * (shape[i][k] - shape[3][k]);
+        p[i][k] = i < 3 ? x[k] : a[k] * static_cast<long double>(u) + b[k] * (1.0L - u);
+      }
+      if (i < 3) tet[i] = points.add_explicit(x[0], x[1], x[2]);
+    }
+    long double least = 180;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        for (int k = 0; k < j; ++k) {
+          if (i == j || i == k) continue;
+          long double xy = 0, xx = 0, yy = 0;
+          for (int c = 0; c < 3; ++c) {
+            const long double x = p[j][c] - p[i][c], y = p[k][c] - p[i][c];
+            xy += x * y;
+            xx += x * x;
+            yy += y * y;
+          }
+          least = std::min(least, std::acos(xy / std::sqrt(xx * yy)) / kDegree);
+        }
+      }
+    }
+    const auto angle = static_cast<double>(least);
+    EXPECT_GT(Goal(angle * (1 + 1e-5), false, 0).badness(points, tet.data()), 0) << u;
+    EXPECT_EQ(Goal(angle * 0.9, false, 0).badness(points, tet.data()), 0) << u;
+  }
+}
+
+// On explicit points the bound itself is doubtful only in the last digits.
+TEST(Goal, AnAngleOfTheBoundIsBadOrJustAboveIt) {
+  for (const double height : {1.0, 2.0, 4.0}) {
+    const double angle = std::acos(1 - 1 / (2 * height * height + 2.0 / 3)) / kDegree;
+    EXPECT_GT(badness(Goal(angle, false, 0), spire(height)), 0) << height;
   }
 }
 

@@ -13,6 +13,7 @@
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/facet_locator.h"
+#include "mesher/refine/prediction.h"
 #include "mesher/refine/refiner.h"
 #include "mesher/refine/test_complexes.h"
 
@@ -152,6 +153,17 @@ TEST(Refinement, ALimitOfAllVerticesIsEnough) {
   Control control(limits);
   refine(complex.plc(), complex.topology, complex.points, complex.predicates, {}, control);
   EXPECT_GT(asked, 3U);
+}
+
+TEST(Prediction, OfNothingIsNothing) {
+  PointStore points;
+  const Limits limits;
+  Control control(limits);
+  for (const Region region : {Region::interior, Region::hull}) {
+    PredictionOptions options;
+    options.region = region;
+    EXPECT_EQ(predict_tetrahedra({}, {}, {}, points, options, control), 0);
+  }
 }
 
 double smallest_angle(const PointStore& points, const std::array<VertexId, 4>& t) {
