@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "mesher/arithmetic/big_integer.h"
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/arithmetic/fixed_integer.h"
+#include "mesher/arithmetic/words.h"
 
 namespace delmesher::arithmetic {
 namespace {
@@ -78,6 +80,89 @@ class Numbers {
  private:
   std::mt19937_64 engine_;
 };
+
+// Random words, many of them all zeros or all ones, so that carries run far.
+Word random_word(std::mt19937_64& random) {
+  switch (random() % 4) {
+    case 0:
+      return 0;
+    case 1:
+      return ~Word{0};
+    case 2:
+      return Word{1} << (random() % 64);
+    default:
+      return random();
+  }
+}
+
+TEST(Words, BothFormsAgreeWithGmp) {
+  std::mt19937_64 random(29);
+  const auto natural = [](Word x) { return import(&x, 1); };
+  const auto of_both = [&](const DoubleWord& x) {
+    return mpz_class((natural(x.high) << 64) + natural(x.low));
+  };
+  for (int round = 0; round < 20000; ++round) {
+    const Word a = random_word(random), b = random_word(random), c = random_word(random),
+               d = random_word(random);
+    const mpz_class expected = natural(a) * natural(b) + natural(c) + natural(d);
+    ASSERT_EQ(of_both(multiply_add(a, b, c, d)), expected);
+    ASSERT_EQ(of_both(portable::multiply_add(a, b, c, d)), expected);
+
+    const auto whole = [&](Word x) { return mpz_class(natural(x) - (mpz_class(x >> 63U) << 64)); };
+    mpz_class product = whole(a) * whole(b);
+    if (product < 0) product += mpz_class(1) << 128;
+    ASSERT_EQ(of_both(signed_multiply(a, b)), product);
+    ASSERT_EQ(of_both(portable::signed_multiply(a, b)), product);
+
+    for (const Word before : {Word{0}, Word{1}}) {
+      auto carry = static_cast<Carry>(before), borrow = static_cast<Carry>(before);
+      Word portable_carry = before, portable_borrow = before;
+      const Word sum = add_carry(a, b, carry), rest = subtract_borrow(a, b, borrow);
+      ASSERT_EQ(mpz_class((natural(carry) << 64) + natural(sum)),
+                natural(a) + natural(b) + natural(before));
+      ASSERT_EQ(mpz_class(natural(rest) - (natural(borrow) << 64)),
+                natural(a) - natural(b) - natural(before));
+      ASSERT_EQ(portable::add_carry(a, b, portable_carry), sum);
+      ASSERT_EQ(portable::subtract_borrow(a, b, portable_borrow), rest);
+      ASSERT_EQ(portable_carry, carry);
+      ASSERT_EQ(portable_borrow, borrow);
+    }
+  }
+}
+
+TEST(Words, NaturalNumbersAgreeWithGmp) {
+  std::mt19937_64 random(31);
+  for (int round = 0; round < 5000; ++round) {
+    std::vector<Word> x(1 + random() % 40), y(1 + random() % x.size());
+    for (Word& w : x) w = random_word(random);
+    for (Word& w : y) w = random_word(random);
+    const std::size_t m = x.size(), n = y.size();
+    const mpz_class p = import(x.data(), m), q = import(y.data(), n);
+    std::vector<Word> out(m + n + 1, 7);
+    out[m] = add(out.data(), x.data(), m, y.data(), n);
+    ASSERT_EQ(import(out.data(), m + 1), p + q);
+    if (p >= q) {
+      subtract(out.data(), x.data(), m, y.data(), n);
+      ASSERT_EQ(import(out.data(), m), p - q);
+    }
+    multiply(out.data(), x.data(), m, y.data(), n);
+    ASSERT_EQ(import(out.data(), m + n), p * q);
+    ASSERT_EQ(out[m + n], 7U);  // nothing beyond is written
+    const auto bits = static_cast<unsigned>(1 + random() % 63);
+    out[m] = shift_left(out.data(), x.data(), m, bits);
+    ASSERT_EQ(import(out.data(), m + 1), mpz_class(p << bits));
+    shift_right(out.data(), x.data(), m, bits);
+    ASSERT_EQ(import(out.data(), m), mpz_class(p >> bits));
+    std::vector<Word> z = x;
+    ASSERT_EQ(compare(x.data(), z.data(), m), 0);
+    z[random() % m] ^= Word{1} << (random() % 64);
+    const mpz_class r = import(z.data(), m);
+    ASSERT_EQ(compare(x.data(), z.data(), m), cmp(p, r) < 0 ? -1 : 1);
+    // In place.
+    const Word carry = add(x.data(), x.data(), m, y.data(), n);
+    ASSERT_EQ(mpz_class(import(x.data(), m) + (mpz_class(carry) << (64 * m))), p + q);
+  }
+}
 
 TEST(BigInteger, AgreesWithGmp) {
   Numbers random(1);

@@ -18,7 +18,7 @@ BigInteger::BigInteger(const Limb* limbs, std::size_t n, bool negative, std::siz
   for (std::size_t i = 0; i < words; ++i) out[i] = 0;
   if (n == 0) return;
   if (bits != 0) {
-    out[words + n] = mpn_lshift(out + words, limbs, static_cast<mp_size_t>(n), bits);
+    out[words + n] = shift_left(out + words, limbs, n, bits);
   } else {
     std::memcpy(out + words, limbs, n * sizeof(Limb));
     out[words + n] = 0;
@@ -100,7 +100,7 @@ BigInteger BigInteger::operator>>(std::size_t shift) const {
   const std::size_t n = used() - words;
   Limb* out = result.reset(n);
   if (bits != 0) {
-    mpn_rshift(out, data() + words, static_cast<mp_size_t>(n), bits);
+    shift_right(out, data() + words, n, bits);
   } else {
     std::memcpy(out, data() + words, n * sizeof(Limb));
   }
@@ -111,8 +111,7 @@ BigInteger BigInteger::operator>>(std::size_t shift) const {
 BigInteger BigInteger::add(const BigInteger& a, const BigInteger& b, std::int32_t b_size) {
   const Limb* x = a.data();
   const Limb* y = b.data();
-  auto m = static_cast<mp_size_t>(a.used());
-  auto n = static_cast<mp_size_t>(b.used());
+  std::size_t m = a.used(), n = b.used();
   bool x_negative = a.size_ < 0;
   bool y_negative = b_size < 0;
   if (m < n) {
@@ -122,22 +121,22 @@ BigInteger BigInteger::add(const BigInteger& a, const BigInteger& b, std::int32_
   }
   BigInteger result;
   if (n == 0) {
-    result.assign(x, static_cast<std::size_t>(m));
-    result.size_ = static_cast<std::int32_t>(x_negative ? -m : m);
+    result.assign(x, m);
+    result.size_ = x_negative ? -static_cast<std::int32_t>(m) : static_cast<std::int32_t>(m);
     return result;
   }
-  Limb* out = result.reset(static_cast<std::size_t>(m) + 1);
+  Limb* out = result.reset(m + 1);
   if (x_negative == y_negative) {
-    out[m] = mpn_add(out, x, m, y, n);
-    result.normalise(static_cast<std::size_t>(m) + 1, x_negative);
+    out[m] = arithmetic::add(out, x, m, y, n);
+    result.normalise(m + 1, x_negative);
     return result;
   }
-  if (m == n && mpn_cmp(x, y, n) < 0) {
+  if (m == n && compare(x, y, n) < 0) {
     std::swap(x, y);
     std::swap(x_negative, y_negative);
   }
-  mpn_sub(out, x, m, y, n);
-  result.normalise(static_cast<std::size_t>(m), x_negative);
+  subtract(out, x, m, y, n);
+  result.normalise(m, x_negative);
   return result;
 }
 
@@ -148,9 +147,9 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   const std::size_t n = b.used();
   BigInteger::Limb* out = result.reset(m + n);
   if (m >= n) {
-    mpn_mul(out, a.data(), static_cast<mp_size_t>(m), b.data(), static_cast<mp_size_t>(n));
+    multiply(out, a.data(), m, b.data(), n);
   } else {
-    mpn_mul(out, b.data(), static_cast<mp_size_t>(n), a.data(), static_cast<mp_size_t>(m));
+    multiply(out, b.data(), n, a.data(), m);
   }
   result.normalise(m + n, (a.size_ < 0) != (b.size_ < 0));
   return result;

@@ -1,22 +1,20 @@
-// Signed integers of any size on GMP's mpn functions; no heap for the sizes that predicates meet.
+// Signed integers of any size; no heap for the sizes that predicates meet.
 #pragma once
-
-#include <gmp.h>
 
 #include <cstdint>
 #include <cstring>
 #include <memory>
 
+#include "mesher/arithmetic/words.h"
 #include "mesher/base/namespaces.h"
 
 namespace delmesher::arithmetic {
 
-static_assert(GMP_NUMB_BITS == 64, "limbs of 64 bits, no nails");
-
-// Sign and magnitude. mpz would allocate for every temporary; determinants have dozens of them.
+// Sign and magnitude. A heap allocation for every temporary would cost more than the arithmetic:
+// determinants have dozens of them.
 class BigInteger {
  public:
-  using Limb = mp_limb_t;
+  using Limb = Word;
 
   BigInteger() = default;
   explicit BigInteger(std::int64_t value);

@@ -1,47 +1,13 @@
 // Signed integers of a size known at compile time: products add sizes, sums keep them.
 #pragma once
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 #include <array>
 #include <cstdint>
 
+#include "mesher/arithmetic/words.h"
 #include "mesher/base/namespaces.h"
 
 namespace delmesher::arithmetic {
-
-// ISO C++ has no 128-bit integers: an extension that gcc and clang share.
-__extension__ using Wide = unsigned __int128;
-__extension__ using SignedWide = __int128;
-
-// a + b + carry and a - b - borrow, with the new carry or borrow (0 or 1).
-#if defined(__x86_64__)
-using Carry = unsigned char;
-inline std::uint64_t add_carry(std::uint64_t a, std::uint64_t b, Carry& carry) {
-  unsigned long long sum;
-  carry = _addcarry_u64(carry, a, b, &sum);
-  return sum;
-}
-inline std::uint64_t subtract_borrow(std::uint64_t a, std::uint64_t b, Carry& borrow) {
-  unsigned long long difference;
-  borrow = _subborrow_u64(borrow, a, b, &difference);
-  return difference;
-}
-#else
-using Carry = std::uint64_t;
-inline std::uint64_t add_carry(std::uint64_t a, std::uint64_t b, Carry& carry) {
-  const Wide sum = Wide{a} + b + carry;
-  carry = static_cast<std::uint64_t>(sum >> 64);
-  return static_cast<std::uint64_t>(sum);
-}
-inline std::uint64_t subtract_borrow(std::uint64_t a, std::uint64_t b, Carry& borrow) {
-  const Wide difference = Wide{a} - b - borrow;
-  borrow = static_cast<std::uint64_t>(difference >> 64) & 1;
-  return static_cast<std::uint64_t>(difference);
-}
-#endif
 
 // Two's complement, least significant limb first. Nothing checks for overflow: callers prove that
 // values fit (see predicates/polynomials.h). Products cannot overflow.
@@ -92,9 +58,9 @@ inline FixedInteger<N + M> operator*(const FixedInteger<N>& a, const FixedIntege
   for (int i = 0; i < N; ++i) {
     std::uint64_t carry = 0;
     for (int j = 0; j < M; ++j) {
-      const Wide t = Wide{a.limb[i]} * b.limb[j] + product.limb[i + j] + carry;
-      product.limb[i + j] = static_cast<std::uint64_t>(t);
-      carry = static_cast<std::uint64_t>(t >> 64);
+      const DoubleWord t = multiply_add(a.limb[i], b.limb[j], product.limb[i + j], carry);
+      product.limb[i + j] = t.low;
+      carry = t.high;
     }
     product.limb[i + M] = carry;
   }
@@ -105,9 +71,8 @@ inline FixedInteger<N + M> operator*(const FixedInteger<N>& a, const FixedIntege
 }
 
 inline FixedInteger<2> operator*(const FixedInteger<1>& a, const FixedInteger<1>& b) {
-  const SignedWide p =
-      SignedWide{static_cast<std::int64_t>(a.limb[0])} * static_cast<std::int64_t>(b.limb[0]);
-  return {{static_cast<std::uint64_t>(p), static_cast<std::uint64_t>(static_cast<Wide>(p) >> 64)}};
+  const DoubleWord p = signed_multiply(a.limb[0], b.limb[0]);
+  return {{p.low, p.high}};
 }
 
 // limbs[0..size) * 2^shift, which must be below 2^(64 N - 1), with a sign.

@@ -11,7 +11,7 @@ configure_package_config_file(cmake/delmesherConfig.cmake.in delmesherConfig.cma
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(delmesherConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/delmesherConfig.cmake
-              ${CMAKE_CURRENT_BINARY_DIR}/delmesherConfigVersion.cmake cmake/FindGMP.cmake
+              ${CMAKE_CURRENT_BINARY_DIR}/delmesherConfigVersion.cmake
         DESTINATION ${package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(TARGET delmesher_cli)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mesher/arithmetic/fixed_integer.h"
 #include "mesher/base/check.h"
 
 namespace delmesher::output {
@@ -35,8 +36,6 @@ int filtered_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
   if (determinant > bound) return 1;
   return determinant < -bound ? -1 : 0;
 }
-
-__extension__ using Wide = __int128;
 
 // Coordinates along one axis as integers below 2^60 in a common unit, if they are.
 bool as_integers(const std::array<double, 4>& coordinate, std::array<std::int64_t, 4>& integer) {
@@ -83,18 +82,14 @@ std::optional<int> orientation_in_integers(const Vec3& a, const Vec3& b, const V
     v[i] = x[2] - x[0];
     w[i] = x[3] - x[0];
   }
-  // The minors of the first two are below 2^123; they are multiplied in two halves, so that the
-  // sums stay below 2^127.
-  Wide high = 0, low = 0;
+  const auto integer = [](std::int64_t x) { return FixedInteger<1>{{static_cast<Word>(x)}}; };
+  FixedInteger<3> sum{};  // the minors are below 2^123, and all of it is below 2^187
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const Wide minor = Wide{u[j]} * v[k] - Wide{u[k]} * v[j];
-    high += (minor >> 64) * w[i];
-    low += static_cast<Wide>(static_cast<std::uint64_t>(minor)) * w[i];
+    const FixedInteger<2> minor = integer(u[j]) * integer(v[k]) - integer(u[k]) * integer(v[j]);
+    sum = sum + minor * integer(w[i]);
   }
-  high += low >> 64;
-  if (high != 0) return high > 0 ? 1 : -1;
-  return static_cast<std::uint64_t>(low) != 0 ? 1 : 0;
+  return sum.sign();
 }
 
 template <typename T>

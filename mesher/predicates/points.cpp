@@ -186,7 +186,7 @@ void PointStore::exact(VertexId v, ExactPosition& out) const {
     return;
   }
   const Detail& d = details_[detail_of_[v]];
-  const mp_limb_t* limbs = limbs_.data() + d.first_limb;
+  const Word* limbs = limbs_.data() + d.first_limb;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     out.coordinate[axis] = {limbs, d.size[axis], d.exponent[axis]};
     limbs += std::abs(d.size[axis]);

@@ -7,13 +7,12 @@
 // parameters outside [0, 1] still lies exactly on the line or plane.
 #pragma once
 
-#include <gmp.h>
-
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "mesher/arithmetic/words.h"
 #include "mesher/base/growing_array.h"
 #include "mesher/base/ids.h"
 
@@ -38,7 +37,7 @@ struct PointDefinition {
 // An exact coordinate: (odd integer of |size| 64-bit limbs, least significant first, negative if
 // size is) times 2^exponent; size 0 is zero. Points into the store or into `own`.
 struct ExactCoordinate {
-  const mp_limb_t* limbs = nullptr;
+  const Word* limbs = nullptr;
   std::int32_t size = 0;
   std::int32_t exponent = 0;
 };
@@ -51,7 +50,7 @@ struct ExactPosition {
   ExactPosition& operator=(const ExactPosition&) = delete;
 
   std::array<ExactCoordinate, 3> coordinate;
-  std::array<mp_limb_t, 3> own;
+  std::array<Word, 3> own;
 };
 
 // Append-only list of points with cached exact and approximate coordinates and "supports": ids of
@@ -117,7 +116,7 @@ class PointStore {
   GrowingArray<Approximation> approximations_;
   GrowingArray<std::uint32_t> detail_of_;  // index into details_, or kNone
   GrowingArray<Detail> details_;
-  GrowingArray<mp_limb_t> limbs_;
+  GrowingArray<Word> limbs_;
   GrowingArray<std::uint32_t> supports_;  // per detail: planes, then lines
 };
 

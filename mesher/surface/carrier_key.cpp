@@ -2,12 +2,13 @@
 
 #include <cmath>
 
+#include "mesher/arithmetic/words.h"
+
 namespace delmesher::surface {
 namespace {
 
 using Residue = std::uint64_t;
 using Residue3 = std::array<Residue, 3>;
-__extension__ using Wide = unsigned __int128;
 
 constexpr Residue kPrime = (Residue{1} << 61) - 1;
 
@@ -21,8 +22,8 @@ Residue subtract(Residue a, Residue b) {
 }
 
 Residue multiply(Residue a, Residue b) {
-  const Wide product = static_cast<Wide>(a) * b;
-  return add(static_cast<Residue>(product & kPrime), static_cast<Residue>(product >> 61));
+  const DoubleWord product = multiply_add(a, b, 0, 0);
+  return add(product.low & kPrime, product.high << 3U | product.low >> 61U);
 }
 
 // Fermat: a^(p-2).

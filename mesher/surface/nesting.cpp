@@ -1,29 +1,16 @@
 #include "mesher/surface/nesting.h"
 
-#include <gmp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "mesher/arithmetic/big_integer.h"
+#include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
 #include "mesher/surface/triangle_contact.h"
 
 namespace delmesher::surface {
 namespace {
-
-// Owns an mpz_t.
-class Integer {
- public:
-  Integer() { mpz_init(value_); }
-  ~Integer() { mpz_clear(value_); }
-  Integer(const Integer&) = delete;
-  Integer& operator=(const Integer&) = delete;
-  mpz_ptr get() { return value_; }
-
- private:
-  mpz_t value_;
-};
 
 // Six times the volume of one component, first in doubles with a bound on the error.
 class VolumeSum {
@@ -89,29 +76,27 @@ class VolumeSum {
         }
       }
     }
-    std::array<std::array<Integer, 3>, 3> m;
-    Integer total, left, right;
+    BigInteger total;
     for (const std::uint32_t t : members_) {
+      std::array<std::array<BigInteger, 3>, 3> m;
       for (std::size_t row = 0; row < 3; ++row) {
         const Vec3 p = points_.nearest(triangles_[t][row]);
-        for (std::size_t i = 0; i < 3; ++i) set_scaled(m[row][i].get(), p[i], lowest);
+        for (std::size_t i = 0; i < 3; ++i) m[row][i] = scaled(p[i], lowest);
       }
       for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        mpz_mul(left.get(), m[1][j].get(), m[2][k].get());
-        mpz_mul(right.get(), m[1][k].get(), m[2][j].get());
-        mpz_sub(left.get(), left.get(), right.get());
-        mpz_addmul(total.get(), m[0][i].get(), left.get());
+        total = total + m[0][i] * (m[1][j] * m[2][k] - m[1][k] * m[2][j]);
       }
     }
-    return mpz_sgn(total.get());
+    return total.sign();
   }
 
-  static void set_scaled(mpz_ptr result, double x, int lowest) {
-    int exponent = 0;
-    const double fraction = std::frexp(x, &exponent);
-    mpz_set_d(result, std::ldexp(fraction, 53));
-    if (x != 0) mpz_mul_2exp(result, result, static_cast<mp_bitcnt_t>(exponent - 53 - lowest));
+  // x * 2^-lowest.
+  static BigInteger scaled(double x, int lowest) {
+    const DoubleParts parts = decompose(x);
+    if (parts.magnitude == 0) return {};
+    return BigInteger(&parts.magnitude, 1, parts.negative,
+                      static_cast<std::size_t>(parts.exponent - lowest));
   }
 
   const PointStore& points_;
