@@ -292,7 +292,7 @@ class SegmentRecovery {
   bool target_opposite(const ChainNode& u, const ChainNode& w, VertexId reference, Target& t,
                        bool& soon) const {
     const Vec3 along = points_.difference(u.vertex, w.vertex);
-    const double part = std::hypot(along[0], along[1], along[2]);
+    const double part = safe_distance(along, {});
     const Vec3 to_reference = points_.difference(u.vertex, reference);
     const Vec3 d = scaled_difference(along, {}, part),
                f = scaled_difference(to_reference, {}, part);
