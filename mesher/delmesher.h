@@ -34,8 +34,9 @@ struct Options : Limits {
   std::uint64_t budget = 0;
   // Corners with an angle below this (degrees) are chamfered; 90 is the paper's, with its proof.
   double acute = 60;
-  // The same, if smaller, for the angle of two edges, of one facet or not: segments that are split
-  // at equal distances from their common end do not encroach each other, however acute their angle.
+  // The threshold for the angle between two edges at a corner, where it is smaller than `acute`. It
+  // may be, because segments that are split at equal distances from their common end do not
+  // encroach each other, however acute their angle is.
   double corner = 20;
   // Split constraints until their open diametral balls are empty, as the paper does (sections 5.2
   // and 5.3). Otherwise they are split where the Delaunay tetrahedrization lacks them and where

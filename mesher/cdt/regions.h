@@ -1,15 +1,20 @@
 // Facet recovery: makes the missing parts of the facets appear in the tetrahedrization.
 //
-// With all subsegments present in the perturbed Delaunay tetrahedrization, the constrained Delaunay
-// tetrahedrization of any set of facets exists (Shewchuk 2000). So facets enter one region at a
-// time: a region is a set of missing triangles connected through missing edges. No edge of the
-// tetrahedrization crosses a region's boundary, and none lies in its interior; hence the
-// tetrahedra whose interiors the region crosses are exactly those reached from one of them through
-// faces with vertices strictly on both sides of the plane, and no face without keeps from being
-// constrained Delaunay when the region becomes a wall. The region cuts their union in an upper and
-// a lower polyhedron, which are filled independently. A vertex all of whose tetrahedra reach
-// through the region is on no face of either (one of 7649, of a spiral squeezed flat): it is
-// isolated inside.
+// All subsegments are edges of the perturbed Delaunay tetrahedrization. Then the constrained
+// Delaunay tetrahedrization of any set of facets exists (Shewchuk 2000), and facets can enter one
+// region at a time. A region is a set of missing triangles that are connected through missing
+// edges.
+//
+// No edge of the tetrahedrization crosses the boundary of a region or lies in its interior. So the
+// tetrahedra that the region crosses can be found from one of them: a walk through the faces that
+// have vertices strictly on both sides of the plane reaches all of them and no others. These
+// tetrahedra are the cavity. All other faces stay constrained Delaunay when the region becomes a
+// wall.
+//
+// The region cuts the cavity into an upper and a lower polyhedron, which are filled independently.
+// If all tetrahedra of a vertex reach through the region, the vertex is on no face of either
+// polyhedron and is isolated inside one of them. That is rare: it happened to one of 7649 vertices
+// of a spiral squeezed flat.
 #pragma once
 
 #include <cstdint>

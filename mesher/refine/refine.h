@@ -32,17 +32,17 @@ struct RefineOptions {
   bool slivers = true;
   double max_edge = 0;               // 0: no bound
   Region region = Region::interior;  // where bad tetrahedra are split
-  // No edge of the complex's features is shorter than a few hundred of these (absolute): a
-  // subsegment or volume edge below it means that acute corners feed each other for ever. 0: no
-  // guard.
+  // Guard, a length in units of the input; 0: none. The features of the complex are a few hundred
+  // times as long. A subsegment or volume edge below it means that acute corners split each other
+  // for ever, and the refinement stops.
   double runaway_length = 0;
-  // Split subsegments and subfacets until their open diametral balls are empty. Otherwise one that
-  // is in the tetrahedrization is left alone until a volume point encroaches it.
+  // Split subsegments and subfacets until their open diametral balls are empty. Otherwise those
+  // that the tetrahedrization has are split only when a volume point encroaches them.
   bool gabriel = true;
-  // Per input vertex: 1 if segments meet there at an acute angle; they are split at equal distances
-  // from it (on concentric shells), so that they do not encroach each other. Empty: none.
+  // Per input vertex: 1 for an apex, where segments meet at an acute angle. They are split at equal
+  // distances from it, on concentric shells, and so do not encroach each other. Empty: no apex.
   std::vector<std::uint8_t> apex;
-  // Boxes that cover the part of the input surface that the complex lacks.
+  // Boxes that cover the part of the input surface that was cut off or dropped.
   std::vector<Box> removed;
   std::function<void(RefineStep)> on_step;  // told when a step begins; empty: nobody asks
   bool want_balls = false;                  // fill RefineResult::ball
@@ -55,12 +55,12 @@ struct RefinedFace {
 };
 
 struct RefineResult {
-  // Where the guard stopped the refinement; everything else is then empty.
+  // The place where the guard stopped the refinement; everything else is then empty.
   std::optional<Vec3> runaway;
   std::vector<std::array<VertexId, 4>> tetrahedra;  // all of them down to the outer box
   std::vector<Side> side;                           // per tetrahedron
-  // Per tetrahedron: which faces earlier ones have too (bits 0 to 3), and which of these are inside
-  // or not alike (bits 4 to 7).
+  // Per tetrahedron, a bit for each face: bits 0 to 3 if a tetrahedron before it has that face too,
+  // bits 4 to 7 if that tetrahedron is also on the same side of the surface.
   std::vector<std::uint8_t> repeated_faces;
   std::unique_ptr<Tetrahedrization> delaunay;  // the tetrahedra once more, with their neighbours
   std::vector<RefinedFace> faces;
@@ -76,9 +76,9 @@ struct RefineResult {
 // Appends the outer box (section 5.1) to the complex: six rectangles around all input points.
 void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc);
 
-// Refines the complex, which must include the outer box. Ends for complexes satisfying the
-// projection condition and delta below 14.48 degrees; the control's limits hold otherwise. Appends
-// Steiner points to the store.
+// Refines the complex, which must include the outer box. Appends Steiner points to the store.
+// Terminates if the complex satisfies the projection condition and delta is below 14.48 degrees
+// (section 5.4); otherwise the limits of `control` end it.
 RefineResult refine(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
                     Predicates& predicates, const RefineOptions& options, Control& control);
 
