@@ -41,7 +41,7 @@ LAYERS = {
     "run": FOUNDATION + ("plane",),
     "results": FOUNDATION + ("chamfer", "refine", "cdt", "output", "plane", "run"),
     "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "plane", "run", "results"),
-    "io": ("base",),
+    "io": ("base", "arithmetic", "predicates"),
     "cli": ("base", "io"),
 }
 # Folders that are namespaces under delmesher; the public types and the tables of their names are in delmesher itself.

@@ -56,5 +56,8 @@ using namespace foundation;  // NOLINT(google-build-using-namespace)
 using namespace run;         // NOLINT(google-build-using-namespace)
 using namespace results;     // NOLINT(google-build-using-namespace)
 }  // namespace policies
+namespace io {
+using namespace predicates;  // NOLINT(google-build-using-namespace)
+}
 
 }  // namespace delmesher

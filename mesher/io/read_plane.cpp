@@ -5,8 +5,8 @@
 #include <new>
 #include <stdexcept>
 
-#include "mesher/io/exact_sign.h"
 #include "mesher/io/text.h"
+#include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::io {
 namespace {

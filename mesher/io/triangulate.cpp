@@ -6,7 +6,7 @@
 #include <queue>
 #include <tuple>
 
-#include "mesher/io/exact_sign.h"
+#include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::io {
 namespace {
@@ -315,7 +315,7 @@ void measure_planarity(const std::vector<Point3>& vertices, std::span<const Loop
   const double length = std::sqrt(dot(normal, normal));
   for (const Loop& loop : loops) {
     for (std::uint32_t v : loop) {
-      if (v == t[0] || v == t[1] || v == t[2] || coplanar(a, b, c, vertices[v])) continue;
+      if (v == t[0] || v == t[1] || v == t[2] || orient3d_sign(a, b, c, vertices[v]) == 0) continue;
       out.planar = false;
       const double distance = std::fabs(dot(normal, minus(vertices[v], a))) / length;
       if (std::isfinite(distance)) out.deviation = std::max(out.deviation, distance);

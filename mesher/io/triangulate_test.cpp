@@ -7,8 +7,6 @@
 #include <map>
 #include <random>
 
-#include "mesher/io/exact_sign.h"
-
 namespace delmesher::io {
 namespace {
 
@@ -75,40 +73,6 @@ Loop iota_loop(std::uint32_t begin, std::uint32_t end) {
   Loop loop;
   for (std::uint32_t i = begin; i < end; ++i) loop.push_back(i);
   return loop;
-}
-
-TEST(ExactSign, DecidesWhatRoundingHides) {
-  const double tiny = std::ldexp(1.0, -1074), huge = 1e308;
-  EXPECT_EQ(orient2d_sign({0, 0}, {1, 0}, {0, 1}), 1);
-  EXPECT_EQ(orient2d_sign({0, 0}, {0, 1}, {1, 0}), -1);
-  EXPECT_EQ(orient2d_sign({0.1, 0.1}, {0.2, 0.2}, {0.3, 0.3}), 0);
-  EXPECT_EQ(orient2d_sign({0.5, 0.5}, {12, 12}, {24, std::nextafter(24.0, 25)}), 1);
-  EXPECT_EQ(orient2d_sign({0, 0}, {tiny, 0}, {0, tiny}), 1);
-  EXPECT_EQ(orient2d_sign({-huge, -huge}, {huge, huge}, {huge, -huge}), -1);
-  EXPECT_EQ(orient2d_sign({-huge, -huge}, {huge, huge}, {tiny, 0}), -1);
-  EXPECT_EQ(orient2d_sign({-huge, -huge}, {huge, huge}, {tiny, tiny}), 0);
-  EXPECT_TRUE(coplanar({0.1, 0.1, 0.2}, {0.3, 0.7, 1.0}, {0, 0, 0}, {0.1, 0.1, 0.2}));
-  EXPECT_FALSE(coplanar({1, 0, 0}, {0, 1, 0}, {1, 1, tiny}, {0, 0, 0}));
-  EXPECT_TRUE(coplanar({1, 2, 3}, {2, 4, 6}, {huge, 0, 0}, {0, 0, 0}));
-  EXPECT_TRUE(coplanar({1, 2, 5}, {2, 4, 5}, {huge, 0, 5}, {0, 7, 5}));
-}
-
-TEST(ExactSign, AntisymmetricOnNearDegenerateTriples) {
-  std::mt19937_64 random(3);
-  int zeros = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const auto wiggle = [&](double x) {
-      return x + std::ldexp(static_cast<double>(random() % 5) - 2, -52);
-    };
-    const std::array<double, 2> a = {wiggle(0.5), wiggle(0.5)}, b = {wiggle(0.75), wiggle(0.75)},
-                                c = {wiggle(0.9), wiggle(0.9)};
-    const int sign = orient2d_sign(a, b, c);
-    zeros += sign == 0 ? 1 : 0;
-    EXPECT_EQ(sign, -orient2d_sign(b, a, c));
-    EXPECT_EQ(sign, orient2d_sign(b, c, a));
-  }
-  EXPECT_GT(zeros, 10);
-  EXPECT_LT(zeros, 2900);
 }
 
 TEST(Triangulate, CollinearCornersGiveNoFlatTriangles) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesher/output/rounded_mesh.h"
+#include "mesher/predicates/predicates.h"
 
 namespace delmesher::output {
 

@@ -1,96 +1,12 @@
 #include "mesher/output/rounded_mesh.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <optional>
 
-#include "mesher/arithmetic/fixed_integer.h"
 #include "mesher/base/check.h"
+#include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::output {
 namespace {
-
-constexpr double kHuge = 0x1p300;
-// Products of three differences below kHuge, and so also what underflow takes from them, are off
-// by far less than this.
-constexpr double kUnderflow = 0x1p-700;
-// Shewchuk (1997): relative to the sum of the absolute values of the six products.
-constexpr double kRelativeError = 0x1p-50;
-
-// Sign of det(b - a, c - a, d - a) if plain doubles can tell, else 0.
-int filtered_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const Vec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const Vec3 v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  const Vec3 w{d[0] - a[0], d[1] - a[1], d[2] - a[2]};
-  double determinant = 0, permanent = 0, largest = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const double p = u[j] * v[k], q = u[k] * v[j];
-    determinant += (p - q) * w[i];
-    permanent += (std::fabs(p) + std::fabs(q)) * std::fabs(w[i]);
-    largest = std::max({largest, std::fabs(u[i]), std::fabs(v[i]), std::fabs(w[i])});
-  }
-  if (!(largest < kHuge)) return 0;
-  const double bound = kRelativeError * permanent + kUnderflow;
-  if (determinant > bound) return 1;
-  return determinant < -bound ? -1 : 0;
-}
-
-// Coordinates along one axis as integers below 2^60 in a common unit, if they are.
-bool as_integers(const std::array<double, 4>& coordinate, std::array<std::int64_t, 4>& integer) {
-  constexpr int kMostBits = 60;
-  std::array<std::uint64_t, 4> mantissa{};
-  std::array<int, 4> exponent{};
-  int low = 0, high = 0;
-  bool any = false;
-  for (std::size_t n = 0; n < 4; ++n) {
-    const auto bits = std::bit_cast<std::uint64_t>(coordinate[n]);
-    const int field = static_cast<int>((bits >> 52U) & 0x7ffU);
-    std::uint64_t m = bits & 0xfffffffffffffU;
-    if (field != 0) m |= std::uint64_t{1} << 52U;
-    if (m == 0) continue;
-    const int zeros = std::countr_zero(m);
-    mantissa[n] = m >> zeros;
-    exponent[n] = std::max(field, 1) + zeros;
-    const int top = exponent[n] + static_cast<int>(std::bit_width(mantissa[n]));
-    low = any ? std::min(low, exponent[n]) : exponent[n];
-    high = any ? std::max(high, top) : top;
-    any = true;
-  }
-  if (high - low > kMostBits) return false;
-  for (std::size_t n = 0; n < 4; ++n) {
-    if (mantissa[n] == 0) {
-      integer[n] = 0;
-      continue;
-    }
-    const auto size = static_cast<std::int64_t>(mantissa[n] << (exponent[n] - low));
-    integer[n] = std::signbit(coordinate[n]) ? -size : size;
-  }
-  return true;
-}
-
-// The same sign exactly where every axis has a unit of its own that suits all four coordinates, as
-// it has for vertices not much nearer to the origin than to each other; else nothing.
-std::optional<int> orientation_in_integers(const Vec3& a, const Vec3& b, const Vec3& c,
-                                           const Vec3& d) {
-  std::array<std::int64_t, 3> u{}, v{}, w{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::array<std::int64_t, 4> x{};
-    if (!as_integers({a[i], b[i], c[i], d[i]}, x)) return {};
-    u[i] = x[1] - x[0];
-    v[i] = x[2] - x[0];
-    w[i] = x[3] - x[0];
-  }
-  const auto integer = [](std::int64_t x) { return FixedInteger<1>{{static_cast<Word>(x)}}; };
-  FixedInteger<3> sum{};  // the minors are below 2^123, and all of it is below 2^187
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const FixedInteger<2> minor = integer(u[j]) * integer(v[k]) - integer(u[k]) * integer(v[j]);
-    sum = sum + minor * integer(w[i]);
-  }
-  return sum.sign();
-}
 
 template <typename T>
 void erase_sorted(std::vector<T>& sorted, T value) {
@@ -106,19 +22,6 @@ std::array<std::uint32_t, 3> sorted_triple(std::uint32_t a, std::uint32_t b, std
 }
 
 }  // namespace
-
-int DoubleOrientation::operator()(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const int sign = filtered_orientation(a, b, c, d);
-  if (sign != 0) return sign;
-  if (const std::optional<int> exact = orientation_in_integers(a, b, c, d)) return *exact;
-  const VertexId i = scratch_.add_explicit(a[0], a[1], a[2]);
-  const VertexId j = scratch_.add_explicit(b[0], b[1], b[2]);
-  const VertexId k = scratch_.add_explicit(c[0], c[1], c[2]);
-  const VertexId l = scratch_.add_explicit(d[0], d[1], d[2]);
-  const int exact = predicates_.orient3d(i, j, k, l);
-  for (int n = 0; n < 4; ++n) scratch_.pop_back();
-  return exact;
-}
 
 RoundedMesh::RoundedMesh(RoundingInput& input, Control& control)
     : input_(input), tet_(std::move(input.tetrahedra)), inside_(std::move(input.inside)) {
@@ -163,13 +66,13 @@ void RoundedMesh::set_sign(std::uint32_t t, int sign) {
 }
 
 int RoundedMesh::sign_of(const Tet& t) {
-  return orientation_(position_[t[0]], position_[t[1]], position_[t[2]], position_[t[3]]);
+  return orient3d_sign(position_[t[0]], position_[t[1]], position_[t[2]], position_[t[3]]);
 }
 
 int RoundedMesh::sign_at(std::uint32_t t, std::uint32_t v, const Vec3& p) {
   const Vec3* x[4];
   for (int i = 0; i < 4; ++i) x[i] = tet_[t][i] == v ? &p : &position_[tet_[t][i]];
-  return orientation_(*x[0], *x[1], *x[2], *x[3]);
+  return orient3d_sign(*x[0], *x[1], *x[2], *x[3]);
 }
 
 std::vector<std::vector<std::uint32_t>> RoundedMesh::coincident() const {

@@ -9,26 +9,10 @@
 #include <vector>
 
 #include "mesher/output/rounding.h"
-#include "mesher/predicates/predicates.h"
 
 namespace delmesher::output {
 
 using Tet = std::array<std::uint32_t, 4>;
-
-// Exact orientation of a tetrahedron whose vertices are doubles.
-class DoubleOrientation {
- public:
-  DoubleOrientation() : predicates_(scratch_) {}
-  DoubleOrientation(const DoubleOrientation&) = delete;
-  DoubleOrientation& operator=(const DoubleOrientation&) = delete;
-  int operator()(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-  // Of the signs that neither plain doubles nor integers of the machine could tell.
-  const PredicateCounters& counters() const { return predicates_.counters; }
-
- private:
-  PointStore scratch_;
-  Predicates predicates_;
-};
 
 // What is wrong with some tetrahedra: first how many are not positive, then how many of these are
 // inverted. Every repair decreases it, so repairing ends, and never makes more of them.
@@ -97,7 +81,6 @@ class RoundedMesh {
   std::vector<std::uint32_t>& editable_star(std::uint32_t v);
 
   const RoundingInput& input_;
-  DoubleOrientation orientation_;
   std::vector<VertexId> store_id_;
   std::vector<Vec3> position_;
   std::vector<Tet> tet_;

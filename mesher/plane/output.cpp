@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesher/base/check.h"
+#include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::plane {
 namespace {
@@ -15,21 +16,6 @@ Point scaled(const InputGraph& graph, const PointStore& points, VertexId v) {
   const Vec3 x = points.nearest(v);
   return {std::ldexp(x[0], graph.scale), std::ldexp(x[1], graph.scale)};
 }
-
-// Signs of triangles whose corners are plain doubles that may still move.
-class DoubleSigns {
- public:
-  int orient(const Point& a, const Point& b, const Point& c) {
-    const Approximation p{a[0], a[1], 0, 0}, q{b[0], b[1], 0, 0}, r{c[0], c[1], 0, 0};
-    if (const int s = filters::orient(p, q, r); s != 0) return s;
-    PointStore points;
-    PlanePredicates predicates(points);
-    points.add_explicit(a[0], a[1], 0);
-    points.add_explicit(b[0], b[1], 0);
-    points.add_explicit(c[0], c[1], 0);
-    return predicates.orient(0, 1, 2);
-  }
-};
 
 // Makes triangles positive that rounding flattened or inverted.
 class Repairer {
@@ -77,7 +63,7 @@ class Repairer {
  private:
   int sign(std::uint32_t t) {
     const auto& [a, b, c] = mesh_.triangles[t];
-    return signs_.orient(mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]);
+    return orient2d_sign(mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]);
   }
 
   void index_triangles() {
@@ -133,7 +119,6 @@ class Repairer {
 
   PlaneMesh& mesh_;
   const std::vector<std::uint8_t>& movable_;
-  DoubleSigns signs_;
   std::vector<std::uint32_t> first_, at_;
 };
 

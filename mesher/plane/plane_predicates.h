@@ -54,29 +54,14 @@ struct Dot {
 }  // namespace polynomials
 
 // Constants as in predicates/filter.h, whose comment explains the three parts of each bound. The
-// rounding part here is relative to the sum of the absolute monomials, which costs little in the
-// plane and is sharper.
+// rounding part here, as that of orient2d there, is relative to the sum of the absolute monomials,
+// which costs little in the plane and is sharper.
 namespace filters {
 
 using predicates::filters::certain_sign;
 using predicates::filters::kDifferenceError;
 using predicates::filters::larger;
-
-// 2 monomials; roundings: 2 differences, 1 product, 1 sum, k = 4, bound 4 u; the sum of the
-// absolute values is rounded once more.
-inline int orient(const Approximation& a, const Approximation& b, const Approximation& c) {
-  const double bx = b.x - a.x, by = b.y - a.y;
-  const double cx = c.x - a.x, cy = c.y - a.y;
-  const double l = bx * cy, r = by * cx;
-  double bound = (std::fabs(l) + std::fabs(r)) * 0x1.0002p-51 + 0x1p-900;
-  const double error = larger(larger(a.error, b.error), c.error);
-  if (error != 0) {
-    const double d = kDifferenceError * error;
-    bound +=
-        1.001 * d * (std::fabs(bx) + std::fabs(by) + std::fabs(cx) + std::fabs(cy) + 2.001 * d);
-  }
-  return certain_sign(l - r, bound);
-}
+using predicates::filters::orient2d;
 
 // 12 monomials of degree 4; roundings: 4 differences, 1 product and 1 sum in the squared length, 1
 // and 1 in the minor, 1 product, 2 sums, k = 11, bound 11 u; 12 u makes up for the roundings of the
@@ -110,7 +95,7 @@ inline int in_circle(const Approximation& a, const Approximation& b, const Appro
   return certain_sign(det, bound);
 }
 
-// 2 monomials, as in orient.
+// 2 monomials, as in orient2d.
 inline int dot(const Approximation& p, const Approximation& q, const Approximation& r) {
   const double ux = p.x - q.x, uy = p.y - q.y;
   const double vx = r.x - q.x, vy = r.y - q.y;
@@ -140,8 +125,8 @@ class PlanePredicates {
 
   // +1 if abc is a counter-clockwise triangle.
   int orient(VertexId a, VertexId b, VertexId c) {
-    const int s = filters::orient(points_.approximation(a), points_.approximation(b),
-                                  points_.approximation(c));
+    const int s = filters::orient2d(points_.approximation(a), points_.approximation(b),
+                                    points_.approximation(c));
     if (s == 0) return orient_exact(a, b, c);
     ++counters.filter;
     return s;

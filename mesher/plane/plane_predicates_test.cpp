@@ -142,7 +142,7 @@ TEST_P(Points, FiltersAreRight) {
     const auto& p = store_.approximation(a);
     const auto& q = store_.approximation(b);
     const auto& r = store_.approximation(c);
-    if (const int s = filters::orient(p, q, r); s != 0) {
+    if (const int s = filters::orient2d(p, q, r); s != 0) {
       EXPECT_EQ(s, rational_orient(store_, a, b, c));
       ++certain;
     }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "mesher/output/rounded_mesh.h"
+#include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::policies {
 namespace {
@@ -158,8 +158,8 @@ class Thinning {
   }
 
   bool bad_as_written(const std::array<VertexId, 4>& t) {
-    return rounded_(points_.nearest(t[0]), points_.nearest(t[1]), points_.nearest(t[2]),
-                    points_.nearest(t[3])) <= 0;
+    return orient3d_sign(points_.nearest(t[0]), points_.nearest(t[1]), points_.nearest(t[2]),
+                         points_.nearest(t[3])) <= 0;
   }
 
   std::size_t bad_around(VertexId v) {
@@ -233,7 +233,6 @@ class Thinning {
   const PointStore& points_;
   Predicates& predicates_;
   cdt::CdtResult& mesh_;
-  output::DoubleOrientation rounded_;
   std::vector<std::vector<std::uint32_t>> tets_, faces_;  // around each vertex
 };
 

@@ -48,6 +48,22 @@ inline int certain_sign(double value, double bound) {
 // D is at most this much larger than E.
 inline constexpr double kDifferenceError = 2.0625;
 
+// In the plane z = 0. 2 monomials; roundings: 2 differences, 1 product, 1 sum, k = 4, bound 4 u;
+// the sum of the absolute values is rounded once more.
+inline int orient2d(const Approximation& a, const Approximation& b, const Approximation& c) {
+  const double bx = b.x - a.x, by = b.y - a.y;
+  const double cx = c.x - a.x, cy = c.y - a.y;
+  const double l = bx * cy, r = by * cx;
+  double bound = (std::fabs(l) + std::fabs(r)) * 0x1.0002p-51 + 0x1p-900;
+  const double error = larger(larger(a.error, b.error), c.error);
+  if (error != 0) {
+    const double d = kDifferenceError * error;
+    bound +=
+        1.001 * d * (std::fabs(bx) + std::fabs(by) + std::fabs(cx) + std::fabs(cy) + 2.001 * d);
+  }
+  return certain_sign(l - r, bound);
+}
+
 // Errors of degree 1 of the products |x y z|.
 inline double orient3d_argument_error(double mx, double my, double mz, double error) {
   const double d = kDifferenceError * error;

@@ -174,15 +174,18 @@ Vec3 PointStore::difference(VertexId a, VertexId b) const {
   return {d[0] + (s.x - r.x), d[1] + (s.y - r.y), d[2] + (s.z - r.z)};
 }
 
+void set_exact(const Vec3& x, ExactPosition& out) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const DoubleParts parts = decompose(x[axis]);
+    out.own[axis] = parts.magnitude;
+    const std::int32_t size = parts.magnitude == 0 ? 0 : (parts.negative ? -1 : 1);
+    out.coordinate[axis] = {&out.own[axis], size, parts.exponent};
+  }
+}
+
 void PointStore::exact(VertexId v, ExactPosition& out) const {
   if (is_explicit(v)) {
-    const Vec3 x = nearest(v);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const DoubleParts parts = decompose(x[axis]);
-      out.own[axis] = parts.magnitude;
-      const std::int32_t size = parts.magnitude == 0 ? 0 : (parts.negative ? -1 : 1);
-      out.coordinate[axis] = {&out.own[axis], size, parts.exponent};
-    }
+    set_exact(nearest(v), out);
     return;
   }
   const Detail& d = details_[detail_of_[v]];

@@ -53,6 +53,9 @@ struct ExactPosition {
   std::array<Word, 3> own;
 };
 
+// Of an explicit point.
+void set_exact(const Vec3& x, ExactPosition& out);
+
 // Append-only list of points with cached exact and approximate coordinates and "supports": ids of
 // planes and lines known to contain the point. A support shared by all arguments of a predicate
 // proves that its determinant is zero; no shared support proves nothing.

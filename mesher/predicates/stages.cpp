@@ -7,10 +7,20 @@
 namespace delmesher::predicates::stages {
 
 ExactArguments::ExactArguments(const PointStore& points, const VertexId* ids, int n) : count(n) {
+  for (int i = 0; i < n; ++i) points.exact(ids[i], point[i]);
+  find_scale();
+}
+
+ExactArguments::ExactArguments(std::span<const Vec3> points)
+    : count(static_cast<int>(points.size())) {
+  for (std::size_t i = 0; i < points.size(); ++i) set_exact(points[i], point[i]);
+  find_scale();
+}
+
+void ExactArguments::find_scale() {
   std::int32_t low = std::numeric_limits<std::int32_t>::max();
   std::int32_t high = std::numeric_limits<std::int32_t>::min();
-  for (int i = 0; i < n; ++i) {
-    points.exact(ids[i], point[i]);
+  for (int i = 0; i < count; ++i) {
     for (const ExactCoordinate& x : point[i].coordinate) {
       const std::int32_t limbs = x.size < 0 ? -x.size : x.size;
       if (limbs == 0) continue;

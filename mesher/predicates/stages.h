@@ -2,6 +2,9 @@
 // kUnknownSign otherwise; the exact stage is always certain.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "mesher/arithmetic/big_integer.h"
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/arithmetic/dyadic.h"
@@ -72,6 +75,10 @@ struct ExactArguments {
   std::int32_t bits = 0;      // and below 2^(exponent + bits)
 
   ExactArguments(const PointStore& points, const VertexId* ids, int n);
+  explicit ExactArguments(std::span<const Vec3> points);
+
+ private:
+  void find_scale();
 };
 
 inline BigInteger integer_at_scale(const ExactCoordinate& x, std::int32_t exponent) {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "mesher/arithmetic/big_integer.h"
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
+#include "mesher/predicates/polynomials.h"
 #include "mesher/surface/triangle_contact.h"
 
 namespace delmesher::surface {
@@ -65,38 +65,19 @@ class VolumeSum {
     }
   }
 
-  // Exact: the sum of det(a, b, c) in integers at a common scale.
+  // Exact: the sum of det(a, b, c).
   int exact_sign() const {
-    int lowest = std::numeric_limits<int>::max();
+    using Exact = polynomials::Triple<Dyadic>;
+    Dyadic total;
     for (const std::uint32_t t : members_) {
-      for (const VertexId v : triangles_[t]) {
-        for (const double x : points_.nearest(v)) {
-          int exponent = 0;
-          if (x != 0) lowest = std::min((std::frexp(x, &exponent), exponent - 53), lowest);
-        }
+      std::array<Exact, 3> p;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 x = points_.nearest(triangles_[t][k]);
+        p[k] = {Dyadic::from_double(x[0]), Dyadic::from_double(x[1]), Dyadic::from_double(x[2])};
       }
-    }
-    BigInteger total;
-    for (const std::uint32_t t : members_) {
-      std::array<std::array<BigInteger, 3>, 3> m;
-      for (std::size_t row = 0; row < 3; ++row) {
-        const Vec3 p = points_.nearest(triangles_[t][row]);
-        for (std::size_t i = 0; i < 3; ++i) m[row][i] = scaled(p[i], lowest);
-      }
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-        total = total + m[0][i] * (m[1][j] * m[2][k] - m[1][k] * m[2][j]);
-      }
+      total = total + dot(p[0], cross(p[1], p[2]));
     }
     return total.sign();
-  }
-
-  // x * 2^-lowest.
-  static BigInteger scaled(double x, int lowest) {
-    const DoubleParts parts = decompose(x);
-    if (parts.magnitude == 0) return {};
-    return BigInteger(&parts.magnitude, 1, parts.negative,
-                      static_cast<std::size_t>(parts.exponent - lowest));
   }
 
   const PointStore& points_;
