@@ -119,13 +119,13 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
   Fallback fallback(s.options);
   chamfer::ChamferedSurface chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
   while (!budget.allows(chamfered, s, recorder)) {
-    s.forget_points(s.input_vertices());
+    s.points.truncate(s.input_vertices());
     chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
   }
   refine::RefineResult refined = refine_mesh(chamfered, budget.tau(), fallback, s);
   while (refined.runaway) {
     fallback.tighten(*refined.runaway, s);
-    s.forget_points(s.input_vertices());
+    s.points.truncate(s.input_vertices());
     chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
     refined = refine_mesh(chamfered, budget.tau(), fallback, s);
   }

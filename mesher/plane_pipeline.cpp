@@ -125,7 +125,7 @@ void mesh(const PlanarGraph& input, Session& s, Recorder& recorder) {
     RefinedMesh refined = refine(graph, chamfered, s);
     while (refined.crowded) {
       sparing.spare(graph, refined);
-      while (s.points.size() > input_points) s.points.pop_back();
+      s.points.truncate(input_points);
       chamfered = filter_and_chamfer(graph, sparing, s, recorder);
       refined = refine(graph, chamfered, s);
     }
@@ -143,7 +143,7 @@ void mesh(const PlanarGraph& input, Session& s, Recorder& recorder) {
       recorder.written(graph, std::move(rounded));
       return;
     }
-    while (s.points.size() > input_points) s.points.pop_back();
+    s.points.truncate(input_points);
   }
 }
 

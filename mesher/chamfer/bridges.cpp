@@ -35,7 +35,7 @@ void NewPoints::append(const NewPoint& point) {
 std::vector<VertexId> NewPoints::keep(const std::vector<std::uint8_t>& used) {
   std::vector<VertexId> id(used.size());
   for (VertexId v = 0; v < first_; ++v) id[v] = v;
-  while (points_.size() > first_) points_.pop_back();
+  points_.truncate(first_);
   std::vector<NewPoint> kept;
   for (VertexId v = first_; v < used.size(); ++v) {
     id[v] = kNone;

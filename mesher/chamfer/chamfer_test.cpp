@@ -484,7 +484,7 @@ TEST(Chamfer, APartIsChamferedLikeTheWhole) {
       const ChamferResult local =
           chamfer_surface(surface, part.points, part.predicates, options, active, part.control);
       EXPECT_EQ(points_of(model, whole, v), points_of(part, local, v)) << sample.name;
-      while (part.points.size() > count) part.points.pop_back();
+      part.points.truncate(count);
       compared += std::count(active.begin(), active.end(), 0) > 0;
     }
   }
@@ -522,7 +522,7 @@ TEST(Chamfer, ADroppedFacetMakesNoEdgeAcute) {
   Model model(test_polyhedra::tetrahedron({{{0, 0, 0}, {1000, 0, 0}, {0, 1000, 0}, {0, 0, 1000}}}));
   ChamferOptions options = below(60);
   EXPECT_EQ(model.run(options).acute_edges, 3U);
-  while (model.points.size() > 4) model.points.pop_back();
+  model.points.truncate(4);
   // Opposite to vertex 0: the facet with the three acute edges.
   options.facet_kept = {0, 1, 1, 1};
   const ChamferResult result = model.run(options);

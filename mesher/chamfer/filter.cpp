@@ -294,7 +294,7 @@ void FilteredSurface::mark_changed(const std::vector<FacetId>& dropped) {
 }
 
 void FilteredSurface::forget_chamfer() {
-  while (points_.size() > first_point_) points_.pop_back();
+  points_.truncate(first_point_);
 }
 
 ChamferedSurface FilteredSurface::result() {

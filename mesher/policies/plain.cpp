@@ -15,7 +15,7 @@ std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Se
   const std::size_t enriched_points = session.points.size();
   cdt::CdtResult plain = cdt::constrained_delaunay_tetrahedrization(
       enrich::plain_input(session.topology), session.points, session.predicates, session.control);
-  session.forget_points(enriched_points);
+  session.points.truncate(enriched_points);
   if (!plain.steiner.empty()) return std::nullopt;
   const MeshStatistics p = interior_statistics(plain, session.points, session.control);
   if (p.min_face_angle < options.delta) return std::nullopt;

@@ -68,6 +68,10 @@ class PointStore {
   VertexId add(const PointDefinition& implicit_point);
   // Removes the last point.
   void pop_back();
+  // Removes the points from `first` on, the last one first.
+  void truncate(std::size_t first) {
+    while (size() > first) pop_back();
+  }
 
   // Sorted, without repetition. Replaces earlier supports of v.
   void set_supports(VertexId v, std::span<const PlaneId> planes,

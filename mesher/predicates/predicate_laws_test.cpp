@@ -297,6 +297,32 @@ TEST(PointStore, PopBackRestoresEverything) {
   }
 }
 
+// What is added again after points were removed is as it was.
+TEST(PointStore, TruncatesToWhatItWas) {
+  PointStore store;
+  for (const double x : {0.0, 1.0, 3.0}) store.add_explicit(x, x * x, 1 - x);
+  const std::uint32_t supports[] = {7, 9};
+  const VertexId kept = store.add_on_segment(0, 1, 0.3);
+  store.set_supports(kept, supports, {});
+  const auto fill = [&] {
+    store.add_explicit(0.1, 0.2, 0.3);
+    store.set_supports(store.add_on_triangle(0, 1, 2, 0.1, 0.7), {}, supports);
+    store.add_on_segment(1, 2, 0.9);
+  };
+  fill();
+  const Vec3 last = store.nearest(6);
+  store.truncate(7);
+  ASSERT_EQ(store.size(), 7U);
+  store.truncate(4);
+  ASSERT_EQ(store.size(), 4U);
+  EXPECT_EQ(store.planes(kept)[1], 9U);
+  fill();
+  ASSERT_EQ(store.size(), 7U);
+  EXPECT_EQ(store.nearest(6), last);
+  EXPECT_EQ(store.lines(5)[0], 7U);
+  EXPECT_EQ(store.planes(kept)[0], 7U);
+}
+
 // Multiplying all coordinates by a power of two changes no sign, whatever stage decides.
 TEST(Scaling, PowersOfTwoChangeNoSign) {
   const auto families = families::all();

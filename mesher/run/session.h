@@ -22,10 +22,6 @@ struct Session {
   double diagonal = 0;       // of the input's bounding box, in its units
 
   std::size_t input_vertices() const { return topology.vertex_half_edge.size(); }
-  // Takes back the points from `first` on.
-  void forget_points(std::size_t first) {
-    while (points.size() > first) points.pop_back();
-  }
 };
 
 }  // namespace delmesher::run
