@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/sort_unique.h"
 
 namespace delmesher::cdt {
 namespace {
@@ -62,8 +63,7 @@ void FacetTriangulator::collect_vertices(FacetId facet) {
     const std::vector<VertexId>& inside = input_.on_facet[facet];
     vertices_.insert(vertices_.end(), inside.begin(), inside.end());
   }
-  std::sort(vertices_.begin(), vertices_.end());
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  sort_unique(vertices_);
 }
 
 void FacetTriangulator::collect_boundary(FacetId facet) {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "mesher/base/check.h"
+#include "mesher/base/sort_unique.h"
 #include "mesher/cdt/gift_wrapping.h"
 #include "mesher/cdt/separation.h"
 
@@ -131,8 +132,7 @@ void PolyhedronFiller::collect_vertices(const std::vector<Triangle>& faces,
                                         const std::vector<VertexId>& isolated) {
   vertices_ = isolated;
   for (const Triangle& f : faces) vertices_.insert(vertices_.end(), f.begin(), f.end());
-  std::sort(vertices_.begin(), vertices_.end());
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  sort_unique(vertices_);
 }
 
 bool PolyhedronFiller::delaunay_part(std::vector<Triangle>& faces,

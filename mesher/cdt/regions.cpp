@@ -5,6 +5,7 @@
 #include "mesher/base/epoch.h"
 #include "mesher/base/flat_map.h"
 #include "mesher/base/numbering.h"
+#include "mesher/base/sort_unique.h"
 
 namespace delmesher::cdt {
 namespace {
@@ -201,8 +202,7 @@ void FacetRecovery::number_vertices() {
     for (int i = 0; i < 4; ++i) local_.push_back(mesh_.vertex(t, i));
   }
   for (const Triangle& t : region_) local_.insert(local_.end(), t.begin(), t.end());
-  std::sort(local_.begin(), local_.end());
-  local_.erase(std::unique(local_.begin(), local_.end()), local_.end());
+  sort_unique(local_);
   // Three numbers to a key, here and in gift wrapping, whose vertices are among these.
   constexpr std::size_t kMost = (std::size_t{1} << 21) - 1;
   if (local_.size() > kMost) stop_at_size(kMost, "vertices of one cavity");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/base/sort_unique.h"
+
 namespace delmesher::chamfer {
 
 FacetSet::FacetSet(const KeptSurface& surface) : topology_(surface.topology()) {
@@ -62,8 +64,7 @@ std::vector<FacetId> FacetSet::facets_at(VertexId v) const {
     if (kept_[f] && (result.empty() || result.back() != f)) result.push_back(f);
     h = topology_.opposite[SurfaceTopology::previous(h)];
   } while (h != start);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_unique(result);
   return result;
 }
 

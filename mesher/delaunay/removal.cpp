@@ -2,9 +2,9 @@
 // What is between them is filled with tetrahedra of the Delaunay tetrahedrization of the vertices
 // around it: those are Delaunay among all vertices too if they lie there, and the perturbation
 // makes the answer unique, so that the faces around fit.
-#include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/sort_unique.h"
 #include "mesher/base/validating.h"
 #include "mesher/delaunay/tetrahedrization.h"
 
@@ -52,8 +52,7 @@ void Tetrahedrization::remove(std::span<const VertexId> vertices, Control& contr
         if (goes[w] == 0) around.push_back(w);
       }
     }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    sort_unique(around);
     patch.clear();
     patch.first_tetrahedron(around);
     for (std::size_t n = 4; n < around.size(); ++n) {

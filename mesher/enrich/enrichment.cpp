@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/base/sort_unique.h"
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/surface/feature_size.h"
 
@@ -21,11 +22,6 @@ std::vector<double> spacings(const refine::RefineResult& refined, const PointSto
     }
   }
   return spacing;
-}
-
-void sort_unique(std::vector<VertexId>& v) {
-  std::sort(v.begin(), v.end());
-  v.erase(std::unique(v.begin(), v.end()), v.end());
 }
 
 // Points of the refined complex on input edges and inside input facets; everything else on the

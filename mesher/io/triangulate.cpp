@@ -6,6 +6,7 @@
 #include <queue>
 #include <tuple>
 
+#include "mesher/base/sort_unique.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::io {
@@ -268,8 +269,7 @@ Projected project_loops(const std::vector<Point3>& vertices, std::span<const Loo
   Projected out;
   std::vector<std::uint32_t> distinct;
   for (const Loop& loop : loops) distinct.insert(distinct.end(), loop.begin(), loop.end());
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  sort_unique(distinct);
   for (std::uint32_t v : distinct) out.points.push_back(project(vertices[v], axis));
   for (std::size_t i = 0; i < loops.size(); ++i) {
     Loop local;
@@ -375,8 +375,7 @@ PolygonTriangulation triangulate_polygon(const std::vector<Point3>& vertices,
   const int axis = dominating_axis(vertices, loops[0]);
   Loop distinct;
   for (const Loop& loop : loops) distinct.insert(distinct.end(), loop.begin(), loop.end());
-  std::sort(distinct.begin(), distinct.end());
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+  sort_unique(distinct);
   for (int attempt = 0; attempt < 3; ++attempt) {
     const Projected projected = project_loops(vertices, loops, (axis + attempt) % 3);
     std::vector<Triangle> triangles;

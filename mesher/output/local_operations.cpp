@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesher/base/sort_unique.h"
+
 namespace delmesher::output {
 namespace {
 
@@ -191,8 +193,7 @@ bool LocalOperations::collapse(std::uint32_t v) {
       if (w != v) link.push_back(w);
     }
   }
-  std::sort(link.begin(), link.end());
-  link.erase(std::unique(link.begin(), link.end()), link.end());
+  sort_unique(link);
   return std::any_of(link.begin(), link.end(), [&](std::uint32_t w) { return collapse_to(v, w); });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesher/base/check.h"
+#include "mesher/base/sort_unique.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::plane {
@@ -44,8 +45,7 @@ class Repairer {
       }
       bad = std::move(still);
     }
-    std::sort(bad.begin(), bad.end());
-    bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+    sort_unique(bad);
     for (const std::uint32_t t : bad) {
       const int s = sign(t);
       if (s > 0) continue;
@@ -56,8 +56,7 @@ class Repairer {
       }
     }
     std::vector<VertexId>& disturbed = result.disturbed;
-    std::sort(disturbed.begin(), disturbed.end());
-    disturbed.erase(std::unique(disturbed.begin(), disturbed.end()), disturbed.end());
+    sort_unique(disturbed);
   }
 
  private:

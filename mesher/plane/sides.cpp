@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/sort_unique.h"
 
 namespace delmesher::plane {
 namespace {
@@ -166,8 +167,7 @@ void Sides::before_fill() {
     free_lists_.push_back(list_of_[t]);
     list_of_[t] = kNone;
   }
-  std::sort(candidates_.begin(), candidates_.end());
-  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+  sort_unique(candidates_);
 }
 
 void Sides::after_fill() {

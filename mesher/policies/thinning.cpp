@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mesher/base/sort_unique.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::policies {
@@ -88,11 +89,6 @@ class Thinning {
  private:
   // How many tetrahedra are not positive on nearest doubles, then minus the worst shape.
   using Score = std::pair<std::size_t, double>;
-
-  static void sort_unique(std::vector<VertexId>& v) {
-    std::sort(v.begin(), v.end());
-    v.erase(std::unique(v.begin(), v.end()), v.end());
-  }
 
   // Faces of the hull around v, which only one tetrahedron has.
   std::vector<Face> hull_faces(VertexId v) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/base/sort_unique.h"
+
 namespace delmesher::plane {
 namespace {
 
@@ -47,8 +49,7 @@ void Recorder::refined(const InputGraph& graph, const Chamfered& chamfered, cons
 void Recorder::record_refined(const InputGraph& graph, const Chamfered& chamfered,
                               std::vector<std::uint32_t> dropped, const RefinedMesh& refined) {
   PlaneRecord& record = result_.exact;
-  std::sort(dropped.begin(), dropped.end());
-  dropped.erase(std::unique(dropped.begin(), dropped.end()), dropped.end());
+  sort_unique(dropped);
   record.dropped = std::move(dropped);
   record.delta = refined.delta;
   record.acute = session_.options.acute;

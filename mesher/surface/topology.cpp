@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "mesher/base/check.h"
+#include "mesher/base/sort_unique.h"
 #include "mesher/surface/carrier_key.h"
 #include "mesher/surface/half_edges.h"
 #include "mesher/surface/triangle_contact.h"
@@ -169,10 +170,6 @@ class Builder {
     const SurfaceTopology& s = topology_;
     std::vector<PlaneId> planes;
     std::vector<std::uint32_t> lines;
-    const auto sort_unique = [](std::vector<std::uint32_t>& ids) {
-      std::sort(ids.begin(), ids.end());
-      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-    };
     for (VertexId v = 0; v < s.vertex_half_edge.size(); ++v) {
       const std::uint32_t first = s.vertex_half_edge[v];
       if (first == kNone) continue;
