@@ -1,15 +1,15 @@
 #include "mesher/cdt/segments.h"
-#include "mesher/predicates/vector.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
 #include "mesher/base/epoch.h"
 #include "mesher/base/flat_map.h"
+#include "mesher/predicates/exact_point.h"
 #include "mesher/predicates/placement.h"
+#include "mesher/predicates/vector.h"
 
 namespace delmesher::cdt {
 namespace {
@@ -352,10 +352,11 @@ class SegmentRecovery {
 
   // (v - a) . (b - a)
   Dyadic product(VertexId a, VertexId v, VertexId b) const {
+    const DyadicPoint origin = exact_point(points_, a), p = exact_point(points_, v),
+                      q = exact_point(points_, b);
     Dyadic sum;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Dyadic origin = exact_coordinate(a, axis);
-      sum = sum + (exact_coordinate(v, axis) - origin) * (exact_coordinate(b, axis) - origin);
+      sum = sum + (p[axis] - origin[axis]) * (q[axis] - origin[axis]);
     }
     return sum;
   }
@@ -435,23 +436,7 @@ class SegmentRecovery {
       target.low = round_to_double(difference).value / (2 * fraction * mantissa * mantissa);
     }
   }
-  Dyadic squared_distance(VertexId a, VertexId b) const {
-    Dyadic sum;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Dyadic d = exact_coordinate(a, axis) - exact_coordinate(b, axis);
-      sum = sum + d * d;
-    }
-    return sum;
-  }
-  Dyadic exact_coordinate(VertexId v, std::size_t axis) const {
-    const PointDefinition& d = points_.definition(v);
-    const auto of = [&](VertexId w) { return Dyadic::from_double(points_.nearest(w)[axis]); };
-    if (d.kind == PointKind::explicit_point) return of(v);
-    const Dyadic last = of(d.corner[d.kind == PointKind::on_segment ? 1 : 2]);
-    Dyadic sum = last + Dyadic::from_double(d.u) * (of(d.corner[0]) - last);
-    if (d.kind == PointKind::on_segment) return sum;
-    return sum + Dyadic::from_double(d.v) * (of(d.corner[1]) - last);
-  }
+  Dyadic squared_distance(VertexId a, VertexId b) const { return product(a, b, b); }
 
   // Does the segment ab meet the closed triangle pqr (not coplanar)?
   bool meets(VertexId a, VertexId b, VertexId p, VertexId q, VertexId r) {

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
+#include "mesher/predicates/exact_point.h"
 #include "mesher/predicates/point_families.h"
 #include "mesher/predicates/rational_reference.h"
 #include "mesher/predicates/stages.h"
@@ -196,6 +198,7 @@ TEST_P(PredicatesOnFamilies, CachedCoordinates) {
   for (VertexId v = 0; v < store.size(); ++v) {
     ExactPosition cached;
     store.exact(v, cached);
+    const DyadicPoint point = exact_point(store, v);
     const Approximation near = store.approximation(v);
     const Approximation rest = store.remainder(v);
     const std::array<double, 3> nearest = {near.x, near.y, near.z};
@@ -212,6 +215,11 @@ TEST_P(PredicatesOnFamilies, CachedCoordinates) {
         value /= mpz_class(1) << static_cast<unsigned>(-x.exponent);
       }
       ASSERT_EQ(value, exact_[v][axis]);
+      const Dyadic& y = point[axis];
+      ASSERT_EQ(y.exponent, x.exponent);
+      ASSERT_EQ(y.sign(), sgn(value));
+      ASSERT_TRUE(std::ranges::equal(std::span(y.mantissa.data(), y.mantissa.used()),
+                                     std::span(x.limbs, y.mantissa.used())));
       if (!std::isfinite(nearest[axis])) {
         ASSERT_FALSE(std::isfinite(near.error));
         continue;

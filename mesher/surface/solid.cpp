@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "mesher/arithmetic/bounded.h"
-#include "mesher/arithmetic/dyadic.h"
+#include "mesher/predicates/exact_point.h"
 #include "mesher/surface/approximate_plane.h"
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/tetrahedron_contact.h"
@@ -18,7 +18,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Tetrahedron = std::array<VertexId, 4>;
-using DyadicPoint = std::array<Dyadic, 3>;
 
 // The faces of a positive tetrahedron, seen from inside counter-clockwise.
 constexpr int kInwardFaces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
@@ -55,32 +54,8 @@ Box interior_box(const PointStore& points, const Tetrahedron& tetrahedron) {
   return box;
 }
 
-DyadicPoint dyadic(const Vec3& p) {
-  return {Dyadic::from_double(p[0]), Dyadic::from_double(p[1]), Dyadic::from_double(p[2])};
-}
-
 DyadicPoint operator-(const DyadicPoint& a, const DyadicPoint& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-DyadicPoint interpolate(const DyadicPoint& p, const DyadicPoint& q, double t) {
-  const Dyadic factor = Dyadic::from_double(t);
-  return {factor * (p[0] - q[0]), factor * (p[1] - q[1]), factor * (p[2] - q[2])};
-}
-
-// The exact coordinates of a point of the store, from its definition.
-DyadicPoint exact_point(const PointStore& points, VertexId v) {
-  if (points.is_explicit(v)) return dyadic(points.nearest(v));
-  const PointDefinition d = points.definition(v);
-  const bool on_segment = d.kind == PointKind::on_segment;
-  const DyadicPoint base = dyadic(points.nearest(d.corner[on_segment ? 1 : 2]));
-  DyadicPoint result = interpolate(dyadic(points.nearest(d.corner[0])), base, d.u);
-  if (!on_segment) {
-    const DyadicPoint second = interpolate(dyadic(points.nearest(d.corner[1])), base, d.v);
-    for (std::size_t i = 0; i < 3; ++i) result[i] = result[i] + second[i];
-  }
-  for (std::size_t i = 0; i < 3; ++i) result[i] = result[i] + base[i];
-  return result;
 }
 
 // ray_crosses() for a point that is no double: the same decisions in exact arithmetic.
@@ -314,9 +289,9 @@ struct Solid::Impl {
     bool inside = false;
     bvh.query(ray.box, [&](std::uint32_t t) {
       const auto& v = topology.triangles[t];
-      inside ^= exact_ray_crosses(center, ray.axis, ray.direction,
-                                  {dyadic(points.nearest(v[0])), dyadic(points.nearest(v[1])),
-                                   dyadic(points.nearest(v[2]))});
+      inside ^= exact_ray_crosses(
+          center, ray.axis, ray.direction,
+          {exact_point(points, v[0]), exact_point(points, v[1]), exact_point(points, v[2])});
       return true;
     });
     return inside;
