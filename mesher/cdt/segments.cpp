@@ -346,8 +346,7 @@ class SegmentRecovery {
       return scaled_difference(points_.nearest(end[1]), points_.nearest(end[0]),
                                chains_.length(edge));
     };
-    const Vec3 normal = cross(direction(e), direction(f));
-    return std::sqrt(dot(normal, normal));
+    return norm(cross(direction(e), direction(f)));
   }
 
   // (v - a) . (b - a)

@@ -8,24 +8,13 @@
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/predicates/vector.h"
 
 namespace delmesher::io {
 namespace {
 
 using Point2 = std::array<double, 2>;
 using Loop = std::vector<std::uint32_t>;
-
-Point3 minus(const Point3& a, const Point3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Point3 cross(const Point3& a, const Point3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Point3& a, const Point3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 double squared_distance(const Point2& a, const Point2& b) {
   const double x = a[0] - b[0], y = a[1] - b[1];
@@ -311,13 +300,13 @@ void measure_planarity(const std::vector<Point3>& vertices, std::span<const Loop
                        PolygonTriangulation& out) {
   const Triangle& t = out.triangles.front();
   const Point3 &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
-  const Point3 normal = cross(minus(b, a), minus(c, a));
-  const double length = std::sqrt(dot(normal, normal));
+  const Point3 normal = cross(subtract(b, a), subtract(c, a));
+  const double length = norm(normal);
   for (const Loop& loop : loops) {
     for (std::uint32_t v : loop) {
       if (v == t[0] || v == t[1] || v == t[2] || orient3d_sign(a, b, c, vertices[v]) == 0) continue;
       out.planar = false;
-      const double distance = std::fabs(dot(normal, minus(vertices[v], a))) / length;
+      const double distance = std::fabs(dot(normal, subtract(vertices[v], a))) / length;
       if (std::isfinite(distance)) out.deviation = std::max(out.deviation, distance);
     }
   }
@@ -336,7 +325,7 @@ int dominating_axis(const std::vector<Point3>& vertices, std::span<const std::ui
   const Point3& origin = vertices[loop[0]];
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
     const Point3 part =
-        cross(minus(vertices[loop[i]], origin), minus(vertices[loop[i + 1]], origin));
+        cross(subtract(vertices[loop[i]], origin), subtract(vertices[loop[i + 1]], origin));
     for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
   }
   int axis = 0;

@@ -32,19 +32,11 @@ Vec3 half_difference(const Vec3& a, const Vec3& b) {
   return {0.5 * b[0] - 0.5 * a[0], 0.5 * b[1] - 0.5 * a[1], 0.5 * b[2] - 0.5 * a[2]};
 }
 
-double largest_component(const Vec3& u) {
-  return std::max({std::fabs(u[0]), std::fabs(u[1]), std::fabs(u[2])});
-}
-
-Vec3 scaled(const Vec3& u, int exponent) {
-  return {std::ldexp(u[0], exponent), std::ldexp(u[1], exponent), std::ldexp(u[2], exponent)};
-}
-
 // The vector times a power of two that brings its largest component into [1/2, 1); 0 stays 0.
 Vec3 normalized(const Vec3& u) {
   int exponent = 0;
   std::frexp(largest_component(u), &exponent);
-  return scaled(u, -exponent);
+  return times_power_of_two(u, -exponent);
 }
 
 // In [0, 180]; 0 if both arguments are 0.
@@ -82,7 +74,7 @@ Shape make_shape(std::span<const Vec3> coordinates, const Tet& tet) {
     if (!shape.comparable) {
       shape.edge[e] = normalized(shape.edge[e]);
     } else if (!in_range) {
-      shape.edge[e] = scaled(shape.edge[e], -high);
+      shape.edge[e] = times_power_of_two(shape.edge[e], -high);
     }
     shape.squared_length[e] = dot(shape.edge[e], shape.edge[e]);
   }

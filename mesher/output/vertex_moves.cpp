@@ -25,10 +25,6 @@ double unit_in_last_place(double x) {
   return std::ldexp(1.0, std::max(exponent - 53, -1074));
 }
 
-double largest_component(const Vec3& p) {
-  return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
-}
-
 bool is_finite(const Vec3& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
@@ -46,11 +42,7 @@ struct StarFrame {
   int exponent = 0;
   std::vector<HalfSpace> half_spaces;
 
-  Vec3 to_mesh(const Vec3& x) const {
-    Vec3 p;
-    for (int i = 0; i < 3; ++i) p[i] = origin[i] + std::ldexp(x[i], exponent);
-    return p;
-  }
+  Vec3 to_mesh(const Vec3& x) const { return add(origin, times_power_of_two(x, exponent)); }
 };
 
 StarFrame make_frame(const RoundedMesh& mesh, std::uint32_t v) {
@@ -64,9 +56,7 @@ StarFrame make_frame(const RoundedMesh& mesh, std::uint32_t v) {
   }
   std::frexp(size, &frame.exponent);
   const auto local = [&](std::uint32_t w) {
-    Vec3 x = subtract(mesh.position(w), frame.origin);
-    for (double& c : x) c = std::ldexp(c, -frame.exponent);
-    return x;
+    return times_power_of_two(subtract(mesh.position(w), frame.origin), -frame.exponent);
   };
   // The face opposite vertex i, seen counter-clockwise from vertex i.
   static constexpr int kInward[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
@@ -76,7 +66,7 @@ StarFrame make_frame(const RoundedMesh& mesh, std::uint32_t v) {
     const Vec3 a = local(q[kInward[i][0]]);
     const Vec3 u = subtract(local(q[kInward[i][1]]), a);
     const Vec3 w = subtract(local(q[kInward[i][2]]), a);
-    Vec3 normal{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    Vec3 normal = cross(u, w);
     const double length = norm(normal);
     if (!(length > 0) || !std::isfinite(length)) continue;
     for (double& c : normal) c /= length;

@@ -6,6 +6,7 @@
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/predicates/vector.h"
 
 namespace delmesher::policies {
 namespace {
@@ -170,7 +171,7 @@ class Thinning {
     for (int i = 0; i < 4; ++i) {
       for (int j = i + 1; j < 4; ++j) {
         const Vec3 e = points_.difference(t[i], t[j]);
-        longest2 = std::max(longest2, e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+        longest2 = std::max(longest2, squared_norm(e));
       }
     }
     const double longest = std::sqrt(longest2);

@@ -8,6 +8,7 @@
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
+#include "mesher/predicates/vector.h"
 
 namespace delmesher::predicates {
 namespace {
@@ -22,53 +23,23 @@ double round_up(double x, int bits) {
   return std::ldexp(static_cast<double>(mantissa), parts.exponent + drop);
 }
 
-// For exponents of normal numbers.
-double power_of_two(int exponent) {
-  return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 difference(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vec3 sum(const Vec3& a, const Vec3& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-double largest(const Vec3& a) {
-  return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
-}
-
-// Exact unless tiny numbers underflow.
-Vec3 scaled(const Vec3& a, int exponent) {
-  if (exponent > -1000 && exponent < 1000) {
-    const double factor = power_of_two(exponent);
-    return {a[0] * factor, a[1] * factor, a[2] * factor};
-  }
-  return {std::ldexp(a[0], exponent), std::ldexp(a[1], exponent), std::ldexp(a[2], exponent)};
-}
-
 // Corners and target relative to the anchor (the last corner), scaled by a power of two so that no
 // product overflows and none that matters underflows. Returns the exponent of that power.
 template <std::size_t N>
 int localise(std::array<Vec3, N>& vectors, const Vec3& anchor, double& tolerance) {
-  double size = largest(anchor);
-  for (const Vec3& v : vectors) size = std::max(size, largest(v));
+  double size = largest_component(anchor);
+  for (const Vec3& v : vectors) size = std::max(size, largest_component(v));
   // Twice: differences of the largest doubles would overflow, and may be much smaller.
   const int shift = size > 0 ? -std::ilogb(size) - 2 : 0;
-  const Vec3 origin = scaled(anchor, shift);
+  const Vec3 origin = times_power_of_two(anchor, shift);
   double extent = 0;
   for (Vec3& v : vectors) {
-    v = difference(scaled(v, shift), origin);
-    extent = std::max(extent, largest(v));
+    v = subtract(times_power_of_two(v, shift), origin);
+    extent = std::max(extent, largest_component(v));
   }
   tolerance = std::ldexp(tolerance, shift);
   const int more = extent > 0 ? -std::ilogb(extent) : 0;
-  for (Vec3& v : vectors) v = scaled(v, more);
+  for (Vec3& v : vectors) v = times_power_of_two(v, more);
   tolerance = std::ldexp(tolerance, more);
   return shift + more;
 }
@@ -143,9 +114,9 @@ PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId 
   }
   std::array<Vec3, 2> local = {far, target};
   const int shift = localise(local, near, tolerance);
-  local[1] = sum(local[1], scaled(rest, shift));
+  local[1] = add(local[1], times_power_of_two(rest, shift));
   const Vec3& edge = local[0];
-  const double length = std::sqrt(dot(edge, edge));
+  const double length = norm(edge);
   DELMESHER_CHECK(length > 0, "segment of no length");
   const double t = dot(local[1], edge) / length / length;
   const double slack = tolerance / length;
@@ -177,10 +148,10 @@ PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId
               corner.end());
   std::array<Vec3, 3> local = {points.nearest(corner[0]), points.nearest(corner[1]), target};
   const int shift = localise(local, points.nearest(corner[2]), tolerance);
-  local[2] = sum(local[2], scaled(rest, shift));
+  local[2] = add(local[2], times_power_of_two(rest, shift));
   const auto [u, v] = solve(local[0], local[1], local[2]);
   const auto shortest = [&](double x, const Vec3& edge) {
-    const double slack = tolerance / 2 / std::sqrt(dot(edge, edge));
+    const double slack = tolerance / 2 / norm(edge);
     return shortest_dyadic(x - slack, x + slack);
   };
   return {PointKind::on_triangle, corner, shortest(u, local[0]), shortest(v, local[1])};

@@ -2,7 +2,10 @@
 // exact.
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "mesher/predicates/points.h"
 
@@ -38,6 +41,9 @@ inline Vec2 turned(Vec2 a) {
   return {-a.y, a.x};
 }
 
+inline Vec3 add(const Vec3& a, const Vec3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
 inline Vec3 subtract(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
@@ -59,6 +65,18 @@ inline double norm(const Vec3& a) {
 }
 inline double distance(const Vec3& a, const Vec3& b) {
   return norm(subtract(a, b));
+}
+inline double largest_component(const Vec3& a) {
+  return std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+}
+// a * 2^exponent, rounded only where it is subnormal.
+inline Vec3 times_power_of_two(const Vec3& a, int exponent) {
+  if (exponent > -1000 && exponent < 1000) {
+    const auto biased = static_cast<std::uint64_t>(exponent + 1023);
+    const double factor = std::bit_cast<double>(biased << 52U);
+    return {a[0] * factor, a[1] * factor, a[2] * factor};
+  }
+  return {std::ldexp(a[0], exponent), std::ldexp(a[1], exponent), std::ldexp(a[2], exponent)};
 }
 
 }  // namespace delmesher::predicates

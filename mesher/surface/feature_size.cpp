@@ -4,30 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/predicates/vector.h"
 #include "mesher/surface/bvh.h"
 
 namespace delmesher::surface {
 namespace {
-
-Vec3 operator-(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Vec3 moved(const Vec3& p, double t, const Vec3& d) {
-  return {p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]};
-}
-
-double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double length(const Vec3& a) {
-  return std::sqrt(dot(a, a));
-}
 
 // Calls `distance` with the points relative to the first one, scaled by a power of two if products
 // of four coordinates could leave the range of doubles otherwise.
@@ -36,7 +17,7 @@ double in_safe_range(const std::array<Vec3, N>& points, Distance&& distance) {
   std::array<Vec3, N> relative;
   double largest = 0;
   for (std::size_t n = 0; n < N; ++n) {
-    relative[n] = points[n] - points[0];
+    relative[n] = subtract(points[n], points[0]);
     for (const double x : relative[n]) largest = std::max(largest, std::fabs(x));
   }
   if (largest == 0) return 0;
@@ -57,13 +38,13 @@ double in_safe_range(const std::array<Vec3, N>& points, Distance&& distance) {
 }
 
 double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 u = b - a, w = p - a;
+  const Vec3 u = subtract(b, a), w = subtract(p, a);
   const double along = dot(w, u), all = dot(u, u);
-  if (!(along > 0)) return length(w);
-  if (along >= all) return length(p - b);
+  if (!(along > 0)) return norm(w);
+  if (along >= all) return norm(subtract(p, b));
   // From the nearer end, so that the foot is accurate there.
-  return 2 * along <= all ? length(moved(w, -(along / all), u))
-                          : length(moved(p - b, (all - along) / all, u));
+  return 2 * along <= all ? norm(add_scaled(w, -(along / all), u))
+                          : norm(add_scaled(subtract(p, b), (all - along) / all, u));
 }
 
 // A normal of the triangle that is exactly perpendicular to its longest edge, which starts at
@@ -77,22 +58,22 @@ struct Normal {
     std::size_t i = 0;
     double longest = -1;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 e = t[(k + 1) % 3] - t[k];
+      const Vec3 e = subtract(t[(k + 1) % 3], t[k]);
       if (dot(e, e) > longest) {
         longest = dot(e, e);
         i = k;
       }
     }
     anchor = t[i];
-    const Vec3 e = t[(i + 1) % 3] - anchor;
-    direction = cross(e, t[(i + 2) % 3] - anchor);
+    const Vec3 e = subtract(t[(i + 1) % 3], anchor);
+    direction = cross(e, subtract(t[(i + 2) % 3], anchor));
     for (int pass = 0; pass < 2 && longest > 0; ++pass) {
-      direction = moved(direction, -dot(direction, e) / longest, e);
+      direction = add_scaled(direction, -dot(direction, e) / longest, e);
     }
-    length = surface::length(direction);
+    length = norm(direction);
   }
 
-  double height(const Vec3& p) const { return dot(direction, p - anchor) / length; }
+  double height(const Vec3& p) const { return dot(direction, subtract(p, anchor)) / length; }
 };
 
 double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t, const Normal& n) {
@@ -100,7 +81,7 @@ double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t, const Normal& n)
       std::min({to_segment(p, t[0], t[1]), to_segment(p, t[1], t[2]), to_segment(p, t[2], t[0])});
   if (!(n.length > 0)) return best;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (dot(n.direction, cross(t[(i + 1) % 3] - t[i], p - t[i])) < 0) return best;
+    if (dot(n.direction, cross(subtract(t[(i + 1) % 3], t[i]), subtract(p, t[i]))) < 0) return best;
   }
   return std::min(best, std::fabs(n.height(p)));
 }
@@ -108,7 +89,7 @@ double to_triangle(const Vec3& p, const std::array<Vec3, 3>& t, const Normal& n)
 double between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const double best = std::min(
       {to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)});
-  const Vec3 u = b - a, v = d - c, w = c - a;
+  const Vec3 u = subtract(b, a), v = subtract(d, c), w = subtract(c, a);
   // With cross products the parameters of nearly parallel segments lose half as many digits as
   // with the usual Gram determinant. The distance of actual points is never too small.
   const Vec3 n = cross(u, v);
@@ -116,21 +97,21 @@ double between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
   if (!(square > 0)) return best;
   const double s = dot(cross(w, v), n) / square, t = dot(cross(w, u), n) / square;
   if (!(s > 0 && s < 1 && t > 0 && t < 1)) return best;
-  const Vec3 p = moved(a, s, u), q = moved(c, t, v);
+  const Vec3 p = add_scaled(a, s, u), q = add_scaled(c, t, v);
   // The two parameters are off by roundings over the sine, each in its own way: below this sine,
   // the points that belong to them do not face each other any more, digit by digit.
   constexpr double kParallel = 1.0 / 16;
   if (square < kParallel * kParallel * dot(u, u) * dot(v, v)) {
     return std::min({best, to_segment(p, c, d), to_segment(q, a, b)});
   }
-  return std::min(best, length(p - q));
+  return std::min(best, norm(subtract(p, q)));
 }
 
 // Distance from the triangle to the point where the segment crosses its plane, if it does.
 double to_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t, const Normal& n) {
   const double hp = n.height(p), hq = n.height(q);
   if (!(n.length > 0) || !(hp * hq < 0)) return std::numeric_limits<double>::infinity();
-  return to_triangle(moved(p, hp / (hp - hq), q - p), t, n);
+  return to_triangle(add_scaled(p, hp / (hp - hq), subtract(q, p)), t, n);
 }
 
 double between_triangles(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t) {

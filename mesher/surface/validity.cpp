@@ -9,6 +9,7 @@
 
 #include "mesher/base/parallel.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/predicates/vector.h"
 #include "mesher/surface/bvh.h"
 #include "mesher/surface/half_edges.h"
 #include "mesher/surface/nesting.h"
@@ -53,9 +54,8 @@ double diagonal(const Box& box) {
   Vec3 d;
   int exponent = 0;
   for (std::size_t i = 0; i < 3; ++i) d[i] = box.hi[i] * 0.5 - box.lo[i] * 0.5;
-  std::frexp(std::max({d[0], d[1], d[2]}), &exponent);
-  for (double& x : d) x = std::ldexp(x, -exponent);
-  return std::ldexp(std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), exponent + 1);
+  std::frexp(largest_component(d), &exponent);
+  return std::ldexp(norm(times_power_of_two(d, -exponent)), exponent + 1);
 }
 
 class Checker {
