@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesher/base/face_key.h"
 #include "mesher/base/flat_map.h"
 #include "mesher/cdt/separation.h"
 
@@ -39,16 +40,7 @@ class GiftWrapper {
   }
 
  private:
-  // Directed triangles up to rotation, as a key of local vertex numbers.
-  std::uint64_t key(Triangle t) const {
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    std::uint64_t k = 0;
-    for (const VertexId v : t) {
-      const auto n = std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin();
-      k = (k << 21) | static_cast<std::uint64_t>(n);
-    }
-    return k;
-  }
+  std::uint64_t key(const Triangle& t) const { return directed_face_key(t, vertices_); }
   bool is_open(const Triangle& t) const { return is_open_.get(key(t), 0) == 1; }
   void open(const Triangle& t) {
     is_open_.set(key(t), 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/epoch.h"
+#include "mesher/base/face_key.h"
 #include "mesher/base/flat_map.h"
 #include "mesher/base/numbering.h"
 #include "mesher/base/sort_unique.h"
@@ -219,16 +220,8 @@ bool FacetRecovery::keeps_all_vertices(const std::vector<Tetrahedron>& tetrahedr
   return std::ranges::find(kept, 0) == kept.end();
 }
 
-// Directed triangles up to rotation.
 std::uint64_t FacetRecovery::face_key(const Triangle& t) const {
-  Triangle v = t;
-  std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-  std::uint64_t key = 0;
-  for (const VertexId w : v) {
-    const auto n = std::lower_bound(local_.begin(), local_.end(), w) - local_.begin();
-    key = (key << 21) | static_cast<std::uint64_t>(n);
-  }
-  return key;
+  return directed_face_key(t, local_);
 }
 
 // Swaps the cavity's tetrahedra for the new ones, if these fit: every face of a new tetrahedron is

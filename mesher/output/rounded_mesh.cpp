@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
+#include "mesher/base/face_key.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::output {
@@ -13,12 +14,6 @@ void erase_sorted(std::vector<T>& sorted, T value) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
   DELMESHER_CHECK(at != sorted.end() && *at == value, "a star lost a tetrahedron");
   sorted.erase(at);
-}
-
-std::array<std::uint32_t, 3> sorted_triple(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  std::array<std::uint32_t, 3> face{a, b, c};
-  std::sort(face.begin(), face.end());
-  return face;
 }
 
 }  // namespace
@@ -113,7 +108,7 @@ void RoundedMesh::prepare_repairs() {
   boundary_.clear();
   boundary_.reserve(input_.boundary.size());
   for (const auto& [a, b, c] : input_.boundary) {
-    boundary_.push_back(sorted_triple(local(a), local(b), local(c)));
+    boundary_.push_back(undirected_face(local(a), local(b), local(c)));
   }
   std::sort(boundary_.begin(), boundary_.end());
 }
@@ -139,7 +134,7 @@ bool RoundedMesh::is_enclosed(std::uint32_t v) const {
     for (int i = 0; i < 4; ++i) {
       if (tet_[t][i] == v) continue;
       faces.push_back(
-          sorted_triple(tet_[t][(i + 1) % 4], tet_[t][(i + 2) % 4], tet_[t][(i + 3) % 4]));
+          undirected_face(tet_[t][(i + 1) % 4], tet_[t][(i + 2) % 4], tet_[t][(i + 3) % 4]));
     }
   }
   std::sort(faces.begin(), faces.end());
@@ -150,7 +145,7 @@ bool RoundedMesh::is_enclosed(std::uint32_t v) const {
 }
 
 bool RoundedMesh::is_boundary(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  return std::binary_search(boundary_.begin(), boundary_.end(), sorted_triple(a, b, c));
+  return std::binary_search(boundary_.begin(), boundary_.end(), undirected_face(a, b, c));
 }
 
 bool RoundedMesh::occupied(const Vec3& p) const {

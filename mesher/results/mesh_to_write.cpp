@@ -2,16 +2,10 @@
 
 #include <algorithm>
 
+#include "mesher/base/face_key.h"
+
 namespace delmesher::results {
 namespace {
-
-using FaceKey = std::array<VertexId, 3>;
-
-FaceKey face_key(VertexId a, VertexId b, VertexId c) {
-  FaceKey key = {a, b, c};
-  std::sort(key.begin(), key.end());
-  return key;
-}
 
 output::RoundingInput rounding_input(const PointStore& points, std::size_t input_vertices) {
   output::RoundingInput input;
@@ -56,21 +50,21 @@ MeshToWrite approximate_mesh(const chamfer::ChamferResult& chamfered,
                              const PointStore& points, Region region) {
   MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
   output::RoundingInput& input = mesh.rounding;
-  std::vector<FaceKey> written;
+  std::vector<std::array<VertexId, 3>> written;
   for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {
     const bool inside = refined.side[n] == Side::inside;
     if (region == Region::interior && !inside) continue;
     const auto& t = refined.tetrahedra[n];
     input.tetrahedra.push_back(t);
     input.inside.push_back(inside ? 1 : 0);
-    for (const auto& f : kFace) written.push_back(face_key(t[f[0]], t[f[1]], t[f[2]]));
+    for (const auto& f : kFace) written.push_back(undirected_face(t[f[0]], t[f[1]], t[f[2]]));
   }
   std::sort(written.begin(), written.end());
   for (const refine::RefinedFace& face : refined.faces) {
     const FacetId facet = chamfered.plc.facets[face.facet].input_facet;
     const auto& v = face.vertices;
     if (facet == kNone ||
-        !std::binary_search(written.begin(), written.end(), face_key(v[0], v[1], v[2]))) {
+        !std::binary_search(written.begin(), written.end(), undirected_face(v[0], v[1], v[2]))) {
       continue;
     }
     input.boundary.push_back(v);

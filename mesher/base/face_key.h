@@ -1,0 +1,33 @@
+// Keys of triangular faces: whichever corner they begin with, equal faces have equal keys.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "mesher/base/ids.h"
+
+namespace delmesher::base {
+
+// The same for both sides of the face.
+inline std::array<VertexId, 3> undirected_face(VertexId a, VertexId b, VertexId c) {
+  std::array<VertexId, 3> face = {a, b, c};
+  std::sort(face.begin(), face.end());
+  return face;
+}
+
+// Of the face as seen from one side, in numbers of its vertices among `vertices`, which are
+// ascending and fewer than 2^21. Never ~0.
+inline std::uint64_t directed_face_key(std::array<VertexId, 3> face,
+                                       std::span<const VertexId> vertices) {
+  std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+  std::uint64_t key = 0;
+  for (const VertexId v : face) {
+    const auto n = std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin();
+    key = (key << 21U) | static_cast<std::uint64_t>(n);
+  }
+  return key;
+}
+
+}  // namespace delmesher::base
