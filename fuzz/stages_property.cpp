@@ -11,7 +11,7 @@
 #include "mesher/chamfer/filter.h"
 #include "mesher/chamfer/plc_angles.h"
 #include "mesher/enrich/enrichment.h"
-#include "mesher/surface/bvh.h"
+#include "mesher/predicates/box_tree.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
@@ -106,7 +106,7 @@ Finding kept_is_apart(const FeatureSizes& sizes,
 // coarse that they might lie on facets.
 void add_volume_points(const Surface& surface, Random& random, Stages& s,
                        delmesher::cdt::CdtInput& input) {
-  delmesher::surface::Box box = delmesher::surface::Box::empty();
+  delmesher::predicates::Box box;
   for (const auto& p : surface.vertices) box.extend({p, p});
   for (std::size_t i = 0; i < 3; ++i) {
     const double largest = std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));

@@ -117,14 +117,14 @@ class IsolatedVertices {
 
   void find_influences(FacetId f) {
     influences_.clear();
-    std::vector<ItemBox> boxes;
+    std::vector<Box> boxes;
     const auto add = [&](const Vec3& a, const Vec3& b, double radius) {
       if (!(radius > 0)) return;
       const std::array<Vec3, 2> ends = {a, b};
-      ItemBox box = ItemBox::around(ends);
+      Box box = Box::around(ends);
       for (int i = 0; i < 3; ++i) {
-        box.low[i] -= radius;
-        box.high[i] += radius;
+        box.lo[i] -= radius;
+        box.hi[i] += radius;
       }
       influences_.push_back({a, b, radius});
       boxes.push_back(box);
@@ -136,14 +136,14 @@ class IsolatedVertices {
       add(p, surface_.position(topology_.to(corner.outgoing)),
           kFreeZone * cuts_.height[corner.outgoing]);
     }
-    tree_ = BoxTree(std::move(boxes));
+    tree_ = ShrinkingBoxTree(boxes);
   }
 
   bool near_chamfer(VertexId v) const {
     const Vec3& p = surface_.position(v);
     bool near = false;
     const std::array<Vec3, 1> query = {p};
-    tree_.for_each_within(ItemBox::around(query), 0, [&](std::uint32_t i) {
+    tree_.for_each_within(Box::around(query), 0, [&](std::uint32_t i) {
       const Influence& zone = influences_[i];
       const double there = closest_on_segment(p, zone.a, zone.b).squared_distance;
       near = near || there < zone.radius * zone.radius;
@@ -157,12 +157,12 @@ class IsolatedVertices {
 
   // Of vertices closer than the clearance, the one with the smallest id stays.
   void drop_crowded(std::vector<VertexId>& vertices) const {
-    std::vector<ItemBox> boxes;
+    std::vector<Box> boxes;
     for (VertexId v : vertices) {
       const std::array<Vec3, 1> point = {surface_.position(v)};
-      boxes.push_back(ItemBox::around(point));
+      boxes.push_back(Box::around(point));
     }
-    const BoxTree tree(boxes);
+    const ShrinkingBoxTree tree(boxes);
     std::vector<std::uint8_t> dropped(vertices.size());
     std::vector<VertexId> stay;
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
@@ -182,7 +182,7 @@ class IsolatedVertices {
   BoundaryDistance boundary_;
   std::vector<std::vector<VertexId>> flat_of_facet_;
   std::vector<Influence> influences_;
-  BoxTree tree_;
+  ShrinkingBoxTree tree_;
 };
 
 }  // namespace

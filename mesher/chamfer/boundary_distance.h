@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/kept_surface.h"
+#include "mesher/predicates/box_tree.h"
 
 namespace delmesher::chamfer {
 
@@ -29,10 +29,10 @@ class BoundaryDistance {
 
   // measure(half-edge, from, to) returns a squared distance; gives the smallest one.
   template <class Measure>
-  double smallest(FacetId f, const ItemBox& query, Measure measure);
+  double smallest(FacetId f, const Box& query, Measure measure);
 
   const KeptSurface& surface_;
-  std::vector<std::unique_ptr<BoxTree>> tree_;  // per facet, when first needed
+  std::vector<std::unique_ptr<ShrinkingBoxTree>> tree_;  // per facet, when first needed
 };
 
 }  // namespace delmesher::chamfer

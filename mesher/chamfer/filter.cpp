@@ -6,11 +6,11 @@
 #include <tuple>
 
 #include "mesher/base/parallel.h"
-#include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/closest.h"
 #include "mesher/chamfer/facet_set.h"
 #include "mesher/chamfer/filter_chamfered.h"
+#include "mesher/predicates/box_tree.h"
 
 namespace delmesher::chamfer {
 
@@ -69,27 +69,27 @@ class InputFilter {
     return {surface_.position(corner[0]), surface_.position(corner[1]),
             surface_.position(corner[2])};
   }
-  ItemBox edge_box(std::uint32_t e) const {
+  Box edge_box(std::uint32_t e) const {
     const auto [v, w] = topology_.edge_vertices(e);
     const std::array<Vec3, 2> ends = {surface_.position(v), surface_.position(w)};
-    return ItemBox::around(ends);
+    return Box::around(ends);
   }
 
   void build_edge_tree() {
-    std::vector<ItemBox> boxes(topology_.edge_count());
+    std::vector<Box> boxes(topology_.edge_count());
     for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) boxes[e] = edge_box(e);
-    edge_tree_ = BoxTree(std::move(boxes));
+    edge_tree_ = ShrinkingBoxTree(boxes);
     for (std::uint32_t e = 0; e < topology_.edge_count(); ++e) {
       if (!facets_.alive({Element::Kind::edge, e})) edge_tree_.remove(e);
     }
   }
 
   void build_triangle_tree() {
-    std::vector<ItemBox> boxes(topology_.triangles.size());
+    std::vector<Box> boxes(topology_.triangles.size());
     for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
-      boxes[t] = ItemBox::around(triangle(t));
+      boxes[t] = Box::around(triangle(t));
     }
-    triangle_tree_ = BoxTree(std::move(boxes));
+    triangle_tree_ = ShrinkingBoxTree(boxes);
     for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
       if (!facets_.kept()[topology_.facet_of[t]]) triangle_tree_.remove(t);
     }
@@ -124,7 +124,7 @@ class InputFilter {
     const VertexId x = closest.first.id;
     const Vec3& p = surface_.position(x);
     const std::array<Vec3, 1> query = {p};
-    edge_tree_.nearest(ItemBox::around(query), closest.squared_distance, [&](std::uint32_t e) {
+    edge_tree_.nearest(Box::around(query), closest.squared_distance, [&](std::uint32_t e) {
       const auto [v, w] = topology_.edge_vertices(e);
       ClosestOnSegment there = closest_on_segment(p, surface_.position(v), surface_.position(w));
       // An edge at the vertex counts with its other end: it may be too short.
@@ -148,7 +148,7 @@ class InputFilter {
     const Vec3& p = surface_.position(x);
     const std::vector<FacetId> incident = facets_.facets_at(x);
     const std::array<Vec3, 1> query = {p};
-    triangle_tree_.nearest(ItemBox::around(query), closest.squared_distance, [&](std::uint32_t t) {
+    triangle_tree_.nearest(Box::around(query), closest.squared_distance, [&](std::uint32_t t) {
       const FacetId f = topology_.facet_of[t];
       if (std::binary_search(incident.begin(), incident.end(), f)) return closest.squared_distance;
       const ClosestOnTriangle there = closest_on_triangle(p, triangle(t));
@@ -171,7 +171,7 @@ class InputFilter {
     const auto ends = topology_.edge_vertices(closest.first.id);
     const VertexId a = ends[0], b = ends[1];
     const Vec3 &p = surface_.position(a), &q = surface_.position(b);
-    const ItemBox query = edge_box(closest.first.id);
+    const Box query = edge_box(closest.first.id);
     edge_tree_.nearest(query, closest.squared_distance, [&](std::uint32_t e) {
       const auto [c, d] = topology_.edge_vertices(e);
       if (a == c || a == d || b == c || b == d) return closest.squared_distance;
@@ -204,7 +204,7 @@ class InputFilter {
   const SurfaceTopology& topology_;
   double bound_;
   FacetSet facets_;
-  BoxTree edge_tree_, triangle_tree_;
+  ShrinkingBoxTree edge_tree_, triangle_tree_;
   std::priority_queue<ClosePair, std::vector<ClosePair>, Later> queue_;
 };
 

@@ -4,8 +4,8 @@
 #include <tuple>
 
 #include "mesher/base/parallel.h"
-#include "mesher/chamfer/box_tree.h"
 #include "mesher/chamfer/closest.h"
+#include "mesher/predicates/box_tree.h"
 
 namespace delmesher::chamfer {
 
@@ -46,12 +46,12 @@ class FeatureFinder {
         for (VertexId v : segment.vertex) facet_of_point_[v] = facet.input_facet;
       }
     }
-    std::vector<ItemBox> boxes;
+    std::vector<Box> boxes;
     for (const PlcSegment& segment : plc_.segments) {
       for (VertexId v : segment.vertex) is_vertex_[v] = 1;
-      boxes.push_back(ItemBox::around(ends(segment)));
+      boxes.push_back(Box::around(ends(segment)));
     }
-    segment_tree_ = BoxTree(std::move(boxes));
+    segment_tree_ = ShrinkingBoxTree(boxes);
     find_triangles();
   }
 
@@ -116,15 +116,15 @@ class FeatureFinder {
 
   // Triangles of the facets at acute vertices: elsewhere the input's own distances hold.
   void find_triangles() {
-    std::vector<ItemBox> boxes;
+    std::vector<Box> boxes;
     for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {
       if (chamfered_.plc_facet[topology_.facet_of[t]] == kNone) continue;
       std::array<Vec3, 3> corner;
       for (int k = 0; k < 3; ++k) corner[k] = surface_.position(topology_.triangles[t][k]);
-      boxes.push_back(ItemBox::around(corner));
+      boxes.push_back(Box::around(corner));
       triangles_.push_back(t);
     }
-    triangle_tree_ = BoxTree(std::move(boxes));
+    triangle_tree_ = ShrinkingBoxTree(boxes);
   }
 
   void check_segment(std::uint32_t s, std::vector<Violation>& found) const {
@@ -132,7 +132,7 @@ class FeatureFinder {
     const std::array<Vec3, 2> here = ends(segment);
     const double length = squared_norm(subtract(here[0], here[1]));
     if (length < bound_) found.push_back({length, segment_culprit(s), {}});
-    segment_tree_.for_each_within(ItemBox::around(here), bound_, [&](std::uint32_t other) {
+    segment_tree_.for_each_within(Box::around(here), bound_, [&](std::uint32_t other) {
       const auto [a, b] = segment.vertex;
       const auto [c, d] = plc_.segments[other].vertex;
       if (a == c || a == d || b == c || b == d) return;
@@ -156,7 +156,7 @@ class FeatureFinder {
   void check_point(VertexId v, std::vector<Violation>& found) const {
     const Vec3 p = position(v);
     const std::array<Vec3, 1> query = {p};
-    triangle_tree_.for_each_within(ItemBox::around(query), bound_, [&](std::uint32_t item) {
+    triangle_tree_.for_each_within(Box::around(query), bound_, [&](std::uint32_t item) {
       const std::uint32_t t = triangles_[item];
       const FacetId f = topology_.facet_of[t];
       const auto& corner = topology_.triangles[t];
@@ -198,7 +198,7 @@ class FeatureFinder {
   std::vector<FacetId> facet_of_segment_;  // of artificial segments
   std::vector<FacetId> facet_of_point_;    // of points inside facets
   std::vector<std::uint8_t> is_vertex_;
-  BoxTree segment_tree_, triangle_tree_;
+  ShrinkingBoxTree segment_tree_, triangle_tree_;
   std::vector<std::uint32_t> triangles_;
 };
 

@@ -25,7 +25,7 @@ std::vector<Box> removed_boxes(const ChamferResult& chamfered,
   constexpr double kMargin = 1.01;
   std::vector<Box> boxes;
   const auto add = [&](std::span<const VertexId> corners, double radius) {
-    Box box = Box::empty();
+    Box box;
     for (const VertexId v : corners) box.extend({points.nearest(v), points.nearest(v)});
     boxes.push_back(enlarged(box, radius));
   };
@@ -77,7 +77,7 @@ void RemovedSurface::add(VertexId a, VertexId b, double radius, std::vector<Box>
   boxes.push_back(enlarged(box, radius));
 }
 
-Bvh RemovedSurface::build_chamfers(const ChamferResult& chamfered) {
+BoxTree RemovedSurface::build_chamfers(const ChamferResult& chamfered) {
   std::vector<Box> boxes;
   for (VertexId v = 0; v < chamfered.vertex_radius.size(); ++v) {
     add(v, v, chamfered.vertex_radius[v], boxes);
@@ -86,17 +86,17 @@ Bvh RemovedSurface::build_chamfers(const ChamferResult& chamfered) {
     const auto ends = topology_.edge_vertices(e);
     add(ends[0], ends[1], chamfered.edge_radius[e], boxes);
   }
-  return Bvh(boxes);
+  return BoxTree(boxes);
 }
 
-Bvh RemovedSurface::build_dropped(const std::vector<std::uint8_t>& facet_kept) {
+BoxTree RemovedSurface::build_dropped(const std::vector<std::uint8_t>& facet_kept) {
   std::vector<Box> boxes;
   for (std::uint32_t t = 0; t < topology_.triangles.size() && !facet_kept.empty(); ++t) {
     if (facet_kept[topology_.facet_of[t]] != 0) continue;
     dropped_triangles_.push_back(t);
     boxes.push_back(Box::around(corners(t)));
   }
-  return Bvh(boxes);
+  return BoxTree(boxes);
 }
 
 }  // namespace delmesher::chamfer

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/chamfer/chamfer.h"
-#include "mesher/surface/bvh.h"
+#include "mesher/predicates/box_tree.h"
 
 namespace delmesher::chamfer {
 
@@ -34,14 +34,14 @@ class RemovedSurface {
 
   std::array<Vec3, 3> corners(std::uint32_t triangle) const;
   void add(VertexId a, VertexId b, double radius, std::vector<Box>& boxes);
-  Bvh build_chamfers(const ChamferResult& chamfered);
-  Bvh build_dropped(const std::vector<std::uint8_t>& facet_kept);
+  BoxTree build_chamfers(const ChamferResult& chamfered);
+  BoxTree build_dropped(const std::vector<std::uint8_t>& facet_kept);
 
   const PointStore& points_;
   const SurfaceTopology& topology_;
   std::vector<Chamfer> items_;
   std::vector<std::uint32_t> dropped_triangles_;
-  Bvh chamfers_, dropped_;
+  BoxTree chamfers_, dropped_;
 };
 
 }  // namespace delmesher::chamfer

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "mesher/base/flat_map.h"
+#include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/vector.h"
-#include "mesher/surface/bvh.h"
 
 namespace delmesher::refine {
 namespace {
@@ -104,13 +104,13 @@ class Predictor {
     collect_vertices(vertices);
     std::vector<Box> boxes;
     for (const Element& e : elements_) {
-      Box box = Box::empty();
+      Box box;
       for (const VertexId v : e.corner) {
         if (v != kNone) box.extend({points.nearest(v), points.nearest(v)});
       }
       boxes.push_back(box);
     }
-    elements_bvh_.emplace(boxes);
+    element_tree_.emplace(boxes);
     for (auto& own : vertices) {
       std::sort(own.begin(), own.end());
       first_vertex_.push_back(static_cast<std::uint32_t>(vertices_.size()));
@@ -182,15 +182,6 @@ class Predictor {
     return origin_triangle2(a, b, subtract(points_.nearest(e.corner[2]), p));
   }
 
-  static double box_distance2(const Vec3& p, const Box& box) {
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double d = std::max(std::max(box.lo[k] - p[k], p[k] - box.hi[k]), 0.0);
-      sum += d * d;
-    }
-    return sum;
-  }
-
   // Do the two elements of the complex share a point (or did they, before chamfering)?
   bool touch(std::uint32_t a, std::uint32_t b) {
     if (a == b) return true;
@@ -220,7 +211,7 @@ class Predictor {
     Surroundings found{bound, bound, nearby.witness};
     met_.clear();
     waiting_.clear();
-    if (elements_bvh_->empty()) return found;  // all was filtered away
+    if (element_tree_->empty()) return found;  // all was filtered away
     if (nearby.witness[0] != kNone) {
       found.size = std::min(bound, witness_distance(p, nearby));
       found.nearest = found.size;
@@ -265,19 +256,20 @@ class Predictor {
     nodes_.assign(1, 0);
     while (!nodes_.empty()) {
       const std::uint32_t n = nodes_.back();
-      const Bvh::Node& node = elements_bvh_->node(n);
+      const BoxTree::Node& node = element_tree_->node(n);
       nodes_.pop_back();
       if (node.is_leaf()) {
         for (std::uint32_t i = node.begin; i < node.end; ++i) {
-          if (box_distance2(p, elements_bvh_->item_box(i)) >= bound2) continue;
-          const std::uint32_t e = elements_bvh_->item(i);
+          if (squared_distance({p, p}, element_tree_->item_box(i)) >= bound2) continue;
+          const std::uint32_t e = element_tree_->item(i);
           const double d = distance2(p, elements_[e]);
           if (d < bound2) waiting_.push_back({d, e, true});
         }
         continue;
       }
       for (const std::uint32_t child : {n + 1, node.right}) {
-        if (box_distance2(p, elements_bvh_->node(child).box) < bound2) nodes_.push_back(child);
+        if (squared_distance({p, p}, element_tree_->node(child).box) < bound2)
+          nodes_.push_back(child);
       }
     }
     std::sort(waiting_.begin(), waiting_.end(),
@@ -295,16 +287,16 @@ class Predictor {
       waiting_.push_back({distance2, index, is_element});
       std::push_heap(waiting_.begin(), waiting_.end());
     };
-    const Bvh::Node& node = elements_bvh_->node(n);
+    const BoxTree::Node& node = element_tree_->node(n);
     if (!node.is_leaf()) {
       for (const std::uint32_t child : {n + 1, node.right}) {
-        wait(box_distance2(p, elements_bvh_->node(child).box), child, false);
+        wait(squared_distance({p, p}, element_tree_->node(child).box), child, false);
       }
       return;
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      if (box_distance2(p, elements_bvh_->item_box(i)) >= bound2) continue;
-      const std::uint32_t e = elements_bvh_->item(i);
+      if (squared_distance({p, p}, element_tree_->item_box(i)) >= bound2) continue;
+      const std::uint32_t e = element_tree_->item(i);
       wait(distance2(p, elements_[e]), e, true);
     }
   }
@@ -387,9 +379,9 @@ class Predictor {
   const PointStore& points_;
   const PredictionOptions& options_;
   Control& control_;
-  Bvh surface_;
+  BoxTree surface_;
   std::vector<Element> elements_;
-  std::optional<Bvh> elements_bvh_;
+  std::optional<BoxTree> element_tree_;
   std::vector<VertexId> vertices_;           // per owner, ascending
   std::vector<std::uint32_t> first_vertex_;  // of each owner, and the end
   FlatMap touching_;

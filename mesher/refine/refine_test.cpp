@@ -67,7 +67,7 @@ struct Refinement : Complex {
   Refinement(const Surface& surface, RefineOptions options, double corner = 60)
       : Complex(surface, corner) {
     for (const auto& t : topology.triangles) {
-      Box all = Box::empty();
+      Box all;
       for (const VertexId v : t) all.extend({points.nearest(v), points.nearest(v)});
       if (chamfered.acute_vertices > 0) options.removed.push_back(all);
     }

@@ -13,9 +13,9 @@
 
 #include <span>
 
+#include "mesher/predicates/box_tree.h"
 #include "mesher/refine/notes.h"
 #include "mesher/refine/subfacets.h"
-#include "mesher/surface/bvh.h"
 #include "mesher/surface/solid.h"
 
 namespace delmesher::refine {
@@ -61,7 +61,7 @@ class Sides {
   Tetrahedrization& dt_;
   const Subfacets& subfacets_;
   std::span<const Box> removed_;
-  Bvh removed_boxes_;
+  BoxTree removed_boxes_;
   Solid solid_;
 };
 

@@ -165,7 +165,7 @@ TEST(Sides, ThoseOfARefinementAreExact) {
       Control control(complex.limits);
       RefineOptions options;
       for (const auto& t : complex.topology.triangles) {
-        Box all = Box::empty();
+        Box all;
         for (const VertexId v : t)
           all.extend({complex.points.nearest(v), complex.points.nearest(v)});
         if (complex.chamfered.acute_vertices > 0) options.removed.push_back(all);

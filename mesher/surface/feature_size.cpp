@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/vector.h"
-#include "mesher/surface/bvh.h"
 
 namespace delmesher::surface {
 namespace {
@@ -151,7 +151,7 @@ class ClosestElements {
   Vec3 at(VertexId v) const { return points_.nearest(v); }
 
   Box box_of(std::span<const VertexId> vertices) const {
-    Box box = Box::empty();
+    Box box;
     for (const VertexId v : vertices) box.extend({at(v), at(v)});
     return box;
   }
@@ -175,7 +175,7 @@ class ClosestElements {
     }
     for (const std::uint32_t e : edges_) edge_boxes.push_back(box_of(topology_.edge_vertices(e)));
     for (const auto& t : topology_.triangles) triangle_boxes.push_back(box_of(t));
-    const Bvh vertices(vertex_boxes), edges(edge_boxes), triangles(triangle_boxes);
+    const BoxTree vertices(vertex_boxes), edges(edge_boxes), triangles(triangle_boxes);
     for (const VertexId v : used) {
       control_.poll();
       const Vec3 p = at(v);
@@ -202,11 +202,11 @@ class ClosestElements {
   void examine_edges() {
     std::vector<Box> boxes;
     for (const std::uint32_t e : edges_) boxes.push_back(box_of(topology_.edge_vertices(e)));
-    const Bvh bvh(boxes);
+    const BoxTree tree(boxes);
     for (std::uint32_t i = 0; i < edges_.size(); ++i) {
       control_.poll();
       const auto [a, b] = topology_.edge_vertices(edges_[i]);
-      bvh.query(grown(boxes[i]), [&, a = a, b = b](std::uint32_t j) {
+      tree.query(grown(boxes[i]), [&, a = a, b = b](std::uint32_t j) {
         const auto [c, d] = topology_.edge_vertices(edges_[j]);
         if (j > i && a != c && a != d && b != c && b != d) {
           best_ = std::min(best_, segment_segment_distance(at(a), at(b), at(c), at(d)));

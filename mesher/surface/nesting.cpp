@@ -92,14 +92,14 @@ class VolumeSum {
 // ray with each of them.
 std::uint32_t nesting_depth(const Triangles& triangles,
                             const std::vector<std::uint32_t>& component_of, std::uint32_t t,
-                            Predicates& predicates, const Bvh& bvh,
+                            Predicates& predicates, const BoxTree& tree,
                             std::vector<std::uint32_t>& crossed) {
   const VertexId v = triangles[t][0];
   const Vec3 p = predicates.points().nearest(v);
   Box ray{p, p};
   ray.hi[0] = std::numeric_limits<double>::infinity();
   crossed.clear();
-  bvh.query(ray, [&](std::uint32_t u) {
+  tree.query(ray, [&](std::uint32_t u) {
     if (component_of[u] != component_of[t] && ray_crosses(predicates, v, 0, 1, triangles[u])) {
       crossed.push_back(component_of[u]);
     }
@@ -121,7 +121,7 @@ std::uint32_t nesting_depth(const Triangles& triangles,
 std::vector<ComponentNesting> analyze_nesting(const Triangles& triangles,
                                               const std::vector<std::uint32_t>& component_of,
                                               std::size_t components, Predicates& predicates,
-                                              const Bvh& bvh, Control& control) {
+                                              const BoxTree& tree, Control& control) {
   std::vector<std::vector<std::uint32_t>> members(components);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) members[component_of[t]].push_back(t);
   std::vector<ComponentNesting> result;
@@ -132,7 +132,7 @@ std::vector<ComponentNesting> analyze_nesting(const Triangles& triangles,
     DELMESHER_CHECK(result.back().volume_sign != 0, "a valid component has a volume");
     if (components > 1) {
       result.back().depth =
-          nesting_depth(triangles, component_of, component[0], predicates, bvh, crossed);
+          nesting_depth(triangles, component_of, component[0], predicates, tree, crossed);
     }
   }
   return result;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/surface/bvh.h"
 #include "mesher/surface/half_edges.h"
 
 namespace delmesher::surface {
@@ -19,10 +19,10 @@ struct ComponentNesting {
 };
 
 // For a valid surface: closed, manifold, consistently oriented, not self-intersecting.
-// component_of numbers the components of the triangles from 0; bvh holds the triangles' boxes.
+// component_of numbers the components of the triangles from 0; tree holds the triangles' boxes.
 std::vector<ComponentNesting> analyze_nesting(const Triangles& triangles,
                                               const std::vector<std::uint32_t>& component_of,
                                               std::size_t components, Predicates& predicates,
-                                              const Bvh& bvh, Control& control);
+                                              const BoxTree& tree, Control& control);
 
 }  // namespace delmesher::surface

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "mesher/arithmetic/bounded.h"
+#include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/exact_point.h"
 #include "mesher/surface/approximate_plane.h"
-#include "mesher/surface/bvh.h"
 #include "mesher/surface/tetrahedron_contact.h"
 #include "mesher/surface/triangle_contact.h"
 
@@ -35,7 +35,7 @@ double upper(double x, double error) {
 // The closed boxes of doubles that overlap this box are those that meet the interior of the
 // tetrahedron's bounding box (slightly more if its corners are rounded).
 Box interior_box(const PointStore& points, const Tetrahedron& tetrahedron) {
-  Box box = Box::empty();
+  Box box;
   bool rounded = false;
   for (const VertexId v : tetrahedron) {
     const Approximation& a = points.approximation(v);
@@ -133,7 +133,7 @@ bool certainly_inside(const PointStore& points, const Tetrahedron& tetrahedron, 
 // Those that meet one of the boxes; all if there are no boxes.
 std::vector<std::uint32_t> cutting_triangles(std::span<const Box> triangles,
                                              std::span<const Box> open) {
-  const Bvh where(open);
+  const BoxTree where(open);
   std::vector<std::uint32_t> result;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const bool elsewhere = where.query(triangles[t], [](std::uint32_t) { return false; });
@@ -156,9 +156,9 @@ struct Solid::Shared {
   Shared(const SurfaceTopology& surface, const PointStore& points, std::span<const Box> boxes,
          std::span<const Box> open)
       : topology(surface),
-        bvh(boxes),
+        tree(boxes),
         cutting(cutting_triangles(boxes, open)),
-        cutting_bvh(boxes_of(cutting, boxes)) {
+        cutting_tree(boxes_of(cutting, boxes)) {
     plane.reserve(cutting.size());
     for (const std::uint32_t t : cutting) {
       const auto& [a, b, c] = surface.triangles[t];
@@ -167,9 +167,9 @@ struct Solid::Shared {
   }
 
   const SurfaceTopology& topology;
-  Bvh bvh;                              // of all triangles
+  BoxTree tree;                         // of all triangles
   std::vector<std::uint32_t> cutting;   // triangles that may meet the interior of a tetrahedron
-  Bvh cutting_bvh;                      // of these
+  BoxTree cutting_tree;                 // of these
   std::vector<ApproximatePlane> plane;  // of these
 };
 
@@ -187,9 +187,9 @@ struct Solid::Impl {
   Side classify(const Tetrahedron& tetrahedron) {
     const PointStore& points = predicates.points();
     const Box box = interior_box(points, tetrahedron);
-    if (bvh.empty() || !bvh.node(0).box.overlaps(box)) return Side::outside;
+    if (tree.empty() || !tree.node(0).box.overlaps(box)) return Side::outside;
     std::optional<TetrahedronFaces> faces;
-    const bool disjoint = shared->cutting_bvh.query(box, [&](std::uint32_t n) {
+    const bool disjoint = shared->cutting_tree.query(box, [&](std::uint32_t n) {
       const std::uint32_t t = shared->cutting[n];
       if (on_one_side(tetrahedron, t, shared->plane[n])) return true;
       if (!faces) faces.emplace(points, tetrahedron);
@@ -235,7 +235,7 @@ struct Solid::Impl {
 
   // From a point within the box towards the nearest side of the solid's bounding box.
   Ray shortest_ray(const Box& start) const {
-    const Box& all = bvh.node(0).box;
+    const Box& all = tree.node(0).box;
     Ray ray;
     double least = kInfinity;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -256,11 +256,11 @@ struct Solid::Impl {
   // For a point off the surface.
   bool contains(const Vec3& p) {
     const Box start{p, p};
-    if (!bvh.node(0).box.overlaps(start)) return false;
+    if (!tree.node(0).box.overlaps(start)) return false;
     const Ray ray = shortest_ray(start);
     const VertexId id = input.add_explicit(p[0], p[1], p[2]);
     bool inside = false;
-    bvh.query(ray.box, [&](std::uint32_t t) {
+    tree.query(ray.box, [&](std::uint32_t t) {
       inside ^= ray_crosses(input_predicates, id, static_cast<int>(ray.axis), ray.direction,
                             topology.triangles[t]);
       return true;
@@ -287,7 +287,7 @@ struct Solid::Impl {
     }
     const Ray ray = shortest_ray(start);
     bool inside = false;
-    bvh.query(ray.box, [&](std::uint32_t t) {
+    tree.query(ray.box, [&](std::uint32_t t) {
       const auto& v = topology.triangles[t];
       inside ^= exact_ray_crosses(
           center, ray.axis, ray.direction,
@@ -299,7 +299,7 @@ struct Solid::Impl {
 
   const std::shared_ptr<const Shared> shared;
   const SurfaceTopology& topology = shared->topology;
-  const Bvh& bvh = shared->bvh;
+  const BoxTree& tree = shared->tree;
   Predicates& predicates;  // of the mesh's points
   // A copy of the input vertices, with room for the start of a ray.
   PointStore input;

@@ -6,8 +6,8 @@
 #include <memory>
 #include <span>
 
+#include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/surface/bvh.h"
 #include "mesher/surface/topology.h"
 
 namespace delmesher::surface {

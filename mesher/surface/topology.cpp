@@ -203,4 +203,14 @@ SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predi
   return Builder(surface, points, predicates).build();
 }
 
+std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points) {
+  std::vector<Box> boxes;
+  boxes.reserve(topology.triangles.size());
+  for (const auto& [a, b, c] : topology.triangles) {
+    boxes.push_back(
+        Box::around(std::array{points.nearest(a), points.nearest(b), points.nearest(c)}));
+  }
+  return boxes;
+}
+
 }  // namespace delmesher::surface

@@ -7,6 +7,7 @@
 
 #include "mesher/base/ids.h"
 #include "mesher/delmesher/surface.h"
+#include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/predicates.h"
 
 namespace delmesher::surface {
@@ -57,5 +58,8 @@ struct SurfaceTopology {
 // (both the edge itself and edge_line of it are ids of the line that contains an edge). The surface
 // must have passed check_surface and be oriented outwards.
 SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates);
+
+// Of the triangles, in their order.
+std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points);
 
 }  // namespace delmesher::surface

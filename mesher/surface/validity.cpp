@@ -8,9 +8,9 @@
 #include <set>
 
 #include "mesher/base/parallel.h"
+#include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/vector.h"
-#include "mesher/surface/bvh.h"
 #include "mesher/surface/half_edges.h"
 #include "mesher/surface/nesting.h"
 #include "mesher/surface/triangle_contact.h"
@@ -152,7 +152,7 @@ class Checker {
   // Degenerate triangles; also prepares projections, boxes and counts.
   void check_triangles() {
     std::vector<std::uint8_t> used(surface_.vertices.size(), 0);
-    Box box = Box::empty();
+    Box box;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       control_.poll();
       const auto [a, b, c] = triangles_[t];
@@ -277,12 +277,12 @@ class Checker {
 
   // Degenerate triangles and duplicates are reported already and take no part.
   void check_intersections() {
-    bvh_.emplace(boxes_);
-    const std::vector<Bvh::PairTask> tasks = bvh_->pair_tasks();
+    triangle_tree_.emplace(boxes_);
+    const std::vector<BoxTree::PairTask> tasks = triangle_tree_->pair_tasks();
     std::vector<Intersections> of_task(tasks.size());
     PerWorker<Predicates> predicates(control_, points_);
     for_chunks(control_, tasks.size(), 1, [&](Worker& worker, const Chunk& chunk) {
-      return bvh_->pairs(tasks[chunk.index], [&](std::uint32_t t, std::uint32_t u) {
+      return triangle_tree_->pairs(tasks[chunk.index], [&](std::uint32_t t, std::uint32_t u) {
         worker.poll();
         if (t > u) std::swap(t, u);
         if (!intersect(predicates[worker], t, u)) return true;
@@ -347,7 +347,7 @@ class Checker {
 
   void check_nesting() {
     const auto nesting = analyze_nesting(triangles_, component_of_, result_.report.components,
-                                         predicates_, *bvh_, control_);
+                                         predicates_, *triangle_tree_, control_);
     std::vector<std::uint8_t> wrong;
     for (const ComponentNesting& c : nesting) {
       const int wanted = c.depth % 2 == 0 ? 1 : -1;
@@ -418,7 +418,7 @@ class Checker {
   std::vector<Box> boxes_;
   std::optional<HalfEdgeGroups> edges_;
   std::vector<std::uint32_t> component_of_;
-  std::optional<Bvh> bvh_;
+  std::optional<BoxTree> triangle_tree_;
 };
 
 }  // namespace
