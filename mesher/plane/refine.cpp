@@ -311,8 +311,42 @@ class Refiner {
     return kNone;
   }
 
+  // A point that would make a bad triangle go. Either new, and the last of the store until it is
+  // taken back, or a chamfered corner.
+  struct Candidate {
+    VertexId vertex = kNone;  // kNone: no room between doubles
+    bool restored = false;
+  };
+
+  // Inserts the triangle's off-centre or circumcentre, or splits the segments that it encroaches
+  // upon, or notes that there is no room for either.
   void split_triangle(TriangleId t) {
     const std::array<VertexId, 3> v = mesh_[t].vertex;
+    const Candidate candidate = candidate_for(v);
+    if (candidate.vertex == kNone) return crowd(t);
+    const Triangulation::Sight sight = mesh_.look(candidate.vertex, t);
+    const bool coincides = sight.blocked == kNone && std::popcount(sight.location.zeros) > 1;
+    if (!coincides) find_encroached(candidate.vertex, sight);
+    if (coincides || (encroached_.empty() && !in_cavity(t))) {
+      take_back(candidate);
+      return crowd(t);
+    }
+    if (encroached_.empty()) {
+      if (!candidate.restored) ++result_.in_faces;
+      fill(candidate.vertex);
+      return queue_beside_created();
+    }
+    take_back(candidate);
+    const bool progress = split_encroached();
+    if (mesh_[t].vertex != v) return;
+    if (progress) {
+      judge(t);
+    } else {
+      crowd(t);
+    }
+  }
+
+  Candidate candidate_for(const std::array<VertexId, 3>& v) {
     const Shape shape = shape_of(points_, v[0], v[1], v[2]);
     // The new point comes near the shortest edge: only there room between doubles is needed.
     const double size =
@@ -320,66 +354,54 @@ class Refiner {
                  magnitude(points_, v[static_cast<std::size_t>(previous(shape.apex))]));
     // It is placed on a grid of a millionth of that edge or two.
     const double room = std::max(size * kFloor, graph_.unit * 0x1p22);
-    if (!(shape.shortest_squared > square(room * shape.scale))) return crowd(t);
+    if (!(shape.shortest_squared > square(room * shape.scale))) return {};
     const double reach = shape.sine_squared < sine_squared_
                              ? std::min(shape.circumcentre, off_centre_)
                              : shape.circumcentre;
     const Vec3 place = shape.place(points_, v, reach);
-    if (!std::isfinite(place[0]) || !std::isfinite(place[1])) return crowd(t);
+    if (!std::isfinite(place[0]) || !std::isfinite(place[1])) return {};
     const VertexId corner = corner_near(v, place, shape);
-    const bool restored = corner != kNone;
-    const VertexId p = restored ? corner : points_.add_explicit(place[0], place[1], 0);
-    const auto withdraw = [&] {
-      if (!restored) points_.pop_back();
-    };
-    const Triangulation::Sight sight = mesh_.look(p, t);
-    EdgeId blocked = sight.blocked;
-    if (blocked == kNone && std::popcount(sight.location.zeros) > 1) {  // there is a vertex already
-      withdraw();
-      return crowd(t);
-    }
-    if (blocked == kNone) {
-      for (int i = 0; i < 3; ++i) {
-        const EdgeId e = edge_of(sight.location.triangle, i);
-        if ((sight.location.zeros >> i & 1) != 0 && mesh_.piece(e) != kNone) blocked = e;
-      }
-    }
+    if (corner != kNone) return {corner, true};
+    return {points_.add_explicit(place[0], place[1], 0), false};
+  }
+  void take_back(const Candidate& candidate) {
+    if (!candidate.restored) points_.pop_back();
+  }
+
+  // Puts into encroached_ the segment that hides p from the triangle or on which p lies, else those
+  // whose open diametral disc contains p. If there are none, the cavity of p has been found.
+  void find_encroached(VertexId p, const Triangulation::Sight& sight) {
     encroached_.clear();
+    EdgeId blocked = sight.blocked;
+    for (int i = 0; blocked == kNone && i < 3; ++i) {
+      const EdgeId e = edge_of(sight.location.triangle, i);
+      if ((sight.location.zeros >> i & 1) != 0 && mesh_.piece(e) != kNone) blocked = e;
+    }
     if (blocked != kNone) {
       encroached_.push_back({mesh_.origin(blocked), mesh_.target(blocked), blocked});
-    } else {
-      mesh_.find_cavity(p, sight.location.triangle, kNone);
-      for (const auto& edge : mesh_.boundary()) {
-        if (edge.piece != kNone && counts(edge.inner) &&
-            predicates_.dot(edge.from, p, edge.to) < 0) {
-          // For the sides of the box, any edge will do: they are looked up.
-          const EdgeId inner = edge.outer != kNone ? mesh_.twin(edge.outer) : 0;
-          encroached_.push_back({edge.from, edge.to, inner});
-        }
+      return;
+    }
+    mesh_.find_cavity(p, sight.location.triangle, kNone);
+    for (const auto& edge : mesh_.boundary()) {
+      if (edge.piece != kNone && counts(edge.inner) && predicates_.dot(edge.from, p, edge.to) < 0) {
+        // For the sides of the box, any edge will do: they are looked up.
+        const EdgeId inner = edge.outer != kNone ? mesh_.twin(edge.outer) : 0;
+        encroached_.push_back({edge.from, edge.to, inner});
       }
     }
-    if (encroached_.empty()) {
-      const auto& cavity = mesh_.cavity();
-      if (std::find(cavity.begin(), cavity.end(), t) != cavity.end()) {
-        if (!restored) ++result_.in_faces;
-        fill(p);
-        return queue_beside_created();
-      }
-      withdraw();
-      return crowd(t);
-    }
-    withdraw();
+  }
+  bool in_cavity(TriangleId t) const {
+    const auto& cavity = mesh_.cavity();
+    return std::find(cavity.begin(), cavity.end(), t) != cavity.end();
+  }
+  // Has one of them been split, or is it gone?
+  bool split_encroached() {
     bool progress = false;
     for (const Subsegment& s : encroached_) {
       const EdgeId e = find(s);
       if (e == kNone || split_segment(e)) progress = true;
     }
-    if (mesh_[t].vertex != v) return;
-    if (progress) {
-      judge(t);
-    } else {
-      crowd(t);
-    }
+    return progress;
   }
 
   // ---------------------------------------------------------------- no room

@@ -51,6 +51,10 @@ inline Vec3 subtract(const Vec3& a, const Vec3& b) {
 inline Vec3 add_scaled(const Vec3& a, double s, const Vec3& b) {
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
+// (a - b) / scale.
+inline Vec3 scaled_difference(const Vec3& a, const Vec3& b, double scale) {
+  return {(a[0] - b[0]) / scale, (a[1] - b[1]) / scale, (a[2] - b[2]) / scale};
+}
 inline double dot(const Vec3& a, const Vec3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
