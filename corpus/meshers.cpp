@@ -21,8 +21,8 @@ struct OwnVariant {
   const char* arguments;
 };
 
-// The paper's experiments by their names (design: "--preset paper" is delta 14.47, tau 1e-4,
-// corners below 90 degrees chamfered, and everything down to the outer box).
+// The paper's experiments by their names ("--preset paper" is delta 14.47, tau 1e-4, corners
+// below 90 degrees chamfered, and everything down to the outer box).
 constexpr OwnVariant kOwn[] = {
     {"delmesher", "mesh"},
     {"delmesher-e4", "mesh --preset paper"},

@@ -21,7 +21,7 @@ class SplitRule {
   SplitRule(const Chains& chains, const PointStore& points) : chains_(chains), points_(points) {}
 
   // For the subsegment of node n. With Centre::both, or without a reference (kNone), in the middle.
-  // Throws LimitReached where points on the edge cannot be placed as finely as its surroundings
+  // Throws Stopped where points on the edge cannot be placed as finely as its surroundings
   // require.
   SplitTarget target(std::uint32_t n, Centre centre, VertexId reference);
 

@@ -24,7 +24,7 @@ double fraction_between(const ChainNode& a, const ChainNode& b);
 SplitTarget target_behind(const ChainNode& a, const ChainNode& b, double step);
 SplitTarget target_in_the_middle(const ChainNode& a, const ChainNode& b);
 
-// Something is nearer to the edge than points on it can be placed: throws LimitReached.
+// Something is nearer to the edge than points on it can be placed: throws Stopped.
 [[noreturn]] void stop_beside(const Chains& chains, std::uint32_t edge);
 
 // Adds points to subsegments. Law: each new point lies strictly between the vertices of the

@@ -52,7 +52,7 @@ struct ExactRecord {
   std::vector<Chain> segments;
   struct Corner {  // a chamfered input vertex
     std::uint32_t vertex;
-    double threshold;  // degrees: 60, or 90 where the guard fell back
+    double threshold;  // degrees: Parameters::acute, or 90 where the guard fell back
     double radius;     // chamfer distance along its edges, rounded to nearest
   };
   std::vector<Corner> corners;

@@ -205,7 +205,8 @@ bool in_cone(const std::vector<Point2>& points, const Loop& loop, std::size_t i,
 }
 
 // Joins a clockwise hole to the counter-clockwise outer loop by a bridge between the hole's
-// rightmost corner and the nearest corner that sees it. `edges` are all the facet's boundary edges.
+// rightmost corner and the nearest corner of the outer loop that sees it. `all` are the facet's
+// loops as they were, `outer` is the outer one with the holes joined so far. False if none sees it.
 bool bridge_hole(const std::vector<Point2>& points, const std::vector<Loop>& all, const Loop& hole,
                  Loop& outer, Polling& polling) {
   const std::size_t start = static_cast<std::size_t>(
@@ -320,7 +321,7 @@ std::array<double, 2> project(const Point3& p, int axis) {
 }
 
 int dominating_axis(const std::vector<Point3>& vertices, std::span<const std::uint32_t> loop) {
-  // Twice the area vector, from the first corner; any axis of a decent size would do.
+  // Twice the area vector, from the first corner. Of equals the first axis.
   Point3 normal = {0, 0, 0};
   const Point3& origin = vertices[loop[0]];
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {

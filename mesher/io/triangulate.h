@@ -34,7 +34,8 @@ PolygonTriangulation triangulate_polygon(const std::vector<Point3>& vertices,
                                          std::span<const std::vector<std::uint32_t>> loops,
                                          Polling& polling);
 
-// The coordinate axis along which the polygon's normal has its largest component.
+// The coordinate axis along which the polygon's area vector, in doubles, has its largest component.
+// formats.md promises this axis: which solid a face that is not planar means depends on it.
 int dominating_axis(const std::vector<Point3>& vertices, std::span<const std::uint32_t> loop);
 
 // The point without its coordinate along `axis`, the other two in cyclic order.

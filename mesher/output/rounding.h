@@ -1,6 +1,6 @@
 // Rounding exact vertices to the doubles that are written, certified by the exact sign of every
-// tetrahedron (design: two certificates, exact conformity on exact coordinates and validity of the
-// file as written).
+// tetrahedron. A mesh has two certificates: it conforms exactly on exact coordinates, and the file
+// as written is valid.
 #pragma once
 
 #include <array>

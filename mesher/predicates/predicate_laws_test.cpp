@@ -139,8 +139,8 @@ TEST(InspherePerturbed, VanishesForCoplanarPointsOnly) {
   EXPECT_GT(coplanar, 10);
 }
 
-// The in-circle test of four points of a facet, by an apex off its plane (design: insphere times
-// orient3d), depends neither on the apex, nor on its id, nor on its side.
+// The in-circle test of four points of a facet, by an apex off its plane (insphere times orient3d),
+// depends neither on the apex, nor on its id, nor on its side.
 TEST(InspherePerturbed, CocircularTieDoesNotDependOnTheApex) {
   Random random(4);
   for (int round = 0; round < 50; ++round) {

@@ -11,8 +11,8 @@ namespace delmesher::surface {
 // Everything check_surface() reports except facets, acute corners and local feature size. With
 // `stop_at_first`, ends at the first kind of defect found (what tetrahedralize() needs to refuse);
 // an inside-out surface is no defect but sets `flipped`. Components oriented otherwise than parity
-// asks for are reported in warnings, with `component_flip` telling, per triangle, whether it has to
-// be reversed.
+// asks for are reported in warnings. `reverse_triangle` tells, per triangle, whether it has to be
+// reversed.
 struct ValidityResult {
   SurfaceReport report;
   std::vector<std::uint8_t> reverse_triangle;
