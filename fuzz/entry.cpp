@@ -9,7 +9,7 @@
 
 #include "corpus/generate/certify.h"
 #include "corpus/generate/generate.h"
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {

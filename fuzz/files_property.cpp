@@ -12,7 +12,7 @@
 #include "fuzz/properties.h"
 #include "mesher/cli/run.h"
 #include "mesher/io/output.h"
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 #include "mesher/io/write_mesh.h"
 #include "oracles/mesh_file.h"
 #include "oracles/text_reader.h"

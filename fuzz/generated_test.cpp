@@ -16,7 +16,7 @@
 #include "corpus/generate/twins.h"
 #include "fuzz/properties.h"
 #include "mesher/delmesher.h"
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 
 namespace tetproof {
 namespace {

@@ -144,7 +144,7 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
   }
   recorder.tetrahedrized(cdt);
   s.control.enter(Phase::round);
-  round_and_write(std::move(cdt), s, recorder);
+  round_and_record(std::move(cdt), s, recorder);
   return {};
 }
 
@@ -157,7 +157,7 @@ Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
       cdt::constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
   recorder.tetrahedrized(cdt);
   s.control.enter(Phase::round);
-  round_and_write(std::move(cdt), s, recorder);
+  round_and_record(std::move(cdt), s, recorder);
   return {};
 }
 

@@ -13,8 +13,8 @@
 #include <random>
 #include <sstream>
 
+#include "mesher/io/parse_surface.h"
 #include "mesher/io/read_plane.h"
-#include "mesher/io/read_surface.h"
 #include "oracles/mesh_file.h"
 #include "oracles/plane_file.h"
 #include "oracles/sidecar.h"

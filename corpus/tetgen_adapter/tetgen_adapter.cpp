@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "corpus/tetgen_adapter/inside_flood.h"
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 #include "mesher/io/write_mesh.h"
 
 namespace {

@@ -5,9 +5,9 @@
 #include "mesher/base/check.h"
 #include "mesher/cdt/chains.h"
 #include "mesher/cdt/classify.h"
+#include "mesher/cdt/facet_recovery.h"
 #include "mesher/cdt/facet_triangles.h"
-#include "mesher/cdt/regions.h"
-#include "mesher/cdt/segments.h"
+#include "mesher/cdt/segment_recovery.h"
 #include "mesher/cdt/validate.h"
 
 namespace delmesher::cdt {

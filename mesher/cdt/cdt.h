@@ -53,7 +53,7 @@ struct SurfaceFace {
 struct CdtCounters {
   std::uint64_t missing_triangles = 0, regions = 0;
   std::uint64_t cavity_tetrahedra = 0, largest_cavity = 0;
-  std::uint64_t isolated_vertices = 0;   // of cavities, on neither their shell nor the facet
+  std::uint64_t isolated_vertices = 0;   // of cavities, on neither their skin nor the facet
   std::uint64_t wrapped_tetrahedra = 0;  // found by gift wrapping
   std::uint64_t hidden_vertices = 0;     // passed over by it because walls hide them
   std::uint64_t blocked_tetrahedra = 0;  // local Delaunay tetrahedra that walls enter

@@ -90,16 +90,16 @@ FacetPlane FacetTriangulator::plane_of(FacetId facet, bool& flipped) {
   const std::uint32_t first = topology_.facet_triangles[facet][0];
   const auto& t = topology_.triangles[first];
   int side = 0;
-  const auto try_apex = [&](VertexId v) {
+  const auto try_point = [&](VertexId v) {
     if (side != 0) return;
     side = predicates_.orient3d(t[0], t[1], t[2], v);
-    if (side != 0) plane.apex = v;
+    if (side != 0) plane.off_plane = v;
   };
   // A near vertex makes the filter of the predicate sharper than any other.
   for (std::uint32_t h = 3 * first; h < 3 * first + 3; ++h) {
-    try_apex(topology_.from(SurfaceTopology::previous(topology_.opposite[h])));
+    try_point(topology_.from(SurfaceTopology::previous(topology_.opposite[h])));
   }
-  for (const VertexId v : tetrahedron_) try_apex(v);
+  for (const VertexId v : tetrahedron_) try_point(v);
   flipped = side < 0;
   if (flipped) plane.axis_sign = -plane.axis_sign;
   return plane;

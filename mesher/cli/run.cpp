@@ -4,8 +4,8 @@
 
 #include "mesher/cli/plane_run.h"
 #include "mesher/cli/run_steps.h"
-#include "mesher/io/exact_record.h"
-#include "mesher/io/read_surface.h"
+#include "mesher/io/exact_file.h"
+#include "mesher/io/parse_surface.h"
 #include "mesher/io/write_mesh.h"
 
 namespace delmesher::cli {

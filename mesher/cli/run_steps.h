@@ -12,7 +12,7 @@
 #include "mesher/cli/run.h"
 #include "mesher/cli/signals.h"
 #include "mesher/io/output.h"
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 
 namespace delmesher::cli {
 

@@ -55,7 +55,7 @@ class PlanarBuilder {
     return plane_.axis_sign * predicates_.orient2d(plane_.axis, ids_[a], ids_[b], ids_[c]);
   }
   bool in_circle(Index a, Index b, Index c, Index p) {
-    return predicates_.insphere_perturbed(ids_[a], ids_[b], ids_[c], plane_.apex, ids_[p]) > 0;
+    return predicates_.insphere_perturbed(ids_[a], ids_[b], ids_[c], plane_.off_plane, ids_[p]) > 0;
   }
 
   // Biased randomized order: rounds of doubling size, along the Hilbert curve within a round.

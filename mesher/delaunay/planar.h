@@ -15,9 +15,10 @@ namespace delmesher::delaunay {
 struct FacetPlane {
   int axis;       // projection axis for orient2d
   int axis_sign;  // so that orient = axis_sign * orient2d(axis, ...) is positive counter-clockwise
-  VertexId apex;  // an explicit point off the plane, on its positive side: in-circle(a, b, c, d)
-                  // for counter-clockwise abc is insphere_perturbed(a, b, c, apex, d), whose
-                  // perturbation does not involve the apex because a, b, c, d are coplanar
+  // An explicit point off the plane, on its positive side: in-circle(a, b, c, d) for
+  // counter-clockwise abc is insphere_perturbed(a, b, c, off_plane, d), whose perturbation does not
+  // involve this point because a, b, c, d are coplanar.
+  VertexId off_plane;
 };
 
 struct PlanarTriangulation {

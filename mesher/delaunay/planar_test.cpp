@@ -31,8 +31,8 @@ class PlanarTest : public testing::Test {
     }
     plane_.axis_sign = orient2d(0, 1, 2);
     // A point off the plane, then on its positive side by exchange of orientation.
-    plane_.apex = points_.add_explicit(p[0] + 3, p[1] - 5, p[2] + 7);
-    if (predicates_.orient3d(0, 1, 2, plane_.apex) < 0) plane_.axis_sign = -plane_.axis_sign;
+    plane_.off_plane = points_.add_explicit(p[0] + 3, p[1] - 5, p[2] + 7);
+    if (predicates_.orient3d(0, 1, 2, plane_.off_plane) < 0) plane_.axis_sign = -plane_.axis_sign;
   }
   int orient2d(VertexId a, VertexId b, VertexId c) {
     return predicates_.orient2d(plane_.axis, a, b, c);
@@ -60,7 +60,8 @@ class PlanarTest : public testing::Test {
         const auto& w = t.triangles[side / 3];
         ASSERT_EQ(w[(side + 1) % 3], v[(i + 2) % 3]);
         ASSERT_EQ(w[(side + 2) % 3], v[(i + 1) % 3]);
-        ASSERT_LT(predicates_.insphere_perturbed(v[0], v[1], v[2], plane_.apex, w[side % 3]), 0);
+        ASSERT_LT(predicates_.insphere_perturbed(v[0], v[1], v[2], plane_.off_plane, w[side % 3]),
+                  0);
       }
     }
     EXPECT_EQ(used.size(), vertices.size());

@@ -1,6 +1,6 @@
 // One call, one file: for programs that have no need of an OutputSet.
 #include "mesher/delmesher_files.h"
-#include "mesher/io/exact_record.h"
+#include "mesher/io/exact_file.h"
 #include "mesher/io/output.h"
 #include "mesher/io/write_mesh.h"
 #include "mesher/io/write_plane.h"

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <new>
 
-#include "mesher/io/exact_record.h"
-#include "mesher/io/read_surface.h"
+#include "mesher/io/exact_file.h"
+#include "mesher/io/parse_surface.h"
 #include "mesher/io/surface_builder.h"
 #include "mesher/io/text.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/delmesher_files.h"
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 #include "mesher/io/readers.h"
 
 namespace delmesher::io {

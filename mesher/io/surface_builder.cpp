@@ -122,7 +122,7 @@ void SurfaceBuilder::add_triangle(const std::array<std::uint32_t, 3>& triangle,
 
 void SurfaceBuilder::triangulate(std::span<const std::vector<std::uint32_t>> loops,
                                  std::int32_t label, Position position) {
-  const PolygonTriangulation result = triangulate_polygon(surface_.vertices, loops, polling_);
+  const FaceTriangulation result = triangulate_face(surface_.vertices, loops, polling_);
   for (const auto& triangle : result.triangles) add_triangle(triangle, label);
   ++triangulated_;
   if (!result.simple && non_simple_++ == 0) first_non_simple_ = position;

@@ -298,7 +298,7 @@ bool triangulate_projected(const Projected& projected, Polling& polling,
 }
 
 void measure_planarity(const std::vector<Point3>& vertices, std::span<const Loop> loops,
-                       PolygonTriangulation& out) {
+                       FaceTriangulation& out) {
   const Triangle& t = out.triangles.front();
   const Point3 &a = vertices[t[0]], &b = vertices[t[1]], &c = vertices[t[2]];
   const Point3 normal = cross(subtract(b, a), subtract(c, a));
@@ -355,9 +355,9 @@ bool strictly_inside(const std::vector<Point3>& vertices, std::span<const std::u
   return inside;
 }
 
-PolygonTriangulation triangulate_polygon(const std::vector<Point3>& vertices,
-                                         std::span<const Loop> loops, Polling& polling) {
-  PolygonTriangulation best;
+FaceTriangulation triangulate_face(const std::vector<Point3>& vertices, std::span<const Loop> loops,
+                                   Polling& polling) {
+  FaceTriangulation best;
   if (loops.size() == 1 && loops[0].size() == 3) {
     best.triangles.push_back({loops[0][0], loops[0][1], loops[0][2]});
     return best;

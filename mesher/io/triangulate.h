@@ -16,7 +16,7 @@ using Triangle = std::array<std::uint32_t, 3>;
 // Longer polygons are refused: at worst ear clipping takes quadratic time.
 inline constexpr std::size_t kMaxPolygonCorners = 20000;
 
-struct PolygonTriangulation {
+struct FaceTriangulation {
   std::vector<Triangle> triangles;  // oriented as the outer loop
   // The projection is a simple polygon, so that the triangles tile it. If not, the triangles still
   // have the polygon as their boundary, but some overlap.
@@ -30,9 +30,9 @@ struct PolygonTriangulation {
 // projection along the polygon's dominating normal component (then along the others, should that
 // one not be simple). Always n - 2 + 2 h triangles for n corners and h holes, except that holes
 // that cannot be connected are left out and make it not simple. Throws ReadingStopped.
-PolygonTriangulation triangulate_polygon(const std::vector<Point3>& vertices,
-                                         std::span<const std::vector<std::uint32_t>> loops,
-                                         Polling& polling);
+FaceTriangulation triangulate_face(const std::vector<Point3>& vertices,
+                                   std::span<const std::vector<std::uint32_t>> loops,
+                                   Polling& polling);
 
 // The coordinate axis along which the polygon's area vector, in doubles, has its largest component.
 // formats.md promises this axis: which solid a face that is not planar means depends on it.

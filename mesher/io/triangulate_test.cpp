@@ -24,14 +24,14 @@ double loop_area(const std::vector<Point3>& p, const Loop& loop) {
   return area;
 }
 
-PolygonTriangulation triangulated(const std::vector<Point3>& p, const std::vector<Loop>& loops) {
+FaceTriangulation triangulated(const std::vector<Point3>& p, const std::vector<Loop>& loops) {
   Polling polling;
-  return triangulate_polygon(p, loops, polling);
+  return triangulate_face(p, loops, polling);
 }
 
 // All triangles turn like the outer loop, their areas add up, and their outer edges are the loops'.
 void expect_tiling(const std::vector<Point3>& p, const std::vector<Loop>& loops) {
-  const PolygonTriangulation result = triangulated(p, loops);
+  const FaceTriangulation result = triangulated(p, loops);
   EXPECT_TRUE(result.simple);
   EXPECT_TRUE(result.planar);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -132,7 +132,7 @@ TEST(Triangulate, HolesInEitherDirection) {
 
 TEST(Triangulate, NonPlanarIsReported) {
   const std::vector<Point3> p = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.25}, {0, 1, 0}};
-  const PolygonTriangulation result = triangulated(p, {{0, 1, 2, 3}});
+  const FaceTriangulation result = triangulated(p, {{0, 1, 2, 3}});
   EXPECT_TRUE(result.simple);
   EXPECT_FALSE(result.planar);
   EXPECT_GT(result.deviation, 0.1);
@@ -143,7 +143,7 @@ TEST(Triangulate, DegenerateAndCrossingPolygonsEnd) {
   const std::vector<Point3> p = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}, {3, 3, 0}};
   for (const Loop& loop : {Loop{0, 1, 2, 3}, Loop{0, 1, 4, 5}, Loop{0, 0, 0, 0}, Loop{0, 1, 0, 1},
                            Loop{0, 1, 2, 2, 1}}) {
-    const PolygonTriangulation result = triangulated(p, {loop});
+    const FaceTriangulation result = triangulated(p, {loop});
     EXPECT_EQ(result.triangles.size(), loop.size() - 2);
     EXPECT_FALSE(result.simple);
   }
@@ -171,7 +171,7 @@ TEST(Triangulate, AsksWhetherToGoOnWithinOnePolygon) {
   const std::vector<Loop> loops = {iota_loop(0, static_cast<std::uint32_t>(p.size()))};
   int asked = 0;
   Polling polling([&] { return ++asked < 3; });
-  EXPECT_THROW(triangulate_polygon(p, loops, polling), ReadingStopped);
+  EXPECT_THROW(triangulate_face(p, loops, polling), ReadingStopped);
   EXPECT_EQ(asked, 3);
 }
 

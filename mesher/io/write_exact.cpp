@@ -1,4 +1,4 @@
-#include "mesher/io/exact_record.h"
+#include "mesher/io/exact_file.h"
 
 namespace delmesher::io {
 namespace {

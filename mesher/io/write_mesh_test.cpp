@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::io {

@@ -125,7 +125,7 @@ class Chamferer {
       const EdgeId f = base_.twin(e);
       if (!(d < best) || seen_[triangle_of(f)] == epoch_) continue;
       seen_[triangle_of(f)] = epoch_;
-      meet(base_.apex(f));
+      meet(base_.opposite(f));
       stack.push_back(edge_of(triangle_of(f), next(index_of(f))));
       stack.push_back(edge_of(triangle_of(f), previous(index_of(f))));
     }

@@ -306,7 +306,7 @@ class FaceFinder {
   bool on_segment(const Location& at) const {
     for (int i = 0; i < 3; ++i) {
       const unsigned others = 7U & ~(1U << i);
-      if (at.zeros == others) return has_segment(mesh_.apex(edge_of(at.triangle, i)));
+      if (at.zeros == others) return has_segment(mesh_.opposite(edge_of(at.triangle, i)));
       if (at.zeros == 1U << i) return mesh_.piece(edge_of(at.triangle, i)) != kNone;
     }
     return false;

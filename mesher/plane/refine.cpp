@@ -149,7 +149,7 @@ class Refiner {
     const VertexId a = mesh_.origin(e), b = mesh_.target(e);
     for (const EdgeId f : {e, mesh_.twin(e)}) {
       if (f == kNone || !counts(triangle_of(f))) continue;
-      if (predicates_.dot(a, mesh_.apex(f), b) < 0) return true;
+      if (predicates_.dot(a, mesh_.opposite(f), b) < 0) return true;
     }
     return false;
   }
@@ -212,7 +212,7 @@ class Refiner {
         const EdgeId f = edge_of(t, i);
         if (mesh_.piece(f) == kNone || !counts(t)) continue;
         const VertexId u = mesh_.origin(f), w = mesh_.target(f);
-        if (predicates_.dot(u, mesh_.apex(f), w) < 0) segments_.push_back({u, w, f});
+        if (predicates_.dot(u, mesh_.opposite(f), w) < 0) segments_.push_back({u, w, f});
       }
     }
     return true;
@@ -224,7 +224,7 @@ class Refiner {
       const EdgeId e = edge_of(t, 0);
       if (mesh_.piece(e) == kNone || !counts(t)) continue;
       const VertexId a = mesh_.origin(e), b = mesh_.target(e);
-      if (predicates_.dot(a, mesh_.apex(e), b) < 0) segments_.push_back({a, b, e});
+      if (predicates_.dot(a, mesh_.opposite(e), b) < 0) segments_.push_back({a, b, e});
     }
   }
 
@@ -350,8 +350,8 @@ class Refiner {
     const Shape shape = shape_of(points_, v[0], v[1], v[2]);
     // The new point comes near the shortest edge: only there room between doubles is needed.
     const double size =
-        std::max(magnitude(points_, v[static_cast<std::size_t>(next(shape.apex))]),
-                 magnitude(points_, v[static_cast<std::size_t>(previous(shape.apex))]));
+        std::max(magnitude(points_, v[static_cast<std::size_t>(next(shape.sharpest))]),
+                 magnitude(points_, v[static_cast<std::size_t>(previous(shape.sharpest))]));
     // It is placed on a grid of a millionth of that edge or two.
     const double room = std::max(size * kFloor, graph_.unit * 0x1p22);
     if (!(shape.shortest_squared > square(room * shape.scale))) return {};

@@ -51,16 +51,16 @@ Shape measure(const Vector& ab, const Vector& bc, const Vector& ca, double scale
   const double area = ab.y * ca.x - ab.x * ca.y;  // ab x ac, twice the area
   Shape shape;
   shape.scale = scale;
-  shape.apex = squared[0] <= squared[1] ? (squared[0] <= squared[2] ? 0 : 2)
-                                        : (squared[1] <= squared[2] ? 1 : 2);
-  shape.shortest_squared = squared[shape.apex];
+  shape.sharpest = squared[0] <= squared[1] ? (squared[0] <= squared[2] ? 0 : 2)
+                                            : (squared[1] <= squared[2] ? 1 : 2);
+  shape.shortest_squared = squared[shape.sharpest];
   shape.longest_squared = std::max({squared[0], squared[1], squared[2]});
-  const double product = squared[(shape.apex + 1) % 3] * squared[(shape.apex + 2) % 3];
+  const double product = squared[(shape.sharpest + 1) % 3] * squared[(shape.sharpest + 2) % 3];
   shape.sine_squared = area > 0 && product > 0 ? area * area / product : 0;
-  // Cotangent of the angle at the apex: cosine over sine, times the same product.
-  const double cosine = shape.apex == 0   ? -dot(ab, ca)
-                        : shape.apex == 1 ? -dot(ab, bc)
-                                          : -dot(bc, ca);
+  // Cotangent of the sharpest angle: cosine over sine, times the same product.
+  const double cosine = shape.sharpest == 0   ? -dot(ab, ca)
+                        : shape.sharpest == 1 ? -dot(ab, bc)
+                                              : -dot(bc, ca);
   shape.circumcentre = area > 0 ? cosine / (2 * area) : HUGE_VAL;
   return shape;
 }
@@ -86,8 +86,8 @@ Shape shape_of(const PointStore& points, VertexId a, VertexId b, VertexId c) {
 
 Vec3 Shape::place(const PointStore& points, const std::array<VertexId, 3>& corner,
                   double height) const {
-  const VertexId a = corner[static_cast<std::size_t>((apex + 1) % 3)];
-  const VertexId b = corner[static_cast<std::size_t>((apex + 2) % 3)];
+  const VertexId a = corner[static_cast<std::size_t>((sharpest + 1) % 3)];
+  const VertexId b = corner[static_cast<std::size_t>((sharpest + 2) % 3)];
   const Approximation& p = points.approximation(a);
   const Vector d = difference(points, a, b);
   const double x = p.x + (d.x / 2 - height * d.y);

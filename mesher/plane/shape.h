@@ -21,7 +21,7 @@ struct Shape {
   double sine_squared;  // of the smallest angle; 0 if it is flat or worse
   // Of the edges times `scale`, a power of two: 1 but for triangles whose squares would vanish.
   double shortest_squared, longest_squared, scale;
-  int apex;             // corner opposite the shortest edge: that of the smallest angle
+  int sharpest;         // corner opposite the shortest edge: that of the smallest angle
   double circumcentre;  // its distance from the shortest edge, over the length of that edge
 
   // The point that far above the middle of the shortest edge, in those units, on a grid that is

@@ -193,7 +193,7 @@ Triangulation::Sight Triangulation::look(VertexId p, TriangleId from) {
   const Location here = locate_here(p, from);
   if (here.triangle != kNone) return {here, kNone};
   EdgeId e = edge_of(from, static_cast<int>(here.zeros));
-  const VertexId a = apex(e);
+  const VertexId a = opposite(e);
   // Along the ray from a; where p is not in the sector of a that e spans, to the next triangle.
   const bool in_sector =
       predicates_->orient(a, origin(e), p) >= 0 && predicates_->orient(a, target(e), p) <= 0;
@@ -201,8 +201,8 @@ Triangulation::Sight Triangulation::look(VertexId p, TriangleId from) {
     if (piece(e) != kNone || twin(e) == kNone) return {{triangle_of(e), 0}, e};
     const EdgeId f = twin(e);
     if (!in_sector) return look(p, triangle_of(f));
-    // The ray leaves the next triangle on the side of its apex where the ray does not pass.
-    e = predicates_->orient(a, p, apex(f)) >= 0 ? after(f) : before(f);
+    // The ray leaves the next triangle on the side of its opposite corner where it does not pass.
+    e = predicates_->orient(a, p, opposite(f)) >= 0 ? after(f) : before(f);
     if (predicates_->orient(origin(e), target(e), p) >= 0) {
       const Location found = locate_here(p, triangle_of(f));
       if (found.triangle != kNone) return {found, kNone};
@@ -339,7 +339,7 @@ void Triangulation::flip(EdgeId e) {
 }
 
 bool Triangulation::convex(EdgeId e) {
-  const VertexId p = apex(e), x = apex(twin(e));
+  const VertexId p = opposite(e), x = opposite(twin(e));
   return predicates_->orient(p, origin(e), x) > 0 && predicates_->orient(x, target(e), p) > 0;
 }
 
@@ -352,7 +352,7 @@ void Triangulation::legalize(std::vector<TriangleId>& stack) {
       const EdgeId f = twin(e);
       if (piece(e) != kNone || f == kNone) continue;
       const auto& v = triangles_[t].vertex;
-      if (predicates_->in_circle_perturbed(v[0], v[1], v[2], apex(f)) <= 0) continue;
+      if (predicates_->in_circle_perturbed(v[0], v[1], v[2], opposite(f)) <= 0) continue;
       flip(e);
       stack.push_back(t);
       stack.push_back(triangle_of(f));
@@ -393,7 +393,7 @@ Triangulation::Obstacle Triangulation::cross(VertexId a, VertexId b, EdgeId firs
     crossed_.push_back(e);
     const EdgeId f = twin(e);
     strip.push_back(triangle_of(f));
-    end = apex(f);
+    end = opposite(f);
     const int s = end == b ? 0 : predicates_->orient(a, b, end);
     if (s == 0) break;
     e = s > 0 ? after(f) : before(f);
@@ -417,7 +417,7 @@ Triangulation::Obstacle Triangulation::cross(VertexId a, VertexId b, EdgeId firs
       continue;
     }
     const TriangleId t = triangle_of(e), other = triangle_of(twin(e));
-    const VertexId p = apex(e), x = apex(twin(e));
+    const VertexId p = opposite(e), x = opposite(twin(e));
     const int sp = p == a ? 0 : predicates_->orient(a, b, p);
     const int sx = x == end ? 0 : predicates_->orient(a, b, x);
     flip(e);
@@ -496,7 +496,7 @@ const char* Triangulation::check(bool delaunay) const {
       if (origin(e) != target(f) || target(e) != origin(f)) return "neighbours without common edge";
       if (piece(e) != piece(f)) return "an edge with two pieces";
       if (delaunay && triangles_.size() > kRectangle && piece(e) == kNone &&
-          predicates_->in_circle_perturbed(v[0], v[1], v[2], apex(f)) > 0) {
+          predicates_->in_circle_perturbed(v[0], v[1], v[2], opposite(f)) > 0) {
         return "an edge that is not Delaunay";
       }
     }

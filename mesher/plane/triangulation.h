@@ -70,7 +70,7 @@ class Triangulation {
   TriangleId around(VertexId v) const { return around_[v]; }
   VertexId origin(EdgeId e) const { return triangle(e).vertex[next_index(e)]; }
   VertexId target(EdgeId e) const { return triangle(e).vertex[previous_index(e)]; }
-  VertexId apex(EdgeId e) const {
+  VertexId opposite(EdgeId e) const {
     return triangle(e).vertex[static_cast<std::size_t>(index_of(e))];
   }
   EdgeId twin(EdgeId e) const {

@@ -96,7 +96,7 @@ TEST(Triangulation, FindsWhatIsThere) {
   EXPECT_NE(m.mesh.find_edge(0, 1), kNone);  // a side of the rectangle
   std::vector<EdgeId> star;
   m.mesh.star(a, star);
-  for (const EdgeId spoke : star) EXPECT_EQ(m.mesh.apex(spoke), a);
+  for (const EdgeId spoke : star) EXPECT_EQ(m.mesh.opposite(spoke), a);
   const VertexId c = m.point(9, 9);
   m.mesh.rename(b, c);
   EXPECT_NE(m.mesh.find_edge(a, c), kNone);

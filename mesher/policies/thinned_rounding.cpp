@@ -4,7 +4,7 @@
 
 namespace delmesher::policies {
 
-void round_and_write(cdt::CdtResult cdt, Session& session, Recorder& recorder) {
+void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) {
   constexpr int kMostRings = 3;
   Control& control = session.control;
   const auto to_write = [&] {

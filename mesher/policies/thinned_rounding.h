@@ -10,6 +10,6 @@ namespace delmesher::policies {
 // Rounds a final mesh and records it as written. Where tetrahedra are left inverted or flat, points
 // around them are taken out (thin_out), at first those alone, then up to three edges away, as long
 // as that leaves fewer.
-void round_and_write(cdt::CdtResult cdt, Session& session, Recorder& recorder);
+void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder);
 
 }  // namespace delmesher::policies

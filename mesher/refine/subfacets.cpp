@@ -24,7 +24,7 @@ void Subfacets::build(Control& control) {
   planes_.resize(plc_.facets.size());
   for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
     control.poll(points_.size(), static_cast<double>(f) / static_cast<double>(plc_.facets.size()));
-    make_apex(f);
+    make_point_off_plane(f);
     build_facet(f);
   }
   built_ = true;
@@ -33,24 +33,24 @@ void Subfacets::build(Control& control) {
 
 // An explicit point off the facet's plane, on its outer side, about as far as the facet's frame is
 // long.
-void Subfacets::make_apex(std::uint32_t f) {
+void Subfacets::make_point_off_plane(std::uint32_t f) {
   const PlcFacet& facet = plc_.facets[f];
   const Vec3 a = points_.nearest(facet.frame[0]);
   const Vec3 ab = subtract(points_.nearest(facet.frame[1]), a);
   const Vec3 ac = subtract(points_.nearest(facet.frame[2]), a);
   double size = 0;
   for (int k = 0; k < 3; ++k) size = std::max({size, std::abs(ab[k]), std::abs(ac[k])});
-  VertexId apex = kNone;
+  VertexId point = kNone;
   for (; std::isfinite(size); size *= 2) {
     Vec3 p = a;
     p[facet.axis] += facet.axis_sign * size;
-    apex = points_.add_explicit(p[0], p[1], p[2]);
-    if (dt_.predicates().orient3d(facet.frame[0], facet.frame[1], facet.frame[2], apex) > 0) break;
+    point = points_.add_explicit(p[0], p[1], p[2]);
+    if (dt_.predicates().orient3d(facet.frame[0], facet.frame[1], facet.frame[2], point) > 0) break;
     points_.pop_back();
-    apex = kNone;
+    point = kNone;
   }
-  DELMESHER_CHECK(apex != kNone, "no point off a facet's plane");
-  planes_[f] = {facet.axis, facet.axis_sign, apex};
+  DELMESHER_CHECK(point != kNone, "no point off a facet's plane");
+  planes_[f] = {facet.axis, facet.axis_sign, point};
 }
 
 void Subfacets::build_facet(std::uint32_t f) {

@@ -70,8 +70,8 @@ class Subfacets {
   // Is v in the (perturbed) circumcircle?
   bool in_circle(std::uint32_t s, VertexId v) const {
     const Subfacet& f = list_[s];
-    return dt_.predicates().insphere_perturbed(f.v[0], f.v[1], f.v[2], planes_[f.facet].apex, v) >
-           0;
+    return dt_.predicates().insphere_perturbed(f.v[0], f.v[1], f.v[2], planes_[f.facet].off_plane,
+                                               v) > 0;
   }
   struct Location {
     std::uint32_t subfacet;  // that contains the point, or kNone
@@ -134,7 +134,7 @@ class Subfacets {
   friend struct SubfacetsBreaker;  // of the tests of validate()
 
   std::uint32_t add(const std::array<VertexId, 3>& v, std::uint32_t facet);
-  void make_apex(std::uint32_t f);
+  void make_point_off_plane(std::uint32_t f);
   void build_facet(std::uint32_t f);
   void link(std::uint32_t s, std::uint32_t edge, std::uint32_t subsegment);
   void fill_cavity(VertexId v, std::uint32_t half_a, std::uint32_t half_b);

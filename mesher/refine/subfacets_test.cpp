@@ -42,7 +42,8 @@ struct SubfacetsBreaker {
     const std::uint32_t f = part.list_[inner().subfacet()].facet;
     const auto& frame = parts.plc().facets[f].frame;
     for (const VertexId v : parts.all_vertices()) {
-      if (parts.predicates.orient3d(frame[0], frame[1], frame[2], v) < 0) part.planes_[f].apex = v;
+      if (parts.predicates.orient3d(frame[0], frame[1], frame[2], v) < 0)
+        part.planes_[f].off_plane = v;
     }
   }
   void kill() const {

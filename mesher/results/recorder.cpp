@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mesher/output/statistics.h"
-#include "mesher/results/exact_record.h"
+#include "mesher/results/record_stages.h"
 #include "mesher/results/region_statistics.h"
 
 namespace delmesher::results {

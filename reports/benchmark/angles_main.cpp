@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 #include "reports/benchmark/angle_causes.h"
 
 namespace tetproof::benchmark {

@@ -1,11 +1,11 @@
-#include "mesher/io/exact_record.h"
+#include "mesher/io/exact_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 
 namespace delmesher::io {
 namespace {

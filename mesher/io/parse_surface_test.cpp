@@ -1,4 +1,4 @@
-#include "mesher/io/read_surface.h"
+#include "mesher/io/parse_surface.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -38,8 +38,8 @@ class FacetRecovery {
   const CdtCounters& counters() const { return counters_; }
 
  private:
-  // A face of the cavity's shell, counter-clockwise seen from outside the cavity.
-  struct ShellFace {
+  // A face of the cavity's skin, counter-clockwise seen from outside the cavity.
+  struct SkinFace {
     Triangle vertices;
     std::uint32_t inner;  // 4 * tet + face in the cavity
   };
@@ -49,7 +49,7 @@ class FacetRecovery {
   bool recover_region();
   bool seed(const std::array<VertexId, 2>& edge);
   bool grow_cavity();
-  void collect_shell();
+  void collect_skin();
   void collect_isolated();
   bool replace_cavity(const std::vector<Tetrahedron>& upper, const std::vector<Tetrahedron>& lower);
   void number_vertices();
@@ -76,10 +76,10 @@ class FacetRecovery {
   std::vector<TetId> cavity_, ring_;
   std::vector<std::uint32_t> cavity_mark_;  // per tet
   std::uint32_t cavity_epoch_ = 0;
-  std::vector<ShellFace> upper_shell_, lower_shell_;
+  std::vector<SkinFace> upper_skin_, lower_skin_;
   std::vector<VertexId> upper_isolated_, lower_isolated_;
-  std::vector<std::uint32_t> shell_mark_;  // per point: cavity whose shell it is known to be on
-  std::vector<VertexId> local_;            // vertices of the cavity, ascending
+  std::vector<std::uint32_t> skin_mark_;  // per point: cavity whose skin it is known to be on
+  std::vector<VertexId> local_;           // vertices of the cavity, ascending
 };
 
 }  // namespace delmesher::cdt

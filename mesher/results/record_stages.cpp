@@ -1,4 +1,4 @@
-#include "mesher/results/exact_record.h"
+#include "mesher/results/record_stages.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "mesher/cdt/segments.h"
+#include "mesher/cdt/segment_recovery.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,8 @@ namespace {
 
 // Vertices at which two constrained edges meet at less than 90 degrees. Seven directions always
 // contain such a pair.
-std::vector<std::uint8_t> find_acute_vertices(const SurfaceTopology& s, Predicates& predicates) {
+std::vector<std::uint8_t> find_vertices_below_90_degrees(const SurfaceTopology& s,
+                                                         Predicates& predicates) {
   std::vector<std::vector<std::uint32_t>> others(s.vertex_half_edge.size());
   std::vector<std::uint8_t> acute(others.size(), 0);
   for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
@@ -55,7 +56,7 @@ class SegmentRecovery {
     find_missing();
     if (queue_.empty()) return {};
     const std::vector<std::uint8_t> acute =
-        find_acute_vertices(chains_.topology(), mesh_.predicates());
+        find_vertices_below_90_degrees(chains_.topology(), mesh_.predicates());
     for (std::uint32_t n = 0; n < chains_.size(); ++n) {
       centre_.push_back(initial_centre(acute, chains_.node(n).edge));
       if (chains_.is_subsegment(n)) remember(n);

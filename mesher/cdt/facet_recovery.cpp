@@ -1,4 +1,4 @@
-#include "mesher/cdt/regions.h"
+#include "mesher/cdt/facet_recovery.h"
 
 #include <algorithm>
 
@@ -27,7 +27,7 @@ FacetRecovery::FacetRecovery(Tetrahedrization& mesh, const SurfaceTopology& topo
       filler_(predicates_, control),
       side_mark_(predicates_.points().size(), 0),
       side_(predicates_.points().size(), 0),
-      shell_mark_(predicates_.points().size(), 0) {}
+      skin_mark_(predicates_.points().size(), 0) {}
 
 // Side of the facet's plane: +1 outside the solid.
 int FacetRecovery::side(VertexId v) {
@@ -134,9 +134,9 @@ bool FacetRecovery::grow_cavity() {
   return true;
 }
 
-void FacetRecovery::collect_shell() {
-  upper_shell_.clear();
-  lower_shell_.clear();
+void FacetRecovery::collect_skin() {
+  upper_skin_.clear();
+  lower_skin_.clear();
   for (const TetId t : cavity_) {
     for (int i = 0; i < 4; ++i) {
       const Triangle v = {mesh_.vertex(t, kFace[i][0]), mesh_.vertex(t, kFace[i][1]),
@@ -145,39 +145,39 @@ void FacetRecovery::collect_shell() {
       const bool above = s[0] > 0 || s[1] > 0 || s[2] > 0;
       const bool below = s[0] < 0 || s[1] < 0 || s[2] < 0;
       if (above && below) continue;
-      (above ? upper_shell_ : lower_shell_).push_back({v, 4 * t + static_cast<std::uint32_t>(i)});
+      (above ? upper_skin_ : lower_skin_).push_back({v, 4 * t + static_cast<std::uint32_t>(i)});
     }
   }
 }
 
-// The vertices of the cavity that are on neither its shell nor the plane.
+// The vertices of the cavity that are on neither its skin nor the plane.
 void FacetRecovery::collect_isolated() {
   upper_isolated_.clear();
   lower_isolated_.clear();
-  for (const std::vector<ShellFace>* shell : {&upper_shell_, &lower_shell_}) {
-    for (const ShellFace& f : *shell) {
-      for (const VertexId v : f.vertices) shell_mark_[v] = cavity_epoch_;
+  for (const std::vector<SkinFace>* skin : {&upper_skin_, &lower_skin_}) {
+    for (const SkinFace& f : *skin) {
+      for (const VertexId v : f.vertices) skin_mark_[v] = cavity_epoch_;
     }
   }
   for (const TetId t : cavity_) {
     for (int i = 0; i < 4; ++i) {
       const VertexId v = mesh_.vertex(t, i);
-      if (shell_mark_[v] == cavity_epoch_ || side(v) == 0) continue;
-      shell_mark_[v] = cavity_epoch_;  // once is enough
+      if (skin_mark_[v] == cavity_epoch_ || side(v) == 0) continue;
+      skin_mark_[v] = cavity_epoch_;  // once is enough
       (side(v) > 0 ? upper_isolated_ : lower_isolated_).push_back(v);
     }
   }
 }
 
 bool FacetRecovery::recover_region() {
-  next_epoch(cavity_epoch_, cavity_mark_, shell_mark_);
+  next_epoch(cavity_epoch_, cavity_mark_, skin_mark_);
   if (cavity_mark_.size() < mesh_.capacity()) cavity_mark_.resize(mesh_.capacity() * 3 / 2, 0);
   cavity_.clear();
   for (const auto& edge : region_border_) {
     if (!seed(edge)) return false;
   }
   if (!grow_cavity()) return false;
-  collect_shell();
+  collect_skin();
   collect_isolated();
   number_vertices();
   counters_.isolated_vertices += upper_isolated_.size() + lower_isolated_.size();
@@ -189,10 +189,10 @@ bool FacetRecovery::recover_region() {
   std::vector<Tetrahedron> upper, lower;
   std::vector<Triangle> faces;
   for (const Triangle& t : region_) faces.push_back(reversed(t));
-  for (const ShellFace& f : upper_shell_) faces.push_back(f.vertices);
+  for (const SkinFace& f : upper_skin_) faces.push_back(f.vertices);
   if (!filler_.fill(std::move(faces), upper_isolated_, upper)) return false;
   faces = region_;
-  for (const ShellFace& f : lower_shell_) faces.push_back(f.vertices);
+  for (const SkinFace& f : lower_skin_) faces.push_back(f.vertices);
   if (!filler_.fill(std::move(faces), lower_isolated_, lower)) return false;
   return replace_cavity(upper, lower);
 }
@@ -225,7 +225,7 @@ std::uint64_t FacetRecovery::face_key(const Triangle& t) const {
 }
 
 // Swaps the cavity's tetrahedra for the new ones, if these fit: every face of a new tetrahedron is
-// either matched by another new one or on the shell, the whole shell is covered, and no vertex is
+// either matched by another new one or on the skin, the whole skin is covered, and no vertex is
 // lost.
 bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
                                    const std::vector<Tetrahedron>& lower) {
@@ -247,8 +247,8 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
   constexpr std::uint32_t kUnmatched = kNone;
   std::vector<std::uint32_t> partner(face.size(), kUnmatched);
   std::vector<std::uint32_t> outer(face.size(), kUnmatched);
-  for (const std::vector<ShellFace>* shell : {&upper_shell_, &lower_shell_}) {
-    for (const ShellFace& s : *shell) {
+  for (const std::vector<SkinFace>* skin : {&upper_skin_, &lower_skin_}) {
+    for (const SkinFace& s : *skin) {
       const std::uint32_t f = owner.get(face_key(s.vertices), kNone);
       if (f == kNone) return false;
       const TetId t = s.inner >> 2;
