@@ -89,17 +89,29 @@ SurfaceReport check_surface(const Surface& surface, const Options& options = {})
 // empty diametral balls, everything down to the outer box.
 Options paper_options();
 
-// Which values of an option make sense; others are StatusCode::invalid_options.
+// Which values of an option make sense; others are StatusCode::invalid_options. The command line
+// refuses the same ones, and 0 where that means none: there the option is left out.
 struct Bounds {
   double low, high;
   bool above_low = false;  // low itself is no such value
-};
-struct OptionBounds {
-  Bounds delta, tau, acute, corner, length, seconds;  // length: chamfer_radius and max_edge
+
+  constexpr bool allow(double x) const {  // not a NaN
+    return (above_low ? x > low : x >= low) && x <= high;
+  }
 };
 inline constexpr double kNoBound = HUGE_VAL;
-inline constexpr OptionBounds kBounds{{0, 30, true}, {0, 1},        {0, 90},
-                                      {0, 90},       {0, kNoBound}, {0, kNoBound}};
+struct OptionBounds {
+  Bounds delta, tau, acute, corner;
+  Bounds length{.low = 0, .high = kNoBound};  // chamfer_radius and max_edge
+  Bounds seconds{.low = 0, .high = kNoBound};
+  Bounds budget{.low = 0, .high = 1e15};
+  Bounds max_vertices{.low = 0, .high = 4294967294};  // what indices can number
+  Bounds threads{.low = 0, .high = 1024};
+};
+inline constexpr OptionBounds kBounds{.delta = {.low = 0, .high = 30, .above_low = true},
+                                      .tau = {.low = 0, .high = 1},
+                                      .acute = {.low = 0, .high = 90},
+                                      .corner = {.low = 0, .high = 90}};
 
 // Version of the library, "MAJOR.MINOR.PATCH".
 const char* version();

@@ -27,8 +27,10 @@ Options plane_options();
 // outer box.
 Options paper_plane_options();
 
-inline constexpr OptionBounds kPlaneBounds{{0, 34, true}, {0, 1},        {60, 90},
-                                           {0, 90},       {0, kNoBound}, {0, kNoBound}};
+inline constexpr OptionBounds kPlaneBounds{.delta = {.low = 0, .high = 34, .above_low = true},
+                                           .tau = {.low = 0, .high = 1},
+                                           .acute = {.low = 60, .high = 90},
+                                           .corner = {.low = 0, .high = 90}};
 
 // Meshes the inside of a planar straight-line graph (section 3). An invalid graph is
 // StatusCode::invalid_surface with a message that names the offending vertices or segments.

@@ -150,7 +150,8 @@ void mesh(const PlanarGraph& input, Session& s, Recorder& recorder) {
 // Narrow channels and extreme scales may ask for any number of triangles. Unless told otherwise,
 // nobody shall wait for a machine that runs out of memory.
 std::uint64_t default_limit(const PlanarGraph& graph) {
-  return 10'000'000 + 64 * static_cast<std::uint64_t>(graph.vertices.size());
+  constexpr auto kMost = static_cast<std::uint64_t>(kPlaneBounds.max_vertices.high);
+  return std::min(10'000'000 + 64 * static_cast<std::uint64_t>(graph.vertices.size()), kMost);
 }
 
 }  // namespace

@@ -308,9 +308,23 @@ TEST(Limits, AreErrorsAsValues) {
   const delmesher::Status limit = delmesher::tetrahedralize(surface, options).status;
   EXPECT_EQ(limit.code, StatusCode::limit_reached);
   EXPECT_EQ(limit.limit, delmesher::Limit::size);
+  const auto expect_refused = [&](const Options& wrong, const std::string& message) {
+    const delmesher::Status status = delmesher::tetrahedralize(surface, wrong).status;
+    EXPECT_EQ(status.code, StatusCode::invalid_options);
+    EXPECT_EQ(status.message, message);
+  };
   options = {};
   options.delta = 95;
-  EXPECT_EQ(delmesher::tetrahedralize(surface, options).status.code, StatusCode::invalid_options);
+  expect_refused(options, "delta must be above 0 and at most 30 degrees");
+  options = {};
+  options.tau = std::nan("");
+  expect_refused(options, "tau must be between 0 and 1");
+  options = {};
+  options.max_edge = -1;
+  expect_refused(options, "max edge must be at least 0");
+  options = {};
+  options.threads = 1025;
+  expect_refused(options, "threads must be between 0 and 1024");
   options = {};
   std::uint64_t calls = 0;
   options.progress = [&](const delmesher::Progress&) { return ++calls < 3; };

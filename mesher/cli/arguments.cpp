@@ -25,9 +25,13 @@ struct Given {
   bool approximate = false, gabriel = false, no_bridges = false, paper = false;
 };
 
-// (The option of the command line is to be left out where the library says 0 for none.)
+// The option is to be left out where the library says 0 for none.
 Bounds positive(Bounds bounds) {
   bounds.above_low = true;
+  return bounds;
+}
+Bounds at_least_one(Bounds bounds) {
+  bounds.low = 1;
   return bounds;
 }
 
@@ -36,9 +40,7 @@ CLI::Validator number_within(Bounds bounds) {
       [bounds](std::string& text) -> std::string {
         double value = 0;
         if (io::parse_double(text, value) != io::NumberStatus::ok) return "not a number: " + text;
-        const bool low_enough = value <= bounds.high;
-        const bool high_enough = bounds.above_low ? value > bounds.low : value >= bounds.low;
-        return low_enough && high_enough ? "" : "out of range: " + text;
+        return bounds.allow(value) ? "" : "out of range: " + text;
       },
       "NUMBER");
 }
@@ -52,8 +54,6 @@ void add_number(CLI::App& app, Given& given, const std::string& name, const char
 }
 
 constexpr const char* kSurfaces = "surface: OFF, OBJ, STL, PLY, .smesh or .poly";
-constexpr const char* kMeshes = "mesh to write: .mesh, .msh, .vtu, .node or .tet; may be repeated";
-
 void add_common(CLI::App& app, Command& command, const char* input = kSurfaces) {
   app.add_option("input", command.input, input)->required();
   auto* quiet = app.add_flag("-q,--quiet", command.quiet, "say nothing but errors");
@@ -62,11 +62,16 @@ void add_common(CLI::App& app, Command& command, const char* input = kSurfaces) 
 
 void add_threads(CLI::App& app, Given& given) {
   add_number(app, given, "threads", "threads that share the work, 0: one per core (1)",
-             {0, 1024, false});
+             kBounds.threads);
 }
 
-void add_run(CLI::App& app, Command& command, Given& given, const char* outputs = kMeshes) {
-  app.add_option("-o,--output", command.outputs, outputs)->required()->expected(1)->take_all();
+void add_run(CLI::App& app, Command& command, Given& given,
+             const std::string& extensions = io::mesh_extensions()) {
+  app.add_option("-o,--output", command.outputs,
+                 "mesh to write: " + extensions + "; may be repeated")
+      ->required()
+      ->expected(1)
+      ->take_all();
   app.add_option_function<std::string>(
          "--region",
          [&given](const std::string& text) {
@@ -75,7 +80,7 @@ void add_run(CLI::App& app, Command& command, Given& given, const char* outputs 
          "what is written: interior or hull")
       ->check(CLI::IsMember({"interior", "hull"}));
   add_number(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
-             {1, 4294967294.0, false});
+             at_least_one(kBounds.max_vertices));
   add_number(app, given, "time-limit", "stop after this many seconds (exit 5)",
              positive(kBounds.seconds));
   app.add_option("--stats", command.stats_file, "write statistics as JSON");
@@ -89,7 +94,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
              kBounds.tau);
   add_number(app, given, "budget", "raise tau until no more tetrahedra than this are predicted",
-             {0, 1e15, true});
+             at_least_one(kBounds.budget));
   add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", kBounds.acute);
   add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",
              kBounds.corner);
@@ -115,7 +120,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
 
 void add_plane(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, "planar graph: .poly, OFF or OBJ with z = 0, or rings of x y lines");
-  add_run(app, command, given, "mesh to write: .node, .vtu, .off, .msh or .svg; may be repeated");
+  add_run(app, command, given, io::plane_extensions());
   add_number(app, given, "delta", "smallest angle, degrees (20.7)", kPlaneBounds.delta);
   add_number(app, given, "tau", "narrowest channel refined, width over length, 0 is off (1e-4)",
              kPlaneBounds.tau);
@@ -173,15 +178,13 @@ std::string output_error(const Command& command) {
   std::vector<std::string> files = {command.input};
   const bool plane = command.job == Job::plane;
   for (const std::string& output : command.outputs) {
-    if (plane && !io::plane_format_of(output)) {
-      return output + ": unknown mesh format (.node, .vtu, .off, .msh or .svg)";
+    const std::vector<std::string> made =
+        plane ? io::plane_files_of(output) : io::mesh_files_of(output);
+    if (made.empty()) {
+      return output + ": unknown mesh format (" +
+             (plane ? io::plane_extensions() : io::mesh_extensions()) + ")";
     }
-    if (!plane && !io::mesh_format_of(output)) {
-      return output + ": unknown mesh format (.mesh, .msh, .vtu, .node or .tet)";
-    }
-    for (const std::string& file : plane ? io::plane_files_of(output) : io::files_of(output)) {
-      files.push_back(file);
-    }
+    files.insert(files.end(), made.begin(), made.end());
   }
   for (const std::string* file :
        {&command.stats_file, &command.chamfered_file, &command.exact_file}) {

@@ -136,7 +136,8 @@ TEST(Arguments, OtherJobs) {
   EXPECT_EQ(plane.command.options.acute, 90);
   EXPECT_EQ(plane.command.options.region, Region::hull);
   EXPECT_EQ(parse({"plane", "i.off", "-o", "o.node"}).command.options.acute, 60);
-  expect_usage_error({"plane", "in.poly", "-o", "out.mesh"}, "unknown mesh format");
+  expect_usage_error({"plane", "in.poly", "-o", "out.mesh"},
+                     "out.mesh: unknown mesh format (.node, .vtu, .off, .msh or .svg)");
   expect_usage_error({"plane", "in.poly", "-o", "out.svg", "--acute", "30"}, "out of range");
   expect_usage_error({"plane", "in.poly", "-o", "in.node"}, "same as the input");
   expect_usage_error({"plane"}, "required");
@@ -159,7 +160,12 @@ TEST(Arguments, MistakesAreTwo) {
   expect_usage_error({});
   expect_usage_error({"in.off"}, "--output");
   expect_usage_error({"-o", "out.mesh"}, "input");
-  expect_usage_error({"in.off", "-o", "out.xyz"}, "out.xyz: unknown mesh format");
+  expect_usage_error({"in.off", "-o", "out.xyz"},
+                     "out.xyz: unknown mesh format (.mesh, .msh, .vtu, .node or .tet)");
+  for (const char* none : {"--max-vertices", "--budget", "--time-limit", "--max-edge"}) {
+    expect_usage_error({"in.off", "-o", "a.mesh", none, "0"}, "out of range: 0");
+  }
+  expect_usage_error({"in.off", "-o", "a.mesh", "--threads", "1025"}, "out of range: 1025");
   expect_usage_error({"in.off", "-o", "out"}, "unknown mesh format");
   expect_usage_error({"in.off", "-o", "a.mesh", "-o", "./a.mesh"}, "named twice");
   expect_usage_error({"in.off", "-o", "a.node", "--stats", "a.ele"}, "named twice");

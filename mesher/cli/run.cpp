@@ -86,7 +86,7 @@ int Runner::mesh() {
 int Runner::run() {
   try {
     if (command_.job == Job::plane) return run_plane(command_, library_, streams_);
-    int code = check_outputs(io::files_of);
+    int code = check_outputs(io::mesh_files_of);
     if (code == kDone) code = read();
     if (code != kDone) return code;
     return command_.job == Job::check ? check() : mesh();

@@ -1,10 +1,8 @@
 #include "mesher/io/write_mesh.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <iterator>
 
-#include "mesher/io/text.h"
+#include "mesher/io/file_formats.h"
 #include "mesher/io/write_formats.h"
 
 namespace delmesher::io {
@@ -25,54 +23,29 @@ const char* inconsistency(const TetMesh& mesh) {
   return nullptr;
 }
 
-std::string with_extension(const std::string& path, const char* extension) {
-  return std::filesystem::path(path).replace_extension(extension).string();
-}
+// The first extension is that of the path, the others are those of the files beside it.
+constexpr std::array<FileFormat<TetMesh>, 5> kFormats = {
+    {{{".mesh"}, [](Sinks f, const TetMesh& mesh) { write_medit(*f[0], mesh); }},
+     {{".msh"}, [](Sinks f, const TetMesh& mesh) { write_gmsh(*f[0], mesh); }},
+     {{".vtu"}, [](Sinks f, const TetMesh& mesh) { write_vtu(*f[0], mesh); }},
+     {{".node", ".ele", ".face"},
+      [](Sinks f, const TetMesh& mesh) { write_tetgen(*f[0], *f[1], *f[2], mesh); }},
+     {{".tet"}, [](Sinks f, const TetMesh& mesh) { write_tet(*f[0], mesh); }}}};
 
 }  // namespace
 
-std::optional<MeshFormat> mesh_format_of(const std::string& path) {
-  static constexpr std::string_view kExtensions[] = {".mesh", ".msh", ".vtu", ".node", ".tet"};
-  const std::string extension = std::filesystem::path(path).extension().string();
-  for (std::size_t i = 0; i < std::size(kExtensions); ++i) {
-    if (equal_ignoring_case(extension, kExtensions[i])) return static_cast<MeshFormat>(i);
-  }
-  return std::nullopt;
+std::string mesh_extensions() {
+  return extensions_of(kFormats);
 }
 
-std::vector<std::string> files_of(const std::string& path) {
-  if (mesh_format_of(path) != MeshFormat::tetgen) return {path};
-  return {path, with_extension(path, ".ele"), with_extension(path, ".face")};
+std::vector<std::string> mesh_files_of(const std::string& path) {
+  return files_made(kFormats, path);
 }
 
 WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh) {
-  WriteStatus status;
-  const auto format = mesh_format_of(path);
-  if (!format) return {path + ": unknown mesh format (.mesh, .msh, .vtu, .node or .tet)"};
-  if (const char* reason = inconsistency(mesh)) return {path + ": inconsistent mesh: " + reason};
-  std::vector<TextSink*> sinks;
-  for (const std::string& file : files_of(path)) {
-    sinks.push_back(outputs.open(file, status));
-    if (!status.ok()) return status;
-  }
-  switch (*format) {
-    case MeshFormat::medit:
-      write_medit(*sinks[0], mesh);
-      break;
-    case MeshFormat::gmsh:
-      write_gmsh(*sinks[0], mesh);
-      break;
-    case MeshFormat::vtu:
-      write_vtu(*sinks[0], mesh);
-      break;
-    case MeshFormat::tetgen:
-      write_tetgen(*sinks[0], *sinks[1], *sinks[2], mesh);
-      break;
-    case MeshFormat::tet:
-      write_tet(*sinks[0], mesh);
-      break;
-  }
-  return status;
+  const char* reason = mesh_files_of(path).empty() ? nullptr : inconsistency(mesh);
+  if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
+  return write_by_extension(kFormats, outputs, path, mesh);
 }
 
 WriteStatus write_off(OutputSet& outputs, const std::string& path, const Surface& surface) {

@@ -1,7 +1,6 @@
 // Writes tetrahedral meshes and surfaces; the formats are described in formats.md.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,13 +8,12 @@
 
 namespace delmesher::io {
 
-enum class MeshFormat : std::uint8_t { medit, gmsh, vtu, tetgen, tet };
+// The extensions that write_mesh() knows, in any case: ".mesh, .msh, ... or .tet".
+std::string mesh_extensions();
 
-// By the extension: .mesh, .msh, .vtu, .node, .tet (in any case).
-std::optional<MeshFormat> mesh_format_of(const std::string& path);
-
-// The files that writing to `path` makes: itself, and .ele and .face beside a .node.
-std::vector<std::string> files_of(const std::string& path);
+// The files that writing to `path` makes: itself, and .ele and .face beside a .node. Empty if its
+// extension means no format.
+std::vector<std::string> mesh_files_of(const std::string& path);
 
 // Adds the mesh to a set of outputs; nothing is in place before its commit().
 WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh);

@@ -222,15 +222,20 @@ TEST_F(WriteMesh, LinksAreFollowed) {
   EXPECT_TRUE(content(path("target.mesh")).starts_with("MeshVersion"));
 }
 
-TEST(MeshFormatOf, Extensions) {
-  EXPECT_EQ(mesh_format_of("a.mesh"), MeshFormat::medit);
-  EXPECT_EQ(mesh_format_of("a/b.MSH"), MeshFormat::gmsh);
-  EXPECT_EQ(mesh_format_of("a.vtu"), MeshFormat::vtu);
-  EXPECT_EQ(mesh_format_of("a.node"), MeshFormat::tetgen);
-  EXPECT_EQ(mesh_format_of("a.b.tet"), MeshFormat::tet);
-  EXPECT_EQ(mesh_format_of("a.off"), std::nullopt);
-  EXPECT_EQ(mesh_format_of("mesh"), std::nullopt);
-  EXPECT_EQ(files_of("x/a.node"), std::vector<std::string>({"x/a.node", "x/a.ele", "x/a.face"}));
+TEST(MeshFilesOf, Extensions) {
+  using Files = std::vector<std::string>;
+  for (const char* path : {"a.mesh", "a/b.MSH", "a.vtu", "a.b.tet"}) {
+    EXPECT_EQ(mesh_files_of(path), Files({path}));
+  }
+  EXPECT_EQ(mesh_files_of("x/a.node"), Files({"x/a.node", "x/a.ele", "x/a.face"}));
+  for (const char* path : {"a.off", "mesh", "a.ele"}) EXPECT_EQ(mesh_files_of(path), Files());
+  EXPECT_EQ(mesh_extensions(), ".mesh, .msh, .vtu, .node or .tet");
+}
+
+TEST_F(WriteMesh, UnknownExtensionsAreRefused) {
+  OutputSet outputs;
+  EXPECT_EQ(write_mesh(outputs, "a.off", sample()).error,
+            "a.off: unknown mesh format (.mesh, .msh, .vtu, .node or .tet)");
 }
 
 }  // namespace

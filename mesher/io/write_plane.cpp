@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <iterator>
 #include <map>
 
-#include "mesher/io/text.h"
+#include "mesher/io/file_formats.h"
 
 namespace delmesher::io {
 namespace {
@@ -418,55 +416,35 @@ void write_edges(TextSink& out, const char* name, const std::vector<PlaneRecord:
   }
 }
 
-std::string with_extension(const std::string& path, const char* extension) {
-  return std::filesystem::path(path).replace_extension(extension).string();
-}
+struct PlaneOutput {
+  const PlaneMesh& mesh;
+  const PlanarGraph* graph;  // null: no holes and regions
+};
+
+// The first extension is that of the path, the others are those of the files beside it.
+constexpr std::array<FileFormat<PlaneOutput>, 5> kFormats = {
+    {{{".node", ".ele", ".poly"},
+      [](Sinks f, const PlaneOutput& o) { write_triangle(*f[0], *f[1], *f[2], o.mesh, o.graph); }},
+     {{".vtu"}, [](Sinks f, const PlaneOutput& o) { write_vtu(*f[0], o.mesh); }},
+     {{".off"}, [](Sinks f, const PlaneOutput& o) { write_off(*f[0], o.mesh); }},
+     {{".msh"}, [](Sinks f, const PlaneOutput& o) { PlaneGmshWriter(*f[0], o.mesh).write(); }},
+     {{".svg"}, [](Sinks f, const PlaneOutput& o) { write_svg(*f[0], o.mesh); }}}};
 
 }  // namespace
 
-std::optional<PlaneFormat> plane_format_of(const std::string& path) {
-  static constexpr std::string_view kExtensions[] = {".node", ".vtu", ".off", ".msh", ".svg"};
-  const std::string extension = std::filesystem::path(path).extension().string();
-  for (std::size_t i = 0; i < std::size(kExtensions); ++i) {
-    if (equal_ignoring_case(extension, kExtensions[i])) return static_cast<PlaneFormat>(i);
-  }
-  return std::nullopt;
+std::string plane_extensions() {
+  return extensions_of(kFormats);
 }
 
 std::vector<std::string> plane_files_of(const std::string& path) {
-  if (plane_format_of(path) != PlaneFormat::triangle) return {path};
-  return {path, with_extension(path, ".ele"), with_extension(path, ".poly")};
+  return files_made(kFormats, path);
 }
 
 WriteStatus write_plane(OutputSet& outputs, const std::string& path, const PlaneMesh& mesh,
                         const PlanarGraph* graph) {
-  WriteStatus status;
-  const auto format = plane_format_of(path);
-  if (!format) return {path + ": unknown mesh format (.node, .vtu, .off, .msh or .svg)"};
-  if (const char* reason = inconsistency(mesh)) return {path + ": inconsistent mesh: " + reason};
-  std::vector<TextSink*> sinks;
-  for (const std::string& file : plane_files_of(path)) {
-    sinks.push_back(outputs.open(file, status));
-    if (!status.ok()) return status;
-  }
-  switch (*format) {
-    case PlaneFormat::triangle:
-      write_triangle(*sinks[0], *sinks[1], *sinks[2], mesh, graph);
-      break;
-    case PlaneFormat::vtu:
-      write_vtu(*sinks[0], mesh);
-      break;
-    case PlaneFormat::off:
-      write_off(*sinks[0], mesh);
-      break;
-    case PlaneFormat::gmsh:
-      PlaneGmshWriter(*sinks[0], mesh).write();
-      break;
-    case PlaneFormat::svg:
-      write_svg(*sinks[0], mesh);
-      break;
-  }
-  return status;
+  const char* reason = plane_files_of(path).empty() ? nullptr : inconsistency(mesh);
+  if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
+  return write_by_extension(kFormats, outputs, path, PlaneOutput{mesh, graph});
 }
 
 WriteStatus write_poly(OutputSet& outputs, const std::string& path, const PlanarGraph& graph) {

@@ -1,7 +1,6 @@
 // Writes triangulations of the plane; the formats are described in formats.md.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,12 +8,11 @@
 
 namespace delmesher::io {
 
-enum class PlaneFormat : std::uint8_t { triangle, vtu, off, gmsh, svg };
+// The extensions that write_plane() knows, in any case: ".node, .vtu, ... or .svg".
+std::string plane_extensions();
 
-// By the extension: .node, .vtu, .off, .msh, .svg (in any case).
-std::optional<PlaneFormat> plane_format_of(const std::string& path);
-
-// The files that writing to `path` makes: itself, and .ele and .poly beside a .node.
+// The files that writing to `path` makes: itself, and .ele and .poly beside a .node. Empty if its
+// extension means no format.
 std::vector<std::string> plane_files_of(const std::string& path);
 
 // Adds the mesh to a set of outputs; nothing is in place before its commit(). The holes and regions

@@ -6,13 +6,6 @@
 #include "mesher/refine/refiner.h"
 
 namespace delmesher::refine {
-namespace {
-
-// The proof of termination needs a radius-edge ratio above 2, that is an angle below asin(1/4)
-// (design: the paper's 20.7 is the planar bound).
-constexpr double kGuaranteedDelta = 14.4775;
-
-}  // namespace
 
 void Refiner::begin(RefineStep step) const {
   if (options_.on_step) options_.on_step(step);

@@ -19,6 +19,11 @@
 
 namespace delmesher::refine {
 
+// The bound on face angles that is guaranteed, in degrees: asin(1/4). The proof of termination
+// needs a radius-edge ratio above 2 (section 5.4); the paper's 20.7 is the bound in the plane.
+// Above it the bound is best effort.
+inline constexpr double kGuaranteedDelta = 14.4775;
+
 // The steps of algorithm 1, in its order.
 enum class RefineStep : std::uint8_t {
   delaunay,    // Delaunay tetrahedrization of the complex's vertices
@@ -77,8 +82,8 @@ struct RefineResult {
 void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc);
 
 // Refines the complex, which must include the outer box. Appends Steiner points to the store.
-// Terminates if the complex satisfies the projection condition and delta is below 14.48 degrees
-// (section 5.4); otherwise the limits of `control` end it.
+// Terminates if the complex satisfies the projection condition and delta is at most
+// kGuaranteedDelta; otherwise the limits of `control` end it.
 RefineResult refine(const Plc& plc, const SurfaceTopology& topology, PointStore& points,
                     Predicates& predicates, const RefineOptions& options, Control& control);
 

@@ -30,12 +30,14 @@ void for_each_point(ExactRecord& record, Visit&& visit) {
 
 }  // namespace
 
-void record_parameters(const Options& options, double tolerance, ExactRecord& record) {
-  // Above a radius-edge ratio of 2 the bound is best effort.
-  constexpr double kGuaranteedDelta = 14.4775;
-  record.parameters.delta = std::min(options.delta, kGuaranteedDelta);
-  record.parameters.tolerance = tolerance;
-  record.parameters.region = options.region;
+void record_parameters(const Options& options, const InForce& force, double diagonal,
+                       ExactRecord& record) {
+  record.parameters = {.delta = std::min(options.delta, refine::kGuaranteedDelta),
+                       .acute = force.acute,
+                       .corner = force.corner,
+                       .tolerance = force.tau * diagonal,
+                       .region = options.region,
+                       .gabriel = force.gabriel};
 }
 
 void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult* filter,
@@ -50,12 +52,12 @@ void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult*
   }
 }
 
-void record_chamfer(const chamfer::ChamferResult& chamfered, double threshold_degrees,
-                    const std::vector<double>& vertex_cosine_squared, ExactRecord& record) {
+void record_chamfer(const chamfer::ChamferResult& chamfered, const InForce& force,
+                    ExactRecord& record) {
   for (VertexId v = 0; v < chamfered.vertex_is_acute.size(); ++v) {
     if (chamfered.vertex_is_acute[v] == 0) continue;
-    const bool tightened = !vertex_cosine_squared.empty() && vertex_cosine_squared[v] == 0;
-    record.corners.push_back({v, tightened ? 90 : threshold_degrees, chamfered.vertex_distance[v]});
+    record.corners.push_back(
+        {v, force.tightened(v) ? 90 : force.acute, chamfered.vertex_distance[v]});
   }
   for (std::uint32_t n = 0; n < chamfered.new_point_vertex.size(); ++n) {
     record.chamfer_points.push_back({chamfered.first_new_point + n, chamfered.new_point_vertex[n]});

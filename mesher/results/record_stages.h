@@ -1,24 +1,24 @@
-// Filling in the exact record (command-line option --exact). Point indices are ids of the store
-// until record_points renumbers them.
+// What each stage adds to the exact record (command-line option --exact). Point indices are ids of
+// the store until record_points renumbers them.
 #pragma once
-
-#include <vector>
 
 #include "mesher/cdt/cdt.h"
 #include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
 #include "mesher/output/rounding.h"
 #include "mesher/refine/refine.h"
+#include "mesher/results/in_force.h"
 
 namespace delmesher::results {
 
-// `tolerance`: the filter's, in input units.
-void record_parameters(const Options& options, double tolerance, ExactRecord& record);
+// `diagonal`: of the input's bounding box.
+void record_parameters(const Options& options, const InForce& force, double diagonal,
+                       ExactRecord& record);
 // `filter` is null if nothing was filtered.
 void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult* filter,
                    ExactRecord& record);
-void record_chamfer(const chamfer::ChamferResult& chamfered, double threshold_degrees,
-                    const std::vector<double>& vertex_cosine_squared, ExactRecord& record);
+void record_chamfer(const chamfer::ChamferResult& chamfered, const InForce& force,
+                    ExactRecord& record);
 void record_refined(const chamfer::ChamferResult& chamfered, const refine::RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
 void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);

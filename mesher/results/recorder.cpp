@@ -56,12 +56,9 @@ void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
       static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
   if (!exact()) return;
   ExactRecord& record = result_.exact;
-  record_parameters(session_.options, force.tau * session_.diagonal, record);
+  record_parameters(session_.options, force, session_.diagonal, record);
   record_facets(session_.topology, &filter, record);
-  record_chamfer(chamfered, force.acute, tightened, record);
-  record.parameters.acute = force.acute;
-  record.parameters.corner = force.corner;
-  record.parameters.gabriel = force.gabriel;
+  record_chamfer(chamfered, force, record);
 }
 
 void Recorder::refined(const chamfer::ChamferResult& chamfered,

@@ -3,23 +3,14 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "mesher/chamfer/filter.h"
 #include "mesher/delmesher.h"
+#include "mesher/results/in_force.h"
 #include "mesher/results/mesh_to_write.h"
 #include "mesher/run/session.h"
 
 namespace delmesher::results {
-
-// What held for the refinement that ended: as asked for, or stricter.
-struct InForce {
-  double tau = 0;                // fraction of the diagonal
-  double acute = 0, corner = 0;  // degrees
-  bool gabriel = false;          // empty diametral balls
-  // Per input vertex, 0 where corners are chamfered up to 90 degrees; empty: nowhere.
-  const std::vector<double>* vertex_cosine_squared = nullptr;
-};
 
 class Recorder {
  public:

@@ -1,34 +1,48 @@
 #include "mesher/run/options.h"
 
-#include <cmath>
-
 #include "mesher/delmesher_plane.h"
 
 namespace delmesher::run {
 namespace {
 
-bool within(double x, const Bounds& bounds) {
-  return x >= bounds.low && !(x > bounds.high) && !(bounds.above_low && x == bounds.low);
+// All bounds are whole numbers or none.
+std::string text(double bound) {
+  return std::to_string(static_cast<long long>(bound));
 }
 
-std::string degrees(const char* option, const Bounds& bounds) {
-  const auto whole = [](double x) { return std::to_string(static_cast<int>(x)); };
-  const std::string high = whole(bounds.high) + " degrees";
-  return std::string(option) + (bounds.above_low
-                                    ? " must be above " + whole(bounds.low) + " and at most " + high
-                                    : " must be between " + whole(bounds.low) + " and " + high);
+std::string defect(const char* option, const Bounds& bounds, const char* unit = "") {
+  const std::string name = option, low = text(bounds.low);
+  if (bounds.high == kNoBound) {
+    return name + (bounds.above_low ? " must be above " + low : " must be at least " + low) + unit;
+  }
+  return name +
+         (bounds.above_low ? " must be above " + low + " and at most "
+                           : " must be between " + low + " and ") +
+         text(bounds.high) + unit;
 }
 
 }  // namespace
 
 std::string options_defect(const Options& o, const OptionBounds& bounds) {
-  if (!within(o.delta, bounds.delta)) return degrees("delta", bounds.delta);
-  if (!within(o.tau, bounds.tau)) return "tau must be between 0 and 1";
-  if (!within(o.acute, bounds.acute)) return degrees("acute", bounds.acute);
-  if (!within(o.corner, bounds.corner)) return degrees("corner", bounds.corner);
-  if (!within(o.chamfer_radius, bounds.length)) return "chamfer radius must not be negative";
-  if (!within(o.max_edge, bounds.length)) return "max edge must not be negative";
-  if (!within(o.time_limit_seconds, bounds.seconds)) return "time limit must not be negative";
+  constexpr const char* kDegrees = " degrees";
+  const struct {
+    const char* name;
+    double value;
+    const Bounds& bounds;
+    const char* unit = "";
+  } all[] = {{"delta", o.delta, bounds.delta, kDegrees},
+             {"tau", o.tau, bounds.tau},
+             {"acute", o.acute, bounds.acute, kDegrees},
+             {"corner", o.corner, bounds.corner, kDegrees},
+             {"chamfer radius", o.chamfer_radius, bounds.length},
+             {"max edge", o.max_edge, bounds.length},
+             {"budget", static_cast<double>(o.budget), bounds.budget},
+             {"time limit", o.time_limit_seconds, bounds.seconds},
+             {"max vertices", static_cast<double>(o.max_vertices), bounds.max_vertices},
+             {"threads", static_cast<double>(o.threads), bounds.threads}};
+  for (const auto& option : all) {
+    if (!option.bounds.allow(option.value)) return defect(option.name, option.bounds, option.unit);
+  }
   return {};
 }
 

@@ -1,0 +1,79 @@
+// Tables of formats: what the extension of a path to be written means.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesher/io/output.h"
+#include "mesher/io/text.h"
+
+namespace delmesher::io {
+
+// One file per extension of a format.
+using Sinks = std::span<TextSink* const>;
+
+template <class Written>
+struct FileFormat {
+  // The one that a path has, then those of the files that are written beside it.
+  std::array<std::string_view, 3> extensions;
+  void (*write)(Sinks files, const Written& written);
+};
+
+// The format that the path's extension means, in any case; null if it means none.
+template <class Written, std::size_t N>
+const FileFormat<Written>* format_of(const std::array<FileFormat<Written>, N>& table,
+                                     const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  for (const FileFormat<Written>& format : table) {
+    if (equal_ignoring_case(extension, format.extensions[0])) return &format;
+  }
+  return nullptr;
+}
+
+// The files that writing to the path makes: itself, and those beside it. Empty if its extension
+// means no format.
+template <class Written, std::size_t N>
+std::vector<std::string> files_made(const std::array<FileFormat<Written>, N>& table,
+                                    const std::string& path) {
+  const FileFormat<Written>* format = format_of(table, path);
+  if (format == nullptr) return {};
+  std::vector<std::string> files = {path};
+  for (const std::string_view extension : std::span(format->extensions).subspan(1)) {
+    if (extension.empty()) continue;
+    files.push_back(std::filesystem::path(path).replace_extension(extension).string());
+  }
+  return files;
+}
+
+// ".a, .b or .c"
+template <class Written, std::size_t N>
+std::string extensions_of(const std::array<FileFormat<Written>, N>& table) {
+  std::string text;
+  for (std::size_t i = 0; i < N; ++i) {
+    if (i > 0) text += i + 1 < N ? ", " : " or ";
+    text += table[i].extensions[0];
+  }
+  return text;
+}
+
+// Adds the files to a set of outputs, in the format of the path's extension.
+template <class Written, std::size_t N>
+WriteStatus write_by_extension(const std::array<FileFormat<Written>, N>& table, OutputSet& outputs,
+                               const std::string& path, const Written& written) {
+  const FileFormat<Written>* format = format_of(table, path);
+  if (format == nullptr) return {path + ": unknown mesh format (" + extensions_of(table) + ")"};
+  WriteStatus status;
+  std::vector<TextSink*> sinks;
+  for (const std::string& file : files_made(table, path)) {
+    sinks.push_back(outputs.open(file, status));
+    if (!status.ok()) return status;
+  }
+  format->write(sinks, written);
+  return status;
+}
+
+}  // namespace delmesher::io
