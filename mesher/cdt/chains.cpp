@@ -85,6 +85,78 @@ std::uint32_t Chains::insert_after(std::uint32_t n, VertexId v, const std::array
   return m;
 }
 
+void Chains::validate(Predicates& predicates) const {
+  const PredicateCounters counters = predicates.counters;
+  std::size_t in_chains = 0;
+  for (std::uint32_t e = 0; e < topology_->edge_count(); ++e) in_chains += validate_chain(e);
+  DELMESHER_CHECK(in_chains == nodes_.size(), "a node in no chain");
+  for (const ChainNode& n : nodes_) {
+    if (n.next == kNone) continue;
+    validate_fractions(n);
+    if (nodes_[n.next].next != kNone) validate_order(n, predicates);
+  }
+  validate_lookup();
+  predicates.counters = counters;
+}
+
+// From end to end; gives the number of nodes.
+std::size_t Chains::validate_chain(std::uint32_t edge) const {
+  DELMESHER_CHECK((first_[edge] == kNone) == (topology_->edge_is_flat[edge] != 0),
+                  "a flat edge with a chain, or one without that is not flat");
+  if (first_[edge] == kNone) return 0;
+  const std::array<VertexId, 2> end = topology_->edge_vertices(edge);
+  std::size_t count = 0;
+  std::uint32_t last = kNone;
+  for (std::uint32_t n = first_[edge]; n != kNone; n = nodes_[n].next) {
+    DELMESHER_CHECK(n < nodes_.size() && ++count <= nodes_.size(), "a chain leads nowhere");
+    DELMESHER_CHECK(nodes_[n].edge == edge, "a chain leads to another edge");
+    last = n;
+  }
+  DELMESHER_CHECK(
+      count >= 2 && nodes_[first_[edge]].vertex == end[0] && nodes_[last].vertex == end[1],
+      "a chain that does not join the ends of its edge");
+  DELMESHER_CHECK(nodes_[first_[edge]].from == (std::array<double, 2>{0, 1}) &&
+                      nodes_[last].from == (std::array<double, 2>{1, 0}),
+                  "an end of an edge elsewhere than at its end");
+  return count;
+}
+
+// Of the node behind n: on the edge, and strictly between its neighbours.
+void Chains::validate_order(const ChainNode& n, Predicates& predicates) const {
+  const ChainNode& v = nodes_[n.next];
+  const std::array<VertexId, 2> end = topology_->edge_vertices(n.edge);
+  for (int axis = 0; axis < 3; ++axis) {
+    DELMESHER_CHECK(predicates.orient2d(axis, end[0], end[1], v.vertex) == 0,
+                    "a vertex of a chain off its edge");
+  }
+  DELMESHER_CHECK(predicates.dot_sign(n.vertex, v.vertex, nodes_[v.next].vertex) < 0,
+                  "a vertex of a chain out of order");
+}
+
+// The fractions of a point have its parameter's 53 bits, the point itself may have more.
+void Chains::validate_fractions(const ChainNode& n) const {
+  constexpr double kRounding = 0x1p-52;
+  const ChainNode& next = nodes_[n.next];
+  DELMESHER_CHECK(std::abs(n.from[0] + n.from[1] - 1) <= kRounding,
+                  "fractions that do not add up to 1");
+  DELMESHER_CHECK(next.from[0] >= n.from[0] - kRounding && next.from[1] <= n.from[1] + kRounding,
+                  "fractions that are not monotone");
+}
+
+void Chains::validate_lookup() const {
+  std::vector<std::uint32_t> valence(valence_.size(), 0), inside(node_of_.size(), kNone);
+  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+    const ChainNode& node = nodes_[n];
+    if (node.next != kNone) {
+      ++valence[node.vertex];
+      ++valence[nodes_[node.next].vertex];
+    }
+    if (node.next != kNone && n != first_[node.edge]) inside[node.vertex] = n;
+  }
+  DELMESHER_CHECK(inside == node_of_, "a vertex is found at another node than its own");
+  DELMESHER_CHECK(valence == valence_, "a valence that is not the number of subsegments");
+}
+
 TetId find_edge(Tetrahedrization& mesh, const Chains& chains, VertexId a, VertexId b) {
   if (chains.valence(b) < chains.valence(a)) std::swap(a, b);
   return mesh.find_edge(a, b);

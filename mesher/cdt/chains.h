@@ -1,4 +1,15 @@
 // The chains of vertices that subdivide the input's constrained edges.
+//
+// Invariants at any time:
+//  - every edge that is not flat has one chain, from its smaller end vertex to its larger one, and
+//    no other edge has any; every node is in the chain of its edge;
+//  - the vertices of a chain lie exactly on its edge, each strictly between its neighbours;
+//  - the fractions of an end are 0 and 1; from end to end no fraction from end 0 falls and none
+//  from
+//    end 1 grows, by more than the rounding of 1;
+//  - a vertex strictly inside an edge is found by node_of(), and no other vertex is;
+//  - the valence of a vertex is the number of the subsegments that end there.
+// Whether a subsegment is an edge of the tetrahedrization is for validate_segments() to say.
 #pragma once
 
 #include <array>
@@ -42,10 +53,20 @@ class Chains {
   // Inserts v, at the given fractions, after node n; returns its node.
   std::uint32_t insert_after(std::uint32_t n, VertexId v, const std::array<double, 2>& from);
 
+  // Throws InternalError at the first broken invariant. A few predicates per node, which are not
+  // counted.
+  void validate(Predicates& predicates) const;
+
  private:
+  friend struct ChainsBreaker;  // of the tests of validate()
+
   void append(std::uint32_t edge, VertexId v, const std::array<double, 2>& from);
   void count(VertexId v, std::uint32_t node, bool inside);
   std::array<double, 2> fractions(std::uint32_t edge, VertexId v) const;
+  std::size_t validate_chain(std::uint32_t edge) const;
+  void validate_order(const ChainNode& n, Predicates& predicates) const;
+  void validate_fractions(const ChainNode& n) const;
+  void validate_lookup() const;
 
   const SurfaceTopology* topology_;
   const PointStore& points_;

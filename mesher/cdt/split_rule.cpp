@@ -14,6 +14,8 @@ namespace {
 constexpr double kBeside = 0x1p-6;
 // Parts of an edge, as a share of it, below which short ends are accepted around an acute vertex.
 constexpr double kDeep = 0x1p-6;
+// So many hopeless references in one recovery mean that it does not end. It ends in spite of some.
+constexpr std::uint32_t kMostHopeless = 1024;
 
 }  // namespace
 
@@ -179,7 +181,7 @@ void SplitRule::sharpen(SplitTarget& target, std::uint32_t edge, VertexId refere
   // Below that no two points can be matched by the parameters a point has, and splitting goes on
   // for ever. Edges of doubles of about the same size never come so close to each other.
   if (squared_sine < 0x1p-212) ++hopeless_;
-  if (hopeless_ == 1024) stop_beside(chains_, edge);
+  if (hopeless_ == kMostHopeless) stop_beside(chains_, edge);
   const Dyadic squared_radius = squared_distance(apex, reference);
   const Dyadic squared_length = squared_distance(apex, other);
   // In units of a power of two near the length: squares may overflow otherwise.

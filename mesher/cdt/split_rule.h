@@ -39,7 +39,9 @@ class SplitRule {
 
   const Chains& chains_;
   const PointStore& points_;
-  std::uint32_t hopeless_ = 0;  // references that no point on the edge can be matched with
+  // References, in all calls, that no point on the edge can be matched with. Never reset: splitting
+  // without end takes turns among many subsegments.
+  std::uint32_t hopeless_ = 0;
 };
 
 }  // namespace delmesher::cdt

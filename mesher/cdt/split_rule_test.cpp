@@ -74,6 +74,37 @@ TEST_F(Splitting, PartsAroundAnAcuteVertexEndOnOneSphere) {
   EXPECT_NEAR(from_apex(v), from_apex(reference), 1e-14);
 }
 
+// Two edges at an angle of 2^-107.
+Surface needle() {
+  Surface s;
+  s.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0x1p-107, 0}, {1, 0, 1}};
+  s.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  return s;
+}
+
+TEST(SplitRule, StopsAfterManyReferencesThatNoPointMatches) {
+  Model model(needle());
+  ASSERT_TRUE(model.valid);
+  Chains chains(model.input, model.points);
+  std::array<std::uint32_t, 2> node{};  // of the edges 0-1 and 0-2
+  for (std::uint32_t e = 0; e < model.topology.edge_count(); ++e) {
+    const auto [a, b] = model.topology.edge_vertices(e);
+    if (a == 0 && b < 3) node[b - 1] = chains.first(e);
+  }
+  SubsegmentSplitter splitter(chains, model.points, model.predicates);
+  const SplitTarget near = target_behind(chains.node(node[0]), chains.next(node[0]), 0.4);
+  const VertexId reference = chains.node(splitter.split(node[0], near)).vertex;
+  SplitRule rule(chains, model.points);
+  for (int i = 0; i < 1023; ++i) rule.target(node[1], Centre::end0, reference);
+  try {
+    rule.target(node[1], Centre::end0, reference);
+    ADD_FAILURE() << "goes on";
+  } catch (const Stopped& stopped) {
+    EXPECT_EQ(stopped.status.limit, Limit::precision);
+    EXPECT_NE(stopped.status.message.find("edge 0-2"), std::string::npos);
+  }
+}
+
 TEST_F(Splitting, WithoutAReferenceOrAroundBothEndsInTheMiddle) {
   const std::uint32_t n = chains_.first(edge(0, 1)), m = chains_.first(edge(0, 2));
   const VertexId reference = split(n, target_behind(chains_.node(n), chains_.next(n), 0.4));

@@ -19,6 +19,7 @@ void validate_edges(Tetrahedrization& mesh, const Chains& chains) {
 
 void validate_segments(Tetrahedrization& mesh, const Chains& chains) {
   mesh.validate(true);
+  chains.validate(mesh.predicates());
   validate_edges(mesh, chains);
 }
 

@@ -8,8 +8,9 @@
 
 namespace delmesher::cdt {
 
-// Throws InternalError unless the tetrahedrization is Delaunay, its structure is sound and every
-// subsegment of the chains is an edge. A few predicates per tetrahedron, which are not counted.
+// Throws InternalError unless the tetrahedrization is Delaunay, its structure and the chains are
+// sound and every subsegment of the chains is an edge. A few predicates per tetrahedron, which are
+// not counted.
 void validate_segments(Tetrahedrization& mesh, const Chains& chains);
 
 // Throws InternalError unless the structure is sound, every subsegment is an edge and every
