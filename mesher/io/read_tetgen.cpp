@@ -6,14 +6,13 @@
 #include <limits>
 #include <vector>
 
+#include "mesher/io/projected_face.h"
 #include "mesher/io/readers.h"
 #include "mesher/io/text.h"
 #include "mesher/io/triangulate.h"
 
 namespace delmesher::io {
 namespace {
-
-using Loop = std::vector<std::uint32_t>;
 
 class TetgenReader {
  public:

@@ -10,8 +10,6 @@
 namespace delmesher::io {
 namespace {
 
-using Loop = std::vector<std::uint32_t>;
-
 double doubled_area(const Point3& a, const Point3& b, const Point3& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
