@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 
-#include "mesher/base/check.h"
 #include "mesher/base/control.h"
 #include "mesher/base/guarded.h"
 #include "mesher/base/validating.h"
@@ -40,12 +39,6 @@ bool box_is_finite(const InputGraph& graph, const PointStore& points) {
     }
   }
   return true;
-}
-
-void validate(const Triangulation& mesh) {
-  if (!kValidating) return;
-  const char* const defect = mesh.check(true);
-  DELMESHER_CHECK(defect == nullptr, defect);
 }
 
 // The graph as all stages see it: valid, and there is something to mesh.
@@ -96,7 +89,7 @@ std::vector<double> enrich(const InputGraph& graph, const Chamfered& chamfered, 
                            Session& s) {
   s.control.enter(Phase::enrich);
   enrich(graph, chamfered, mesh.mesh, s.points, s.control);
-  validate(mesh.mesh);
+  if (kValidating) mesh.mesh.validate(true);
   s.control.enter(Phase::classify);
   Faces faces = find_faces(graph, mesh.mesh, s.points, nullptr);
   mesh.side.resize(mesh.mesh.size());
@@ -129,7 +122,6 @@ void mesh(const PlanarGraph& input, Session& s, Recorder& recorder) {
       chamfered = filter_and_chamfer(graph, sparing, s, recorder);
       refined = refine(graph, chamfered, s);
     }
-    validate(refined.mesh);
     recorder.refined(graph, chamfered, sparing.spared(), refined);
 
     std::vector<double> attributes;

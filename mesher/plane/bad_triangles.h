@@ -1,6 +1,10 @@
 // The queue of refinement: worst triangles first within a neighbourhood, one neighbourhood after
 // the other. Worst first makes fewer points; over a large mesh, it would touch another part of the
 // memory with every point.
+//
+// Invariants:
+//  - what waits is in a bucket, behind its head, or on the stack of what is for later;
+//  - no bucket below the lowest one has entries, and there are count_ in the buckets.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +12,7 @@
 #include <bit>
 #include <vector>
 
+#include "mesher/base/check.h"
 #include "mesher/plane/spatial_order.h"
 #include "mesher/plane/triangulation.h"
 
@@ -61,7 +66,34 @@ class BadTriangles {
     later_.clear();
   }
 
+  // visit(entry) for all that wait.
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (const Queue& q : queue_) {
+      for (std::size_t k = q.head; k < q.entries.size(); ++k) visit(q.entries[k]);
+    }
+    for (const Item& item : later_) visit(item.entry);
+  }
+
+  // Throws InternalError at the first broken invariant.
+  void validate() const {
+    std::size_t count = 0;
+    for (std::size_t b = 0; b < kBuckets; ++b) {
+      const Queue& q = queue_[b];
+      DELMESHER_CHECK(q.head <= q.entries.size(), "more was taken from a bucket than is in it");
+      DELMESHER_CHECK(b >= lowest_ || q.head == q.entries.size(),
+                      "an entry below the lowest bucket");
+      count += q.entries.size() - q.head;
+    }
+    DELMESHER_CHECK(count == count_, "another number of entries than in the buckets");
+    for (const Item& item : later_) {
+      DELMESHER_CHECK(item.bucket < kBuckets, "an entry for no bucket");
+    }
+  }
+
  private:
+  friend struct BadTrianglesBreaker;  // of the tests of validate()
+
   static constexpr std::size_t kBuckets = 256;
   // Entries of a neighbourhood at its start, and with which it is divided: what they touch stays
   // in a cache of a megabyte.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
+#include "mesher/base/validating.h"
 #include "mesher/plane/chamfer.h"
 #include "mesher/plane/sides.h"
 
@@ -29,6 +30,7 @@ struct RefineOptions {
   // A piece that is split more often counts as crowded; 0: no bound.
   std::uint64_t most_splits = 0;
   std::function<void(RefineStep)> on_step;  // told when a step begins; empty: nobody asks
+  bool validate = kValidating;  // check the invariants after each step (Refiner::validate)
 };
 
 struct RefinedMesh {

@@ -18,19 +18,22 @@ using Side = PlaneRecord::Side;
 
 class Sides {
  public:
-  // `gaps` must outlive it.
+  // `gaps` must outlive it. `everywhere`: triangles outside count as well.
   Sides(InputGraph& graph, Triangulation& mesh, PointStore& points, PlanePredicates& predicates,
-        const std::vector<Gap>& gaps)
+        const std::vector<Gap>& gaps, bool everywhere)
       : graph_(graph),
         mesh_(mesh),
         points_(points),
         predicates_(predicates),
         spatial_(points),
-        gaps_(gaps) {}
+        gaps_(gaps),
+        everywhere_(everywhere) {}
 
   // Classifies all triangles of the mesh, which must have all segments of the chamfered graph.
   void start();
   Side of(TriangleId t) const { return static_cast<Side>(side_[t]); }
+  // Is it where the bound is to hold?
+  bool counts(TriangleId t) const { return everywhere_ || of(t) != Side::outside; }
 
   // Around every Triangulation::fill_cavity.
   void before_fill();
@@ -56,6 +59,7 @@ class Sides {
   PlanePredicates& predicates_;
   Predicates spatial_;
   const std::vector<Gap>& gaps_;
+  const bool everywhere_;
   std::vector<std::uint8_t> side_;
   // Gaps at the mixed triangles, as an index into lists_ (or kNone); empty if there are no gaps.
   std::vector<std::uint32_t> list_of_;

@@ -479,34 +479,35 @@ Triangulation::Obstacle Triangulation::insert_segment(VertexId a, VertexId b, Pi
 
 // ---------------------------------------------------------------------------------- checks
 
-const char* Triangulation::check(bool delaunay) const {
+void Triangulation::validate(bool delaunay) const {
   constexpr std::size_t kRectangle = 2;
   for (TriangleId t = 0; t < triangles_.size(); ++t) {
     const auto& v = triangles_[t].vertex;
-    if (predicates_->orient(v[0], v[1], v[2]) <= 0) return "a triangle that is not positive";
+    DELMESHER_CHECK(predicates_->orient(v[0], v[1], v[2]) > 0, "a triangle that is not positive");
     for (int i = 0; i < 3; ++i) {
       const EdgeId e = edge_of(t, i);
-      if (around_[v[static_cast<std::size_t>(i)]] == kNone) return "a vertex without a triangle";
+      DELMESHER_CHECK(around_[v[static_cast<std::size_t>(i)]] != kNone,
+                      "a vertex without a triangle");
       const EdgeId f = twin(e);
       if (f == kNone) {
-        if (piece(e) == kNone) return "a border without a piece";
+        DELMESHER_CHECK(piece(e) != kNone, "a border without a piece");
         continue;
       }
-      if (twin(f) != e) return "neighbours that do not agree";
-      if (origin(e) != target(f) || target(e) != origin(f)) return "neighbours without common edge";
-      if (piece(e) != piece(f)) return "an edge with two pieces";
-      if (delaunay && triangles_.size() > kRectangle && piece(e) == kNone &&
-          predicates_->in_circle_perturbed(v[0], v[1], v[2], opposite(f)) > 0) {
-        return "an edge that is not Delaunay";
-      }
+      DELMESHER_CHECK(twin(f) == e, "neighbours that do not agree");
+      DELMESHER_CHECK(origin(e) == target(f) && target(e) == origin(f),
+                      "neighbours without common edge");
+      DELMESHER_CHECK(piece(e) == piece(f), "an edge with two pieces");
+      if (!delaunay || triangles_.size() <= kRectangle || piece(e) != kNone) continue;
+      DELMESHER_CHECK(predicates_->in_circle_perturbed(v[0], v[1], v[2], opposite(f)) <= 0,
+                      "an edge that is not Delaunay");
     }
   }
   for (VertexId v = 0; v < around_.size(); ++v) {
     if (around_[v] == kNone) continue;
     const auto& corners = triangles_[around_[v]].vertex;
-    if (std::find(corners.begin(), corners.end(), v) == corners.end()) return "a stray vertex";
+    DELMESHER_CHECK(std::find(corners.begin(), corners.end(), v) != corners.end(),
+                    "a stray vertex");
   }
-  return nullptr;
 }
 
 }  // namespace delmesher::plane

@@ -2,7 +2,7 @@
 // Lawson 1977): locate, insert, enter segments. It covers a rectangle whose corners are its first
 // vertices, so that every other point is inside and no case is special but its border.
 //
-// Laws (triangulation_test.cpp, check()):
+// Laws (triangulation_test.cpp, validate()):
 //  (1) All triangles are counter-clockwise; neighbours agree on their common edge and its piece.
 //  (2) An edge without piece is locally Delaunay under in_circle_perturbed, after every call; but
 //      the rectangle begins with any of its diagonals, which the first point inside replaces.
@@ -132,8 +132,8 @@ class Triangulation {
   // v.
   void star(VertexId v, std::vector<EdgeId>& edges) const;
 
-  // Empty, or which law of structure is broken. `delaunay`: law 2 as well. For tests.
-  const char* check(bool delaunay) const;
+  // Throws InternalError at the first law of structure that is broken. `delaunay`: law 2 as well.
+  void validate(bool delaunay) const;
 
   void reserve(std::size_t vertices);
   // Numbers the triangles anew, in the order of their smallest vertices.
