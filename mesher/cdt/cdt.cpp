@@ -29,7 +29,7 @@ class CdtBuilder {
     // Facet recovery cannot fail: all segments are edges of a Delaunay tetrahedrization that is
     // generic by perturbation, hence strongly Delaunay, and then a constrained Delaunay
     // tetrahedrization exists (Shewchuk, General-dimensional constrained Delaunay and constrained
-    // regular triangulations, I, 2008), in which gift wrapping finds an apex for every open face.
+    // regular triangulations, I, 2008), in which gift wrapping finds a vertex for every open face.
     // What runs out on the way (memory, time, numbers for the vertices of a cavity, room between
     // doubles) is thrown as a limit and does not come here. So already a first failure is a bug,
     // of which counters.facet_restarts tells; a few more points on the facet's boundary give it

@@ -173,8 +173,8 @@ class Checker {
       if ((inside != beyond) != wall) return "wrong inside flag";
       if (wall || list.size() == 1 || !delaunay_) continue;
       const auto& t = r_.tetrahedra[list[0][0]];
-      const VertexId apex = r_.tetrahedra[list[1][0]][list[1][1]];
-      if (in_sphere(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]], x_[apex]) > 0) return "not Delaunay";
+      const VertexId across = r_.tetrahedra[list[1][0]][list[1][1]];
+      if (in_sphere(x_[t[0]], x_[t[1]], x_[t[2]], x_[t[3]], x_[across]) > 0) return "not Delaunay";
     }
     return found == constrained.size() ? "" : "boundary face missing";
   }

@@ -32,7 +32,7 @@ class GiftWrapper {
       front_.pop_back();
       if (!is_open(face)) continue;
       control_.poll();
-      const VertexId v = find_apex(face);
+      const VertexId v = find_fourth_vertex(face);
       if (v == kNone || tetrahedra_.size() > limit) return false;
       add(face, v);
     }
@@ -72,9 +72,9 @@ class GiftWrapper {
   }
 
   // The first vertex that the pencil of spheres through the face touches among those visible from
-  // the face: the apex of its constrained Delaunay tetrahedron. A vertex touched earlier is
-  // invisible from all points of the face, so that a wall enters the tetrahedron it would make.
-  VertexId find_apex(const Triangle& face) {
+  // the face: the fourth vertex of its constrained Delaunay tetrahedron. A vertex touched earlier
+  // is invisible from all points of the face, so that a wall enters the tetrahedron it would make.
+  VertexId find_fourth_vertex(const Triangle& face) {
     candidates_.clear();
     for (const VertexId v : vertices_) {
       if (v == face[0] || v == face[1] || v == face[2]) continue;

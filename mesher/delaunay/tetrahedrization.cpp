@@ -279,8 +279,8 @@ void Tetrahedrization::begin_cavity(TetId start) {
 void Tetrahedrization::grow_across(TetId t, VertexId v) {
   const PointStore& points = predicates_.points();
   for (const std::uint32_t across : cell_[t].neighbor) {
-    const VertexId apex = cell_[across >> 2].vertex[across & 3U];
-    if (apex != kInfinite) points.prefetch(apex);
+    const VertexId beyond = cell_[across >> 2].vertex[across & 3U];
+    if (beyond != kInfinite) points.prefetch(beyond);
   }
   for (int i = 0; i < 4; ++i) {
     const TetId u = neighbor(t, i);
@@ -385,8 +385,8 @@ void Tetrahedrization::validate(bool delaunay) {
       const int j = mirror(t, i);
       DELMESHER_CHECK(u < capacity() && alive(u), "neighbour is dead");
       DELMESHER_CHECK(neighbor(u, j) == t && mirror(u, j) == i, "adjacency not symmetric");
-      const VertexId apex = vertex(u, j);
-      DELMESHER_CHECK(index_of(t, apex) < 0, "neighbours share all vertices");
+      const VertexId beyond = vertex(u, j);
+      DELMESHER_CHECK(index_of(t, beyond) < 0, "neighbours share all vertices");
       for (int k = 0; k < 4; ++k) {
         DELMESHER_CHECK(k == i || index_of(u, w[k]) >= 0, "neighbours do not share a face");
       }
@@ -395,11 +395,11 @@ void Tetrahedrization::validate(bool delaunay) {
         DELMESHER_CHECK(s != kNone && alive(s) && index_of(s, w[i]) >= 0, "incident() is stale");
       }
       if (delaunay && !ghost && !is_ghost(u)) {
-        DELMESHER_CHECK(predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], apex) < 0,
+        DELMESHER_CHECK(predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], beyond) < 0,
                         "face not locally Delaunay");
       }
-      if (delaunay && ghost && apex != kInfinite) {
-        DELMESHER_CHECK(!conflicts(t, apex), "hull not convex");
+      if (delaunay && ghost && beyond != kInfinite) {
+        DELMESHER_CHECK(!conflicts(t, beyond), "hull not convex");
       }
     }
   }
