@@ -105,7 +105,7 @@ struct OptionBounds {
   Bounds length{.low = 0, .high = kNoBound};  // chamfer_radius and max_edge
   Bounds seconds{.low = 0, .high = kNoBound};
   Bounds budget{.low = 0, .high = 1e15};
-  Bounds max_vertices{.low = 0, .high = 4294967294};  // what indices can number
+  Bounds max_vertices{.low = 0, .high = 4294967294};  // the largest index
   Bounds threads{.low = 0, .high = 1024};
 };
 inline constexpr OptionBounds kBounds{.delta = {.low = 0, .high = 30, .above_low = true},

@@ -66,7 +66,7 @@ struct ExactResult {
   bool ok() const { return error.empty(); }
 };
 
-// What write_exact() has written.
+// Reads a file written by write_exact().
 ExactResult read_exact(const std::string& path);
 
 // Why something could not be written: "file: reason"; empty if all is well.

@@ -25,7 +25,8 @@
 namespace delmesher {
 namespace {
 
-// And what those see: results, the session, what all stages share. Stages are named.
+// Policies see the results, the session and the shared folders, so these names need no prefix.
+// Names of stages keep theirs.
 using namespace policies;  // NOLINT(google-build-using-namespace)
 
 Phase phase_of(refine::RefineStep step) {

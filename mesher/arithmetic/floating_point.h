@@ -1,4 +1,4 @@
-// What the error bounds of the predicates and the exact transformations need of the compiler.
+// Assumptions about the compiler, on which error bounds and exact transformations rely.
 #pragma once
 
 #include <cfloat>

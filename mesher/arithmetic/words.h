@@ -109,7 +109,7 @@ void subtract(Word* out, const Word* x, std::size_t m, const Word* y, std::size_
 int compare(const Word* x, const Word* y, std::size_t n);
 // m + n words, m and n positive; `out` overlaps neither.
 void multiply(Word* out, const Word* x, std::size_t m, const Word* y, std::size_t n);
-// x * 2^bits, 0 < bits < 64; what is shifted out is returned.
+// x * 2^bits, 0 < bits < 64. Returns the bits that are shifted out.
 Word shift_left(Word* out, const Word* x, std::size_t n, unsigned bits);
 // Floor of x / 2^bits, 0 < bits < 64.
 void shift_right(Word* out, const Word* x, std::size_t n, unsigned bits);

@@ -17,7 +17,7 @@ double seconds_between(std::chrono::steady_clock::time_point a,
 
 namespace {
 
-// What the callback answers; what it throws ends the run like the answer no.
+// The answer of the callback. An exception from it ends the run like the answer no.
 bool goes_on(const Limits& limits, const Progress& progress) {
   try {
     return limits.progress(progress);

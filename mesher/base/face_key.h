@@ -1,4 +1,4 @@
-// Keys of triangular faces: whichever corner they begin with, equal faces have equal keys.
+// Keys of triangular faces. Equal faces have equal keys, whatever corner they begin with.
 #pragma once
 
 #include <algorithm>

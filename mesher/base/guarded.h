@@ -1,4 +1,4 @@
-// What the pipelines in space and in the plane begin and end with.
+// The beginning and the end of the pipelines, in space and in the plane.
 #pragma once
 
 #include <exception>

@@ -14,13 +14,13 @@ using namespace base;        // NOLINT(google-build-using-namespace)
 using namespace arithmetic;  // NOLINT(google-build-using-namespace)
 }  // namespace predicates
 namespace surface {
-using namespace predicates;  // NOLINT(google-build-using-namespace): and what that sees
+using namespace predicates;  // NOLINT(google-build-using-namespace): and the folders that it sees
 }
 namespace delaunay {
 using namespace predicates;  // NOLINT(google-build-using-namespace)
 }
 
-// What all stages share.
+// The folders that all stages share.
 namespace foundation {
 using namespace surface;   // NOLINT(google-build-using-namespace)
 using namespace delaunay;  // NOLINT(google-build-using-namespace)

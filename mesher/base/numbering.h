@@ -1,4 +1,4 @@
-// What indices can number.
+// The largest index.
 #pragma once
 
 #include <cstdint>

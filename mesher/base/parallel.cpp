@@ -16,7 +16,7 @@ struct Unwanted {};
 
 }  // namespace
 
-// What the threads of one loop share.
+// The state that the threads of one loop share.
 class SharedLoop {
  public:
   using Work = std::function<bool(Worker&, const Chunk&)>;
@@ -42,7 +42,7 @@ class SharedLoop {
         });
       }
     } catch (const std::system_error&) {
-      // Those that there are do the work.
+      // The threads that could be started do all the work.
     } catch (...) {
       stop_at(0);
       failed(0);

@@ -63,7 +63,7 @@ void for_items(Control& control, std::size_t count, std::size_t size, const Work
   });
 }
 
-// What work(worker, item, list) appends to `list`, in the order of the items.
+// Collects the entries that work(worker, item, list) appends to `list`, in the order of the items.
 template <class T, class Work>
 std::vector<T> gather(Control& control, std::size_t count, std::size_t size, const Work& work) {
   std::vector<std::vector<T>> lists((count + size - 1) / size);

@@ -1,4 +1,4 @@
-// Whether the stages check what they promise of their own state.
+// Whether the stages check the invariants of their own state.
 #pragma once
 
 #include "mesher/base/namespaces.h"

@@ -25,7 +25,7 @@ enum class CdtStep : std::uint8_t {
   classify   // inside and outside
 };
 
-// What to tetrahedrize: points of a store and where each lies on the input.
+// The input: points of a store, and for each its place on the surface.
 struct CdtInput {
   const SurfaceTopology* topology = nullptr;
   // Every point that becomes a vertex: all used input vertices and the enriching points.
@@ -49,7 +49,7 @@ struct SurfaceFace {
   FacetId facet;
 };
 
-// What facet recovery had to do.
+// Counts the work of facet recovery.
 struct CdtCounters {
   std::uint64_t missing_triangles = 0, regions = 0;
   std::uint64_t cavity_tetrahedra = 0, largest_cavity = 0;

@@ -68,7 +68,8 @@ inline int in_sphere(const Vector& a, const Vector& b, const Vector& c, const Ve
 }
 
 // Everything that makes the result a constrained Delaunay tetrahedrization of the surface, or, not
-// `delaunay`, just any that conforms to it; returns what is wrong, or an empty string.
+// `delaunay`, just any that conforms to it; returns a description of the first defect, or an empty
+// string.
 class Checker {
  public:
   Checker(const SurfaceTopology& surface, const PointStore& points, const CdtResult& result,

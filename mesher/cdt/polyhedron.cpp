@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kWrapBelow = 12;
 
 // The tetrahedra of the vertices' unconstrained Delaunay tetrahedrization that are constrained
-// Delaunay in the polyhedron: those inside that no missing face of the polyhedron enters.
+// Delaunay in the polyhedron: the tetrahedra inside it that no missing face of it enters.
 class DelaunayPart {
  public:
   DelaunayPart(Predicates& predicates, Control& control, const std::vector<Triangle>& faces)
@@ -32,7 +32,7 @@ class DelaunayPart {
 
   std::uint64_t blocked() const { return blocked_; }
 
-  // The tetrahedra found, and the faces of what remains.
+  // The tetrahedra found so far, and the faces of the polyhedron that is still empty.
   bool collect(std::vector<Tetrahedron>& tetrahedra, std::vector<Triangle>& rest) const {
     for (std::uint32_t n = 0; n < faces_.size(); ++n) {
       if (code_[n] == kNone || state_[code_[n] >> 2] != kInside) rest.push_back(faces_[n]);

@@ -1,4 +1,4 @@
-// What segment recovery and facet recovery promise, checked on a whole tetrahedrization.
+// Checks the promises of segment recovery and facet recovery on a whole tetrahedrization.
 #pragma once
 
 #include <cstdint>

@@ -70,7 +70,7 @@ class Assembler {
   std::vector<std::uint32_t> segment_of_edge_;
 };
 
-// The flat vertices inside a facet, without those that chamfering makes dangerous.
+// The flat vertices inside a facet. Vertices too near to a chamfer are left out.
 class IsolatedVertices {
  public:
   IsolatedVertices(const KeptSurface& surface, const Cuts& cuts, const ChamferResult& result,

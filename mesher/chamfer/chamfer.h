@@ -55,7 +55,7 @@ struct ChamferResult {
 ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
                       const ChamferOptions& options, Control& control);
 
-// What of the surface would be chamfered.
+// Counts the corners and edges of the surface that would be chamfered.
 struct AcuteCount {
   std::uint64_t vertices = 0, edges = 0;
 };

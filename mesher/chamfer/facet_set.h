@@ -22,7 +22,7 @@ class FacetSet {
   const std::vector<std::uint8_t>& kept() const { return kept_; }
   // Some facet that has the element is kept. Vertices without constrained edges are never alive.
   bool alive(const Element& element) const;
-  // The kept facets that have the element, ascending: those to drop to get rid of it.
+  // The kept facets that contain the element, ascending. Dropping them removes the element.
   std::vector<FacetId> facets(const Element& element) const;
   // All kept facets at a vertex, ascending.
   std::vector<FacetId> facets_at(VertexId v) const;
@@ -40,7 +40,7 @@ class FacetSet {
     }
   }
 
-  // What is lost when a facet is dropped.
+  // The cost of dropping a facet.
   double cost(FacetId f) const { return cost_[f]; }
   double cost(const std::vector<FacetId>& facets) const {
     double sum = 0;

@@ -95,7 +95,7 @@ class InputFilter {
     }
   }
 
-  // Queues every element of a kind with what is closest to it.
+  // Queues every element of a kind together with the element closest to it.
   void ask_all(Element::Kind kind, std::size_t count, Control& control) {
     constexpr std::size_t kChunk = 256;
     const auto ask = [&](Worker&, std::size_t n, std::vector<ClosePair>& found) {
@@ -106,7 +106,7 @@ class InputFilter {
     for (const ClosePair& pair : gather<ClosePair>(control, count, kChunk, ask)) queue_.push(pair);
   }
 
-  // The element with what is closest to it, if that is too close.
+  // The element and the one closest to it, if their distance is below the bound.
   std::optional<ClosePair> closest_to(const Element& element) const {
     if (!facets_.alive(element)) return {};
     ClosePair closest{bound_, element, {}};
@@ -186,7 +186,8 @@ class InputFilter {
     });
   }
 
-  // Drops all facets of one of the two elements, whichever loses less; gives the triangles lost.
+  // Drops all facets of one of the two elements: the element whose facets cost less. Returns the
+  // number of triangles lost.
   std::uint64_t resolve(const ClosePair& pair) {
     const std::vector<FacetId> first = facets_.facets(pair.first);
     const std::vector<FacetId> second = facets_.facets(pair.second);

@@ -29,7 +29,7 @@ FilterResult filter_input(const SurfaceTopology& topology, const PointStore& poi
 // 80 % without a second step).
 inline constexpr double kChamferedFraction = 1.0 / 16;
 
-// What the refinement gets: the facets that the filter keeps, chamfered.
+// The input of the refinement: the kept facets, chamfered.
 struct ChamferedSurface {
   FilterResult filter;
   ChamferResult chamfer;
@@ -48,7 +48,7 @@ class FilteredSurface {
 
   // The first step, as filter_input().
   void drop_close();
-  // Chamfers what is kept: all of it, and later only what drop_small() has changed.
+  // Chamfers the kept facets: at first all, later only the places that drop_small() has changed.
   void chamfer();
   // The second step: drops facets responsible for chamfered edges shorter than chamfered_fraction *
   // tolerance, or for elements closer than that. False if there are none.

@@ -172,7 +172,7 @@ class FeatureFinder {
     });
   }
 
-  // Is the projection of p onto facet f outside what chamfering leaves of it? By the number of
+  // Is the projection of p onto facet f outside the chamfered facet? Decided by the number of
   // crossings of a ray with the boundary; near the boundary either answer will do.
   bool cut_off(FacetId f, const Vec3& p) const {
     bool inside = false;

@@ -1,4 +1,4 @@
-// What chamfering and filtering take from the surface before it is refined: the spheres and
+// The parts of the surface that chamfering and filtering remove before the refinement: spheres and
 // cylinders of the chamfers, and the dropped facets.
 #pragma once
 

@@ -16,9 +16,9 @@
 namespace delmesher::cli {
 namespace {
 
-// What the user gave; options that were not given leave the preset's value.
+// The options as the user gave them. Where one was not given, the preset's value stands.
 struct Given {
-  // As text, so that they are read like those in files: in no locale, and never inf or nan.
+  // As text, so that they are read like numbers in files: in no locale, and never inf or nan.
   std::map<std::string, std::string> numbers;
   std::optional<bool> slivers;
   std::optional<Region> region;

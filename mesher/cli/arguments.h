@@ -23,7 +23,7 @@ struct Command {
   bool json = false, quiet = false, verbose = false;
 };
 
-// Either a command to run, or what to print and the code to exit with.
+// Either a command to run, or a text to print and an exit code.
 struct Parsed {
   bool run = false;
   Command command;

@@ -1,4 +1,4 @@
-// One line on a terminal that says what the run is doing.
+// One line on a terminal that shows the progress of the run.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace delmesher::cli {
 
-// "refine   45 %  123456 vertices", or without what is not known.
+// "refine   45 %  123456 vertices". Unknown numbers are left out.
 std::string progress_text(const Progress& progress);
 
 class ProgressLine {
@@ -29,7 +29,7 @@ class ProgressLine {
 
   std::FILE* stream_;
   bool enabled_, escapes_;
-  std::size_t width_ = 0;  // of what stands on the line
+  std::size_t width_ = 0;  // of the text on the line
   Phase phase_ = Phase::read;
   std::chrono::steady_clock::time_point last_{};
 };

@@ -63,7 +63,7 @@ Json parameters_json(const Command& command) {
           {"threads", o.threads}};
 }
 
-// What the statistics of every job begin with.
+// The first entries of the statistics of every job.
 template <class AnyResult>
 Json run_json(const Command& command, const AnyResult& result, const RunFacts& facts,
               const char* cell_name) {

@@ -1,4 +1,4 @@
-// What the command line prints and writes about a run: statistics, and the report of `check`.
+// Reports of the command line about a run: statistics, and the report of `check`.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 
 namespace delmesher::cli {
 
-// The library, or what a test puts in its place.
+// The functions of the library. Tests put others in their place.
 struct Library {
   std::function<Result(const Surface&, const Options&)> tetrahedralize;
   std::function<Result(const Surface&, const Options&)> constrained_delaunay;

@@ -1,4 +1,4 @@
-// What the jobs have in common: what is said and where, outputs, statistics, how a run ends.
+// Steps that all jobs share: messages, outputs, statistics, the end of a run.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ class RunSteps {
   void warn(const std::string& reason) const;
   void tell(const std::string& text) const;  // with -v
 
-  // Can all files be written? `files_of` names those that an output makes.
+  // Can all files be written? `files_of` names the files that an output consists of.
   int check_outputs(std::vector<std::string> (*files_of)(const std::string&)) const;
 
   // What a reader asks (ReadOptions::go_on): --time-limit counts from the start of the run.
@@ -35,7 +35,7 @@ class RunSteps {
   // Prints why nothing was read and returns the code.
   int fail_reading(io::ReadCode code, const std::string& error) const;
 
-  // Says what was read and how long it took.
+  // Prints the size of the input and the time it took to read.
   void note_input(const std::string& format, std::uint64_t vertices, std::uint64_t cells,
                   const char* cell_name);
 

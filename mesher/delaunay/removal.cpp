@@ -75,7 +75,7 @@ void Tetrahedrization::collect_hole(VertexId v, std::span<const std::uint8_t> go
   for (std::size_t n = 0; n < cavity_.size(); ++n) {
     const TetId t = cavity_[n];
     for (int i = 0; i < 4; ++i) {
-      // Face i has the three other vertices: if one of them goes, so does what is beyond.
+      // Face i has the three other vertices. If one of them is removed, the neighbour goes too.
       const TetId u = neighbor(t, i);
       bool beyond = false;
       for (int k = 0; k < 4; ++k) {

@@ -65,7 +65,7 @@ class Tetrahedrization {
   VertexId vertex(TetId t, int i) const { return cell_[t].vertex[i]; }
   Notes& notes(TetId t) { return state_[t].notes; }
   const Notes& notes(TetId t) const { return state_[t].notes; }
-  // Asks memory for what notes() and vertices() will read soon.
+  // Prefetches the memory that notes() and vertices() read.
   void prefetch(TetId t) const {
     __builtin_prefetch(&cell_[t]);
     __builtin_prefetch(&state_[t]);

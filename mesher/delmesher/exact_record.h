@@ -25,7 +25,7 @@ struct ExactPoint {
 // The exact form of a run (command-line option --exact): everything an independent program needs
 // to decide every claim without rounding. Point indices are into `points`.
 struct ExactRecord {
-  struct Parameters {  // what the run promised
+  struct Parameters {  // the promises of the run
     double delta = 0;  // face angles of the refined mesh, degrees; 0: not recorded
     double acute = 0;  // corners are chamfered below this, where none of `corners` says otherwise
     // The same for two edges at a vertex that is not chamfered; 0: as acute.

@@ -41,7 +41,7 @@ struct Progress {
   double predicted_tetrahedra = 0;  // of the final mesh, known before refinement begins; 0: not yet
 };
 
-// What every call takes. Beyond a limit it ends with StatusCode::limit_reached.
+// Limits and callbacks of every call. Beyond a limit it ends with StatusCode::limit_reached.
 struct Limits {
   std::uint64_t max_vertices = 0;  // 0: no limit
   double time_limit_seconds = 0;   // 0: no limit

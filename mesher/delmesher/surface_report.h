@@ -1,4 +1,4 @@
-// Is a surface valid input? What is wrong with it, and what is it like?
+// The report of check_surface(): validity, defects and properties of a surface.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace delmesher {
 
-// What is wrong with a surface, and what it is like.
+// Defects and properties of a surface.
 struct Defect {
   enum class Kind : std::uint8_t {
     non_finite,                // vertex

@@ -78,7 +78,7 @@ void drop_coincident(const PointStore& points, Predicates& predicates, cdt::CdtI
   });
   std::vector<VertexId> dropped;
   for (std::size_t n = 0; n + 1 < order.size(); ++n) {
-    // Equal points have equal nearest doubles; a run of those is short.
+    // Equal points have equal nearest doubles. Few points share them, so this loop is short.
     for (std::size_t m = n + 1; m < order.size(); ++m) {
       if (points.nearest(order[m]) != points.nearest(order[n])) break;
       if (predicates.compare_xyz(order[n], order[m]) == 0) dropped.push_back(order[m]);

@@ -1,4 +1,4 @@
-// What the last step tetrahedrizes: the input surface, with the vertices of the refined mesh
+// The input of the last step: the input surface, with the vertices of the refined mesh
 // (section 6).
 #pragma once
 

@@ -62,7 +62,7 @@ class OutputSet {
   using Watcher = std::function<void(const std::vector<std::string>&)>;
 
   explicit OutputSet(Watcher watcher = nullptr) : watcher_(std::move(watcher)) {}
-  ~OutputSet();  // removes what was not committed
+  ~OutputSet();  // removes the files that were not committed
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;
 

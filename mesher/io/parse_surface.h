@@ -1,4 +1,4 @@
-// What reading a surface is made of; see formats.md. read_surface() is public.
+// Parts of the reader of surfaces; see formats.md. read_surface() is public.
 #pragma once
 
 #include <functional>

@@ -188,7 +188,7 @@ void ObjReader::add_lines() {
 }
 
 void ObjReader::add_faces() {
-  // Materials say most about what a face is for; then groups; then objects.
+  // Materials describe the purpose of a face best, then groups, then objects.
   const std::array<const Names*, 3> sources = {&materials_, &groups_, &objects_};
   const std::array<const char*, 3> kinds = {"material", "group", "object"};
   std::size_t chosen = 0;

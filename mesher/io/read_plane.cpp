@@ -209,7 +209,7 @@ std::vector<CountedEdge> count_edges(std::vector<std::array<std::uint32_t, 2>> e
   return result;
 }
 
-// Those that are not there yet, in either direction.
+// Adds the edges that are not there yet, in either direction.
 void add_lines(const std::vector<std::array<std::uint32_t, 2>>& lines, bool bounding,
                PlanarGraph& graph) {
   const auto sorted = [](const std::array<std::uint32_t, 2>& s) {

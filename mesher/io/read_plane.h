@@ -1,4 +1,4 @@
-// What reading a planar straight-line graph is made of; see formats.md. read_plane() is public.
+// Parts of the reader of planar straight-line graphs; see formats.md. read_plane() is public.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Collects what a reader finds and makes a Surface of it.
+// Collects the vertices and faces that a reader finds, and makes a Surface of them.
 #pragma once
 
 #include <array>

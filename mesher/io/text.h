@@ -57,7 +57,7 @@ class TextLines {
   bool next_token(std::string_view& token);
   // Takes the next token, on a later line if need be; false at the end of the text.
   bool next_token_anywhere(std::string_view& token);
-  // What is left of the current line, trimmed.
+  // The rest of the current line, trimmed.
   std::string_view rest_of_line() const;
 
   // Number of the current line, from 1.

@@ -8,7 +8,7 @@
 namespace delmesher::io {
 namespace {
 
-// What the writers rely on; a violation is a bug of the caller, but no reason to crash.
+// Checks the assumptions of the writers. A violation is a bug of the caller, but must not crash.
 const char* inconsistency(const TetMesh& mesh) {
   const auto in_range = [&](const auto& cells) {
     return std::all_of(cells.begin(), cells.end(), [&](const auto& cell) {
@@ -23,7 +23,7 @@ const char* inconsistency(const TetMesh& mesh) {
   return nullptr;
 }
 
-// The first extension is that of the path, the others are those of the files beside it.
+// The extension of the path first, then the extensions of the files beside it.
 constexpr std::array<FileFormat<TetMesh>, 5> kFormats = {
     {{{".mesh"}, [](Sinks f, const TetMesh& mesh) { write_medit(*f[0], mesh); }},
      {{".msh"}, [](Sinks f, const TetMesh& mesh) { write_gmsh(*f[0], mesh); }},

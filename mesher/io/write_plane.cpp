@@ -421,7 +421,7 @@ struct PlaneOutput {
   const PlanarGraph* graph;  // null: no holes and regions
 };
 
-// The first extension is that of the path, the others are those of the files beside it.
+// The extension of the path first, then the extensions of the files beside it.
 constexpr std::array<FileFormat<PlaneOutput>, 5> kFormats = {
     {{{".node", ".ele", ".poly"},
       [](Sinks f, const PlaneOutput& o) { write_triangle(*f[0], *f[1], *f[2], o.mesh, o.graph); }},

@@ -97,7 +97,7 @@ void CosineBatch::measure(std::span<const std::array<double, 3>> coordinates,
     in_lanes([&](auto l) { thinnest[l] = area[f][l] > thinnest[l] ? area[f][l] : thinnest[l]; });
   }
   for (std::size_t e = 0; e < 6; ++e) {
-    // The faces at an edge are those opposite the two other vertices.
+    // The faces at an edge are opposite the two other vertices.
     const std::size_t f = kEdges[5 - e][0], g = kEdges[5 - e][1];
     dot(normal[f], normal[g], dihedral[e]);
     in_lanes([&](auto l) { dihedral[e][l] *= -(area[f][l] * area[g][l]); });

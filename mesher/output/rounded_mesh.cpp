@@ -71,7 +71,7 @@ int RoundedMesh::sign_at(std::uint32_t t, std::uint32_t v, const Vec3& p) {
 }
 
 std::vector<std::vector<std::uint32_t>> RoundedMesh::coincident() const {
-  // Moved vertices never meet others, so only those still at home can coincide.
+  // Moved vertices never meet others, so only vertices that have not moved can coincide.
   std::vector<std::vector<std::uint32_t>> groups;
   std::vector<std::uint32_t> group;
   const auto close = [&] {

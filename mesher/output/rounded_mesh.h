@@ -88,7 +88,7 @@ class RoundedMesh {
   std::vector<std::int8_t> sign_;
   std::set<std::uint32_t> bad_;
 
-  // Stars as built, and those changed since.
+  // Stars as they were built, and the stars that have changed since.
   std::vector<std::uint32_t> star_begin_, star_tets_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> changed_stars_;
   std::vector<std::array<std::uint32_t, 3>> boundary_;  // each sorted, sorted

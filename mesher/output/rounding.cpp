@@ -30,7 +30,7 @@ class Repair {
 
  private:
   static constexpr int kEfforts = 4;
-  static constexpr int kExactEfforts = 3;  // those that do no harm on exact coordinates
+  static constexpr int kExactEfforts = 3;  // these keep all signs on exact coordinates
   static constexpr int kUntanglings = 2;
 
   void descend(int efforts) {

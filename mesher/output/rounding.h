@@ -15,7 +15,7 @@
 
 namespace delmesher::output {
 
-// What rounding works on: tetrahedra of positive orientation on exact points. Repairs may move
+// The input of rounding: tetrahedra of positive orientation on exact points. Repairs may move
 // non-explicit vertices to nearby doubles, move volume vertices, and change the tetrahedra by local
 // operations that keep the boundary faces.
 struct RoundingInput {
@@ -49,7 +49,7 @@ struct RoundingResult {
   double max_surface_deviation = 0;
 };
 
-// What is wrong as written, or only on exact coordinates: the less the better, the former first.
+// Defects of the written mesh, and defects on exact coordinates alone. Compared in this order.
 inline std::pair<std::uint64_t, std::uint64_t> defects(const RoundingResult& result) {
   return {result.inverted + result.flat + result.coincident, result.inexact_operations};
 }

@@ -144,7 +144,7 @@ std::array<double, 6> comparable_dihedrals(const Shape& shape, double volume) {
   for (int f = 0; f < 4; ++f) normal[f] = face_normal(shape, f);
   std::array<double, 6> result;
   for (int e = 0; e < 6; ++e) {
-    // The faces at edge ij are those opposite the two other vertices: those of edge 5 - e.
+    // The faces at edge ij are opposite the two other vertices, which are the ends of edge 5 - e.
     const double cosine = -dot(normal[kEdges[5 - e][0]], normal[kEdges[5 - e][1]]);
     result[e] = angle(volume * std::sqrt(shape.squared_length[e]), cosine);
   }
@@ -367,7 +367,7 @@ MeshStatistics mesh_statistics(std::span<const Vec3> coordinates, std::span<cons
     found = find_repeated_faces(tetrahedra, coordinates.size());
     repeated_faces = found;
   }
-  // What is kept of the angles of one batch takes a few megabytes.
+  // The angles of one batch take a few megabytes.
   constexpr std::size_t kChunk = 1024, kBatch = 32 * kChunk;
   statistics.min_face_angle = statistics.min_dihedral = 180;
   const CosineBins bins;

@@ -20,7 +20,7 @@ class VertexMoves {
 
   // Moves one vertex of the bad tetrahedron t to where the badness around it is less.
   bool fix(std::uint32_t t);
-  // Moves several vertices, one to free t and others to repair what that broke.
+  // Moves several vertices: one frees t, the others repair the tetrahedra that this move inverted.
   bool fix_by_chain(std::uint32_t t);
   // Moves v away from a vertex with the same coordinates, doing no harm.
   bool separate(std::uint32_t v);

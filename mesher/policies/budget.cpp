@@ -12,7 +12,8 @@ double predict(const chamfer::ChamferedSurface& surface, const Session& session)
   refine::PredictionOptions options;
   options.region = session.options.region;
   options.max_edge = session.options.max_edge;
-  // What the filter drops comes back in the final step, as at least a tetrahedron and a half each.
+  // Every triangle that the filter drops comes back in the final step, with at least one and a half
+  // tetrahedra.
   return 1.5 * static_cast<double>(surface.filter.dropped_triangles) +
          refine::predict_tetrahedra(surface.chamfer.plc, session.topology,
                                     surface.filter.facet_kept, session.points, options,

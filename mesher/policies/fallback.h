@@ -1,4 +1,4 @@
-// Policy: what to do where the refinement would not end.
+// Policy: stricter chamfering where the refinement would not end.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-// Policy: what the refinement is spared where doubles leave no room, for it or for what is written.
+// Policy: segments and vertices that are left out of the refinement because doubles leave no room
+// for new points beside them, or for their own written coordinates.
 // The last step restores it.
 #pragma once
 
@@ -11,7 +12,7 @@ namespace delmesher::plane {
 // Deterministic: lengths decide what is crowded, never time.
 class Sparing {
  public:
-  // The filter adds to it what it drops.
+  // The filter adds the segments that it drops.
   Spared& spared() { return spared_; }
   const Spared& spared() const { return spared_; }
 

@@ -186,7 +186,7 @@ class Thinning {
     return std::isfinite(volume) ? std::fabs(volume) : 0;
   }
 
-  // A cone from w over the link of v: positive tetrahedra fill exactly what the star did.
+  // A cone from w over the link of v. If its tetrahedra are positive, they fill the star of v.
   std::optional<Score> try_collapse(VertexId v, VertexId w) {
     Score score{0, -HUGE_VAL};
     for (const std::uint32_t t : tets_[v]) {
@@ -207,7 +207,7 @@ class Thinning {
         v, w, faces_, [&](std::uint32_t f) -> auto& { return mesh_.boundary[f].vertices; });
   }
 
-  // Simplices around v go to w; those that have both vanish.
+  // Simplices at v get w instead of v. Simplices with both vertices vanish.
   template <class Vertices>
   static void move_star(VertexId v, VertexId w, std::vector<std::vector<std::uint32_t>>& stars,
                         const Vertices& vertices_of) {

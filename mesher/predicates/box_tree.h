@@ -110,7 +110,7 @@ class BoxTree {
   std::vector<Box> boxes_;  // by position
 };
 
-// A tree from which items can be taken, asked for what is nearest to a box.
+// A tree from which items can be removed. It finds the items nearest to a box.
 class ShrinkingBoxTree {
  public:
   ShrinkingBoxTree() = default;

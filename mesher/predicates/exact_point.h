@@ -1,4 +1,4 @@
-// The exact coordinates of points as dyadic numbers, for what no predicate asks.
+// The exact coordinates of points as dyadic numbers, for code that no predicate serves.
 #pragma once
 
 #include <array>

@@ -104,7 +104,7 @@ void PointStore::pop_back() {
   const std::uint32_t index = detail_of_.back();
   if (index != kNone) {
     const Detail& d = details_[index];
-    // The pools shrink if what the point owns is at their end, as it is for a point just added.
+    // The pools shrink if the data of the point are at their end, as they are for the newest point.
     // Otherwise (supports of an explicit point, set late) the space is left unused.
     if (d.first_limb + limb_count(d) == limbs_.size()) limbs_.resize(d.first_limb);
     const std::size_t supports = std::size_t{d.planes} + d.lines;

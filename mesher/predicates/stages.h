@@ -67,7 +67,7 @@ int extended(const PointStore& points, const Polynomial& polynomial, const Verte
   return polynomial(p).sign();
 }
 
-// The exact coordinates of up to five points and what they have in common.
+// The exact coordinates of up to five points, and their common scale.
 struct ExactArguments {
   ExactPosition point[5];
   int count = 0;

@@ -1,4 +1,4 @@
-// The bad tetrahedra of a refinement, worst first, and those that are still to be judged.
+// The bad tetrahedra of a refinement, worst first, and the tetrahedra that are still to be judged.
 //
 // A tetrahedron's note (Note::waiting) is its level of badness, kFresh while it is to be judged, or
 // 0. Entries are not removed when their tetrahedron dies: one counts only if the tetrahedron is

@@ -61,7 +61,7 @@ void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc
     std::array<double, 3> p;
     for (int k = 0; k < 3; ++k) p[k] = ((c >> k) & 1) != 0 ? box[k].high : box[k].low;
     corner[c] = points.add_explicit(p[0], p[1], p[2]);
-    // Planes of the faces that meet here, numbered after those of the input.
+    // Planes of the faces that meet here. Their numbers follow the planes of the input.
     std::array<PlaneId, 3> planes;
     for (int k = 0; k < 3; ++k) {
       planes[k] =

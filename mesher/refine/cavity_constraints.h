@@ -21,13 +21,13 @@ class CavityConstraints {
   void begin();
   void collect(TetId t);
 
-  // How many are listed: those from a count on are the ones collected since.
+  // The lengths of the lists. Entries behind an earlier length have been collected since.
   struct Count {
     std::size_t subsegments = 0, subfacets = 0;
   };
   Count count() const { return {found_subsegments_.size(), found_subfacets_.size()}; }
 
-  // Queue those from `first` on that v encroaches. True if there are any.
+  // Queue the constraints from `first` on that v encroaches. True if there are any.
   bool queue_encroached_subsegments(VertexId v, Count first, std::uint32_t except = kNone);
   bool queue_encroached_subfacets(VertexId v, Count first);
   // Queues the subfacets of t with both their tetrahedra in the cavity: they would be lost. Without

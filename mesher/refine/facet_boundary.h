@@ -1,4 +1,4 @@
-// The sides of a facet as its subsegments stand, and what of a triangulation lies between them.
+// The boundary of a facet, as its subsegments are now, and the part of a triangulation inside it.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What makes a tetrahedron bad (sections 5.4 and 5.7), and how bad it is.
+// Decides whether a tetrahedron is bad (sections 5.4 and 5.7), and how bad.
 #pragma once
 
 #include <cstdint>

@@ -48,7 +48,7 @@ struct Waiting {
   }
 };
 
-// What a point is near to.
+// The surroundings of a point.
 struct Surroundings {
   double size;     // the local feature size, if below the bound
   double nearest;  // distance of the nearest element, if below the bound
@@ -151,7 +151,7 @@ class Predictor {
     }
   }
 
-  // Those that facets got by chamfering, and those that are elements by themselves.
+  // Vertices that facets got by chamfering, and vertices that are elements by themselves.
   void collect_vertices(Owned& vertices) {
     for (const PlcFacet& facet : plc_.facets) {
       if (facet.input_facet == kNone) continue;

@@ -1,4 +1,4 @@
-// Insertion of points, and what it means for the parts.
+// Insertion of points, and the updates of the parts that it causes.
 #include "mesher/refine/refiner.h"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ bool Refiner::find_free_cavity(VertexId v, TetId start, bool spare_subfacets) {
   });
 }
 
-// Fills the cavity and carries over what is known of its tetrahedra.
+// Fills the cavity. The new tetrahedra inherit the notes of the old ones.
 void Refiner::commit(VertexId v) {
   const Sides::State side = sides_.common_of_cavity();
   dt_.fill_cavity(v);

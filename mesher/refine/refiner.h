@@ -5,8 +5,8 @@
 // over from the cavity to what replaces it.
 //
 //   SteinerPoints      where new points go
-//   Subsegments        the segments' parts, the queue of those to split
-//   Subfacets          the facets' planar triangulations, the queue of those to split
+//   Subsegments        the parts of segments, with the queue of parts to split
+//   Subfacets          the planar triangulations of facets, with the queue of subfacets to split
 //   CavityConstraints  the subsegments and subfacets near a new point
 //   Sides              which tetrahedra are inside
 //   BadTetrahedra      the tetrahedra to split, as a Goal judges them
@@ -90,7 +90,7 @@ class Refiner {
   BadTetrahedra bad_;
   Goal goal_;
   bool refining_ = false;  // are tetrahedra judged?
-  RefineResult result_;    // what is known of it so far: the points and their counts
+  RefineResult result_;    // as far as it is known: the points and their counts
 };
 
 }  // namespace delmesher::refine

@@ -133,7 +133,7 @@ Sides::State Sides::find_out(TetId start) {
     set(start, classify_exactly(solid_, dt_.vertices(start)));
     return state(start);
   }
-  // Search for a tetrahedron that knows, through those that do not, then tell all that were asked.
+  // Walk over tetrahedra without a known side until one has one, then note it in all of them.
   std::vector<TetId> asked = {start};
   set(start, State::asked);
   State found = State::unknown;

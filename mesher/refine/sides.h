@@ -5,10 +5,10 @@
 // tetrahedron: kept across an ordinary face, changed across a subfacet of the input. Only
 // tetrahedra near the removed part need the exact test against the whole surface.
 //
-// A tetrahedron's note (Note::side) is what is known of it. Invariant, whenever every subfacet is a
-// face: of two neighbours with known sides, none of them straddling or near the removed part, one
-// is inside and one outside if and only if a subfacet of the input is between them; beyond the hull
-// is outside.
+// A tetrahedron's note (Note::side) holds its side, if that is known. Invariant, whenever every
+// subfacet is a face: of two neighbours with known sides, none of them straddling or near the
+// removed part, one is inside and one outside if and only if a subfacet of the input is between
+// them; beyond the hull is outside.
 #pragma once
 
 #include <span>
@@ -28,16 +28,16 @@ class Sides {
 
   // Requires every subfacet to be a face of the tetrahedrization.
   Side of(TetId t);
-  // What of() has said before, or has been inherited.
+  // The side as of() found it before, or as the tetrahedron inherited it.
   bool known_outside(TetId t) const { return state(t) == State::outside; }
   bool known_inside(TetId t) const { return state(t) == State::inside; }
 
   enum class State : std::uint8_t { unknown, outside, inside, straddling, asked };
-  // What every tetrahedron of a cavity is, and so all that replace them.
+  // The common side of the tetrahedra of a cavity, which their replacements inherit.
   State common_of_cavity() const;
   void inherit(TetId created, State common) { set(created, common); }
 
-  // What of() would find out for each tetrahedron near the removed part, shared among threads.
+  // Finds the sides of all tetrahedra near the removed part, as of() would. Threads share the work.
   void classify_near_removed(Control& control);
 
   // Requires every subfacet to be a face. Throws InternalError if the invariant is broken.

@@ -51,7 +51,7 @@ class SteinerPoints {
   VertexId in_volume(const Vec3& target, double grid);
 
  private:
-  // `origin` + `offset` and what the doubles of that leave over.
+  // `origin` + `offset`, as the nearest double and the remainder.
   struct Place {
     Vec3 nearest{}, rest{};
   };

@@ -10,7 +10,7 @@ namespace delmesher::refine {
 
 class SubfacetEdge {
  public:
-  // What the handle can number.
+  // The largest number that a handle can hold.
   static constexpr std::uint32_t kMostSubfacets = kNone / 4;
 
   SubfacetEdge() = default;  // none

@@ -1,4 +1,4 @@
-// What held for the refinement that ended: as asked for, or stricter.
+// The parameters in force when the refinement ended: as asked for, or stricter.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// From the exact meshes of the stages to what is rounded and written.
+// From the exact meshes of the stages to the mesh that is rounded and written.
 #pragma once
 
 #include <vector>

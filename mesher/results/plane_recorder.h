@@ -1,4 +1,4 @@
-// What a run in the plane tells its caller besides the mesh: statistics, warnings and, if asked
+// Results of a run in the plane besides the mesh: statistics, warnings and, if asked
 // for, the exact record and the chamfered graph. The driver calls it after each stage.
 #pragma once
 

@@ -1,5 +1,5 @@
-// What each stage adds to the exact record (command-line option --exact). Point indices are ids of
-// the store until record_points renumbers them.
+// The contribution of each stage to the exact record (command-line option --exact). Point indices
+// are ids of the store until record_points renumbers them.
 #pragma once
 
 #include "mesher/cdt/cdt.h"
@@ -22,7 +22,7 @@ void record_chamfer(const chamfer::ChamferResult& chamfered, const InForce& forc
 void record_refined(const chamfer::ChamferResult& chamfered, const refine::RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
 void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
-// Replaces the final tetrahedra by those left after thinning.
+// Replaces the final tetrahedra by the thinned ones.
 void record_thinned(const cdt::CdtResult& thinned, const SurfaceTopology& topology,
                     ExactRecord& record);
 // Replaces the final tetrahedra that were handed to rounding by those that it returned.

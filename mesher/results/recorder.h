@@ -1,4 +1,4 @@
-// What a run tells its caller besides the mesh: statistics and, if asked for, the exact record and
+// Results of a run besides the mesh: statistics and, if asked for, the exact record and
 // the chamfered surface. The driver calls it after each stage.
 #pragma once
 

@@ -1,4 +1,4 @@
-// One run on one graph: what all its stages share.
+// The state that all stages of one run on one graph share.
 #pragma once
 
 #include "mesher/base/control.h"

@@ -1,4 +1,4 @@
-// One run on one surface: what all its stages share.
+// The state that all stages of one run on one surface share.
 #pragma once
 
 #include <cstddef>

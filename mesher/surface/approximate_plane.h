@@ -42,7 +42,7 @@ class ApproximatePlane {
       bound += slack_[k] * (length + displacement) +
                std::abs(normal_[k]) * (8 * kEpsilon * length + displacement);
     }
-    // Far above what underflow in the products can have taken away.
+    // Far above the error of underflow in the products.
     bound = bound * (1 + 8 * kEpsilon) + 0x1p-1000;
     return sum > bound ? 1 : sum < -bound ? -1 : 0;
   }

@@ -1,4 +1,4 @@
-// Piecewise linear complexes: what the refinement (section 5) receives, in terms of points of a
+// Piecewise linear complexes: the input of the refinement (section 5), in terms of points of a
 // store.
 #pragma once
 

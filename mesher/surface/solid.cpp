@@ -130,7 +130,7 @@ bool certainly_inside(const PointStore& points, const Tetrahedron& tetrahedron, 
   return true;
 }
 
-// Those that meet one of the boxes; all if there are no boxes.
+// The triangles that meet one of the boxes; all triangles if there are no boxes.
 std::vector<std::uint32_t> cutting_triangles(std::span<const Box> triangles,
                                              std::span<const Box> open) {
   const BoxTree where(open);
@@ -151,7 +151,7 @@ std::vector<Box> boxes_of(std::span<const std::uint32_t> items, std::span<const 
 
 }  // namespace
 
-// What never changes, for all threads.
+// Data that never change, shared by all threads.
 struct Solid::Shared {
   Shared(const SurfaceTopology& surface, const PointStore& points, std::span<const Box> boxes,
          std::span<const Box> open)
