@@ -31,7 +31,9 @@ struct ChainsBreaker {
 
   void lose_the_chain() const { chains.first_[edge] = kNone; }
   void give_a_flat_edge_one() const { chains.first_[flat_edge()] = first(); }
-  void lead_to_another_edge() const { node(1).edge = (edge + 1) % chains.topology_->edge_count(); }
+  void lead_to_another_edge() const {
+    node(1).edge = (edge + 1) % static_cast<std::uint32_t>(chains.topology_->edge_count());
+  }
   void go_round() const { node(2).next = first(); }
   void lead_nowhere() const { node(2).next = static_cast<std::uint32_t>(chains.size()); }
   void skip_a_node() const { node(0).next = node(1).next; }
