@@ -14,6 +14,7 @@
 #include "mesher/base/control.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "oracles/exact_points.h"
+#include "oracles/exact_sum.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
@@ -190,7 +191,7 @@ class Judge {
   // The tetrahedra together are as large as what the hull's faces enclose, seen from a point: else
   // two of them use a face from the same side.
   Finding judge_volume() const {
-    mpz_class inside, around;
+    oracles::ExactSum inside, around;
     for (const Cell& c : cells_) inside += exact::volume6(points_, c[0], c[1], c[2], c[3]);
     for (const auto& [key, face] : faces_) {
       const auto& f = face.corners;

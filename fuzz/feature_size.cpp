@@ -93,7 +93,7 @@ void FeatureSizes::examine_vertices(Nearest& nearest) const {
     const Box at = box({v});
     for (const Index w : used) {
       if (w <= v || !nearest.may_be(at, box({w}))) continue;
-      nearest.take(oracles::exact::squared(oracles::exact::difference(points_, v, w)));
+      nearest.take(oracles::exact::squared(oracles::exact::difference(points_, v, w)).rational());
     }
     for (const auto& edge : surface_.edges()) {
       if (v == edge.from || v == edge.to || !nearest.may_be(at, box({edge.from, edge.to}))) {

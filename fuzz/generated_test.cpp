@@ -88,7 +88,9 @@ TEST(Members, BelowAnUlpAreWrittenPositive) {
   for (const auto& [family, member] : members) {
     // Else it shows nothing.
     const auto surface = generate(*find_family(family), 1, member);
-    EXPECT_LT(delmesher::check_surface(*surface).smallest_local_feature_size, 0x1p-53);
+    delmesher::Options as_given;
+    as_given.planar = 0;
+    EXPECT_LT(delmesher::check_surface(*surface, as_given).smallest_local_feature_size, 0x1p-53);
     EXPECT_GT(expect_written_positive(family, member).rounding_repaired, 0U) << family << member;
   }
 }

@@ -45,7 +45,7 @@ Finding volume_agrees(const Surface& surface, double ours) {
   if (!points.assign(surface.vertices).empty() || !judge.assign(polyhedron, points).empty()) {
     return "check input: the oracles cannot read a valid surface";
   }
-  const double theirs = oracles::to_double(judge.volume6(), 3 * points.exponent()) / 6;
+  const double theirs = judge.volume6().value(3 * points.exponent()) / 6;
   const double box = std::pow(judge.diagonal(), 3);
   if (!std::isfinite(box)) {
     no_volume.take();

@@ -20,6 +20,8 @@
 
 namespace delmesher {
 
+inline constexpr double kPlanarAuto = -1;
+
 // Angles are degrees, lengths are in the units of the input. kBounds says which values make sense.
 struct Options : Limits {
   // Every face angle of the refined mesh is at least this (degrees, section 5.4). 14.47 is a
@@ -46,7 +48,12 @@ struct Options : Limits {
   bool approximate = false;      // stop before the enriched CDT (section 6)
   bool simplify_bridges = true;  // section 4.4
   double chamfer_radius = 0;     // largest chamfer distance, in input units; 0: no bound
-  double max_edge = 0;           // largest edge wanted inside, in input units; 0: no bound
+  // Triangles that are coplanar but for rounding are one facet: the surface may deviate by this
+  // fraction of the diagonal between the vertices and edges of such facets, which it keeps. 0: the
+  // surface as given, to the last bit. kPlanarAuto: as little as it takes for what is bent by less
+  // than 2^-20 of the diagonal, at most 2^-18.
+  double planar = 0;
+  double max_edge = 0;  // largest edge wanted inside, in input units; 0: no bound
   Region region = Region::interior;
   bool want_exact = false;      // fill Result::exact
   bool want_chamfered = false;  // fill Result::chamfered
@@ -102,6 +109,7 @@ struct Bounds {
 inline constexpr double kNoBound = HUGE_VAL;
 struct OptionBounds {
   Bounds delta, tau, acute, corner;
+  Bounds planar{.low = 0, .high = 0.01};      // or kPlanarAuto
   Bounds length{.low = 0, .high = kNoBound};  // chamfer_radius and max_edge
   Bounds seconds{.low = 0, .high = kNoBound};
   Bounds budget{.low = 0, .high = 1e15};

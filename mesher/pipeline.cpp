@@ -12,7 +12,9 @@
 #include "mesher/enrich/enrichment.h"
 #include "mesher/policies/budget.h"
 #include "mesher/policies/fallback.h"
+#include "mesher/policies/finer_planes.h"
 #include "mesher/policies/plain.h"
+#include "mesher/policies/planar_bound.h"
 #include "mesher/policies/thinned_rounding.h"
 #include "mesher/refine/refine.h"
 #include "mesher/results/recorder.h"
@@ -41,14 +43,20 @@ Phase phase_of(cdt::CdtStep step) {
   return kPhase[static_cast<std::size_t>(step)];
 }
 
-// The surface as all stages see it: valid, oriented outwards.
-Status check(const Surface& surface, Session& s, Recorder& recorder) {
+// The surface as all stages see it: valid, oriented outwards and, if it is to be refined, with
+// near-coplanar triangles in exactly one plane.
+Status check(const Surface& surface, bool refine, Session& s, Recorder& recorder) {
   s.control.enter(Phase::check);
   const ValidityResult validity = check_validity(surface, true, s.control);
   if (!validity.report.status.ok()) return validity.report.status;
   recorder.checked(validity.report);
   s.diagonal = validity.report.bbox_diagonal;
-  s.topology = build_topology(oriented_outwards(surface, validity), s.points, s.predicates);
+  const Surface outwards = oriented_outwards(surface, validity);
+  const double bound = refine ? planar_bound(outwards, s.options, s.diagonal) : 0;
+  const StandIn stand_in = find_stand_in(outwards, bound, s.control);
+  if (!stand_in.planes.empty()) s.given = outwards.vertices;
+  s.topology = build_topology(outwards, s.points, s.predicates, stand_in);
+  recorder.planar(stand_in, bound);
   return {};
 }
 
@@ -108,13 +116,13 @@ void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineRes
   refined.delaunay.reset();
   s.control.enter(Phase::round);
   MeshToWrite exact =
-      approximate_mesh(chamfered.chamfer, refined, s.topology, s.points, s.options.region);
+      approximate_mesh(chamfered.chamfer, refined, s.topology, s.points, s.given, s.options.region);
   output::RoundingResult rounded = output::round_mesh(std::move(exact.rounding), s.control);
   recorder.written(exact, std::move(rounded));
 }
 
 Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = check(surface, s, recorder); !status.ok()) return status;
+  if (Status status = check(surface, true, s, recorder); !status.ok()) return status;
 
   Budget budget(s.options);
   Fallback fallback(s.options);
@@ -151,7 +159,7 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
 
 // Without refinement: the surface alone.
 Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = check(surface, s, recorder); !status.ok()) return status;
+  if (Status status = check(surface, false, s, recorder); !status.ok()) return status;
   cdt::CdtInput input = enrich::plain_input(s.topology);
   input.on_step = [&s](cdt::CdtStep step) { s.control.enter(phase_of(step)); };
   cdt::CdtResult cdt =
@@ -182,7 +190,10 @@ Result run_pipeline(const Surface& surface, const Options& options, Pipeline pip
 }  // namespace
 
 Result tetrahedralize(const Surface& surface, const Options& options) {
-  const auto in_units = [](const Surface& s, const Options& o) { return run_pipeline(s, o, mesh); };
+  const auto once = [](const Surface& s, const Options& o) { return run_pipeline(s, o, mesh); };
+  const auto in_units = [&](const Surface& s, const Options& o) {
+    return with_finer_planes(s, o, once);
+  };
   return in_ordinary_units(surface, options, in_units);
 }
 
@@ -203,9 +214,12 @@ SurfaceReport check_surface(const Surface& surface, const Options& options) {
     if (!report.status.ok()) return report.status;
     PointStore points;
     Predicates predicates(points);
-    const SurfaceTopology topology =
-        build_topology(oriented_outwards(surface, validity), points, predicates);
-    report.facets = topology.facet_triangles.size();
+    const Surface outwards = oriented_outwards(surface, validity);
+    report.planar_bound = planar_bound(outwards, options, report.bbox_diagonal);
+    const StandIn stand_in = find_stand_in(outwards, report.planar_bound, control);
+    const SurfaceTopology topology = build_topology(outwards, points, predicates, stand_in);
+    report.planar_facets = topology.facet_triangles.size();
+    report.facets = stand_in.planes.empty() ? report.planar_facets : stand_in.given_facets;
     report.smallest_local_feature_size = smallest_local_feature_size(topology, points, control);
     const chamfer::AcuteCount acute =
         chamfer::count_acute(topology, points, predicates, chamfer_options(options), control);

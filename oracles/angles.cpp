@@ -132,12 +132,12 @@ class SmallestAngle {
 
  private:
   bool below_exactly(const ExactPoints& points, Index apex, Index b, Index c) const {
-    const IntegerVector u = exact::difference(points, apex, b);
-    const IntegerVector v = exact::difference(points, apex, c);
-    const mpz_class uv = exact::dot(u, v);
+    const ExactVector u = exact::difference(points, apex, b);
+    const ExactVector v = exact::difference(points, apex, c);
+    const ExactNumber uv = exact::dot(u, v);
     if (uv <= 0) return exact::is_zero(u) || exact::is_zero(v);
-    const mpq_class product = mpz_class(exact::dot(u, u) * exact::dot(v, v));
-    return mpq_class(mpz_class(uv * uv)) > product * exact_bound_;
+    const ExactNumber product = exact::dot(u, u) * exact::dot(v, v);
+    return (uv * uv).rational() > product.rational() * exact_bound_;
   }
 
   double bound_;
@@ -195,7 +195,7 @@ struct FaceAngle {
   Parts<Interval> roughly(const ExactPoints& points) const {
     return between(rough(points, apex, b), rough(points, apex, c));
   }
-  Parts<mpz_class> exactly(const ExactPoints& points) const {
+  Parts<ExactNumber> exactly(const ExactPoints& points) const {
     return between(exact::difference(points, apex, b), exact::difference(points, apex, c));
   }
 };
@@ -206,9 +206,9 @@ struct DihedralAngle {
   Parts<Interval> roughly(const ExactPoints& points) const {
     return parts<Interval>(rough(points, a, b), rough(points, a, c), rough(points, a, d));
   }
-  Parts<mpz_class> exactly(const ExactPoints& points) const {
-    return parts<mpz_class>(exact::difference(points, a, b), exact::difference(points, a, c),
-                            exact::difference(points, a, d));
+  Parts<ExactNumber> exactly(const ExactPoints& points) const {
+    return parts<ExactNumber>(exact::difference(points, a, b), exact::difference(points, a, c),
+                              exact::difference(points, a, d));
   }
 
  private:
@@ -247,16 +247,16 @@ class Distribution {
       const double bins = degrees / 15;
       if (std::fabs(bins - std::round(bins)) > 1e-6) bin = static_cast<int>(bins);
     } else {
-      const Parts<mpz_class> e = angle.exactly(points_);
+      const Parts<ExactNumber> e = angle.exactly(points_);
       degrees = exact_angle(e.sine_squared, e.cosine);
     }
     if (bin < 0) {
-      const Parts<mpz_class> e = angle.exactly(points_);
+      const Parts<ExactNumber> e = angle.exactly(points_);
       bin = angle_bin(e.cosine, e.norms);
     }
     ++histogram[bin];
     if (degrees < smallest || degrees > largest) {
-      const Parts<mpz_class> e = angle.exactly(points_);
+      const Parts<ExactNumber> e = angle.exactly(points_);
       const double better = exact_angle(e.sine_squared, e.cosine);
       smallest = std::min(smallest, better);
       largest = std::max(largest, better);
@@ -365,24 +365,26 @@ class AngleMeasure {
 
 }  // namespace
 
-double exact_angle(const mpz_class& sine_squared, const mpz_class& cosine) {
+double exact_angle(const ExactNumber& sine_squared, const ExactNumber& cosine) {
   if (sine_squared == 0) return cosine < 0 ? 180 : 0;
   // Scaled so that neither overflows: sine^2 and cosine by 2^(2 s) and 2^s.
-  const auto bits = static_cast<long>(mpz_sizeinbase(sine_squared.get_mpz_t(), 2));
+  const auto length = [](const mpz_class& n) {
+    return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
+  };
+  const long bits = length(sine_squared.numerator()) - length(sine_squared.denominator());
   const long shift = (bits + 1) / 2;
   const double sine = std::sqrt(to_double(sine_squared, -2 * shift));
   return std::atan2(sine, to_double(cosine, -shift)) * kDegrees;
 }
 
-int angle_bin(const mpz_class& dot_product, const mpz_class& norms) {
-  const mpz_class dd = dot_product * dot_product;
+int angle_bin(const ExactNumber& dot_product, const ExactNumber& norms) {
+  const ExactNumber dd = dot_product * dot_product;
   // For an acute angle a: cos^2 a > cos^2(15 k), that is a < 15 k. cos^2(15) and cos^2(75) are
   // (2 +- sqrt 3) / 4, and x = 4 dd - 2 norms is compared with +- sqrt(3) norms by squares.
-  const mpz_class x = 4 * dd - 2 * norms;
-  const int square = cmp(mpz_class(x * x), mpz_class(3 * norms * norms));
+  const ExactNumber x = 4 * dd - 2 * norms;
+  const int square = cmp(x * x, 3 * norms * norms);
   const int beyond[5] = {x > 0 ? square : -1,  // 15 degrees
-                         cmp(mpz_class(4 * dd), mpz_class(3 * norms)),
-                         cmp(mpz_class(2 * dd), norms), cmp(mpz_class(4 * dd), norms),
+                         cmp(4 * dd, 3 * norms), cmp(2 * dd, norms), cmp(4 * dd, norms),
                          x < 0 ? -square : 1};
   const int sign = sgn(dot_product);
   if (sign == 0) return 6;
@@ -419,7 +421,7 @@ OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbour
     }
     ++report.checked;
     if (!bad) continue;
-    const Parts<mpz_class> parts = FaceAngle{at[0], at[1], at[2]}.exactly(*complex.points);
+    const Parts<ExactNumber> parts = FaceAngle{at[0], at[1], at[2]}.exactly(*complex.points);
     char text[64];
     std::snprintf(text, sizeof text, " has an angle of %.6g degrees at ",
                   exact_angle(parts.sine_squared, parts.cosine));

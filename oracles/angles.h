@@ -28,10 +28,10 @@ void measure_angles(const TetComplex& complex, const Neighbours& neighbours,
 
 // The angle in degrees with this sine and cosine, up to a positive factor that may depend on both
 // (the sine is given squared), correct to a few roundings.
-double exact_angle(const mpz_class& sine_squared, const mpz_class& cosine);
+double exact_angle(const ExactNumber& sine_squared, const ExactNumber& cosine);
 
 // 0 ... 11: which 15 degrees the angle with cos^2 = dot^2 / norms lies in, and the sign of dot;
 // 180 degrees counts for the last. Exact.
-int angle_bin(const mpz_class& dot, const mpz_class& norms);
+int angle_bin(const ExactNumber& dot, const ExactNumber& norms);
 
 }  // namespace tetproof::oracles

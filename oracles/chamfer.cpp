@@ -173,12 +173,12 @@ void ChamferedSurface::collect_sectors() {
 void ChamferedSurface::pair_sides(std::size_t slot, Index facet, std::vector<Index>& outs,
                                   std::vector<Index>& ins) {
   const Index v = vertices_[slot];
-  const IntegerVector& normal = surface_.facets()[facet].normal;
+  const ExactVector& normal = surface_.facets()[facet].normal;
   const auto direction = [&](Index to) { return exact::difference(points_, v, to); };
   for (const Index out : outs) {
-    const IntegerVector o = direction(out);
+    const ExactVector o = direction(out);
     // 0: turned by less than 180 degrees from o, 1: by 180 or more.
-    const auto half = [&](const IntegerVector& d) {
+    const auto half = [&](const ExactVector& d) {
       const int side = sgn(exact::dot(normal, exact::cross(o, d)));
       return side > 0 || (side == 0 && exact::dot(o, d) > 0) ? 0 : 1;
     };
@@ -189,7 +189,7 @@ void ChamferedSurface::pair_sides(std::size_t slot, Index facet, std::vector<Ind
         best = in;
         continue;
       }
-      const IntegerVector d = direction(in), e = direction(best);
+      const ExactVector d = direction(in), e = direction(best);
       const bool nearer =
           half(d) != half(e) ? half(d) < half(e) : exact::dot(normal, exact::cross(d, e)) > 0;
       if (nearer) best = in;
@@ -221,7 +221,7 @@ class ChamferAngles {
   void check_vertex(std::size_t slot);
   void check_pair(Index v, const Segment& s, const Segment& t);
   void check_sector(Index v, const Segment& s, const Sector& sector, const Threshold& threshold);
-  void judge(const mpz_class& cosine, const mpz_class& norms, const mpz_class& sine_squared,
+  void judge(const ExactNumber& cosine, const ExactNumber& norms, const ExactNumber& sine_squared,
              const Threshold& threshold, bool rounded, const std::string& what);
   void offend(double angle, const Threshold& threshold, bool rounded, const std::string& what);
   std::string segment_name(const Segment& s) const {
@@ -238,8 +238,8 @@ class ChamferAngles {
   OracleReport report_{"chamfer-angles", "angles of constraints"};
 };
 
-void ChamferAngles::judge(const mpz_class& cosine, const mpz_class& norms,
-                          const mpz_class& sine_squared, const Threshold& threshold, bool rounded,
+void ChamferAngles::judge(const ExactNumber& cosine, const ExactNumber& norms,
+                          const ExactNumber& sine_squared, const Threshold& threshold, bool rounded,
                           const std::string& what) {
   if (threshold.above(cosine, norms)) {
     offend(exact_angle(sine_squared, cosine), threshold, rounded, what);
@@ -267,8 +267,8 @@ void ChamferAngles::check_dihedral(const Segment& s) {
   const IntervalVector &p = left.rough_normal, &q = right.rough_normal;
   const Threshold threshold = chamfered_.at_edge(s.input_edge);
   if (threshold.surely_not_above(-exact::dot(p, q), exact::dot(p, p) * exact::dot(q, q))) return;
-  const IntegerVector &m = left.normal, &n = right.normal;
-  const mpz_class cosine = -exact::dot(m, n);
+  const ExactVector &m = left.normal, &n = right.normal;
+  const ExactNumber cosine = -exact::dot(m, n);
   if (cosine <= 0) return;
   judge(cosine, exact::squared(m) * exact::squared(n), exact::squared(exact::cross(m, n)),
         threshold, false,
@@ -298,8 +298,8 @@ void ChamferAngles::check_pair(Index v, const Segment& s, const Segment& t) {
   const Threshold threshold = chamfered_.of_edges(v);
   if (threshold.surely_not_above(exact::dot(x, y), exact::dot(x, x) * exact::dot(y, y))) return;
   if (exact::dot_sign(points_, v, p, q) <= 0) return;
-  const IntegerVector a = exact::difference(points_, v, p), b = exact::difference(points_, v, q);
-  const mpz_class cosine = exact::dot(a, b), norms = exact::squared(a) * exact::squared(b);
+  const ExactVector a = exact::difference(points_, v, p), b = exact::difference(points_, v, q);
+  const ExactNumber cosine = exact::dot(a, b), norms = exact::squared(a) * exact::squared(b);
   judge(cosine, norms, exact::squared(exact::cross(a, b)), threshold, s.artificial || t.artificial,
         segment_name(s) + " and " + segment_name(t));
 }
@@ -319,10 +319,10 @@ void ChamferAngles::check_sector(Index v, const Segment& s, const Sector& sector
   const bool inside = left(o, i) > 0 ? left(o, end) > 0 && left(end, i) > 0
                                      : !(left(i, end) >= 0 && left(end, o) >= 0);
   if (!inside) return;
-  const IntegerVector& n = facet.normal;
-  const IntegerVector d = exact::difference(points_, v, end);
-  const mpz_class height = exact::dot(n, d);
-  const mpz_class norms = exact::squared(n) * exact::squared(d), sine_squared = height * height;
+  const ExactVector& n = facet.normal;
+  const ExactVector d = exact::difference(points_, v, end);
+  const ExactNumber height = exact::dot(n, d);
+  const ExactNumber norms = exact::squared(n) * exact::squared(d), sine_squared = height * height;
   if (!threshold.beyond(norms - sine_squared, norms)) return;  // cos^2 = 1 - sin^2
   const double angle = 90 - exact_angle(norms - sine_squared, abs(height));
   offend(angle, threshold, true, segment_name(s) + " and facet " + std::to_string(facet.id));
@@ -380,7 +380,7 @@ void ChamferExtent::check_point(Index p, Index vertex) {
   ++report_.checked;
   const ExactPoint& point = record_.points[p];
   const bool on_edge = point.kind == ExactPoint::Kind::on_segment;
-  if (point.kind == ExactPoint::Kind::explicit_point) {
+  if (point.kind != ExactPoint::Kind::on_segment && point.kind != ExactPoint::Kind::on_triangle) {
     return report_.fail(complex_.vertex_name(p) + " was made by chamfering, but is not given on " +
                         "an input edge or triangle");
   }
@@ -429,15 +429,14 @@ void ChamferExtent::check_chain(const ExactRecord::Chain& chain) {
 
 // In the closed facet, that is in one of its closed triangles.
 bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) {
-  const IntegerVector& normal = surface_.facets()[facet].normal;
+  const ExactVector& normal = surface_.facets()[facet].normal;
   return std::any_of(found_.begin(), found_.end(), [&](Index t) {
     if (surface_.facet_of_triangle()[t] != facet) return false;
     for (int i = 0; i < 3; ++i) {
       const Index p = surface_.triangles()[t][i], q = surface_.triangles()[t][(i + 1) % 3];
-      const IntegerVector u = exact::difference(points_, p, a),
-                          v = exact::difference(points_, p, b);
-      const IntegerVector sum = {mpz_class(u[0] + v[0]), mpz_class(u[1] + v[1]),
-                                 mpz_class(u[2] + v[2])};
+      const ExactVector u = exact::difference(points_, p, a), v = exact::difference(points_, p, b);
+      const ExactVector sum = {ExactNumber(u[0] + v[0]), ExactNumber(u[1] + v[1]),
+                               ExactNumber(u[2] + v[2])};
       if (exact::dot(normal, exact::cross(exact::difference(points_, p, q), sum)) < 0) return false;
     }
     return true;
@@ -446,7 +445,7 @@ bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) {
 
 // Properly, through the inside of both edges.
 bool ChamferExtent::crosses_border(Index facet, Index a, Index b) {
-  const IntegerVector& normal = surface_.facets()[facet].normal;
+  const ExactVector& normal = surface_.facets()[facet].normal;
   const auto side = [&](Index p, Index q, Index r) {
     return sgn(exact::dot(normal, exact::area2(points_, p, q, r)));
   };
@@ -462,18 +461,21 @@ bool ChamferExtent::crosses_border(Index facet, Index a, Index b) {
 }
 
 void ChamferExtent::check_areas() {
-  std::vector<IntegerVector> area(surface_.facets().size());
+  std::vector<std::array<ExactSum, 3>> area(surface_.facets().size());
   for (const auto& [a, b, c, id] : record_.refined_facets) {
     const Index f = facets_.find(id);
     if (f == kNone) continue;
-    const IntegerVector n = exact::area2(points_, a, b, c);
+    const ExactVector n = exact::area2(points_, a, b, c);
     for (int axis = 0; axis < 3; ++axis) area[f][axis] += n[axis];
   }
   for (Index f = 0; f < area.size(); ++f) {
-    const IntegerVector& whole = surface_.facets()[f].normal;
-    if (exact::dot(area[f], whole) > exact::squared(whole)) {
-      report_.fail("the faces on facet " + std::to_string(surface_.facets()[f].id) +
-                   " cover more than the facet");
+    const InputSurface::Facet& facet = surface_.facets()[f];
+    // All of them are multiples of one vector: a component that it has will do.
+    std::size_t axis = 0;
+    while (axis < 2 && sgn(facet.normal[axis]) == 0) ++axis;
+    if (area[f][axis] == facet.area2[axis]) continue;
+    if (difference(area[f][axis], facet.area2[axis], 0) * sgn(facet.normal[axis]) > 0) {
+      report_.fail("the faces on facet " + std::to_string(facet.id) + " cover more than the facet");
     }
   }
 }

@@ -128,6 +128,8 @@ class ChamferNeed {
 // Follows what is left of the boundary of every kept facet: it has to be the facet's own boundary,
 // side by side, but for a detour around each chamfered corner over points made for that corner, and
 // beside each acute edge from the points made for one end to those made for the other.
+using AreaSum = std::array<ExactSum, 3>;
+
 class ChamferCuts {
  public:
   explicit ChamferCuts(const RefinedMesh& mesh)
@@ -195,13 +197,13 @@ class ChamferCuts {
   std::unordered_map<Index, Index> made_for_;
   std::set<Index> corners_;
   std::vector<std::pair<Index, std::uint64_t>> face_sides_;
-  std::vector<IntegerVector> area_;          // of the faces of each facet, twice
+  std::vector<AreaSum> area_;                // of the faces of each facet, twice
   std::vector<std::vector<Index>> on_edge_;  // the chain of each input edge, from -> to
   Links links_;
   std::vector<Side> sides_;
   std::vector<std::vector<std::size_t>> sides_of_;  // per facet
   std::vector<std::uint8_t> passed_;
-  IntegerVector walked_;  // twice the area inside what has been followed
+  AreaSum walked_;  // twice the area inside what has been followed
   Index origin_ = 0;
   std::uint64_t detours_ = 0, strips_ = 0;
   OracleReport report_{"chamfer-cuts", "sides of kept facets"};
@@ -212,7 +214,7 @@ void ChamferCuts::collect_faces() {
   for (const auto& [a, b, c, id] : record_.refined_facets) {
     const Index f = facets_.find(id);
     if (f == kNone) continue;
-    const IntegerVector n = exact::area2(points_, a, b, c);
+    const ExactVector n = exact::area2(points_, a, b, c);
     for (int axis = 0; axis < 3; ++axis) area_[f][axis] += n[axis];
     for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
       face_sides_.emplace_back(f, directed_key(p, q));
@@ -287,7 +289,7 @@ void ChamferCuts::collect_sides() {
 }
 
 void ChamferCuts::add(Index a, Index b) {
-  const IntegerVector n =
+  const ExactVector n =
       exact::cross(exact::difference(points_, origin_, a), exact::difference(points_, origin_, b));
   for (int axis = 0; axis < 3; ++axis) walked_[axis] += n[axis];
 }
@@ -319,7 +321,7 @@ void ChamferCuts::check_facet(Index f) {
                          " cuts off no corner and no edge");
     }
   }
-  if (walked_ != area_[f]) fail(f, "the cuts do not account for what is missing");
+  if (!(walked_ == area_[f])) fail(f, "the cuts do not account for what is missing");
 }
 
 // From a side, over all that follow it, back to it.

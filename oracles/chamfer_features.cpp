@@ -13,7 +13,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // In doubles, from exact vectors, so that small ones are right as well.
-double angle_between(const IntegerVector& a, const IntegerVector& b) {
+double angle_between(const ExactVector& a, const ExactVector& b) {
   return std::atan2(length(exact::cross(a, b), 0), to_double(exact::dot(a, b), 0));
 }
 
@@ -112,7 +112,7 @@ double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) 
     }
   }
   for (std::size_t i = 0; i < spokes.size(); ++i) {
-    const IntegerVector a = exact::difference(points_, v, spokes[i]);
+    const ExactVector a = exact::difference(points_, v, spokes[i]);
     for (std::size_t j = 0; j < i; ++j) {
       const double angle = angle_between(a, exact::difference(points_, v, spokes[j]));
       smallest = std::min(smallest, 2 * d * std::sin(angle / 2));
@@ -124,8 +124,8 @@ double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) 
       if (!present(f) || std::find(corner.begin(), corner.end(), spokes[i]) != corner.end())
         continue;
       const int k = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
-      const IntegerVector& n = surface_.facets()[f].normal;
-      const auto left = [&](const IntegerVector& x, const IntegerVector& y) {
+      const ExactVector& n = surface_.facets()[f].normal;
+      const auto left = [&](const ExactVector& x, const ExactVector& y) {
         return sgn(exact::dot(n, exact::cross(x, y)));
       };
       if (left(exact::difference(points_, v, corner[(k + 1) % 3]), a) < 0 ||

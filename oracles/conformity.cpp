@@ -197,7 +197,7 @@ double Conformity::progress(const InputSurface::Edge& edge, Index v, double& dis
 // Exactly: is `next` on the line of the edge, beyond `here` and not beyond the edge's end?
 bool Conformity::advances(const InputSurface::Edge& edge, Index here, Index next) const {
   if (!exact::collinear(points_, edge.from, edge.to, next)) return false;
-  const IntegerVector direction = exact::difference(points_, edge.from, edge.to);
+  const ExactVector direction = exact::difference(points_, edge.from, edge.to);
   return exact::dot(direction, exact::difference(points_, here, next)) > 0 &&
          exact::dot(direction, exact::difference(points_, next, edge.to)) >= 0;
 }
@@ -261,7 +261,8 @@ bool Conformity::find_chain(const InputSurface::Edge& edge, std::vector<Index>& 
       return true;
     }
   }
-  for (double tolerance = 1e-15; tolerance <= options_.largest_tolerance; tolerance *= 100) {
+  for (double tolerance = std::min(1e-15, options_.largest_tolerance);
+       tolerance <= options_.largest_tolerance; tolerance *= 100) {
     if (follow(edge, tolerance, chain)) return true;
   }
   return false;
@@ -279,7 +280,7 @@ void Conformity::follow_edges() {
       continue;
     }
     result_.chains[&edge - surface_.edges().data()] = chain;
-    const IntegerVector direction = exact::difference(points_, edge.from, edge.to);
+    const ExactVector direction = exact::difference(points_, edge.from, edge.to);
     for (std::size_t i = 1; i < chain.size(); ++i) {
       const bool fresh = chain_facet_.emplace(edge_key(chain[i - 1], chain[i]), edge.left).second;
       const bool back = chain_facet_.emplace(edge_key(chain[i], chain[i - 1]), edge.right).second;
@@ -290,7 +291,7 @@ void Conformity::follow_edges() {
       }
       ++result_.chain_edges;
       if (options_.exact) continue;
-      const IntegerVector off =
+      const ExactVector off =
           exact::cross(direction, exact::difference(points_, edge.from, chain[i]));
       if (!exact::is_zero(off)) {
         deviate(length(off, 2 * points_.exponent()) / length(direction, points_.exponent()));
@@ -373,13 +374,13 @@ void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
   const InputSurface::Facet& input = surface_.facets()[facet];
   const std::string name = "facet " + std::to_string(input.id);
   if (faces.empty()) return fail_facet(facet, name + " has no boundary faces");
-  IntegerVector area;
+  std::array<ExactSum, 3> area;
   std::vector<Index> vertices;
   std::vector<std::uint64_t> edges;
   std::uint64_t folded = 0;
   for (const Index f : faces) {
     const Face& face = result_.faces[f];
-    const IntegerVector normal = exact::area2(points_, face[0], face[1], face[2]);
+    const ExactVector normal = exact::area2(points_, face[0], face[1], face[2]);
     for (int i = 0; i < 3; ++i) {
       area[i] += normal[i];
       vertices.push_back(face[i]);
@@ -400,16 +401,18 @@ void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
   make_unique(edges);
   const double unit = length(input.normal, 2 * points_.exponent());
   for (const Index v : vertices) {
-    const mpz_class off = exact::dot(input.normal, exact::difference(points_, input.vertex, v));
+    const ExactNumber off = exact::dot(input.normal, exact::difference(points_, input.vertex, v));
     if (off == 0) continue;
     const double distance = std::fabs(to_double(off, 3 * points_.exponent())) / unit;
-    if (options_.exact || !(distance <= options_.largest_tolerance * surface_.diagonal())) {
+    const double most = options_.off_plane > 0 ? options_.off_plane
+                                               : options_.largest_tolerance * surface_.diagonal();
+    if (options_.exact || !(distance <= most)) {
       fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + name);
     } else {
       deviate(distance);
     }
   }
-  if (options_.exact && area != input.normal)
+  if (options_.exact && !(area == input.area2))
     fail_facet(facet, "the faces on " + name + " do not add up to it");
   const std::int64_t euler = static_cast<std::int64_t>(vertices.size() + faces.size()) -
                              static_cast<std::int64_t>(edges.size());

@@ -20,6 +20,8 @@ struct ConformityOptions {
   // are rounded. The same combinatorial structure is demanded, and the largest deviation measured.
   bool exact = true;
   double largest_tolerance = 1e-5;  // fraction of the diagonal
+  // The same for the planes of facets alone, absolute; 0: largest_tolerance.
+  double off_plane = 0;
   // Whether the first failure ends it: for a caller who only asks whether there is one.
   bool first_failure_ends = false;
   // With a tolerance: chains to try first, one per edge of the surface, as a record says. Where
@@ -30,6 +32,8 @@ struct ConformityOptions {
 
 struct ConformityResult {
   OracleReport report{"conformity", "boundary faces"};
+  // Of the slab that contains each facet that was made of several (InputSurface::unite_facets).
+  double slab = 0;
   double deviation = 0;  // largest distance of a surface vertex from where it belongs, rounded up
   std::vector<Face> faces;    // boundary faces of the solid, seen from outside
   std::vector<Index> facets;  // the input facet that each tiles, or kNone

@@ -57,9 +57,9 @@ bool AcuteCorners::edge_is_acute(Index e, const Present& present,
   // The normals point away from each other where the facets enclose a sharp wedge, on either side.
   const IntervalVector &r = rough_normal(edge.left), &s = rough_normal(edge.right);
   if (bound.surely_not_above(-exact::dot(r, s), exact::dot(r, r) * exact::dot(s, s))) return false;
-  const IntegerVector &m = surface_.facets()[edge.left].normal,
-                      &n = surface_.facets()[edge.right].normal;
-  const mpz_class cosine = -exact::dot(m, n);
+  const ExactVector &m = surface_.facets()[edge.left].normal,
+                    &n = surface_.facets()[edge.right].normal;
+  const ExactNumber cosine = -exact::dot(m, n);
   if (cosine <= 0) return false;
   return bound.above(cosine, exact::squared(m) * exact::squared(n));
 }
@@ -83,8 +83,8 @@ std::string AcuteCorners::why_acute(Index v, const Present& present,
       if (of_edges.surely_not_above(exact::dot(r, s), exact::dot(r, r) * exact::dot(s, s)))
         continue;
       if (exact::dot_sign(points_, v, spokes[i], spokes[j]) <= 0) continue;
-      const IntegerVector a = exact::difference(points_, v, spokes[i]);
-      const IntegerVector b = exact::difference(points_, v, spokes[j]);
+      const ExactVector a = exact::difference(points_, v, spokes[i]);
+      const ExactVector b = exact::difference(points_, v, spokes[j]);
       if (of_edges.above(exact::dot(a, b), exact::squared(a) * exact::squared(b))) {
         return "edges to " + std::to_string(spokes[i]) + " and " + std::to_string(spokes[j]);
       }
@@ -119,9 +119,9 @@ bool AcuteCorners::edge_meets_facet(Index v, Index to, const Present& present,
     if (after < 0 || (after == 0 && !is_flat(t, i))) continue;
     if (before < 0 || (before == 0 && !is_flat(t, (i + 2) % 3))) continue;
     if (after <= 0 && before <= 0) continue;
-    const IntegerVector d = exact::difference(points_, v, to);
-    const IntegerVector& n = surface_.facets()[f].normal;
-    const mpz_class height = exact::dot(n, d), norms = exact::squared(n) * exact::squared(d);
+    const ExactVector d = exact::difference(points_, v, to);
+    const ExactVector& n = surface_.facets()[f].normal;
+    const ExactNumber height = exact::dot(n, d), norms = exact::squared(n) * exact::squared(d);
     if (bound.beyond(norms - height * height, norms)) return true;
   }
   return false;

@@ -21,11 +21,12 @@ class AngleBound {
  public:
   AngleBound(double degrees, Doubt doubt);
   // Is the angle whose cosine has this sign, and this square over `norms`, below it?
-  bool above(const mpz_class& cosine, const mpz_class& norms) const {
+  bool above(const ExactNumber& cosine, const ExactNumber& norms) const {
     return cosine > 0 && beyond(cosine * cosine, norms);
   }
-  bool beyond(const mpz_class& squared_cosine, const mpz_class& norms) const {
-    return squared_cosine * bound_.get_den() > bound_.get_num() * norms;
+  bool beyond(const ExactNumber& squared_cosine, const ExactNumber& norms) const {
+    return squared_cosine * ExactNumber(mpz_class(bound_.get_den())) >
+           ExactNumber(mpz_class(bound_.get_num())) * norms;
   }
   // Is it certainly not, as far as intervals tell?
   bool surely_not_above(const Interval& cosine, const Interval& norms) const {

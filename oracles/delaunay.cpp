@@ -115,10 +115,10 @@ class Sight {
 
  private:
   // The sum of the corners less four times `from`: towards the centroid.
-  IntegerVector towards_centroid(Index from, const Tet& tet) const {
-    IntegerVector sum;
+  ExactVector towards_centroid(Index from, const Tet& tet) const {
+    ExactVector sum;
     for (const Index c : tet) {
-      const IntegerVector d = exact::difference(points_, from, c);
+      const ExactVector d = exact::difference(points_, from, c);
       for (int axis = 0; axis < 3; ++axis) sum[axis] += d[axis];
     }
     return sum;
@@ -126,12 +126,12 @@ class Sight {
 
   bool crosses(const std::array<Index, 3>& triangle, const Tet& tet, Index v) const {
     const auto& [a, b, c] = triangle;
-    const IntegerVector normal = exact::area2(points_, a, b, c);
+    const ExactVector normal = exact::area2(points_, a, b, c);
     const int near = sgn(exact::dot(normal, towards_centroid(a, tet)));
     const int far = sgn(exact::dot(normal, exact::difference(points_, a, v)));
     if (near * far >= 0) return false;
     // The line from v to the centroid passes the three sides on the same side, or meets them.
-    const IntegerVector line = towards_centroid(v, tet);
+    const ExactVector line = towards_centroid(v, tet);
     int sides[3];
     for (int i = 0; i < 3; ++i) {
       sides[i] =

@@ -6,41 +6,35 @@
 namespace tetproof::oracles {
 
 mpq_class squared_distance_to_segment(const ExactPoints& points, Index v, Index a, Index b) {
-  const IntegerVector d = exact::difference(points, a, b), w = exact::difference(points, a, v);
-  if (exact::dot(d, w) <= 0) return exact::squared(w);
-  const IntegerVector u = exact::difference(points, b, v);
-  if (exact::dot(d, u) >= 0) return exact::squared(u);
-  mpq_class result(exact::squared(exact::cross(d, w)), exact::squared(d));
-  result.canonicalize();
-  return result;
+  const ExactVector d = exact::difference(points, a, b), w = exact::difference(points, a, v);
+  if (exact::dot(d, w) <= 0) return exact::squared(w).rational();
+  const ExactVector u = exact::difference(points, b, v);
+  if (exact::dot(d, u) >= 0) return exact::squared(u).rational();
+  return ratio(exact::squared(exact::cross(d, w)), exact::squared(d));
 }
 
 mpq_class squared_distance_inside(const ExactPoints& points, Index a, Index b, Index c, Index d) {
-  const IntegerVector u = exact::difference(points, a, b), v = exact::difference(points, c, d),
-                      w = exact::difference(points, a, c), n = exact::cross(u, v);
-  const mpz_class nn = exact::squared(n);
+  const ExactVector u = exact::difference(points, a, b), v = exact::difference(points, c, d),
+                    w = exact::difference(points, a, c), n = exact::cross(u, v);
+  const ExactNumber nn = exact::squared(n);
   if (nn == 0) return -1;
   // a + s u and c + t v are closest at s = det(w, v, n) / |n|^2, t = det(w, u, n) / |n|^2.
-  const mpz_class s = exact::dot(exact::cross(w, v), n), t = exact::dot(exact::cross(w, u), n);
+  const ExactNumber s = exact::dot(exact::cross(w, v), n), t = exact::dot(exact::cross(w, u), n);
   if (s <= 0 || s >= nn || t <= 0 || t >= nn) return -1;
-  const mpz_class height = exact::dot(w, n);
-  mpq_class result(mpz_class(height * height), nn);
-  result.canonicalize();
-  return result;
+  const ExactNumber height = exact::dot(w, n);
+  return ratio(height * height, nn);
 }
 
 mpq_class squared_distance_to_face(const ExactPoints& points, Index v,
                                    const std::array<Index, 3>& triangle) {
-  const IntegerVector n = exact::area2(points, triangle[0], triangle[1], triangle[2]);
+  const ExactVector n = exact::area2(points, triangle[0], triangle[1], triangle[2]);
   if (exact::is_zero(n)) return -1;
   for (int i = 0; i < 3; ++i) {
     const Index p = triangle[i], q = triangle[(i + 1) % 3];
     if (exact::dot(n, exact::area2(points, p, q, v)) < 0) return -1;
   }
-  const mpz_class height = exact::dot(n, exact::difference(points, triangle[0], v));
-  mpq_class result(mpz_class(height * height), exact::squared(n));
-  result.canonicalize();
-  return result;
+  const ExactNumber height = exact::dot(n, exact::difference(points, triangle[0], v));
+  return ratio(height * height, exact::squared(n));
 }
 
 mpq_class squared_distance_to_triangle(const ExactPoints& points, Index v,

@@ -325,7 +325,7 @@ class Repairs {
   Position rounded(Index v) const {
     Position result;
     for (int axis = 0; axis < 3; ++axis) {
-      const mpz_class& x = points_.integer(v)[axis];
+      const mpz_class& x = points_.exact(v)[axis].numerator();
       const std::size_t bits = x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2);
       if (bits <= 53) {
         result[axis] = to_double(x, points_.exponent());

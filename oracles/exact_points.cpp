@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace tetproof::oracles {
 namespace {
@@ -33,6 +34,10 @@ mpz_class scaled(const Dyadic& value, long exponent) {
   return result;
 }
 
+mpq_class rational(double x) {
+  return mpq_class(x);
+}
+
 void lower(long& exponent, double value, long offset) {
   if (value == 0) return;
   exponent = std::min(exponent, dyadic(value).exponent + offset);
@@ -40,70 +45,182 @@ void lower(long& exponent, double value, long offset) {
 
 // What `nearest`, made of it by to_double(), leaves of value * 2^exponent: to 2^-52 of itself, and
 // 0 only if nothing. NaN where neither can be had; that decides nothing.
-double rest(const mpz_class& value, long exponent, double nearest) {
+double rest(const ExactNumber& value, long exponent, double nearest) {
   constexpr double kTiny = 0x1p-900;  // below it bits of the rest could get lost
   if (nearest == 0 && value == 0) return 0;
   if (!(std::fabs(nearest) >= kTiny) || !std::isfinite(nearest)) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  return to_double(value - scaled(dyadic(nearest), exponent), exponent);
+  // That of a rational need not be a multiple of the unit.
+  const Dyadic d = dyadic(nearest);
+  const long lowest = std::min<long>(exponent, d.exponent);
+  return to_double(value.shifted(exponent - lowest) - ExactNumber(scaled(d, lowest)), lowest);
 }
 
-std::string check_point(std::span<const ExactPoint> points, std::size_t index) {
+bool is_corner(const ExactPoint& p) {
+  return p.kind == Kind::explicit_point || p.kind == Kind::on_planes;
+}
+
+std::string check_point(std::span<const ExactPoint> points, std::size_t planes, std::size_t index) {
   const ExactPoint& p = points[index];
   const std::string name = "point " + std::to_string(index);
   if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
     return name + " is not finite";
   }
   if (p.kind == Kind::explicit_point) return {};
+  if (p.kind == Kind::on_planes) {
+    for (const Index plane : {p.i, p.j, p.k}) {
+      if (plane < planes) continue;
+      return name + " refers to plane " + std::to_string(plane) + ", which does not exist";
+    }
+    return {};
+  }
   const bool triangle = p.kind == Kind::on_triangle;
   for (const Index corner : {p.i, p.j, triangle ? p.k : p.j}) {
-    if (corner >= points.size() || points[corner].kind != Kind::explicit_point) {
-      return name + " refers to " + std::to_string(corner) + ", which is not an explicit point";
+    if (corner >= points.size() || !is_corner(points[corner])) {
+      return name + " refers to " + std::to_string(corner) + ", which is no corner";
     }
   }
   return {};
 }
 
-// Exponent at which every coordinate of every point is an integer.
-long common_exponent(std::span<const ExactPoint> points) {
-  long coordinate = std::numeric_limits<int>::max();
+// normal . x = offset
+struct Equation {
+  std::array<mpq_class, 3> normal;
+  mpq_class offset;
+};
+
+using Rational = std::array<mpq_class, 3>;
+
+Rational cross(const Rational& u, const Rational& v) {
+  Rational n;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    n[i] = u[j] * v[k] - u[k] * v[j];
+  }
+  return n;
+}
+
+mpq_class dot(const Rational& u, const Rational& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+Equation equation(const delmesher::ExactRecord::Plane& plane) {
+  const auto vector = [](const std::array<double, 3>& x) {
+    return Rational{rational(x[0]), rational(x[1]), rational(x[2])};
+  };
+  const Rational a = vector(plane.through[0]);
+  Equation result;
+  if (plane.spanned) {
+    Rational u = vector(plane.through[1]), v = vector(plane.through[2]);
+    for (int i = 0; i < 3; ++i) {
+      u[i] -= a[i];
+      v[i] -= a[i];
+    }
+    result.normal = cross(u, v);
+  } else {
+    result.normal = vector(plane.normal);
+  }
+  result.offset = dot(result.normal, a);
+  return result;
+}
+
+bool is_finite(const delmesher::ExactRecord::Plane& plane) {
+  for (const double x : plane.normal) {
+    if (!std::isfinite(x)) return false;
+  }
+  for (const auto& p : plane.through) {
+    for (const double x : p) {
+      if (!std::isfinite(x)) return false;
+    }
+  }
+  return true;
+}
+
+// Where three planes meet (Cramer's rule); nothing if that is not one point.
+std::optional<Rational> meeting_point(const Equation& p, const Equation& q, const Equation& r) {
+  const Rational qr = cross(q.normal, r.normal), rp = cross(r.normal, p.normal),
+                 pq = cross(p.normal, q.normal);
+  const mpq_class determinant = dot(p.normal, qr);
+  if (determinant == 0) return std::nullopt;
+  Rational x;
+  for (int i = 0; i < 3; ++i) {
+    x[i] = (p.offset * qr[i] + q.offset * rp[i] + r.offset * pq[i]) / determinant;
+  }
+  return x;
+}
+
+constexpr long kNoExponent = std::numeric_limits<int>::max();
+
+// Exponent at which every coordinate of every corner, as far as `moved` does not hold them, is an
+// integer; kNoExponent if all are 0.
+long corner_exponent(std::span<const ExactPoint> points,
+                     const std::vector<std::pair<Index, Rational>>& moved) {
+  long exponent = kNoExponent;
   for (const ExactPoint& p : points) {
     if (p.kind != Kind::explicit_point) continue;
-    for (const double x : {p.x, p.y, p.z}) lower(coordinate, x, 0);
+    for (const double x : {p.x, p.y, p.z}) lower(exponent, x, 0);
   }
-  if (coordinate == std::numeric_limits<int>::max()) return 0;
+  for (const auto& [index, place] : moved) {
+    for (const mpq_class& x : place) {
+      if (x == 0) continue;
+      const auto zeros = [](const mpz_class& n) {
+        return static_cast<long>(mpz_scan1(n.get_mpz_t(), 0));
+      };
+      exponent = std::min(exponent, zeros(x.get_num()) - zeros(x.get_den()));
+    }
+  }
+  return exponent;
+}
+
+// By how much the parameters of points on segments and triangles lower it.
+long parameter_exponent(std::span<const ExactPoint> points) {
   long parameter = 0;
   for (const ExactPoint& p : points) {
-    if (p.kind == Kind::explicit_point) continue;
+    if (is_corner(p)) continue;
     lower(parameter, p.x, 0);
     if (p.kind == Kind::on_triangle) lower(parameter, p.y, 0);
   }
-  return coordinate + parameter;
+  return parameter;
+}
+
+ExactNumber scaled(mpq_class value, long exponent) {
+  if (exponent >= 0) {
+    mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<unsigned long>(exponent));
+  } else {
+    mpq_mul_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<unsigned long>(-exponent));
+  }
+  return ExactNumber(value);
 }
 
 // Adds parameter * (to - from); the product is an integer by the choice of the common exponent.
-void add_multiple(mpz_class& sum, double parameter, const mpz_class& from, const mpz_class& to) {
+void add_multiple(ExactNumber& sum, double parameter, const ExactNumber& from,
+                  const ExactNumber& to) {
   const Dyadic t = dyadic(parameter);
-  mpz_class term = (to - from) * static_cast<long>(t.mantissa);
-  if (t.exponent >= 0) {
-    term <<= static_cast<unsigned long>(t.exponent);
-  } else {
-    term >>= static_cast<unsigned long>(-t.exponent);  // exact
-  }
-  sum += term;
+  sum += ((to - from) * ExactNumber(static_cast<long>(t.mantissa))).shifted(t.exponent);
 }
 
 }  // namespace
 
-double to_double(const mpz_class& value, long exponent) {
+double to_double(const ExactNumber& value, long exponent) {
+  mpz_class quotient;
+  if (!value.is_integer()) {  // to 64 bits
+    const mpz_class denominator = value.denominator();
+    const auto bits = [](const mpz_class& n) {
+      return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
+    };
+    const long missing = std::max(0L, 64 + bits(denominator) - bits(value.numerator()));
+    quotient = (value.numerator() << static_cast<unsigned long>(missing)) / denominator;
+    exponent -= missing;
+  }
   long shift = 0;
-  const double fraction = mpz_get_d_2exp(&shift, value.get_mpz_t());
+  const double fraction =
+      mpz_get_d_2exp(&shift, (value.is_integer() ? value.numerator() : quotient).get_mpz_t());
   const long e = shift + exponent;
   return std::ldexp(fraction, static_cast<int>(std::clamp(e, -5000L, 5000L)));
 }
 
-double length(const IntegerVector& vector, long exponent) {
+double length(const ExactVector& vector, long exponent) {
   return std::hypot(to_double(vector[0], exponent), to_double(vector[1], exponent),
                     to_double(vector[2], exponent));
 }
@@ -122,15 +239,45 @@ std::string ExactPoints::assign(std::span<const Position> positions) {
   return assign(explicit_points(positions));
 }
 
-std::string ExactPoints::assign(std::span<const ExactPoint> points) {
-  integers_.clear();
+std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Planes planes) {
+  std::vector<Equation> equations;
+  for (std::size_t n = 0; n < planes.size(); ++n) {
+    if (!is_finite(planes[n])) return "plane " + std::to_string(n) + " is not finite";
+    equations.push_back(equation(planes[n]));
+  }
+  std::vector<std::pair<Index, Rational>> moved;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ExactPoint& p = points[i];
+    if (p.kind != Kind::on_planes) continue;
+    const auto place = meeting_point(equations[p.i], equations[p.j], equations[p.k]);
+    if (!place) return "point " + std::to_string(i) + " is on planes that do not meet in one point";
+    moved.emplace_back(static_cast<Index>(i), *place);
+  }
+  exponent_ = corner_exponent(points, moved);
+  exponent_ = exponent_ == kNoExponent ? 0 : exponent_ + parameter_exponent(points);
+  for (const auto& [i, place] : moved) {
+    for (int axis = 0; axis < 3; ++axis) {
+      ExactNumber& x = coordinates_[i][axis];
+      x = scaled(place[axis], exponent_);
+      all_integers_ = all_integers_ && x.is_integer();
+    }
+  }
+  return {};
+}
+
+std::string ExactPoints::assign(std::span<const ExactPoint> points, Planes planes) {
+  coordinates_.clear();
   nearest_.clear();
   rest_.clear();
+  all_integers_ = true;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (std::string why = check_point(points, i); !why.empty()) return why;
+    if (std::string why = check_point(points, planes.size(), i); !why.empty()) return why;
   }
-  exponent_ = common_exponent(points);
-  integers_.resize(points.size());
+  coordinates_.resize(points.size());
+  if (std::string why = place_on_planes(points, planes); !why.empty()) {
+    coordinates_.clear();
+    return why;
+  }
   nearest_.resize(points.size());
   rest_.assign(points.size(), {0, 0, 0});
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -138,7 +285,7 @@ std::string ExactPoints::assign(std::span<const ExactPoint> points) {
     if (p.kind != Kind::explicit_point) continue;
     const Position position = {p.x, p.y, p.z};
     for (int axis = 0; axis < 3; ++axis) {
-      integers_[i][axis] = scaled(dyadic(position[axis]), exponent_);
+      coordinates_[i][axis] = scaled(dyadic(position[axis]), exponent_);
     }
     nearest_[i] = position;
   }
@@ -147,11 +294,13 @@ std::string ExactPoints::assign(std::span<const ExactPoint> points) {
     if (p.kind == Kind::explicit_point) continue;
     const Index base = p.kind == Kind::on_triangle ? p.k : p.j;
     for (int axis = 0; axis < 3; ++axis) {
-      mpz_class& value = integers_[i][axis];
-      value = integers_[base][axis];
-      add_multiple(value, p.x, integers_[base][axis], integers_[p.i][axis]);
-      if (p.kind == Kind::on_triangle) {
-        add_multiple(value, p.y, integers_[base][axis], integers_[p.j][axis]);
+      ExactNumber& value = coordinates_[i][axis];
+      if (p.kind != Kind::on_planes) {
+        value = coordinates_[base][axis];
+        add_multiple(value, p.x, coordinates_[base][axis], coordinates_[p.i][axis]);
+        if (p.kind == Kind::on_triangle) {
+          add_multiple(value, p.y, coordinates_[base][axis], coordinates_[p.j][axis]);
+        }
       }
       nearest_[i][axis] = to_double(value, exponent_);
       rest_[i][axis] = rest(value, exponent_, nearest_[i][axis]);
@@ -207,6 +356,10 @@ Number diametral(const std::array<Number, 3>& u, const std::array<Number, 3>& v,
   return sum;
 }
 
+bool all_integers(const ExactVector& v) {
+  return v[0].is_integer() && v[1].is_integer() && v[2].is_integer();
+}
+
 // Determinant of the four rows (x - e, |x - e|^2) with the sign turned so that inside is positive.
 template <class Number>
 Number insphere_determinant(const std::array<std::array<Number, 3>, 4>& r) {
@@ -220,65 +373,94 @@ Number insphere_determinant(const std::array<std::array<Number, 3>, 4>& r) {
 
 }  // namespace
 
-IntegerVector difference(const ExactPoints& points, Index from, Index to) {
-  const IntegerVector &p = points.integer(from), &q = points.integer(to);
-  return {mpz_class(q[0] - p[0]), mpz_class(q[1] - p[1]), mpz_class(q[2] - p[2])};
+ExactVector difference(const ExactPoints& points, Index from, Index to) {
+  const ExactVector &p = points.exact(from), &q = points.exact(to);
+  return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
 }
 
-mpz_class dot(const IntegerVector& u, const IntegerVector& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+// Without denominators, in the memory of one number.
+ExactNumber dot(const ExactVector& u, const ExactVector& v) {
+  if (!all_integers(u) || !all_integers(v)) return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+  mpz_class sum = u[0].numerator() * v[0].numerator();
+  for (std::size_t i = 1; i < 3; ++i) {
+    mpz_addmul(sum.get_mpz_t(), u[i].numerator().get_mpz_t(), v[i].numerator().get_mpz_t());
+  }
+  return sum;
 }
 
-IntegerVector cross(const IntegerVector& u, const IntegerVector& v) {
-  return {mpz_class(u[1] * v[2] - u[2] * v[1]), mpz_class(u[2] * v[0] - u[0] * v[2]),
-          mpz_class(u[0] * v[1] - u[1] * v[0])};
+ExactVector cross(const ExactVector& u, const ExactVector& v) {
+  const bool integers = all_integers(u) && all_integers(v);
+  ExactVector result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    if (!integers) {
+      result[i] = u[j] * v[k] - u[k] * v[j];
+      continue;
+    }
+    mpz_class n = u[j].numerator() * v[k].numerator();
+    mpz_submul(n.get_mpz_t(), u[k].numerator().get_mpz_t(), v[j].numerator().get_mpz_t());
+    result[i] = ExactNumber(std::move(n));
+  }
+  return result;
 }
 
-bool is_zero(const IntegerVector& v) {
+bool is_zero(const ExactVector& v) {
   return v[0] == 0 && v[1] == 0 && v[2] == 0;
 }
 
 bool equal(const ExactPoints& points, Index a, Index b) {
-  return points.integer(a) == points.integer(b);
+  return points.exact(a) == points.exact(b);
 }
 
 double distance(const ExactPoints& points, Index a, Index b) {
   return length(difference(points, a, b), points.exponent());
 }
 
-mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+ExactNumber volume6(const ExactPoints& points, Index a, Index b, Index c, Index d) {
   thread_local Volume6 volume6;  // allocating takes longer than the arithmetic
   return volume6(points, {a, b, c, d});
 }
 
-const mpz_class& Volume6::operator()(const ExactPoints& points,
-                                     const std::array<Index, 4>& tetrahedron) {
-  const IntegerVector& origin = points.integer(tetrahedron[0]);
-  IntegerVector* const to[3] = {&u_, &v_, &w_};
-  for (int i = 0; i < 3; ++i) {
-    const IntegerVector& p = points.integer(tetrahedron[i + 1]);
-    for (int axis = 0; axis < 3; ++axis) {
-      mpz_sub((*to[i])[axis].get_mpz_t(), p[axis].get_mpz_t(), origin[axis].get_mpz_t());
-    }
+const ExactNumber& Volume6::operator()(const ExactPoints& points,
+                                       const std::array<Index, 4>& tetrahedron) {
+  const ExactVector& origin = points.exact(tetrahedron[0]);
+  if (!points.all_integers()) {
+    return value_ = determinant3(difference(points, tetrahedron[0], tetrahedron[1]),
+                                 difference(points, tetrahedron[0], tetrahedron[2]),
+                                 difference(points, tetrahedron[0], tetrahedron[3]));
   }
-  return determinant(u_, v_, w_);
+  std::array<const mpz_class*, 9> rows;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const ExactVector& p = points.exact(tetrahedron[i / 3 + 1]);
+    mpz_sub(rows_[i].get_mpz_t(), p[i % 3].numerator().get_mpz_t(),
+            origin[i % 3].numerator().get_mpz_t());
+    rows[i] = &rows_[i];
+  }
+  return determinant(rows);
 }
 
-const mpz_class& Volume6::from_origin(const ExactPoints& points,
-                                      const std::array<Index, 3>& triangle) {
-  return determinant(points.integer(triangle[0]), points.integer(triangle[1]),
-                     points.integer(triangle[2]));
+const ExactNumber& Volume6::from_origin(const ExactPoints& points,
+                                        const std::array<Index, 3>& triangle) {
+  if (!points.all_integers()) {
+    return value_ = determinant3(points.exact(triangle[0]), points.exact(triangle[1]),
+                                 points.exact(triangle[2]));
+  }
+  std::array<const mpz_class*, 9> rows;
+  for (std::size_t i = 0; i < 9; ++i) {
+    rows[i] = &points.exact(triangle[i / 3])[i % 3].numerator();
+  }
+  return determinant(rows);
 }
 
-const mpz_class& Volume6::determinant(const IntegerVector& u, const IntegerVector& v,
-                                      const IntegerVector& w) {
-  value_ = 0;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    mpz_mul(minor_.get_mpz_t(), v[j].get_mpz_t(), w[k].get_mpz_t());
-    mpz_submul(minor_.get_mpz_t(), v[k].get_mpz_t(), w[j].get_mpz_t());
-    mpz_addmul(value_.get_mpz_t(), u[i].get_mpz_t(), minor_.get_mpz_t());
+const ExactNumber& Volume6::determinant(const std::array<const mpz_class*, 9>& rows) {
+  sum_ = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    mpz_mul(minor_.get_mpz_t(), rows[3 + j]->get_mpz_t(), rows[6 + k]->get_mpz_t());
+    mpz_submul(minor_.get_mpz_t(), rows[3 + k]->get_mpz_t(), rows[6 + j]->get_mpz_t());
+    mpz_addmul(sum_.get_mpz_t(), rows[i]->get_mpz_t(), minor_.get_mpz_t());
   }
+  value_.assign(sum_);
   return value_;
 }
 
@@ -301,11 +483,12 @@ int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Inde
        rough_difference(points, e, c), rough_difference(points, e, d)});
   const int sign = rough.sign();
   if (sign != 2) return sign;
-  return sgn(insphere_determinant<mpz_class>({difference(points, e, a), difference(points, e, b),
-                                              difference(points, e, c), difference(points, e, d)}));
+  return sgn(
+      insphere_determinant<ExactNumber>({difference(points, e, a), difference(points, e, b),
+                                         difference(points, e, c), difference(points, e, d)}));
 }
 
-mpz_class squared(const IntegerVector& v) {
+ExactNumber squared(const ExactVector& v) {
   return dot(v, v);
 }
 
@@ -322,11 +505,11 @@ bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Ind
                           rough_difference(points, a, d))
           .sign();
   if (sign != 2) return sign < 0;
-  return diametral<mpz_class>(difference(points, a, b), difference(points, a, c),
-                              difference(points, a, d)) < 0;
+  return diametral<ExactNumber>(difference(points, a, b), difference(points, a, c),
+                                difference(points, a, d)) < 0;
 }
 
-IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c) {
+ExactVector area2(const ExactPoints& points, Index a, Index b, Index c) {
   return cross(difference(points, a, b), difference(points, a, c));
 }
 

@@ -1,8 +1,7 @@
-// Points with exact coordinates: integers at one common power-of-two scale, with two doubles each
-// for the filter: the nearest one and what it leaves. Shares nothing with the mesher's arithmetic.
+// Points with exact coordinates: integers at one common power-of-two scale, those of points on
+// planes over odd denominators; with two doubles each for the filter: the nearest one and what it
+// leaves. Shares nothing with the mesher's arithmetic.
 #pragma once
-
-#include <gmpxx.h>
 
 #include <array>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
+#include "oracles/exact_number.h"
 #include "oracles/interval.h"
 
 namespace tetproof::oracles {
@@ -20,21 +20,25 @@ using Index = std::uint32_t;
 inline constexpr Index kNone = 0xffffffffU;
 
 using Position = std::array<double, 3>;
-using IntegerVector = std::array<mpz_class, 3>;
+using ExactVector = std::array<ExactNumber, 3>;
+using Planes = std::span<const delmesher::ExactRecord::Plane>;
 using IntervalVector = std::array<Interval, 3>;
 
 class ExactPoints {
  public:
   // Null on success, else why the points cannot be represented (not finite, a reference that is
-  // out of range or not explicit); the object is then empty. A point may lie beyond the ends of its
-  // segment or outside its triangle: where points have to lie is for the oracles to say.
-  std::string assign(std::span<const delmesher::ExactPoint> points);
+  // out of range or to a point that has references itself, planes that do not meet in one point);
+  // the object is then empty. A point may lie beyond the ends of its segment or outside its
+  // triangle: where points have to lie is for the oracles to say.
+  std::string assign(std::span<const delmesher::ExactPoint> points, Planes planes = {});
   // Plain doubles.
   std::string assign(std::span<const Position> positions);
 
-  std::size_t size() const { return integers_.size(); }
+  std::size_t size() const { return coordinates_.size(); }
   // Coordinates times 2^-exponent().
-  const IntegerVector& integer(Index i) const { return integers_[i]; }
+  const ExactVector& exact(Index i) const { return coordinates_[i]; }
+  // Has no coordinate a denominator?
+  bool all_integers() const { return all_integers_; }
   long exponent() const { return exponent_; }
   // Encloses the coordinates (in true units); a single point if they are doubles.
   IntervalVector enclosure(Index i) const {
@@ -69,7 +73,10 @@ class ExactPoints {
     return {x - slack, x + slack};
   }
 
-  std::vector<IntegerVector> integers_;
+  std::string place_on_planes(std::span<const delmesher::ExactPoint> points, Planes planes);
+
+  std::vector<ExactVector> coordinates_;
+  bool all_integers_ = true;
   std::vector<Position> nearest_, rest_;
   long exponent_ = 0;
   double largest_coordinate_ = 0, difference_error_ = 0;
@@ -78,10 +85,10 @@ class ExactPoints {
 // Explicit points of an ExactPoint list.
 std::vector<delmesher::ExactPoint> explicit_points(std::span<const Position> positions);
 
-// mpz times a power of two as a double, rounded towards zero.
-double to_double(const mpz_class& value, long exponent);
+// A number times a power of two as a double, rounded towards zero, to an ulp.
+double to_double(const ExactNumber& value, long exponent);
 // Length of a vector times 2^exponent.
-double length(const IntegerVector& vector, long exponent);
+double length(const ExactVector& vector, long exponent);
 
 // Exact signs and measures. Filtered by intervals except where the value itself is wanted. All
 // determinants are in integer units: a length is off by 2^exponent, which no sign or comparison
@@ -91,23 +98,23 @@ namespace exact {
 // Sign of det(b - a, c - a, d - a): positive for the orientation that files are written in.
 int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // The determinant itself: six times the volume.
-mpz_class volume6(const ExactPoints& points, Index a, Index b, Index c, Index d);
+ExactNumber volume6(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // An enclosure of it, in true units.
 Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
 // The same of many tetrahedra, without allocating anew for each.
 class Volume6 {
  public:
-  const mpz_class& operator()(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
+  const ExactNumber& operator()(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
   // Of the tetrahedron between the origin and a triangle: positive if that is seen clockwise from
   // there.
-  const mpz_class& from_origin(const ExactPoints& points, const std::array<Index, 3>& triangle);
+  const ExactNumber& from_origin(const ExactPoints& points, const std::array<Index, 3>& triangle);
 
  private:
-  const mpz_class& determinant(const IntegerVector& u, const IntegerVector& v,
-                               const IntegerVector& w);
+  const ExactNumber& determinant(const std::array<const mpz_class*, 9>& rows);
 
-  IntegerVector u_, v_, w_;
-  mpz_class minor_, value_;
+  std::array<mpz_class, 9> rows_;
+  mpz_class minor_, sum_;
+  ExactNumber value_;
 };
 // Positive if e lies strictly inside the sphere through a, b, c, d, where orient3d(a, b, c, d) > 0.
 int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Index e);
@@ -117,23 +124,23 @@ int dot_sign(const ExactPoints& points, Index apex, Index p, Index q);
 // Does d lie strictly inside the smallest sphere through a, b, c?
 bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // (b - a) x (c - a): twice the area vector.
-IntegerVector area2(const ExactPoints& points, Index a, Index b, Index c);
+ExactVector area2(const ExactPoints& points, Index a, Index b, Index c);
 // Encloses the same in units of length.
 IntervalVector rough_area2(const ExactPoints& points, Index a, Index b, Index c);
-IntegerVector difference(const ExactPoints& points, Index from, Index to);
-mpz_class dot(const IntegerVector& u, const IntegerVector& v);
+ExactVector difference(const ExactPoints& points, Index from, Index to);
+ExactNumber dot(const ExactVector& u, const ExactVector& v);
 inline Interval dot(const IntervalVector& u, const IntervalVector& v) {
   return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
-IntegerVector cross(const IntegerVector& u, const IntegerVector& v);
+ExactVector cross(const ExactVector& u, const ExactVector& v);
 inline IntervalVector cross(const IntervalVector& u, const IntervalVector& v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
-bool is_zero(const IntegerVector& v);
+bool is_zero(const ExactVector& v);
 bool equal(const ExactPoints& points, Index a, Index b);
 // Right to a few roundings, however far from the origin both are.
 double distance(const ExactPoints& points, Index a, Index b);
-mpz_class squared(const IntegerVector& v);
+ExactNumber squared(const ExactVector& v);
 // Are a, b, c on one line?
 bool collinear(const ExactPoints& points, Index a, Index b, Index c);
 

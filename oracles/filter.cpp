@@ -106,7 +106,7 @@ std::string Features::near_vertex(Index v, double reach, const mpq_class& bound)
     // Of an edge at the vertex, the other end.
     const mpq_class distance =
         edge.from == v || edge.to == v
-            ? mpq_class(exact::squared(exact::difference(points_, edge.from, edge.to)))
+            ? exact::squared(exact::difference(points_, edge.from, edge.to)).rational()
             : squared_distance_to_segment(points_, v, edge.from, edge.to);
     if (distance < bound) return "vertex " + std::to_string(v) + " and " + edge_name(e);
   }

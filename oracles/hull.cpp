@@ -106,8 +106,8 @@ void Hull::check_edge(const Side& side, const Side& other) {
   const int sign = exact::orient3d(points_, a, b, c, other.opposite);
   if (sign != 0) corner_[a] = corner_[b] = 1;
   if (sign < 0) return;
-  const IntegerVector m = exact::area2(points_, a, b, c),
-                      n = exact::area2(points_, b, a, other.opposite);
+  const ExactVector m = exact::area2(points_, a, b, c),
+                    n = exact::area2(points_, b, a, other.opposite);
   if (sign == 0 && exact::dot(m, n) > 0) return;
   if (sign > 0 && allowed_ > 0) {
     // How far the opposite corner is in front of the face.
@@ -123,7 +123,7 @@ void Hull::check_edge(const Side& side, const Side& other) {
 double Hull::area() const {
   double sum = 0;
   for (const Face& f : faces_) {
-    const IntegerVector n = exact::area2(points_, f[0], f[1], f[2]);
+    const ExactVector n = exact::area2(points_, f[0], f[1], f[2]);
     sum += length(n, 2 * points_.exponent()) / 2;
   }
   return sum;
@@ -131,23 +131,23 @@ double Hull::area() const {
 
 #ifdef TETPROOF_SECOND_OPINIONS
 void Hull::check_volume() {
-  const mpz_class sum = sum_of_volumes6(complex_, neighbours_, {});
+  const ExactSum sum = sum_of_volumes6(complex_, neighbours_, {});
   std::vector<Index> corners;
   for (Index v = 0; v < corner_.size(); ++v) {
     if (corner_[v]) corners.push_back(v);
   }
-  const mpz_class hull = cgal_hull_volume6(points_, corners);
+  const ExactSum hull(cgal_hull_volume6(points_, corners));
   const long exponent = 3 * points_.exponent();
-  const double volume = to_double(hull, exponent) / 6;
+  const double volume = hull.value(exponent) / 6;
   report_.figures.emplace_back("volume of the hull", volume);
   if (sum == hull) return;
-  const double difference = to_double(mpz_class(sum - hull), exponent) / 6;
-  report_.figures.emplace_back("difference", difference);
-  if (allowed_ > 0 && std::fabs(difference) <= 2 * allowed_ * area()) return;
+  const double excess = difference(sum, hull, exponent) / 6;
+  report_.figures.emplace_back("difference", excess);
+  if (allowed_ > 0 && std::fabs(excess) <= 2 * allowed_ * area()) return;
   char text[128];
   std::snprintf(text, sizeof text,
-                "all tetrahedra have a volume that differs by %.3g from the hull's %.6g",
-                difference, volume);
+                "all tetrahedra have a volume that differs by %.3g from the hull's %.6g", excess,
+                volume);
   report_.fail(text);
 }
 #else

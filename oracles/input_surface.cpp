@@ -58,10 +58,10 @@ std::string InputSurface::assign(const Polyhedron& polyhedron, const ExactPoints
   orient_components(points);
   build_facets(polyhedron, points);
   build_edges();
-  volume6_ = 0;
+  volume6_ = {};
   const Index origin = triangles_[0][0];
   for (const auto& [a, b, c] : triangles_) volume6_ += exact::volume6(points, origin, a, b, c);
-  if (volume6_ <= 0) return "the surface encloses no volume";
+  if (volume6_.sign() <= 0) return "the surface encloses no volume";
   return {};
 }
 
@@ -105,12 +105,10 @@ void InputSurface::measure(const ExactPoints& points) {
   BoxTree::Box all = {points.nearest(used_vertices_[0]), points.nearest(used_vertices_[0])};
   largest_coordinate_ = 0;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
-    boxes[t] = {points.nearest(triangles_[t][0]), points.nearest(triangles_[t][0])};
+    boxes[t] = box_around(points, triangles_[t]);
     for (const Index v : triangles_[t]) {
       const Position p = points.nearest(v);
       for (int axis = 0; axis < 3; ++axis) {
-        boxes[t].low[axis] = std::min(boxes[t].low[axis], p[axis]);
-        boxes[t].high[axis] = std::max(boxes[t].high[axis], p[axis]);
         all.low[axis] = std::min(all.low[axis], p[axis]);
         all.high[axis] = std::max(all.high[axis], p[axis]);
         largest_coordinate_ = std::max(largest_coordinate_, std::fabs(p[axis]));
@@ -169,18 +167,30 @@ void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints&
       if (flat && exact::dot(area2(points, t), area2(points, n)) > 0) groups.unite(t, n);
     }
   }
+  number_facets([&](Index t) { return groups.find(t); }, label, points);
+}
+
+void InputSurface::number_facets(const std::function<Index(Index)>& representative,
+                                 const std::function<std::int32_t(Index)>& label,
+                                 const ExactPoints& points) {
   facets_.clear();
   facet_of_triangle_.assign(triangles_.size(), kNone);
   for (Index t = 0; t < triangles_.size(); ++t) {
-    const Index root = groups.find(t);
+    const Index root = representative(t);
     if (root == t) {
       facet_of_triangle_[t] = static_cast<Index>(facets_.size());
-      facets_.push_back({t, label(t), {}, triangles_[t][0], 0, {}});
+      facets_.push_back({t, label(t), {}, {}, triangles_[t][0], 0, {}});
     }
     facet_of_triangle_[t] = facet_of_triangle_[root];
     Facet& facet = facets_[facet_of_triangle_[t]];
-    const IntegerVector area = area2(points, t);
-    for (int axis = 0; axis < 3; ++axis) facet.normal[axis] += area[axis];
+    ExactVector area = area2(points, t);
+    for (int axis = 0; axis < 3; ++axis) facet.area2[axis] += area[axis];
+    // With denominators, that of the sum of many would outgrow everything; one normal will do.
+    if (points.all_integers()) {
+      for (int axis = 0; axis < 3; ++axis) facet.normal[axis] += area[axis];
+    } else if (root == t) {
+      facet.normal = std::move(area);
+    }
   }
   for (Facet& facet : facets_) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -191,7 +201,7 @@ void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints&
   count_euler();
 }
 
-IntegerVector InputSurface::area2(const ExactPoints& points, Index t) const {
+ExactVector InputSurface::area2(const ExactPoints& points, Index t) const {
   const auto& [a, b, c] = triangles_[t];
   return exact::area2(points, a, b, c);
 }
@@ -204,9 +214,9 @@ void InputSurface::unite_polygons(const Polyhedron& polyhedron, const ExactPoint
   for (std::size_t first = 0; first < polygon.size();) {
     std::size_t last = first + 1;
     while (last < polygon.size() && polygon[last] == polygon[first]) ++last;
-    IntegerVector normal;
+    ExactVector normal;
     for (std::size_t t = first; t < last; ++t) {
-      const IntegerVector area = area2(points, static_cast<Index>(t));
+      const ExactVector area = area2(points, static_cast<Index>(t));
       for (int axis = 0; axis < 3; ++axis) normal[axis] += area[axis];
     }
     bool flat = true;
@@ -238,6 +248,56 @@ void InputSurface::count_euler() {
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   for (const auto& corner : corners) facets_[corner.first].euler += 1;
+}
+
+double InputSurface::unite_facets(const std::vector<Index>& across, double thin,
+                                  const ExactPoints& points) {
+  UnionFind groups(triangles_.size());
+  std::vector<std::int32_t> labels;
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    const Facet& facet = facets_[facet_of_triangle_[t]];
+    labels.push_back(facet.label);
+    groups.unite(facet.id, t);
+  }
+  std::vector<Index> united;
+  for (const Index e : across) {
+    const Facet &left = facets_[edges_[e].left], &right = facets_[edges_[e].right];
+    if (left.label != right.label) continue;
+    groups.unite(left.id, right.id);
+    united.push_back(left.id);
+  }
+  number_facets([&](Index t) { return groups.find(t); }, [&](Index t) { return labels[t]; },
+                points);
+  build_edges();
+  double widest = 0;
+  std::vector<std::uint8_t> asked(facets_.size(), 0);
+  for (const Index t : united) asked[facet_of_triangle_[t]] = 1;
+  std::vector<std::array<double, 2>> slab(facets_.size(), {0, 0});
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    const Index f = facet_of_triangle_[t];
+    if (asked[f] == 0) continue;
+    const double unit = length(facets_[f].normal, 2 * points.exponent());
+    if (unit == 0) return HUGE_VAL;
+    const ExactVector area = area2(points, t);
+    if (exact::dot(area, facets_[f].normal) < 0) {
+      double longest = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        longest = std::max(longest,
+                           exact::distance(points, triangles_[t][i], triangles_[t][(i + 1) % 3]));
+      }
+      if (!(length(area, 2 * points.exponent()) <= thin * longest)) return HUGE_VAL;
+    }
+    for (const Index v : triangles_[t]) {
+      const double height =
+          to_double(exact::dot(facets_[f].normal, exact::difference(points, facets_[f].vertex, v)),
+                    3 * points.exponent()) /
+          unit;
+      slab[f] = {std::min(slab[f][0], height), std::max(slab[f][1], height)};
+      // The few roundings of measuring stay below this factor.
+      widest = std::max(widest, (slab[f][1] - slab[f][0]) * (1 + 1e-12));
+    }
+  }
+  return widest;
 }
 
 void InputSurface::build_edges() {

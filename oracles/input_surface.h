@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oracles/exact_points.h"
+#include "oracles/exact_sum.h"
 
 namespace tetproof::oracles {
 
@@ -66,14 +67,22 @@ class InputSurface {
   struct Facet {
     Index id;  // smallest triangle index
     std::int32_t label;
-    IntegerVector normal;         // twice its area vector, outwards; exact
-    Index vertex;                 // one of its corners
-    std::int64_t euler;           // of the union of its closed triangles, flat edges included
-    IntervalVector rough_normal;  // encloses the normal, in units of length
+    ExactVector normal;             // outwards; exact
+    std::array<ExactSum, 3> area2;  // twice its area vector
+    Index vertex;                   // one of its corners
+    std::int64_t euler;             // of the union of its closed triangles, flat edges included
+    IntervalVector rough_normal;    // encloses the normal, in units of length
   };
 
   // Null on success, else why the polyhedron bounds no solid (open, not orientable, no volume).
   std::string assign(const Polyhedron& polyhedron, const ExactPoints& points);
+
+  // Makes one facet of those on both sides of each of these edges; what other edges lie between
+  // them are edges no more. Facets of different labels stay apart. Returns the smallest width of a
+  // slab, perpendicular to the sum of its area vectors, that contains a facet made so, rounded up;
+  // infinite if that sum is zero, or a triangle faces against it that is no needle thinner than
+  // `thin`: walls around something, or two sides of a plate, are no facet.
+  double unite_facets(const std::vector<Index>& across, double thin, const ExactPoints& points);
 
   const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
   const std::vector<Facet>& facets() const { return facets_; }
@@ -82,7 +91,7 @@ class InputSurface {
   Index neighbour(Index triangle, int i) const { return neighbours_[triangle][i]; }
   const std::vector<Edge>& edges() const { return edges_; }
   const std::vector<Index>& used_vertices() const { return used_vertices_; }
-  const mpz_class& volume6() const { return volume6_; }
+  const ExactSum& volume6() const { return volume6_; }
   double diagonal() const { return diagonal_; }
   double largest_coordinate() const { return largest_coordinate_; }
   // Appends the triangles whose boxes meet the query.
@@ -108,7 +117,9 @@ class InputSurface {
   void build_facets(const Polyhedron& polyhedron, const ExactPoints& points);
   void unite_polygons(const Polyhedron& polyhedron, const ExactPoints& points,
                       const std::function<void(Index, Index)>& unite) const;
-  IntegerVector area2(const ExactPoints& points, Index t) const;
+  ExactVector area2(const ExactPoints& points, Index t) const;
+  void number_facets(const std::function<Index(Index)>& representative,
+                     const std::function<std::int32_t(Index)>& label, const ExactPoints& points);
   void count_euler();
   void build_edges();
   int crossings_above(const ExactPoints& points, std::span<const Index> corners,
@@ -123,7 +134,7 @@ class InputSurface {
   std::vector<Index> facet_of_triangle_;
   std::vector<Edge> edges_;
   std::vector<Index> used_vertices_;
-  mpz_class volume6_;
+  ExactSum volume6_;
   double diagonal_ = 0, largest_coordinate_ = 0;
   std::uint64_t flipped_ = 0;
   std::shared_ptr<const BoxTree> tree_;

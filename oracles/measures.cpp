@@ -10,7 +10,7 @@ double smallest_altitude(const ExactPoints& points, const Tet& tet) {
   double largest = 0;
   for (int i = 0; i < 4; ++i) {
     const Face face = face_of(tet, i);
-    const IntegerVector n = exact::area2(points, face[0], face[1], face[2]);
+    const ExactVector n = exact::area2(points, face[0], face[1], face[2]);
     largest = std::max(largest, length(n, 2 * points.exponent()));
   }
   const double volume =
@@ -29,11 +29,11 @@ bool opposite(const Face& f, const Face& g) {
 
 }  // namespace
 
-mpz_class sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours,
-                          const std::vector<std::uint8_t>& selected) {
+ExactSum sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours,
+                         const std::vector<std::uint8_t>& selected) {
   const auto& tets = complex.tetrahedra;
   const auto& across = neighbours.across;
-  mpz_class sum;
+  ExactSum sum;
   exact::Volume6 volume6;
   for (Index t = 0; t < tets.size(); ++t) {
     if (!selected.empty() && selected[t] == 0) continue;
@@ -53,19 +53,18 @@ OracleReport check_volume(const TetComplex& complex, const Neighbours& neighbour
                           const InputSurface& surface, double allowed) {
   OracleReport report("volume", "tetrahedra inside");
   for (const std::uint8_t inside : complex.inside) report.checked += inside;
-  const mpz_class sum = sum_of_volumes6(complex, neighbours, complex.inside);
+  const ExactSum sum = sum_of_volumes6(complex, neighbours, complex.inside);
   const long exponent = 3 * complex.points->exponent();
-  const double volume = to_double(surface.volume6(), exponent) / 6;
-  if (sum != surface.volume6()) {
-    const mpz_class excess = sum - surface.volume6();
-    const double difference = to_double(excess, exponent) / 6;
+  const double volume = surface.volume6().value(exponent) / 6;
+  if (!(sum == surface.volume6())) {
+    const double excess = difference(sum, surface.volume6(), exponent) / 6;
     char text[128];
     std::snprintf(
         text, sizeof text,
-        "the tetrahedra inside have a volume that differs by %.3g from the surface's %.6g",
-        difference, volume);
-    if (allowed == 0 || !(std::fabs(difference) <= allowed)) report.fail(text);
-    report.figures.emplace_back("difference", difference);
+        "the tetrahedra inside have a volume that differs by %.3g from the surface's %.6g", excess,
+        volume);
+    if (allowed == 0 || !(std::fabs(excess) <= allowed)) report.fail(text);
+    report.figures.emplace_back("difference", excess);
     report.figures.emplace_back("allowed", allowed);
   }
   report.figures.emplace_back("volume", volume);

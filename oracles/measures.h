@@ -15,8 +15,8 @@ OracleReport check_volume(const TetComplex& complex, const Neighbours& neighbour
 // empty; exactly, in integer units. A tetrahedron's is the sum over its faces of what lies between
 // them and the origin, and faces that two of them share from opposite sides cancel: only the others
 // take arithmetic. `neighbours` only says where to look, and is not believed.
-mpz_class sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours,
-                          const std::vector<std::uint8_t>& selected);
+ExactSum sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours,
+                         const std::vector<std::uint8_t>& selected);
 
 // Interior oracle: the centroid of every tetrahedron is inside by ray parity exactly if its flag
 // says so. The surface and the complex must use the same points.

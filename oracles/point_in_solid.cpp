@@ -50,13 +50,13 @@ class Centroid {
     return sum;
   }
 
-  IntegerVector from(Index vertex) const {
-    IntegerVector result;
+  ExactVector from(Index vertex) const {
+    ExactVector result;
     for (const Index v : corners_) {
-      for (int axis = 0; axis < 3; ++axis) result[axis] += points_.integer(v)[axis];
+      for (int axis = 0; axis < 3; ++axis) result[axis] += points_.exact(v)[axis];
     }
-    const auto count = static_cast<unsigned long>(corners_.size());
-    for (int axis = 0; axis < 3; ++axis) result[axis] -= points_.integer(vertex)[axis] * count;
+    const ExactNumber count(static_cast<long>(corners_.size()));
+    for (int axis = 0; axis < 3; ++axis) result[axis] -= points_.exact(vertex)[axis] * count;
     return result;
   }
 
@@ -86,8 +86,8 @@ int side_above(const ExactPoints& points, Index a, Index b, const Centroid& q) {
   const IntervalVector along = points.rough_difference(a, b), w = q.rough_from(a);
   const int rough = (along[0] * w[1] - along[1] * w[0]).sign();
   if (rough != 2 && rough != 0) return rough;
-  const IntegerVector u = exact::difference(points, a, b), v = q.from(a);
-  if (const int sign = sgn(mpz_class(u[0] * v[1] - u[1] * v[0])); sign != 0) return sign;
+  const ExactVector u = exact::difference(points, a, b), v = q.from(a);
+  if (const int sign = sgn(ExactNumber(u[0] * v[1] - u[1] * v[0])); sign != 0) return sign;
   return u[1] != 0 ? -sgn(u[1]) : sgn(u[0]);
 }
 
@@ -102,7 +102,7 @@ int side_of_plane(const ExactPoints& points, const std::array<Index, 3>& t, cons
 
 // A point of a clipped polygon by its four determinants against the faces of a tetrahedron, up to a
 // common factor.
-using FaceSides = std::array<mpz_class, 4>;
+using FaceSides = std::array<ExactNumber, 4>;
 
 std::vector<FaceSides> clip(const std::vector<FaceSides>& polygon, int face) {
   std::vector<FaceSides> result;

@@ -36,6 +36,7 @@ struct Number {
 
 constexpr Number kNumbers[] = {{"--delta", &Promise::delta, 0, 60},
                                {"--tau", &Promise::tau, 0, 1},
+                               {"--planar", &Promise::planar, 0, 0.01},
                                {"--acute", &Promise::acute, 0, 90},
                                {"--corner", &Promise::corner, 0, 90},
                                {"--chamfer-radius", &Promise::chamfer_radius, 0, 1e308},
@@ -63,6 +64,7 @@ void set_defaults(Task task, bool paper, Promise& p) {
   p = {};
   p.task = task;
   if (task == Task::cdt) p.region = Region::hull;
+  if (task != Task::mesh || paper) p.planar = 0;
   if (task == Task::plane) p.delta = 20.7;
   if (!paper) return;
   p.acute = p.corner = 90;
@@ -123,6 +125,10 @@ class PromiseReader {
     if (option == "--region") {
       if (*value_ != "interior" && *value_ != "hull") return "no region \"" + *value_ + "\"";
       p.region = *value_ == "hull" ? Region::hull : Region::interior;
+      return {};
+    }
+    if (option == "--planar" && *value_ == "auto") {
+      p.planar = Promise::kPlanarAuto;
       return {};
     }
     for (const Number& number : kNumbers) {
@@ -212,6 +218,7 @@ class PromiseCheck {
     demand(p.gabriel || !promise_.gabriel, "the record has no empty balls, promised was --gabriel");
     demand(p.region == promise_.region, "the record is of another region than was promised");
     check_tolerance();
+    check_planar();
     // The guard tightens corners only where empty balls alone did not help.
     std::uint64_t tightened = 0;
     for (const ExactRecord::Corner& corner : record_.corners) {
@@ -248,6 +255,16 @@ class PromiseCheck {
            "the record has tau " + number(recorded) + ", promised was " + number(promise_.tau));
   }
 
+  // A vertex may be half as far from the plane of a facet as the surface may deviate.
+  void check_planar() {
+    constexpr double kSlack = 1e-9;
+    const double recorded = diagonal_ > 0 ? record_.parameters.planar / diagonal_ : 0;
+    demand(recorded >= 0 && recorded <= promise_.planar_share() / 2 * (1 + kSlack),
+           "the record has facets that are planar within " + number(recorded) +
+               " of the diagonal, promised was " + number(promise_.planar_share() / 2));
+    demand(record_.planes.empty() || recorded > 0, "the record has planes, but no bound for them");
+  }
+
   const Promise& promise_;
   const ExactRecord& record_;
   double diagonal_;
@@ -255,6 +272,10 @@ class PromiseCheck {
 };
 
 }  // namespace
+
+double Promise::planar_share() const {
+  return planar == kPlanarAuto ? 0x1p-18 : planar;
+}
 
 double Promise::guaranteed_delta() const {
   constexpr double kGuaranteed = 14.4775;
@@ -275,6 +296,7 @@ Promise promise_of(const delmesher::Options& options, Task task) {
   p.task = task;
   p.delta = options.delta;
   p.tau = options.tau;
+  p.planar = task == Task::mesh ? options.planar : 0;
   p.acute = options.acute;
   p.corner = options.corner;
   p.gabriel = options.gabriel;

@@ -19,6 +19,7 @@ struct Promise {
   Task task = Task::mesh;
   double delta = 14.47;  // degrees
   double tau = 1e-4;     // fraction of the diagonal of the bounding box
+  double planar = 0;     // the same; kPlanarAuto: up to 2^-18
   double acute = 60;     // degrees
   double corner = 20;    // degrees, as given
   bool gabriel = false;
@@ -29,6 +30,11 @@ struct Promise {
   double budget = 0;          // tetrahedra; 0: tau is not raised
   double max_vertices = 0;    // 0: no limit
 
+  static constexpr double kPlanarAuto = -1;
+
+  // How far the surface may deviate between the vertices and edges that it keeps, as a fraction of
+  // the diagonal.
+  double planar_share() const;
   // The face angle that is guaranteed: above a radius-edge ratio of 2 the bound is best effort.
   double guaranteed_delta() const;
   // The threshold for two edges that is in force: an angle of two edges that is not chamfered is an
@@ -50,6 +56,6 @@ OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord&
                            unsigned version, double diagonal);
 
 // The version of the sidecar that has all that is asked for.
-inline constexpr unsigned kRecordVersion = 3;
+inline constexpr unsigned kRecordVersion = 4;
 
 }  // namespace tetproof::oracles

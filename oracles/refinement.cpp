@@ -117,29 +117,28 @@ void Segments::check_artificial(std::size_t n, const ExactRecord::Chain& chain) 
     report_.fail(name + " passes a vertex twice");
   }
   const Index from = chain.vertices.front(), to = chain.vertices.back();
-  const IntegerVector along = exact::difference(points_, from, to);
-  const mpz_class length2 = exact::squared(along);
-  mpz_class reached = 0;
+  const ExactVector along = exact::difference(points_, from, to);
+  const ExactNumber length2 = exact::squared(along);
+  ExactNumber reached = 0;
   for (const Index v : chain.vertices) {
     if (exact::dot(plane.normal, exact::difference(points_, plane.vertex, v)) != 0) {
       report_.fail(name + ": " + complex_.vertex_name(v) + " is off the plane of facet " +
                    std::to_string(chain.facet));
     }
     if (v == from) continue;
-    const IntegerVector w = exact::difference(points_, from, v);
-    const mpz_class position = exact::dot(along, w);
+    const ExactVector w = exact::difference(points_, from, v);
+    const ExactNumber position = exact::dot(along, w);
     if (position <= reached || position > length2) report_.fail(name + " turns back");
     reached = position;
     if (v == to) continue;
     // The distance from the straight line is |along x w| / |along|.
-    const mpz_class off2 = exact::squared(exact::cross(along, w));
+    const ExactNumber off2 = exact::squared(exact::cross(along, w));
     if (off2 == 0) continue;
-    if ((off2 << 40) > length2 * length2) {
+    if (off2.shifted(40) > length2 * length2) {
       report_.fail(name + ": " + complex_.vertex_name(v) +
                    " is farther than 2^-20 of the length from the straight line");
     }
-    const mpq_class share(off2, length2 * length2);
-    largest_bend_ = std::max(largest_bend_, std::sqrt(share.get_d()));
+    largest_bend_ = std::max(largest_bend_, std::sqrt(ratio(off2, length2 * length2).get_d()));
   }
 }
 
@@ -152,17 +151,17 @@ void Segments::check_input(std::size_t n, const ExactRecord::Chain& chain) {
     report_.fail(name + " lies between two filtered facets");
   }
   std::vector<Index> ordered = chain.vertices;
-  const IntegerVector along = exact::difference(points_, edge.from, edge.to);
+  const ExactVector along = exact::difference(points_, edge.from, edge.to);
   if (exact::dot(along, exact::difference(points_, ordered.front(), ordered.back())) < 0) {
     std::reverse(ordered.begin(), ordered.end());
   }
-  mpz_class reached = -1;
+  ExactNumber reached = -1;
   for (const Index v : ordered) {
-    const IntegerVector w = exact::difference(points_, edge.from, v);
+    const ExactVector w = exact::difference(points_, edge.from, v);
     if (!exact::is_zero(exact::cross(along, w))) {
       report_.fail(name + ": " + complex_.vertex_name(v) + " is off " + edge_name(edge));
     }
-    const mpz_class position = exact::dot(along, w);
+    const ExactNumber position = exact::dot(along, w);
     if (position <= reached) report_.fail(name + " turns back on " + edge_name(edge));
     reached = position;
   }
@@ -180,8 +179,8 @@ void Segments::check_ends() {
     if (!facets_.kept(edge.left) && !facets_.kept(edge.right)) continue;
     if (first_[e] == kNone) {
       ++missing;
-      const IntegerVector &n = surface_.facets()[edge.left].normal,
-                          &m = surface_.facets()[edge.right].normal;
+      const ExactVector &n = surface_.facets()[edge.left].normal,
+                        &m = surface_.facets()[edge.right].normal;
       // The dihedral angle is acute exactly if that of the outward normals is obtuse.
       const bool acute = facets_.kept(edge.left) && facets_.kept(edge.right) &&
                          exact::dot(n, m) < 0 && corner_.contains(edge.from) &&

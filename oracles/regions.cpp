@@ -14,7 +14,7 @@ namespace tetproof::oracles {
 double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
   double sum = 0;
   for (const Face& f : faces) {
-    const IntegerVector n = exact::area2(*complex.points, f[0], f[1], f[2]);
+    const ExactVector n = exact::area2(*complex.points, f[0], f[1], f[2]);
     sum += length(n, 2 * complex.points->exponent()) / 2;
   }
   return sum;
@@ -60,10 +60,9 @@ std::map<std::int64_t, bool> inside_regions(const TetComplex& complex,
   }
   if (certain) return result;
   exact::Volume6 volume6;
-  for (const auto& [region, sides] :
-       volumes_of<mpz_class>(complex, regions, [&complex, &volume6](const Tet& tet) {
-         return mpz_class(abs(volume6(*complex.points, tet)));
-       })) {
+  for (const auto& [region, sides] : volumes_of<ExactNumber>(
+           complex, regions,
+           [&complex, &volume6](const Tet& tet) { return abs(volume6(*complex.points, tet)); })) {
     result[region] = sides[1] > sides[0];
   }
   return result;
@@ -75,7 +74,7 @@ bool clearly_fills(const TetComplex& complex, const InputSurface& surface) {
   for (const Tet& tet : complex.tetrahedra) {
     sum = sum + exact::rough_volume6(*complex.points, tet);
   }
-  const double nearest = to_double(surface.volume6(), 3 * complex.points->exponent());
+  const double nearest = surface.volume6().value(3 * complex.points->exponent());
   const Interval volume = Interval::around(nearest, nearest);
   return (volume - magnitude(sum - volume) * Interval(1000000)).sign() == 1;
 }
@@ -108,13 +107,12 @@ OracleReport Regions::check_strays(double allowed) const {
 
 bool fills(const TetComplex& complex, const InputSurface& surface, double rounding) {
   if (clearly_fills(complex, surface)) return true;
-  mpz_class sum;
+  ExactSum sum;
   exact::Volume6 volume6;
   for (const Tet& tet : complex.tetrahedra) sum += volume6(*complex.points, tet);
-  const mpz_class difference = abs(sum - surface.volume6());
-  if (difference * 1000000 <= surface.volume6()) return true;
-  const double volume = to_double(difference, 3 * complex.points->exponent()) / 6;
-  return volume <= 2 * rounding * surface_area(complex, surface.triangles());
+  if (within(sum, surface.volume6(), 1000000, surface.volume6())) return true;
+  const double volume = difference(sum, surface.volume6(), 3 * complex.points->exponent()) / 6;
+  return std::fabs(volume) <= 2 * rounding * surface_area(complex, surface.triangles());
 }
 
 }  // namespace tetproof::oracles

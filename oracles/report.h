@@ -50,9 +50,10 @@ const char* verdict_name(Verdict verdict);
 
 struct VerifyReport {
   Verdict verdict = Verdict::broken;
-  double deviation = 0;        // of the surface as written, in input units, an upper bound
-  double deviation_ulps = 0;   // in ulps of the largest coordinate
-  double deviation_share = 0;  // as a fraction of the bounding-box diagonal
+  double deviation = 0;  // of the surface as written, in input units, an upper bound
+  double slab = 0;       // the widest that contains a facet which stands for several of the input
+  double deviation_ulps = 0;             // in ulps of the largest coordinate
+  double deviation_share = 0;            // as a fraction of the bounding-box diagonal
   std::uint64_t inverted = 0, flat = 0;  // cells as written
   const char* cells = "tetrahedra";
   std::vector<OracleReport> oracles;

@@ -210,7 +210,7 @@ class SameMesh {
 mpq_class exact_distance2(const Position& written, const ExactPoints& points, Index v) {
   mpq_class sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    mpq_class place(points.integer(v)[axis]);
+    mpq_class place = points.exact(v)[axis].rational();
     const long e = points.exponent();
     if (e >= 0) {
       mpq_mul_2exp(place.get_mpq_t(), place.get_mpq_t(), static_cast<unsigned long>(e));

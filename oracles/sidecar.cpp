@@ -16,9 +16,10 @@ class SidecarReader {
 
   ExactRecord read() {
     reader_.expect("delmesher-exact");
-    version_ = reader_.index(0, 4);
+    version_ = reader_.index(0, 5);
     if (version_ == 0) reader_.fail("unknown version 0");
     if (version_ >= 2) read_parameters();
+    if (version_ >= 4) read_surface();
     read_points();
     reader_.list("facets", record_.facets, [&](auto& facet) {
       facet.id = number();
@@ -59,6 +60,26 @@ class SidecarReader {
     p.tolerance = reader_.number();
     p.region = number() != 0 ? delmesher::Region::hull : delmesher::Region::interior;
     p.gabriel = number() != 0;
+    if (version_ >= 4) p.planar = reader_.number();
+  }
+
+  void read_surface() {
+    reader_.list("planes", record_.planes, [&](ExactRecord::Plane& plane) {
+      const std::string kind(reader_.required_word("N or T"));
+      if (kind != "N" && kind != "T") reader_.fail("unknown kind of plane");
+      plane.spanned = kind == "T";
+      if (!plane.spanned) coordinates(plane.normal);
+      coordinates(plane.through[0]);
+      if (!plane.spanned) return;
+      coordinates(plane.through[1]);
+      coordinates(plane.through[2]);
+    });
+    reader_.list("triangles", record_.triangles, [&](std::array<Index, 3>& corners) {
+      for (Index& v : corners) v = number();
+    });
+  }
+  void coordinates(std::array<double, 3>& x) {
+    for (double& value : x) value = reader_.number();
   }
 
   void read_additions() {
@@ -75,11 +96,17 @@ class SidecarReader {
 
   void read_points() {
     reader_.list("points", record_.points, [&](ExactPoint& p) {
-      const std::string kind(reader_.required_word("E, S or T"));
-      if (kind != "E" && kind != "S" && kind != "T") reader_.fail("unknown kind of point");
+      const std::string kind(reader_.required_word("E, S, T or P"));
+      if (kind != "E" && kind != "S" && kind != "T" && kind != "P")
+        reader_.fail("unknown kind of point");
       p.kind = kind == "E"   ? ExactPoint::Kind::explicit_point
                : kind == "S" ? ExactPoint::Kind::on_segment
-                             : ExactPoint::Kind::on_triangle;
+               : kind == "T" ? ExactPoint::Kind::on_triangle
+                             : ExactPoint::Kind::on_planes;
+      if (kind == "P") {
+        for (Index* plane : {&p.i, &p.j, &p.k}) *plane = number();
+        return;
+      }
       if (kind != "E") {
         p.i = point();
         p.j = point();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <mutex>
 
 #include "oracles/chamfer.h"
@@ -14,6 +15,7 @@
 #include "oracles/refinement.h"
 #include "oracles/regions.h"
 #include "oracles/same_mesh.h"
+#include "oracles/stand_in.h"
 #include "oracles/surface_validity.h"
 #ifdef TETPROOF_SECOND_OPINIONS
 #include "oracles/cgal/second_kernel.h"
@@ -50,6 +52,7 @@ std::string endless(const ExactRecord& record) {
   if (!std::isfinite(p.delta)) return "delta";
   if (!std::isfinite(p.acute) || !std::isfinite(p.corner)) return "a threshold";
   if (!std::isfinite(p.tolerance)) return "the tolerance";
+  if (!std::isfinite(p.planar)) return "the bound of planar facets";
   for (const ExactRecord::Corner& corner : record.corners) {
     if (std::isfinite(corner.threshold) && std::isfinite(corner.radius)) continue;
     return "the threshold or radius of corner " + std::to_string(corner.vertex);
@@ -57,15 +60,34 @@ std::string endless(const ExactRecord& record) {
   return {};
 }
 
+// Of the bounding box of the vertices that have triangles.
+double diagonal_of(const Polyhedron& input) {
+  Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (const auto& t : input.triangles) {
+    for (const Index v : t) {
+      for (std::size_t i = 0; v < input.vertices.size() && i < 3; ++i) {
+        low[i] = std::min(low[i], input.vertices[v][i]);
+        high[i] = std::max(high[i], input.vertices[v][i]);
+      }
+    }
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
 // What several parts of a verification ask, made by the first that does.
 class Shared {
  public:
   struct Sidecar {
     ExactPoints points;
-    InputSurface surface;
+    // On the vertices as given, if some were moved: where the points are written.
+    ExactPoints given;
+    InputSurface surface;  // that was meshed
+    double diagonal = 0;   // of the input
     OracleReport report{"sidecar", "input vertices"};
     std::string why;      // the input bounds no solid
     bool usable = false;  // points and surface are there
+
+    const ExactPoints& written() const { return given.size() > 0 ? given : points; }
   };
   struct Refined {
     TetComplex complex;
@@ -101,25 +123,49 @@ class Shared {
 
 void Shared::read_sidecar() {
   Sidecar& s = sidecar_;
-  if (const std::string why = s.points.assign(exact_->points); !why.empty()) {
+  if (const std::string why = s.points.assign(exact_->points, exact_->planes); !why.empty()) {
     s.report.checked_what = "points";
     s.report.checked = exact_->points.size();
     s.report.fail("the sidecar's " + why);
     return;
   }
+  bool moved = false;
   for (Index v = 0; v < input_.vertices.size(); ++v) {
     ++s.report.checked;
-    if (v >= s.points.size() ||
-        exact_->points[v].kind != delmesher::ExactPoint::Kind::explicit_point ||
+    using Kind = delmesher::ExactPoint::Kind;
+    const bool there = v < s.points.size();
+    moved = moved || (there && exact_->points[v].kind == Kind::on_planes);
+    if (there && exact_->points[v].kind == Kind::on_planes) continue;  // for the stand-in oracle
+    if (!there || exact_->points[v].kind != Kind::explicit_point ||
         s.points.nearest(v) != input_.vertices[v]) {
       s.report.fail("input vertex " + std::to_string(v) + " is not point " + std::to_string(v));
     }
+  }
+  for (std::size_t v = input_.vertices.size(); v < exact_->points.size(); ++v) {
+    if (exact_->points[v].kind != delmesher::ExactPoint::Kind::on_planes) continue;
+    s.report.fail("point " + std::to_string(v) + " is on planes, but no vertex of the input");
+  }
+  if (!exact_->triangles.empty() && exact_->triangles.size() != input_.triangles.size()) {
+    s.report.fail("the record has " + std::to_string(exact_->triangles.size()) +
+                  " triangles, the input " + std::to_string(input_.triangles.size()));
   }
   if (const std::string name = endless(*exact_); !name.empty()) {
     s.report.fail(name + " is not finite");
   }
   if (!s.report.passed()) return;
-  s.why = s.surface.assign(input_, s.points);
+  if (moved) {
+    std::vector<delmesher::ExactPoint> definitions = exact_->points;
+    const auto given = explicit_points(input_.vertices);
+    std::copy(given.begin(), given.end(), definitions.begin());
+    if (const std::string why = s.given.assign(definitions); !why.empty()) {
+      s.report.fail("with the vertices as given: " + why);
+      return;
+    }
+  }
+  s.diagonal = diagonal_of(input_);
+  Polyhedron meshed = input_;
+  if (!exact_->triangles.empty()) meshed.triangles = exact_->triangles;
+  s.why = s.surface.assign(meshed, s.points);
   s.usable = s.why.empty();
 }
 
@@ -145,8 +191,10 @@ class Verification {
   std::string check_file();
   std::string check_input();
   std::vector<std::vector<Index>> recorded_chains(const InputSurface& surface);
+  ConformityResult conformity_of_file(const TetComplex& complex, const Neighbours& neighbours,
+                                      InputSurface& surface);
   void check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
-                          const InputSurface& surface);
+                          const InputSurface& input);
   void check_file_hull(const TetComplex& complex, const Neighbours& neighbours);
   void check_file_quality(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface, const ConformityResult& conformity);
@@ -207,6 +255,7 @@ std::vector<Verification::Check> Verification::checks(const ExactRecord* exact, 
 
 void Verification::move_to(VerifyReport& report, double& ulp, double& diagonal) {
   report.deviation += report_.deviation;  // only the file has them
+  report.slab += report_.slab;
   report.inverted += report_.inverted;
   report.flat += report_.flat;
   std::move(report_.oracles.begin(), report_.oracles.end(), std::back_inserter(report.oracles));
@@ -275,7 +324,9 @@ std::string Verification::check_file() {
     return {};
   }
   std::vector<std::int64_t> given = mesh_.regions;
-  const bool solid_only = fills(complex, surface, kRoundedUlps * ulp_);
+  const bool solid_only =
+      fills(complex, surface,
+            std::max(kRoundedUlps * ulp_, options_.promised.planar_share() * diagonal_));
   if (given.empty() && solid_only) given.assign(complex.tetrahedra.size(), 0);
   if (given.empty()) {  // the hull: parity alone decides
     check_file_surface(complex, neighbours, surface);
@@ -290,35 +341,63 @@ std::string Verification::check_file() {
   return {};
 }
 
-void Verification::check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
-                                      const InputSurface& surface) {
-  ConformityResult conformity =
+// Where facets that are planar within a bound may be one, those are united that no chain of mesh
+// edges separates, if the mesh conforms to the surface then.
+ConformityResult Verification::conformity_of_file(const TetComplex& complex,
+                                                  const Neighbours& neighbours,
+                                                  InputSurface& surface) {
+  ConformityResult result =
       check_conformity(complex, neighbours, surface, {.exact = true, .first_failure_ends = true});
-  if (!conformity.report.passed()) {
-    // Of a solid that is not much larger than roundings, these are no small part.
-    ConformityOptions rounded{.exact = false};
-    rounded.largest_tolerance =
-        std::max(rounded.largest_tolerance, kRoundedUlps * ulp_ / diagonal_);
-    conformity = check_conformity(complex, neighbours, surface, rounded);
-    if (!conformity.report.passed() && exact_ != nullptr && !exact_->final.empty()) {
-      const auto chains = recorded_chains(surface);
-      rounded.chains = &chains;
-      conformity = check_conformity(complex, neighbours, surface, rounded);
-    }
-    if (conformity.report.passed()) {  // else the deviation means nothing
-      report_.deviation = conformity.deviation;
-      slack_ = conformity.deviation;
-    } else if (exact_ == nullptr &&
-               undecidable(complex, surface, conformity, kRoundedUlps * ulp_)) {
-      conformity.report.undecided = true;
-      conformity.report.notes.push_back(
-          "where it fails, edges of the input are closer than doubles can tell: the file alone "
-          "does not say which mesh edge is whose, a record (--exact) does");
-      slack_ = kRoundedUlps * ulp_;
-    }
+  if (result.report.passed()) return result;
+  const auto check = [&](const InputSurface& on, ConformityOptions options) {
+    ConformityResult r = check_conformity(complex, neighbours, on, options);
+    if (r.report.passed() || exact_ == nullptr || exact_->final.empty()) return r;
+    const auto chains = recorded_chains(on);
+    options.chains = &chains;
+    return check_conformity(complex, neighbours, on, options);
+  };
+  const double rounding = kRoundedUlps * ulp_ / diagonal_;
+  const double planar = options_.promised.planar_share();
+  ConformityOptions rounded{.exact = false};
+  // Of a solid that is not much larger than roundings, these are no small part.
+  rounded.largest_tolerance = std::max(rounded.largest_tolerance, rounding);
+  result = check(surface, rounded);
+  if (planar == 0 || (result.report.passed() && result.deviation <= kRoundedUlps * ulp_)) {
+    return result;
+  }
+  rounded.largest_tolerance = rounding;
+  InputSurface flat = surface;
+  const double width =
+      flat.unite_facets(check(surface, rounded).failed_edges, planar * diagonal_, *complex.points);
+  if (!(width <= planar * diagonal_)) return result;
+  rounded.off_plane = width + kRoundedUlps * ulp_;
+  ConformityResult united = check(flat, rounded);
+  if (!united.report.passed()) return result;
+  united.slab = width;
+  united.deviation = std::max(united.deviation, width);
+  united.report.figures.emplace_back("facets united",
+                                     surface.facets().size() - flat.facets().size());
+  surface = std::move(flat);
+  return united;
+}
+
+void Verification::check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
+                                      const InputSurface& input) {
+  InputSurface surface = input;
+  ConformityResult conformity = conformity_of_file(complex, neighbours, surface);
+  if (conformity.report.passed()) {  // else the deviation means nothing
+    report_.deviation = conformity.deviation;
+    report_.slab = conformity.slab;
+    slack_ = conformity.deviation;
+  } else if (exact_ == nullptr && undecidable(complex, surface, conformity, kRoundedUlps * ulp_)) {
+    conformity.report.undecided = true;
+    conformity.report.notes.push_back(
+        "where it fails, edges of the input are closer than doubles can tell: the file alone "
+        "does not say which mesh edge is whose, a record (--exact) does");
+    slack_ = kRoundedUlps * ulp_;
   }
   add(conformity.report);
-  add(check_volume(complex, neighbours, surface,
+  add(check_volume(complex, neighbours, input,
                    2 * slack_ * surface_area(complex, conformity.faces)));
   check_file_quality(complex, neighbours, surface, conformity);
   // Where the faces' facets are unknown, so are the labels they should have.
@@ -332,7 +411,7 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
                           labelled ? mesh_.labels : std::vector<std::int32_t>{}));
 }
 
-// On which mesh edges each input edge lies on exact coordinates, in vertices of the file.
+// On which mesh edges each edge of the surface lies on exact coordinates, in vertices of the file.
 std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface& surface) {
   std::vector<std::vector<Index>> chains(surface.edges().size());
   const Shared::Sidecar& sidecar = shared_.sidecar();
@@ -340,18 +419,31 @@ std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface
   const TetComplex complex = complex_of(exact_->final, sidecar.points);
   Neighbours neighbours;
   if (!check_complex(complex, neighbours).passed()) return chains;
-  ConformityResult exact = check_conformity(complex, neighbours, sidecar.surface, {.exact = true});
-  if (exact.chains.size() != chains.size()) return chains;
+  const ConformityResult exact =
+      check_conformity(complex, neighbours, sidecar.surface, {.exact = true});
   std::vector<Index> written(sidecar.points.size(), kNone);
   for (std::size_t i = 0; i < exact_->mesh_vertices.size(); ++i) {
     const Index v = exact_->mesh_vertices[i];
     if (v >= written.size()) continue;  // said by check_rounding
     written[v] = static_cast<Index>(input_.vertices.size() + i);
   }
-  for (std::vector<Index>& chain : exact.chains) {
-    for (Index& v : chain) v = written[v];
+  // The surface that was meshed may have fewer edges than the input, or in another direction.
+  std::map<std::pair<Index, Index>, Index> number;
+  for (Index e = 0; e < surface.edges().size(); ++e) {
+    number[{surface.edges()[e].from, surface.edges()[e].to}] = e;
   }
-  return exact.chains;
+  for (Index e = 0; e < exact.chains.size(); ++e) {
+    std::vector<Index> chain = exact.chains[e];
+    for (Index& v : chain) v = written[v];
+    const auto& [from, to, left, right] = sidecar.surface.edges()[e];
+    auto found = number.find({from, to});
+    if (found == number.end()) {
+      found = number.find({to, from});
+      std::reverse(chain.begin(), chain.end());
+    }
+    if (found != number.end()) chains[found->second] = std::move(chain);
+  }
+  return chains;
 }
 
 // Nothing is promised of the doubles as written: these only count and measure.
@@ -389,11 +481,14 @@ std::string Verification::check_sidecar() {
   add(sidecar.report);
   if (!sidecar.usable) return sidecar.why;
   ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);
-  diagonal_ = sidecar.surface.diagonal();
+  diagonal_ = sidecar.diagonal;
   add(check_promise(options_.promised, *exact_, options_.record_version, diagonal_));
+  if (!exact_->planes.empty() || !exact_->triangles.empty()) {
+    add(check_stand_in(input_, *exact_, sidecar.surface));
+  }
   add(check_facet_list(sidecar.surface));
   add(check_same_mesh(mesh_, *exact_, options_.promised, !input_.labels.empty()));
-  add(check_rounding(mesh_, *exact_, sidecar.points,
+  add(check_rounding(mesh_, *exact_, sidecar.written(),
                      {.ulp = ulp_, .allowed = options_.declared_deviation * diagonal_}));
   return {};
 }
@@ -409,8 +504,10 @@ OracleReport Verification::check_facet_list(const InputSurface& surface) const {
 }
 
 std::string Verification::check_exact_final() {
-  const auto& [points, surface, report, why, sidecar_usable] = shared_.sidecar();
-  if (!sidecar_usable) return {};
+  const Shared::Sidecar& sidecar = shared_.sidecar();
+  if (!sidecar.usable) return {};
+  const ExactPoints& points = sidecar.points;
+  const InputSurface& surface = sidecar.surface;
   ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
   check_final_complex(points, surface);
 #ifdef TETPROOF_SECOND_OPINIONS
@@ -479,7 +576,7 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
   add(check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = !repaired}),
       "exact-");
   if (!repaired) return;
-  add(check_repairs(*exact_, *complex.points, options_.promised));
+  add(check_repairs(*exact_, shared_.sidecar().written(), options_.promised));
   const TetComplex before = complex_of(exact_->unrepaired, *complex.points);
   Neighbours neighbours_before;
   OracleReport shape = check_complex(before, neighbours_before);
@@ -646,8 +743,12 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
 }
 
 bool failed(const VerifyReport& report, const VerifyOptions& options) {
-  return report.verdict == Verdict::broken || (report.verdict == Verdict::deviating &&
-                                               report.deviation_share > options.declared_deviation);
+  // Facets may be planar within what was promised. A vertex that is elsewhere is another matter.
+  const double declared =
+      report.slab > 0 ? std::max(options.declared_deviation, options.promised.planar_share())
+                      : options.declared_deviation;
+  return report.verdict == Verdict::broken ||
+         (report.verdict == Verdict::deviating && report.deviation_share > declared);
 }
 
 }  // namespace tetproof::oracles

@@ -32,6 +32,8 @@ oracles::ExactPoints exact_points(const delmesher::predicates::PointStore& store
       p = {delmesher::ExactPoint::Kind::explicit_point, 0, 0, 0, x[0], x[1], x[2]};
     } else if (d.kind == PointKind::on_segment) {
       p = {delmesher::ExactPoint::Kind::on_segment, d.corner[0], d.corner[1], 0, d.u, 0, 0};
+    } else if (d.kind == PointKind::on_planes) {
+      p = {delmesher::ExactPoint::Kind::on_planes, d.corner[0], d.corner[1], d.corner[2], 0, 0, 0};
     } else {
       p = {delmesher::ExactPoint::Kind::on_triangle,
            d.corner[0],
@@ -43,8 +45,12 @@ oracles::ExactPoints exact_points(const delmesher::predicates::PointStore& store
     }
     points.push_back(p);
   }
+  std::vector<delmesher::ExactRecord::Plane> planes;
+  for (std::uint32_t n = 0; n < store.plane_count(); ++n) {
+    planes.push_back({store.plane(n).spanned, store.plane(n).normal, store.plane(n).through});
+  }
   oracles::ExactPoints result;
-  EXPECT_EQ(result.assign(points), "");
+  EXPECT_EQ(result.assign(points, planes), "");
   return result;
 }
 

@@ -62,6 +62,9 @@ delmesher::Surface finned_cube(double length, double h);
 // What the mesher owes: exact, or rounded to doubles (4 ulp of the largest coordinate). A surface
 // that deviates by more is not what was asked for.
 bool exact_or_rounded(const oracles::VerifyReport& report);
+// The same, or where facets were made planar, and the stand-in oracle has said that they are,
+// deviating by at most what was promised.
+bool as_promised(const oracles::VerifyReport& report, const oracles::Promise& promise);
 
 // A wedge with an edge of 11 degrees, and a slab as thin as 2^-10 beside it, one unit long each.
 delmesher::Surface wedge_and_slab();

@@ -45,6 +45,9 @@ class BigInteger {
     return add(a, b, -b.size_);
   }
   friend BigInteger operator*(const BigInteger& a, const BigInteger& b);
+  friend bool operator==(const BigInteger& a, const BigInteger& b) {
+    return a.size_ == b.size_ && std::memcmp(a.data(), b.data(), a.used() * sizeof(Limb)) == 0;
+  }
 
  private:
   static constexpr std::size_t kInlineLimbs = 20;

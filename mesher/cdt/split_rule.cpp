@@ -111,8 +111,8 @@ double SplitRule::sine_between(std::uint32_t e, std::uint32_t f) const {
 
 // (v - a) . (b - a)
 Dyadic SplitRule::product(VertexId a, VertexId v, VertexId b) const {
-  const DyadicPoint origin = exact_point(points_, a), p = exact_point(points_, v),
-                    q = exact_point(points_, b);
+  const DyadicPoint origin = dyadic_point(points_, a), p = dyadic_point(points_, v),
+                    q = dyadic_point(points_, b);
   Dyadic sum;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     sum = sum + (p[axis] - origin[axis]) * (q[axis] - origin[axis]);

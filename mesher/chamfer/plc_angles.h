@@ -20,14 +20,12 @@ using Vector = std::array<double, 3>;
 
 inline QuadPoint position(const PointStore& points, VertexId v) {
   const PointDefinition& d = points.definition(v);
-  const auto corner = [&](int k) {
-    const Vec3 p = points.nearest(d.corner[k]);
-    return QuadPoint{p[0], p[1], p[2]};
+  const auto given = [&](VertexId w) {
+    const Approximation &p = points.approximation(w), rest = points.remainder(w);
+    return QuadPoint{Quad(p.x) + rest.x, Quad(p.y) + rest.y, Quad(p.z) + rest.z};
   };
-  if (d.kind == PointKind::explicit_point) {
-    const Vec3 p = points.nearest(v);
-    return {p[0], p[1], p[2]};
-  }
+  const auto corner = [&](int k) { return given(d.corner[k]); };
+  if (points.is_corner(v)) return given(v);
   const QuadPoint p = corner(0), q = corner(1);
   QuadPoint result;
   for (int i = 0; i < 3; ++i) {

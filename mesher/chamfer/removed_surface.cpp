@@ -25,9 +25,7 @@ std::vector<Box> removed_boxes(const ChamferResult& chamfered,
   constexpr double kMargin = 1.01;
   std::vector<Box> boxes;
   const auto add = [&](std::span<const VertexId> corners, double radius) {
-    Box box;
-    for (const VertexId v : corners) box.extend({points.nearest(v), points.nearest(v)});
-    boxes.push_back(enlarged(box, radius));
+    boxes.push_back(enlarged(enclosing_box(points, corners), radius));
   };
   for (VertexId v = 0; v < chamfered.vertex_radius.size(); ++v) {
     const double radius = chamfered.vertex_radius[v];

@@ -53,6 +53,16 @@ void add_number(CLI::App& app, Given& given, const std::string& name, const char
       ->type_name("X");
 }
 
+constexpr const char* kAuto = "auto";
+
+void add_planar(CLI::App& app, Given& given) {
+  app.add_option_function<std::string>(
+         "--planar", [&given](const std::string& text) { given.numbers["planar"] = text; },
+         "facets that are planar within this fraction of the diagonal, 0 is as given (0)")
+      ->check(CLI::IsMember({kAuto}) | number_within(kBounds.planar))
+      ->type_name("X");
+}
+
 constexpr const char* kSurfaces = "surface: OFF, OBJ, STL, PLY, .smesh or .poly";
 void add_common(CLI::App& app, Command& command, const char* input = kSurfaces) {
   app.add_option("input", command.input, input)->required();
@@ -93,6 +103,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_number(app, given, "delta", "smallest face angle, degrees (14.47)", kBounds.delta);
   add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
              kBounds.tau);
+  add_planar(app, given);
   add_number(app, given, "budget", "raise tau until no more tetrahedra than this are predicted",
              at_least_one(kBounds.budget));
   add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", kBounds.acute);
@@ -111,7 +122,8 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
-         "paper: delta 14.47, tau 1e-4, acute 90, corner 90, gabriel, region hull; other options "
+         "paper: delta 14.47, tau 1e-4, planar 0, acute 90, corner 90, gabriel, region hull; other "
+         "options "
          "override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
@@ -152,6 +164,11 @@ void apply(const Given& given, Command& command) {
   };
   number("delta", options.delta);
   number("tau", options.tau);
+  number("planar", options.planar);
+  if (const auto found = given.numbers.find("planar");
+      found != given.numbers.end() && found->second == kAuto) {
+    options.planar = kPlanarAuto;
+  }
   number("acute", options.acute);
   number("corner", options.corner);
   options.gabriel |= given.gabriel;
@@ -238,6 +255,7 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   add_threads(*cdt, given);
   add_plane(*plane, command, given);
   add_common(*check, command);
+  add_planar(*check, given);
   check->add_flag("--json", command.json, "report as JSON");
   add_number(*check, given, "acute", "corners below this angle are acute, degrees (60)",
              kBounds.acute);

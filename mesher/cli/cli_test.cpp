@@ -326,7 +326,7 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(
       keys(json),
       "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes refined "
-      "final filter prediction chamfer guarantee steiner rounding predicates ");
+      "final planar filter prediction chamfer guarantee steiner rounding predicates ");
   EXPECT_EQ(keys(json["predicates"]), "filter support extended exact symbolic ");
   EXPECT_EQ(keys(json["input"]), "file vertices triangles bbox_diagonal ");
   EXPECT_EQ(
@@ -339,6 +339,7 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["refined"]), mesh);
   EXPECT_EQ(keys(json["final"]), mesh);
   EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
+  EXPECT_EQ(keys(json["planar"]), "facets groups given_facets bound deviation ");
   EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
   EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");

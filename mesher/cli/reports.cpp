@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -48,6 +49,7 @@ Json parameters_json(const Command& command) {
   return {{"job", kJobs[static_cast<std::size_t>(command.job)]},
           {"delta", o.delta},
           {"tau", o.tau},
+          {"planar", o.planar == kPlanarAuto ? Json("auto") : Json(o.planar)},
           {"budget", o.budget},
           {"acute", o.acute},
           {"corner", o.corner},
@@ -103,6 +105,12 @@ std::string number(double value) {
   return out;
 }
 
+std::string number_short(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
 std::uint64_t total_defects(const SurfaceReport& report) {
   std::uint64_t total = 0;
   for (std::uint64_t count : report.defect_counts) total += count;
@@ -134,6 +142,11 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
   Json json = run_json(command, result, facts, "triangles");
   json["refined"] = mesh_json(s.refined);
   json["final"] = mesh_json(s.final);
+  json["planar"] = {{"facets", s.facets},
+                    {"groups", s.planar_groups},
+                    {"given_facets", s.given_facets},
+                    {"bound", s.planar_bound},
+                    {"deviation", s.planar_deviation}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
   json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};
   json["chamfer"] = {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}};
@@ -161,7 +174,7 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
   const PlaneStatistics& s = result.statistics;
   Json json = run_json(command, result, facts, "segments");
   for (const char* key :
-       {"budget", "corner", "gabriel", "slivers", "bridge_simplification", "threads"}) {
+       {"planar", "budget", "corner", "gabriel", "slivers", "bridge_simplification", "threads"}) {
     json["parameters"].erase(key);
   }
   json["refined"] = mesh_json(s.refined);
@@ -176,12 +189,19 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
   return dump(json);
 }
 
+std::string planar_text(const std::string& file, const Statistics& s) {
+  const double diagonal = s.bbox_diagonal;
+  return file + ": " + std::to_string(s.given_facets) + " facets, " + std::to_string(s.facets) +
+         " if planar within " + number_short(s.planar_bound / diagonal) +
+         " of the diagonal; vertices are up to " + number_short(s.planar_deviation / diagonal) +
+         " from their planes (--planar 0 keeps all facets)";
+}
+
 std::string check_text(const std::string& file, const SurfaceReport& report) {
   std::string out = file + ": ";
   out += report.status.ok() ? "a valid surface\n" : "not a valid surface\n";
-  const auto line = [&](const char* name, const std::string& value) {
-    out +=
-        "  " + std::string(name) + std::string(28 - std::string(name).size(), ' ') + value + "\n";
+  const auto line = [&](const std::string& name, const std::string& value) {
+    out += "  " + name + std::string(name.size() < 31 ? 31 - name.size() : 1, ' ') + value + "\n";
   };
   line("vertices", std::to_string(report.vertices));
   if (report.unused_vertices > 0) line("unused vertices", std::to_string(report.unused_vertices));
@@ -192,6 +212,10 @@ std::string check_text(const std::string& file, const SurfaceReport& report) {
   if (report.status.ok()) {
     line("volume", number(report.volume));
     line("facets", std::to_string(report.facets));
+    if (report.planar_facets < report.facets) {
+      line("facets if planar within " + number_short(report.planar_bound / report.bbox_diagonal),
+           std::to_string(report.planar_facets));
+    }
     line("acute vertices", std::to_string(report.acute_vertices));
     line("acute edges", std::to_string(report.acute_edges));
     line("smallest local feature size", number(report.smallest_local_feature_size));
@@ -240,6 +264,8 @@ std::string check_json(const std::string& file, const SurfaceReport& report) {
   if (report.status.ok()) {
     json["volume"] = report.volume;
     json["facets"] = report.facets;
+    json["planar_facets"] = report.planar_facets;
+    json["planar_bound"] = report.planar_bound;
     json["acute_vertices"] = report.acute_vertices;
     json["acute_edges"] = report.acute_edges;
     json["smallest_local_feature_size"] = report.smallest_local_feature_size;

@@ -28,6 +28,9 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
 std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts);
 
+// What was merged because it is planar within the bound; one line.
+std::string planar_text(const std::string& file, const Statistics& statistics);
+
 // The report of `check`.
 std::string check_text(const std::string& file, const SurfaceReport& report);
 std::string check_json(const std::string& file, const SurfaceReport& report);

@@ -73,6 +73,7 @@ int Runner::mesh() {
   });
   note_interruption(result.status);
   const Statistics& s = result.statistics;
+  if (s.planar_groups > 0) remark(planar_text(command_.input, s));
   return finish({result.status, result.warnings,
                  [&](io::OutputSet& outputs) { return write_all(outputs, result); },
                  [&] { return stats_json(command_, result, facts_); },

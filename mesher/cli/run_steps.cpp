@@ -33,6 +33,12 @@ void RunSteps::tell(const std::string& text) const {
   if (command_.verbose) streams_.error(one_line(text) + "\n");
 }
 
+void RunSteps::remark(const std::string& text) const {
+  if (command_.verbose || (streams_.terminal && !command_.quiet)) {
+    streams_.error(one_line(text) + "\n");
+  }
+}
+
 double RunSteps::seconds() const {
   return std::chrono::duration<double>(Clock::now() - start_).count();
 }
@@ -141,13 +147,10 @@ int RunSteps::conclude(const std::array<double, kPhaseCount>& phase_seconds,
     tell(text);
   }
   const std::string cells = std::string(" ") + written.cell_name;
-  if (command_.verbose || (streams_.terminal && !command_.quiet)) {
-    char time[32];
-    std::snprintf(time, sizeof time, ", %.1f s", seconds());
-    streams_.error(one_line(command_.outputs.front() + ": " + std::to_string(written.vertices) +
-                            " vertices, " + std::to_string(written.cells) + cells + time) +
-                   "\n");
-  }
+  char time[32];
+  std::snprintf(time, sizeof time, ", %.1f s", seconds());
+  remark(command_.outputs.front() + ": " + std::to_string(written.vertices) + " vertices, " +
+         std::to_string(written.cells) + cells + time);
   const std::string left =
       std::to_string(written.flat) + " flat" + cells + " left in the written mesh";
   if (written.inverted > 0) {

@@ -25,7 +25,8 @@ class RunSteps {
   int fail(int code, const std::string& reason) const;
   int fail_input(int code, const std::string& reason) const;
   void warn(const std::string& reason) const;
-  void tell(const std::string& text) const;  // with -v
+  void tell(const std::string& text) const;    // with -v
+  void remark(const std::string& text) const;  // with -v, and on a terminal
 
   // Can all files be written? `files_of` names the files that an output consists of.
   int check_outputs(std::vector<std::string> (*files_of)(const std::string&)) const;

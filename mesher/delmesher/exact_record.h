@@ -10,12 +10,14 @@
 
 namespace delmesher {
 
-// How a point is given exactly; i, j, k are indices of explicit points of the same list.
+// How a point is given exactly; i, j, k are indices of points of the same list, explicit or on
+// planes; of a point on planes, numbers of ExactRecord::planes.
 struct ExactPoint {
   enum class Kind : std::uint8_t {
     explicit_point,  // (x, y, z)
     on_segment,      // t p_i + (1 - t) p_j, t = x
-    on_triangle      // u p_i + v p_j + (1 - u - v) p_k, u = x, v = y
+    on_triangle,     // u p_i + v p_j + (1 - u - v) p_k, u = x, v = y
+    on_planes        // where three planes meet
   };
   Kind kind = Kind::explicit_point;
   std::uint32_t i = 0, j = 0, k = 0;
@@ -33,8 +35,22 @@ struct ExactRecord {
     double tolerance = 0;  // of the filter, in input units
     Region region = Region::interior;
     bool gabriel = true;  // no vertex is in the open diametral ball of a constraint
+    // No vertex of a facet as given is farther from the plane of the facet, in input units; 0: the
+    // surface is as given.
+    double planar = 0;
   } parameters;
-  std::vector<ExactPoint> points;  // the input vertices first, in input order
+  struct Plane {
+    bool spanned = false;  // by the three points; else normal . (x - through[0]) = 0
+    std::array<double, 3> normal{};
+    std::array<std::array<double, 3>, 3> through{};
+  };
+  std::vector<Plane> planes;  // of points on planes
+  // Of the surface that was meshed, where a planar facet has another triangulation than as given;
+  // empty: those of the input. The same number of triangles, and the same numbers in each facet.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  // The input vertices first, in input order: explicit as given, or on planes where they were moved
+  // so that facets are planar. Of the latter the mesh has the vertices as given.
+  std::vector<ExactPoint> points;
   struct Facet {
     std::uint32_t id;  // smallest input triangle index
     std::int32_t label;

@@ -22,6 +22,13 @@ struct Statistics {
   std::array<double, kPhaseCount> phase_seconds{};
   double bbox_diagonal = 0;
   MeshStatistics refined, final;
+  std::uint64_t facets = 0;  // of the surface that was meshed
+  // Facets that were made planar, of more than one triangle each; and facets of the surface as
+  // given, if there are such.
+  std::uint64_t planar_groups = 0, given_facets = 0;
+  // Where facets were made planar, in input units: the largest distance of a vertex as given from
+  // the plane of a facet, and the bound on it.
+  double planar_deviation = 0, planar_bound = 0;
   double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement
   double tau = 0;                   // in force: Options::tau, or more for the budget
   std::uint64_t dropped_triangles = 0, filter_rounds = 0;

@@ -36,7 +36,7 @@ void add_complex_points(const chamfer::ChamferResult& chamfered,
     const std::uint32_t e = plc.segments[n].input_edge;
     if (e == kNone) continue;
     for (const VertexId v : refined.chain[n]) {
-      if (!points.is_explicit(v)) input.on_edge[e].push_back(v);
+      if (!points.is_corner(v)) input.on_edge[e].push_back(v);
     }
   }
   for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {

@@ -9,7 +9,7 @@
 
 namespace delmesher::io {
 
-inline constexpr int kExactVersion = 3;
+inline constexpr int kExactVersion = 4;
 
 WriteStatus write_exact(OutputSet& outputs, const std::string& path, const ExactRecord& record);
 

@@ -17,11 +17,15 @@ ExactRecord sample() {
               {Kind::explicit_point, 0, 0, 0, 1e300, 2, 3},
               {Kind::explicit_point, 0, 0, 0, -1, 0, 1},
               {Kind::on_segment, 1, 2, 0, 0.375, 0, 0},
-              {Kind::on_triangle, 0, 1, 2, 0.25, 0.5, 0}};
+              {Kind::on_triangle, 0, 1, 2, 0.25, 0.5, 0},
+              {Kind::on_planes, 1, 0, 1, 0, 0, 0}};
+  r.planes = {{false, {1, 0, -0.5}, {{{1, 2, 3}, {}, {}}}},
+              {true, {}, {{{1, 2, 3}, {4, 5, 6}, {7, 8, 0.1}}}}};
+  r.triangles = {{0, 1, 2}};
   r.facets = {{0, 7, false, {0, 2, 5}}, {1, -1, true, {}}};
   r.segments = {{false, 0, {0, 3, 1}}, {true, 1, {3, 4}}};
   r.corners = {{2, 60, 0.1}};
-  r.parameters = {14.5, 60, 20, 0.25, Region::hull, false};
+  r.parameters = {14.5, 60, 20, 0.25, Region::hull, false, 0.5};
   r.chamfer_points = {{3, 2}};
   r.balls = {{2, {0, 1, 3, 4}}};
   r.unrepaired = {{{4, 2, 3, 1}, false}};
@@ -49,17 +53,17 @@ std::string written(const ExactRecord& record) {
 
 TEST(ExactRecord, TextIsAsDocumented) {
   const std::string text = written(sample());
-  EXPECT_TRUE(
-      text.starts_with(
-          "delmesher-exact 3\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0\npoints 5\nE "
-          "0x1.999999999999ap-4 -0x0p+0 0x0.01268af1fef2p-1022\n") ||
-      text.starts_with(
-          "delmesher-exact 3\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0\npoints 5\nE "
-          "0x1.999999999999ap-4 -0x0p+0 "))
+  EXPECT_TRUE(text.starts_with(
+      "delmesher-exact 4\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0 0x1p-1\n"
+      "planes 2\nN 0x1p+0 0x0p+0 -0x1p-1 0x1p+0 0x1p+1 0x1.8p+1\n"
+      "T 0x1p+0 0x1p+1 0x1.8p+1 0x1p+2 0x1.4p+2 0x1.8p+2 0x1.cp+2 0x1p+3 0x1.999999999999ap-4\n"
+      "triangles 1\n0 1 2\npoints 6\nE 0x1.999999999999ap-4 -0x0p+0 "))
       << text;
-  EXPECT_NE(text.find("S 1 2 0x1.8p-2\nT 0 1 2 0x1p-2 0x1p-1\nfacets 2\n0 7 0 3 0 2 5\n1 -1 1 0\n"
-                      "segments 2\nI - 3 0 3 1\nA 1 2 3 4\ncorners 1\n2 0x1.ep+5 0x1.9"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find(
+          "S 1 2 0x1.8p-2\nT 0 1 2 0x1p-2 0x1p-1\nP 1 0 1\nfacets 2\n0 7 0 3 0 2 5\n1 -1 1 0\n"
+          "segments 2\nI - 3 0 3 1\nA 1 2 3 4\ncorners 1\n2 0x1.ep+5 0x1.9"),
+      std::string::npos)
       << text;
   EXPECT_TRUE(
       text.ends_with("final_facets 1\n0 1 4 1\nmesh_vertices 5\n4\n3\n2\n1\n0\n"
@@ -98,9 +102,9 @@ TEST(ExactRecord, DamageIsFound) {
     }
   }
   EXPECT_GT(refused, 300);
-  EXPECT_EQ(parse_exact("delmesher-exact 4\n", "x").error, "x:1: unknown version 4");
+  EXPECT_EQ(parse_exact("delmesher-exact 5\n", "x").error, "x:1: unknown version 5");
   EXPECT_EQ(parse_exact("delmesher-exact 1\npoints 1\nS 0 0 0x1p+0\nfacets 0\n", "x").error,
-            "x:3: a point refers to one that is not explicit");
+            "x:3: a point refers to one that is itself on others");
   EXPECT_EQ(parse_exact("delmesher-exact 1\npoints 99999999999\n", "x").error,
             "x:2: the file ends before its 'end'");
 }

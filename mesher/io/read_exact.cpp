@@ -9,6 +9,10 @@
 namespace delmesher::io {
 namespace {
 
+bool is_corner(const ExactPoint& p) {
+  return p.kind == ExactPoint::Kind::explicit_point || p.kind == ExactPoint::Kind::on_planes;
+}
+
 class ExactReader {
  public:
   explicit ExactReader(std::string_view text) : in_(text, Comments::anywhere) {}
@@ -65,6 +69,7 @@ class ExactReader {
     }
   }
   void read_point();
+  void read_plane();
   void check_references();
   std::vector<std::uint32_t> list(bool of_points);
   void tets(std::string_view name, std::vector<ExactRecord::Tet>& out);
@@ -102,20 +107,46 @@ void ExactReader::read_point() {
     p.k = integer<std::uint32_t>();
     p.x = number();
     p.y = number();
+  } else if (kind == "P") {
+    p.kind = ExactPoint::Kind::on_planes;
+    p.i = integer<std::uint32_t>();
+    p.j = integer<std::uint32_t>();
+    p.k = integer<std::uint32_t>();
   } else {
     fail(here(), "unknown kind of point " + quoted(kind));
   }
   record_.points.push_back(p);
 }
 
+void ExactReader::read_plane() {
+  const std::string_view kind = token();
+  ExactRecord::Plane plane;
+  plane.spanned = kind == "T";
+  if (!plane.spanned && kind != "N") fail(here(), "unknown kind of plane " + quoted(kind));
+  const auto numbers = [&](std::array<double, 3>& x) {
+    for (double& value : x) value = number();
+  };
+  if (!plane.spanned) numbers(plane.normal);
+  numbers(plane.through[0]);
+  if (plane.spanned) {
+    numbers(plane.through[1]);
+    numbers(plane.through[2]);
+  }
+  record_.planes.push_back(plane);
+}
+
 void ExactReader::check_references() {
   const auto& points = record_.points;
   for (const ExactPoint& p : points) {
     if (p.kind == ExactPoint::Kind::explicit_point) continue;
+    if (p.kind == ExactPoint::Kind::on_planes) {
+      if (std::max({p.i, p.j, p.k}) < record_.planes.size()) continue;
+      fail(here(), "a point refers to a plane that does not exist");
+    }
     const bool three = p.kind == ExactPoint::Kind::on_triangle;
     for (std::uint32_t r : {p.i, p.j, three ? p.k : p.j}) {
-      if (r >= points.size() || points[r].kind != ExactPoint::Kind::explicit_point) {
-        fail(here(), "a point refers to one that is not explicit");
+      if (r >= points.size() || !is_corner(points[r])) {
+        fail(here(), "a point refers to one that is itself on others");
       }
     }
   }
@@ -157,10 +188,24 @@ ExactRecord ExactReader::read() {
       for (double* value : {&p.delta, &p.acute, &p.corner, &p.tolerance}) *value = number();
       p.region = flag() ? Region::hull : Region::interior;
       p.gabriel = flag();
+      if (version >= 4) p.planar = number();
+    });
+  }
+  if (version >= 4) {
+    items("planes", [&] { read_plane(); });
+    items("triangles", [&] {
+      std::array<std::uint32_t, 3> corners{};
+      for (std::uint32_t& v : corners) v = integer<std::uint32_t>();
+      record_.triangles.push_back(corners);
     });
   }
   items("points", [&] { read_point(); });
   check_references();
+  for (const auto& corners : record_.triangles) {
+    for (const std::uint32_t v : corners) {
+      if (v >= record_.points.size()) fail(here(), "a triangle has a corner out of range");
+    }
+  }
   items("facets", [&] {
     ExactRecord::Facet facet{};
     facet.id = integer<std::uint32_t>();

@@ -32,6 +32,28 @@ void write_point(TextSink& out, const ExactPoint& p) {
       out.text(" ");
       out.hex(p.y);
       break;
+    case ExactPoint::Kind::on_planes:
+      out.text("P ");
+      out.integers(p.i, p.j);
+      out.integer(p.k);
+      break;
+  }
+  out.text("\n");
+}
+
+void write_plane(TextSink& out, const ExactRecord::Plane& plane) {
+  out.text(plane.spanned ? "T" : "N");
+  const auto numbers = [&](const std::array<double, 3>& x) {
+    for (const double value : x) {
+      out.text(" ");
+      out.hex(value);
+    }
+  };
+  if (!plane.spanned) numbers(plane.normal);
+  numbers(plane.through[0]);
+  if (plane.spanned) {
+    numbers(plane.through[1]);
+    numbers(plane.through[2]);
   }
   out.text("\n");
 }
@@ -78,7 +100,17 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
     out.text(" ");
   }
   out.text(record.parameters.region == Region::hull ? "1 " : "0 ");
-  out.text(record.parameters.gabriel ? "1\n" : "0\n");
+  out.text(record.parameters.gabriel ? "1 " : "0 ");
+  out.hex(record.parameters.planar);
+  out.text("\n");
+  section(out, "planes", record.planes.size());
+  for (const ExactRecord::Plane& plane : record.planes) write_plane(out, plane);
+  section(out, "triangles", record.triangles.size());
+  for (const auto& [a, b, c] : record.triangles) {
+    out.integers(a, b);
+    out.integer(c);
+    out.text("\n");
+  }
   section(out, "points", record.points.size());
   for (const ExactPoint& p : record.points) write_point(out, p);
   section(out, "facets", record.facets.size());

@@ -34,7 +34,7 @@ void RoundedMesh::number_vertices() {
     if (local[v] == kNone) continue;
     local[v] = static_cast<std::uint32_t>(store_id_.size());
     store_id_.push_back(v);
-    position_.push_back(input_.points->nearest(v));
+    position_.push_back(placed(v));
   }
   for (Tet& t : tet_) {
     for (std::uint32_t& v : t) v = local[v];

@@ -34,7 +34,7 @@ class RoundedMesh {
   VertexId store_id(std::uint32_t v) const { return store_id_[v]; }
   const Vec3& position(std::uint32_t v) const { return position_[v]; }
   // Nearest doubles of the exact position, and the bound of their error.
-  Vec3 home(std::uint32_t v) const { return input_.points->nearest(store_id_[v]); }
+  Vec3 home(std::uint32_t v) const { return placed(store_id_[v]); }
   double home_error(std::uint32_t v) const { return approximation(v).error; }
   bool fixed(std::uint32_t v) const { return input_.fixed[store_id_[v]] != 0; }
   bool on_surface(std::uint32_t v) const { return input_.on_surface[store_id_[v]] != 0; }
@@ -79,6 +79,11 @@ class RoundedMesh {
   void certify(Control& control);
   void set_sign(std::uint32_t t, int sign);
   std::vector<std::uint32_t>& editable_star(std::uint32_t v);
+
+  // Where a point of the store is meant to be, as doubles.
+  Vec3 placed(VertexId v) const {
+    return input_.place.empty() ? input_.points->nearest(v) : input_.place[v];
+  }
 
   const RoundingInput& input_;
   std::vector<VertexId> store_id_;

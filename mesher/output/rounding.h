@@ -22,6 +22,8 @@ struct RoundingInput {
   const PointStore* points;
   std::vector<std::array<VertexId, 4>> tetrahedra;
   std::vector<std::uint8_t> inside;  // per tetrahedron
+  // Where vertices go that are not simply rounded; by point of the store, empty if there are none.
+  std::vector<std::array<double, 3>> place;
   // Vertices that must keep their exact position (input vertices).
   std::vector<std::uint8_t> fixed;  // per point of the store
   // Vertices on the surface (may move by a few ulps only); others are free to move inside their

@@ -8,7 +8,8 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
   constexpr int kMostRings = 3;
   Control& control = session.control;
   const auto to_write = [&] {
-    return conforming_mesh(cdt, session.topology, session.points, session.options.region);
+    return conforming_mesh(cdt, session.topology, session.points, session.given,
+                           session.options.region);
   };
   MeshToWrite exact = to_write();
   output::RoundingResult rounded = output::round_mesh(std::move(exact.rounding), control);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -38,6 +39,22 @@ struct Box {
     return true;
   }
 };
+
+// Contains the exact points.
+inline Box enclosing_box(const PointStore& points, std::span<const VertexId> vertices) {
+  Box box;
+  for (const VertexId v : vertices) {
+    const Approximation& a = points.approximation(v);
+    const Vec3 p{a.x, a.y, a.z};
+    Box own{p, p};
+    for (std::size_t i = 0; i < 3 && a.error != 0; ++i) {
+      own.lo[i] = std::nextafter(p[i] - a.error, -Box::kInfinity);
+      own.hi[i] = std::nextafter(p[i] + a.error, Box::kInfinity);
+    }
+    box.extend(own);
+  }
+  return box;
+}
 
 // In doubles, so an estimate: it may be off by a few roundings.
 inline double squared_distance(const Box& a, const Box& b) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/predicates/points.h"
@@ -10,7 +12,20 @@ namespace delmesher::predicates {
 
 using DyadicPoint = std::array<Dyadic, 3>;
 
+// Coordinates are numerator / denominator; the denominator is odd and positive.
+struct RationalPoint {
+  DyadicPoint numerator;
+  BigInteger denominator{1};
+};
+
 // Of a point of any kind.
-DyadicPoint exact_point(const PointStore& points, VertexId v);
+RationalPoint exact_point(const PointStore& points, VertexId v);
+
+// Of points of any kind, all times the same positive integer: for signs that do not depend on it.
+std::vector<DyadicPoint> scaled_exact_points(const PointStore& points,
+                                             std::span<const VertexId> vertices);
+
+// Exact without a denominator, else to 2^-256 of the largest coordinate.
+DyadicPoint dyadic_point(const PointStore& points, VertexId v);
 
 }  // namespace delmesher::predicates

@@ -1,6 +1,7 @@
 // Tests only: seeded families of points, from ordinary to hostile, each with every kind of point.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -30,7 +31,7 @@ class Random {
 // Points of one store by kind; explicit ones include nearest doubles of implicit ones.
 struct Sample {
   PointStore store;
-  std::vector<VertexId> of_kind[3];
+  std::vector<VertexId> of_kind[4];
 
   VertexId pick(PointKind kind, Random& random) const {
     const auto& list = of_kind[static_cast<std::size_t>(kind)];
@@ -97,6 +98,41 @@ inline bool finite(const Approximation& a) {
   return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
 }
 
+// Meeting points of planes through corners, and points of segments and triangles between them.
+inline void add_on_planes(Sample& sample, const Family& family, int n, Random& random) {
+  PointStore& store = sample.store;
+  for (int i = 0; i < n; ++i) {
+    std::array<Vec3, 3> normal;
+    double determinant = 0;
+    while (determinant == 0) {
+      // Small numbers now and then, so that denominators are short and points coincide.
+      for (Vec3& m : normal) {
+        for (double& x : m) x = i % 2 == 0 ? double(random.below(5)) - 2 : random.unit() - 0.5;
+      }
+      const auto& [a, b, c] = normal;
+      determinant = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+                    a[2] * (b[0] * c[1] - b[1] * c[0]);
+    }
+    const auto plane = [&](std::size_t k) {
+      PlaneEquation equation{normal[k], {}};
+      for (Vec3& p : equation.through) {
+        p = store.nearest(sample.pick(PointKind::explicit_point, random));
+      }
+      return store.add_plane(equation);
+    };
+    sample.of_kind[3].push_back(store.add_on_planes(plane(0), plane(1), plane(2)));
+  }
+  for (int i = 0; i < n / 2; ++i) {
+    const auto corner = [&] {
+      return sample.pick(i % 3 == 0 ? PointKind::explicit_point : PointKind::on_planes, random);
+    };
+    const VertexId p = corner(), q = sample.pick(PointKind::on_planes, random), r = corner();
+    const double u = family.parameter(random);
+    sample.of_kind[1].push_back(store.add_on_segment(p, q, u));
+    sample.of_kind[2].push_back(store.add_on_triangle(p, q, r, u / 2, family.parameter(random)));
+  }
+}
+
 // `n` corners, then `n` implicit points of each kind, then explicit neighbours of implicit ones:
 // nearly on the same lines and planes.
 inline void fill(Sample& sample, const Family& family, int n, Random& random) {
@@ -126,6 +162,7 @@ inline void fill(Sample& sample, const Family& family, int n, Random& random) {
     const Approximation a = store.approximation(v);
     if (finite(a)) explicit_point(a.x, a.y, a.z);
   }
+  add_on_planes(sample, family, n, random);
 }
 
 }  // namespace delmesher::predicates::families

@@ -6,27 +6,119 @@
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
+#include "mesher/predicates/common_denominator.h"
+#include "mesher/predicates/exact_point.h"
 
 namespace delmesher::predicates {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Coordinate `axis` of an implicit point: anchor + sum of parameter * (corner - anchor).
-Dyadic exact_coordinate(const PointStore& points, const PointDefinition& d, std::size_t axis) {
-  const auto of = [&](std::size_t i) {
-    return Dyadic::from_double(points.nearest(d.corner[i])[axis]);
+// The corners of an implicit point, over a common denominator.
+struct ExactCorners {
+  ExactCorners(const PointStore& points, const PointDefinition& d)
+      : count(d.kind == PointKind::on_segment ? 2 : 3) {
+    for (std::size_t i = 0; i < count; ++i) corner[i] = exact_point(points, d.corner[i]);
+    to_common_denominator({corner.data(), count});
+  }
+  std::size_t count;
+  std::array<RationalPoint, 3> corner;
+};
+
+// anchor + sum of parameter * (corner - anchor).
+RationalPoint combination(const PointStore& points, const PointDefinition& d) {
+  const ExactCorners given(points, d);
+  RationalPoint result = given.corner[given.count - 1];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Dyadic anchor = result.numerator[axis];
+    const auto term = [&](std::size_t i, double parameter) {
+      const Dyadic difference = given.corner[i].numerator[axis] - anchor;
+      // What all corners have in common, so does the point.
+      if (difference.sign() == 0) return;
+      result.numerator[axis] = result.numerator[axis] + Dyadic::from_double(parameter) * difference;
+    };
+    term(0, d.u);
+    if (given.count == 3) term(1, d.v);
+  }
+  return result;
+}
+
+DyadicPoint dyadic_vector(const Vec3& v) {
+  return {Dyadic::from_double(v[0]), Dyadic::from_double(v[1]), Dyadic::from_double(v[2])};
+}
+
+Dyadic dot(const DyadicPoint& a, const DyadicPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+DyadicPoint cross(const DyadicPoint& a, const DyadicPoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+DyadicPoint exact_normal(const PlaneEquation& plane) {
+  if (!plane.spanned) return dyadic_vector(plane.normal);
+  const auto edge = [&](std::size_t k) {
+    const DyadicPoint a = dyadic_vector(plane.through[0]), b = dyadic_vector(plane.through[k]);
+    return DyadicPoint{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   };
-  const std::size_t last = d.kind == PointKind::on_segment ? 1 : 2;
-  const Dyadic anchor = of(last);
-  // What all corners have in common, so does the point: parallel to an axis, or in the plane z = 0.
-  const auto same = [&](std::size_t i) {
-    return points.nearest(d.corner[i])[axis] == points.nearest(d.corner[last])[axis];
-  };
-  if (same(0) && same(1)) return anchor;
-  Dyadic sum = anchor + Dyadic::from_double(d.u) * (of(0) - anchor);
-  if (last == 2) sum = sum + Dyadic::from_double(d.v) * (of(1) - anchor);
-  return sum;
+  return cross(edge(1), edge(2));
+}
+
+// Cramer's rule: the sum of h_i n_j x n_k over n_i . (n_j x n_k), with n_i . x = h_i.
+RationalPoint meeting_point(const std::array<PlaneEquation, 3>& planes) {
+  std::array<DyadicPoint, 3> n;
+  for (std::size_t i = 0; i < 3; ++i) n[i] = exact_normal(planes[i]);
+  DyadicPoint sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Dyadic height = dot(n[i], dyadic_vector(planes[i].through[0]));
+    const DyadicPoint c = cross(n[(i + 1) % 3], n[(i + 2) % 3]);
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] = sum[axis] + height * c[axis];
+  }
+  Dyadic determinant = dot(n[0], cross(n[1], n[2]));
+  DELMESHER_CHECK(determinant.sign() != 0, "planes that do not meet in a point");
+  if (determinant.sign() < 0) {
+    determinant.mantissa = -determinant.mantissa;
+    for (Dyadic& x : sum) x.mantissa = -x.mantissa;
+  }
+  for (Dyadic& x : sum) {
+    if (x.sign() != 0) x.exponent -= determinant.exponent;
+  }
+  return {sum, determinant.mantissa};
+}
+
+// The nearest double of x / y, and of what it leaves over.
+struct RoundedQuotient {
+  Rounded nearest, rest;
+};
+
+RoundedQuotient round_quotient(const Dyadic& x, const Dyadic& y) {
+  const Dyadic q = leading_digits_of_quotient(x, y);
+  const Dyadic r = x - q * y;
+  const Dyadic q2 = leading_digits_of_quotient(r, y);
+  const Rounded q3 = round_to_double(leading_digits_of_quotient(r - q2 * y, y));
+  const Dyadic both = q + q2;
+  RoundedQuotient result{round_to_double(both), {0, 0}};
+  if (!(result.nearest.error < kInfinity)) {
+    result.rest.error = kInfinity;
+    return result;
+  }
+  result.rest = round_to_double(both - Dyadic::from_double(result.nearest.value));
+  // q3 is off by less than 2^-50 of itself, or by its own error where it is subnormal.
+  const double neglected = (std::fabs(q3.value) + q3.error) * (1 + 0x1p-40);
+  if (neglected == 0) return result;
+  result.rest.error = (result.rest.error + neglected) * (1 + 0x1p-40);
+  result.nearest.error = (result.nearest.error + neglected) * (1 + 0x1p-40);
+  return result;
+}
+
+RoundedQuotient round_dyadic(const Dyadic& x) {
+  RoundedQuotient result{round_to_double(x), {0, 0}};
+  if (!(result.nearest.error < kInfinity)) {
+    result.rest.error = kInfinity;
+  } else if (result.nearest.error > 0) {
+    result.rest = round_to_double(x - Dyadic::from_double(result.nearest.value));
+  }
+  return result;
 }
 
 }  // namespace
@@ -52,38 +144,75 @@ VertexId PointStore::add_on_triangle(VertexId p, VertexId q, VertexId r, double 
   return add_implicit({PointKind::on_triangle, {p, q, r}, u, v});
 }
 
+void PointStore::copy_corners(const PointStore& from, std::size_t count) {
+  DELMESHER_CHECK(size() == 0, "the store must be empty");
+  equations_ = from.equations_;
+  for (VertexId v = 0; v < count; ++v) {
+    if (from.is_explicit(v)) {
+      approximations_.push_back(from.approximation(v));
+      detail_of_.push_back(kNone);
+    } else {
+      add(from.definition(v));
+    }
+  }
+}
+
 VertexId PointStore::add(const PointDefinition& implicit_point) {
   DELMESHER_CHECK(implicit_point.kind != PointKind::explicit_point, "not an implicit point");
   return add_implicit(implicit_point);
 }
 
+std::uint32_t PointStore::add_plane(const PlaneEquation& plane) {
+  equations_.push_back(plane);
+  return static_cast<std::uint32_t>(equations_.size() - 1);
+}
+
+VertexId PointStore::add_on_planes(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  return add_implicit({PointKind::on_planes, {a, b, c}, 0, 0});
+}
+
 VertexId PointStore::add_implicit(const PointDefinition& definition) {
-  const std::size_t corners = definition.kind == PointKind::on_segment ? 2 : 3;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const VertexId c = definition.corner[i];
-    DELMESHER_CHECK(c < size() && is_explicit(c), "implicit points have explicit corners");
+  RationalPoint exact;
+  const std::array<VertexId, 3>& c = definition.corner;
+  if (definition.kind == PointKind::on_planes) {
+    DELMESHER_CHECK(
+        c[0] < equations_.size() && c[1] < equations_.size() && c[2] < equations_.size(),
+        "no such plane");
+    exact = meeting_point({equations_[c[0]], equations_[c[1]], equations_[c[2]]});
+  } else {
+    const std::size_t corners = definition.kind == PointKind::on_segment ? 2 : 3;
+    for (std::size_t i = 0; i < corners; ++i) {
+      DELMESHER_CHECK(c[i] < size() && is_corner(c[i]), "implicit points have given corners");
+    }
+    DELMESHER_CHECK(std::isfinite(definition.u) && std::isfinite(definition.v),
+                    "parameter not finite");
+    exact = combination(*this, definition);
   }
-  DELMESHER_CHECK(std::isfinite(definition.u) && std::isfinite(definition.v),
-                  "parameter not finite");
+  append(definition, exact);
+  return static_cast<VertexId>(size() - 1);
+}
+
+void PointStore::append(const PointDefinition& definition, const RationalPoint& exact) {
   std::array<Rounded, 3> nearest;
   std::array<Rounded, 3> rest;
   Detail d;
   d.definition = definition;
   d.first_limb = limbs_.size();
   d.first_support = supports_.size();
+  const auto keep = [&](const BigInteger& x) {
+    limbs_.append(x.data(), x.data() + x.used());
+    return static_cast<std::int32_t>(x.used());
+  };
+  const bool whole = exact.denominator == BigInteger(1);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Dyadic x = exact_coordinate(*this, definition, axis);
-    nearest[axis] = round_to_double(x);
-    rest[axis] = {0, 0};
-    if (!(nearest[axis].error < kInfinity)) {
-      rest[axis].error = kInfinity;
-    } else if (nearest[axis].error > 0) {
-      rest[axis] = round_to_double(x - Dyadic::from_double(nearest[axis].value));
-    }
-    d.size[axis] = x.sign() * static_cast<std::int32_t>(x.mantissa.used());
+    const Dyadic& x = exact.numerator[axis];
+    const RoundedQuotient r = whole ? round_dyadic(x) : round_quotient(x, {exact.denominator, 0});
+    nearest[axis] = r.nearest;
+    rest[axis] = r.rest;
+    d.size[axis] = x.sign() * keep(x.mantissa);
     d.exponent[axis] = x.exponent;
-    limbs_.append(x.mantissa.data(), x.mantissa.data() + x.mantissa.used());
   }
+  if (!whole) d.denominator = keep(exact.denominator);
   const auto combined = [](const std::array<Rounded, 3>& r) -> Approximation {
     const double error = std::max({r[0].error, r[1].error, r[2].error});
     return {r[0].value, r[1].value, r[2].value, error};
@@ -92,11 +221,11 @@ VertexId PointStore::add_implicit(const PointDefinition& definition) {
   d.remainder = combined(rest);
   detail_of_.push_back(static_cast<std::uint32_t>(details_.size()));
   details_.push_back(d);
-  return static_cast<VertexId>(size() - 1);
 }
 
 std::size_t PointStore::limb_count(const Detail& d) {
-  return static_cast<std::size_t>(std::abs(d.size[0]) + std::abs(d.size[1]) + std::abs(d.size[2]));
+  return static_cast<std::size_t>(std::abs(d.size[0]) + std::abs(d.size[1]) + std::abs(d.size[2]) +
+                                  d.denominator);
 }
 
 void PointStore::pop_back() {
@@ -181,6 +310,7 @@ void set_exact(const Vec3& x, ExactPosition& out) {
     const std::int32_t size = parts.magnitude == 0 ? 0 : (parts.negative ? -1 : 1);
     out.coordinate[axis] = {&out.own[axis], size, parts.exponent};
   }
+  out.denominator = {};
 }
 
 void PointStore::exact(VertexId v, ExactPosition& out) const {
@@ -194,6 +324,7 @@ void PointStore::exact(VertexId v, ExactPosition& out) const {
     out.coordinate[axis] = {limbs, d.size[axis], d.exponent[axis]};
     limbs += std::abs(d.size[axis]);
   }
+  out.denominator = {limbs, d.denominator, 0};
 }
 
 }  // namespace delmesher::predicates

@@ -1,10 +1,13 @@
-// Points known exactly: explicit, on an input segment, on an input triangle (section 4.3.1).
+// Points known exactly: explicit, on an input segment, on an input triangle (section 4.3.1), and
+// the meeting point of three planes (the corner of a surface whose facets were made planar).
 //
-// The two implicit kinds are polynomials in doubles, so every coordinate is an exact dyadic number:
 //   on-segment   t p + (1 - t) q              = q + t (p - q)
 //   on-triangle  u p + v q + (1 - u - v) r    = r + u (p - r) + v (q - r)
-// with p, q, r explicit and t, u, v doubles. The formulas hold for any finite t, u, v: a point with
-// parameters outside [0, 1] still lies exactly on the line or plane.
+//   on-planes    the solution of n_i . (x - a_i) = 0, i = 1, 2, 3
+// with p, q, r explicit or on-planes, t, u, v and all n_i and a_i doubles (PlaneEquation). The
+// formulas hold for any finite t, u, v: a point with parameters outside [0, 1] still lies exactly
+// on the line or plane. Coordinates are dyadic numbers over a common odd denominator, which is 1
+// unless points on planes are involved.
 #pragma once
 
 #include <array>
@@ -20,9 +23,18 @@ namespace delmesher::predicates {
 
 using Vec3 = std::array<double, 3>;
 
-enum class PointKind : std::uint8_t { explicit_point, on_segment, on_triangle };
+enum class PointKind : std::uint8_t { explicit_point, on_segment, on_triangle, on_planes };
 
-// The nearest doubles of a point and a bound on the error of each coordinate (0: they are exact).
+// All x with normal . (x - through[0]) = 0, exactly; or, if `spanned`, the plane through three
+// points, of which `normal` is an approximate normal only.
+struct PlaneEquation {
+  Vec3 normal;
+  std::array<Vec3, 3> through;
+  bool spanned = false;
+};
+
+// The nearest doubles of a point (within a hair, with a denominator) and a bound on the error of
+// each coordinate (0: they are exact).
 struct Approximation {
   double x, y, z;
   double error;
@@ -30,8 +42,9 @@ struct Approximation {
 
 struct PointDefinition {
   PointKind kind;
-  std::array<VertexId, 3> corner;  // p, q (, r); kNone where unused
-  double u, v;                     // t = u on a segment
+  // p, q (, r); kNone where unused. On planes: their numbers in the store.
+  std::array<VertexId, 3> corner;
+  double u, v;  // t = u on a segment
 };
 
 // An exact coordinate: (odd integer of |size| 64-bit limbs, least significant first, negative if
@@ -49,9 +62,12 @@ struct ExactPosition {
   ExactPosition(const ExactPosition&) = delete;
   ExactPosition& operator=(const ExactPosition&) = delete;
 
-  std::array<ExactCoordinate, 3> coordinate;
+  std::array<ExactCoordinate, 3> coordinate;  // numerators
+  ExactCoordinate denominator;                // odd and above 1, or size 0 for 1
   std::array<Word, 3> own;
 };
+
+struct RationalPoint;
 
 // Of an explicit point.
 void set_exact(const Vec3& x, ExactPosition& out);
@@ -62,10 +78,19 @@ void set_exact(const Vec3& x, ExactPosition& out);
 class PointStore {
  public:
   VertexId add_explicit(double x, double y, double z);
-  // p, q, r must be explicit points of this store.
+  // p, q, r must be points of this store, explicit or on planes.
   VertexId add_on_segment(VertexId p, VertexId q, double t);
   VertexId add_on_triangle(VertexId p, VertexId q, VertexId r, double u, double v);
+  // Returns the number of the plane. The normal must not be zero.
+  std::uint32_t add_plane(const PlaneEquation& plane);
+  std::size_t plane_count() const { return equations_.size(); }
+  const PlaneEquation& plane(std::uint32_t n) const { return equations_[n]; }
+  // The planes, by their numbers, must meet in one point: throws InternalError otherwise.
+  VertexId add_on_planes(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   VertexId add(const PointDefinition& implicit_point);
+  // Appends the first `count` points of another store to an empty one; they are explicit or on
+  // planes. Supports are left out.
+  void copy_corners(const PointStore& from, std::size_t count);
   // Removes the last point.
   void pop_back();
   // Removes the points from `first` on, the last one first.
@@ -93,6 +118,11 @@ class PointStore {
     return detail == kNone || details_[detail].definition.kind == PointKind::explicit_point;
   }
 
+  // May it be a corner of on-segment and on-triangle points?
+  bool is_corner(VertexId v) const {
+    return is_explicit(v) || definition(v).kind == PointKind::on_planes;
+  }
+
   // The nearest doubles of what approximation() leaves over, with the error that remains: the sum
   // of both is a double-double approximation. Zero for explicit points.
   Approximation remainder(VertexId v) const;
@@ -111,13 +141,16 @@ class PointStore {
     std::size_t first_support = 0;
     std::array<std::int32_t, 3> size{};  // of the three mantissas, in limbs, signed
     std::array<std::int32_t, 3> exponent{};
+    std::int32_t denominator = 0;  // limbs; 0 for a denominator of 1
     std::uint32_t planes = 0;
     std::uint32_t lines = 0;
   };
 
   Detail& detail(VertexId v);
   VertexId add_implicit(const PointDefinition& definition);
-  // The limbs of details are stored in the order of the points, x before y before z.
+  void append(const PointDefinition& definition, const RationalPoint& exact);
+  // The limbs of details are stored in the order of the points, x before y before z before the
+  // denominator.
   static std::size_t limb_count(const Detail& d);
 
   GrowingArray<Approximation> approximations_;
@@ -125,6 +158,7 @@ class PointStore {
   GrowingArray<Detail> details_;
   GrowingArray<Word> limbs_;
   GrowingArray<std::uint32_t> supports_;  // per detail: planes, then lines
+  std::vector<PlaneEquation> equations_;
 };
 
 }  // namespace delmesher::predicates

@@ -180,10 +180,14 @@ int Predicates::compare_distance(VertexId a, VertexId b, VertexId c, VertexId d)
   return sign(polynomials::CompareDistance{}, v);
 }
 
-int Predicates::compare_xyz(VertexId a, VertexId b) {
+int Predicates::compare_coordinate(int axis, VertexId a, VertexId b) {
   const VertexId v[] = {a, b};
+  return sign(polynomials::CompareCoordinate{axis}, v);
+}
+
+int Predicates::compare_xyz(VertexId a, VertexId b) {
   for (int axis = 0; axis < 3; ++axis) {
-    const int s = sign(polynomials::CompareCoordinate{axis}, v);
+    const int s = compare_coordinate(axis, a, b);
     if (s != 0) return s;
   }
   return 0;

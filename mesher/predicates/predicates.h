@@ -96,6 +96,8 @@ class Predicates {
 
   // Sign of |a - b| - |c - d|.
   int compare_distance(VertexId a, VertexId b, VertexId c, VertexId d);
+  // Sign of the difference a - b of a coordinate.
+  int compare_coordinate(int axis, VertexId a, VertexId b);
   // Lexicographic order of coordinates; 0 iff the points coincide.
   int compare_xyz(VertexId a, VertexId b);
 

@@ -17,29 +17,6 @@ inline mpq_class rational(double x) {
   return mpq_class(x);
 }
 
-inline Point point(const PointStore& points, VertexId v) {
-  const PointDefinition d = points.definition(v);
-  const auto corner = [&](int i) {
-    const Vec3 x = points.nearest(d.corner[static_cast<std::size_t>(i)]);
-    return Point{rational(x[0]), rational(x[1]), rational(x[2])};
-  };
-  if (d.kind == PointKind::explicit_point) {
-    const Vec3 x = points.nearest(v);
-    return {rational(x[0]), rational(x[1]), rational(x[2])};
-  }
-  const mpq_class u = rational(d.u);
-  const mpq_class w = rational(d.v);
-  Point result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (d.kind == PointKind::on_segment) {
-      result[i] = u * corner(0)[i] + (1 - u) * corner(1)[i];
-    } else {
-      result[i] = u * corner(0)[i] + w * corner(1)[i] + (1 - u - w) * corner(2)[i];
-    }
-  }
-  return result;
-}
-
 inline Point minus(const Point& a, const Point& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
@@ -69,6 +46,54 @@ inline mpq_class determinant(const std::vector<std::vector<mpq_class>>& m) {
     sum += column % 2 == 0 ? term : mpq_class(-term);
   }
   return sum;
+}
+
+// The solution of three linear equations, by determinants.
+inline Point meeting_point(const std::array<PlaneEquation, 3>& planes) {
+  std::vector<std::vector<mpq_class>> m;
+  std::vector<mpq_class> height;
+  for (const PlaneEquation& plane : planes) {
+    std::array<Point, 3> through;
+    Point normal;
+    for (std::size_t i = 0; i < 3; ++i) {
+      normal[i] = rational(plane.normal[i]);
+      for (std::size_t k = 0; k < 3; ++k) through[k][i] = rational(plane.through[k][i]);
+    }
+    if (plane.spanned) normal = cross(minus(through[1], through[0]), minus(through[2], through[0]));
+    m.push_back({normal[0], normal[1], normal[2]});
+    height.push_back(dot(normal, through[0]));
+  }
+  Point result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<std::vector<mpq_class>> replaced = m;
+    for (std::size_t row = 0; row < 3; ++row) replaced[row][i] = height[row];
+    result[i] = determinant(replaced) / determinant(m);
+  }
+  return result;
+}
+
+inline Point point(const PointStore& points, VertexId v) {
+  const PointDefinition d = points.definition(v);
+  const auto corner = [&](std::size_t i) { return point(points, d.corner[i]); };
+  if (d.kind == PointKind::explicit_point) {
+    const Vec3 x = points.nearest(v);
+    return {rational(x[0]), rational(x[1]), rational(x[2])};
+  }
+  if (d.kind == PointKind::on_planes) {
+    return meeting_point(
+        {points.plane(d.corner[0]), points.plane(d.corner[1]), points.plane(d.corner[2])});
+  }
+  const mpq_class u = rational(d.u);
+  const mpq_class w = rational(d.v);
+  Point result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (d.kind == PointKind::on_segment) {
+      result[i] = u * corner(0)[i] + (1 - u) * corner(1)[i];
+    } else {
+      result[i] = u * corner(0)[i] + w * corner(1)[i] + (1 - u - w) * corner(2)[i];
+    }
+  }
+  return result;
 }
 
 inline int orient3d(const Point* p) {

@@ -7,14 +7,36 @@
 namespace delmesher::predicates::stages {
 
 ExactArguments::ExactArguments(const PointStore& points, const VertexId* ids, int n) : count(n) {
-  for (int i = 0; i < n; ++i) points.exact(ids[i], point[i]);
+  bool whole = true;
+  for (int i = 0; i < n; ++i) {
+    points.exact(ids[i], point[i]);
+    whole = whole && point[i].denominator.size == 0;
+  }
   find_scale();
+  if (!whole) find_factors();
 }
 
 ExactArguments::ExactArguments(std::span<const Vec3> points)
     : count(static_cast<int>(points.size())) {
   for (std::size_t i = 0; i < points.size(); ++i) set_exact(points[i], point[i]);
   find_scale();
+}
+
+void ExactArguments::find_factors() {
+  std::vector<BigInteger> denominator, distinct;
+  for (int i = 0; i < count; ++i) {
+    const ExactCoordinate& d = point[i].denominator;
+    denominator.emplace_back(d.limbs, static_cast<std::size_t>(d.size), false);
+    if (d.size != 0 && std::ranges::find(distinct, denominator.back()) == distinct.end()) {
+      distinct.push_back(denominator.back());
+    }
+  }
+  for (const BigInteger& own : denominator) {
+    factor.emplace_back(1);
+    for (const BigInteger& d : distinct) {
+      if (d != own) factor.back() = factor.back() * d;
+    }
+  }
 }
 
 void ExactArguments::find_scale() {

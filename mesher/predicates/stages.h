@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "mesher/arithmetic/big_integer.h"
 #include "mesher/arithmetic/bounded.h"
@@ -73,12 +74,16 @@ struct ExactArguments {
   int count = 0;
   std::int32_t exponent = 0;  // every coordinate is a multiple of 2^exponent
   std::int32_t bits = 0;      // and below 2^(exponent + bits)
+  // For each point what its numerators are multiplied with, so that all have one denominator, which
+  // changes no sign; empty if all denominators are 1.
+  std::vector<BigInteger> factor;
 
   ExactArguments(const PointStore& points, const VertexId* ids, int n);
   explicit ExactArguments(std::span<const Vec3> points);
 
  private:
   void find_scale();
+  void find_factors();
 };
 
 inline BigInteger integer_at_scale(const ExactCoordinate& x, std::int32_t exponent) {
@@ -96,6 +101,9 @@ int big_integers(const ExactArguments& arguments, const Polynomial& polynomial) 
     const auto& x = arguments.point[i].coordinate;
     p[i] = {integer_at_scale(x[0], arguments.exponent), integer_at_scale(x[1], arguments.exponent),
             integer_at_scale(x[2], arguments.exponent)};
+    if (arguments.factor.empty()) continue;
+    const BigInteger& factor = arguments.factor[static_cast<std::size_t>(i)];
+    p[i] = {p[i].x * factor, p[i].y * factor, p[i].z * factor};
   }
   return polynomial(p).sign();
 }
@@ -136,13 +144,13 @@ inline int limbs_needed(const ExactArguments& arguments) {
 
 template <class Polynomial>
 bool exact_is_cheap(const ExactArguments& arguments) {
-  return Polynomial::kFixedSize && limbs_needed(arguments) <= 3;
+  return Polynomial::kFixedSize && arguments.factor.empty() && limbs_needed(arguments) <= 3;
 }
 
 template <class Polynomial>
 int exact(const ExactArguments& arguments, const Polynomial& polynomial) {
   if constexpr (Polynomial::kFixedSize) {
-    switch (limbs_needed(arguments)) {
+    switch (arguments.factor.empty() ? limbs_needed(arguments) : 0) {
       case 1:
         return fixed_integers<1>(arguments, polynomial);
       case 2:

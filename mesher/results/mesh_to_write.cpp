@@ -7,9 +7,38 @@
 namespace delmesher::results {
 namespace {
 
-output::RoundingInput rounding_input(const PointStore& points, std::size_t input_vertices) {
+// Where points of the stand-in go on the surface that was given: the same parameters on the same
+// corners.
+std::vector<std::array<double, 3>> places(const PointStore& points, std::span<const Vec3> given) {
+  std::vector<std::array<double, 3>> place;
+  if (given.empty()) return place;
+  place.reserve(points.size());
+  PointStore scratch;
+  for (VertexId v = 0; v < points.size(); ++v) {
+    const auto corner = [&](VertexId w) { return w < given.size() ? given[w] : points.nearest(w); };
+    PointDefinition d = points.definition(v);
+    if (points.is_corner(v)) {
+      place.push_back(corner(v));
+      continue;
+    }
+    VertexId next = 0;
+    for (VertexId& w : d.corner) {
+      if (w == kNone) continue;
+      const Vec3 x = corner(w);
+      w = next++;
+      scratch.add_explicit(x[0], x[1], x[2]);
+    }
+    place.push_back(scratch.nearest(scratch.add(d)));
+    scratch.truncate(0);
+  }
+  return place;
+}
+
+output::RoundingInput rounding_input(const PointStore& points, std::size_t input_vertices,
+                                     std::span<const Vec3> given) {
   output::RoundingInput input;
   input.points = &points;
+  input.place = places(points, given);
   input.fixed.resize(points.size());
   input.on_surface.resize(points.size());
   for (VertexId v = 0; v < points.size(); ++v) {
@@ -23,8 +52,8 @@ output::RoundingInput rounding_input(const PointStore& points, std::size_t input
 }  // namespace
 
 MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& topology,
-                            const PointStore& points, Region region) {
-  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
+                            const PointStore& points, std::span<const Vec3> given, Region region) {
+  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size(), given), {}, {}};
   output::RoundingInput& input = mesh.rounding;
   const auto inside = static_cast<std::size_t>(std::count(cdt.inside.begin(), cdt.inside.end(), 1));
   input.tetrahedra.reserve(region == Region::interior ? inside : cdt.tetrahedra.size());
@@ -47,8 +76,8 @@ MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& to
 
 MeshToWrite approximate_mesh(const chamfer::ChamferResult& chamfered,
                              const refine::RefineResult& refined, const SurfaceTopology& topology,
-                             const PointStore& points, Region region) {
-  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size()), {}, {}};
+                             const PointStore& points, std::span<const Vec3> given, Region region) {
+  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size(), given), {}, {}};
   output::RoundingInput& input = mesh.rounding;
   std::vector<std::array<VertexId, 3>> written;
   for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {

@@ -23,13 +23,15 @@ inline std::uint8_t repeated_within(Region region, std::uint8_t repeated) {
   return static_cast<std::uint8_t>(region == Region::interior ? repeated >> 4U : repeated & 15U);
 }
 
+// `given`: the vertices as given, where they were moved so that facets are planar; else empty.
+// Points of the surface go where they have the same parameters on these.
 MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& topology,
-                            const PointStore& points, Region region);
+                            const PointStore& points, std::span<const Vec3> given, Region region);
 
 // The refined mesh itself; its boundary is the part of the surface that was neither chamfered nor
 // filtered.
 MeshToWrite approximate_mesh(const chamfer::ChamferResult& chamfered,
                              const refine::RefineResult& refined, const SurfaceTopology& topology,
-                             const PointStore& points, Region region);
+                             const PointStore& points, std::span<const Vec3> given, Region region);
 
 }  // namespace delmesher::results

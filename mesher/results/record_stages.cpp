@@ -30,14 +30,15 @@ void for_each_point(ExactRecord& record, Visit&& visit) {
 
 }  // namespace
 
-void record_parameters(const Options& options, const InForce& force, double diagonal,
+void record_parameters(const Options& options, const InForce& force, double diagonal, double planar,
                        ExactRecord& record) {
   record.parameters = {.delta = std::min(options.delta, refine::kGuaranteedDelta),
                        .acute = force.acute,
                        .corner = force.corner,
                        .tolerance = force.tau * diagonal,
                        .region = options.region,
-                       .gabriel = force.gabriel};
+                       .gabriel = force.gabriel,
+                       .planar = planar};
 }
 
 void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult* filter,
@@ -138,7 +139,7 @@ void record_points(const PointStore& points, std::size_t input_vertices,
   for (const auto& corner : record.corners) use(corner.vertex);
   for (VertexId v = 0; v < points.size(); ++v) {
     const PointDefinition d = points.definition(v);
-    if (number[v] == 0 || d.kind == PointKind::explicit_point) continue;
+    if (number[v] == 0 || points.is_corner(v)) continue;
     for (const VertexId c : d.corner) {
       if (c != kNone) use(c);
     }
@@ -152,7 +153,7 @@ void record_points(const PointStore& points, std::size_t input_vertices,
     }
     number[v] = next++;
     const PointDefinition d = points.definition(v);
-    const auto at = [&](int k) { return d.corner[k] == kNone ? 0 : number[d.corner[k]]; };
+    const auto at = [&](int k) { return number[d.corner[k]]; };
     ExactPoint p;
     switch (d.kind) {
       case PointKind::explicit_point: {
@@ -166,8 +167,15 @@ void record_points(const PointStore& points, std::size_t input_vertices,
       case PointKind::on_triangle:
         p = {ExactPoint::Kind::on_triangle, at(0), at(1), at(2), d.u, d.v, 0};
         break;
+      case PointKind::on_planes:
+        p = {ExactPoint::Kind::on_planes, d.corner[0], d.corner[1], d.corner[2], 0, 0, 0};
+        break;
     }
     record.points.push_back(p);
+  }
+  for (std::uint32_t n = 0; n < points.plane_count(); ++n) {
+    const PlaneEquation& plane = points.plane(n);
+    record.planes.push_back({plane.spanned, plane.normal, plane.through});
   }
   for_each_point(record, [&](std::uint32_t& v) { v = number[v]; });
   for (auto& corner : record.corners) corner.vertex = number[corner.vertex];

@@ -12,7 +12,7 @@
 namespace delmesher::results {
 
 // `diagonal`: of the input's bounding box.
-void record_parameters(const Options& options, const InForce& force, double diagonal,
+void record_parameters(const Options& options, const InForce& force, double diagonal, double planar,
                        ExactRecord& record);
 // `filter` is null if nothing was filtered.
 void record_facets(const SurfaceTopology& topology, const chamfer::FilterResult* filter,

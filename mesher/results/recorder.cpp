@@ -40,6 +40,17 @@ void Recorder::checked(const SurfaceReport& report) {
   result_.statistics.bbox_diagonal = report.bbox_diagonal;
 }
 
+void Recorder::planar(const StandIn& stand_in, double bound) {
+  Statistics& s = result_.statistics;
+  s.facets = session_.topology.facet_triangles.size();
+  if (stand_in.planes.empty()) return;
+  s.planar_groups = stand_in.groups;
+  if (exact()) result_.exact.triangles = stand_in.triangles;
+  s.given_facets = stand_in.given_facets;
+  s.planar_deviation = stand_in.deviation;
+  s.planar_bound = bound;
+}
+
 void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
                          const chamfer::FilterResult& filter, const InForce& force) {
   Statistics& s = result_.statistics;
@@ -56,7 +67,8 @@ void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
       static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
   if (!exact()) return;
   ExactRecord& record = result_.exact;
-  record_parameters(session_.options, force, session_.diagonal, record);
+  record_parameters(session_.options, force, session_.diagonal, result_.statistics.planar_bound,
+                    record);
   record_facets(session_.topology, &filter, record);
   record_chamfer(chamfered, force, record);
 }

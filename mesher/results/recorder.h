@@ -17,6 +17,8 @@ class Recorder {
   Recorder(const Session& session, Result& result) : session_(session), result_(result) {}
 
   void checked(const SurfaceReport& report);
+  // Facets were made planar within `bound`.
+  void planar(const StandIn& stand_in, double bound);
   void predicted(double tetrahedra) { result_.statistics.predicted_tetrahedra = tetrahedra; }
   void chamfered(const chamfer::ChamferResult& chamfered, const chamfer::FilterResult& filter,
                  const InForce& force);

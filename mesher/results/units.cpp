@@ -33,7 +33,11 @@ void scale(ExactRecord& record, int exponent) {
     p.y = std::ldexp(p.y, exponent);
     p.z = std::ldexp(p.z, exponent);
   }
+  for (ExactRecord::Plane& plane : record.planes) {
+    for (Point& p : plane.through) scale(p, exponent);
+  }
   record.parameters.tolerance = std::ldexp(record.parameters.tolerance, exponent);
+  record.parameters.planar = std::ldexp(record.parameters.planar, exponent);
   for (ExactRecord::Corner& corner : record.corners) {
     corner.radius = std::ldexp(corner.radius, exponent);
   }
@@ -77,6 +81,8 @@ Result scaled_and_back(const Surface& surface, const Options& options,
   Statistics& s = result.statistics;
   s.bbox_diagonal = std::ldexp(s.bbox_diagonal, exponent);
   s.max_surface_deviation = std::ldexp(s.max_surface_deviation, exponent);
+  s.planar_deviation = std::ldexp(s.planar_deviation, exponent);
+  s.planar_bound = std::ldexp(s.planar_bound, exponent);
   return result;
 }
 

@@ -32,6 +32,7 @@ std::string options_defect(const Options& o, const OptionBounds& bounds) {
     const char* unit = "";
   } all[] = {{"delta", o.delta, bounds.delta, kDegrees},
              {"tau", o.tau, bounds.tau},
+             {"planar", o.planar == kPlanarAuto ? 0 : o.planar, bounds.planar},
              {"acute", o.acute, bounds.acute, kDegrees},
              {"corner", o.corner, bounds.corner, kDegrees},
              {"chamfer radius", o.chamfer_radius, bounds.length},
@@ -54,6 +55,7 @@ Options paper_options() {
   Options options;
   options.acute = options.corner = 90;
   options.gabriel = true;
+  options.planar = 0;
   options.region = Region::hull;
   return options;
 }

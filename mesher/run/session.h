@@ -19,7 +19,9 @@ struct Session {
   PointStore points;  // the input vertices, then what the stages append
   Predicates predicates{points};
   SurfaceTopology topology;  // of the input, oriented outwards
-  double diagonal = 0;       // of the input's bounding box, in its units
+  // As given, where vertices were moved so that facets are planar; else empty.
+  std::vector<Vec3> given;
+  double diagonal = 0;  // of the input's bounding box, in its units
 
   std::size_t input_vertices() const { return topology.vertex_half_edge.size(); }
 };

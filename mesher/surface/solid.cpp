@@ -178,10 +178,7 @@ struct Solid::Impl {
       : shared(std::move(data)), predicates(mesh_predicates) {
     const std::size_t n = topology.vertex_half_edge.size();
     input.reserve(n + 1);
-    for (VertexId v = 0; v < n; ++v) {
-      const Vec3 p = predicates.points().nearest(v);
-      input.add_explicit(p[0], p[1], p[2]);
-    }
+    input.copy_corners(predicates.points(), n);
   }
 
   Side classify(const Tetrahedron& tetrahedron) {
@@ -269,29 +266,39 @@ struct Solid::Impl {
     return inside;
   }
 
+  // All coordinates times the same number, and four: the sum of the corners is the centroid then.
+  bool centroid_ray_crosses(const Tetrahedron& tetrahedron, const Ray& ray,
+                            const std::array<VertexId, 3>& triangle) const {
+    std::array<VertexId, 7> ids;
+    std::copy(tetrahedron.begin(), tetrahedron.end(), ids.begin());
+    std::copy(triangle.begin(), triangle.end(), ids.begin() + 4);
+    const std::vector<DyadicPoint> exact = scaled_exact_points(predicates.points(), ids);
+    const auto sum = [&](std::size_t i) {
+      return exact[0][i] + exact[1][i] + exact[2][i] + exact[3][i];
+    };
+    const Dyadic four = Dyadic::from_double(4);
+    const auto corner = [&](std::size_t n) {
+      return DyadicPoint{exact[n][0] * four, exact[n][1] * four, exact[n][2] * four};
+    };
+    return exact_ray_crosses({sum(0), sum(1), sum(2)}, ray.axis, ray.direction,
+                             {corner(4), corner(5), corner(6)});
+  }
+
   // For tetrahedra so thin that the rounded centroid is not certainly inside.
   bool contains_centroid(const Tetrahedron& tetrahedron) {
     const PointStore& points = predicates.points();
-    DyadicPoint center;
     Box start;
-    for (const VertexId v : tetrahedron) {
-      const DyadicPoint p = exact_point(points, v);
-      for (std::size_t i = 0; i < 3; ++i) center[i] = center[i] + p[i];
-    }
-    const Dyadic quarter = Dyadic::from_double(0.25);
     for (std::size_t i = 0; i < 3; ++i) {
-      center[i] = center[i] * quarter;
-      const Rounded nearest = round_to_double(center[i]);
-      start.lo[i] = std::nextafter(nearest.value, -kInfinity);
-      start.hi[i] = std::nextafter(nearest.value, kInfinity);
+      Dyadic sum;
+      for (const VertexId v : tetrahedron) sum = sum + dyadic_point(points, v)[i];
+      const double middle = round_to_double(sum * Dyadic::from_double(0.25)).value;
+      start.lo[i] = std::nextafter(middle, -kInfinity);
+      start.hi[i] = std::nextafter(middle, kInfinity);
     }
     const Ray ray = shortest_ray(start);
     bool inside = false;
     tree.query(ray.box, [&](std::uint32_t t) {
-      const auto& v = topology.triangles[t];
-      inside ^= exact_ray_crosses(
-          center, ray.axis, ray.direction,
-          {exact_point(points, v[0]), exact_point(points, v[1]), exact_point(points, v[2])});
+      inside ^= centroid_ray_crosses(tetrahedron, ray, topology.triangles[t]);
       return true;
     });
     return inside;

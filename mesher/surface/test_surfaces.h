@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -88,6 +89,39 @@ inline Surface welded(const Surface& s) {
 inline Surface scaled(Surface s, double factor) {
   for (auto& v : s.vertices) {
     for (double& x : v) x *= factor;
+  }
+  return s;
+}
+
+// By three angles, in doubles, so that every coordinate has a few roundings.
+inline Surface rotated(Surface s, double a = 0.3, double b = 0.7, double c = 1.1) {
+  const auto turn = [](double& x, double& y, double angle) {
+    const double u = x * std::cos(angle) - y * std::sin(angle);
+    y = x * std::sin(angle) + y * std::cos(angle);
+    x = u;
+  };
+  for (Point& p : s.vertices) {
+    turn(p[1], p[2], a);
+    turn(p[2], p[0], b);
+    turn(p[0], p[1], c);
+  }
+  return s;
+}
+
+// Rounded by adding and subtracting: gcc 12 at -O3 leaves out some conversions to float and back.
+inline Surface in_single_precision(Surface s) {
+  for (Point& p : s.vertices) {
+    for (double& x : p) {
+      const double large = std::ldexp(x < 0 ? -1.5 : 1.5, std::ilogb(x) + 29);
+      x = (x + large) - large;
+    }
+  }
+  return s;
+}
+
+inline Surface in_decimals(Surface s, double unit) {
+  for (Point& p : s.vertices) {
+    for (double& x : p) x = std::round(x / unit) / std::round(1 / unit);
   }
   return s;
 }

@@ -34,8 +34,9 @@ std::vector<std::uint32_t> classes_of(
 
 class Builder {
  public:
-  Builder(const Surface& surface, PointStore& points, Predicates& predicates)
-      : surface_(surface), points_(points), predicates_(predicates) {}
+  Builder(const Surface& surface, const StandIn& stand_in, PointStore& points,
+          Predicates& predicates)
+      : surface_(surface), stand_in_(stand_in), points_(points), predicates_(predicates) {}
 
   SurfaceTopology build() {
     add_points();
@@ -51,9 +52,8 @@ class Builder {
  private:
   void add_points() {
     DELMESHER_CHECK(points_.size() == 0, "the store must be empty");
-    points_.reserve(surface_.vertices.size());
-    for (const auto& v : surface_.vertices) points_.add_explicit(v[0], v[1], v[2]);
-    topology_.triangles = surface_.triangles;
+    add_vertices(surface_, stand_in_, points_);
+    topology_.triangles = stand_in_.triangles.empty() ? surface_.triangles : stand_in_.triangles;
     topology_.labels = surface_.labels;
     topology_.labels.resize(surface_.triangles.size(), 0);
   }
@@ -192,6 +192,7 @@ class Builder {
   }
 
   const Surface& surface_;
+  const StandIn& stand_in_;
   PointStore& points_;
   Predicates& predicates_;
   SurfaceTopology topology_;
@@ -199,17 +200,15 @@ class Builder {
 
 }  // namespace
 
-SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates) {
-  return Builder(surface, points, predicates).build();
+SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates,
+                               const StandIn& stand_in) {
+  return Builder(surface, stand_in, points, predicates).build();
 }
 
 std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points) {
   std::vector<Box> boxes;
   boxes.reserve(topology.triangles.size());
-  for (const auto& [a, b, c] : topology.triangles) {
-    boxes.push_back(
-        Box::around(std::array{points.nearest(a), points.nearest(b), points.nearest(c)}));
-  }
+  for (const auto& t : topology.triangles) boxes.push_back(enclosing_box(points, t));
   return boxes;
 }
 

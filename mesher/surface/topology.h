@@ -9,6 +9,7 @@
 #include "mesher/delmesher/surface.h"
 #include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/surface/planar_groups.h"
 
 namespace delmesher::surface {
 
@@ -56,8 +57,10 @@ struct SurfaceTopology {
 // Adds the surface's vertices to an empty store, builds the adjacency and the facets (exactly), and
 // records as supports of every vertex the planes of its facets and the lines of its non-flat edges
 // (both the edge itself and edge_line of it are ids of the line that contains an edge). The surface
-// must have passed check_surface and be oriented outwards.
-SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates);
+// must have passed check_surface and be oriented outwards. With a stand-in, its vertices are those
+// of the topology.
+SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates,
+                               const StandIn& stand_in = {});
 
 // Of the triangles, in their order.
 std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/predicates/box_tree.h"
+
 namespace delmesher::surface {
 namespace {
 
@@ -126,20 +128,20 @@ class Contact {
 
   bool boxes_overlap(VertexId p, VertexId q, const Corners& t) const {
     const PointStore& points = predicates_.points();
-    const Vec3 a = points.nearest(p), b = points.nearest(q);
-    const Vec3 c = points.nearest(t[0]), d = points.nearest(t[1]), e = points.nearest(t[2]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (std::max(a[i], b[i]) < std::min({c[i], d[i], e[i]})) return false;
-      if (std::min(a[i], b[i]) > std::max({c[i], d[i], e[i]})) return false;
-    }
-    return true;
+    return enclosing_box(points, std::array{p, q}).overlaps(enclosing_box(points, t));
   }
 
   bool segments_in_plane(int axis, VertexId p, VertexId q, VertexId r, VertexId s) {
     const int o1 = predicates_.orient2d(axis, p, q, r), o2 = predicates_.orient2d(axis, p, q, s);
     if (o1 * o2 > 0) return false;
-    if (o1 == 0 && o2 == 0) return boxes_overlap(p, q, {r, s, s});  // on one line
+    if (o1 == 0 && o2 == 0) return overlap_on_a_line(p, q, r, s);
     return predicates_.orient2d(axis, r, s, p) * predicates_.orient2d(axis, r, s, q) <= 0;
+  }
+
+  bool overlap_on_a_line(VertexId p, VertexId q, VertexId r, VertexId s) {
+    if (predicates_.compare_xyz(p, q) > 0) std::swap(p, q);
+    if (predicates_.compare_xyz(r, s) > 0) std::swap(r, s);
+    return predicates_.compare_xyz(q, r) >= 0 && predicates_.compare_xyz(s, p) >= 0;
   }
 
   Predicates& predicates_;
@@ -193,15 +195,13 @@ bool meet_outside_shared(Predicates& predicates, const Corners& s, const Corners
 
 bool ray_crosses(Predicates& predicates, VertexId p, int axis, int direction,
                  const Corners& triangle) {
-  const auto i = static_cast<std::size_t>((axis + 1) % 3);
-  const auto j = static_cast<std::size_t>((axis + 2) % 3);
+  const int axis_i = (axis + 1) % 3, axis_j = (axis + 2) % 3;
   // Sign of the projected area of a, b and p moved by (eps, eps^2) along axes i and j.
   const auto perturbed = [&](VertexId a, VertexId b) {
     const int o = predicates.orient2d(axis, a, b, p);
     if (o != 0) return o;
-    const Vec3 u = predicates.points().nearest(a), v = predicates.points().nearest(b);
-    if (u[j] != v[j]) return u[j] > v[j] ? 1 : -1;
-    return u[i] == v[i] ? 0 : (v[i] > u[i] ? 1 : -1);
+    const int along_j = predicates.compare_coordinate(axis_j, a, b);
+    return along_j != 0 ? along_j : predicates.compare_coordinate(axis_i, b, a);
   };
   const auto [a, b, c] = triangle;
   const int sign = perturbed(a, b);

@@ -16,7 +16,8 @@ namespace tetproof::oracles {
 namespace {
 
 using Rough = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
-// Both predicates need ring operations only, so integers do.
+// Both predicates need ring operations only, so integers do; points with denominators are taken
+// times a common one.
 using Exact = CGAL::Simple_cartesian<CGAL::Gmpz>;
 
 Rough::Point_3 rough_point(const ExactPoints& points, Index i) {
@@ -27,9 +28,23 @@ Rough::Point_3 rough_point(const ExactPoints& points, Index i) {
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
-Exact::Point_3 exact_point(const ExactPoints& points, Index i) {
-  const IntegerVector& p = points.integer(i);
-  return {CGAL::Gmpz(p[0].get_mpz_t()), CGAL::Gmpz(p[1].get_mpz_t()), CGAL::Gmpz(p[2].get_mpz_t())};
+Exact::Point_3 exact_point(const ExactPoints& points, Index i, const mpz_class& denominator) {
+  const auto coordinate = [&](int axis) {
+    const ExactNumber& x = points.exact(i)[axis];
+    if (x.is_integer() && denominator == 1) return CGAL::Gmpz(x.numerator().get_mpz_t());
+    return CGAL::Gmpz(mpz_class(x.numerator() * (denominator / x.denominator())).get_mpz_t());
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
+template <class... Indices>
+mpz_class common_denominator(const ExactPoints& points, Indices... indices) {
+  mpz_class result = 1;
+  if (points.all_integers()) return result;
+  for (const Index i : {indices...}) {
+    for (const ExactNumber& x : points.exact(i)) result = lcm(result, x.denominator());
+  }
+  return result;
 }
 
 }  // namespace
@@ -45,7 +60,9 @@ struct KernelOpinion::Kernel {
       const auto rough = predicate(rough_point(points, indices)...);
       if (CGAL::is_certain(rough)) return static_cast<int>(CGAL::get_certain(rough));
     }
-    return static_cast<int>(CGAL::make_certain(predicate(exact_point(points, indices)...)));
+    const mpz_class denominator = common_denominator(points, indices...);
+    return static_cast<int>(
+        CGAL::make_certain(predicate(exact_point(points, indices, denominator)...)));
   }
 };
 
@@ -62,13 +79,15 @@ int KernelOpinion::insphere(Index a, Index b, Index c, Index d, Index e) const {
                          c, d, e);
 }
 
-mpz_class cgal_hull_volume6(const ExactPoints& points, std::span<const Index> corners) {
+ExactNumber cgal_hull_volume6(const ExactPoints& points, std::span<const Index> corners) {
   using Rational = CGAL::Simple_cartesian<CGAL::Gmpq>;
   std::vector<Rational::Point_3> list;
   list.reserve(corners.size());
   for (const Index v : corners) {
-    const Exact::Point_3 p = exact_point(points, v);
-    list.emplace_back(CGAL::Gmpq(p.x()), CGAL::Gmpq(p.y()), CGAL::Gmpq(p.z()));
+    const auto coordinate = [&](int axis) {
+      return CGAL::Gmpq(points.exact(v)[axis].rational().get_mpq_t());
+    };
+    list.emplace_back(coordinate(0), coordinate(1), coordinate(2));
   }
   CGAL::Surface_mesh<Rational::Point_3> hull;
   CGAL::convex_hull_3(list.begin(), list.end(), hull);
@@ -85,7 +104,7 @@ mpz_class cgal_hull_volume6(const ExactPoints& points, std::span<const Index> co
       sum += CGAL::determinant(ring[0] - origin, ring[i - 1] - origin, ring[i] - origin);
     }
   }
-  return abs(mpz_class(mpq_class(sum.mpq())));
+  return ExactNumber(mpq_class(abs(mpq_class(sum.mpq()))));
 }
 
 std::vector<std::array<Index, 4>> cgal_delaunay(std::span<const Position> points) {

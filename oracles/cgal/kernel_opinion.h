@@ -25,7 +25,7 @@ class KernelOpinion {
 
 // Six times the exact volume of the convex hull of some of the points, in integer units; 0 if they
 // lie in a plane.
-mpz_class cgal_hull_volume6(const ExactPoints& points, std::span<const Index> corners);
+ExactNumber cgal_hull_volume6(const ExactPoints& points, std::span<const Index> corners);
 
 // The tetrahedra of CGAL's Delaunay tetrahedrization of some points, positively oriented. Of points
 // that are on one sphere any choice is Delaunay.

@@ -1,8 +1,10 @@
 #include "oracles/cgal/second_kernel.h"
 
+#include <CGAL/Gmpq.h>
 #include <CGAL/Gmpzf.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/intersections.h>
 
 #include <array>
 #include <cmath>
@@ -16,21 +18,21 @@ namespace {
 
 using delmesher::ExactPoint;
 using delmesher::ExactRecord;
-// All that is asked needs ring operations only. CGAL's exact floating-point numbers have them; in
-// its lazy kernel, whose fractions are reduced again and again, the same took most of a
-// verification.
-using Number = CGAL::Gmpzf;
-using Kernel = CGAL::Simple_cartesian<Number>;
-using Vector = Kernel::Vector_3;
 using Rough = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
 
+// With a number type of CGAL's. Where no point is on three planes, all that is asked needs ring
+// operations only, and its exact floating-point numbers (Gmpzf) have them; in fractions, which are
+// reduced again and again, the same took most of a verification.
+template <class Number>
 struct Point {
-  Kernel::Point_3 exact;
+  using Kernel = CGAL::Simple_cartesian<Number>;
+  typename Kernel::Point_3 exact;
   Rough::Point_3 rough;
 
-  explicit Point(const Kernel::Point_3& p)
+  explicit Point(const typename Kernel::Point_3& p)
       : exact(p), rough(interval(p.x()), interval(p.y()), interval(p.z())) {}
-  Point(const Number& x, const Number& y, const Number& z) : Point(Kernel::Point_3(x, y, z)) {}
+  Point(const Number& x, const Number& y, const Number& z)
+      : Point(typename Kernel::Point_3(x, y, z)) {}
 
  private:
   static CGAL::Interval_nt<false> interval(const Number& x) {
@@ -49,13 +51,16 @@ CGAL::Sign decide(const Predicate& predicate, const Points&... points) {
   return CGAL::make_certain(predicate(points.exact...));
 }
 
-CGAL::Sign orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+template <class Number>
+CGAL::Sign orientation(const Point<Number>& a, const Point<Number>& b, const Point<Number>& c,
+                       const Point<Number>& d) {
   return decide([](const auto&... p) { return CGAL::orientation(p...); }, a, b, c, d);
 }
 
 // Of the angle between the normal of abc and the direction from p to q, cosine's sign.
-CGAL::Sign along_normal(const Point& a, const Point& b, const Point& c, const Point& p,
-                        const Point& q) {
+template <class Number>
+CGAL::Sign along_normal(const Point<Number>& a, const Point<Number>& b, const Point<Number>& c,
+                        const Point<Number>& p, const Point<Number>& q) {
   return decide(
       [](const auto& u, const auto& v, const auto& w, const auto& from, const auto& to) {
         return CGAL::sign(CGAL::cross_product(v - u, w - u) * (to - from));
@@ -64,8 +69,9 @@ CGAL::Sign along_normal(const Point& a, const Point& b, const Point& c, const Po
 }
 
 // Of the angle between the normals of abc and pqr.
-CGAL::Sign between_normals(const Point& a, const Point& b, const Point& c, const Point& p,
-                           const Point& q, const Point& r) {
+template <class Number>
+CGAL::Sign between_normals(const Point<Number>& a, const Point<Number>& b, const Point<Number>& c,
+                           const Point<Number>& p, const Point<Number>& q, const Point<Number>& r) {
   return decide(
       [](const auto& u, const auto& v, const auto& w, const auto& x, const auto& y, const auto& z) {
         return CGAL::sign(CGAL::cross_product(v - u, w - u) * CGAL::cross_product(y - x, z - x));
@@ -109,14 +115,43 @@ bool parse_hexadecimal(const std::string& word, double& value) {
   return true;
 }
 
-// The definitions of points, as written. False if the text is not what it should be.
-bool read_points(const std::string& path, std::vector<ExactPoint>& points) {
+struct Definitions {
+  std::vector<ExactPoint> points;
+  std::vector<ExactRecord::Plane> planes;
+};
+
+bool read_plane(std::istringstream& words, ExactRecord::Plane& plane) {
+  std::string kind;
+  words >> kind;
+  if (kind != "N" && kind != "T") return false;
+  plane.spanned = kind == "T";
+  std::vector<std::array<double, 3>*> wanted;
+  if (!plane.spanned) wanted.push_back(&plane.normal);
+  for (std::size_t i = 0; i < (plane.spanned ? 3U : 1U); ++i) wanted.push_back(&plane.through[i]);
+  for (std::array<double, 3>* numbers : wanted) {
+    for (double& x : *numbers) {
+      std::string word;
+      if (!(words >> word) || !parse_hexadecimal(word, x)) return false;
+    }
+  }
+  return true;
+}
+
+// The definitions of planes and points, as written. False if the text is not what it should be.
+bool read_definitions(const std::string& path, Definitions& definitions) {
+  std::vector<ExactPoint>& points = definitions.points;
   std::ifstream in(path);
   std::string line, word;
-  std::size_t count = 0;
+  std::size_t count = 0, planes = 0;
   while (std::getline(in, line)) {
-    std::istringstream words(line);
-    if (words >> word && word == "points" && words >> count) break;
+    std::istringstream words(line.substr(0, line.find('#')));
+    if (definitions.planes.size() < planes) {
+      if (!read_plane(words, definitions.planes.emplace_back())) return false;
+      continue;
+    }
+    if (!(words >> word)) continue;
+    if (word == "planes" && !(words >> planes)) return false;
+    if (word == "points" && words >> count) break;
   }
   while (points.size() < count && std::getline(in, line)) {
     std::istringstream words(line.substr(0, line.find('#')));
@@ -125,11 +160,13 @@ bool read_points(const std::string& path, std::vector<ExactPoint>& points) {
     ExactPoint p;
     std::array<double*, 3> numbers = {&p.x, &p.y, &p.z};
     std::size_t wanted = 3;
-    if (kind == "S" || kind == "T") {
-      p.kind = kind == "S" ? ExactPoint::Kind::on_segment : ExactPoint::Kind::on_triangle;
+    if (kind == "S" || kind == "T" || kind == "P") {
+      p.kind = kind == "S"   ? ExactPoint::Kind::on_segment
+               : kind == "T" ? ExactPoint::Kind::on_triangle
+                             : ExactPoint::Kind::on_planes;
       words >> p.i >> p.j;
-      if (kind == "T") words >> p.k;
-      wanted = kind == "S" ? 1 : 2;
+      if (kind != "S") words >> p.k;
+      wanted = kind == "S" ? 1 : kind == "T" ? 2 : 0;
     } else if (kind != "E") {
       return false;
     }
@@ -144,6 +181,7 @@ bool read_points(const std::string& path, std::vector<ExactPoint>& points) {
 // --- the mesh
 
 // 2^exponent, beyond the range of doubles as well.
+template <class Number>
 Number power_of_two(long exponent) {
   constexpr long kStep = 900;
   Number result(1);
@@ -152,6 +190,7 @@ Number power_of_two(long exponent) {
   return result * Number(std::ldexp(1.0, static_cast<int>(exponent)));
 }
 
+template <class Number>
 Number from_integer(const mpz_class& value, const Number& unit) {
   Number result(0), scale = unit;
   mpz_class rest = abs(value), part;
@@ -164,10 +203,23 @@ Number from_integer(const mpz_class& value, const Number& unit) {
   return value < 0 ? -result : result;
 }
 
+// Is x the number in these units? Without division, which not all number types have.
+template <class Number>
+bool is_number(const Number& x, const ExactNumber& value, const Number& unit) {
+  return x * from_integer<Number>(value.denominator(), Number(1)) ==
+         from_integer<Number>(value.numerator(), unit);
+}
+
+template <class Number>
 class SecondKernel {
+  using Point = oracles::Point<Number>;
+  using Kernel = typename Point::Kernel;
+  using Vector = typename Kernel::Vector_3;
+  using Place = typename Kernel::Point_3;
+
  public:
   SecondKernel(const Polyhedron& input, const InputSurface& surface, const ExactRecord& record,
-               const ExactPoints& points, std::vector<ExactPoint> definitions)
+               const ExactPoints& points, Definitions definitions)
       : input_(input),
         triangles_(surface.triangles()),
         record_(record),
@@ -176,8 +228,11 @@ class SecondKernel {
 
   OracleReport run() {
     compare_points();
-    for (const Position& p : input_.vertices) {
-      corners_.emplace_back(Number(p[0]), Number(p[1]), Number(p[2]));
+    for (std::size_t v = 0; v < input_.vertices.size(); ++v) {
+      const Position& p = input_.vertices[v];
+      const bool moved = definitions_.points[v].kind == ExactPoint::Kind::on_planes;
+      corners_.push_back(moved ? expand(static_cast<Index>(v))
+                               : Point(Number(p[0]), Number(p[1]), Number(p[2])));
     }
     check_tetrahedra();
     check_faces();
@@ -190,20 +245,37 @@ class SecondKernel {
     return elements <= most ? 1 : elements / std::max<std::size_t>(1, most);
   }
 
-  Kernel::Point_3 corner(Index v) const {
-    const ExactPoint& p = definitions_[v];
-    return {Number(p.x), Number(p.y), Number(p.z)};
+  static Place place(const std::array<double, 3>& x) {
+    return {Number(x[0]), Number(x[1]), Number(x[2])};
+  }
+  Place corner(Index v) const {
+    const ExactPoint& p = definitions_.points[v];
+    if (p.kind == ExactPoint::Kind::explicit_point) return place({p.x, p.y, p.z});
+    if constexpr (std::is_same_v<Number, CGAL::Gmpq>) {
+      const auto plane = [&](Index n) -> typename Kernel::Plane_3 {
+        const ExactRecord::Plane& e = definitions_.planes[n];
+        if (e.spanned) return {place(e.through[0]), place(e.through[1]), place(e.through[2])};
+        return {place(e.through[0]), Vector(CGAL::ORIGIN, place(e.normal))};
+      };
+      const auto meeting = CGAL::intersection(plane(p.i), plane(p.j), plane(p.k));
+      if (meeting) {
+        if (const Place* found = boost::get<Place>(&*meeting)) return *found;
+      }
+    }
+    return {Number(0), Number(0), Number(0)};  // other than the oracles' point
   }
   Point expand(Index v) const {
-    const ExactPoint& p = definitions_[v];
-    if (p.kind == ExactPoint::Kind::explicit_point) return Point(corner(v));
-    const Kernel::Point_3 a = corner(p.i), b = corner(p.j);
+    const ExactPoint& p = definitions_.points[v];
+    if (p.kind == ExactPoint::Kind::explicit_point || p.kind == ExactPoint::Kind::on_planes) {
+      return Point(corner(v));
+    }
+    const Place a = corner(p.i), b = corner(p.j);
     const Number t(p.x);
     if (p.kind == ExactPoint::Kind::on_segment) {
       const Number rest = Number(1) - t;
       return {t * a.x() + rest * b.x(), t * a.y() + rest * b.y(), t * a.z() + rest * b.z()};
     }
-    const Kernel::Point_3 c = corner(p.k);
+    const Place c = corner(p.k);
     const Number u(p.y), rest = Number(1) - t - u;
     return {t * a.x() + u * b.x() + rest * c.x(), t * a.y() + u * b.y() + rest * c.y(),
             t * a.z() + u * b.z() + rest * c.z()};
@@ -211,14 +283,14 @@ class SecondKernel {
 
   void compare_points() {
     constexpr std::size_t kMost = 20000;
-    const Number unit = power_of_two(points_.exponent());
+    const Number unit = power_of_two<Number>(points_.exponent());
     std::size_t asked = 0;
-    for (std::size_t v = 0; v < definitions_.size();
-         v += step(definitions_.size(), kMost), ++asked) {
-      const Kernel::Point_3 p = expand(static_cast<Index>(v)).exact;
-      const IntegerVector& other = points_.integer(static_cast<Index>(v));
-      if (p.x() != from_integer(other[0], unit) || p.y() != from_integer(other[1], unit) ||
-          p.z() != from_integer(other[2], unit)) {
+    for (std::size_t v = 0; v < definitions_.points.size();
+         v += step(definitions_.points.size(), kMost), ++asked) {
+      const Place p = expand(static_cast<Index>(v)).exact;
+      const ExactVector& other = points_.exact(static_cast<Index>(v));
+      if (!is_number(p.x(), other[0], unit) || !is_number(p.y(), other[1], unit) ||
+          !is_number(p.z(), other[2], unit)) {
         report_.fail("point " + std::to_string(v) + " is elsewhere to CGAL's kernel");
       }
     }
@@ -397,7 +469,7 @@ class SecondKernel {
   const std::vector<std::array<Index, 3>>& triangles_;
   const ExactRecord& record_;
   const ExactPoints& points_;
-  const std::vector<ExactPoint> definitions_;
+  const Definitions definitions_;
   std::vector<Point> corners_;
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
 };
@@ -407,15 +479,20 @@ class SecondKernel {
 OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& surface,
                                  const ExactRecord& record, const ExactPoints& points,
                                  const std::string& sidecar) {
-  std::vector<ExactPoint> definitions;
+  Definitions definitions;
   if (sidecar.empty()) {
-    definitions = record.points;
-  } else if (!read_points(sidecar, definitions) || definitions.size() != record.points.size()) {
+    definitions = {record.points, record.planes};
+  } else if (!read_definitions(sidecar, definitions) ||
+             definitions.points.size() != record.points.size() ||
+             definitions.planes.size() != record.planes.size()) {
     OracleReport report("second-kernel", "points");
     report.fail("the text of the points is not what the format says");
     return report;
   }
-  return SecondKernel(input, surface, record, points, std::move(definitions)).run();
+  if (record.planes.empty()) {
+    return SecondKernel<CGAL::Gmpzf>(input, surface, record, points, std::move(definitions)).run();
+  }
+  return SecondKernel<CGAL::Gmpq>(input, surface, record, points, std::move(definitions)).run();
 }
 
 }  // namespace tetproof::oracles

@@ -1,0 +1,13 @@
+// How far facets may be from planar (Options::planar).
+#pragma once
+
+#include "mesher/delmesher.h"
+
+namespace delmesher::policies {
+
+// The largest distance of a vertex from the plane of its facet, in input units: half of what the
+// surface may deviate, for a triangle may be as far on the other side of the plane. `diagonal` is
+// that of the bounding box.
+double planar_bound(const Surface& surface, const Options& options, double diagonal);
+
+}  // namespace delmesher::policies

@@ -1,0 +1,58 @@
+#include "mesher/surface/flatness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesher/surface/test_surfaces.h"
+
+namespace delmesher::surface {
+namespace {
+
+using namespace test_surfaces;
+
+// Every coordinate off by up to `noise`, as of a hash of its number.
+Surface jittered(Surface s, double noise) {
+  std::uint32_t n = 0;
+  for (Point& p : s.vertices) {
+    for (double& x : p) x += noise * (static_cast<double>(++n * 2654435761U) * 0x1p-31 - 1);
+  }
+  return s;
+}
+
+TEST(Flatness, IsAsCoarseAsTheCoordinates) {
+  const Surface s = rotated(box({0, 0, 0}, {1, 2, 3}, 5));
+  EXPECT_LE(flatness(s), 0x1p-42);
+  EXPECT_GE(flatness(s), 0x1p-46);
+  const double single = flatness(in_single_precision(s));
+  EXPECT_GE(single, 0x1p-24);
+  EXPECT_LE(single, 0x1p-19);
+  for (const double noise : {1e-7, 1e-10}) {
+    EXPECT_GE(flatness(jittered(s, noise)), noise);
+    EXPECT_LE(flatness(jittered(s, noise)), 8 * noise);
+  }
+}
+
+TEST(Flatness, NeverMoreThanAMillionthOfTheSize) {
+  const Surface s = rotated(box({0, 0, 0}, {1, 2, 3}, 5));
+  const double most = 0x1p-20 * std::sqrt(3 * 14.0);  // of a box around all of its rotations
+  EXPECT_LE(flatness(jittered(s, 1e-6)), most * (1 + 1e-9));
+  // Bends of a tenth of a degree are meant.
+  Surface bent = box({0, 0, 0}, {1, 2, 3}, 2);
+  for (Point& p : bent.vertices) {
+    if (p[0] == 0.5) p[0] += std::tan(0.1 / 180 * std::acos(-1.0));
+  }
+  EXPECT_LE(flatness(rotated(bent)), 0x1p-42);
+}
+
+TEST(Flatness, ScalesWithTheSurface) {
+  Surface s = in_single_precision(rotated(box({0, 0, 0}, {1, 2, 3}, 3)));
+  const double before = flatness(s);
+  for (Point& p : s.vertices) {
+    for (double& x : p) x = std::ldexp(x, 30);
+  }
+  EXPECT_EQ(flatness(s), std::ldexp(before, 30));
+}
+
+}  // namespace
+}  // namespace delmesher::surface

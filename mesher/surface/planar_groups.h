@@ -1,0 +1,42 @@
+// Facets that are planar but for rounding, and a surface on which they are planar.
+//
+// A flat face that is not parallel to the axes has corners that were rounded, so its triangles lie
+// in as many planes. A *planar group* is an edge-connected set of triangles of one label whose
+// vertices all lie within a noise bound of one plane; the bound is on the whole group, so slightly
+// turning facets do not add up to a bent one. The *stand-in* surface has the same triangles, and
+// every group in exactly one plane: a vertex of three groups is the meeting point of their planes
+// (PointKind::on_planes), one of fewer is moved along an axis or two. A vertex of more than three
+// planes leaves the smallest groups. The stand-in is certified: exactly planar groups, all of whose
+// triangles keep their orientation, and no two triangles of the surface meet anew.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/delmesher/surface.h"
+#include "mesher/predicates/points.h"
+
+namespace delmesher::surface {
+
+struct StandIn {
+  // Empty if nothing moves: all groups are planar as they are.
+  std::vector<PlaneEquation> planes;
+  // Per vertex: the numbers of its three planes, or kNone where it stays as it is.
+  std::vector<std::array<std::uint32_t, 3>> planes_of;
+  // Those of the surface, in another triangulation of some groups; empty: the same.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::uint64_t groups = 0;        // of more than one triangle, not exactly planar before
+  std::uint64_t given_facets = 0;  // of the surface as given
+  double deviation = 0;            // largest distance of a vertex from the plane of a group of it
+  double displacement = 0;         // largest distance of a vertex from its stand-in
+};
+
+// `surface` is valid, with finite coordinates. No vertex is farther than `bound`, in its units,
+// from the planes of its facets.
+StandIn find_stand_in(const Surface& surface, double bound, Control& control);
+
+// Adds the vertices of the stand-in to an empty store, as points 0 .. vertices-1.
+void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points);
+
+}  // namespace delmesher::surface

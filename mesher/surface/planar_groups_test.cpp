@@ -1,0 +1,220 @@
+#include "mesher/surface/planar_groups.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+#include "mesher/base/control.h"
+#include "mesher/predicates/vector.h"
+#include "mesher/surface/flatness.h"
+#include "mesher/surface/test_surfaces.h"
+#include "mesher/surface/topology.h"
+#include "mesher/surface/validity.h"
+
+namespace delmesher::surface {
+namespace {
+
+using namespace test_surfaces;
+
+// A convex polygon, counter-clockwise, extruded from z = 0 to `top` of its points; caps are fans.
+Surface prism(const std::vector<std::array<double, 2>>& polygon,
+              const std::function<double(double, double)>& top) {
+  Surface s;
+  const auto n = static_cast<std::uint32_t>(polygon.size());
+  for (const auto& [x, y] : polygon) s.vertices.push_back({x, y, 0});
+  for (const auto& [x, y] : polygon) s.vertices.push_back({x, y, top(x, y)});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    s.triangles.push_back({i, j, n + j});
+    s.triangles.push_back({i, n + j, n + i});
+    if (i == 0 || j == 0) continue;
+    s.triangles.push_back({0, j, i});
+    s.triangles.push_back({n, n + i, n + j});
+  }
+  return s;
+}
+
+std::vector<std::array<double, 2>> circle(int n) {
+  std::vector<std::array<double, 2>> points;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * std::acos(-1.0) * i / n;
+    points.push_back({std::cos(angle), std::sin(angle)});
+  }
+  return points;
+}
+
+// The stand-in's topology, checked: every facet exactly planar by its own triangles' predicates,
+// every vertex where it was up to the noise, the rest untouched.
+struct Grouped {
+  Limits limits;
+  Control control{limits};
+  StandIn stand_in;
+  PointStore points;
+  Predicates predicates{points};
+  SurfaceTopology topology;
+
+  Grouped(const Surface& s, double noise) {
+    const ValidityResult validity = check_validity(s, true, control);
+    EXPECT_TRUE(validity.report.status.ok()) << validity.report.status.message;
+    stand_in = find_stand_in(s, noise, control);
+    topology = build_topology(s, points, predicates, stand_in);
+    for (VertexId v = 0; v < s.vertices.size(); ++v) {
+      const double moved = distance(points.nearest(v), s.vertices[v]);
+      EXPECT_LE(moved, stand_in.displacement);
+      if (stand_in.planes_of.empty() || stand_in.planes_of[v][0] == kNone) {
+        EXPECT_TRUE(points.is_explicit(v));
+      }
+    }
+    for (const auto& triangles : topology.facet_triangles) {
+      const auto& [a, b, c] = topology.triangles[triangles.front()];
+      for (const std::uint32_t t : triangles) {
+        for (const VertexId v : topology.triangles[t]) {
+          EXPECT_EQ(predicates.orient3d(a, b, c, v), 0);
+        }
+      }
+    }
+    EXPECT_LE(stand_in.deviation, noise);
+  }
+  std::size_t facets() const { return topology.facet_triangles.size(); }
+};
+
+Grouped grouped(const Surface& s) {
+  return Grouped(s, 2 * flatness(s));
+}
+
+TEST(PlanarGroups, NothingMovesThatIsPlanar) {
+  for (const Surface& s : {box({0, 0, 0}, {1, 2, 3}, 3), box({0.1, 0.2, 0.3}, {1.7, 2.1, 3.3}, 2),
+                           tetrahedron({0, 0, 0}, {1, 0.3, 0.1}, {0, 1, 0.7}, {0.2, 0.1, 1})}) {
+    const Grouped g(s, 1e-9);
+    EXPECT_TRUE(g.stand_in.planes.empty());
+    EXPECT_EQ(g.stand_in.groups, 0U);
+  }
+}
+
+TEST(PlanarGroups, FacesOfARotatedBoxAreSix) {
+  for (const std::uint32_t n : {1U, 2U, 5U}) {
+    const Surface s = rotated(box({0, 0, 0}, {1, 2, 3}, n));
+    EXPECT_GT(Grouped(s, 0).facets(), 6U);  // without, they are not
+    const Grouped g = grouped(s);
+    EXPECT_EQ(g.facets(), 6U);
+    EXPECT_EQ(g.stand_in.groups, 6U);
+    EXPECT_LT(g.stand_in.displacement, 1e-14);
+    const Grouped f = grouped(in_single_precision(s));
+    EXPECT_EQ(f.facets(), 6U);
+    EXPECT_LT(f.stand_in.displacement, 1e-5);
+    EXPECT_EQ(grouped(in_decimals(s, 1e-6)).facets(), 6U);
+  }
+}
+
+// A wish, not noise: a ridge of 0.05 degrees across a plate.
+TEST(PlanarGroups, AFlatRidgeStays) {
+  const std::vector<std::array<double, 2>> plate = {{0, 0}, {1, 0},  {1, 1},
+                                                    {0, 1}, {-1, 1}, {-1, 0}};
+  const double slope = std::tan(0.05 / 2 * std::acos(-1.0) / 180);
+  const Surface s = prism(plate, [&](double x, double) { return 0.1 - slope * std::fabs(x); });
+  for (const Surface& t : {rotated(s), in_single_precision(rotated(s))}) {
+    EXPECT_EQ(grouped(t).facets(), 7U);  // bottom, two slopes, four sides
+  }
+}
+
+TEST(PlanarGroups, ACylinderKeepsItsFacets) {
+  const Surface s = prism(circle(1000), [](double, double) { return 1.0; });
+  for (const Surface& t : {s, rotated(s)}) EXPECT_EQ(grouped(t).facets(), 1002U);
+  // Facets at a third of a degree, whose planes single precision knows to a hundredth of that.
+  EXPECT_GE(grouped(in_single_precision(rotated(s))).facets(), 1002U);
+}
+
+TEST(PlanarGroups, AStepOfTwiceTheNoiseStays) {
+  const double step = 1e-6;
+  // A staircase of one step: the sides of x > 1 are higher by it.
+  Surface s = box({0, 0, 0}, {2, 1, 1}, 2);
+  for (Point& p : s.vertices) {
+    if (p[2] == 1 && p[0] > 1) p[2] += step;
+  }
+  const std::size_t before = Grouped(rotated(s), 0).facets();
+  EXPECT_LE(before, 48U);
+  const Grouped above = Grouped(rotated(s), step * 4), below = Grouped(rotated(s), step / 8);
+  EXPECT_EQ(above.facets(), 6U);
+  EXPECT_EQ(below.facets(), 7U);  // flat up to x = 1, a slope beyond
+}
+
+// Each facet is coplanar with the next within the noise, all of them together are not.
+TEST(PlanarGroups, ABendIsNoPlane) {
+  std::vector<std::array<double, 2>> arc;
+  const int n = 40;
+  for (int i = 0; i <= n; ++i) {
+    const double x = -1 + 2.0 * i / n;
+    arc.push_back({x, 1e-6 * x * x - 1});
+  }
+  arc.push_back({1, 1});
+  arc.push_back({-1, 1});
+  const double noise = 1e-8;
+  const Grouped g(rotated(prism(arc, [](double, double) { return 1.0; })), noise);
+  // Two caps, three flat sides, and the arc of height 1e-6 in pieces of at most 2e-8: at least
+  // sqrt(1e-6 / 4e-8) = 5.
+  EXPECT_GE(g.facets(), 10U);
+  EXPECT_LT(g.facets(), 5U + n);
+}
+
+TEST(PlanarGroups, LabelsSeparate) {
+  Surface s = rotated(box({0, 0, 0}, {1, 2, 3}, 2));
+  s.labels.assign(s.triangles.size(), 1);
+  s.labels[0] = 2;
+  EXPECT_EQ(grouped(s).facets(), 7U);
+}
+
+// Four planes at each vertex: not all quadrangles can be planar, and what is left is valid.
+TEST(PlanarGroups, VerticesOfFourPlanes) {
+  const std::uint32_t rings = 9, around = 12;
+  Surface s;
+  const double pi = std::acos(-1.0);
+  for (std::uint32_t i = 0; i < rings; ++i) {
+    for (std::uint32_t j = 0; j < around; ++j) {
+      const double u = 2 * pi * i / rings, v = 2 * pi * j / around;
+      const double r = 3 + std::cos(v);
+      s.vertices.push_back({r * std::cos(u), r * std::sin(u), std::sin(v)});
+    }
+  }
+  for (std::uint32_t i = 0; i < rings; ++i) {
+    for (std::uint32_t j = 0; j < around; ++j) {
+      const auto at = [&](std::uint32_t di, std::uint32_t dj) {
+        return (i + di) % rings * around + (j + dj) % around;
+      };
+      s.triangles.push_back({at(0, 0), at(1, 0), at(1, 1)});
+      s.triangles.push_back({at(0, 0), at(1, 1), at(0, 1)});
+    }
+  }
+  const Grouped g = grouped(rotated(s));
+  EXPECT_LE(g.facets(), 2 * rings * around);
+  EXPECT_GE(g.facets(), rings * around);
+}
+
+// A flat face cut at a rounded point of an edge: the needle beside it has a height of noise.
+TEST(PlanarGroups, AFaceSplitAtARoundedPoint) {
+  Surface s = rotated(box({0, 0, 0}, {1, 2, 3}));
+  // The edge between the two triangles of the first face, and the neighbour across another edge.
+  const auto [a, b, c] = s.triangles[0];
+  Point p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = s.vertices[a][i] * 0.3 + s.vertices[b][i] * 0.7;
+  const auto middle = static_cast<std::uint32_t>(s.vertices.size());
+  s.vertices.push_back(p);
+  for (std::size_t t = 0; t < 12; ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto& corners = s.triangles[t];
+      const std::uint32_t from = corners[k], to = corners[(k + 1) % 3];
+      if (!((from == a && to == b) || (from == b && to == a))) continue;
+      auto second = corners;
+      second[k] = middle;
+      corners[(k + 1) % 3] = middle;
+      s.triangles.push_back(second);
+      break;
+    }
+  }
+  EXPECT_EQ(grouped(s).facets(), 6U);
+}
+
+}  // namespace
+}  // namespace delmesher::surface

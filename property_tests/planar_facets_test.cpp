@@ -1,0 +1,454 @@
+// Facets that are planar but for rounding, from surface to verdict: rotated and jittered solids
+// keep every promise with as few facets as before, and lies about the planes of a record are caught
+// by the oracle meant for it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "mesher/delmesher.h"
+#include "oracles/exact_sum.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+#include "property_tests/score_table.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::ExactPoint;
+using delmesher::ExactRecord;
+using delmesher::Options;
+using delmesher::Surface;
+
+// By three angles, in doubles; then `round` is done to every coordinate.
+Surface rotated(Surface s, const std::function<double(double)>& round) {
+  const auto turn = [](double& x, double& y, double angle) {
+    const double u = x * std::cos(angle) - y * std::sin(angle);
+    y = x * std::sin(angle) + y * std::cos(angle);
+    x = u;
+  };
+  for (Position& p : s.vertices) {
+    turn(p[1], p[2], 0.3);
+    turn(p[2], p[0], 0.7);
+    turn(p[0], p[1], 1.1);
+    for (double& x : p) x = round(x);
+  }
+  return s;
+}
+
+double as_it_is(double x) {
+  return x;
+}
+double to_single(double x) {
+  const double large = std::ldexp(x < 0 ? -1.5 : 1.5, std::ilogb(x) + 29);
+  return (x + large) - large;
+}
+double to_six_digits(double x) {
+  return std::round(x * 1e6) / 1e6;
+}
+
+// The cells of a grid on both sides of a diagonal step, as one solid with flat faces of many
+// triangles, concave edges and a hole through it.
+Surface stairs() {
+  return samples::to_surface(samples::grid_sample(4, 1, [](int x, int y, int z) {
+                               return (x != 1 || y != 1) && z <= x;
+                             }).input);
+}
+
+struct Told {
+  samples::Sample sample;
+  ExactRecord record;
+  Promise promise;
+  unsigned version = kRecordVersion;
+  delmesher::Statistics statistics;
+};
+
+Told run_of(const Surface& surface, double planar = delmesher::kPlanarAuto) {
+  Options options;
+  options.want_exact = true;
+  options.planar = planar;
+  const delmesher::Result result = delmesher::tetrahedralize(surface, options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  return {{samples::to_polyhedron(surface), samples::to_mesh(result.mesh)},
+          result.exact,
+          promise_of(options),
+          kRecordVersion,
+          result.statistics};
+}
+
+VerifyReport verdict_on(const Told& told, bool with_record = true) {
+  VerifyReport report;
+  EXPECT_EQ(verify(told.sample.input, told.sample.mesh, with_record ? &told.record : nullptr,
+                   {.stage = with_record ? Stage::both : Stage::final,
+                    .promised = told.promise,
+                    .record_version = told.version},
+                   report),
+            "");
+  return report;
+}
+
+// ------------------------------------------------------------------------------------- what holds
+
+struct Rounding {
+  const char* name;
+  double (*round)(double);
+};
+void PrintTo(const Rounding& rounding, std::ostream* out) {
+  *out << rounding.name;
+}
+
+class Rotated : public testing::TestWithParam<Rounding> {};
+INSTANTIATE_TEST_SUITE_P(By, Rotated,
+                         testing::Values(Rounding{"doubles", as_it_is},
+                                         Rounding{"single", to_single},
+                                         Rounding{"decimals", to_six_digits}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST_P(Rotated, PartsKeepTheirFacetsAndEveryPromise) {
+  // The first with its record, which takes the longest.
+  const std::vector<Surface> parts = {stairs(), samples::random_voxels(3)};
+  for (const Surface& part : parts) {
+    const Told straight = run_of(part), turned = run_of(rotated(part, GetParam().round));
+    EXPECT_EQ(straight.statistics.planar_groups, 0U);
+    EXPECT_GT(turned.statistics.planar_groups, 0U);
+    EXPECT_GT(turned.statistics.given_facets, straight.statistics.facets);
+    EXPECT_EQ(turned.statistics.facets, straight.statistics.facets);
+    EXPECT_FALSE(turned.record.planes.empty());
+    // Half as many again would be no surprise for other coordinates; facets of noise cost ten times
+    // as much.
+    EXPECT_LT(turned.statistics.final.tetrahedra, 2 * straight.statistics.final.tetrahedra);
+    for (const bool with_record : {&part == &parts.front(), false}) {
+      const VerifyReport report = verdict_on(turned, with_record);
+      EXPECT_FALSE(failed(report, {.promised = turned.promise})) << to_text(report);
+      EXPECT_TRUE(!with_record || samples::as_promised(report, turned.promise)) << to_text(report);
+    }
+    // All vertices are in the mesh as given.
+    std::vector<Position> written = turned.sample.mesh.vertices;
+    std::sort(written.begin(), written.end());
+    for (const Position& p : turned.sample.input.vertices) {
+      EXPECT_TRUE(std::binary_search(written.begin(), written.end(), p));
+    }
+  }
+}
+
+TEST_P(Rotated, WithoutTheOptionTheSurfaceIsKeptToTheLastBit) {
+  const Told told = run_of(rotated(stairs(), GetParam().round), 0);
+  EXPECT_EQ(told.statistics.planar_groups, 0U);
+  EXPECT_TRUE(told.record.planes.empty());
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+}
+
+// ------------------------------------------------------------------------------- points on planes
+
+TEST(ExactNumber, IsAFieldWithoutDivision) {
+  std::mt19937 random(7);
+  const auto any = [&] {
+    mpq_class q(static_cast<long>(random() % 2001) - 1000, 2 * (random() % 50) + 1);
+    q.canonicalize();
+    return q;
+  };
+  for (int round = 0; round < 2000; ++round) {
+    const mpq_class p = any(), q = any();
+    const ExactNumber a(p), b(q);
+    EXPECT_EQ((a + b).rational(), p + q);
+    EXPECT_EQ((a - b).rational(), p - q);
+    EXPECT_EQ((a * b).rational(), p * q);
+    EXPECT_EQ((-a).rational(), -p);
+    ExactNumber sum = a;
+    sum += b;
+    EXPECT_EQ(sum.rational(), p + q);
+    sum -= a;
+    EXPECT_EQ(sum.rational(), q);
+    EXPECT_EQ(sgn(a), sgn(p));
+    EXPECT_EQ(cmp(a, b) > 0, p > q);
+    EXPECT_EQ(a == b, p == q);
+    EXPECT_EQ(a < b, p < q);
+    EXPECT_EQ(a.shifted(3).rational(), p * 8);
+    EXPECT_EQ((a * ExactNumber(8)).shifted(-3).rational(), p);
+    EXPECT_EQ(a.is_integer(), p.get_den() == 1);
+    if (q != 0) {
+      EXPECT_EQ(ratio(a, b), p / q);
+    }
+    EXPECT_NEAR(to_double(a, 0), p.get_d(), 1e-15 * std::fabs(p.get_d()));
+  }
+}
+
+TEST(ExactSum, IsEqualWhereTheNumbersAre) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<mpq_class> terms;
+    mpq_class total = 0;
+    for (int i = 0; i < 30; ++i) {
+      const unsigned long denominator = i % 3 == 0 ? 1 : 2 * (random() % 5000) + 1;
+      mpq_class q(static_cast<long>(random() % 20001) - 10000, denominator);
+      q.canonicalize();
+      terms.push_back(q);
+      total += q;
+    }
+    ExactSum forwards, backwards, other;
+    for (const mpq_class& q : terms) forwards += ExactNumber(q);
+    std::reverse(terms.begin(), terms.end());
+    // In other pieces: the sum of two numbers as one of them.
+    for (std::size_t i = 0; i < terms.size(); i += 2) {
+      backwards += ExactNumber(mpq_class(terms[i] + terms[i + 1]));
+    }
+    EXPECT_TRUE(forwards == backwards);
+    for (const mpq_class& q : terms) other += ExactNumber(q);
+    other += ExactNumber(mpq_class(1, 1000003));
+    EXPECT_FALSE(forwards == other);
+    EXPECT_EQ(forwards.sign(), sgn(total));
+    EXPECT_NEAR(forwards.value(0), total.get_d(), 1e-12 * (1 + std::fabs(total.get_d())));
+    EXPECT_NEAR(difference(other, forwards, 0), 1e-6, 1e-9);
+  }
+}
+
+TEST(ExactPoints, OnPlanesAreWhereThesePlanesMeet) {
+  std::mt19937 random(9);
+  const auto unit = [&] { return static_cast<double>(random()) * 0x1p-31 - 1; };
+  for (int round = 0; round < 200; ++round) {
+    std::vector<ExactRecord::Plane> planes(3);
+    for (auto& plane : planes) {
+      plane.spanned = random() % 2 == 0;
+      plane.normal = {unit(), unit(), unit()};
+      for (auto& p : plane.through) p = {unit(), unit(), unit()};
+    }
+    std::vector<ExactPoint> list = explicit_points(std::vector<Position>{{1, 2, 3}, {0, 1, 0.5}});
+    ExactPoint meeting;
+    meeting.kind = ExactPoint::Kind::on_planes;
+    meeting.i = 0;
+    meeting.j = 1;
+    meeting.k = 2;
+    list.push_back(meeting);
+    ExactPoint middle;
+    middle.kind = ExactPoint::Kind::on_segment;
+    middle.i = 2;
+    middle.j = 0;
+    middle.x = 0.375;
+    list.push_back(middle);
+    ExactPoints points;
+    ASSERT_EQ(points.assign(list, planes), "");
+    const auto at = [&](Index v, int axis) {
+      mpq_class x = points.exact(v)[axis].rational();
+      const long e = points.exponent();
+      return e < 0 ? mpq_class(x >> static_cast<unsigned long>(-e))
+                   : mpq_class(x << static_cast<unsigned long>(e));
+    };
+    for (const auto& plane : planes) {
+      mpq_class height = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        mpq_class n = plane.normal[axis];
+        if (plane.spanned) {
+          const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+          const auto side = [&](std::size_t i, int a) {
+            return mpq_class(mpq_class(plane.through[i][a]) - mpq_class(plane.through[0][a]));
+          };
+          n = side(1, j) * side(2, k) - side(1, k) * side(2, j);
+        }
+        height += n * (at(2, axis) - mpq_class(plane.through[0][axis]));
+      }
+      EXPECT_EQ(height, 0);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(at(3, axis), at(2, axis) * mpq_class(0.375) + at(0, axis) * mpq_class(0.625));
+      for (const Index v : {2U, 3U}) {
+        const Interval box = points.enclosure(v)[axis];
+        EXPECT_LE(mpq_class(box.low), at(v, axis));
+        EXPECT_GE(mpq_class(box.high), at(v, axis));
+        const Interval rough = points.rough_difference(1, v)[axis];
+        EXPECT_LE(mpq_class(rough.low), at(v, axis) - at(1, axis));
+        EXPECT_GE(mpq_class(rough.high), at(v, axis) - at(1, axis));
+      }
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------------------- lies
+
+const Told& honest() {
+  static const Told told = run_of(rotated(stairs(), to_single));
+  return told;
+}
+
+std::size_t moved_vertex(const ExactRecord& record) {
+  for (std::size_t v = 0; v < record.points.size(); ++v) {
+    if (record.points[v].kind == ExactPoint::Kind::on_planes) return v;
+  }
+  ADD_FAILURE() << "no vertex was moved";
+  return 0;
+}
+
+struct Lie {
+  const char* name;
+  const char* oracle;  // the one meant to catch it
+  void (*tell)(Told&);
+};
+void PrintTo(const Lie& lie, std::ostream* out) {
+  *out << lie.name;
+}
+
+const Lie kLies[] = {
+    {"facets are planar, promised was the surface as given", "promise",
+     [](Told& t) { t.promise.planar = 0; }},
+    {"a bound a thousand times as large", "promise",
+     [](Told& t) { t.record.parameters.planar *= 1000; }},
+    {"no bound for the planes", "promise", [](Told& t) { t.record.parameters.planar = 0; }},
+    {"an infinite bound", "sidecar", [](Told& t) { t.record.parameters.planar = HUGE_VAL; }},
+    {"a bound that is no number", "sidecar",
+     [](Told& t) { t.record.parameters.planar = std::nan(""); }},
+    {"a bound smaller than what was done", "stand-in",
+     [](Told& t) { t.record.parameters.planar *= 0x1p-20; }},
+    {"version 3, which has no planes", "promise", [](Told& t) { t.version = 3; }},
+    {"a plane moved along its normal", "stand-in",
+     [](Told& t) {
+       for (int axis = 0; axis < 3; ++axis) {
+         t.record.planes[0].through[0][axis] += 1e-3 * t.record.planes[0].normal[axis];
+       }
+     }},
+    {"a plane tilted", "stand-in", [](Told& t) { t.record.planes[0].normal[0] += 1e-3; }},
+    {"all planes gone", "sidecar", [](Told& t) { t.record.planes.clear(); }},
+    {"a plane without a normal", "sidecar",
+     [](Told& t) {
+       t.record.planes[0].spanned = false;
+       t.record.planes[0].normal = {0, 0, 0};
+     }},
+    {"a plane that is not finite", "sidecar",
+     [](Told& t) { t.record.planes[0].through[0][1] = HUGE_VAL; }},
+    {"a vertex on one plane thrice", "sidecar",
+     [](Told& t) {
+       ExactPoint& p = t.record.points[moved_vertex(t.record)];
+       p.j = p.k = p.i;
+     }},
+    {"a vertex moved away as plain numbers", "sidecar",
+     [](Told& t) {
+       const std::size_t v = moved_vertex(t.record);
+       ExactPoint& p = t.record.points[v];
+       const Position& x = t.sample.input.vertices[v];
+       p = {ExactPoint::Kind::explicit_point, 0, 0, 0, x[0] + 1e-9, x[1], x[2]};
+     }},
+    {"a vertex that is another's meeting point", "stand-in",
+     [](Told& t) {
+       const std::size_t v = moved_vertex(t.record);
+       std::size_t w = v + 1;
+       while (t.record.points[w].kind != ExactPoint::Kind::on_planes) ++w;
+       t.record.points[v] = t.record.points[w];
+     }},
+    {"another triangulation across a sharp edge", "stand-in",
+     [](Told& t) {
+       t.record.triangles = t.sample.input.triangles;
+       std::swap(t.record.triangles.front(), t.record.triangles.back());
+     }},
+    {"a point on planes that is no vertex", "sidecar",
+     [](Told& t) { t.record.points.push_back(t.record.points[moved_vertex(t.record)]); }},
+    {"too few triangles", "sidecar",
+     [](Told& t) {
+       t.record.triangles = t.sample.input.triangles;
+       t.record.triangles.pop_back();
+     }},
+    {"the moved vertices written", "rounding",
+     [](Told& t) {
+       ExactPoints points;
+       points.assign(t.record.points, t.record.planes);
+       for (std::size_t i = 0; i < t.record.mesh_vertices.size(); ++i) {
+         t.sample.mesh.vertices[i] = points.nearest(t.record.mesh_vertices[i]);
+       }
+     }},
+    {"labels merged", "conformity",
+     [](Told& t) {
+       t.sample.input.labels.assign(t.sample.input.triangles.size(), 1);
+       t.sample.input.labels[0] = 2;
+     }},
+};
+
+class PlanarLies : public testing::TestWithParam<Lie> {};
+
+TEST_P(PlanarLies, AreCaughtByTheOracleMeantForThem) {
+  static const VerifyReport good = verdict_on(honest());
+  ASSERT_TRUE(samples::as_promised(good, honest().promise)) << to_text(good);
+  ASSERT_EQ(good.verdict, Verdict::deviating);
+  Told told = honest();
+  GetParam().tell(told);
+  judge("rotated stairs", GetParam().name, GetParam().oracle, verdict_on(told));
+}
+
+INSTANTIATE_TEST_SUITE_P(Planes, PlanarLies, testing::ValuesIn(kLies), [](const auto& tested) {
+  std::string name = tested.param.name;
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  }
+  return name;
+});
+
+// A box whose waist is elsewhere in the mesh: the walls, taken together, would have no direction.
+TEST(PlanarFile, WallsAroundABoxAreNoFacet) {
+  samples::Sample stretched = samples::cube();
+  const auto stretch = [](std::vector<Position>& vertices) {
+    for (Position& p : vertices) p[2] *= 4;
+  };
+  stretch(stretched.input.vertices);
+  stretch(stretched.mesh.vertices);
+  samples::Sample bent = stretched;
+  for (Position& p : bent.mesh.vertices) {
+    if (p[2] == 2) p[0] += 0.125;
+  }
+  VerifyReport report;
+  ASSERT_EQ(verify(stretched.input, stretched.mesh, nullptr, {}, report), "");
+  EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
+  ASSERT_EQ(verify(bent.input, bent.mesh, nullptr, {.promised = {.planar = Promise::kPlanarAuto}},
+                   report),
+            "");
+  EXPECT_EQ(report.verdict, Verdict::broken) << to_text(report);
+}
+
+// The same by a little, which is no planar facet either.
+TEST(PlanarFile, AVertexOffItsFacetIsNoPlanarFacet) {
+  samples::Sample sample = samples::cube();
+  for (Position& p : sample.mesh.vertices) {
+    if (p == Position{0.5, 0.5, 1}) p[2] += 1e-6;
+  }
+  VerifyReport report;
+  const VerifyOptions options{.promised = {.planar = Promise::kPlanarAuto}};
+  ASSERT_EQ(verify(sample.input, sample.mesh, nullptr, options, report), "");
+  EXPECT_EQ(report.verdict, Verdict::deviating);
+  EXPECT_TRUE(failed(report, options));
+}
+
+// A plate of the width 2 and the length 4 whose top has a ridge along the middle.
+Surface ridge(double height) {
+  Surface s;
+  for (const double y : {0.0, 4.0}) {
+    for (const auto& [x, z] :
+         {std::pair(-1.0, 0.0), {1.0, 0.0}, {1.0, 1.0}, {0.0, 1 + height}, {-1.0, 1.0}}) {
+      s.vertices.push_back({x, y, z});
+    }
+  }
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    const std::uint32_t j = (i + 1) % 5;
+    s.triangles.push_back({i, j + 5, j});
+    s.triangles.push_back({i, i + 5, j + 5});
+  }
+  for (std::uint32_t i = 1; i < 4; ++i) {
+    s.triangles.push_back({0, i, i + 1});
+    s.triangles.push_back({5, i + 6, i + 5});
+  }
+  return s;
+}
+
+// A ridge that the mesh does not have, in a file without record: what is promised decides.
+TEST(PlanarFile, ARidgeAboveTheBoundIsMissed) {
+  Told told = run_of(ridge(1e-3), 1e-3);
+  ASSERT_GT(told.statistics.planar_groups, 0U);
+  const VerifyReport good = verdict_on(told, false);
+  EXPECT_FALSE(failed(good, {.promised = told.promise})) << to_text(good);
+  EXPECT_EQ(good.verdict, Verdict::deviating);
+  EXPECT_GE(good.deviation, 4e-4);
+  told.promise.planar = 1e-5;
+  const VerifyReport report = verdict_on(told, false);
+  EXPECT_TRUE(failed(report, {.promised = told.promise})) << to_text(report);
+}
+
+}  // namespace
+}  // namespace tetproof
