@@ -59,4 +59,13 @@ double square_root(const mpq_class& squared, long exponent) {
   return std::ldexp(std::sqrt(ratio), static_cast<int>(power / 2 + exponent));
 }
 
+mpq_class times_power_of_two(mpq_class value, long exponent) {
+  if (exponent >= 0) {
+    mpq_mul_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<unsigned long>(exponent));
+  } else {
+    mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<unsigned long>(-exponent));
+  }
+  return value;
+}
+
 }  // namespace tetproof::oracles

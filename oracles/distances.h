@@ -22,5 +22,7 @@ mpq_class squared_distance_to_triangle(const ExactPoints& points, Index v,
 
 // Of a squared distance, in units of length, whatever its size.
 double square_root(const mpq_class& squared, long exponent);
+// value * 2^exponent, exactly.
+mpq_class times_power_of_two(mpq_class value, long exponent);
 
 }  // namespace tetproof::oracles

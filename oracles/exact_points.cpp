@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+
+#include "oracles/distances.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -32,10 +35,6 @@ mpz_class scaled(const Dyadic& value, long exponent) {
   mpz_class result = static_cast<long>(value.mantissa);
   if (result != 0) result <<= static_cast<unsigned long>(value.exponent - exponent);
   return result;
-}
-
-mpq_class rational(double x) {
-  return mpq_class(x);
 }
 
 void lower(long& exponent, double value, long offset) {
@@ -107,7 +106,7 @@ mpq_class dot(const Rational& u, const Rational& v) {
 
 Equation equation(const delmesher::ExactRecord::Plane& plane) {
   const auto vector = [](const std::array<double, 3>& x) {
-    return Rational{rational(x[0]), rational(x[1]), rational(x[2])};
+    return Rational{mpq_class(x[0]), mpq_class(x[1]), mpq_class(x[2])};
   };
   const Rational a = vector(plane.through[0]);
   Equation result;
@@ -185,12 +184,7 @@ long parameter_exponent(std::span<const ExactPoint> points) {
 }
 
 ExactNumber scaled(mpq_class value, long exponent) {
-  if (exponent >= 0) {
-    mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<unsigned long>(exponent));
-  } else {
-    mpq_mul_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<unsigned long>(-exponent));
-  }
-  return ExactNumber(value);
+  return ExactNumber(times_power_of_two(std::move(value), -exponent));
 }
 
 // Adds parameter * (to - from); the product is an integer by the choice of the common exponent.

@@ -269,14 +269,7 @@ class FilterCheck {
  private:
   // The square of a length, in integer units.
   mpq_class bound(double length) const {
-    mpq_class square = mpq_class(length) * mpq_class(length);
-    const long shift = 2 * exponent_;
-    if (shift >= 0) {
-      mpq_div_2exp(square.get_mpq_t(), square.get_mpq_t(), static_cast<unsigned long>(shift));
-    } else {
-      mpq_mul_2exp(square.get_mpq_t(), square.get_mpq_t(), static_cast<unsigned long>(-shift));
-    }
-    return square;
+    return times_power_of_two(mpq_class(length) * mpq_class(length), -2 * exponent_);
   }
 
   void check_kept(double reach, const mpq_class& squared) {

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "oracles/distances.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -210,14 +212,8 @@ class SameMesh {
 mpq_class exact_distance2(const Position& written, const ExactPoints& points, Index v) {
   mpq_class sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    mpq_class place = points.exact(v)[axis].rational();
-    const long e = points.exponent();
-    if (e >= 0) {
-      mpq_mul_2exp(place.get_mpq_t(), place.get_mpq_t(), static_cast<unsigned long>(e));
-    } else {
-      mpq_div_2exp(place.get_mpq_t(), place.get_mpq_t(), static_cast<unsigned long>(-e));
-    }
-    const mpq_class off = mpq_class(written[axis]) - place;
+    const mpq_class off = mpq_class(written[axis]) -
+                          times_power_of_two(points.exact(v)[axis].rational(), points.exponent());
     sum += off * off;
   }
   return sum;

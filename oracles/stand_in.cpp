@@ -84,7 +84,7 @@ class StandInCheck {
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     if (std::none_of(vertices.begin(), vertices.end(), [&](Index v) { return moved(v); })) return;
-    const ExactVector normal = widest_normal(members);
+    const ExactVector normal = normal_of(members);
     const ExactNumber length2 = exact::squared(normal);
     const Index origin = triangles_[members[0]][0];
     mpq_class bound(record_.parameters.planar);
@@ -94,29 +94,21 @@ class StandInCheck {
       if (height == 0) continue;
       const mpq_class square = ratio(height * height, length2);
       deviation_ = std::max(deviation_, square_root(square, points_.exponent()));
-      mpq_class in_units = square;
-      const long e = 2 * points_.exponent();
-      if (e >= 0) {
-        mpq_mul_2exp(in_units.get_mpq_t(), in_units.get_mpq_t(), static_cast<unsigned long>(e));
-      } else {
-        mpq_div_2exp(in_units.get_mpq_t(), in_units.get_mpq_t(), static_cast<unsigned long>(-e));
-      }
-      if (in_units <= bound) continue;
+      if (times_power_of_two(square, 2 * points_.exponent()) <= bound) continue;
       report_.fail("vertex " + std::to_string(v) + " is farther from the plane of " + name +
                    " than the record says");
     }
   }
 
-  // All of a facet's triangles are in its plane; none may be degenerate, but one may be.
-  ExactVector widest_normal(const std::vector<Index>& members) const {
-    ExactVector widest;
+  // All of a facet's triangles are in its plane; some may be degenerate.
+  ExactVector normal_of(const std::vector<Index>& members) const {
+    ExactVector normal;
     for (const Index t : members) {
       const auto& [a, b, c] = triangles_[t];
-      ExactVector normal = exact::area2(points_, a, b, c);
-      if (!exact::is_zero(normal)) return normal;
-      widest = std::move(normal);
+      normal = exact::area2(points_, a, b, c);
+      if (!exact::is_zero(normal)) break;
     }
-    return widest;
+    return normal;
   }
 
   struct Outline {

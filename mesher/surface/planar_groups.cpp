@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "mesher/base/check.h"
 #include "mesher/base/sort_unique.h"
@@ -110,7 +109,8 @@ double roundings(const Surface& surface) {
 class StandInBuilder {
  public:
   StandInBuilder(const Surface& surface, double noise, Control& control)
-      : vertices_(surface.vertices),
+      : surface_(surface),
+        vertices_(surface.vertices),
         triangles_(surface.triangles),
         labels_(surface.labels),
         noise_(noise),
@@ -156,6 +156,7 @@ class StandInBuilder {
     for (const auto& [a, b, c] : triangles_) {
       area_.push_back(
           cross(subtract(vertices_[b], vertices_[a]), subtract(vertices_[c], vertices_[a])));
+      size_.push_back(norm(area_.back()));
     }
   }
   std::int32_t label(std::uint32_t t) const { return t < labels_.size() ? labels_[t] : 0; }
@@ -167,11 +168,10 @@ class StandInBuilder {
     for (std::uint32_t h = 0; h < opposite_.size(); ++h) {
       const std::uint32_t g = opposite_[h], t = h / 3, u = g / 3;
       if (h > g || label(t) != label(u) || !(dot(area_[t], area_[u]) > 0)) continue;
-      const std::uint32_t larger = norm(area_[t]) < norm(area_[u]) ? u : t;
+      const std::uint32_t larger = size_[t] < size_[u] ? u : t;
       const VertexId v = across(larger == t ? g : h);
-      const double length = norm(area_[larger]);
       const Vec3 offset = subtract(vertices_[v], vertices_[triangles_[larger][0]]);
-      if (std::fabs(dot(area_[larger], offset)) > 4 * noise_ * length) continue;
+      if (std::fabs(dot(area_[larger], offset)) > 4 * noise_ * size_[larger]) continue;
       const auto& [a, b, c] = triangles_[larger];
       if (orient3d_sign(vertices_[a], vertices_[b], vertices_[c], vertices_[v]) != 0) return true;
     }
@@ -182,7 +182,6 @@ class StandInBuilder {
     group_of_.assign(triangles_.size(), kNone);
     std::vector<std::uint32_t> order(triangles_.size());
     std::iota(order.begin(), order.end(), 0U);
-    for (const Vec3& a : area_) size_.push_back(norm(a));
     open_.assign(triangles_.size(), 1);
     grow_from(std::move(order), noise_);
     hand_over_needles();
@@ -389,7 +388,7 @@ class StandInBuilder {
   }
   std::uint32_t largest_triangle(const Group& group) const {
     return *std::ranges::max_element(group.triangles, {},
-                                     [&](std::uint32_t t) { return norm(area_[t]); });
+                                     [&](std::uint32_t t) { return size_[t]; });
   }
   bool in_one_plane(const Group& group, const std::vector<VertexId>& list) const {
     const auto& [a, b, c] = triangles_[largest_triangle(group)];
@@ -648,9 +647,7 @@ class StandInBuilder {
     }
     if (!good) return false;
     PointStore points;
-    Surface given;
-    given.vertices = vertices_;
-    add_vertices(given, stand_in_, points);
+    add_vertices(surface_, stand_in_, points);
     for (VertexId v = 0; v < vertices_.size(); ++v) {
       if (points.is_explicit(v)) continue;
       const double moved = distance(points.nearest(v), vertices_[v]);
@@ -825,6 +822,7 @@ class StandInBuilder {
     return std::move(stand_in_);
   }
 
+  const Surface& surface_;
   const std::vector<Vec3>& vertices_;
   const std::vector<std::array<std::uint32_t, 3>>& triangles_;
   const std::vector<std::int32_t>& labels_;

@@ -3,11 +3,11 @@
 // A flat face that is not parallel to the axes has corners that were rounded, so its triangles lie
 // in as many planes. A *planar group* is an edge-connected set of triangles of one label whose
 // vertices all lie within a noise bound of one plane; the bound is on the whole group, so slightly
-// turning facets do not add up to a bent one. The *stand-in* surface has the same triangles, and
-// every group in exactly one plane: a vertex of three groups is the meeting point of their planes
-// (PointKind::on_planes), one of fewer is moved along an axis or two. A vertex of more than three
-// planes leaves the smallest groups. The stand-in is certified: exactly planar groups, all of whose
-// triangles keep their orientation, and no two triangles of the surface meet anew.
+// turning facets do not add up to a bent one. The *stand-in* surface has every group in exactly one
+// plane, some in another triangulation: a vertex of three is the meeting point of their planes
+// (PointKind::on_planes), one of fewer is moved along an axis or two. One of more stays, and planes
+// are moved to contain it, or its triangles leave their groups. The stand-in is certified: exactly
+// planar groups of positive triangles, and no two triangles of the surface meet anew.
 #pragma once
 
 #include <cstdint>
