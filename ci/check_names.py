@@ -6,7 +6,7 @@ not read again. Exits 1 and prints clang-tidy's words if a name breaks the rules
 
 Most of the time would go into the headers of libraries, once per file. So files of a folder that are compiled alike are
 read together, as one that includes them, unless they have a local name in common. Where that does not compile all the same,
-they are read in halves, at last alone.
+those that the errors name are read without the others, or each half, at last each alone.
 """
 import collections
 import concurrent.futures
@@ -20,7 +20,7 @@ import sys
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), ".."))
 FOLDERS = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports")
-TOGETHER = 16  # files
+TOGETHER = 64  # files
 # What a file defines outside of classes and functions begins a line there.
 DEFINED = re.compile(r"^(?:using (\w+) =|(?:struct|class|enum class|union) (\w+)|namespace (\w+) =|"
                      r"(?:inline |static )*const(?:expr|init)? .*?\b(k[A-Z]\w*)\W|"
@@ -108,8 +108,12 @@ class Tidy:
                               "--header-filter=^%s/(%s)/.*[.](h|cpp)$" % (ROOT, "|".join(FOLDERS)), unit, "--", *flags,
                               "-Wno-unknown-warning-option", "-Wno-everything"], capture_output=True, text=True)
         if run.returncode != 0 and len(files) > 1:
-            middle = len(files) // 2
-            return self.read_together(flags, files[:middle]) | self.read_together(flags, files[middle:])
+            # Most often a few files do not agree with those before them, and the errors name them.
+            apart = [file for file in files if file + ":" in run.stdout + run.stderr]
+            if not 0 < len(apart) < len(files) / 2:
+                apart = files[:len(files) // 2]
+            rest = [file for file in files if file not in apart]
+            return self.read_together(flags, apart) | self.read_together(flags, rest)
         return {file: (run.returncode, run.stdout + ("" if run.returncode == 0 else run.stderr)) for file in files}
 
 
