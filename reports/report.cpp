@@ -103,6 +103,9 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
   add("chamfering", "Bridges and thin walls",
       "Our own measurements on what the paper's section 4.4 and Figure 8 are about.",
       {ablation_table(selection), figure_8_table(selection)}, {figure_8_chart(selection)});
+  add("rotated", "Rotated models",
+      "Of a part in another position, its corners rounded, the mesh should be about the same.",
+      {rotated_table(selection)}, {});
   add("fidelity", "Beside the paper",
       "Columns \"paper\": as printed there. Columns \"here\": measured in this campaign, with "
       "other "

@@ -36,6 +36,10 @@ Table ablation_table(const Selection& selection);
 // from the volume and the shortest edge. No rows if there are none.
 Table figure_8_table(const Selection& selection);
 
+// Rotated copies (NAME@r1.off, NAME@r1s.off; tetproof rotate) beside their models: success, and
+// sizes and angles over those of the model as given. No rows if there are none.
+Table rotated_table(const Selection& selection);
+
 // How long runs took, in the paper's classes and shorter ones.
 Table time_table(const Selection& selection);
 

@@ -239,6 +239,35 @@ TEST(Tables, Speed) {
   EXPECT_EQ(t["safe-delmesher-e4"]["Peak bytes/tet, large, median (models)"], "100 (1)");
 }
 
+// Of the copies of a model the ratios to it; of one that is not ok none, but it is counted.
+TEST(Tables, RotatedCopiesStandBesideTheirModels) {
+  std::vector<RunRow> rows;
+  for (const Made& made : std::initializer_list<Made>{
+           {"dir/a.off", "cdt", kOk, 1000, 4, 1, 0, 0},
+           {"dir/a@r1.off", "cdt", kOk, 1050, 4, 1, 0, 0},
+           {"dir/a@r2.off", "cdt", kOk, 3000, 1, 1, 0, 0},
+           {"dir/a@r1s.off", "cdt", Disposition::crash, 0, 0, 1, 0, 0},
+           {"dir/a@r2s.off", "cdt", kOk, 1400, 2, 1, 0, 0},
+           {"dir/a@rest.off", "cdt", kOk, 77, 4, 1, 0, 0},     // no rotation
+           {"other/a@r1.off", "cdt", kOk, 50000, 4, 1, 0, 0},  // of a model that was not run
+           {"dir/a.off", "tetgen", kOk, 1000, 4, 1, 0, 0}}) {  // no copies
+    rows.push_back(row_of(made));
+  }
+  const Table table = rotated_table(select_runs(rows));
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"cdt", "as given", "2", "2", "1077", "-", "-",
+                                                     "-", "-", "-", "-", "-"}));
+  EXPECT_EQ(table.rows[1],
+            (std::vector<std::string>{"cdt", "rotated", "3", "3", "4050", "2.02", "2.02", "3",
+                                      "50.0 %", "50.0 %", "0.625", "-"}));
+  EXPECT_EQ(table.rows[2],
+            (std::vector<std::string>{"cdt", "rotated, float32", "2", "1", "1400", "1.4", "1.4",
+                                      "1.4", "0.0 %", "100.0 %", "0.5", "-"}));
+  ASSERT_EQ(table.notes.size(), 2U);
+  EXPECT_NE(table.notes[1].find("1 runs are not ok"), std::string::npos);
+  EXPECT_TRUE(rotated_table(campaign()).rows.empty());
+}
+
 TEST(Tables, FailuresAreListedWithReasons) {
   const Table table = failure_table(campaign());
   ASSERT_EQ(table.rows.size(), 4u);

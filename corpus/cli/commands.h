@@ -82,6 +82,11 @@ struct GenerateArguments {
   bool twins = false, list = false;
 };
 
+struct RotateArguments {
+  std::vector<std::string> paths;
+  std::string folder;
+};
+
 struct ShrinkArguments {
   std::string input, mesher, output;
   double timeout = 10, seconds = 600;  // per run, in all
@@ -106,6 +111,7 @@ int classify_command(const ClassifyArguments& arguments);
 int slurm_command(const SlurmArguments& arguments);
 #ifdef TETPROOF_HAS_GENERATE
 int generate_command(const GenerateArguments& arguments);
+int rotate_command(const RotateArguments& arguments);
 int shrink_command(const ShrinkArguments& arguments);
 #endif
 

@@ -217,6 +217,17 @@ CLI::App* declare_generate(CLI::App& tetproof, GenerateArguments& a) {
   return app;
 }
 
+CLI::App* declare_rotate(CLI::App& tetproof, RotateArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "rotate",
+      "Surfaces as given and in three other positions, in doubles (NAME@r1.off) and in float32 "
+      "(NAME@r1s.off), where they are valid; reports compare their meshes");
+  app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
+      ->required();
+  app->add_option("-o,--output", a.folder, "Folder for the files")->required();
+  return app;
+}
+
 CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
   CLI::App* app = tetproof.add_subcommand(
       "shrink", "The smallest valid surface found on which a mesher fails in the same way");
@@ -259,6 +270,8 @@ int parse_and_run(int argc, char** argv) {
 #ifdef TETPROOF_HAS_GENERATE
   GenerateArguments generate;
   const CLI::App* generate_app = declare_generate(app, generate);
+  RotateArguments rotate;
+  const CLI::App* rotate_app = declare_rotate(app, rotate);
   ShrinkArguments shrink;
   const CLI::App* shrink_app = declare_shrink(app, shrink);
 #endif
@@ -280,6 +293,7 @@ int parse_and_run(int argc, char** argv) {
   if (convert_app->parsed()) return convert_command(conversion);
 #ifdef TETPROOF_HAS_GENERATE
   if (generate_app->parsed()) return generate_command(generate);
+  if (rotate_app->parsed()) return rotate_command(rotate);
   if (shrink_app->parsed()) return shrink_command(shrink);
 #endif
   return measure_command(measure);

@@ -6,6 +6,7 @@
 #include "corpus/generate/certify.h"
 #include "corpus/generate/edits.h"
 #include "corpus/generate/families.h"
+#include "corpus/generate/rotate.h"
 #include "corpus/generate/shapes.h"
 
 namespace tetproof {
@@ -70,13 +71,43 @@ Surface edited(FamilyMember& m) {
   return s;
 }
 
+// In another position, so that facets are flat but for rounding, in one of three precisions.
+Surface rotated_member(FamilyMember& m) {
+  Random& r = m.random;
+  const Surface s = some_surface(m, 12);
+  Quaternion q;
+  for (int& x : q) x = r.integer(1, 9) * (r.chance(0.5) ? 1 : -1);
+  constexpr Precision kPrecisions[] = {Precision::doubles, Precision::single, Precision::decimals};
+  return rotated(s, q, kPrecisions[r.below(3)]);
+}
+
+// Facets that are flat but for noise between an ulp and 2^-16, or but for a vertex that a split
+// put where doubles have it.
+Surface noisy(FamilyMember& m) {
+  Random& r = m.random;
+  Surface s = some_surface(m, 12);
+  for (int splits = r.integer(0, 8); splits > 0; --splits) {
+    const auto t = static_cast<std::uint32_t>(r.below(s.triangles.size()));
+    if (r.chance(0.5)) {
+      split_at_rounded_point(s, t, r);
+    } else {
+      split_at_rounded_point(s, t, r.integer(0, 2), r);
+    }
+  }
+  if (r.chance(0.7)) add_noise(s, std::ldexp(1.0, -r.integer(16, 52)), r);
+  return s;
+}
+
 }  // namespace
 
 std::vector<Family> derived_families() {
   return {{"offset", "surfaces moved until few bits of their shape are left", offset},
           {"scale", "surfaces times powers of two, down to 2^-300 and up to 2^300", scale},
           {"damaged", "vertices pulled to within 2^-50 of a facet (see --model)", damaged},
-          {"edited", "half-edge edits of other surfaces (see --model)", edited}};
+          {"edited", "half-edge edits of other surfaces (see --model)", edited},
+          {"rotated", "facets bent by rounding: rotated, to doubles, float32 or six digits",
+           rotated_member},
+          {"noisy", "facets bent by noise of 2^-52 to 2^-16, or split at rounded points", noisy}};
 }
 
 const std::vector<Family>& families() {

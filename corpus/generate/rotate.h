@@ -1,0 +1,38 @@
+// Surfaces in other positions, their coordinates rounded as files round them: what was flat is bent
+// by roundings.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "corpus/generate/random.h"
+#include "mesher/delmesher.h"
+
+namespace tetproof {
+
+enum class Precision : std::uint8_t {
+  doubles,
+  single,   // to float32, as a binary STL has them
+  decimals  // to six significant digits, as text often has them
+};
+
+// Not all zero. The matrix is rational: integers over the sum of squares.
+using Quaternion = std::array<int, 4>;
+
+// Three for campaigns, by about 57, 98 and 154 degrees, none of them about an axis of coordinates.
+inline constexpr std::array<Quaternion, 3> kRotations = {
+    Quaternion{11, 2, 3, 5}, Quaternion{4, 1, -3, 3}, Quaternion{3, 7, 8, -7}};
+
+// About the origin. In doubles, off by a few roundings; the same on every machine.
+delmesher::Surface rotated(const delmesher::Surface& surface, const Quaternion& rotation,
+                           Precision precision);
+
+// Every coordinate moved by up to `amplitude` times the largest coordinate.
+void add_noise(delmesher::Surface& surface, double amplitude, Random& random);
+
+// A point inside of triangle t, or on its edge h (0 to 2) and so in its neighbour too, becomes a
+// vertex, where doubles have it.
+void split_at_rounded_point(delmesher::Surface& surface, std::uint32_t t, Random& random);
+void split_at_rounded_point(delmesher::Surface& surface, std::uint32_t t, int h, Random& random);
+
+}  // namespace tetproof
