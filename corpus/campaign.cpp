@@ -284,8 +284,10 @@ class Job {
                                      "--declared-deviation",
                                      deviation.str()};
     if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
-    // What a record of ours is held to are the options that it was asked for with.
-    if (mesher_.sidecar_command) argv.insert(argv.end(), {"--promised", mesher_.flags});
+    // Ours is held to the options that it was asked with. Others were not asked for planar facets:
+    // theirs is the surface as given, but for the deviation that they declare.
+    argv.insert(argv.end(),
+                {"--promised", mesher_.sidecar_command ? mesher_.flags : "mesh --planar 0"});
     start(argv, options_.verify_limits);
     return true;
   }

@@ -147,6 +147,8 @@ Finding same_when_scaled(const Surface& surface, const Result& plain, const Opti
   }
   same = same && result.exact.parameters.tolerance ==
                      std::ldexp(plain.exact.parameters.tolerance, exponent);
+  same =
+      same && result.exact.parameters.planar == std::ldexp(plain.exact.parameters.planar, exponent);
   same = same &&
          result.statistics.bbox_diagonal == std::ldexp(plain.statistics.bbox_diagonal, exponent);
   return same ? "" : "scale record: lengths do not follow";
@@ -173,6 +175,8 @@ Options options_for(const Surface& surface) {
   options.region = (hash & 24) == 0 ? delmesher::Region::hull : delmesher::Region::interior;
   options.simplify_bridges = (hash & 96) != 0;
   options.gabriel = (hash >> 16) % 2 == 0;
+  constexpr double kPlanar[] = {delmesher::kPlanarAuto, delmesher::kPlanarAuto, 0, 1e-4};
+  options.planar = kPlanar[(hash >> 17) % 4];
   if ((hash >> 7) % 8 == 0) options.max_edge = size / 4;
   if ((hash >> 10) % 8 == 0) options.chamfer_radius = size / 64;
   return options;

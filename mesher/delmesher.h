@@ -52,7 +52,7 @@ struct Options : Limits {
   // fraction of the diagonal between the vertices and edges of such facets, which it keeps. 0: the
   // surface as given, to the last bit. kPlanarAuto: as little as it takes for what is bent by less
   // than 2^-20 of the diagonal, at most 2^-18.
-  double planar = 0;
+  double planar = kPlanarAuto;
   double max_edge = 0;  // largest edge wanted inside, in input units; 0: no bound
   Region region = Region::interior;
   bool want_exact = false;      // fill Result::exact

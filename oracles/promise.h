@@ -16,12 +16,14 @@ enum class Task : std::uint8_t { mesh, cdt, plane };
 
 // Options of delmesher as README.md documents them, with its defaults.
 struct Promise {
+  static constexpr double kPlanarAuto = -1;
+
   Task task = Task::mesh;
-  double delta = 14.47;  // degrees
-  double tau = 1e-4;     // fraction of the diagonal of the bounding box
-  double planar = 0;     // the same; kPlanarAuto: up to 2^-18
-  double acute = 60;     // degrees
-  double corner = 20;    // degrees, as given
+  double delta = 14.47;         // degrees
+  double tau = 1e-4;            // fraction of the diagonal of the bounding box
+  double planar = kPlanarAuto;  // the same; kPlanarAuto: up to 2^-18
+  double acute = 60;            // degrees
+  double corner = 20;           // degrees, as given
   bool gabriel = false;
   bool approximate = false;
   delmesher::Region region = delmesher::Region::interior;
@@ -29,8 +31,6 @@ struct Promise {
   double max_edge = 0;        // input units; 0: no bound
   double budget = 0;          // tetrahedra; 0: tau is not raised
   double max_vertices = 0;    // 0: no limit
-
-  static constexpr double kPlanarAuto = -1;
 
   // How far the surface may deviate between the vertices and edges that it keeps, as a fraction of
   // the diagonal.

@@ -134,6 +134,49 @@ TEST_P(Rotated, PartsKeepTheirFacetsAndEveryPromise) {
   }
 }
 
+// Facets that were flat are so but for what happened to their vertices, and nothing else changes.
+void expect_the_facets_of(const Surface& part, const Surface& changed) {
+  const Told straight = run_of(part), told = run_of(changed);
+  EXPECT_GT(told.statistics.planar_groups, 0U);
+  EXPECT_GT(told.statistics.given_facets, straight.statistics.facets);
+  EXPECT_EQ(told.statistics.facets, straight.statistics.facets);
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
+}
+
+TEST(Jittered, ByAnUlpFacetsStay) {
+  Surface jittered = stairs();
+  std::mt19937 random(11);
+  for (auto& p : jittered.vertices) {
+    for (double& x : p) {
+      const auto step = static_cast<int>(random() % 3) - 1;
+      if (step != 0) x = std::nextafter(x, step * HUGE_VAL);
+    }
+  }
+  expect_the_facets_of(stairs(), jittered);
+}
+
+TEST(Split, AtRoundedPointsFacetsStay) {
+  Surface split = rotated(stairs(), as_it_is);
+  std::mt19937 random(12);
+  for (int n = 0; n < 12; ++n) {
+    const std::size_t t = random() % split.triangles.size();
+    const auto [a, b, c] = split.triangles[t];
+    const double u = 0.2 + 0.1 * static_cast<double>(random() % 4), v = 0.17;
+    std::array<double, 3> p{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      p[i] =
+          u * split.vertices[a][i] + v * split.vertices[b][i] + (1 - u - v) * split.vertices[c][i];
+    }
+    const auto m = static_cast<std::uint32_t>(split.vertices.size());
+    split.vertices.push_back(p);
+    split.triangles[t] = {a, b, m};
+    split.triangles.push_back({b, c, m});
+    split.triangles.push_back({c, a, m});
+  }
+  expect_the_facets_of(stairs(), split);
+}
+
 TEST_P(Rotated, WithoutTheOptionTheSurfaceIsKeptToTheLastBit) {
   const Told told = run_of(rotated(stairs(), GetParam().round), 0);
   EXPECT_EQ(told.statistics.planar_groups, 0U);

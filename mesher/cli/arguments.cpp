@@ -58,7 +58,7 @@ constexpr const char* kAuto = "auto";
 void add_planar(CLI::App& app, Given& given) {
   app.add_option_function<std::string>(
          "--planar", [&given](const std::string& text) { given.numbers["planar"] = text; },
-         "facets that are planar within this fraction of the diagonal, 0 is as given (0)")
+         "facets that are planar within this fraction of the diagonal, 0 is as given (auto)")
       ->check(CLI::IsMember({kAuto}) | number_within(kBounds.planar))
       ->type_name("X");
 }
@@ -123,8 +123,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
          "paper: delta 14.47, tau 1e-4, planar 0, acute 90, corner 90, gabriel, region hull; other "
-         "options "
-         "override it")
+         "options override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
   add_threads(app, given);

@@ -38,6 +38,7 @@ class RoundedMesh {
   double home_error(std::uint32_t v) const { return approximation(v).error; }
   bool fixed(std::uint32_t v) const { return input_.fixed[store_id_[v]] != 0; }
   bool on_surface(std::uint32_t v) const { return input_.on_surface[store_id_[v]] != 0; }
+  bool moves_far(std::uint32_t v) const { return !on_surface(v) && input_.place.empty(); }
 
   std::size_t slots() const { return tet_.size(); }
   bool alive(std::uint32_t t) const { return tet_[t][0] != kNone; }

@@ -141,7 +141,7 @@ std::vector<std::uint32_t> VertexMoves::movable(std::uint32_t t) const {
 
 bool VertexMoves::allowed(std::uint32_t v, const Vec3& p) const {
   if (!is_finite(p) || p == mesh_.position(v)) return false;
-  if (!mesh_.on_surface(v)) return true;
+  if (mesh_.moves_far(v)) return true;
   if (surface_unit_ == 0) return false;
   const Vec3 home = mesh_.home(v);
   double sum = 0;
@@ -172,7 +172,7 @@ void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
     return;
   }
   if (surface_unit_ != own) add({surface_unit_, surface_unit_, surface_unit_}, 2);
-  if (mesh_.on_surface(v)) return;
+  if (!mesh_.moves_far(v)) return;
   for (double unit = 4 * surface_unit_; unit <= 64 * surface_unit_; unit *= 4) {
     add({unit, unit, unit}, 2);
   }
@@ -181,7 +181,7 @@ void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
 // Points from here to the middle of the star's kernel: as near as possible, then better and better.
 void VertexMoves::far_candidates(std::uint32_t v) {
   candidates_.clear();
-  if (mesh_.on_surface(v) || !mesh_.is_enclosed(v)) return;
+  if (!mesh_.moves_far(v) || !mesh_.is_enclosed(v)) return;
   const StarFrame frame = make_frame(mesh_, v);
   const Vec3 target = deepest_point(frame);
   for (int k = 40; k >= 0; k -= 2) {

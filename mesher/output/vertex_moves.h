@@ -11,7 +11,8 @@ namespace delmesher::output {
 
 // Surface vertices stay within kSurfaceUlps units in the last place of the largest coordinate of
 // the surface from their exact position; fixed vertices stay; others move as far as needed, but the
-// shortest moves are tried first.
+// shortest moves are tried first. Where vertices have places other than their exact ones, which may
+// be far away, the others stay near, too: what it takes there is a mesh with other places.
 inline constexpr double kSurfaceUlps = 4;
 
 class VertexMoves {
