@@ -269,9 +269,32 @@ double InputSurface::unite_facets(const std::vector<Index>& across, double thin,
   number_facets([&](Index t) { return groups.find(t); }, [&](Index t) { return labels[t]; },
                 points);
   build_edges();
-  double widest = 0;
   std::vector<std::uint8_t> asked(facets_.size(), 0);
   for (const Index t : united) asked[facet_of_triangle_[t]] = 1;
+  return widest_slab(asked, thin, points);
+}
+
+double InputSurface::group_facets(const std::vector<Index>& group, double thin,
+                                  const ExactPoints& points) {
+  std::vector<std::int32_t> labels;
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    labels.push_back(facets_[facet_of_triangle_[t]].label);
+  }
+  UnionFind groups(triangles_.size());
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    for (const Index n : neighbours_[t]) {
+      if (group[t] == group[n] && labels[t] == labels[n]) groups.unite(t, n);
+    }
+  }
+  number_facets([&](Index t) { return groups.find(t); }, [&](Index t) { return labels[t]; },
+                points);
+  build_edges();
+  return widest_slab(std::vector<std::uint8_t>(facets_.size(), 1), thin, points);
+}
+
+double InputSurface::widest_slab(const std::vector<std::uint8_t>& asked, double thin,
+                                 const ExactPoints& points) const {
+  double widest = 0;
   std::vector<std::array<double, 2>> slab(facets_.size(), {0, 0});
   for (Index t = 0; t < triangles_.size(); ++t) {
     const Index f = facet_of_triangle_[t];

@@ -84,6 +84,9 @@ class InputSurface {
   // `thin`: walls around something, or two sides of a plate, are no facet.
   double unite_facets(const std::vector<Index>& across, double thin, const ExactPoints& points);
 
+  // The same of facets that somebody names, by a number for each triangle: its connected sets.
+  double group_facets(const std::vector<Index>& group, double thin, const ExactPoints& points);
+
   const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
   const std::vector<Facet>& facets() const { return facets_; }
   const std::vector<Index>& facet_of_triangle() const { return facet_of_triangle_; }
@@ -121,6 +124,8 @@ class InputSurface {
   void number_facets(const std::function<Index(Index)>& representative,
                      const std::function<std::int32_t(Index)>& label, const ExactPoints& points);
   void count_euler();
+  double widest_slab(const std::vector<std::uint8_t>& asked, double thin,
+                     const ExactPoints& points) const;
   void build_edges();
   int crossings_above(const ExactPoints& points, std::span<const Index> corners,
                       Index except) const;

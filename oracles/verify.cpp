@@ -191,6 +191,7 @@ class Verification {
   std::string check_file();
   std::string check_input();
   std::vector<std::vector<Index>> recorded_chains(const InputSurface& surface);
+  std::vector<Index> recorded_facets() const;
   ConformityResult conformity_of_file(const TetComplex& complex, const Neighbours& neighbours,
                                       InputSurface& surface);
   void check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
@@ -366,19 +367,45 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
     return result;
   }
   rounded.largest_tolerance = rounding;
+  const double bound = planar * diagonal_;
+  const auto conforms_to = [&](InputSurface& flat, double width) {
+    if (!(width <= bound)) return false;
+    rounded.off_plane = width + kRoundedUlps * ulp_;
+    ConformityResult united = check(flat, rounded);
+    if (!united.report.passed()) return false;
+    united.slab = width;
+    united.deviation = std::max(united.deviation, width);
+    united.report.figures.emplace_back(
+        "facets united",
+        static_cast<double>(surface.facets().size()) - static_cast<double>(flat.facets().size()));
+    surface = std::move(flat);
+    result = std::move(united);
+    return true;
+  };
   InputSurface flat = surface;
   const double width =
-      flat.unite_facets(check(surface, rounded).failed_edges, planar * diagonal_, *complex.points);
-  if (!(width <= planar * diagonal_)) return result;
-  rounded.off_plane = width + kRoundedUlps * ulp_;
-  ConformityResult united = check(flat, rounded);
-  if (!united.report.passed()) return result;
-  united.slab = width;
-  united.deviation = std::max(united.deviation, width);
-  united.report.figures.emplace_back("facets united",
-                                     surface.facets().size() - flat.facets().size());
-  surface = std::move(flat);
-  return united;
+      flat.unite_facets(check(surface, rounded).failed_edges, bound, *complex.points);
+  if (conforms_to(flat, width) || exact_ == nullptr) return result;
+  // Triangles no wider than roundings may be of one facet or of another: the record says which, and
+  // whether that is a facet is decided as before.
+  const std::vector<Index> named = recorded_facets();
+  if (named.size() != surface.triangles().size()) return result;
+  flat = surface;
+  const double named_width = flat.group_facets(named, bound, *complex.points);
+  conforms_to(flat, named_width);
+  return result;
+}
+
+// Per triangle of the input the facet that has it, by the record; empty if one has none.
+std::vector<Index> Verification::recorded_facets() const {
+  std::vector<Index> facet(input_.triangles.size(), kNone);
+  for (const delmesher::ExactRecord::Facet& f : exact_->facets) {
+    for (const std::uint32_t t : f.triangles) {
+      if (t < facet.size()) facet[t] = f.id;
+    }
+  }
+  if (std::find(facet.begin(), facet.end(), kNone) != facet.end()) facet.clear();
+  return facet;
 }
 
 void Verification::check_file_surface(const TetComplex& complex, const Neighbours& neighbours,

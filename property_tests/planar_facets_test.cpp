@@ -491,6 +491,30 @@ TEST(PlanarFile, ARidgeAboveTheBoundIsMissed) {
   told.promise.planar = 1e-5;
   const VerifyReport report = verdict_on(told, false);
   EXPECT_TRUE(failed(report, {.promised = told.promise})) << to_text(report);
+  // Nor does it help that a record names the two sides of the ridge as one facet.
+  const VerifyReport named = verdict_on(told, true);
+  ASSERT_NE(named.find("conformity"), nullptr);
+  EXPECT_FALSE(named.find("conformity")->passed()) << to_text(named);
+}
+
+// A ridge that the mesh has elsewhere is off the surface, though a record names all triangles as
+// one facet.
+TEST(PlanarFile, ARecordMakesNoFacetOfABody) {
+  Told told = run_of(ridge(1e-3), 0);
+  ASSERT_TRUE(samples::exact_or_rounded(verdict_on(told)));
+  for (Position& p : told.sample.mesh.vertices) {
+    if (p[2] == 1 + 1e-3 && p[1] > 0) p[0] += 1e-3;
+  }
+  ExactRecord::Facet all = told.record.facets.front();
+  for (const ExactRecord::Facet& facet : told.record.facets) {
+    if (facet.id == all.id) continue;
+    all.triangles.insert(all.triangles.end(), facet.triangles.begin(), facet.triangles.end());
+  }
+  told.record.facets = {all};
+  told.promise.planar = 0.01;
+  const VerifyReport report = verdict_on(told);
+  EXPECT_EQ(report.slab, 0);
+  EXPECT_TRUE(failed(report, {.promised = told.promise}));
 }
 
 }  // namespace
