@@ -41,13 +41,15 @@ def project_headers():
 
 
 def flags_of(entry):
-    """What the file is compiled with, without compiler, file, object and warnings: definitions {name: flag}, others in order."""
+    """What the file is compiled with, without compiler, file, object, precompiled headers and warnings.
+
+    Definitions {name: flag}, and others in order."""
     words = shlex.split(entry["command"])
     words = words[next(i for i, word in enumerate(words) if word.startswith("-")):]
     defined, others = {}, []
     while words:
         word = words.pop(0)
-        if word in ("-o", "-c", "-MF", "-MT", "-MQ"):
+        if word in ("-o", "-c", "-MF", "-MT", "-MQ", "-include"):
             words.pop(0)
         elif word == "-isystem":
             others.append(word + words.pop(0))
