@@ -13,6 +13,8 @@
 #include <random>
 #include <sstream>
 
+#include "mesher/delmesher.h"
+#include "mesher/delmesher_files.h"
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/read_plane.h"
 #include "oracles/mesh_file.h"
@@ -98,6 +100,29 @@ TEST_F(Files, AllFormatsAndTheSidecarAreVerified) {
     EXPECT_EQ(mesh.vertices, first.vertices) << format;
     EXPECT_EQ(mesh.tetrahedra.size(), first.tetrahedra.size()) << format;
   }
+}
+
+// What a run with planar facets records of its surface, as it comes back from a file.
+TEST_F(Files, RecordedPlanesAndTrianglesComeBack) {
+  delmesher::Options options;
+  options.want_exact = true;
+  delmesher::ExactRecord record =
+      delmesher::tetrahedralize(samples::to_surface(samples::l_shape().input), options).exact;
+  record.planes.resize(2);
+  record.planes[0].normal = {0.25, -1, 0x1p-60};
+  record.planes[0].through[0] = {1, 2, 3};
+  record.planes[1].through = {{{1, 2, 3}, {4, 5, 6}, {7, 8, -0.1}}};
+  record.planes[1].spanned = true;
+  record.triangles = {{5, 1, 7}, {0, 4, 2}};
+  ASSERT_TRUE(delmesher::io::write_exact(path("planes.exact"), record).ok());
+  const delmesher::ExactRecord read = oracles::read_sidecar(path("planes.exact"));
+  EXPECT_EQ(read.triangles, record.triangles);
+  ASSERT_EQ(read.planes.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(read.planes[i].spanned, record.planes[i].spanned);
+    EXPECT_EQ(read.planes[i].through, record.planes[i].through);
+  }
+  EXPECT_EQ(read.planes[0].normal, record.planes[0].normal);
 }
 
 // A report for programs leaves standard output to JSON; the reason of a failure is one line on

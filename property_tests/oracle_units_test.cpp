@@ -19,6 +19,7 @@
 #include "oracles/ball_side.h"
 #include "oracles/chamfer_features.h"
 #include "oracles/corners.h"
+#include "oracles/delaunay.h"
 #include "oracles/enrichment.h"
 #include "oracles/hull.h"
 #include "oracles/input_surface.h"
@@ -421,7 +422,7 @@ TEST(ExactPoints, RefuseWhatIsNoPoint) {
   for (const auto kind : {ExactPoint::Kind::on_segment, ExactPoint::Kind::on_triangle}) {
     const int corners = kind == ExactPoint::Kind::on_segment ? 2 : 3;
     for (int corner = -1; corner < corners; ++corner) {
-      for (const Index wrong : {4U, 3U, 1000U}) {  // itself, another such point, nothing
+      for (const Index wrong : {4U, 3U, 5U, 1000U}) {  // itself, another such point, nothing
         std::vector<ExactPoint> given = three;
         ExactPoint p;
         p.kind = kind;
@@ -1521,6 +1522,37 @@ TEST(PlaneFiles, AreReadToTheirLastCharacter) {
   }
   EXPECT_THROW(read_plane_graph(written("ring.txt", ring + "\n7")), ReadError);
   EXPECT_THROW(read_plane_graph(written("ring.txt", ring + "\nx")), ReadError);
+}
+
+TEST(PlaneFiles, ListedEdgesHaveMarkers) {
+  const std::string path = written("triangle.node", "3 2 0 0\n1 0 0\n2 4 0\n3 0 4\n");
+  written("triangle.ele", "1 3 0\n1 1 2 3\n");
+  written("triangle.poly", "0 2 0 0\n3 1\n1 1 2 7\n2 2 3 8\n3 3 1 9\n0\n");
+  PlaneFile file = read_plane_file(path);
+  EXPECT_TRUE(file.lists_edges);
+  EXPECT_EQ(file.edges, (std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}, {2, 0}}));
+  EXPECT_EQ(file.markers, (std::vector<std::int32_t>{7, 8, 9}));
+  written("triangle.poly", "0 2 0 0\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
+  file = read_plane_file(path);
+  EXPECT_EQ(file.markers, (std::vector<std::int32_t>{0, 0, 0}));
+}
+
+// ------------------------------------------------------------------------------ meshes of no
+// record
+
+// The sphere through the first tetrahedron contains the apex of the second, and the other way
+// round: said once of the face between them, once of each of the two.
+TEST(Delaunay, AFaceBetweenTwoSpheresIsNamed) {
+  ExactPoints points;
+  ASSERT_EQ(
+      points.assign(std::vector<Position>{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, -1}}),
+      "");
+  TetComplex complex{&points, {{0, 1, 2, 3}, {0, 2, 1, 4}}, {}, 0, 5};
+  Neighbours neighbours;
+  ASSERT_TRUE(check_complex(complex, neighbours).passed());
+  const OracleReport report = check_delaunay(complex, neighbours);
+  EXPECT_EQ(report.violations, 3U) << report.findings.front();
+  EXPECT_NE(report.findings.front().find("face"), std::string::npos) << report.findings.front();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <set>
 
 #include "mesher/delmesher.h"
 #include "oracles/exact_sum.h"
@@ -141,6 +142,9 @@ void expect_the_facets_of(const Surface& part, const Surface& changed) {
   EXPECT_GT(told.statistics.given_facets, straight.statistics.facets);
   EXPECT_EQ(told.statistics.facets, straight.statistics.facets);
   const VerifyReport report = verdict_on(told);
+  const OracleReport* again = report.find("exact-second-kernel");
+  ASSERT_NE(again, nullptr);
+  EXPECT_GT(again->checked, told.record.points.size() + told.record.final.size());
   EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
 }
 
@@ -457,6 +461,38 @@ TEST(PlanarFile, AVertexOffItsFacetIsNoPlanarFacet) {
   ASSERT_EQ(verify(sample.input, sample.mesh, nullptr, options, report), "");
   EXPECT_EQ(report.verdict, Verdict::deviating);
   EXPECT_TRUE(failed(report, options));
+}
+
+// Of a box all of whose faces are bent along their diagonals, two triangles are one facet wherever
+// the mesh has the other diagonal.
+TEST(PlanarFile, FacetsThatWereUnitedAreCounted) {
+  Surface box = samples::to_surface(samples::cube().input);
+  std::mt19937 random(5);
+  for (auto& p : box.vertices) {
+    for (double& x : p) x += static_cast<double>(random() % 1024) * 0x1p-36;
+  }
+  ASSERT_EQ(box.triangles.size(), 12U);
+  const Told told = run_of(box);
+  ASSERT_EQ(told.statistics.given_facets, 12U);
+  ASSERT_EQ(told.sample.mesh.vertices.size(), 8U);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> missing;
+  for (const auto& [a, b, c] : box.triangles) {
+    for (const auto& edge : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)}) {
+      missing.emplace(edge.first, edge.second);
+    }
+  }
+  for (const auto& t : told.sample.mesh.tetrahedra) {
+    for (const std::uint32_t a : t) {
+      for (const std::uint32_t b : t) missing.erase({a, b});
+    }
+  }
+  ASSERT_FALSE(missing.empty());
+  const VerifyReport report = verdict_on(told, false);
+  const OracleReport* conformity = report.find("conformity");
+  ASSERT_NE(conformity, nullptr);
+  EXPECT_TRUE(std::ranges::any_of(conformity->figures, [&](const auto& figure) {
+    return figure.first == "facets united" && figure.second == static_cast<double>(missing.size());
+  })) << to_text(report);
 }
 
 // A plate of the width 2 and the length 4 whose top has a ridge along the middle.

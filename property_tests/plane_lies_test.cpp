@@ -577,6 +577,95 @@ TEST(PlaneTruths, DeviationIsToldInUnitsOfTheLargestCoordinate) {
   }
 }
 
+bool says(const oracles::VerifyReport& report, const char* oracle, const std::string& words) {
+  const oracles::OracleReport* found = report.find(oracle);
+  return found != nullptr && std::ranges::any_of(found->findings, [&](const std::string& finding) {
+           return finding.find(words) != std::string::npos;
+         });
+}
+
+TEST(PlaneTruths, AnglesOfATriangleFarFromTheOrigin) {
+  Told told;
+  told.graph.vertices = {{10, 20}, {14, 20}, {10, 23}};
+  told.graph.segments = {{0, 1}, {1, 2}, {2, 0}};
+  told.file.vertices = told.graph.vertices;
+  for (const std::array<Index, 3>& corners :
+       {std::array<Index, 3>{0, 1, 2}, {1, 2, 0}, {2, 0, 1}}) {
+    told.file.triangles = {corners};
+    const oracles::VerifyReport report = verdict_on(told, false);
+    const oracles::OracleReport* angles = report.find("angles");
+    ASSERT_NE(angles, nullptr) << to_text(report);
+    EXPECT_NEAR(angles->figures.at(0).second, std::atan2(3, 4) * 57.29577951308232, 1e-9);
+    EXPECT_NEAR(angles->figures.at(1).second, 90, 1e-9);
+  }
+}
+
+// What cannot be promised is not demanded, and said.
+TEST(PlaneTruths, AnAngleThatWasNotReachedIsTold) {
+  Told told = honest();
+  told.how.promised.delta = 30;
+  const oracles::VerifyReport report = verdict_on(told);
+  const oracles::OracleReport* promise = report.find("promise");
+  ASSERT_NE(promise, nullptr);
+  EXPECT_TRUE(promise->passed()) << to_text(report);
+  EXPECT_TRUE(std::ranges::any_of(promise->figures, [&](const auto& figure) {
+    return figure.first == "delta reached" && figure.second == told.record.delta;
+  }));
+}
+
+TEST(PlaneLies, NameAVertexOfTheInputThatNothingReaches) {
+  Told told = honest();
+  told.graph.vertices.push_back({3, 1});
+  const oracles::VerifyReport report = verdict_on(told, false);
+  ASSERT_NE(report.find("conformity"), nullptr);
+  EXPECT_FALSE(report.find("conformity")->passed()) << to_text(report);
+}
+
+TEST(PlaneLies, NamePointsThatTheInputHasAndTheRecordHasNot) {
+  for (const std::size_t missing : {1U, 2U}) {
+    Told told = honest();
+    told.record.points.resize(told.graph.vertices.size() - missing);
+    EXPECT_TRUE(says(verdict_on(told), "sidecar", "fewer points than input vertices"));
+  }
+}
+
+// The tip of a slender triangle whose neighbours are all far away, but for the inside of a segment.
+TEST(PlaneLies, AboutARadiusThatReachesToASegment) {
+  PlanarGraph graph;
+  graph.vertices = {{0, 0}, {8, -1}, {8, 1}, {-0.5, -9}, {-0.5, 9}};
+  graph.segments = {{0, 1}, {1, 2}, {2, 0}, {3, 4}};
+  Told told = run_of(honest_options(), graph);
+  const oracles::VerifyReport good = verdict_on(told);
+  ASSERT_TRUE(good.all_passed()) << to_text(good);
+  const auto tip = std::ranges::find(told.record.corners, 0U, &PlaneRecord::Corner::vertex);
+  ASSERT_NE(tip, told.record.corners.end());
+  tip->radius = 0.2;  // 0.5 / 3 is what the segment leaves
+  EXPECT_TRUE(says(verdict_on(told), "refined-chamfer-radius", "corner 0 is cut beyond a third"));
+}
+
+// A vertex lies on a segment; two edges of the refined mesh that end there are told as one.
+TEST(PlaneLies, AboutAnEdgeOverAVertex) {
+  PlanarGraph graph;
+  graph.vertices = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 0}};
+  graph.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  Told told = run_of(honest_options(), graph);
+  const oracles::VerifyReport good = verdict_on(told);
+  ASSERT_TRUE(good.all_passed()) << to_text(good);
+  std::vector<Index> beside;  // on the segment, next to the vertex
+  auto& edges = told.record.refined_edges;
+  for (const auto& e : edges) {
+    for (const std::size_t k : {0U, 1U}) {
+      if (e.segment == 0 && e.vertices[k] == 4) beside.push_back(e.vertices[1 - k]);
+    }
+  }
+  ASSERT_EQ(beside.size(), 2U);
+  std::erase_if(edges, [](const auto& e) {
+    return e.segment == 0 && (e.vertices[0] == 4 || e.vertices[1] == 4);
+  });
+  edges.push_back({{beside[0], beside[1]}, 0});
+  EXPECT_TRUE(says(verdict_on(told), "refined-segments", "has an edge over a vertex"));
+}
+
 // A vertex that the file has not, by one.
 TEST(PlaneLies, NamesTheTriangleThatRefersToNoVertex) {
   Told told = honest();

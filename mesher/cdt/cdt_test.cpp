@@ -19,7 +19,12 @@ CdtResult expect_good(const Surface& surface) {
   if (!model.valid) return {};
   CdtResult result = model.run();
   EXPECT_EQ(model.wrong(result), "");
-  EXPECT_EQ(result.counters.facet_restarts, 0U);
+  const CdtCounters& n = result.counters;
+  EXPECT_EQ(n.facet_restarts, 0U);
+  // A region is missing triangles, and its cavity is one of those that are counted.
+  EXPECT_GE(n.missing_triangles, n.regions);
+  EXPECT_GE(n.cavity_tetrahedra, n.largest_cavity);
+  EXPECT_LE(n.cavity_tetrahedra, n.regions * n.largest_cavity);
   return result;
 }
 
