@@ -1,0 +1,272 @@
+#include "mesher/surface/group_planes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/base/sort_unique.h"
+#include "mesher/predicates/exact_point.h"
+#include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/surface/half_edges.h"
+
+namespace delmesher::surface {
+
+Fit rough(const PlaneEquation& plane) {
+  return {plane.normal, plane.through[0]};
+}
+
+bool exactly_on(const PlaneEquation& plane, const Vec3& p) {
+  if (plane.spanned) {
+    return orient3d_sign(plane.through[0], plane.through[1], plane.through[2], p) == 0;
+  }
+  Dyadic sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum = sum + Dyadic::from_double(plane.normal[i]) *
+                    (Dyadic::from_double(p[i]) - Dyadic::from_double(plane.through[0][i]));
+  }
+  return sum.sign() == 0;
+}
+
+bool GroupPlanes::fit() {
+  planes_.resize(growth_.groups().size());
+  bool any = false;
+  for (std::uint32_t g = 0; g < planes_.size(); ++g) {
+    if (!growth_.is_group(g)) continue;
+    if (planes_[g].fitted_to != growth_.groups()[g].triangles.size()) fit(g);
+    any = any || (growth_.is_group(g) && moving(g));
+  }
+  return any;
+}
+
+void GroupPlanes::fit(std::uint32_t group) {
+  Plane& p = planes_[group];
+  const PlanarGrowth::Group& grown = growth_.groups()[group];
+  PlaneFit sum(surface_.vertices());
+  p.area = 0;
+  for (const std::uint32_t t : grown.triangles) {
+    sum.add(surface_.triangles()[t]);
+    p.area += surface_.size(t);
+  }
+  const std::vector<VertexId> list = growth_.vertices_of(group);
+  p.plane = p.fitted = meant_plane(sum.fit(), group, list);
+  p.state = State::moving;
+  if (all_on(p.plane, list)) {
+    p.state = State::on_plane;
+  } else if (in_one_plane(group, list)) {
+    p.state = State::planar;
+  }
+  // Vertices that the growing plane had left behind.
+  const Fit fit = rough(p.plane);
+  for (std::size_t i = grown.triangles.size(); i-- > 0;) {
+    const std::uint32_t t = grown.triangles[i];
+    if (!growth_.within(t, fit, grown.noise)) growth_.detach(t);
+  }
+  p.fitted_to = grown.triangles.size();
+}
+
+bool GroupPlanes::all_on(const PlaneEquation& plane, const std::vector<VertexId>& list) const {
+  return std::ranges::all_of(list,
+                             [&](VertexId v) { return exactly_on(plane, surface_.vertices()[v]); });
+}
+
+std::uint32_t GroupPlanes::largest_triangle(std::uint32_t group) const {
+  return *std::ranges::max_element(growth_.groups()[group].triangles, {},
+                                   [&](std::uint32_t t) { return surface_.size(t); });
+}
+
+bool GroupPlanes::in_one_plane(std::uint32_t group, const std::vector<VertexId>& list) const {
+  const auto& [a, b, c] = surface_.triangles()[largest_triangle(group)];
+  return std::ranges::all_of(list, [&, a = a, b = b, c = c](VertexId v) {
+    return orient3d_sign(surface_.vertices()[a], surface_.vertices()[b], surface_.vertices()[c],
+                         surface_.vertices()[v]) == 0;
+  });
+}
+
+// The plane as it was meant, if one of short coordinates contains all vertices: nothing moves.
+PlaneEquation GroupPlanes::meant_plane(const Fit& fit, std::uint32_t group,
+                                       const std::vector<VertexId>& list) const {
+  PlaneEquation plane{surface_.area(largest_triangle(group)), {surface_.vertices()[list.front()]}};
+  if (all_on(plane, list)) return plane;
+  for (const int bits : {0, 3, 12, 26}) {
+    plane.normal = fit.normal;
+    for (double& x : plane.normal) x = std::ldexp(std::round(std::ldexp(x, bits)), -bits);
+    if (all_on(plane, list)) return plane;
+  }
+  return {fit.normal, {fit.through}};
+}
+
+void GroupPlanes::share() {
+  planes_at_.assign(surface_.vertices().size(), {});
+  for (std::uint32_t g = 0; g < planes_.size(); ++g) {
+    if (!growth_.is_group(g)) continue;
+    for (const VertexId v : growth_.vertices_of(g)) planes_at_[v].push_back(g);
+  }
+  DisjointSets same(planes_.size());
+  for (const std::vector<std::uint32_t>& at : planes_at_) {
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (same.find(at[i]) != same.find(at[j]) && one_plane(at[i], at[j])) {
+          same.unite(at[i], at[j]);
+        }
+      }
+    }
+  }
+  plane_of_.assign(planes_.size(), kNone);
+  for (std::uint32_t g = 0; g < planes_.size(); ++g) {
+    if (!growth_.is_group(g)) continue;
+    const std::uint32_t root = same.find(g);
+    if (plane_of_[root] == kNone || planes_[g].area > planes_[plane_of_[root]].area) {
+      plane_of_[root] = g;
+    }
+  }
+  for (std::uint32_t g = 0; g < planes_.size(); ++g) {
+    if (growth_.is_group(g)) plane_of_[g] = plane_of_[same.find(g)];
+  }
+  for (std::vector<std::uint32_t>& at : planes_at_) {
+    for (std::uint32_t& g : at) g = plane_of_[g];
+    sort_unique(at);
+  }
+  for (Plane& p : planes_) {
+    p.plane = p.fitted;
+    p.pins.clear();
+  }
+}
+
+bool GroupPlanes::one_plane(std::uint32_t g, std::uint32_t h) const {
+  const Fit a = rough(planes_[g].plane), b = rough(planes_[h].plane);
+  const std::size_t axis = static_cast<std::size_t>(largest_axis(a.normal));
+  const double side = a.normal[axis] * b.normal[axis];
+  if (!(std::fabs(side) > 0.5)) return false;
+  const double noise = std::min(growth_.groups()[g].noise, growth_.groups()[h].noise);
+  const auto on = [&](const Fit& fit, std::uint32_t other) {
+    return std::ranges::all_of(growth_.groups()[other].triangles,
+                               [&](std::uint32_t t) { return growth_.within(t, fit, noise); });
+  };
+  return on(a, h) && on(b, g);
+}
+
+void GroupPlanes::spread_moves() {
+  for (bool again = true; again;) {
+    again = false;
+    for (VertexId v = 0; v < planes_at_.size(); ++v) {
+      if (!must_move(v)) continue;
+      for (const std::uint32_t g : planes_at_[v]) {
+        if (planes_[g].state != State::planar) continue;
+        planes_[g].state = State::moving;
+        again = true;
+      }
+    }
+  }
+}
+
+bool GroupPlanes::relieve_vertices() {
+  std::vector<std::vector<std::uint32_t>> sharing(planes_.size());
+  for (std::uint32_t g = 0; g < planes_.size(); ++g) {
+    if (growth_.is_group(g)) sharing[plane_of_[g]].push_back(g);
+  }
+  bool any = false;
+  // A plane that is moved for one vertex may leave another behind.
+  for (bool again = true; again && !any;) {
+    again = false;
+    for (VertexId v = 0; v < planes_at_.size(); ++v) {
+      if (planes_at_[v].size() <= 3 || !must_move(v)) continue;
+      for (const std::uint32_t g : std::vector<std::uint32_t>(planes_at_[v])) {
+        if (planes_[g].state != State::moving ||
+            exactly_on(planes_[g].plane, surface_.vertices()[v])) {
+          continue;
+        }
+        const bool pinned = pin(v, g, sharing[g]);
+        again = again || pinned;
+        any = (!pinned && detach_at(v, g)) || any;
+      }
+    }
+  }
+  return any;
+}
+
+// Moves the plane so that it contains the vertex, and those that it was moved for before.
+bool GroupPlanes::pin(VertexId v, std::uint32_t g, const std::vector<std::uint32_t>& sharing) {
+  Plane& lent = planes_[g];
+  if (lent.pins.size() == 3) return false;
+  lent.pins.push_back(v);
+  const PlaneEquation before = lent.plane;
+  lent.plane = pinned_plane(lent);
+  const Fit fit = rough(lent.plane);
+  const bool near = std::ranges::all_of(sharing, [&](std::uint32_t other) {
+    return std::ranges::all_of(growth_.groups()[other].triangles, [&](std::uint32_t t) {
+      return growth_.within(t, fit, 2 * growth_.groups()[other].noise);
+    });
+  });
+  const auto contains = [&](VertexId w) { return exactly_on(lent.plane, surface_.vertices()[w]); };
+  if (near && std::ranges::all_of(lent.pins, contains)) return true;
+  lent.plane = before;
+  lent.pins.pop_back();
+  return false;
+}
+
+PlaneEquation GroupPlanes::pinned_plane(const Plane& lent) const {
+  const std::vector<VertexId>& pins = lent.pins;
+  const Vec3& normal = lent.fitted.normal;
+  const Vec3& a = surface_.vertices()[pins[0]];
+  if (pins.size() == 1) return {normal, {a}};
+  PlaneEquation plane{normal, {a, surface_.vertices()[pins[1]], {}}, true};
+  plane.through[2] = pins.size() == 3 ? surface_.vertices()[pins[2]]
+                                      : add_scaled(a, 1 / norm(normal),
+                                                   cross(normal, subtract(plane.through[1], a)));
+  Vec3 n = cross(subtract(plane.through[1], a), subtract(plane.through[2], a));
+  if (dot(n, normal) < 0) {
+    std::swap(plane.through[1], plane.through[2]);
+    for (double& x : n) x = -x;
+  }
+  const double largest = std::fabs(n[largest_axis(n)]);
+  for (int i = 0; i < 3; ++i) plane.normal[i] = n[i] / largest;
+  return plane;
+}
+
+bool GroupPlanes::must_move(VertexId v) const {
+  return std::ranges::any_of(planes_at_[v], [&](std::uint32_t g) {
+    return planes_[g].state == State::moving &&
+           !exactly_on(planes_[g].plane, surface_.vertices()[v]);
+  });
+}
+
+bool GroupPlanes::release(VertexId v) {
+  if (planes_at_[v].empty()) return false;
+  return release(v, *std::ranges::min_element(planes_at_[v], [&](std::uint32_t g, std::uint32_t h) {
+                   return planes_[g].area != planes_[h].area ? planes_[g].area < planes_[h].area
+                                                             : g > h;
+                 }));
+}
+
+bool GroupPlanes::release_all(VertexId v) {
+  bool any = false;
+  while (!planes_at_[v].empty()) any |= release(v);
+  return any;
+}
+
+bool GroupPlanes::release(VertexId v, std::uint32_t plane) {
+  bool any = false;
+  for (const std::uint32_t t : triangles_at(v, plane)) {
+    const std::uint32_t g = growth_.group_of(t);
+    any |= g < plane_of_.size() && growth_.is_group(g) && growth_.take_apart(g);
+  }
+  return detach_at(v, plane) || any;
+}
+
+bool GroupPlanes::detach_at(VertexId v, std::uint32_t plane) {
+  const std::vector<std::uint32_t> here = triangles_at(v, plane);
+  for (const std::uint32_t t : here) growth_.detach(t);
+  std::erase(planes_at_[v], plane);
+  return !here.empty();
+}
+
+// In groups of this plane.
+std::vector<std::uint32_t> GroupPlanes::triangles_at(VertexId v, std::uint32_t plane) {
+  std::vector<std::uint32_t> here;
+  for (const std::uint32_t t : surface_.triangles_at(v)) {
+    const std::uint32_t g = growth_.group_of(t);
+    if (growth_.is_group(g) && g < plane_of_.size() && plane_of_[g] == plane) here.push_back(t);
+  }
+  return here;
+}
+
+}  // namespace delmesher::surface

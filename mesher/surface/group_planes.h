@@ -1,0 +1,85 @@
+// The planes of planar groups: which groups share one, and which planes meet at a vertex
+// (planar_groups.h says what for).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/predicates/points.h"
+#include "mesher/surface/planar_growth.h"
+
+namespace delmesher::surface {
+
+// Is the point on the plane exactly?
+bool exactly_on(const PlaneEquation& plane, const Vec3& p);
+// The plane in doubles.
+Fit rough(const PlaneEquation& plane);
+
+// Call fit(), share(), spread_moves() and relieve_vertices() in this order; whenever one of the two
+// that can says so, groups have lost triangles, and all has to be done again. The same after
+// release() and after PlanarGrowth::detach().
+class GroupPlanes {
+ public:
+  GroupPlanes(MeasuredSurface& surface, PlanarGrowth& growth)
+      : surface_(surface), growth_(growth) {}
+
+  // The plane that fits the triangles of each group, which loses those that are too far from it.
+  // False if no vertex has to move for any of them.
+  bool fit();
+  // Groups that meet at a vertex in planes that are the same within the noise share one of them,
+  // the larger group's.
+  void share();
+  // A planar group one of whose vertices moves has to move with it.
+  void spread_moves();
+  // A vertex can be the meeting point of three planes. One of more stays where it is, and the
+  // planes are moved so that they contain it, which each can for up to three vertices; where one
+  // cannot, its groups give up their triangles at the vertex. True if some have.
+  bool relieve_vertices();
+  // Takes apart the groups of the plane with the least area at v, or takes the triangles at v out
+  // of them. False if there is none.
+  bool release(VertexId v);
+  // The same until no plane is left at v. True if there was one.
+  bool release_all(VertexId v);
+
+  // A group by the number of the group whose plane it shares.
+  std::uint32_t plane_of(std::uint32_t group) const { return plane_of_[group]; }
+  const std::vector<std::uint32_t>& planes_at(VertexId v) const { return planes_at_[v]; }
+  const PlaneEquation& plane(std::uint32_t group) const { return planes_[group].plane; }
+  bool moving(std::uint32_t group) const { return planes_[group].state == State::moving; }
+  // Is the vertex off the plane of one of its groups that move?
+  bool must_move(VertexId v) const;
+
+ private:
+  // on_plane: all vertices are on the plane exactly. planar: they are in one plane, whose equation
+  // doubles cannot hold; it needs one only if one of its vertices moves for another group.
+  enum class State : std::uint8_t { on_plane, planar, moving };
+  struct Plane {
+    PlaneEquation fitted{};      // of the group's triangles alone
+    PlaneEquation plane{};       // and moved so that it contains the pins of its vertices
+    std::vector<VertexId> pins;  // if the group lends its plane: vertices that stay and are on it
+    double area = 0;             // twice that of the triangles
+    std::size_t fitted_to = 0;   // so many triangles: groups only lose them
+    State state = State::on_plane;
+  };
+
+  void fit(std::uint32_t group);
+  PlaneEquation meant_plane(const Fit& fit, std::uint32_t group,
+                            const std::vector<VertexId>& list) const;
+  bool all_on(const PlaneEquation& plane, const std::vector<VertexId>& list) const;
+  bool in_one_plane(std::uint32_t group, const std::vector<VertexId>& list) const;
+  std::uint32_t largest_triangle(std::uint32_t group) const;
+  bool one_plane(std::uint32_t g, std::uint32_t h) const;
+  bool pin(VertexId v, std::uint32_t g, const std::vector<std::uint32_t>& sharing);
+  PlaneEquation pinned_plane(const Plane& plane) const;
+  bool release(VertexId v, std::uint32_t plane);
+  bool detach_at(VertexId v, std::uint32_t plane);
+  std::vector<std::uint32_t> triangles_at(VertexId v, std::uint32_t plane);
+
+  MeasuredSurface& surface_;
+  PlanarGrowth& growth_;
+  std::vector<Plane> planes_;                          // per group
+  std::vector<std::uint32_t> plane_of_;                // group -> the one whose plane it shares
+  std::vector<std::vector<std::uint32_t>> planes_at_;  // vertex -> planes, as such groups
+};
+
+}  // namespace delmesher::surface

@@ -1,0 +1,286 @@
+#include "mesher/surface/planar_growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "mesher/base/check.h"
+#include "mesher/base/sort_unique.h"
+#include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/surface/half_edges.h"
+
+namespace delmesher::surface {
+namespace {
+
+// A group that cannot be is taken apart with a bound smaller by this factor, several times.
+constexpr double kFiner = 0x1p-5;
+
+}  // namespace
+
+int largest_axis(const Vec3& v) {
+  int axis = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::fabs(v[i]) > std::fabs(v[axis])) axis = i;
+  }
+  return axis;
+}
+
+void PlaneFit::add(const std::array<std::uint32_t, 3>& t) {
+  const Vec3 &a = (*vertices_)[t[0]], &b = (*vertices_)[t[1]], &c = (*vertices_)[t[2]];
+  const Vec3 area = cross(subtract(b, a), subtract(c, a));
+  const double weight = norm(area);
+  if (count_ == 0) origin_ = a;
+  for (int i = 0; i < 3; ++i) {
+    area_[i] += area[i];
+    moment_[i] += weight * ((a[i] - origin_[i]) + (b[i] - origin_[i]) + (c[i] - origin_[i]));
+  }
+  weight_ += weight;
+  ++count_;
+}
+
+Fit PlaneFit::fit() const {
+  Fit f;
+  const double largest = std::fabs(area_[largest_axis(area_)]);
+  for (int i = 0; i < 3; ++i) {
+    f.normal[i] = area_[i] / largest;
+    f.through[i] = origin_[i] + moment_[i] / (3 * weight_);
+  }
+  return f;
+}
+
+MeasuredSurface::MeasuredSurface(const Surface& surface)
+    : surface_(surface), opposite_(3 * surface.triangles.size(), kNone) {
+  const HalfEdgeGroups edges(triangles(), vertices().size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto h = edges[e];
+    DELMESHER_CHECK(h.size() == 2, "the surface must be a manifold");
+    opposite_[h[0]] = h[1];
+    opposite_[h[1]] = h[0];
+  }
+  area_.reserve(triangles().size());
+  size_.reserve(triangles().size());
+  for (const auto& [a, b, c] : triangles()) {
+    area_.push_back(
+        cross(subtract(vertices()[b], vertices()[a]), subtract(vertices()[c], vertices()[a])));
+    size_.push_back(norm(area_.back()));
+  }
+}
+
+std::uint32_t MeasuredSurface::longest_edge(std::uint32_t t) const {
+  std::uint32_t longest = 3 * t;
+  for (const std::uint32_t h : {3 * t + 1, 3 * t + 2}) {
+    if (edge_length(h) > edge_length(longest)) longest = h;
+  }
+  return longest;
+}
+
+double MeasuredSurface::edge_length(std::uint32_t h) const {
+  const auto& t = triangles()[h / 3];
+  return distance(vertices()[t[h % 3]], vertices()[t[(h % 3 + 1) % 3]]);
+}
+
+std::span<const std::uint32_t> MeasuredSurface::triangles_at(VertexId v) {
+  if (begin_.empty()) {
+    begin_.assign(vertices().size() + 1, 0);
+    for (const auto& t : triangles()) {
+      for (const VertexId w : t) ++begin_[w + 1];
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    around_.resize(begin_.back());
+    std::vector<std::size_t> cursor(begin_.begin(), begin_.end() - 1);
+    for (std::uint32_t t = 0; t < triangles().size(); ++t) {
+      for (const VertexId w : triangles()[t]) around_[cursor[w]++] = t;
+    }
+  }
+  return std::span(around_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
+}
+
+PlanarGrowth::PlanarGrowth(const MeasuredSurface& surface, double noise, double finest,
+                           Control& control)
+    : surface_(surface),
+      noise_(noise),
+      finest_(finest),
+      control_(control),
+      open_(surface.triangles().size(), 1),
+      group_of_(surface.triangles().size(), kNone) {}
+
+bool PlanarGrowth::any_nearly_flat() const {
+  const std::vector<Vec3>& x = surface_.vertices();
+  for (std::uint32_t h = 0; h < surface_.opposite().size(); ++h) {
+    const std::uint32_t g = surface_.opposite()[h], t = h / 3, u = g / 3;
+    if (h > g || surface_.label(t) != surface_.label(u)) continue;
+    if (!(dot(surface_.area(t), surface_.area(u)) > 0)) continue;
+    const std::uint32_t larger = surface_.size(t) < surface_.size(u) ? u : t;
+    const VertexId v = surface_.across(larger == t ? g : h);
+    const auto& [a, b, c] = surface_.triangles()[larger];
+    const Vec3 offset = subtract(x[v], x[a]);
+    if (std::fabs(dot(surface_.area(larger), offset)) > 4 * noise_ * surface_.size(larger))
+      continue;
+    if (orient3d_sign(x[a], x[b], x[c], x[v]) != 0) return true;
+  }
+  return false;
+}
+
+void PlanarGrowth::grow_all() {
+  std::vector<std::uint32_t> order(surface_.triangles().size());
+  std::iota(order.begin(), order.end(), 0U);
+  grow_from(std::move(order), noise_);
+  hand_over_needles();
+}
+
+// A triangle whose apex is within the noise of its longest edge lies in the planes on both sides
+// of it. It goes to the one across that edge, so that the apex comes to lie in both planes, on
+// the edge, and a flip of the edge leaves no trace of the triangle. Else it would have its own
+// height to be resolved.
+void PlanarGrowth::hand_over_needles() {
+  std::vector<std::pair<double, std::uint32_t>> needles;  // by length, longest first
+  for (std::uint32_t t = 0; t < surface_.triangles().size(); ++t) {
+    const double length = surface_.edge_length(surface_.longest_edge(t));
+    if (surface_.size(t) <= noise_ * length) needles.emplace_back(-length, t);
+  }
+  std::sort(needles.begin(), needles.end());
+  for (const auto& [length, t] : needles) {
+    const std::uint32_t u = surface_.opposite()[surface_.longest_edge(t)] / 3, from = group_of_[t],
+                        to = group_of_[u];
+    if (from == to || from == kNone || to == kNone || surface_.label(t) != surface_.label(u))
+      continue;
+    PlaneFit sum(surface_.vertices());
+    for (const std::uint32_t member : groups_[to].triangles) sum.add(surface_.triangles()[member]);
+    if (!within(t, sum.fit(), noise_)) continue;
+    detach(t);
+    group_of_[t] = to;
+    std::vector<std::uint32_t>& members = groups_[to].triangles;
+    members.insert(std::lower_bound(members.begin(), members.end(), t), t);
+  }
+}
+
+void PlanarGrowth::grow_from(std::vector<std::uint32_t> seeds, double noise) {
+  std::sort(seeds.begin(), seeds.end(), [&](std::uint32_t t, std::uint32_t u) {
+    return surface_.size(t) != surface_.size(u) ? surface_.size(t) > surface_.size(u) : t < u;
+  });
+  for (const std::uint32_t t : seeds) {
+    control_.poll();
+    if (open_[t] != 0 && surface_.size(t) > 0) grow(t, noise);
+  }
+}
+
+// The largest neighbours first. A triangle joins if it is within the bound of the plane that it
+// helps to find: that of a small seed says nothing about places far away. Whenever the group has
+// doubled, all of it is asked; if it has become a bent one, it goes back to what it was and takes
+// only what is within the bound of that plane.
+void PlanarGrowth::grow(std::uint32_t seed, double noise) {
+  const auto id = static_cast<std::uint32_t>(groups_.size());
+  groups_.emplace_back();
+  groups_.back().noise = noise;
+  std::vector<std::uint32_t>& members = groups_.back().triangles;
+  const auto smaller = [&](std::uint32_t h, std::uint32_t g) {
+    return surface_.size(h / 3) != surface_.size(g / 3)
+               ? surface_.size(h / 3) < surface_.size(g / 3)
+               : h > g;
+  };
+  std::vector<std::uint32_t> heap, refused;  // half-edges of triangles outside
+  const auto push = [&](std::uint32_t h) {
+    heap.push_back(h);
+    std::push_heap(heap.begin(), heap.end(), smaller);
+  };
+  const auto push_neighbours = [&](std::uint32_t t) {
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::uint32_t g = surface_.opposite()[h];
+      if (open_[g / 3] != 0 && surface_.label(g / 3) == surface_.label(t)) push(g);
+    }
+  };
+  const auto join = [&](std::uint32_t t) {
+    group_of_[t] = id;
+    open_[t] = 0;
+    members.push_back(t);
+    push_neighbours(t);
+  };
+  PlaneFit sum(surface_.vertices());
+  sum.add(surface_.triangles()[seed]);
+  join(seed);
+  std::size_t verified = 1;
+  Fit fixed = sum.fit();
+  bool bent = false;
+  const auto verify = [&] {
+    const Fit fit = sum.fit();
+    const auto inside = [&](std::uint32_t t) { return fits(t, fit, noise); };
+    if (std::ranges::all_of(members, inside)) {
+      verified = members.size();
+      fixed = fit;
+      for (const std::uint32_t h : refused) push(h);
+      refused.clear();
+      return;
+    }
+    bent = true;
+    for (std::size_t n = verified; n < members.size(); ++n) {
+      group_of_[members[n]] = kNone;
+      open_[members[n]] = 1;
+    }
+    members.resize(verified);
+    heap.clear();
+    for (const std::uint32_t t : std::vector<std::uint32_t>(members)) push_neighbours(t);
+  };
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end(), smaller);
+    const std::uint32_t h = heap.back(), t = h / 3;
+    heap.pop_back();
+    if (open_[t] == 0) continue;
+    if (bent) {
+      if (fits(t, fixed, noise)) join(t);
+      continue;
+    }
+    PlaneFit with = sum;
+    with.add(surface_.triangles()[t]);
+    if (fits(t, with.fit(), noise)) {
+      sum = with;
+      join(t);
+    } else {
+      refused.push_back(h);
+    }
+    const bool doubled = members.size() >= 2 * verified;
+    if (doubled || (heap.empty() && members.size() > verified)) verify();
+  }
+  std::sort(members.begin(), members.end());
+}
+
+bool PlanarGrowth::fits(std::uint32_t t, const Fit& fit, double noise) const {
+  return dot(surface_.area(t), fit.normal) > 0 && within(t, fit, noise);
+}
+
+bool PlanarGrowth::within(std::uint32_t t, const Fit& fit, double noise) const {
+  return std::ranges::all_of(surface_.triangles()[t], [&](VertexId v) {
+    return std::fabs(fit.height(surface_.vertices()[v])) <= noise;
+  });
+}
+
+bool PlanarGrowth::take_apart(std::uint32_t g) {
+  const double noise = groups_[g].noise * kFiner;
+  if (!(noise >= finest_)) return false;
+  const std::vector<std::uint32_t> members = std::move(groups_[g].triangles);
+  groups_[g].triangles.clear();
+  for (const std::uint32_t t : members) {
+    group_of_[t] = kNone;
+    open_[t] = 1;
+  }
+  grow_from(members, noise);
+  for (const std::uint32_t t : members) open_[t] = 0;
+  return true;
+}
+
+void PlanarGrowth::detach(std::uint32_t t) {
+  std::vector<std::uint32_t>& members = groups_[group_of_[t]].triangles;
+  members.erase(std::lower_bound(members.begin(), members.end(), t));
+  group_of_[t] = kNone;
+}
+
+std::vector<VertexId> PlanarGrowth::vertices_of(std::uint32_t group) const {
+  std::vector<VertexId> list;
+  for (const std::uint32_t t : groups_[group].triangles) {
+    const auto& corners = surface_.triangles()[t];
+    list.insert(list.end(), corners.begin(), corners.end());
+  }
+  sort_unique(list);
+  return list;
+}
+
+}  // namespace delmesher::surface
