@@ -62,7 +62,7 @@ class StandInCheck {
       ++report_.checked;
       const double distance = exact::distance(points_, v, given_ + v);
       displacement_ = std::max(displacement_, distance);
-      if (!(64 * distance <= shortest[v] * (1 + 1e-9))) {
+      if (!(16 * distance <= shortest[v] * (1 + 1e-9))) {
         report_.fail("vertex " + std::to_string(v) + " was moved by " + std::to_string(distance) +
                      ", its shortest edge is " + std::to_string(shortest[v]) + " long");
       }

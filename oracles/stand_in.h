@@ -11,7 +11,7 @@ namespace tetproof::oracles {
 // `surface` is that of the record, on `points`; `input` has the vertices and triangles as given.
 // - Every vertex as given is within parameters.planar of the planes of all its facets of more than
 //   one triangle, exactly.
-// - A vertex was moved by no more than a 64th of the shortest edge there, as given.
+// - A vertex was moved by no more than a 16th of the shortest edge there, as given.
 // - A facet's triangles have the numbers, the corners and the outline that they have as given.
 OracleReport check_stand_in(const Polyhedron& input, const delmesher::ExactRecord& record,
                             const InputSurface& surface);

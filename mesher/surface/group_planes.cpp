@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <queue>
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/exact_point.h"
@@ -163,24 +165,84 @@ bool GroupPlanes::relieve_vertices() {
   for (std::uint32_t g = 0; g < planes_.size(); ++g) {
     if (growth_.is_group(g)) sharing[plane_of_[g]].push_back(g);
   }
-  bool any = false;
+  std::vector<VertexId> crowded;
+  std::vector<std::uint8_t> is_crowded(planes_at_.size(), 0);
   // A plane that is moved for one vertex may leave another behind.
-  for (bool again = true; again && !any;) {
+  for (bool again = true; again;) {
     again = false;
     for (VertexId v = 0; v < planes_at_.size(); ++v) {
-      if (planes_at_[v].size() <= 3 || !must_move(v)) continue;
-      for (const std::uint32_t g : std::vector<std::uint32_t>(planes_at_[v])) {
-        if (planes_[g].state != State::moving ||
-            exactly_on(planes_[g].plane, surface_.vertices()[v])) {
-          continue;
-        }
-        const bool pinned = pin(v, g, sharing[g]);
-        again = again || pinned;
-        any = (!pinned && detach_at(v, g)) || any;
+      if (planes_at_[v].size() <= 3 || is_crowded[v] != 0 || !must_move(v)) continue;
+      if (pin_all(v, sharing)) {
+        again = true;
+      } else {
+        crowded.push_back(v);
+        is_crowded[v] = 1;
       }
     }
   }
-  return any;
+  make_room(crowded);
+  return !crowded.empty();
+}
+
+// All planes at the vertex, or none.
+bool GroupPlanes::pin_all(VertexId v, const std::vector<std::vector<std::uint32_t>>& sharing) {
+  std::vector<std::pair<std::uint32_t, PlaneEquation>> before;
+  for (const std::uint32_t g : planes_at_[v]) {
+    if (!moving(g) || exactly_on(plane(g), surface_.vertices()[v])) continue;
+    before.emplace_back(g, plane(g));
+    if (pin(v, g, sharing[g])) continue;
+    before.pop_back();
+    for (const auto& [pinned, equation] : before) {
+      planes_[pinned].plane = equation;
+      planes_[pinned].pins.pop_back();
+    }
+    return false;
+  }
+  return true;
+}
+
+// A plane that is given up at one vertex mostly is at all vertices of its group, if that is one of
+// few triangles. So few planes are enough: the one first that makes room at most vertices for the
+// least harm. Harm is done by what is then a facet of its own, the more the narrower it is.
+void GroupPlanes::make_room(const std::vector<VertexId>& crowded) {
+  struct Candidate {
+    std::vector<VertexId> at;
+    double harm = 0;
+  };
+  std::map<std::uint32_t, Candidate> candidates;
+  for (const VertexId v : crowded) {
+    for (const std::uint32_t g : planes_at_[v]) {
+      Candidate& candidate = candidates[g];
+      candidate.at.push_back(v);
+      for (const std::uint32_t t : triangles_at(v, g)) {
+        const double length = surface_.edge_length(surface_.longest_edge(t));
+        candidate.harm += length * length / surface_.size(t);
+      }
+    }
+  }
+  const auto has_no_room = [&](VertexId v) { return planes_at_[v].size() > 3; };
+  using Gain = std::pair<double, std::uint32_t>;
+  std::priority_queue<Gain> best;
+  const auto push = [&](std::uint32_t g) {
+    const Candidate& candidate = candidates[g];
+    const auto count = static_cast<double>(std::ranges::count_if(candidate.at, has_no_room));
+    if (count > 0) best.emplace(count / candidate.harm, g);
+  };
+  for (const auto& [g, candidate] : candidates) push(g);
+  while (!best.empty()) {
+    const auto [gain, g] = best.top();
+    best.pop();
+    // Gains only become smaller: what is still the best is so.
+    const Candidate& candidate = candidates[g];
+    const auto count = static_cast<double>(std::ranges::count_if(candidate.at, has_no_room));
+    if (count / candidate.harm < gain) {
+      push(g);
+      continue;
+    }
+    for (const VertexId v : candidate.at) {
+      if (has_no_room(v)) detach_at(v, g);
+    }
+  }
 }
 
 // Moves the plane so that it contains the vertex, and those that it was moved for before.

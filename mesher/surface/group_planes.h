@@ -32,8 +32,9 @@ class GroupPlanes {
   // A planar group one of whose vertices moves has to move with it.
   void spread_moves();
   // A vertex can be the meeting point of three planes. One of more stays where it is, and the
-  // planes are moved so that they contain it, which each can for up to three vertices; where one
-  // cannot, its groups give up their triangles at the vertex. True if some have.
+  // planes are moved so that they contain it, which each can for up to three vertices; where not
+  // all can, groups give up their triangles at the vertex until it has three planes. True if some
+  // have.
   bool relieve_vertices();
   // Takes apart the groups of the plane with the least area at v, or takes the triangles at v out
   // of them. False if there is none.
@@ -69,6 +70,8 @@ class GroupPlanes {
   bool in_one_plane(std::uint32_t group, const std::vector<VertexId>& list) const;
   std::uint32_t largest_triangle(std::uint32_t group) const;
   bool one_plane(std::uint32_t g, std::uint32_t h) const;
+  bool pin_all(VertexId v, const std::vector<std::vector<std::uint32_t>>& sharing);
+  void make_room(const std::vector<VertexId>& crowded);
   bool pin(VertexId v, std::uint32_t g, const std::vector<std::uint32_t>& sharing);
   PlaneEquation pinned_plane(const Plane& plane) const;
   bool release(VertexId v, std::uint32_t plane);

@@ -216,5 +216,61 @@ TEST(PlanarGroups, AFaceSplitAtARoundedPoint) {
   EXPECT_EQ(grouped(s).facets(), 6U);
 }
 
+// A vault on a floor: 6 by 6 parallelograms, as the heights are sums of one along x and one along
+// y, of which those in the column `wide` are 40 times as long as wide. Inside, four planes meet at
+// every vertex.
+Surface vault(std::uint32_t wide) {
+  constexpr std::uint32_t n = 6, row = n + 1, top = row * row;
+  Surface s;
+  for (const int up : {0, 1}) {
+    double x = 0;
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      for (std::uint32_t j = 0; j <= n; ++j) {
+        const double height = 1 - (i - 3.0) * (i - 3.0) / 64 - (j - 3.0) * (j - 3.0) / 128;
+        s.vertices.push_back({x, static_cast<double>(j), up * height});
+      }
+      x += i == wide ? 40 : 1;
+    }
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    s.triangles.push_back({a, b, c});
+    s.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t a = i * row + j, b = a + row;
+      quad(a, a + 1, b + 1, b);
+      quad(top + a, top + b, top + b + 1, top + a + 1);
+    }
+    const std::uint32_t first = i * row, last = first + n;
+    quad(first, first + row, top + first + row, top + first);
+    quad(last + row, last, top + last, top + last + row);
+    quad(i + 1, i, top + i, top + i + 1);
+    quad(n * row + i, n * row + i + 1, top + n * row + i + 1, top + n * row + i);
+  }
+  return s;
+}
+
+// A parallelogram that gives up its plane makes room at four vertices, so that half of the 25 inside
+// are more than enough. Long ones do not: their halves would be needles.
+TEST(PlanarGroups, FewGiveWayWhereFourPlanesMeet) {
+  const Surface given = vault(2);
+  const Grouped straight = grouped(given);
+  EXPECT_EQ(straight.facets(), 36U + 5U);
+  const Surface s = rotated(given);
+  const Grouped g = grouped(s);
+  EXPECT_GT(g.stand_in.groups, 0U);
+  EXPECT_LE(g.facets(), 36U + 5U + 12U);
+  std::size_t long_ones = 0;
+  for (const auto& triangles : g.topology.facet_triangles) {
+    if (triangles.size() != 2) continue;
+    const auto& [a, b, c] = given.triangles[triangles[0]];
+    const double x = given.vertices[a][0];
+    const bool on_top = a >= 49 && b >= 49 && c >= 49;
+    if (on_top && x == 2) ++long_ones;
+  }
+  EXPECT_EQ(long_ones, 6U);
+}
+
 }  // namespace
 }  // namespace delmesher::surface
