@@ -251,8 +251,8 @@ Surface vault(std::uint32_t wide) {
   return s;
 }
 
-// A parallelogram that gives up its plane makes room at four vertices, so that half of the 25 inside
-// are more than enough. Long ones do not: their halves would be needles.
+// A parallelogram that gives up its plane makes room at four vertices, so that half of the 25
+// inside are more than enough. Long ones do not: their halves would be needles.
 TEST(PlanarGroups, FewGiveWayWhereFourPlanesMeet) {
   const Surface given = vault(2);
   const Grouped straight = grouped(given);
