@@ -227,6 +227,9 @@ class SecondKernel {
         definitions_(std::move(definitions)) {}
 
   OracleReport run() {
+    for (std::size_t v = 0; v < input_.vertices.size(); ++v) {
+      input_places_.push_back(place_of(static_cast<Index>(v)));
+    }
     compare_points();
     for (std::size_t v = 0; v < input_.vertices.size(); ++v) {
       const Position& p = input_.vertices[v];
@@ -248,7 +251,9 @@ class SecondKernel {
   static Place place(const std::array<double, 3>& x) {
     return {Number(x[0]), Number(x[1]), Number(x[2])};
   }
-  Place corner(Index v) const {
+  // Nearly every point is given by input vertices: meeting points of planes are found once.
+  Place corner(Index v) const { return v < input_places_.size() ? input_places_[v] : place_of(v); }
+  Place place_of(Index v) const {
     const ExactPoint& p = definitions_.points[v];
     if (p.kind == ExactPoint::Kind::explicit_point) return place({p.x, p.y, p.z});
     if constexpr (std::is_same_v<Number, CGAL::Gmpq>) {
@@ -470,7 +475,8 @@ class SecondKernel {
   const ExactRecord& record_;
   const ExactPoints& points_;
   const Definitions definitions_;
-  std::vector<Point> corners_;
+  std::vector<Place> input_places_;  // by the definitions
+  std::vector<Point> corners_;       // of the surface whose facets are meshed
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
 };
 
