@@ -83,10 +83,14 @@ bool GroupPlanes::in_one_plane(std::uint32_t group, const std::vector<VertexId>&
   });
 }
 
-// The plane as it was meant, if one of short coordinates contains all vertices: nothing moves.
+// The plane as it was meant, if one of short coordinates contains all vertices: nothing moves. The
+// largest coordinate of normals is about 1 in all units, because triple products of them are
+// compared.
 PlaneEquation GroupPlanes::meant_plane(const Fit& fit, std::uint32_t group,
                                        const std::vector<VertexId>& list) const {
   PlaneEquation plane{surface_.area(largest_triangle(group)), {surface_.vertices()[list.front()]}};
+  const int exponent = std::ilogb(plane.normal[largest_axis(plane.normal)]);
+  for (double& x : plane.normal) x = std::ldexp(x, -exponent);
   if (all_on(plane, list)) return plane;
   for (const int bits : {0, 3, 12, 26}) {
     plane.normal = fit.normal;
@@ -307,9 +311,13 @@ bool GroupPlanes::release_all(VertexId v) {
 
 bool GroupPlanes::release(VertexId v, std::uint32_t plane) {
   bool any = false;
-  for (const std::uint32_t t : triangles_at(v, plane)) {
+  const std::vector<std::uint32_t> here = triangles_at(v, plane);
+  for (const std::uint32_t t : here) {
     const std::uint32_t g = growth_.group_of(t);
-    any |= g < plane_of_.size() && growth_.is_group(g) && growth_.take_apart(g);
+    // Of a group with many others, these alone leave: it may be their vertex that has no room, with
+    // an edge shorter than the noise, and smaller bounds would cost the group all its triangles.
+    if (!growth_.is_group(g) || growth_.groups()[g].triangles.size() > 2 * here.size()) continue;
+    any |= g < plane_of_.size() && growth_.take_apart(g);
   }
   return detach_at(v, plane) || any;
 }

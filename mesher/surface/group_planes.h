@@ -36,8 +36,8 @@ class GroupPlanes {
   // all can, groups give up their triangles at the vertex until it has three planes. True if some
   // have.
   bool relieve_vertices();
-  // Takes apart the groups of the plane with the least area at v, or takes the triangles at v out
-  // of them. False if there is none.
+  // Takes the triangles at v out of the groups of the plane with the least area there. Groups half
+  // of whose triangles these are are taken apart. False if there is none.
   bool release(VertexId v);
   // The same until no plane is left at v. True if there was one.
   bool release_all(VertexId v);

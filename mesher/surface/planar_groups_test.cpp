@@ -109,6 +109,21 @@ TEST(PlanarGroups, FacesOfARotatedBoxAreSix) {
   }
 }
 
+// A lid that is flat but for noise, on walls that are exactly: vertices of the rim are the meeting
+// points of noisy planes and exact ones, whose equations come from areas.
+TEST(PlanarGroups, AreTheSameInAllUnits) {
+  Surface s = box({0, 0, 0}, {1, 1, 1}, 4);
+  for (std::size_t v = 0; v < s.vertices.size(); ++v) {
+    Point& p = s.vertices[v];
+    if (p[2] == 1) p[2] += 1e-9 * static_cast<double>(v % 3);
+  }
+  for (const int exponent : {0, -20, -47, 30}) {
+    const Grouped g = grouped(scaled(s, std::ldexp(1.0, exponent)));
+    EXPECT_EQ(g.facets(), 6U) << "in units of 2^" << exponent;
+    EXPECT_EQ(g.stand_in.groups, 1U) << "in units of 2^" << exponent;
+  }
+}
+
 // A wish, not noise: a ridge of 0.05 degrees across a plate.
 TEST(PlanarGroups, AFlatRidgeStays) {
   const std::vector<std::array<double, 2>> plate = {{0, 0}, {1, 0},  {1, 1},
@@ -270,6 +285,48 @@ TEST(PlanarGroups, FewGiveWayWhereFourPlanesMeet) {
     if (on_top && x == 2) ++long_ones;
   }
   EXPECT_EQ(long_ones, 6U);
+}
+
+// With a vertex near the first of the edge's two, so many parts of its length away.
+Surface with_split_edge(Surface s, VertexId v, VertexId u, double share) {
+  const auto w = static_cast<VertexId>(s.vertices.size());
+  Point p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    p[i] = s.vertices[v][i] + (s.vertices[u][i] - s.vertices[v][i]) * share;
+  }
+  s.vertices.push_back(p);
+  for (std::size_t t = 0, n = s.triangles.size(); t < n; ++t) {
+    auto half = s.triangles[t];
+    if (std::ranges::find(half, v) == half.end() || std::ranges::find(half, u) == half.end()) {
+      continue;
+    }
+    std::ranges::replace(half, v, w);
+    std::ranges::replace(s.triangles[t], u, w);
+    s.triangles.push_back(half);
+  }
+  return s;
+}
+
+// An edge shorter than the noise leaves its ends no room to move. That is no reason to give up the
+// whole face around them.
+TEST(PlanarGroups, AnEdgeShorterThanTheNoiseCostsItsOwnTrianglesAlone) {
+  constexpr std::uint32_t kSquares = 8;
+  const Surface given = box({0, 0, 0}, {1, 2, 3}, kSquares);
+  const Surface s = in_single_precision(rotated(given));
+  VertexId v = 0;
+  while (!(given.vertices[v][0] == 0.5 && given.vertices[v][1] == 1 && given.vertices[v][2] == 3)) {
+    ++v;
+  }
+  ASSERT_EQ(grouped(s).facets(), 6U);
+  const Surface split = with_split_edge(s, v, v + 1, 1e-6);
+  const Grouped g = grouped(split);
+  const auto at_its_ends =
+      static_cast<std::size_t>(std::ranges::count_if(split.triangles, [&](const auto& t) {
+        return std::ranges::find(t, v) != t.end() ||
+               std::ranges::find(t, split.vertices.size() - 1) != t.end();
+      }));
+  EXPECT_GT(g.facets(), 6U);
+  EXPECT_LE(g.facets(), 6U + at_its_ends);
 }
 
 }  // namespace
