@@ -314,10 +314,10 @@ bool GroupPlanes::release(VertexId v, std::uint32_t plane) {
   const std::vector<std::uint32_t> here = triangles_at(v, plane);
   for (const std::uint32_t t : here) {
     const std::uint32_t g = growth_.group_of(t);
-    // Of a group with many others, these alone leave: it may be their vertex that has no room, with
-    // an edge shorter than the noise, and smaller bounds would cost the group all its triangles.
-    if (!growth_.is_group(g) || growth_.groups()[g].triangles.size() > 2 * here.size()) continue;
-    any |= g < plane_of_.size() && growth_.take_apart(g);
+    if (!growth_.is_group(g) || g >= plane_of_.size()) continue;
+    const bool few = growth_.groups()[g].triangles.size() > 2 * here.size();
+    if (few && !growth_.stays_whole(g, here)) continue;
+    any |= growth_.take_apart(g);
   }
   return detach_at(v, plane) || any;
 }

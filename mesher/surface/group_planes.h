@@ -36,8 +36,10 @@ class GroupPlanes {
   // all can, groups give up their triangles at the vertex until it has three planes. True if some
   // have.
   bool relieve_vertices();
-  // Takes the triangles at v out of the groups of the plane with the least area there. Groups half
-  // of whose triangles these are are taken apart. False if there is none.
+  // Takes the triangles at v out of the groups of the plane with the least area there. Those groups
+  // are taken apart if that costs them little: if the rest would be one group again, of a smaller
+  // bound, which leaves more room to the vertices, or if half of the triangles are at v. Otherwise
+  // v alone has no room, having an edge shorter than the noise, say. False if there is no group.
   bool release(VertexId v);
   // The same until no plane is left at v. True if there was one.
   bool release_all(VertexId v);

@@ -10,6 +10,7 @@
 #include "mesher/base/control.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/surface/flatness.h"
+#include "mesher/surface/planar_growth.h"
 #include "mesher/surface/test_surfaces.h"
 #include "mesher/surface/topology.h"
 #include "mesher/surface/validity.h"
@@ -305,6 +306,30 @@ Surface with_split_edge(Surface s, VertexId v, VertexId u, double share) {
     s.triangles.push_back(half);
   }
   return s;
+}
+
+// What is flat to doubles is so for a smaller bound as well; what single precision has bent by more
+// than that would fall apart.
+TEST(PlanarGroups, ASmallerBoundLeavesWholeWhatIsFlatEnough) {
+  const Surface doubles = rotated(box({0, 0, 0}, {1, 1, 1}, 4));
+  for (const bool single : {false, true}) {
+    const Surface s = single ? in_single_precision(doubles) : doubles;
+    Limits limits;
+    Control control{limits};
+    const MeasuredSurface surface(s);
+    PlanarGrowth growth(surface, 1e-6, 1e-16, control);
+    growth.grow_all();
+    ASSERT_EQ(growth.groups().size(), 6U);
+    const std::vector<std::uint32_t> without = {growth.groups()[0].triangles[3]};
+    EXPECT_EQ(growth.stays_whole(0, without), !single);
+    EXPECT_TRUE(growth.take_apart(0));
+    const auto of_more_than_one = [&](std::uint32_t first) {
+      std::size_t n = 0;
+      for (std::uint32_t g = first; g < growth.groups().size(); ++g) n += growth.is_group(g);
+      return n;
+    };
+    EXPECT_EQ(of_more_than_one(6) == 1 && growth.groups().size() == 7, !single);
+  }
 }
 
 // An edge shorter than the noise leaves its ends no room to move. That is no reason to give up the

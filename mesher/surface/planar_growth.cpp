@@ -253,6 +253,20 @@ bool PlanarGrowth::within(std::uint32_t t, const Fit& fit, double noise) const {
   });
 }
 
+bool PlanarGrowth::stays_whole(std::uint32_t g, const std::vector<std::uint32_t>& without) const {
+  std::vector<std::uint32_t> rest;
+  PlaneFit sum(surface_.vertices());
+  for (const std::uint32_t t : groups_[g].triangles) {
+    if (std::ranges::find(without, t) != without.end()) continue;
+    rest.push_back(t);
+    sum.add(surface_.triangles()[t]);
+  }
+  const double noise = groups_[g].noise * kFiner;
+  const Fit fit = sum.fit();
+  return noise >= finest_ &&
+         std::ranges::all_of(rest, [&](std::uint32_t t) { return fits(t, fit, noise); });
+}
+
 bool PlanarGrowth::take_apart(std::uint32_t g) {
   const double noise = groups_[g].noise * kFiner;
   if (!(noise >= finest_)) return false;

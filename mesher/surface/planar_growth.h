@@ -88,6 +88,8 @@ class PlanarGrowth {
   // surfaces have none, and nothing to be done.
   bool any_nearly_flat() const;
   void grow_all();
+  // Would taking it apart leave one group, of all triangles but these (in any order)?
+  bool stays_whole(std::uint32_t group, const std::vector<std::uint32_t>& without) const;
   // In groups of smaller bounds; false if it is of the smallest already.
   bool take_apart(std::uint32_t group);
   // Takes a triangle out of its group: it is a facet of its own from now on.
