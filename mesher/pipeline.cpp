@@ -56,7 +56,7 @@ Status check(const Surface& surface, bool refine, Session& s, Recorder& recorder
   const StandIn stand_in = find_stand_in(outwards, bound, s.control);
   if (!stand_in.planes.empty()) s.given = outwards.vertices;
   s.topology = build_topology(outwards, s.points, s.predicates, stand_in);
-  recorder.planar(stand_in, bound);
+  recorder.planar(stand_in, bound, validity);
   return {};
 }
 

@@ -46,7 +46,8 @@ struct ExactRecord {
   };
   std::vector<Plane> planes;  // of points on planes
   // Of the surface that was meshed, where a planar facet has another triangulation than as given;
-  // empty: those of the input. The same number of triangles, and the same numbers in each facet.
+  // empty: those of the input. The same number of triangles, and the same numbers in each facet,
+  // oriented as in the input.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   // The input vertices first, in input order: explicit as given, or on planes where they were moved
   // so that facets are planar. Of the latter the mesh has the vertices as given.

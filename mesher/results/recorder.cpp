@@ -40,12 +40,17 @@ void Recorder::checked(const SurfaceReport& report) {
   result_.statistics.bbox_diagonal = report.bbox_diagonal;
 }
 
-void Recorder::planar(const StandIn& stand_in, double bound) {
+void Recorder::planar(const StandIn& stand_in, double bound, const ValidityResult& validity) {
   Statistics& s = result_.statistics;
   s.facets = session_.topology.facet_triangles.size();
   if (stand_in.planes.empty()) return;
   s.planar_groups = stand_in.groups;
-  if (exact()) result_.exact.triangles = stand_in.triangles;
+  if (exact()) {
+    auto& triangles = result_.exact.triangles = stand_in.triangles;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      if (validity.reverse_triangle[t] != 0) std::swap(triangles[t][1], triangles[t][2]);
+    }
+  }
   s.given_facets = stand_in.given_facets;
   s.planar_deviation = stand_in.deviation;
   s.planar_bound = bound;

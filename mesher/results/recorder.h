@@ -9,6 +9,7 @@
 #include "mesher/results/in_force.h"
 #include "mesher/results/mesh_to_write.h"
 #include "mesher/run/session.h"
+#include "mesher/surface/validity.h"
 
 namespace delmesher::results {
 
@@ -17,8 +18,8 @@ class Recorder {
   Recorder(const Session& session, Result& result) : session_(session), result_(result) {}
 
   void checked(const SurfaceReport& report);
-  // Facets were made planar within `bound`.
-  void planar(const StandIn& stand_in, double bound);
+  // Facets were made planar within `bound`. The triangles recorded are oriented as in the input.
+  void planar(const StandIn& stand_in, double bound, const ValidityResult& validity);
   void predicted(double tetrahedra) { result_.statistics.predicted_tetrahedra = tetrahedra; }
   void chamfered(const chamfer::ChamferResult& chamfered, const chamfer::FilterResult& filter,
                  const InForce& force);
