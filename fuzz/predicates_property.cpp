@@ -19,10 +19,50 @@ Leniency no_bound("infinite-error-bound", 0.01);
 
 struct Points {
   PointStore store;
-  VertexId corners = 0;
+  VertexId corners = 0;  // what segments and triangles may be between
 };
 
-Points read_points(Bytes& bytes) {
+// Through points of the store, all of which are explicit yet.
+void add_plane(PointStore& store, Bytes& bytes) {
+  const auto corner = [&] {
+    return store.nearest(bytes.below(static_cast<std::uint32_t>(store.size())));
+  };
+  PlaneEquation plane{{}, {corner(), {}, {}}};
+  const std::uint32_t kind = bytes.below(3);
+  plane.spanned = kind == 0;
+  if (plane.spanned) {
+    plane.through[1] = corner();
+    plane.through[2] = corner();
+    plane.normal = cross(subtract(plane.through[1], plane.through[0]),
+                         subtract(plane.through[2], plane.through[0]));
+  } else {
+    // Small integers give short denominators, and points that coincide.
+    for (double& x : plane.normal) x = kind == 1 ? bytes.below(5) - 2.0 : bytes.coordinate();
+  }
+  const double length = norm(plane.normal);
+  if (std::isfinite(length) && length > 0) store.add_plane(plane);
+}
+
+// Planes, and points where three of them meet. Points beyond the range of doubles are left out: the
+// mesher has none (results/units).
+void add_meeting_points(PointStore& store, Bytes& bytes) {
+  for (std::uint32_t n = bytes.below(6); n > 0; --n) add_plane(store, bytes);
+  const auto count = static_cast<std::uint32_t>(store.plane_count());
+  const mpq_class most = reference::rational(0x1p1000);
+  for (std::uint32_t n = count < 3 ? 0 : bytes.below(4); n > 0; --n) {
+    const std::array<std::uint32_t, 3> three = {bytes.below(count), bytes.below(count),
+                                                bytes.below(count)};
+    const std::array<PlaneEquation, 3> planes = {store.plane(three[0]), store.plane(three[1]),
+                                                 store.plane(three[2])};
+    if (!reference::meet_in_a_point(planes)) continue;
+    const reference::Point at = reference::meeting_point(planes);
+    if (std::ranges::all_of(at, [&](const mpq_class& x) { return abs(x) < most; })) {
+      store.add_on_planes(three[0], three[1], three[2]);
+    }
+  }
+}
+
+Points read_points(Bytes& bytes, bool with_planes) {
   Points p;
   p.corners = 3 + bytes.below(6);
   // Every second set is nearly in an axis-parallel plane: a corner is in it or an ulp beside it, so
@@ -33,6 +73,10 @@ Points read_points(Bytes& bytes) {
     Vec3 x = {bytes.coordinate(), bytes.coordinate(), bytes.coordinate()};
     if (flat < 3) x[flat] = bytes.below(4) == 0 ? std::nextafter(level, DBL_MAX) : level;
     p.store.add_explicit(x[0], x[1], x[2]);
+  }
+  if (with_planes) {
+    add_meeting_points(p.store, bytes);
+    p.corners = static_cast<VertexId>(p.store.size());
   }
   for (std::uint32_t n = bytes.below(8); n > 0; --n) {
     const VertexId a = bytes.below(p.corners), b = bytes.below(p.corners),
@@ -47,17 +91,16 @@ Points read_points(Bytes& bytes) {
   return p;
 }
 
-// The exact points, in units of a power of two that makes all coordinates integers: predicates do
-// not mind, and rationals without denominators need no common divisors, which took most of the
-// time.
+// The exact points, in units that make all coordinates integers: predicates do not mind, and
+// rationals without denominators need no common divisors, which took most of the time.
 std::vector<reference::Point> integer_points(const std::vector<reference::Point>& exact) {
-  std::size_t bits = 0;
+  mpz_class unit = 1;
   for (const auto& p : exact) {
-    for (const mpq_class& x : p) bits = std::max(bits, mpz_sizeinbase(x.get_den_mpz_t(), 2) - 1);
+    for (const mpq_class& x : p) unit = lcm(unit, x.get_den());
   }
   std::vector<reference::Point> scaled = exact;
   for (auto& p : scaled) {
-    for (mpq_class& x : p) x <<= bits;
+    for (mpq_class& x : p) x *= unit;
   }
   return scaled;
 }
@@ -121,6 +164,16 @@ class Call {
     if (d.kind == PointKind::explicit_point) {
       const Vec3 p = points_.store.nearest(v);
       out << " E(" << std::hexfloat << p[0] << ' ' << p[1] << ' ' << p[2] << ")";
+    } else if (d.kind == PointKind::on_planes) {
+      out << " P(" << std::hexfloat;
+      for (const std::uint32_t n : d.corner) {
+        const PlaneEquation& plane = points_.store.plane(n);
+        for (const double x : plane.normal) out << ' ' << x;
+        for (std::size_t k = 0; k < (plane.spanned ? 3U : 1U); ++k) {
+          for (const double x : plane.through[k]) out << ' ' << x;
+        }
+      }
+      out << ")";
     } else {
       out << (d.kind == PointKind::on_segment ? " S(" : " T(");
       for (int i = 0; i < (d.kind == PointKind::on_segment ? 2 : 3); ++i) {
@@ -214,9 +267,9 @@ class Call {
 
 }  // namespace
 
-Finding predicates_agree(Bytes bytes) {
+static Finding agree(Bytes bytes, bool with_planes) {
   judging({&no_bound});
-  Points points = read_points(bytes);
+  Points points = read_points(bytes, with_planes);
   std::vector<reference::Point> exact;
   for (VertexId v = 0; v < points.store.size(); ++v) {
     exact.push_back(reference::point(points.store, v));
@@ -227,6 +280,14 @@ Finding predicates_agree(Bytes bytes) {
     if (Finding finding = Call(points, at, bytes).compare(); !finding.empty()) return finding;
   }
   return {};
+}
+
+Finding predicates_agree(Bytes bytes) {
+  return agree(bytes, false);
+}
+
+Finding predicates_on_planes_agree(Bytes bytes) {
+  return agree(bytes, true);
 }
 
 }  // namespace tetproof::fuzz

@@ -13,6 +13,8 @@ namespace tetproof::fuzz {
 
 // Every predicate on any mix of points agrees with rational arithmetic.
 Finding predicates_agree(Bytes bytes);
+// The same with meeting points of planes, and segments and triangles between them.
+Finding predicates_on_planes_agree(Bytes bytes);
 
 // A reader refuses in one line or delivers a surface that can be written and read back unchanged.
 // `name` gives the format by its extension.

@@ -48,10 +48,13 @@ inline mpq_class determinant(const std::vector<std::vector<mpq_class>>& m) {
   return sum;
 }
 
-// The solution of three linear equations, by determinants.
-inline Point meeting_point(const std::array<PlaneEquation, 3>& planes) {
+// As three linear equations.
+struct Equations {
   std::vector<std::vector<mpq_class>> m;
   std::vector<mpq_class> height;
+};
+inline Equations equations(const std::array<PlaneEquation, 3>& planes) {
+  Equations result;
   for (const PlaneEquation& plane : planes) {
     std::array<Point, 3> through;
     Point normal;
@@ -60,9 +63,19 @@ inline Point meeting_point(const std::array<PlaneEquation, 3>& planes) {
       for (std::size_t k = 0; k < 3; ++k) through[k][i] = rational(plane.through[k][i]);
     }
     if (plane.spanned) normal = cross(minus(through[1], through[0]), minus(through[2], through[0]));
-    m.push_back({normal[0], normal[1], normal[2]});
-    height.push_back(dot(normal, through[0]));
+    result.m.push_back({normal[0], normal[1], normal[2]});
+    result.height.push_back(dot(normal, through[0]));
   }
+  return result;
+}
+
+inline bool meet_in_a_point(const std::array<PlaneEquation, 3>& planes) {
+  return determinant(equations(planes).m) != 0;
+}
+
+// The solution, by determinants.
+inline Point meeting_point(const std::array<PlaneEquation, 3>& planes) {
+  const auto [m, height] = equations(planes);
   Point result;
   for (std::size_t i = 0; i < 3; ++i) {
     std::vector<std::vector<mpq_class>> replaced = m;
