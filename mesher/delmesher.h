@@ -30,9 +30,9 @@ struct Options : Limits {
   // Input filter (section 7): facets closer than this fraction of the bounding-box diagonal are
   // left to the final step. 0 turns the filter off.
   double tau = 1e-4;
-  // Tetrahedra that the user can do with: if more are predicted, tau is doubled until it fits. The
-  // final mesh conforms all the same, and may still be larger, because it is predicted within a
-  // factor of 3 only (of nine models in ten). 0: no budget.
+  // Tetrahedra wanted at most: if more are predicted, tau is doubled until it fits. The final mesh
+  // conforms all the same. It may still be larger, because the prediction is within a factor of 3
+  // for nine models in ten only. 0: no budget.
   std::uint64_t budget = 0;
   // Corners with an angle below this (degrees) are chamfered; 90 is the paper's, with its proof.
   double acute = 60;

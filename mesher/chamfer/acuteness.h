@@ -10,7 +10,8 @@
 
 namespace delmesher::chamfer {
 
-// The threshold in force at every vertex; an edge obeys the stricter of its ends.
+// The threshold in force at every vertex, as a squared cosine: the smaller, the stricter. An edge
+// obeys the stricter of its ends.
 class Thresholds {
  public:
   explicit Thresholds(const ChamferOptions& options) : options_(options) {}

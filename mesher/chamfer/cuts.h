@@ -11,7 +11,8 @@
 namespace delmesher::chamfer {
 
 // The directions that divide a corner of an acute vertex into equal parts of at most 120 degrees,
-// each of which gets one bridge A-P-Q-B with |AP| = |PQ| = |QB| = step * distance.
+// each of which gets one bridge: from the cut point A on one side over P and Q to the cut point B
+// on the other, with |AP| = |PQ| = |QB| = step * distance.
 struct SplitCorner {
   int parts = 0;  // 1, 2 or 4; 0: the vertex is not acute
   std::array<Vec2, 5> direction;

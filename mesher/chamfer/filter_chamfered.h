@@ -11,9 +11,9 @@ namespace delmesher::chamfer {
 
 // Drops from the set facets responsible for segments shorter than the tolerance (in the scaled
 // coordinates of the surface) and for points, segments and facets without a common point that are
-// closer, smallest first, as far as one drop does not change what was found about the other; at
-// least one if there is any. Looks only at what is made for a vertex with changed[v] != 0. Gives
-// the facets dropped.
+// closer, smallest first. Several at a time if none of them changes what was found about another,
+// and at least one if there is any. Looks only at what is made for a vertex with changed[v] != 0.
+// Gives the facets dropped.
 std::vector<FacetId> drop_for_chamfered_features(const KeptSurface& surface,
                                                  const PointStore& points,
                                                  const ChamferResult& chamfered, double tolerance,

@@ -24,10 +24,10 @@ struct RoundingInput {
   std::vector<std::uint8_t> inside;  // per tetrahedron
   // Where vertices go that are not simply rounded; by point of the store, empty if there are none.
   std::vector<std::array<double, 3>> place;
-  // Vertices that must keep their exact position (input vertices).
+  // Vertices that must keep their exact position: those of the input and of the outer box.
   std::vector<std::uint8_t> fixed;  // per point of the store
-  // Vertices on the surface (may move by a few ulps only); others are free to move inside their
-  // star.
+  // Vertices on the surface or on the box (may move by a few ulps only); others are free to move
+  // inside their star.
   std::vector<std::uint8_t> on_surface;           // per point of the store
   std::vector<std::array<VertexId, 3>> boundary;  // surface faces, to be kept
 };

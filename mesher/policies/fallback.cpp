@@ -64,7 +64,7 @@ InForce Fallback::in_force(double tau) const {
 double Fallback::runaway_length(const Session& session, double tau) {
   constexpr double kRunawayFraction = 1.0 / 4096;
   if (gabriel_ && everywhere()) return 0;
-  // The smallest distance that chamfering and filtering leave between features, roughly.
+  // The filter leaves tau between features, and chamfering a 16th of it: this is a 256th of that.
   if (tau > 0) return tau * session.diagonal * kRunawayFraction;
   if (feature_length_ < 0) {
     feature_length_ =

@@ -1,4 +1,4 @@
-// How far facets may be from planar (Options::planar).
+// Policy: how far facets may be from planar (Options::planar).
 #pragma once
 
 #include "mesher/delmesher.h"
@@ -7,7 +7,8 @@ namespace delmesher::policies {
 
 // The largest distance of a vertex from the plane of its facet, in input units: half of what the
 // surface may deviate, for a triangle may be as far on the other side of the plane. `diagonal` is
-// that of the bounding box.
+// that of the bounding box. For `auto` it is twice the flatness, because planes are moved once more
+// for vertices of more than three.
 double planar_bound(const Surface& surface, const Options& options, double diagonal);
 
 }  // namespace delmesher::policies

@@ -1,4 +1,5 @@
-// Exact geometric predicates on any mix of explicit, on-segment and on-triangle points.
+// Exact geometric predicates on any mix of points: explicit, on a segment, on a triangle, on
+// planes.
 //
 // Stages: (1) one semi-static double filter on nearest doubles for all mixes of kinds, (2) shared
 // supports prove zero, (3) a double-double or expansion stage, (4) exact integers at a common

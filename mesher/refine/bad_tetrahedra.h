@@ -8,8 +8,7 @@
 //  - a live tetrahedron that waits at a level has an entry there;
 //  - no level above the worst one has entries;
 //  - a tetrahedron, dead or alive, is noted as fresh if and only if it is in the list of fresh
-//  ones,
-//    where it is once.
+//    ones, where it is once.
 #pragma once
 
 #include <array>

@@ -20,7 +20,8 @@ class Goal {
   // is bad, which costs at most a split.
   std::uint8_t badness(const PointStore& points, const VertexId* v) const;
 
-  // Squared height, per squared base, of an isosceles triangle whose angle at the apex is delta.
+  // Squared height, per squared base, of an isosceles triangle whose angle opposite its base is
+  // delta.
   double offcentre2() const { return offcentre2_; }
 
  private:

@@ -42,7 +42,7 @@ output::RoundingInput rounding_input(const PointStore& points, std::size_t input
   input.fixed.resize(points.size());
   input.on_surface.resize(points.size());
   for (VertexId v = 0; v < points.size(); ++v) {
-    // Only points of the input and of the box have supports.
+    // Only points on the surface or on the box have planes.
     input.on_surface[v] = points.planes(v).empty() ? 0 : 1;
     input.fixed[v] = v < input_vertices || (points.is_explicit(v) && input.on_surface[v] != 0);
   }

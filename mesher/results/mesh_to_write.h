@@ -24,7 +24,7 @@ inline std::uint8_t repeated_within(Region region, std::uint8_t repeated) {
 }
 
 // `given`: the vertices as given, where they were moved so that facets are planar; else empty.
-// Points of the surface go where they have the same parameters on these.
+// Points on the surface are placed anew on the given vertices, with the same parameters.
 MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& topology,
                             const PointStore& points, std::span<const Vec3> given, Region region);
 

@@ -18,8 +18,8 @@ struct Session {
   Control& control;
   PointStore points;  // the input vertices, then what the stages append
   Predicates predicates{points};
-  SurfaceTopology topology;  // of the input, oriented outwards
-  // As given, where vertices were moved so that facets are planar; else empty.
+  SurfaceTopology topology;  // of the input, or of its stand-in; oriented outwards
+  // The vertices as given, if there is a stand-in; else empty.
   std::vector<Vec3> given;
   double diagonal = 0;  // of the input's bounding box, in its units
 

@@ -1,4 +1,4 @@
-// Up to where edges are taken to be flat but for rounding.
+// How much bend at an edge is taken for rounding.
 #pragma once
 
 #include "mesher/delmesher/surface.h"
@@ -8,8 +8,8 @@ namespace delmesher::surface {
 // The bend of an edge is the largest distance of the corners of its two triangles from the plane of
 // the sum of their area vectors. What is bent by less than 2^-20 of the diagonal of the bounding
 // box is called flat. Returns four times the largest such bend, since the corners of many triangles
-// are farther from their plane than those of two, at most 2^-20 of the diagonal and at least a few
-// roundings of the coordinates; in the units of the surface, which is valid.
+// are farther from their plane than those of two, at most 2^-20 of the diagonal and at least 64 ulp
+// of the largest coordinate; in the units of the surface, which is valid.
 double flatness(const Surface& surface);
 
 }  // namespace delmesher::surface

@@ -4,10 +4,11 @@
 // in as many planes. A *planar group* is an edge-connected set of triangles of one label whose
 // vertices all lie within a noise bound of one plane; the bound is on the whole group, so slightly
 // turning facets do not add up to a bent one. The *stand-in* surface has every group in exactly one
-// plane, some in another triangulation: a vertex of three is the meeting point of their planes
-// (PointKind::on_planes), one of fewer is moved along an axis or two. One of more stays, and planes
-// are moved to contain it, or its triangles leave their groups. The stand-in is certified: exactly
-// planar groups of positive triangles, and no two triangles of the surface meet anew.
+// plane, some in another triangulation. A vertex on the planes of three groups is their meeting
+// point (PointKind::on_planes); a vertex on fewer is moved along an axis or two. A vertex on more
+// stays, and planes are moved to contain it, or triangles at it leave their groups. The stand-in is
+// certified: exactly planar groups of positive triangles, and no two triangles of the surface meet
+// anew.
 #pragma once
 
 #include <cstdint>

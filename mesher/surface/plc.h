@@ -22,7 +22,7 @@ struct PlcSegment {
 // plane of an input facet (or of the outer box).
 struct PlcFacet {
   FacetId input_facet = kNone;  // kNone for the outer box
-  // An explicit triangle spanning the plane, counter-clockwise seen from outside.
+  // A triangle of corners of the surface that spans the plane, counter-clockwise seen from outside.
   std::array<VertexId, 3> frame;
   int axis = 0;       // projection axis for orient2d
   int axis_sign = 1;  // sign of the frame's normal along it

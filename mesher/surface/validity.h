@@ -8,16 +8,15 @@
 
 namespace delmesher::surface {
 
-// Everything check_surface() reports except facets, acute corners and local feature size. With
-// `stop_at_first`, ends at the first kind of defect found (what tetrahedralize() needs to refuse);
-// an inside-out surface is no defect but sets `flipped`. Components oriented otherwise than parity
-// asks for are reported in warnings. `reverse_triangle` tells, per triangle, whether it has to be
-// reversed.
 struct ValidityResult {
   SurfaceReport report;
-  std::vector<std::uint8_t> reverse_triangle;
+  std::vector<std::uint8_t> reverse_triangle;  // per triangle: does it have to be reversed?
 };
 
+// Everything check_surface() reports except facets, acute corners and local feature size. With
+// `stop_at_first`, ends at the first kind of defect found (what tetrahedralize() needs to refuse).
+// An inside-out surface is no defect but sets `report.flipped`. Components oriented otherwise than
+// parity asks for are reported in warnings.
 ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control);
 
 // The surface with the triangles marked by check_validity reversed: outwards by parity.
