@@ -37,7 +37,7 @@ double seconds_since(Clock::time_point start) {
   _exit(code);  // without TetGen's destructors, which are not part of what is measured
 }
 
-// What TetGen means by the integer it throws.
+// Ends with the meaning of the integer that TetGen throws.
 [[noreturn]] void refused(int thrown, const std::string& file) {
   switch (thrown) {
     case 1:
