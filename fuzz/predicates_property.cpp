@@ -47,9 +47,9 @@ Points read_points(Bytes& bytes) {
   return p;
 }
 
-// The exact points, in units of a power of two that makes all coordinates integers: predicates do
-// not mind, and rationals without denominators need no common divisors, which took most of the
-// time.
+// The exact points, in units of a power of two that makes all coordinates integers. Predicates do
+// not depend on the unit, and rationals without denominators need no common divisors, which took
+// most of the time.
 std::vector<reference::Point> integer_points(const std::vector<reference::Point>& exact) {
   std::size_t bits = 0;
   for (const auto& p : exact) {
@@ -62,7 +62,7 @@ std::vector<reference::Point> integer_points(const std::vector<reference::Point>
   return scaled;
 }
 
-// Nearest doubles and remainders are as near as they say: what the filters rest on.
+// Nearest doubles and remainders are as near as they say, on which the filters rely.
 Finding approximations_hold(const PointStore& store, const std::vector<reference::Point>& at) {
   for (VertexId v = 0; v < store.size(); ++v) {
     if (store.is_explicit(v)) continue;
