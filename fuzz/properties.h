@@ -37,7 +37,8 @@ Finding cdt_holds(const delmesher::Surface& surface);
 // No acute angle is left by chamfering, and chamfer distances obey their bound.
 Finding chamfer_holds(const delmesher::Surface& surface);
 
-// What the input filter keeps is not closer than the tolerance.
+// The kept facets are not closer than the tolerance, and none is dropped if all features are
+// farther apart.
 Finding filter_holds(const delmesher::Surface& surface);
 
 // The refined mesh is Delaunay, keeps the angle bound, and ends.

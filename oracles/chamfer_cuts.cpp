@@ -123,11 +123,11 @@ class ChamferNeed {
   OracleReport report_{"chamfer-need", "input vertices"};
 };
 
-// --- what is gone
+// --- the missing parts
 
-// Follows what is left of the boundary of every kept facet. It has to be the facet's own boundary,
-// side by side, but for a detour around each chamfered corner, over points made for that corner,
-// and a strip beside each acute edge, from the points made for one end to those made for the other.
+// Follows the boundary of the rest of every kept facet. It has to be the facet's own boundary, side
+// by side, but for a detour around each chamfered corner, over points made for that corner, and a
+// strip beside each acute edge, from the points made for one end to those made for the other.
 using AreaSum = std::array<ExactSum, 3>;
 
 class ChamferCuts {
@@ -165,7 +165,7 @@ class ChamferCuts {
     Index from, to, edge;
     std::size_t next;
   };
-  struct Link {  // an artificial chain, in the direction of the boundary of what is left
+  struct Link {  // an artificial chain, in the direction of the rest's boundary
     Index to;
     const std::vector<Index>* vertices;
     bool reversed;

@@ -7,7 +7,7 @@
 namespace tetproof::oracles {
 namespace {
 
-// A face within those that have the same lowest corner.
+// A face, listed among the faces with the same lowest corner.
 struct FaceRecord {
   Index middle, high, apex;  // the other corners, and the tetrahedron's fourth
   Index packed;

@@ -1,4 +1,4 @@
-// Which corners of the input are acute (section 4), found on the input alone.
+// Finds the acute corners of the input (section 4), on the input alone.
 #pragma once
 
 #include <functional>

@@ -24,7 +24,7 @@ struct LabelledFace {
   Face face;
   std::int32_t label;
   Index facet;
-  bool even;  // `face` is an even permutation of what is seen from outside the solid
+  bool even;  // `face` is an even permutation of the face seen from outside
   auto operator<=>(const LabelledFace&) const = default;
 };
 
@@ -104,7 +104,7 @@ class SameMesh {
   void compare_regions(std::size_t w, std::size_t r) {
     const bool inside = tets_[r].inside;
     if (w >= mesh_.regions.size()) {
-      // Where all is inside, a file need not say so.
+      // If all tetrahedra are inside, a file need not say so.
       if (!inside || !mesh_.regions.empty()) {
         report_.fail("the file does not say on which side tetrahedron " + std::to_string(w) +
                      " is");

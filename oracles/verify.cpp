@@ -430,7 +430,7 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
   add(check_volume(complex, neighbours, input,
                    2 * slack_ * surface_area(complex, conformity.faces)));
   check_file_quality(complex, neighbours, surface, conformity);
-  // Where the faces' facets are unknown, so are the labels they should have.
+  // If the faces' facets are unknown, so are the labels they should have.
   if (mesh_.boundary.empty() || conformity.report.undecided) return;
   std::vector<Face> listed = mesh_.boundary;
   for (Face& face : listed) {

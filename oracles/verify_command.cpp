@@ -168,7 +168,7 @@ int verify_files(const Arguments& arguments) {
   const int code = failed(report, arguments.options)      ? kFailed
                    : report.verdict == Verdict::undecided ? kLimit
                                                           : kDone;
-  // As text, the report has said it.
+  // As text, the report has given the reason.
   if (code != kDone && arguments.json) {
     std::fprintf(stderr, "tetproof: %s: %s\n", arguments.mesh.c_str(), reason(report).c_str());
   }

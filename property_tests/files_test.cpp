@@ -126,7 +126,7 @@ TEST_F(Files, RecordedPlanesAndTrianglesComeBack) {
 }
 
 // A report for programs leaves standard output to JSON; the reason of a failure is one line on
-// standard error. As text, the report has said it.
+// standard error. A report as text has given the reason already.
 TEST_F(Files, AFailureIsExplainedOnce) {
   write_off("in.off", samples::cube().input);
   write_off("other.off", samples::l_shape().input);

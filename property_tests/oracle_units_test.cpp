@@ -111,7 +111,7 @@ Verdict verdict_on_dented_base(double dent) {
   // In the triangles 3 4 1 and 5 6 2, of equal size.
   mesh.vertices.push_back({0.5, -1, dent});
   mesh.vertices.push_back({0.5, 1, -dent});
-  // Seen from above: the needle without an edge from vertex 8 to B, and what is around it.
+  // Seen from above: the needle without an edge from vertex 8 to B, and its surroundings.
   const std::vector<Face> base = {
       {0, 8, 9}, {8, 1, 9}, {1, 2, 9},  {0, 3, 8},  {3, 1, 8},  {3, 4, 10}, {4, 1, 10}, {1, 3, 10},
       {4, 2, 1}, {4, 5, 2}, {5, 6, 11}, {6, 2, 11}, {2, 5, 11}, {6, 0, 9},  {6, 9, 2},  {6, 3, 0}};

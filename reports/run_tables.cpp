@@ -1,4 +1,4 @@
-// Tables about runs rather than meshes: how long they took, and those that failed.
+// Tables about runs rather than meshes: their times, and the failed ones.
 #include <fmt/format.h>
 
 #include <algorithm>

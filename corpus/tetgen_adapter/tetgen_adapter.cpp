@@ -57,9 +57,9 @@ double seconds_since(Clock::time_point start) {
   }
 }
 
-// Which triangles share a facet marker. TetGen merges adjacent facets of one marker that are almost
-// coplanar, by a tolerance of its own, and keeps the edges between different markers; README.md
-// here has what comes of it.
+// The triangles that share a facet marker. TetGen merges adjacent facets of one marker that are
+// almost coplanar, by a tolerance of its own, and keeps the edges between different markers.
+// README.md has the consequences.
 enum class MarkersBy : std::uint8_t {
   label,     // all triangles of one label of the input
   facet,     // adjacent triangles of one label that are exactly coplanar
