@@ -88,8 +88,8 @@ std::string without(const fs::path& folder, std::string text) {
   return text;
 }
 
-// Of a verifier that did not come to a verdict. Which limit it was stands there with its size, so
-// that one sees whether a larger one might help.
+// Why a verifier did not come to a verdict. The limit that it reached is given with its size, to
+// show whether a larger one might help.
 std::string why_unfinished(const Outcome& outcome, const Limits& limits) {
   const std::string reason = judge(outcome, ExitCodes::ours).reason;
   std::ostringstream text;
@@ -112,8 +112,8 @@ std::string why_unfinished(const Outcome& outcome, const Limits& limits) {
   return text.str();
 }
 
-// Where edges of the input are less than roundings apart, the positions in a file do not tell which
-// mesh edge is whose. A record does, and what it says is checked like anything else.
+// Where edges of the input are less than roundings apart, the positions in a file do not tell to
+// which of them a mesh edge belongs. A record does, and it is checked like anything else.
 bool record_may_tell(int exit_code, const std::string& verdict_json) {
   constexpr int kUndecided = 5;
   if (exit_code == kUndecided) return true;
@@ -124,7 +124,8 @@ bool record_may_tell(int exit_code, const std::string& verdict_json) {
   return false;
 }
 
-// Says nothing about the mesher: with more time or memory it might have ended otherwise.
+// Does the disposition say nothing about the mesher? With more time or memory it might have ended
+// otherwise.
 bool is_limit(Disposition disposition) {
   return disposition == Disposition::timeout || disposition == Disposition::out_of_memory ||
          disposition == Disposition::killed;
@@ -284,8 +285,8 @@ class Job {
                                      "--declared-deviation",
                                      deviation.str()};
     if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
-    // Ours is held to the options that it was asked with. Others were not asked for planar facets:
-    // theirs is the surface as given, but for the deviation that they declare.
+    // Our mesher is held to the options that it was called with. Other meshers were not asked for
+    // planar facets: their surface is the one given, but for the deviation that they declare.
     argv.insert(argv.end(),
                 {"--promised", mesher_.sidecar_command ? mesher_.flags : "mesh --planar 0"});
     start(argv, options_.verify_limits);
@@ -309,7 +310,8 @@ class Job {
       const std::string prefix = "tetproof: " + files_.mesh.string() + ": ";
       wrong("verify: " + (said.starts_with(prefix) ? said.substr(prefix.size()) : said));
     } else if (!told || outcome.exit_code != 0) {
-      // Not the mesher's fault, but nobody vouches for the mesh: the row becomes unverified.
+      // This is not the mesher's fault, but no oracle vouches for the mesh: the row becomes
+      // unverified.
       const std::string reason = without_folder(why_unfinished(outcome, options_.verify_limits));
       row_.verdict_json = Json({{"error", reason}}).dump();
     }
@@ -329,7 +331,8 @@ class Job {
     row_.reason += (row_.reason.empty() ? "" : "; ") + without_folder(reason);
   }
 
-  // Reasons must not tell two runs of the same model apart by where they or the model were.
+  // Reasons must not differ between two runs of the same model by the folders of the run or the
+  // model.
   std::string without_folder(std::string text) const {
     return without(model_.path.parent_path(), without(folder_, std::move(text)));
   }
@@ -389,8 +392,8 @@ class Campaign {
         database_(options.database, ResultsDatabase::Mode::write),
         scratch_(fs::absolute(options.database).string() + ".scratch"),
         progress_(names_of(meshers), models.size(), options.jobs, options.terminal) {
-    // The lock on the database makes this folder ours: what is in it was left by a killed run,
-    // whose last child may still be about to be killed, hence a folder of our own in it.
+    // The lock on the database makes this folder ours. Its contents were left by a killed run,
+    // whose last child may still be about to be killed; so this run uses a folder of its own in it.
     std::error_code ignored;
     fs::remove_all(scratch_, ignored);
     for (const Mesher& mesher : meshers) summary_.meshers.push_back({.mesher = mesher.name});
@@ -420,7 +423,7 @@ class Campaign {
   }
 
  private:
-  // A program that is not there would refuse every model.
+  // A program that does not exist would refuse every model.
   void probe_meshers() const {
     for (const Mesher& mesher : meshers_) {
       const std::string why = why_not_runnable(mesher.line, options_.supervisor);
@@ -467,7 +470,7 @@ class Campaign {
     return !running_.empty();
   }
 
-  // Asked between models only, so that every model begun has all its runs.
+  // Checked between models only, so that every model begun has all its runs.
   bool out_of_time() const {
     return options_.stop_after_seconds > 0 && seconds_since(start_) >= options_.stop_after_seconds;
   }
@@ -486,7 +489,7 @@ class Campaign {
         continue;
       }
       const std::string& mesher = job.mesher().name;
-      // Later it is a matter of that model: it did run on another.
+      // If it ran on another model before, the reason lies in this model.
       if (job.cannot_run() && !ran_.contains(mesher)) {
         progress_.finish();
         throw CannotRun(mesher + ": " + job.row().reason);
@@ -515,7 +518,7 @@ class Campaign {
   Progress progress_;
   std::string host_ = host_name();
   Clock::time_point start_ = Clock::now();
-  std::set<std::string> ran_;  // meshers that have ended otherwise than by not being there
+  std::set<std::string> ran_;  // meshers that could be run at least once
   std::size_t next_ = 0;
   std::list<std::unique_ptr<Job>> running_;
   CampaignSummary summary_;

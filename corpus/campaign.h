@@ -22,20 +22,22 @@ struct CampaignOptions {
   std::uint64_t keep_tetrahedra = 0;  // keep none with more than this; 0: no bound
   std::set<Disposition> retry;        // rows that ended so are run again
   Limits limits;
-  // Of the children that look at a mesh: they must not hang or eat the machine either, whatever a
-  // mesher wrote. Processor time decides, so that a busy machine changes no verdict.
+  // Limits of the children that look at a mesh. They must not hang or exhaust the machine either,
+  // whatever a mesher wrote. Processor time decides, so that a busy machine changes no verdict.
   Limits verify_limits = {.wall_seconds = 7200, .cpu_seconds = 900, .memory_bytes = 8ull << 30};
   unsigned jobs = 1;
   double stop_after_seconds = 0;  // begin no further model after this long; 0: no bound
   bool verify = true;             // ask `tetproof verify` for a verdict on each mesh
-  // With `verify`: meshers that know sidecars write one in a second run, which counts for nothing
-  // else but has to write the same bytes, and the oracles that need one are asked as well.
+  // With `verify`: meshers that know sidecars write one in a second run, and the oracles that need
+  // one are asked as well. The second run has to write the same bytes; otherwise it counts for
+  // nothing. Without this option there is a second run only where the file alone does not decide
+  // conformity.
   bool sidecars = false;
   bool terminal = false;  // one live line rather than a line per run
 };
 
 struct CampaignSummary {
-  std::size_t present = 0;           // rows that were there already
+  std::size_t present = 0;           // rows that were in the database already
   std::vector<MesherCount> meshers;  // rows of this campaign, old and new, in the order given
   double elapsed_seconds = 0;
   bool interrupted = false;
@@ -55,7 +57,8 @@ bool campaign_interrupted();
 // The limits as part of a row's key.
 std::string describe(const Limits& limits);
 
-// Time of the meshing proper in a mesher's statistics: all phases but read, check and write.
+// The time of meshing alone by a mesher's statistics, in seconds: all phases but read, check and
+// write.
 std::optional<double> mesh_seconds(const std::string& stats_json);
 
 }  // namespace tetproof

@@ -217,7 +217,7 @@ TEST_F(CampaignTest, TheOraclesAreAskedUnlessToldNotTo) {
   EXPECT_EQ(wrong.reason.find("scratch"), std::string::npos) << wrong.reason;
 }
 
-// Whatever keeps the oracles from a verdict: the mesh is not ok then, and not wrong either.
+// If the oracles come to no verdict, for whatever reason, the mesh is neither ok nor wrong.
 TEST_F(CampaignTest, AMeshThatNoOracleHasFinishedWithIsUnverified) {
   make_surface(0);
   const auto mesher = shell("v", "printf '" + kCorner + "' > mesh.tet");
@@ -297,8 +297,8 @@ TEST_F(CampaignTest, VerdictsAndSidecars) {
   EXPECT_EQ(rows["plain"].verdict_json.find("no_sidecar"), std::string::npos);
 }
 
-// Where the file alone does not conform, our meshers are asked for their record without --exact;
-// nobody else has one.
+// If the file alone does not conform, our meshers are asked for their record without --exact; no
+// other mesher has one.
 TEST_F(CampaignTest, ARecordIsTakenWhereTheFileAloneDoesNotTell) {
   make_surface(0);
   options_.verify = true;
@@ -332,14 +332,14 @@ TEST_F(CampaignTest, ARecordIsTakenWhereTheFileAloneDoesNotTell) {
   EXPECT_EQ(undecided.disposition, Disposition::unverified);
   EXPECT_EQ(undecided.reason, "the oracles have not finished: own limit: why");
   EXPECT_EQ(decided.disposition, Disposition::ok);
-  // A record has nothing to say about anything else.
+  // A record tells nothing about other failures.
   const auto [bad, worse] = dispositions(
       R"({"verdict": "broken", "oracles": [{"name": "conformity", "passed": true}]})", 1);
   EXPECT_EQ(bad.disposition, Disposition::wrong_result);
   EXPECT_EQ(worse.disposition, Disposition::wrong_result);
 }
 
-// A program that is not there says nothing about any model: no row, and an error at the start.
+// A program that does not exist says nothing about any model: no row, and an error at the start.
 TEST_F(CampaignTest, WhatCannotBeRunEndsTheCampaign) {
   const auto error_of = [&](const std::vector<std::string>& lines) -> std::string {
     std::vector<Mesher> meshers;
@@ -367,11 +367,11 @@ TEST_F(CampaignTest, WhatCannotBeRunEndsTheCampaign) {
                                              (folder_ / "no-shell").string() + " cannot be run");
   EXPECT_TRUE(error_of({"./plain"}).find("an absolute path is expected") != std::string::npos);
   EXPECT_EQ(row_count(), 0U);
-  // What only the shell sees through is seen at the first model.
+  // A line that only the shell understands fails at the first model.
   EXPECT_EQ(error_of({"sh -c no-such-mesher"}).find("m0: exit 127: "), 0U);
   EXPECT_EQ(error_of({"cd / && " + plain.string()}).find("m0: exit 126: "), 0U);
   EXPECT_EQ(row_count(), 0U);
-  // After a model on which it did run it is that model's, and so it is when resumed.
+  // If it ran on a model before, the failure is that of the next model, and so it is when resumed.
   const std::string second = "case {in} in *m1.off) exit 127;; *) exit 4;; esac";
   EXPECT_EQ(error_of({second}), "");
   EXPECT_EQ(row_count(), 3U);

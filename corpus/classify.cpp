@@ -29,7 +29,7 @@ constexpr std::array kValidities = {"valid", "invalid", "unreadable", "undecided
 
 std::optional<bool> without(const Classification& c, std::initializer_list<const char*> kinds) {
   if (c.validity != Validity::valid && c.validity != Validity::invalid) return std::nullopt;
-  // With these the check goes no further.
+  // With these defects the check goes no further.
   for (const char* fatal : {"non-finite coordinate", "vertex index out of range", "no triangles"}) {
     if (c.defects.contains(fatal)) return std::nullopt;
   }

@@ -23,7 +23,7 @@ enum class Validity : std::uint8_t {
   valid,
   invalid,     // a surface, but not a valid one
   unreadable,  // no surface at all
-  undecided    // the check ran into a limit or failed
+  undecided    // the check reached a limit or failed
 };
 
 struct Classification {
@@ -34,7 +34,7 @@ struct Classification {
   std::map<std::string, std::uint64_t> defects;  // by kind, for example "open edge"
   std::string reason;                            // the first defect, or why it is not readable
 
-  // Nothing where the file was not read so far.
+  // Nothing if the check did not get that far.
   std::optional<bool> closed() const;
   std::optional<bool> manifold() const;
   std::optional<bool> oriented() const;
@@ -48,8 +48,8 @@ struct ClassifyOptions {
   Limits limits = {.wall_seconds = 300, .cpu_seconds = 300, .memory_bytes = 4ull << 30};
 };
 
-// Judges by `delmesher check`, in a child process per file; stops early, with what there is, after
-// interrupt_campaign(). `done` is called for each in the order in which they end.
+// Judges by `delmesher check`, in a child process per file. Stops early after interrupt_campaign(),
+// with the results so far. `done` is called for each in the order in which they end.
 std::vector<Classification> classify(const std::vector<Model>& models,
                                      const ClassifyOptions& options,
                                      const std::function<void(const Classification&)>& done);

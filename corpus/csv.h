@@ -9,7 +9,7 @@
 
 namespace tetproof {
 
-// Cells by the name of their column; what the header does not name is empty.
+// Cells by the name of their column. The cell of an unknown column is empty.
 class CsvRecord {
  public:
   explicit CsvRecord(std::map<std::string, std::string> cells) : cells_(std::move(cells)) {}

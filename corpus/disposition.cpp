@@ -11,7 +11,7 @@
 namespace tetproof {
 namespace {
 
-// Programs report on either stream; errors proper win.
+// Programs report on either stream; standard error comes first.
 std::string last_words(const Outcome& outcome) {
   const std::string words = last_line(outcome.stderr_tail);
   return words.empty() ? last_line(outcome.stdout_tail) : words;

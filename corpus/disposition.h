@@ -1,5 +1,5 @@
-// What became of a run, judged by how the child ended. Whether a delivered mesh is any good is
-// decided afterwards, from the file.
+// The disposition of a run, judged by how the child ended. The mesh is judged afterwards, from the
+// file.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Files that are complete or not there, and folders that go away.
+// Writes files that are complete or not there, and makes folders that are removed again.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,8 @@
 
 namespace tetproof {
 
-// Written beside and renamed. \throw std::runtime_error if that fails.
+// Writes the text to a file beside it, which is then renamed. \throw std::runtime_error if that
+// fails.
 void write_whole(const std::filesystem::path& path, const std::string& text);
 
 // A new folder for temporary files, removed with all that is in it.

@@ -119,7 +119,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-// The program that a command line begins with, if it is a file; shells may begin otherwise.
+// The program file that a command line begins with; nothing if the line begins otherwise.
 std::optional<fs::path> program_of(const std::string& line) {
   const auto words = words_of(line);
   if (words.empty()) return std::nullopt;

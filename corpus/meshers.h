@@ -10,7 +10,7 @@
 
 namespace tetproof {
 
-// Where the programs are.
+// The paths of the programs.
 struct MesherPrograms {
   std::filesystem::path supervisor;  // tetproof-supervise
   std::filesystem::path delmesher;
@@ -21,7 +21,7 @@ struct MesherPrograms {
 struct RunFiles {
   std::filesystem::path input, mesh, stats;
   std::filesystem::path again = {}, exact = {};
-  std::filesystem::path chamfered = {};  // for ours; empty: not wanted
+  std::filesystem::path chamfered = {};  // for our mesher; empty: not wanted
 };
 
 struct Mesher {
@@ -30,7 +30,7 @@ struct Mesher {
   std::string flags;    // everything of the command that is not a file of the run
   std::string region;   // what it meshes: "interior", "hull" or "" if not known
   std::string mesh_extension;
-  std::string line;               // of shell, if it is a command of the user
+  std::string line;               // for the shell, if it is a command of the user
   double declared_deviation = 0;  // fraction of the diagonal by which it may miss the surface
   ExitCodes exit_codes = ExitCodes::unknown;
   std::function<std::vector<std::string>(const RunFiles&)> command;

@@ -24,9 +24,9 @@ bool is_surface_file(const fs::path& path) {
   return extension == ".off" || extension == ".obj" || extension == ".stl" || extension == ".ply";
 }
 
-// Links to folders are followed, but every folder is entered once, whatever leads to it, so that a
-// link to a folder above is no cycle. What is there without links comes first: names then do not
-// depend on the links.
+// Follows links to folders, but enters every folder once, whatever leads to it, so that a link to a
+// folder above is no cycle. Folders reached without links come first, so that names do not depend
+// on the links.
 class Walk {
  public:
   std::vector<fs::path> files_in(const fs::path& folder) {
@@ -61,7 +61,7 @@ Model make_model(const fs::path& path, const std::string& name) {
   return {fs::absolute(path).lexically_normal(), name, sha256_of_file(path), fs::file_size(path)};
 }
 
-// The hashes of so many models of at most this size, in the order of the hashes.
+// The first `count` hashes of models of at most this size, in the order of the hashes.
 std::set<std::string> first_by_hash(const std::vector<Model>& models, std::size_t count,
                                     std::uint64_t bytes) {
   std::set<std::string> hashes;

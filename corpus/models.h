@@ -17,15 +17,16 @@ struct Model {
 
 struct ModelList {
   std::vector<Model> models;  // in the order of the arguments, folders sorted by path
-  std::vector<std::filesystem::path> duplicates;  // same bytes as an earlier one: left out
+  std::vector<std::filesystem::path> duplicates;  // left out: same bytes as an earlier one
 };
 
-// Files are taken as they are; folders with all their .off, .obj, .stl and .ply files, at any
-// depth, also behind links to folders; a folder that several paths lead to is entered once. \throw
+// Files are taken as they are, folders with all their .off, .obj, .stl and .ply files at any depth.
+// Links to folders are followed, but a folder that several paths lead to is entered once. \throw
 // std::runtime_error if a path does not exist or cannot be read.
 ModelList collect_models(const std::vector<std::filesystem::path>& paths);
 
-// Part `index` of `count` (1-based) in a division by hash, the same whatever else is in the list.
+// Part `index` of `count` (1-based) in a division by hash. A model's part does not depend on the
+// rest of the list.
 std::vector<Model> shard_of(const std::vector<Model>& models, unsigned index, unsigned count);
 
 // How much of a collection a campaign takes. Every tier is part of the next larger one.
@@ -38,8 +39,8 @@ enum class Tier : std::uint8_t {
 // \throw std::runtime_error for anything but smoke, nightly and weekly.
 Tier tier_from_name(const std::string& name);
 
-// The first small enough models by hash, in the order of the list, so that a tier hardly changes
-// when the collection grows.
+// The first models by hash among those small enough, in the order of the list, so that a tier
+// hardly changes when the collection grows.
 std::vector<Model> tier_of(const std::vector<Model>& models, Tier tier);
 
 }  // namespace tetproof

@@ -28,7 +28,7 @@ void ignore_signals() {
   }
 }
 
-// Until this process has used so much processor time.
+// Runs until this process has used this much processor time.
 void burn(double seconds) {
   volatile std::uint64_t sink = 0;
   const auto limit = static_cast<clock_t>(seconds * CLOCKS_PER_SEC);
@@ -37,7 +37,8 @@ void burn(double seconds) {
   }
 }
 
-// DEPTH processes below one another, each of which starts COUNT that burn one after the other.
+// DEPTH processes below one another, each of which starts COUNT processes that burn one after the
+// other.
 void burn_in_tree(int depth, int count, double seconds) {
   for (int i = 0; i < count; ++i) {
     if (fork() == 0) {

@@ -1,12 +1,12 @@
-// Names of files in lines of text.
+// Prepares names of files for lines of text.
 #pragma once
 
 #include <string>
 
 namespace tetproof {
 
-// Control characters, among them newlines and what moves a terminal's cursor, become '?', so that a
-// line stays one line whatever a file is called.
+// Control characters become '?', among them newlines and characters that move a terminal's cursor,
+// so that a line stays one line whatever a file is called.
 inline std::string printable(std::string text) {
   for (char& c : text) {
     const auto code = static_cast<unsigned char>(c);

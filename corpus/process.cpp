@@ -34,7 +34,7 @@ std::array<int, 2> make_pipe() {
   return ends;
 }
 
-// Starts with control as standard input and report as descriptor 3.
+// Starts the program with `control` as standard input and `report` as descriptor 3.
 pid_t spawn(const std::vector<std::string>& argv, int control, int report) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

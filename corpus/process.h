@@ -26,7 +26,7 @@ class SupervisedProcess {
   ~SupervisedProcess();
 
   int fd() const { return report_fd_; }
-  // Reads what there is; true once the job is over and outcome() is final.
+  // Reads the report as far as it is there. True once the job is over and outcome() is final.
   bool advance();
   // Asks for the end of the job: everything below the supervisor is killed.
   void stop();
@@ -48,7 +48,7 @@ Outcome run_supervised(const std::filesystem::path& supervisor, const ProcessSpe
 // A program installed or built beside the running one.
 std::filesystem::path beside_this_program(const std::string& name);
 
-// Text of a signal as in "SIGSEGV".
+// The name of a signal, as in "SIGSEGV".
 std::string signal_name(int signal);
 
 }  // namespace tetproof

@@ -113,7 +113,7 @@ TEST(Process, CpuLimitCountsGrandchildren) {
   for (const pid_t pid : noted(pids)) EXPECT_FALSE(alive(pid));
 }
 
-// Each of them is short, and the mesher waits for each: 2 s in all without any that lives long.
+// Each child is short, and the mesher waits for each: 2 s in all, though none lives long.
 TEST(Process, CpuLimitCountsChildrenThatWereWaitedFor) {
   const Outcome o =
       nasty({"burn-in-turn", "1", "40", "0.05"}, {.wall_seconds = 60, .cpu_seconds = 0.5});
@@ -130,8 +130,8 @@ TEST(Process, CpuLimitCountsGrandchildrenThatWereWaitedFor) {
   EXPECT_LT(o.cpu_seconds, 1);
 }
 
-// 0.6 s of children, of whom everybody is in somebody's account by turns: a limit of 0.9 s is not
-// reached, as it would be if any were counted twice.
+// 0.6 s of children, each of which is in another process's account by turns. A limit of 0.9 s is
+// not reached, as it would be if any were counted twice.
 TEST(Process, CpuOfNobodyIsCountedTwice) {
   const Outcome o =
       nasty({"burn-in-turn", "3", "4", "0.05"}, {.wall_seconds = 60, .cpu_seconds = 0.9});
@@ -140,7 +140,7 @@ TEST(Process, CpuOfNobodyIsCountedTwice) {
   EXPECT_LT(o.cpu_seconds, 0.9);
 }
 
-// The parent ignores SIGCHLD: the kernel adds the time of such children to nobody's.
+// The parent ignores SIGCHLD, so the kernel adds the time of such children to no account.
 TEST(Process, CpuLimitCountsChildrenThatNobodyWaitsFor) {
   const Outcome o = nasty({"burn-forgotten", "20", "0.2"}, {.wall_seconds = 60, .cpu_seconds = 1});
   EXPECT_EQ(o.ending, Ending::cpu_limit);
@@ -159,7 +159,7 @@ TEST(Process, SharedPagesAreCountedOnce) {
   EXPECT_LT(o.peak_rss_bytes, 180u << 20);
 }
 
-// Until the children write: then each has its own.
+// Pages are shared until the children write; then each has its own.
 TEST(Process, PagesWrittenAfterAForkAreNotShared) {
   const Outcome o =
       nasty({"share", "120", "3", "30", "write"}, {.wall_seconds = 60, .memory_bytes = 250u << 20});
@@ -230,7 +230,7 @@ TEST(Process, StoppedOnRequest) {
   EXPECT_FALSE(alive(noted(pids)[0]));
 }
 
-// Whoever kills the runner with signal 9 does not leave its meshers running.
+// If the runner is killed with signal 9, its meshers do not go on running.
 TEST(Process, DeathOfTheRunnerEndsTheJob) {
   const auto pids = fresh_file("orphans");
   const pid_t runner = fork();

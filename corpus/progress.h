@@ -1,5 +1,5 @@
-// What the user sees of a campaign: one live line on a terminal, a line per run in a pipe, and a
-// table by mesher at the end.
+// The progress of a campaign on the screen: one live line on a terminal, a line per run in a pipe,
+// and a table by mesher at the end.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace tetproof {
 
-// The runs of one mesher, those that were there already included.
+// The runs of one mesher, including those that were in the database already.
 struct MesherCount {
   std::string mesher;
   std::array<std::size_t, kDispositionCount> counts{};  // by disposition
@@ -32,14 +32,14 @@ std::string count_table(const std::vector<MesherCount>& meshers);
 // "7.2 s", "3:05 min", "2:10 h".
 std::string duration_text(double seconds);
 
-// How long a campaign will go on: what is left of every mesher takes as long as those of its runs
-// that were made so far did on average, those of which there is none yet as long as all on average.
+// Estimates how long a campaign will go on. The remaining runs of a mesher take as long as its runs
+// so far did on average, or as all runs did if it has none yet.
 class RemainingTime {
  public:
   void expect(const std::string& mesher, std::size_t runs) { of_[mesher].left += runs; }
   void already_done(const std::string& mesher) { --of_[mesher].left; }
   void done(const std::string& mesher, double seconds);
-  // Nothing before the first run was made. \param jobs runs at a time
+  // Nothing before the first run has ended. \param jobs runs at a time
   std::optional<double> seconds(unsigned jobs) const;
 
  private:

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr int kNotExecutable = 126, kNotFound = 127;  // POSIX, "Exit Status for Commands"
 
-// The first word of a command line if it is a plain one, as it is without any expansion.
+// The first word of a command line if it is plain, that is, if no expansion changes it.
 std::string plain_first_word(const std::string& line) {
   std::istringstream in(line);
   std::string word;
@@ -31,7 +31,7 @@ std::string why_no_interpreter(const fs::path& program) {
   std::ifstream file(program, std::ios::binary);
   std::string line;
   if (file.get() != '#' || file.get() != '!' || !std::getline(file, line)) return "";
-  // As the kernel does: a carriage return belongs to the name.
+  // As in the kernel, a carriage return belongs to the name.
   const auto start = std::min(line.find_first_not_of(" \t"), line.size());
   const std::string interpreter = line.substr(start, line.find_first_of(" \t", start) - start);
   if (access(interpreter.c_str(), X_OK) == 0 && fs::is_regular_file(interpreter)) return "";
@@ -40,7 +40,7 @@ std::string why_no_interpreter(const fs::path& program) {
 
 std::string why_not_runnable(const std::string& line, const fs::path& supervisor) {
   const std::string word = plain_first_word(line);
-  // Prints the path of a program, and the name of what the shell has built in.
+  // Prints the path of a program, or the name of a command that the shell has built in.
   const ProcessSpec ask = {
       .argv = {"/bin/sh", "-c", "command -v -- \"$1\"", "sh", word.empty() ? "true" : word},
       .directory = "/",

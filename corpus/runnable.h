@@ -9,19 +9,19 @@
 
 namespace tetproof {
 
-// A mesher that cannot be run on any model: its program is not there, is not executable, or is a
-// script whose interpreter is not there. Says nothing about any model, and ends a campaign.
+// A mesher that cannot be run on any model: its program does not exist, is not executable, or is a
+// script whose interpreter does not exist. Says nothing about any model, and ends a campaign.
 struct CannotRun : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Why the program that a line of shell begins with cannot be run, or empty. Lines that begin with
-// something that only the shell knows (a keyword, a variable) are not seen through; what they come
-// to is seen at the first model, see cannot_run().
+// Why the program that a line of shell begins with cannot be run; empty if it can. Lines that begin
+// with something that only the shell knows (a keyword, a variable) are not examined; cannot_run()
+// decides on them at the first model.
 // \throw CannotRun if not even the supervisor or the shell can be run.
 std::string why_not_runnable(const std::string& line, const std::filesystem::path& supervisor);
 
-// Why a script's interpreter ("#!" in its first line) cannot be run, or empty.
+// Why a script's interpreter ("#!" in its first line) cannot be run; empty if it can.
 std::string why_no_interpreter(const std::filesystem::path& program);
 
 // Did the run end because there was nothing to run: exec failed, or a shell says so by its exit

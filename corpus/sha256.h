@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4), by which models and binaries are identified.
+// SHA-256 (FIPS 180-4), which identifies models and binaries.
 #pragma once
 
 #include <array>

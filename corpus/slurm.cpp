@@ -66,7 +66,7 @@ class Waiter {
   }
 
  private:
-  // Shards that are done are done for one request only; their rows stay in any case.
+  // Finished shards are finished for one request only; their rows stay in any case.
   void begin_anew_if_changed() const {
     const std::string script = task_script(campaign_);
     std::ifstream file(campaign_.folder / "task.sh");
@@ -121,7 +121,7 @@ class Waiter {
     return id.substr(0, id.find(';'));  // with several clusters the name of one follows
   }
 
-  // Until no task of the job is left; false if interrupted.
+  // Waits until no task of the job is left; false if interrupted.
   bool wait_for(const std::string& job) const {
     int silent = 0;
     std::string before;
@@ -167,7 +167,7 @@ std::string task_script(const SlurmCampaign& campaign) {
   std::string command;
   for (const std::string& word : campaign.task) command += shell_quoted(word) + " ";
   const std::string stem = shell_quoted((campaign.folder / "shard-").string());
-  // A task that ends without leaving its .done file is lost, whatever ended it.
+  // A task that ends without making its .done file is lost, whatever ended it.
   return fmt::format(
       "#!/bin/sh\n# models: {}\n"
       "echo \"== $(date -u +%FT%TZ) task $SLURM_ARRAY_TASK_ID on $(hostname)\"\n"

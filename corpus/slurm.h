@@ -1,9 +1,9 @@
-// A campaign as a Slurm job array: one task per shard, each with a database of its own; lost tasks
-// are submitted again and resume; the shards are merged when all are done.
+// A campaign as a Slurm job array: one task per shard, each with a database of its own. Lost tasks
+// are submitted again and resume. The shards are merged when all are done.
 //
 // Laws: whatever is killed, the merged rows are those of a run on one machine (times, memory and
-// hosts excepted); the same request again waits for what is running, submits what is lost, and
-// changes nothing once all is merged.
+// hosts excepted). The same request again waits for running tasks, submits lost ones, and changes
+// nothing once all is merged.
 #pragma once
 
 #include <filesystem>
@@ -29,10 +29,10 @@ enum class SlurmEnd : std::uint8_t {
   merged,       // all shards are done
   lost,         // tasks were lost more often than `retries`
   interrupted,  // by interrupt_campaign(): the tasks go on
-  failed        // Slurm does not take the job; the reason was told
+  failed        // Slurm does not accept the job; `tell` got the reason
 };
 
-// Tells what happens, a line each.
+// Gets messages about the progress, a line each.
 using Tell = std::function<void(const std::string&)>;
 
 // Submits, waits, submits again.

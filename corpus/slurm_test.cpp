@@ -1,4 +1,4 @@
-// The job array with made-up sbatch and squeue; ci/slurm has the real ones.
+// The job array with made-up sbatch and squeue; `ci/campaign_check --slurm` has the real ones.
 #include "corpus/slurm.h"
 
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ class SlurmTest : public testing::Test {
     std::ofstream(folder_ / name) << text;
     fs::permissions(folder_ / name, fs::perms::owner_all);
   }
-  // What a task does; it is called with --db FILE --shard I/N.
+  // The script of a task; it is called with --db FILE --shard I/N.
   void task(const std::string& line) {
     script("task",
            "#!/bin/sh\necho \"$@\" >> " + (folder_ / "tasks").string() + "\n" + line + "\n");

@@ -1,5 +1,5 @@
-// Mutation of bytes that a target reads numbers from: now and then all of them anew, so that inputs
-// are long enough for something to be made of them from the start. Deterministic in the seed.
+// Mutation of bytes that a target reads numbers from. Now and then all of them are replaced, so
+// that inputs are long enough for a target from the start. Deterministic in the seed.
 #include <algorithm>
 
 #include "corpus/generate/random.h"

@@ -33,7 +33,7 @@ Leniency not_spatial("points-in-one-plane", 0.3);
 
 constexpr std::uint32_t kMostPoints = 300;
 
-// Point by point, with any doubles: two dozen are enough for what goes wrong among few.
+// Points one by one, with any doubles: two dozen show what goes wrong among few points.
 Points points_of_bytes(Bytes& bytes) {
   Points points;
   while (!bytes.empty() && points.size() < 24) {
@@ -43,8 +43,8 @@ Points points_of_bytes(Bytes& bytes) {
   return points;
 }
 
-// As many as wanted from a seed, with many ties or with nearly so: on a grid, on a sphere of a
-// grid, near a plane, in clusters, anywhere.
+// Any number of points from a seed, with many ties or nearly so: on a grid, on a sphere of a grid,
+// near a plane, in clusters, anywhere.
 Points points_of_seed(Bytes& bytes) {
   const std::uint32_t kind = bytes.below(6), count = 4 + (bytes.byte() << 8 | bytes.byte()) % 297;
   const int fine = 1 + static_cast<int>(bytes.below(7));
@@ -112,7 +112,7 @@ bool span_space(const oracles::ExactPoints& p) {
   return false;
 }
 
-// CGAL's exact arithmetic takes its time where coordinates differ by hundreds of binary digits.
+// CGAL's exact arithmetic is slow where coordinates differ by hundreds of binary digits.
 bool similar(const Points& points) {
   int low = INT_MAX, high = INT_MIN;
   for (const auto& p : points) {
@@ -130,9 +130,9 @@ Cell sorted(Cell cell) {
   return cell;
 }
 
-// Every tetrahedron positive, and no point in the sphere of any: of few points by asking all, of
-// more by asking those beside its faces, which is enough in a complex that fills the hull. `ties`
-// tells whether a point lies on one.
+// Every tetrahedron is positive, and no point is in the sphere of any. Among few points all are
+// asked; among more the points beside its faces, which is enough in a complex that fills the hull.
+// `ties` tells whether a point lies on a sphere.
 class Judge {
  public:
   Judge(const oracles::ExactPoints& points, const std::vector<Cell>& cells)
@@ -173,8 +173,7 @@ class Judge {
     return {};
   }
 
-  // The faces of one tetrahedron only have all points on their inner side, or the hull is not
-  // covered.
+  // Faces of one tetrahedron only have all points on their inner side, or the hull is not covered.
   Finding judge_hull() const {
     for (const auto& [key, face] : faces_) {
       if (face.cells.size() == 2) continue;
@@ -188,8 +187,8 @@ class Judge {
     return {};
   }
 
-  // The tetrahedra together are as large as what the hull's faces enclose, seen from a point: else
-  // two of them use a face from the same side.
+  // The tetrahedra together have the volume that the hull's faces enclose, seen from a point.
+  // Otherwise two of them use a face from the same side.
   Finding judge_volume() const {
     oracles::ExactSum inside, around;
     for (const Cell& c : cells_) inside += exact::volume6(points_, c[0], c[1], c[2], c[3]);
@@ -231,7 +230,7 @@ class Judge {
   std::map<std::array<std::uint32_t, 3>, Face> faces_;
 };
 
-// No ties, so there is only one.
+// Without ties there is only one Delaunay tetrahedrization.
 Finding compare_with_cgal(const Points& coordinates, const std::set<Cell>& cells) {
   std::vector<Point> p;
   for (const auto& [x, y, z] : coordinates) p.emplace_back(x, y, z);

@@ -61,7 +61,7 @@ int on_text(const std::uint8_t* data, std::size_t size, Finding (*property)(cons
 
 namespace {
 
-// With the exponent modulo `most`.
+// x with its exponent modulo `most`.
 double narrowed(double x, int most) {
   return x == 0 ? x : std::ldexp(x, std::ilogb(x) % most - std::ilogb(x));
 }

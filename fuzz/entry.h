@@ -1,4 +1,5 @@
-// What the fuzz targets have in common: from bytes to one property, and how a finding is told.
+// Code that the fuzz targets share: the way from bytes to one property, and the report of a
+// finding.
 #pragma once
 
 #include <cstddef>
@@ -14,16 +15,17 @@ namespace tetproof::fuzz {
 // names the kind of failure: findings with the same name and place are one finding.
 using Finding = std::string;
 
-// Surfaces with more triangles teach nothing new but take longer.
+// Surfaces with more triangles show nothing new but take longer.
 inline constexpr std::size_t kLargestSurface = 160;
 
-// The bytes as an OFF file; null if they are none or if it is too large.
+// The bytes read as an OFF file; nothing if they are none, or if it has no triangle or too many.
 std::optional<delmesher::Surface> parse(const std::uint8_t* data, std::size_t size);
 
 // Prints the finding (and the surface, exactly, with the command that replays it) and aborts.
 void report(const Finding& finding, const delmesher::Surface* surface = nullptr);
 
-// Runs a property on the surface that the bytes are, if it is certified valid.
+// Runs a property on the surface that the bytes are, if it is certified valid. This function and
+// the next three return 0, which libFuzzer wants, or abort with a finding.
 int on_valid_surface(const std::uint8_t* data, std::size_t size,
                      Finding (*property)(const delmesher::Surface&));
 // The same on any surface, valid or not.
@@ -50,14 +52,14 @@ class Bytes {
     for (int i = 0; i < 8; ++i) value = value << 8 | byte();
     return value;
   }
-  // One byte says of which kind: a small integer, a simple fraction, a neighbour of the last one,
-  // the last one again, any finite double.
+  // A coordinate; one byte chooses its kind: a small integer, a simple fraction, a neighbour of the
+  // last one, the last one again, any finite double.
   double coordinate();
-  // Coordinates keep their exponents below this from here on: exact arithmetic takes its time where
-  // they differ by hundreds of binary digits, and meshes have as many sizes as there are between.
+  // From here on coordinates have exponents below this: exact arithmetic is slow where they differ
+  // by hundreds of binary digits, and meshes need all sizes in between.
   void narrow(int most_exponent = 32) { most_exponent_ = most_exponent; }
-  // Neighbours of the last one are 2^-8 to 2^-39 of it away from here on, no longer an ulp: what is
-  // near without being next to each other in doubles has room for a mesh.
+  // From here on a neighbour of the last coordinate is 2^-8 to 2^-39 of it away, no longer an ulp.
+  // Features that are near without being next to each other in doubles leave room for a mesh.
   void spread() { spread_ = true; }
   // In [0, 1], often simple.
   double parameter();

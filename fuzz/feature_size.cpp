@@ -13,10 +13,10 @@ using oracles::Index;
 
 namespace {
 
-// What box distances in doubles may be off, relatively.
+// The largest relative error of box distances in doubles.
 constexpr double kRoundings = 0x1p-50;
 
-// At most the distance of what is in the boxes: the largest gap along an axis.
+// A lower bound for the distance of contents of the boxes: the largest gap along an axis.
 double gap(const oracles::BoxTree::Box& a, const oracles::BoxTree::Box& b) {
   double widest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -86,7 +86,7 @@ bool FeatureSizes::facets_touch(Index triangle, Index other) const {
                      [&](Index v) { return touches(v, g); });
 }
 
-// With vertices, edges and facets.
+// Examines the pairs of a vertex with a vertex, an edge or a facet.
 void FeatureSizes::examine_vertices(Nearest& nearest) const {
   const std::vector<Index>& used = surface_.used_vertices();
   for (const Index v : used) {

@@ -1,5 +1,5 @@
 // Distances between the elements of a valid surface as the oracles see them: rational, over all
-// pairs, without a line of the mesher's code.
+// pairs, and without the mesher's code.
 #pragma once
 
 #include <string>
@@ -12,17 +12,18 @@ namespace tetproof::fuzz {
 
 class FeatureSizes {
  public:
-  // Null on success, else why the oracles cannot read it.
+  // Empty on success, else why the oracles cannot read the surface.
   std::string assign(const delmesher::Surface& surface);
 
   const oracles::InputSurface& surface() const { return surface_; }
   double largest_coordinate() const { return surface_.largest_coordinate(); }
 
   // The smallest distance between two elements (vertices, edges between two facets, facets) that
-  // share no point, right to a few roundings.
+  // share no point, in input units, right to a few roundings.
   double smallest() const;
 
-  // Are two triangles of facets without a common vertex closer than `distance`?
+  // Are two triangles closer than `distance` (input units)? Their facets should have no common
+  // vertex.
   bool closer(oracles::Index triangle, oracles::Index other, double distance) const;
   // Do their facets have a vertex in common?
   bool facets_touch(oracles::Index triangle, oracles::Index other) const;

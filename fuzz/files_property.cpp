@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a reader refuses is looked at as far as the message goes; most inputs are of that kind, and
-// what it accepts is counted as what it does not refuse.
+// Of a refused input only the message is looked at. Most inputs are refused, and this leniency
+// counts them, so the others are the accepted ones.
 Leniency refused("refused-in-one-line", 0.999);
 Leniency no_triangles("read-without-triangles", 0.5);
 Leniency no_boundary("boundary-not-in-format", 0.5);
@@ -69,7 +69,7 @@ bool same_bits(const delmesher::Surface& s, const delmesher::Surface& t) {
   return true;
 }
 
-// As sets of tetrahedra or triangles with sorted corners: formats differ in order and orientation.
+// Cells as sets with sorted corners, since formats differ in order and orientation.
 template <class Cell>
 std::multiset<Cell> sorted_cells(const std::vector<Cell>& cells) {
   std::multiset<Cell> result;
@@ -153,7 +153,7 @@ Finding written_and_read(const delmesher::TetMesh& mesh, const std::string& exte
 
 }  // namespace
 
-// What is plain has to be read, and as it stands.
+// A plain file has to be read, exactly as it stands.
 Finding plain_is_read(const delmesher::io::ReadResult& read, const TriangleSoup& plain) {
   if (!read.ok()) return "reader plain: refused, " + read.error;
   TriangleSoup ours;

@@ -69,7 +69,7 @@ std::vector<const char*> family_names() {
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(family_names()),
                          [](const auto& name) { return std::string(name.param); });
 
-// What rounding did to a member that passes all oracles.
+// The statistics of a member that passes all oracles, to see what rounding did.
 delmesher::Statistics expect_written_positive(const char* family, std::uint64_t member) {
   const auto surface = generate(*find_family(family), 1, member);
   EXPECT_TRUE(surface);
@@ -80,13 +80,14 @@ delmesher::Statistics expect_written_positive(const char* family, std::uint64_t 
   return result.statistics;
 }
 
-// Vertices and edges a fraction of an ulp from others: rounding tangles what is around them, and no
-// single move untangles it; or only the record tells on which of two edges what was written lies.
+// Vertices and edges are a fraction of an ulp from others. Rounding tangles the tetrahedra around
+// them, and no single move untangles them; or only the record tells on which of two edges a written
+// point lies.
 TEST(Members, BelowAnUlpAreWrittenPositive) {
   const std::pair<const char*, std::uint64_t> members[] = {
       {"damaged", 29}, {"edited", 22}, {"edited", 23}, {"edited", 45}};
   for (const auto& [family, member] : members) {
-    // Else it shows nothing.
+    // Otherwise the member would show nothing.
     const auto surface = generate(*find_family(family), 1, member);
     delmesher::Options as_given;
     as_given.planar = 0;
@@ -95,7 +96,7 @@ TEST(Members, BelowAnUlpAreWrittenPositive) {
   }
 }
 
-// Where no vertex can move to a double that fits, the last step does with fewer points.
+// Where no vertex can move to a double that fits, the last step takes fewer points.
 TEST(Members, AreThinnedWhereDoublesAreTooCoarse) {
   for (const std::uint64_t member : {12U, 55U}) {
     EXPECT_GT(expect_written_positive("damaged", member).rounding_thinned, 0U) << member;
@@ -117,12 +118,12 @@ TEST(Members, ThinWallsTakeFewPoints) {
   }
 }
 
-// Far from the origin: what the oracles measure must not be roundings of the coordinates.
+// Far from the origin the oracles must not measure roundings of the coordinates.
 TEST(Members, FarFromTheOriginPass) {
   expect_written_positive("offset", 30);
 }
 
-// The certificate must object to what is wrong, or it means nothing.
+// A certificate means nothing unless it objects to defects.
 TEST(Certificate, NamesDefects) {
   using Kind = delmesher::Defect::Kind;
   Surface tet = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -156,7 +157,7 @@ TEST(Edits, KeepSurfacesValidAndChangeThem) {
   EXPECT_GT(changes, 5);
 }
 
-// "Fails" on everything that reaches as far as the surface does: one spike of many is what is left.
+// "Fails" on every surface that reaches as far as the given one: one spike of many is left.
 TEST(Shrink, KeepsWhatMatters) {
   const Surface surface = *generate(*find_family("star"), 1, 1);
   const auto reach = [](const Surface& s) {
@@ -199,8 +200,8 @@ TEST_P(TetgenFailures, AreMeshed) {
 INSTANTIATE_TEST_SUITE_P(All, TetgenFailures, testing::ValuesIn(tetgen_failures()),
                          [](const auto& name) { return name.param; });
 
-// Boxes inside each other with walls of 1e-12 and 1e-7: edges that run along each other that
-// closely were split at different places, each of which asked for one more on the other edge.
+// Boxes inside each other with walls of 1e-12 and 1e-7. Edges that run along each other at such a
+// distance were split at different places, and each split asked for one more on the other edge.
 TEST(Regressions, ThinWallsEnd) {
   for (const std::uint64_t member : {103, 107}) {
     const Surface surface = *generate(*find_family("cavities"), 1, member);

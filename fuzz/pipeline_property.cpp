@@ -15,7 +15,7 @@ using delmesher::StatusCode;
 using delmesher::Surface;
 using oracles::Stage;
 
-// A run that reaches it has said nothing wrong; a campaign is not the place for large meshes.
+// A run that reaches this limit is no finding; a campaign is not the place for large meshes.
 constexpr std::uint64_t kMostVertices = 3000;
 constexpr std::uint64_t kFewVertices = 1000;
 
@@ -64,8 +64,8 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
   if (!refusal.empty()) return "oracles refuse: " + refusal;
   bool violated = false;
   for (const auto& oracle : report.oracles) violated = violated || oracle.violations > 0;
-  // An oracle that had nothing to look at (no facet left by the filter, say) makes the verdict of
-  // the refined stage "broken", but is no finding.
+  // An oracle that had nothing to look at (for instance because the filter left no facet) makes the
+  // verdict of the refined stage "broken", but is no finding.
   if (!violated && !oracles::failed(report, wanted)) return {};
   if (violated || stage == Stage::final) {
     return (stage == Stage::refined ? "refined " : "final ") + first_failure(report);
@@ -74,8 +74,8 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
   return {};
 }
 
-// Reaching the limit on vertices says nothing wrong; stopping for want of precision does where
-// there is room, and there is no other limit.
+// Reaching the limit on vertices is no finding. Stopping for want of precision is one if there is
+// room. No other limit was set.
 Finding at_limit(const Surface& surface, const delmesher::Status& status) {
   switch (status.limit) {
     case delmesher::Limit::size:
@@ -122,7 +122,7 @@ Finding same_when_scaled(const Surface& surface, const Result& plain, const Opti
                          int exponent) {
   Surface scaled = surface;
   scaled.vertices = times(surface.vertices, exponent);
-  // Not where coordinates are so small that they are rounded, or so large.
+  // Left out where coordinates are so small that they are rounded, or so large.
   if (!(largest_coordinate(scaled.vertices) < 0x1p450) ||
       largest_coordinate(scaled.vertices) < 0x1p-450 ||
       times(scaled.vertices, -exponent) != surface.vertices) {
@@ -154,7 +154,7 @@ Finding same_when_scaled(const Surface& surface, const Result& plain, const Opti
   return same ? "" : "scale record: lengths do not follow";
 }
 
-// Of the connectivity, so that the same bytes always mean the same run.
+// A hash of the connectivity, so that the same bytes always mean the same run.
 std::uint64_t hash_of(const Surface& surface) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const auto& t : surface.triangles) {
@@ -182,8 +182,8 @@ Options options_for(const Surface& surface) {
   return options;
 }
 
-// Without what asks for many vertices whatever the surface is, and with less of the surface in the
-// refinement.
+// Without the options that ask for many vertices whatever the surface is, and with less of the
+// surface in the refinement.
 Options coarser(Options options, std::uint64_t budget) {
   options.budget = budget;
   options.max_edge = options.chamfer_radius = 0;
@@ -192,7 +192,7 @@ Options coarser(Options options, std::uint64_t budget) {
   return options;
 }
 
-// What would have more vertices than are waited for is meshed with a budget instead.
+// A surface that would need more vertices than the limit is meshed with a budget instead.
 Result meshed(const Surface& surface, Options& options) {
   Result result = delmesher::tetrahedralize(surface, options);
   if (result.status.limit != delmesher::Limit::size) return result;

@@ -11,8 +11,8 @@ namespace {
 using Words = std::vector<std::string_view>;
 using Point = std::array<double, 3>;
 
-// The words of each line that has any; null if there is anything but visible characters, spaces and
-// ends of lines.
+// The words of each line that has any; nothing if there are other characters than visible ones,
+// spaces and ends of lines.
 std::optional<std::vector<Words>> lines_of(std::string_view text) {
   std::vector<Words> lines(1);
   std::size_t begin = 0;

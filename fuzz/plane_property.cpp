@@ -20,7 +20,7 @@ using delmesher::PlaneResult;
 using delmesher::StatusCode;
 using Point = std::array<double, 2>;
 
-// A run that reaches it has said nothing wrong.
+// A run that reaches this limit is no finding.
 constexpr std::uint64_t kMostVertices = 3000;
 
 Leniency too_many_vertices("stopped-at-3000-vertices", 0.05);
@@ -61,7 +61,7 @@ bool is_valid(const PlanarGraph& graph) {
   return true;
 }
 
-// Leaves out what would make the graph invalid.
+// Leaves out the elements that would make the graph invalid.
 void make_valid(PlanarGraph& graph) {
   std::vector<Point> distinct;
   std::vector<std::uint32_t> number;
@@ -86,8 +86,8 @@ void make_valid(PlanarGraph& graph) {
   }
 }
 
-// Copies of the first ring, each half as large as the one before, about the mean of its vertices:
-// inside each other if it is convex.
+// Adds copies of the first ring, each half as large as the one before, about the mean of its
+// vertices: inside each other if it is convex.
 void nest_rings(PlanarGraph& graph, std::uint32_t ring, std::uint32_t copies) {
   for (std::uint32_t c = 0; c < copies; ++c) {
     const auto first = static_cast<std::uint32_t>(graph.vertices.size());
@@ -169,7 +169,7 @@ mpq_class squared_distance(const Point& p, const Point& a, const Point& b) {
 }
 
 // Do all vertices and segments that do not meet keep this distance, as a share of the largest
-// coordinate? The graph is valid. In rationals, over all pairs.
+// coordinate? Decided in rationals, over all pairs. The graph must be valid.
 bool features_above(const PlanarGraph& graph, double share) {
   const mpq_class least = mpq_class(share) * mpq_class(largest_coordinate(graph));
   const mpq_class squared = least * least;
@@ -188,7 +188,7 @@ bool features_above(const PlanarGraph& graph, double share) {
   return true;
 }
 
-// Refused although no two segments conflict: is it for one of the reasons that are left?
+// The graph was refused although no two segments conflict: for one of the remaining reasons?
 bool other_reason(const PlanarGraph& graph, const std::string& message) {
   if (message == "no segments" || message == "the segments enclose nothing") {
     nothing_to_mesh.take();
@@ -205,7 +205,7 @@ bool other_reason(const PlanarGraph& graph, const std::string& message) {
   return false;
 }
 
-// A limit says nothing wrong: the one on vertices, and that of precision where there is no room.
+// Limits are no findings: the limit on vertices, and that of precision where there is no room.
 Finding at_limit(const PlanarGraph& graph, const delmesher::Status& status) {
   switch (status.limit) {
     case delmesher::Limit::size:
@@ -240,7 +240,7 @@ Finding judged(const PlanarGraph& graph, const Options& options) {
   return {};
 }
 
-// For people: the command line that does the same, and its input.
+// Prints, for people, the command line that does the same, and its input.
 void print(const PlanarGraph& graph, const Options& options) {
   std::fprintf(stderr, "# delmesher plane --tau %g --delta %g --acute %g --region %s%s\n",
                options.tau, options.delta, options.acute,
@@ -265,9 +265,8 @@ void print(const PlanarGraph& graph, const Options& options) {
 
 Finding plane_holds(Bytes bytes) {
   judging({&too_many_vertices, &too_precise, &nothing_to_mesh, &no_numbers, &invalid_graph});
-  // Most graphs are of one scale, so that they are meshed: others are refused, or are stopped among
-  // thousands of vertices that get from one size to the other. And most have room between what is
-  // near.
+  // Most graphs have one scale, so that they are meshed: others are refused, or stop among
+  // thousands of vertices between one size and the other. And most have room between near features.
   const std::uint32_t scale = bytes.below(16);
   if (scale != 15) bytes.narrow(6);
   if (scale < 14) bytes.spread();

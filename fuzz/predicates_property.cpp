@@ -91,8 +91,8 @@ Points read_points(Bytes& bytes, bool with_planes) {
   return p;
 }
 
-// The exact points, in units that make all coordinates integers: predicates do not mind, and
-// rationals without denominators need no common divisors, which took most of the time.
+// The exact points, in units that make all coordinates integers. Predicates do not depend on the
+// unit, and rationals without denominators need no common divisors, which took most of the time.
 std::vector<reference::Point> integer_points(const std::vector<reference::Point>& exact) {
   mpz_class unit = 1;
   for (const auto& p : exact) {
@@ -105,7 +105,7 @@ std::vector<reference::Point> integer_points(const std::vector<reference::Point>
   return scaled;
 }
 
-// Nearest doubles and remainders are as near as they say: what the filters rest on.
+// Nearest doubles and remainders are as near as they say, on which the filters rely.
 Finding approximations_hold(const PointStore& store, const std::vector<reference::Point>& at) {
   for (VertexId v = 0; v < store.size(); ++v) {
     if (store.is_explicit(v)) continue;

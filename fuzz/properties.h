@@ -1,5 +1,5 @@
 // The properties that the fuzz targets (and tests) check, one each. A property returns an empty
-// text if it holds.
+// text if it holds, else the finding (fuzz/entry.h).
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,8 @@ Finding cdt_holds(const delmesher::Surface& surface);
 // No acute angle is left by chamfering, and chamfer distances obey their bound.
 Finding chamfer_holds(const delmesher::Surface& surface);
 
-// What the input filter keeps is not closer than the tolerance.
+// The kept facets are not closer than the tolerance, and none is dropped if all features are
+// farther apart.
 Finding filter_holds(const delmesher::Surface& surface);
 
 // The refined mesh is Delaunay, keeps the angle bound, and ends.
@@ -48,7 +49,7 @@ Finding refinement_holds(const delmesher::Surface& surface);
 // The whole pipeline passes all oracles, exactly and as written.
 Finding pipeline_holds(const delmesher::Surface& surface);
 
-// The same with the options that are the default: the surface is meshed and passes all oracles.
+// The same with the default options: the surface is meshed and passes all oracles.
 Finding default_pipeline_holds(const delmesher::Surface& surface);
 
 // A planar graph is refused exactly if it is invalid; else its mesh passes the oracles.

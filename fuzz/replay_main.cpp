@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     if (taken.count() > kSlowSeconds) std::fprintf(stderr, "  slow: %.1f s\n", taken.count());
   }
-  // Inputs are chosen, not drawn: how often they take a leniency is for people to see.
+  // Inputs are chosen, not drawn at random, so the shares of leniencies are only printed.
   std::printf("%zu inputs, no finding\n%s", files.size(), tetproof::leniency_table().c_str());
   return files.empty() ? 1 : 0;
 }

@@ -25,7 +25,7 @@ Leniency no_room("acute-features-below-2^-40", 0.05);
 Leniency turned("acute-by-what-half-an-ulp-turns", 0.03);
 
 // A property of one stage: failed checks inside the mesher are findings, and so is a stop for want
-// of precision where there is room.
+// of precision if there is room.
 template <class Body>
 Finding guarded(const char* stage, const Surface& surface, Body&& body) {
   try {
@@ -74,9 +74,9 @@ Finding chamfered(const Surface& surface, double cosine_squared, double degrees)
   const auto report = delmesher::chamfer::plc_angles::measure(result.plc, s.points);
   if (!report.defect.empty()) return "chamfer complex: " + report.defect;
   if (!(report.smallest() < degrees - kDegreesLost)) return {};
-  // Chamfers are laid out in doubles. Where a segment is not long beside an ulp of the model (in
-  // facets and at angles that narrow, which the filter drops by default), roundings of its ends
-  // turn the angles at it; others have no excuse.
+  // Chamfers are laid out in doubles. If a segment is not long beside an ulp of the model (in
+  // facets and at angles so narrow that the filter drops them by default), roundings of its ends
+  // turn the angles at it. Other segments have no excuse.
   if (!(report.smallest_if_turned < degrees - kDegreesLost)) {
     turned.take();
   } else if (!roomy(surface)) {
@@ -102,8 +102,8 @@ Finding kept_is_apart(const FeatureSizes& sizes,
   return {};
 }
 
-// Explicit points in the bounding box, for cavities of recovery to hold; none where doubles are so
-// coarse that they might lie on facets.
+// Adds explicit points in the bounding box, for cavities of recovery to hold; none where doubles
+// are so coarse that they might lie on facets.
 void add_volume_points(const Surface& surface, Random& random, Stages& s,
                        delmesher::cdt::CdtInput& input) {
   delmesher::predicates::Box box;

@@ -18,13 +18,13 @@ namespace {
 using delmesher::Surface;
 
 // Below 2^-40 doubles leave stages little room: they stop, or chamfer by less than an ulp, and the
-// properties say little. So most changes are larger.
+// properties show little. So most changes are larger.
 constexpr int kBits = 32, kManyBits = 50;
 
 #ifndef TETPROOF_FUZZ_INVALID
 // A triangle so low beside the surface that a chamfer in it, about as long as its height times its
 // angle, is near an ulp. The fuzzer finds these interesting, each for another stop, and would
-// collect nothing else: most of them are not taken.
+// collect nothing else, so most of them are not taken.
 constexpr double kLow = 0x1p-24, kNarrowTaken = 0.05;
 
 bool narrow(const Surface& surface) {
@@ -74,15 +74,15 @@ int size_exponent(const Surface& surface) {
   return largest > 0 ? std::ilogb(largest) : 0;
 }
 
-// A member of a family, now and then instead of what the corpus offers.
+// A member of a family, which now and then takes the place of an input of the corpus.
 Surface fresh(Random& random) {
   const Family& family = families()[random.below(families().size())];
   const auto surface = generate(family, random.bits(), 0);
   return surface ? *surface : Surface{};
 }
 
-// By a power of two to the size of another one, but for few: side by side at sizes that differ by
-// hundreds of binary digits one of them is nothing to a mesher.
+// Scales by a power of two to the size of another surface, with few exceptions. If their sizes
+// differed by hundreds of binary digits, the smaller one would be nothing to a mesher.
 Surface resized(Surface surface, const Surface& like, Random& random) {
   if (random.chance(0.02)) return surface;
   const int by = size_exponent(like) - size_exponent(surface);
@@ -107,8 +107,8 @@ void move_everything(Surface& surface, Random& random) {
 }
 
 #ifdef TETPROOF_FUZZ_INVALID
-// A small copy at a vertex, point by point on its other side: they have nothing but it in common if
-// the surface is convex there.
+// A small copy at a vertex, point by point on its other side. The two have only the vertex in
+// common if the surface is convex there.
 Surface pinched(Surface surface, Random& random) {
   const auto count = static_cast<std::uint32_t>(surface.vertices.size());
   const auto at = static_cast<std::uint32_t>(random.below(count));

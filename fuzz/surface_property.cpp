@@ -36,8 +36,8 @@ Leniency no_volume("volume-is-no-double", 0.1);
 Leniency not_counted("turned-named-otherwise", 0.3);
 Leniency within_roundings("feature-size-4-to-16-ulp-off", 0.02);
 
-// The volume of a valid surface is that of the oracles, who look on their own which components are
-// cavities.
+// The volume of a valid surface is that of the oracles, which decide on their own which components
+// are cavities.
 Finding volume_agrees(const Surface& surface, double ours) {
   oracles::ExactPoints points;
   oracles::InputSurface judge;

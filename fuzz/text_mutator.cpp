@@ -146,7 +146,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pieces_of(std::string_view text
 
 std::string other_word(std::string_view word, Random& random) {
   long number = 0;
-  // Of fewer digits than would overflow.
+  // Numbers of so many digits that they would overflow are left out.
   const bool whole =
       !word.empty() && word.size() < 18 && word.find_first_not_of("-0123456789") == word.npos;
   if (whole) number = std::strtol(std::string(word).c_str(), nullptr, 10);

@@ -18,13 +18,13 @@ Position cross(const Position& u, const Position& v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-// A tetrahedron in doubles: each edge and normal once for all of its angles, which takes a fraction
-// of what intervals do angle by angle.
+// A tetrahedron in doubles. Each edge and normal is computed once for all of its angles, which
+// takes a fraction of the time that intervals take angle by angle.
 //
 // Edges have components of at most h, with an error of at most e = h u + E, where E is that of a
-// difference of rounded points. As in ball_side.cpp: of a polynomial of degree d whose monomials
+// difference of rounded points. As in ball_side.cpp, for a polynomial of degree d whose monomials
 // add up to m h^d, rounding costs less than 16 m h^d u and the error of the edges less than d m
-// h^(d-1) e, and everything is taken twice or more.
+// h^(d-1) e. All bounds are taken twice or more.
 class RoughTet {
  public:
   // Sine and cosine up to a common positive factor, with an error of at most `error` each.
@@ -51,8 +51,8 @@ class RoughTet {
     if (!(size_ > 0x1p-100 && size_ < 0x1p100)) error_ = std::numeric_limits<double>::infinity();
   }
 
-  // Are the face's angles certainly not below the one whose squared cosine this is? Then c2 |u|^2
-  // |v|^2 > (u . v)^2, of degree 4 with m = 18, or u . v < 0, of degree 2 with m = 3.
+  // Are all face angles certainly not below the one whose squared cosine this is? Each of them has
+  // c2 |u|^2 |v|^2 > (u . v)^2, of degree 4 with m = 18, or u . v < 0, of degree 2 with m = 3.
   bool no_face_angle_below(double squared_cosine) const {
     const double error2 = 120 * size_ * error_, error4 = 800 * size_ * size_ * size_ * error_;
     for (int a = 0; a < 4; ++a) {
@@ -231,8 +231,8 @@ class Distribution {
  public:
   explicit Distribution(const ExactPoints& points) : points_(points) {}
 
-  // In degrees, to a relative 1e-9, also of angles near 0 and 180 degrees. Doubles tell what they
-  // can, intervals of the rest what they can.
+  // Counts an angle and returns it in degrees, to a relative 1e-9, also near 0 and 180 degrees.
+  // Doubles are asked first, then intervals, then exact numbers.
   template <class Angle>
   double add(const RoughTet::Angle& guess, const Angle& angle) {
     double degrees = 0;

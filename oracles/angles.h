@@ -9,29 +9,30 @@
 
 namespace tetproof::oracles {
 
-// Which tetrahedra promise the angle bound.
+// The tetrahedra that have to keep the angle bound.
 enum class AngleScope : std::uint8_t {
-  solid,  // those whose interior meets the solid (region interior)
+  solid,  // only if their interior meets the solid (region interior)
   all
 };
 
-// Angle oracle: every face angle of those tetrahedra is at least `delta` degrees, certified by
-// comparing squared cosines in integers; the bound itself is taken 1e-9 (relative, on the squared
-// cosine) to the safe side of libm. The report holds the histograms of these tetrahedra.
+// Angle oracle: every face angle of these tetrahedra is at least `delta` degrees, decided exactly
+// by squared cosines. The bound on the squared cosine is a relative 1e-9 laxer, so that the
+// rounding of libm fails no mesh. The report holds the histograms of these tetrahedra.
 OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface, double delta, AngleScope scope);
 
-// No gate: extremes, means and histograms (15 degrees a bin, decided exactly) of the face angles,
-// each face once, and dihedral angles of the tetrahedra with selected[t].
+// Adds to the report, without any gate: extremes, means and histograms (15 degrees a bin, decided
+// exactly) of the face angles, each face once, and of the dihedral angles of the tetrahedra with
+// selected[t]. Angles are in degrees.
 void measure_angles(const TetComplex& complex, const Neighbours& neighbours,
                     const std::vector<std::uint8_t>& selected, OracleReport& report);
 
-// The angle in degrees with this sine and cosine, up to a positive factor that may depend on both
-// (the sine is given squared), correct to a few roundings.
+// The angle in degrees, correct to a few roundings. Sine and cosine may have a common positive
+// factor; the sine is given squared, and so is its factor.
 double exact_angle(const ExactNumber& sine_squared, const ExactNumber& cosine);
 
-// 0 ... 11: which 15 degrees the angle with cos^2 = dot^2 / norms lies in, and the sign of dot;
-// 180 degrees counts for the last. Exact.
+// The bin of 15 degrees, 0 to 11, in which an angle lies, decided exactly. `dot` has the sign of
+// the cosine, and dot^2 / norms is its square. 180 degrees belongs to the last bin.
 int angle_bin(const ExactNumber& dot, const ExactNumber& norms);
 
 }  // namespace tetproof::oracles

@@ -23,11 +23,11 @@ double largest(const Position& v) {
 
 }  // namespace
 
-// The bounds below count, for components of at most h and of an error of at most e = h u + E, with
-// E the error of a difference of rounded points: rounding a polynomial of degree d whose monomials
-// add up to m h^d costs less than 16 m h^d u, an error of the arguments less than d m h^(d-1) e (1
-// + a little, because e is far smaller than h or nothing is certain). Everything is taken twice or
-// more.
+// The bounds below are for components of at most h with an error of at most e = h u + E, where E is
+// the error of a difference of rounded points. For a polynomial of degree d whose monomials add up
+// to m h^d, rounding costs less than 16 m h^d u, and the error of the arguments less than d m
+// h^(d-1) e (1 + a little, because e is far smaller than h or nothing is certain). All bounds are
+// taken twice or more.
 
 BallSide::BallSide(const ExactPoints& points, Index base)
     : points_(&points), base_(points.nearest(base)) {}

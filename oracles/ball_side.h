@@ -1,4 +1,5 @@
-// On which side of one sphere many points lie: what does not depend on the point is computed once.
+// Decides for many points on which side of one sphere they lie. All that does not depend on the
+// point is computed once.
 #pragma once
 
 #include "oracles/exact_points.h"
@@ -6,13 +7,14 @@
 namespace tetproof::oracles {
 
 // A sphere through a vertex a is s |p - a|^2 + (p - a) . w = 0, where s and w are polynomials of
-// the other vertices. They are evaluated in doubles with a bound on the error; `side` certifies a
-// sign with it and never guesses.
+// the other vertices. They are evaluated in doubles with a bound on the error. With it `side`
+// certifies a sign and never guesses.
 class BallSide {
  public:
-  // The circumsphere of a tetrahedron, positively oriented; of another one, with sides exchanged.
+  // The circumsphere of a tetrahedron, which should be positively oriented: else the sides are
+  // exchanged.
   static BallSide circumscribed(const ExactPoints& points, const std::array<Index, 4>& tet);
-  // The smallest spheres through the corners of a triangle and the ends of an edge.
+  // The smallest sphere through the corners of a triangle, or through the ends of an edge.
   static BallSide diametral(const ExactPoints& points, const std::array<Index, 3>& triangle);
   static BallSide diametral(const ExactPoints& points, Index a, Index b);
 

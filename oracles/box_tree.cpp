@@ -29,7 +29,7 @@ double centre(const BoxTree::Box& box, int axis) {
 
 }  // namespace
 
-// Of the corner that is deepest in the complement; a sum of three products, each of which rounds
+// The height is that of the box's lowest corner. A sum of three products, each of which rounds
 // twice at most, is within 2^-50 of the sum of their sizes.
 bool BoxTree::HalfSpace::contains(const Box& box) const {
   double height = 0, size = 0;
@@ -49,7 +49,7 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   nodes_.emplace_back();
   if (boxes_.empty()) return;
   build(0, 0, static_cast<Index>(order_.size()), 0);
-  std::vector<Box> sorted;  // those of a leaf beside each other
+  std::vector<Box> sorted;  // the boxes of a leaf side by side
   sorted.reserve(boxes_.size());
   for (const Index i : order_) sorted.push_back(boxes_[i]);
   boxes_ = std::move(sorted);

@@ -13,11 +13,11 @@ namespace {
 using delmesher::ExactPoint;
 using delmesher::ExactRecord;
 
-// How far below the threshold an angle at a rounded point may be, in degrees: points are placed
-// within 2^-20 of the chamfer distance, and the shortest bridges are a few hundredths of it.
+// The largest shortfall below the threshold, in degrees, of an angle at a rounded point: points are
+// placed within 2^-20 of the chamfer distance, and the shortest bridges are a few hundredths of it.
 constexpr double kRounding = 1e-3;
 
-// An angle as good as at the threshold is not below it.
+// An angle within rounding of the threshold is not below it.
 class Threshold : public AngleBound {
  public:
   explicit Threshold(double degrees) : AngleBound(degrees, Doubt::not_acute), degrees_(degrees) {}
@@ -100,7 +100,7 @@ class ChamferedSurface {
 };
 
 void ChamferedSurface::collect_segments() {
-  // Which side of an artificial segment its facet is on, only the faces on the facet tell.
+  // Only the faces on the facet tell on which side of an artificial segment the facet is.
   std::vector<std::pair<Index, std::uint64_t>> sides;
   for (const auto& [a, b, c, id] : record_.refined_facets) {
     for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
@@ -110,7 +110,7 @@ void ChamferedSurface::collect_segments() {
   std::sort(sides.begin(), sides.end());
   const InputEdges input_edges(surface_);
   for (const ExactRecord::Chain& chain : record_.segments) {
-    if (chain.vertices.size() < 2) continue;  // the segment oracle says so
+    if (chain.vertices.size() < 2) continue;  // the segment oracle reports it
     Segment s{chain.vertices.front(), chain.vertices.back(), chain.artificial, kNone, kNone, kNone};
     if (chain.artificial) {
       const std::uint64_t first =
@@ -384,8 +384,8 @@ void ChamferExtent::check_point(Index p, Index vertex) {
     return report_.fail(complex_.vertex_name(p) + " was made by chamfering, but is not given on " +
                         "an input edge or triangle");
   }
-  // Where bridge points lie is for check_chain: a facet may have many triangles, any of which may
-  // serve as the point's frame.
+  // check_chain decides where bridge points lie, because a facet may have many triangles, any of
+  // which may serve as the point's frame.
   if (on_edge && !(point.x >= 0 && point.x <= 1)) {
     report_.fail(complex_.vertex_name(p) + " lies beyond the ends of its edge");
   }
@@ -413,7 +413,7 @@ void ChamferExtent::check_point(Index p, Index vertex) {
 
 void ChamferExtent::check_chain(const ExactRecord::Chain& chain) {
   const Index facet = facets_.find(chain.facet);
-  if (facet == kNone) return;  // the segment oracle says so
+  if (facet == kNone) return;  // the segment oracle reports it
   for (std::size_t n = 1; n < chain.vertices.size(); ++n) {
     const Index a = chain.vertices[n - 1], b = chain.vertices[n];
     ++edges_;
@@ -427,7 +427,7 @@ void ChamferExtent::check_chain(const ExactRecord::Chain& chain) {
   }
 }
 
-// In the closed facet, that is in one of its closed triangles.
+// Is the midpoint in the closed facet, that is, in one of its closed triangles?
 bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) {
   const ExactVector& normal = surface_.facets()[facet].normal;
   return std::any_of(found_.begin(), found_.end(), [&](Index t) {
@@ -443,7 +443,7 @@ bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) {
   });
 }
 
-// Properly, through the inside of both edges.
+// Does the edge cross the facet's border properly, through the inside of both?
 bool ChamferExtent::crosses_border(Index facet, Index a, Index b) {
   const ExactVector& normal = surface_.facets()[facet].normal;
   const auto side = [&](Index p, Index q, Index r) {
@@ -470,7 +470,7 @@ void ChamferExtent::check_areas() {
   }
   for (Index f = 0; f < area.size(); ++f) {
     const InputSurface::Facet& facet = surface_.facets()[f];
-    // All of them are multiples of one vector: a component that it has will do.
+    // All areas are multiples of one vector, so one component of it that is not zero decides.
     std::size_t axis = 0;
     while (axis < 2 && sgn(facet.normal[axis]) == 0) ++axis;
     if (area[f][axis] == facet.area2[axis]) continue;

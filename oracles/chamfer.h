@@ -6,27 +6,29 @@
 namespace tetproof::oracles {
 
 // The projection condition (section 4): between the straight segments and flat facets that the
-// chamfering left, no angle is below the threshold in force there: of two segments at a vertex, of
-// two facets at a segment, of a segment and a facet into which it projects. Angles that involve no
-// rounded point obey it exactly; the others may fall short by what placing a point within 2^-20 of
-// the chamfer distance explains, and the report says by how much they do.
+// chamfering left, no angle is below the threshold in force there. This holds for two segments at a
+// vertex, two facets at a segment, and a segment and a facet into which it projects. Angles of two
+// facets and of two parts of input edges obey it exactly. The others may fall short by 0.001
+// degrees, which placing a point within 2^-20 of the chamfer distance explains; the report says by
+// how much they do.
 OracleReport check_chamfer_angles(const RefinedMesh& mesh);
 
-// Every point made by chamfering lies on the input, at a chamfered corner, within its radius: cut
-// points on edges at the radius, bridge points farther by at most the factor that the widest
-// sector (120 degrees) needs. New edges stay inside the facet that they were cut from, and the
-// facet's faces cover no more than the facet.
+// Every point made by chamfering lies on the input, at a chamfered corner, within its radius (and
+// --chamfer-radius): cut points on edges no farther than the radius, bridge points no farther than
+// the radius times the factor that the widest sector (120 degrees) needs. New edges stay inside the
+// facet that they were cut from, and the facet's faces cover no more than the facet.
 OracleReport check_chamfer_extent(const RefinedMesh& mesh);
 
-// Exactly those corners were chamfered that are acute at the threshold in force at them, on the
-// surface that the filter kept, and those edges cut off that are acute. No radius is above a third
-// of the local feature size (the distance, within the facets kept at the corner, to their edges
-// that do not meet it), nor above --chamfer-radius.
+// On the surface that the filter kept, a corner was chamfered exactly if it is acute at the
+// threshold in force there, and an edge was cut off exactly if it is acute. No radius is above a
+// third of the local feature size (the distance, within the facets kept at the corner, to their
+// edges that do not meet it), nor above --chamfer-radius.
 OracleReport check_chamfer_need(const RefinedMesh& mesh);
 
-// What a kept facet has lost is what was cut off at its chamfered corners and acute edges, and
-// nothing else: the boundary of what is left follows the facet's own, side by side, but for detours
-// over points made for the corner passed; the area inside that boundary is that of the faces.
+// A kept facet has lost only what was cut off at its chamfered corners and acute edges. The
+// boundary of the rest follows the facet's own, side by side, but for detours around chamfered
+// corners, over points made for that corner, and strips beside acute edges. The area inside that
+// boundary is that of the faces.
 OracleReport check_chamfer_cuts(const RefinedMesh& mesh);
 
 }  // namespace tetproof::oracles

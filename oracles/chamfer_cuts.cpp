@@ -1,4 +1,4 @@
-// What chamfering cut off, and whether it had to.
+// Checks the parts that chamfering cut off, and that it had to.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -123,11 +123,11 @@ class ChamferNeed {
   OracleReport report_{"chamfer-need", "input vertices"};
 };
 
-// --- what is gone
+// --- the missing parts
 
-// Follows what is left of the boundary of every kept facet: it has to be the facet's own boundary,
-// side by side, but for a detour around each chamfered corner over points made for that corner, and
-// beside each acute edge from the points made for one end to those made for the other.
+// Follows the boundary of the rest of every kept facet. It has to be the facet's own boundary, side
+// by side, but for a detour around each chamfered corner, over points made for that corner, and a
+// strip beside each acute edge, from the points made for one end to those made for the other.
 using AreaSum = std::array<ExactSum, 3>;
 
 class ChamferCuts {
@@ -165,7 +165,7 @@ class ChamferCuts {
     Index from, to, edge;
     std::size_t next;
   };
-  struct Link {  // an artificial chain, in the direction of the boundary of what is left
+  struct Link {  // an artificial chain, in the direction of the rest's boundary
     Index to;
     const std::vector<Index>* vertices;
     bool reversed;
@@ -227,7 +227,7 @@ void ChamferCuts::collect_chains() {
   on_edge_.resize(surface_.edges().size());
   for (const ExactRecord::Chain& chain : record_.segments) {
     const std::vector<Index>& v = chain.vertices;
-    if (v.size() < 2) continue;  // the segment oracle says so
+    if (v.size() < 2) continue;  // the segment oracle reports it
     if (!chain.artificial) {
       const Index e = input_edges_.of_chain(record_, v);
       if (e == kNone) continue;
@@ -324,7 +324,7 @@ void ChamferCuts::check_facet(Index f) {
   if (!(walked_ == area_[f])) fail(f, "the cuts do not account for what is missing");
 }
 
-// From a side, over all that follow it, back to it.
+// Follows the boundary from a side, over all sides after it, back to it.
 bool ChamferCuts::walk(Index f, std::size_t first) {
   const auto chain_of = [&](std::size_t s) -> const std::vector<Index>& {
     return on_edge_[sides_[s].edge];

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// In doubles, from exact vectors, so that small ones are right as well.
+// In doubles, from exact vectors, so that small angles are right as well.
 double angle_between(const ExactVector& a, const ExactVector& b) {
   return std::atan2(length(exact::cross(a, b), 0), to_double(exact::dot(a, b), 0));
 }
@@ -41,8 +41,8 @@ double ChamferFeatures::distance(Index v, const AcuteCorners::Present& present) 
   return limit_ > 0 ? std::min(third, limit_) : third;
 }
 
-// Every side of a facet that leaves the vertex begins one; the triangles as far as the next side
-// make it up.
+// A sector begins at a side of a facet that leaves the vertex, and consists of the triangles up to
+// the next side.
 std::vector<ChamferFeatures::Sector> ChamferFeatures::sectors(
     Index v, const AcuteCorners::Present& present) const {
   const auto& triangles = surface_.triangles();
@@ -82,7 +82,7 @@ double ChamferFeatures::strip(Index e, Index facet, const AcuteCorners::Present&
   double height = kInfinite;
   for (const Index v : {edge.from, edge.to}) {
     height = std::min(height, step(v, facet, present) * distance(v, present));
-    // A third of the way to what lies beyond in the facet.
+    // At most a third of the distance to the rest of the facet's boundary.
     for (const Index other : {edge.from, edge.to}) {
       const AcuteCorners::Present only = [facet](Index f) { return f == facet; };
       height = std::min(height, corners_.local_feature_size(other, only, 3 * height) / 3);
@@ -117,7 +117,7 @@ double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) 
       const double angle = angle_between(a, exact::difference(points_, v, spokes[j]));
       smallest = std::min(smallest, 2 * d * std::sin(angle / 2));
     }
-    // Over a facet that the edge does not bound, if it projects into a triangle of it.
+    // The distance from a facet that the edge does not bound, if it projects into a triangle of it.
     for (const Index t : corners_.triangles_at(v)) {
       const Index f = surface_.facet_of_triangle()[t];
       const auto& corner = surface_.triangles()[t];

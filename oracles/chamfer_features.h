@@ -1,4 +1,4 @@
-// How small are the features that chamfering makes (section 7, second step)? Worked out from the
+// The size of the features that chamfering makes (section 7, second step), worked out from the
 // input alone, by the construction of section 4.2.
 #pragma once
 
@@ -6,10 +6,10 @@
 
 namespace tetproof::oracles {
 
-// The chamfers of the surface of those facets that are present. Lengths are rounded.
+// The chamfers of the surface that the present facets form. Lengths are in input units, rounded.
 class ChamferFeatures {
  public:
-  // `limit`: the largest chamfer distance, or 0. The arguments must outlive this.
+  // `limit`: the largest chamfer distance; 0: none. The arguments must outlive this.
   ChamferFeatures(const ExactPoints& points, const InputSurface& surface,
                   const AcuteCorners& corners, const CornerThresholds& thresholds, double limit)
       : points_(points),
@@ -18,10 +18,10 @@ class ChamferFeatures {
         thresholds_(thresholds),
         limit_(limit) {}
 
-  // Of what chamfering makes at a vertex, the shortest distance between two points, edges or facets
-  // that it separates: sides of a bridge, cut points of two edges, a cut point and a facet, and the
-  // borders of the strips cut off on both sides of an acute edge. Infinite if the vertex is not
-  // acute.
+  // The smallest feature that chamfering makes at a vertex: the shortest distance between two
+  // points, edges or facets that it separates. These are the sides of a bridge, cut points of two
+  // edges, a cut point and a facet, and the borders of the strips cut off on both sides of an acute
+  // edge. Infinite if the vertex is not acute.
   double smallest(Index v, const AcuteCorners::Present& present) const;
 
  private:

@@ -7,7 +7,7 @@
 namespace tetproof::oracles {
 namespace {
 
-// A face within those that have the same lowest corner.
+// A face, listed among the faces with the same lowest corner.
 struct FaceRecord {
   Index middle, high, apex;  // the other corners, and the tetrahedron's fourth
   Index packed;
@@ -45,7 +45,7 @@ class Buckets {
   }
   // Once for every entry counted; from the first one on, ends_[v] is the end of list v so far.
   void put(Index vertex, Index entry) { entries_[ends_[vertex]++] = entry; }
-  // Of a vertex all of whose entries, and those of the vertices before, are there.
+  // The list of a vertex; all of its entries, and those of the vertices before, must be there.
   std::span<const Index> of(Index vertex) const {
     const std::uint64_t first = vertex == 0 ? 0 : ends_[vertex - 1];
     return std::span(entries_).subspan(first, ends_[vertex] - first);
@@ -56,7 +56,7 @@ class Buckets {
   std::vector<Index> entries_;
 };
 
-// Indices in range, four different corners. False if faces make no sense.
+// Indices in range, four different corners. Returns false if faces make no sense.
 bool check_corners(const TetComplex& complex, OracleReport& report) {
   bool usable = true;
   for (Index t = 0; t < complex.tetrahedra.size(); ++t) {
@@ -95,8 +95,8 @@ std::int64_t count_used(const TetComplex& complex, const auto& cells) {
   return count;
 }
 
-// Every edge of the boundary faces is traversed as often in one direction as in the other. The
-// number of edges.
+// Every edge of the boundary faces is traversed as often in one direction as in the other. Returns
+// the number of edges.
 std::int64_t check_closed(const TetComplex& complex, const std::vector<Face>& boundary,
                           OracleReport& report) {
   std::vector<std::array<Index, 3>> edges;  // low, high, direction
@@ -124,7 +124,8 @@ std::int64_t check_closed(const TetComplex& complex, const std::vector<Face>& bo
   return distinct;
 }
 
-// Edges of the mesh, each by its lower vertex; the same one comes once for every tetrahedron.
+// The number of edges of the mesh, each listed at its lower vertex; an edge comes once for every
+// tetrahedron.
 std::int64_t count_edges(const TetComplex& complex) {
   const auto for_each = [&complex](const auto& visit) {
     for (const Tet& t : complex.tetrahedra) {
@@ -162,10 +163,10 @@ void check_euler(const TetComplex& complex, std::uint64_t faces, const std::vect
   }
 }
 
-// What is known of the tetrahedra with one face.
+// Finds the neighbours across one face, or that it is a boundary face, and reports what is wrong.
 void match_face(const TetComplex& complex, const Face& sorted, std::span<const FaceRecord> faces,
                 Neighbours& neighbours, std::vector<Face>& boundary, OracleReport& report) {
-  // The same four corners are said at the face without the highest one.
+  // Duplicates are reported once, at the face without the highest corner.
   for (std::size_t i = 1; i < faces.size(); ++i) {
     if (faces[i].apex == faces[i - 1].apex && faces[i].apex > sorted[2]) {
       report.fail(complex.tet_name(faces[i].tet_face() / 4) + " duplicates " +
@@ -192,8 +193,8 @@ void match_face(const TetComplex& complex, const Face& sorted, std::span<const F
   neighbours.across[second] = first;
 }
 
-// The number of faces. Of all faces at once only their numbers are held, by lowest corner: sorting
-// the whole of them takes four times the memory and most of the time.
+// Returns the number of faces. Only the numbers of faces are held all at once, by lowest corner:
+// sorting the faces themselves takes four times the memory and most of the time.
 std::uint64_t match_faces(const TetComplex& complex, Neighbours& neighbours,
                           std::vector<Face>& boundary, OracleReport& report) {
   const auto lowest = [&complex](Index tet_face) {

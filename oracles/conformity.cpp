@@ -239,7 +239,7 @@ bool Conformity::follow(const InputSurface::Edge& edge, double tolerance,
   return true;
 }
 
-// Does a chain that somebody says belongs to the edge have the structure of one?
+// Has a given chain the structure of a chain of the edge?
 bool Conformity::is_chain(const InputSurface::Edge& edge, const std::vector<Index>& chain) const {
   if (chain.size() < 2 || chain.front() != match_[edge.from] || chain.back() != match_[edge.to]) {
     return false;
@@ -273,7 +273,7 @@ void Conformity::follow_edges() {
   result_.chains.resize(surface_.edges().size());
   for (const InputSurface::Edge& edge : surface_.edges()) {
     if (ended()) return;
-    if (match_[edge.from] == kNone || match_[edge.to] == kNone) continue;  // already said
+    if (match_[edge.from] == kNone || match_[edge.to] == kNone) continue;  // already reported
     if (!find_chain(edge, chain)) {
       fail_edge(edge, input_edge_name(edge) + " is not a chain of boundary edges; it ends at " +
                           complex_.vertex_name(chain.back()));
@@ -423,12 +423,12 @@ void Conformity::check_facet(Index facet, const std::vector<Index>& faces) {
   }
 }
 
-// Is a squared distance at most that of `distance`?
+// Is the root of a squared distance at most `distance`?
 bool within(const ExactPoints& points, const mpq_class& squared, double distance) {
   return square_root(squared, points.exponent()) <= distance;
 }
 
-// Whether the bounding box of an edge, widened, contains a vertex.
+// Does the bounding box of an edge, widened, contain a vertex?
 bool boxed(const ExactPoints& points, const InputSurface::Edge& edge, Index v, double distance) {
   const Position p = points.nearest(edge.from), q = points.nearest(edge.to), x = points.nearest(v);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -439,7 +439,7 @@ bool boxed(const ExactPoints& points, const InputSurface::Edge& edge, Index v, d
   return true;
 }
 
-// Finds out of which edges a file cannot tell whether a vertex is on them or on another one.
+// Finds the edges for which a file cannot tell whether a vertex is on them or on another edge.
 class Ambiguity {
  public:
   Ambiguity(const TetComplex& complex, const InputSurface& surface,

@@ -17,7 +17,7 @@ mpq_class squared_cosine(double degrees, Doubt doubt) {
 
 }  // namespace
 
-// The square of the cosine above is truncated to a double, at most an ulp below.
+// get_d() truncates the bound, by at most an ulp.
 AngleBound::AngleBound(double degrees, Doubt doubt)
     : bound_(squared_cosine(degrees, doubt)),
       rough_bound_(Interval::around(bound_.get_d(), bound_.get_d())) {}

@@ -1,4 +1,4 @@
-// Which corners of the input are acute (section 4), found on the input alone.
+// Finds the acute corners of the input (section 4), on the input alone.
 #pragma once
 
 #include <functional>
@@ -9,18 +9,19 @@
 
 namespace tetproof::oracles {
 
-// Where a threshold has no exact cosine, which side its rounding is on.
+// The side to which a threshold without exact cosine is rounded.
 enum class Doubt : std::uint8_t {
-  acute,     // an angle as good as at the threshold counts as below it
-  not_acute  // it does not
+  acute,     // an angle within rounding of the threshold counts as below it
+  not_acute  // such an angle does not
 };
 
-// Compares angles with a threshold in degrees by their squared cosines, which are rational. 60 and
-// 90 degrees are exact.
+// Compares angles with a threshold in degrees by their squared cosines, which are rational. The
+// thresholds of 60 and 90 degrees are exact.
 class AngleBound {
  public:
   AngleBound(double degrees, Doubt doubt);
-  // Is the angle whose cosine has this sign, and this square over `norms`, below it?
+  // Is the angle below the threshold? Its cosine is `cosine` over the square root of `norms`.
+  // `beyond` is for angles known to be at most 90 degrees.
   bool above(const ExactNumber& cosine, const ExactNumber& norms) const {
     return cosine > 0 && beyond(cosine * cosine, norms);
   }
@@ -28,7 +29,7 @@ class AngleBound {
     return squared_cosine * ExactNumber(mpz_class(bound_.get_den())) >
            ExactNumber(mpz_class(bound_.get_num())) * norms;
   }
-  // Is it certainly not, as far as intervals tell?
+  // Is it certainly not below, as far as intervals tell?
   bool surely_not_above(const Interval& cosine, const Interval& norms) const {
     return cosine.sign() == -1 || surely_not_beyond(cosine * cosine, norms);
   }
@@ -43,8 +44,8 @@ class AngleBound {
 
 // The thresholds in force, in degrees.
 struct CornerThresholds {
-  std::function<double(Index vertex)> at;        // of edges and facets, and of two facets
-  std::function<double(Index vertex)> of_edges;  // of two edges
+  std::function<double(Index vertex)> at;        // for an edge and a facet, and for two facets
+  std::function<double(Index vertex)> of_edges;  // for two edges
 };
 
 // Sign of the turn from the direction v -> p to v -> q, projected onto the facet and seen from
@@ -52,7 +53,7 @@ struct CornerThresholds {
 int left_turn(const ExactPoints& points, const InputSurface::Facet& facet, Index v, Index p,
               Index q);
 
-// The surface of those facets that are present.
+// The acute corners of the surface that the present facets form.
 class AcuteCorners {
  public:
   using Present = std::function<bool(Index facet)>;
@@ -67,17 +68,18 @@ class AcuteCorners {
     return present(edge.left) || present(edge.right);
   }
 
-  // Two facets that are present meet below the stricter threshold of the edge's ends.
+  // Do two present facets meet at the edge below the stricter threshold of its ends?
   bool edge_is_acute(Index e, const Present& present, const CornerThresholds& thresholds,
                      Doubt doubt) const;
-  // What makes the vertex acute; empty if nothing does.
+  // The reason why the vertex is acute; empty if it is not.
   std::string why_acute(Index v, const Present& present, const CornerThresholds& thresholds,
                         Doubt doubt) const;
 
-  // Is an edge of the boundary of one of the facets present at v, not incident to v, closer to v
-  // than this? (The local feature size of section 4.1, by facets.) Names it; empty if none is.
+  // Names an edge that is closer to v than `distance` (input units), does not meet v, and is on the
+  // boundary of a present facet at v (the local feature size of section 4.1, by facets). Empty if
+  // there is none.
   std::string nearer_than(double distance, Index v, const Present& present) const;
-  // The local feature size itself, at most `most`; rounded.
+  // The local feature size itself, at most `most`, in input units; rounded.
   double local_feature_size(Index v, const Present& present, double most) const;
 
  private:

@@ -12,8 +12,8 @@
 namespace tetproof::oracles {
 namespace {
 
-// The sphere of the tetrahedron that was asked about last: its faces are asked about in turn. What
-// BallSide evaluates is the in-sphere determinant with the opposite sign, whatever the orientation.
+// Keeps the sphere of the last tetrahedron, because its faces are asked about in turn. BallSide
+// evaluates the in-sphere determinant with the opposite sign, whatever the orientation.
 class Circumsphere {
  public:
   void move_to(const ExactPoints& points, const Tet& t, Index number) {
@@ -195,7 +195,7 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
   const ViolationNames names{complex};
   for (Face& face : constraints) std::sort(face.begin(), face.end());
   std::sort(constraints.begin(), constraints.end());
-  // Most faces have a corner off the surface, and need not be searched for.
+  // Most faces have a corner off the surface, and need no search.
   std::vector<std::uint8_t> constrained(complex.points->size());
   for (const Face& face : constraints) {
     for (const Index v : face) {
@@ -218,7 +218,7 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
     ++report.checked;
     const Tet& tet = complex.tetrahedra[i / 4];
     sphere.move_to(*complex.points, tet, i / 4);
-    // What is only counted needs no second opinion.
+    // Violations that are only counted need no second opinion.
     const int side = options.gate ? opinions.insphere(sphere, tet, apex, report)
                                   : sphere.insphere(*complex.points, tet, apex);
     if (side <= 0) continue;

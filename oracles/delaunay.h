@@ -1,5 +1,6 @@
-// Delaunay: of the refined mesh every face, of a constrained Delaunay tetrahedrization every face
-// that is not on the input; and a sample by brute force.
+// The Delaunay property: for every face of the refined mesh, for every face of a constrained
+// Delaunay tetrahedrization that is not on the input, and for a sample of tetrahedra by brute
+// force.
 #pragma once
 
 #include "oracles/input_surface.h"
@@ -7,19 +8,21 @@
 
 namespace tetproof::oracles {
 
-// No face between two tetrahedra has the opposite corner strictly inside a circumsphere, hence (as
-// all are positively oriented and fill their hull, see hull.h) no vertex is inside any; a sample of
-// tetrahedra is tried against all vertices. CGAL decides every face as well, and has to agree.
+// No face between two tetrahedra has the opposite corner strictly inside a circumsphere. Hence no
+// vertex is inside any, as all tetrahedra are positively oriented and fill their hull (hull.h). A
+// sample of tetrahedra is tried against all vertices. CGAL decides every face as well, and has to
+// agree.
 OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbours);
 
 struct ConstrainedDelaunayOptions {
-  // After repairs of rounding the property cannot hold everywhere: then it is only counted.
+  // After repairs of rounding the property cannot hold everywhere: then violations are only
+  // counted.
   bool gate = true;
 };
 
-// The same for faces that are not among `constraints`; then no vertex inside a circumsphere is seen
-// from the tetrahedron past the constraints (Shewchuk 2008), which is tried on the sample from the
-// centroid against the input surface.
+// The same for faces that are not among `constraints`. Then no tetrahedron sees a vertex inside its
+// circumsphere past the constraints (Shewchuk 2008). This is tried on the sample, looking from the
+// centroid, with the input surface as walls.
 OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbours& neighbours,
                                         const InputSurface& surface, std::vector<Face> constraints,
                                         const ConstrainedDelaunayOptions& options = {});

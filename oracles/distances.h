@@ -1,4 +1,4 @@
-// Squared distances of exact points, in integer units (ExactPoints::exponent).
+// Squared distances of exact points, in squares of integer units (ExactPoints::exponent).
 #pragma once
 
 #include <gmpxx.h>
@@ -10,17 +10,19 @@
 namespace tetproof::oracles {
 
 mpq_class squared_distance_to_segment(const ExactPoints& points, Index v, Index a, Index b);
-// Of the insides of two segments: at most that of their lines where that is reached inside both;
-// negative if it is not (then an end is involved).
+// The distance of the lines through ab and cd, where both are reached strictly inside their
+// segments. Negative elsewhere (then an end decides), and for parallel segments.
 mpq_class squared_distance_inside(const ExactPoints& points, Index a, Index b, Index c, Index d);
-// Of a vertex to the closed triangle where its foot lies on it; negative if it does not.
+// The distance of a vertex from a closed triangle on which its foot lies; negative if the foot is
+// outside, or the triangle is flat.
 mpq_class squared_distance_to_face(const ExactPoints& points, Index v,
                                    const std::array<Index, 3>& triangle);
-// The same wherever its foot lies.
+// The distance from the closed triangle, wherever the foot lies.
 mpq_class squared_distance_to_triangle(const ExactPoints& points, Index v,
                                        const std::array<Index, 3>& triangle);
 
-// Of a squared distance, in units of length, whatever its size.
+// The root of a squared distance in integer units, in units of length; no size over- or underflows
+// before the result.
 double square_root(const mpq_class& squared, long exponent);
 // value * 2^exponent, exactly.
 mpq_class times_power_of_two(mpq_class value, long exponent);

@@ -74,7 +74,7 @@ class Enrichment {
     report_.figures.emplace_back("new on the surface", static_cast<double>(on_surface));
   }
 
-  // Nothing but the input, where that alone keeps the bound.
+  // Has the final mesh no vertices but those of the input, and does it keep the bound?
   bool is_plain() {
     constexpr std::size_t kMostTriangles = 1000;
     for (Index v = 0; v < points_.size(); ++v) {
@@ -195,7 +195,7 @@ class Enrichment {
     });
   }
 
-  // Of those that are missing, to the nearest neighbour.
+  // The distances of the missing vertices from their nearest neighbours.
   void collect_spacings(const std::vector<Index>& missing) {
     for (const Index v : missing) spacing_[v] = std::numeric_limits<double>::infinity();
     for (const ExactRecord::Tet& tet : record_.refined) {
@@ -256,7 +256,8 @@ class Repairs {
       : record_(record), points_(points), all_(promise.region == delmesher::Region::hull) {}
 
   OracleReport run() {
-    // Repairs take points out up to three edges away, and repair what that disturbs in turn.
+    // Repairs take out points up to three edges away, and in turn repair the tetrahedra which that
+    // disturbs.
     constexpr int kReach = 8;
     check_vertices();
     find_defects();
@@ -321,7 +322,7 @@ class Repairs {
     }
   }
 
-  // To nearest.
+  // The nearest doubles of a point without denominators, as all written points are.
   Position rounded(Index v) const {
     Position result;
     for (int axis = 0; axis < 3; ++axis) {
@@ -340,7 +341,7 @@ class Repairs {
     return result;
   }
 
-  // How many edges from the nearest defect every vertex is.
+  // Finds how many edges every vertex is from the nearest defect.
   void spread(int reach) {
     for (std::uint8_t ring = 1; ring <= reach; ++ring) {
       for (const ExactRecord::Tet& tet : record_.unrepaired) {

@@ -1,5 +1,6 @@
-// A number that is exact: an integer, or one over an odd denominator. Coordinates of points on
-// three planes have denominators, all others have not, and pay for it with a null test only.
+// An exact number: an integer, or one over an odd denominator. Only the coordinates of points on
+// three planes, and of points placed relative to those, have denominators; all others pay for it
+// with a null test.
 #pragma once
 
 #include <gmpxx.h>
@@ -10,7 +11,7 @@
 namespace tetproof::oracles {
 
 class ExactNumber {
-  // Odd, above 1; null: 1. As small as an empty one can be: every coordinate has one.
+  // Odd, above 1; null: 1. Every coordinate has one, so an empty one is as small as possible.
   class Denominator {
    public:
     Denominator() = default;
@@ -37,7 +38,7 @@ class ExactNumber {
   ExactNumber(long value) : numerator_(value) {}  // NOLINT: an integer is such a number
   ExactNumber(int value) : numerator_(value) {}   // NOLINT
   ExactNumber(mpz_class value) : numerator_(std::move(value)) {}  // NOLINT
-  // Of a rational in lowest terms with an odd denominator.
+  // The rational must be in lowest terms and have an odd denominator.
   explicit ExactNumber(const mpq_class& value) : numerator_(value.get_num()) {
     denominator_ = Denominator(mpz_class(value.get_den()));
   }
@@ -52,7 +53,7 @@ class ExactNumber {
     return result;
   }
 
-  // An integer, in the memory that there is.
+  // Sets an integer, in memory that is there already.
   void assign(const mpz_class& value) {
     numerator_ = value;
     denominator_ = {};
@@ -91,7 +92,7 @@ class ExactNumber {
     return *this;
   }
 
-  // Times a power of two. The result must have an odd denominator as well.
+  // Times 2^exponent. The result must have an odd denominator as well.
   ExactNumber shifted(long exponent) const {
     mpz_class n = numerator_;
     if (exponent >= 0) {

@@ -42,15 +42,15 @@ void lower(long& exponent, double value, long offset) {
   exponent = std::min(exponent, dyadic(value).exponent + offset);
 }
 
-// What `nearest`, made of it by to_double(), leaves of value * 2^exponent: to 2^-52 of itself, and
-// 0 only if nothing. NaN where neither can be had; that decides nothing.
+// The rest of value * 2^exponent beyond its double `nearest`, to 2^-52 of itself. The rest is 0
+// only if the double is exact, and NaN, which decides nothing, where the rest cannot be had.
 double rest(const ExactNumber& value, long exponent, double nearest) {
   constexpr double kTiny = 0x1p-900;  // below it bits of the rest could get lost
   if (nearest == 0 && value == 0) return 0;
   if (!(std::fabs(nearest) >= kTiny) || !std::isfinite(nearest)) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  // That of a rational need not be a multiple of the unit.
+  // The double of a rational need not be a multiple of the unit.
   const Dyadic d = dyadic(nearest);
   const long lowest = std::min<long>(exponent, d.exponent);
   return to_double(value.shifted(exponent - lowest) - ExactNumber(scaled(d, lowest)), lowest);
@@ -136,7 +136,7 @@ bool is_finite(const delmesher::ExactRecord::Plane& plane) {
   return true;
 }
 
-// Where three planes meet (Cramer's rule); nothing if that is not one point.
+// The point where three planes meet (Cramer's rule); nothing if they do not meet in one point.
 std::optional<Rational> meeting_point(const Equation& p, const Equation& q, const Equation& r) {
   const Rational qr = cross(q.normal, r.normal), rp = cross(r.normal, p.normal),
                  pq = cross(p.normal, q.normal);
@@ -151,8 +151,8 @@ std::optional<Rational> meeting_point(const Equation& p, const Equation& q, cons
 
 constexpr long kNoExponent = std::numeric_limits<int>::max();
 
-// Exponent at which every coordinate of every corner, as far as `moved` does not hold them, is an
-// integer; kNoExponent if all are 0.
+// The exponent at which every coordinate of every corner is an integer, over an odd denominator for
+// the corners in `moved`; kNoExponent if all are 0.
 long corner_exponent(std::span<const ExactPoint> points,
                      const std::vector<std::pair<Index, Rational>>& moved) {
   long exponent = kNoExponent;
@@ -172,7 +172,7 @@ long corner_exponent(std::span<const ExactPoint> points,
   return exponent;
 }
 
-// By how much the parameters of points on segments and triangles lower it.
+// The amount by which the parameters of points on segments and triangles lower the exponent.
 long parameter_exponent(std::span<const ExactPoint> points) {
   long parameter = 0;
   for (const ExactPoint& p : points) {
@@ -372,7 +372,7 @@ ExactVector difference(const ExactPoints& points, Index from, Index to) {
   return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
 }
 
-// Without denominators, in the memory of one number.
+// Without denominators the sum takes the memory of one number.
 ExactNumber dot(const ExactVector& u, const ExactVector& v) {
   if (!all_integers(u) || !all_integers(v)) return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
   mpz_class sum = u[0].numerator() * v[0].numerator();

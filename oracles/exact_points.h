@@ -1,6 +1,6 @@
-// Points with exact coordinates: integers at one common power-of-two scale, those of points on
-// planes over odd denominators; with two doubles each for the filter: the nearest one and what it
-// leaves. Shares nothing with the mesher's arithmetic.
+// Points with exact coordinates: integers at one common power-of-two scale, over odd denominators
+// for points on planes. For the filter each coordinate is kept as two doubles as well: one within
+// an ulp, and the rest. Shares nothing with the mesher's arithmetic.
 #pragma once
 
 #include <array>
@@ -26,10 +26,10 @@ using IntervalVector = std::array<Interval, 3>;
 
 class ExactPoints {
  public:
-  // Null on success, else why the points cannot be represented (not finite, a reference that is
-  // out of range or to a point that has references itself, planes that do not meet in one point);
-  // the object is then empty. A point may lie beyond the ends of its segment or outside its
-  // triangle: where points have to lie is for the oracles to say.
+  // Empty on success, else why the points cannot be represented: a number is not finite, a
+  // reference is out of range or to a point on a segment or a triangle, planes do not meet in one
+  // point. The object is then empty. A point may lie beyond the ends of its segment or outside its
+  // triangle: the oracles say where points have to lie.
   std::string assign(std::span<const delmesher::ExactPoint> points, Planes planes = {});
   // Plain doubles.
   std::string assign(std::span<const Position> positions);
@@ -53,7 +53,7 @@ class ExactPoints {
   // A double within an ulp of the coordinates, in true units.
   const Position& nearest(Index i) const { return nearest_[i]; }
   double largest_coordinate() const { return largest_coordinate_; }
-  // How far the difference of two of those may be from the exact one, before it is rounded.
+  // The largest error of a difference of two such doubles, before that is rounded.
   double difference_error() const { return difference_error_; }
 
  private:
@@ -61,8 +61,8 @@ class ExactPoints {
     return rest == 0 ? Interval(x) : Interval::around(x, x);
   }
   // (q + s) - (p + r). The difference of p and q and its rounding error are exact (Knuth's
-  // two-sum); then there are three roundings, each within what margin() allows of the result or of
-  // its own terms, and the rests are themselves known to 2^-52 of their size.
+  // two-sum). Three roundings follow, each within what margin() allows for the result or for its
+  // own terms. The rests are themselves known to 2^-52 of their size.
   static Interval gap(double p, double r, double q, double s) {
     const double d = q - p, back = d - q;
     const double error = (q - (d - back)) - (p + back);
@@ -82,16 +82,16 @@ class ExactPoints {
   double largest_coordinate_ = 0, difference_error_ = 0;
 };
 
-// Explicit points of an ExactPoint list.
+// The positions as explicit points of a record.
 std::vector<delmesher::ExactPoint> explicit_points(std::span<const Position> positions);
 
-// A number times a power of two as a double, rounded towards zero, to an ulp.
+// value * 2^exponent as a double, rounded towards zero, to an ulp.
 double to_double(const ExactNumber& value, long exponent);
-// Length of a vector times 2^exponent.
+// The length of a vector, times 2^exponent.
 double length(const ExactVector& vector, long exponent);
 
-// Exact signs and measures. Filtered by intervals except where the value itself is wanted. All
-// determinants are in integer units: a length is off by 2^exponent, which no sign or comparison
+// Exact signs and measures. Intervals decide first, except where the value itself is wanted. Exact
+// values are in integer units, 2^-exponent() to the unit of length, which no sign or comparison
 // sees.
 namespace exact {
 
@@ -101,12 +101,12 @@ int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d);
 ExactNumber volume6(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // An enclosure of it, in true units.
 Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
-// The same of many tetrahedra, without allocating anew for each.
+// The same for many tetrahedra, without allocating anew for each.
 class Volume6 {
  public:
   const ExactNumber& operator()(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
-  // Of the tetrahedron between the origin and a triangle: positive if that is seen clockwise from
-  // there.
+  // For the tetrahedron between the origin and a triangle: positive if the triangle is seen
+  // clockwise from the origin.
   const ExactNumber& from_origin(const ExactPoints& points, const std::array<Index, 3>& triangle);
 
  private:
@@ -125,7 +125,7 @@ int dot_sign(const ExactPoints& points, Index apex, Index p, Index q);
 bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // (b - a) x (c - a): twice the area vector.
 ExactVector area2(const ExactPoints& points, Index a, Index b, Index c);
-// Encloses the same in units of length.
+// Encloses it, in squares of the unit of length.
 IntervalVector rough_area2(const ExactPoints& points, Index a, Index b, Index c);
 ExactVector difference(const ExactPoints& points, Index from, Index to);
 ExactNumber dot(const ExactVector& u, const ExactVector& v);
@@ -138,7 +138,7 @@ inline IntervalVector cross(const IntervalVector& u, const IntervalVector& v) {
 }
 bool is_zero(const ExactVector& v);
 bool equal(const ExactPoints& points, Index a, Index b);
-// Right to a few roundings, however far from the origin both are.
+// In units of length, right to a few roundings, however far from the origin both are.
 double distance(const ExactPoints& points, Index a, Index b);
 ExactNumber squared(const ExactVector& v);
 // Are a, b, c on one line?

@@ -5,8 +5,8 @@
 namespace tetproof::oracles {
 namespace {
 
-// The largest two primes below 2^61. No record is made with them in mind: what it would have to
-// forge are sums over points that other oracles pin down.
+// The largest two primes below 2^61. No record can be made to fool them: the sums are over points
+// that other oracles decide.
 const std::array<mpz_class, 2>& primes() {
   static const std::array<mpz_class, 2> list = {(mpz_class(1) << 61) - 1,
                                                 (mpz_class(1) << 61) - 31};
@@ -49,7 +49,7 @@ bool operator==(const ExactSum& a, const ExactSum& b) {
   static const ExactSum::Fractions kNothing{};
   const ExactSum::Fractions &p = a.fractions_ ? *a.fractions_ : kNothing,
                             &q = b.fractions_ ? *b.fractions_ : kNothing;
-  if (!p.known || !q.known) return false;  // one in 2^60
+  if (!p.known || !q.known) return false;  // a chance of 2^-60
   if (abs(mpz_class(a.fixed() - b.fixed())) > p.count + q.count) return false;
   for (std::size_t i = 0; i < 2; ++i) {
     const mpz_class off = p.residues[i] + a.integers_ - q.residues[i] - b.integers_;

@@ -1,6 +1,6 @@
-// Sums of many exact numbers. With denominators their common one would outgrow everything, so what
-// is kept then are residues modulo two primes of 61 bits and the value in fixed point: two sums
-// that are called equal are so, but for a chance of 2^-120.
+// Sums of many exact numbers. A common denominator would outgrow all memory, so terms with
+// denominators are kept as residues modulo two primes of 61 bits and as a value in fixed point. Two
+// sums that are called equal are so, but for a chance of 2^-120.
 #pragma once
 
 #include <array>
@@ -34,19 +34,19 @@ class ExactSum {
   }
   ExactSum& operator-=(const ExactNumber& value) { return *this += -value; }
 
-  // Equal as far as residues tell, exactly without denominators.
+  // Exact without denominators, else equal as far as residues tell.
   friend bool operator==(const ExactSum& a, const ExactSum& b);
   int sign() const { return sgn(fixed()); }
-  // |a - b| times `factor` is at most c.
+  // Is |a - b| times `factor` at most c? Terms with denominators count in fixed point.
   friend bool within(const ExactSum& a, const ExactSum& b, long factor, const ExactSum& c);
-  // Times a power of two, as doubles, to an ulp.
+  // The value, or the difference, times 2^exponent, to an ulp.
   double value(long exponent) const;
   friend double difference(const ExactSum& a, const ExactSum& b, long exponent);
 
  private:
   // The terms with denominators.
   struct Fractions {
-    mpz_class fixed;  // times 2^-kFraction, off by less than one for each
+    mpz_class fixed;  // in units of 2^-kFraction, off by less than one for each term
     std::array<mpz_class, 2> residues{};
     unsigned long count = 0;
     bool known = true;  // no prime divided a denominator

@@ -12,8 +12,7 @@ namespace {
 
 using delmesher::ExactRecord;
 
-// The filter compares distances in doubles; ties within this share of the tolerance are its to
-// decide.
+// The filter compares distances in doubles, so it decides ties within this share of the tolerance.
 constexpr double kSlack = 1e-9;
 
 struct Element {
@@ -65,7 +64,7 @@ class Features {
     return std::none_of(facets.begin(), facets.end(), [&](Index f) { return present_[f]; });
   }
   std::vector<Index> facets_of(const Element& element) const;
-  // A facet, its vertices that are on constrained edges, and its edges.
+  // The facet, its vertices on constrained edges, and its edges.
   std::vector<Element> elements_of(Index facet) const;
 
   // These name something present that is closer, in square, than the bound; empty if nothing is.
@@ -73,7 +72,7 @@ class Features {
   std::string near_vertex(Index v, double reach, const mpq_class& bound);
   std::string near_edge(Index e, double reach, const mpq_class& bound);
 
-  // Its vertices that are on constrained edges, and those that such edges lead to.
+  // The vertices of the facet on present edges, and the other ends of these.
   std::vector<Index> vertices_around(Index facet) const;
 
  private:
@@ -103,7 +102,7 @@ std::string Features::near_vertex(Index v, double reach, const mpq_class& bound)
   for (const Index e : found_) {
     if (!edge_present(e)) continue;
     const InputSurface::Edge& edge = surface_.edges()[e];
-    // Of an edge at the vertex, the other end.
+    // From an edge at the vertex itself, the distance is that of the other end.
     const mpq_class distance =
         edge.from == v || edge.to == v
             ? exact::squared(exact::difference(points_, edge.from, edge.to)).rational()
@@ -137,7 +136,7 @@ std::string Features::near_edge(Index e, double reach, const mpq_class& bound) {
   return {};
 }
 
-// The end of an edge that is present, beside the inside of this one.
+// Names the end of a present edge that is too close to this edge.
 std::string Features::vertex_near_edge(Index e, double reach, const mpq_class& bound) {
   const Index a = surface_.edges()[e].from, b = surface_.edges()[e].to;
   found_.clear();
@@ -152,7 +151,7 @@ std::string Features::vertex_near_edge(Index e, double reach, const mpq_class& b
   return {};
 }
 
-// A vertex, on some edge that is present, above or below a triangle of the facet.
+// Names a vertex, on some present edge, that is too close above or below a triangle of the facet.
 std::string Features::near_facet(Index facet, double reach, const mpq_class& bound) {
   for (const Index t : triangles_of_[facet]) {
     std::vector<Index> edges;
@@ -242,7 +241,7 @@ class FilterCheck {
         corners_(*mesh.points, surface_),
         chamfers_(*mesh.points, surface_, corners_, thresholds_, mesh.promise->chamfer_radius) {
     double acute = record_.parameters.acute, of_edges = record_.parameters.corner;
-    // Of what the guard tightened, only the corners that are left are known: then the strictest
+    // Of the corners that the guard tightened, only the remaining ones are known, so the strictest
     // threshold counts everywhere.
     for (const auto& corner : record_.corners) {
       if (corner.threshold > record_.parameters.acute) acute = of_edges = corner.threshold;
@@ -307,11 +306,11 @@ class FilterCheck {
     report_.figures.emplace_back("dropped that could return", could_return);
   }
 
-  // The same order for the second step: what was dropped last was dropped from the surface as it
-  // is, where chamfering has to make something too small at the facet, and so on.
+  // The second step, read backwards: the facet dropped last was dropped from the present surface,
+  // so chamfering has to make too small a feature at that facet, and so on.
   void check_second_step(std::vector<Index> dropped, double tolerance) {
-    // Dropped is what is closer than a sixteenth of the tolerance; simplified bridges and the
-    // placement of points change a distance by less than a factor of 2.
+    // The mesher drops facets whose chamfers are smaller than a sixteenth of the tolerance.
+    // Simplified bridges and the placement of points change a distance by less than a factor of 2.
     constexpr double kFraction = 1.0 / 8;
     const AcuteCorners::Present present = [this](Index f) { return features_.present(f); };
     const auto put_back = [&](Index f) {
@@ -333,8 +332,8 @@ class FilterCheck {
     }
   }
 
-  // What was dropped last was close to something kept, what was dropped before to something that
-  // was kept or dropped later, and so on.
+  // The first step, read backwards: the facet dropped last was close to a kept one, the facet
+  // before it to one that was kept or dropped later, and so on.
   void check_first_step(const std::vector<Index>& dropped, double reach, const mpq_class& squared) {
     std::vector<Element> candidates;
     for (const Index f : dropped) {
@@ -355,7 +354,7 @@ class FilterCheck {
     }
   }
 
-  // Is the element back, with all its facets? Puts it back if that makes a pair too close.
+  // Is the element back, with all its facets? Puts it back if it makes a pair that is too close.
   bool put_back(const Element& element, double reach, const mpq_class& squared) {
     std::vector<Index> missing = features_.facets_of(element);
     std::erase_if(missing, [&](Index f) { return features_.present(f); });

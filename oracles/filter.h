@@ -1,4 +1,4 @@
-// What the input filter kept and dropped (section 7).
+// The facets that the input filter kept and dropped (section 7).
 #pragma once
 
 #include "oracles/refinement.h"
@@ -8,14 +8,14 @@ namespace tetproof::oracles {
 // No two vertices, edges or facets that the filter kept, and that do not touch, are closer than the
 // tolerance; distances are rational.
 //
-// Nothing was dropped without need, as far as that can be said of a greedy filter. There is an
-// order in which every drop was forced; read backwards, what was dropped can be put back one after
+// No facet was dropped without need, as far as that can be said of a greedy filter. There is an
+// order in which every drop was forced. Read backwards, dropped facets can be put back one after
 // the other, and a facet that never comes back was dropped for nothing:
-// - Second step, put back first: facets at which chamfering of the surface as it then is makes
-//   something too small, by the oracle's own construction of the chamfers.
+// - Second step, put back first: facets at which chamfering of the surface as it then is makes a
+//   feature that is too small, by the oracle's own construction of the chamfers.
 // - First step: elements (vertex, edge or facet, none of whose facets is there), each closer than
-//   the tolerance to something present that it does not touch.
-// Counted: facets that could be put back alone after all. The order of the drops matters, so a
+//   the tolerance to a present one that it does not touch.
+// Facets that could be put back alone after all are counted. The order of the drops matters, so a
 // facet dropped early may have become harmless.
 OracleReport check_filter(const RefinedMesh& mesh);
 

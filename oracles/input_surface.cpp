@@ -185,7 +185,8 @@ void InputSurface::number_facets(const std::function<Index(Index)>& representati
     Facet& facet = facets_[facet_of_triangle_[t]];
     ExactVector area = area2(points, t);
     for (int axis = 0; axis < 3; ++axis) facet.area2[axis] += area[axis];
-    // With denominators, that of the sum of many would outgrow everything; one normal will do.
+    // The denominator of a sum of many areas would outgrow all memory, so the normal of one
+    // triangle serves.
     if (points.all_integers()) {
       for (int axis = 0; axis < 3; ++axis) facet.normal[axis] += area[axis];
     } else if (root == t) {

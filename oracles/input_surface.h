@@ -1,5 +1,5 @@
-// The input polyhedron as the oracles see it: facets, edges that are constraints, exact volume,
-// inside or not.
+// The input polyhedron as the oracles see it: facets, edges between facets, exact volume, and
+// whether a point is inside.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@
 
 namespace tetproof::oracles {
 
-// As read from a file: triangles; what is left of faces of more corners (polygon.h) are fans of one
-// `polygon`.
+// The triangles of a file. Faces of more corners are cut (polygon.h); those that cannot be are
+// fans, each of one `polygon`.
 struct Polyhedron {
   std::vector<Position> vertices;
   std::vector<std::array<Index, 3>> triangles;
   std::vector<std::int32_t> labels;  // per triangle; empty: all 0
-  std::vector<Index> polygons;       // per triangle; empty: each is its own
+  std::vector<Index> polygons;       // per triangle; empty: all different
 };
 
-// A box query over triangles, in doubles.
+// A tree of boxes, in doubles.
 class BoxTree {
  public:
   struct Box {
@@ -36,11 +36,11 @@ class BoxTree {
   struct HalfSpace {
     Position normal;
     double offset;
-    // Certainly; without a promise where doubles overflow.
+    // Is the box certainly inside? Decides nothing reliable where doubles overflow.
     bool contains(const Box& box) const;
   };
-  // Appends to `found` the indices of the boxes that meet the query, in no particular order; of
-  // those that are certainly in one of the half-spaces it may leave out what it likes.
+  // Appends to `found` the indices of the boxes that meet the query, in no particular order. Boxes
+  // that are certainly in one of the half-spaces may be left out.
   void query(const Box& query, std::vector<Index>& found,
              std::span<const HalfSpace> but_in = {}) const;
 
@@ -52,12 +52,12 @@ class BoxTree {
   void build(std::size_t node, Index first, Index last, int depth);
 
   std::vector<Box> boxes_;    // in the order of the leaves
-  std::vector<Index> order_;  // what their indices were
+  std::vector<Index> order_;  // their indices as given
   std::vector<Node> nodes_;
 };
 
-// Points are given with the first `vertices.size()` being the polyhedron's, so that mesh vertices
-// of the same ExactPoints can be compared with them exactly.
+// All functions take points whose first vertices.size() are the polyhedron's. Mesh vertices of the
+// same ExactPoints can then be compared with them exactly.
 class InputSurface {
  public:
   struct Edge {  // an edge of the polyhedron between two different facets
@@ -74,17 +74,19 @@ class InputSurface {
     IntervalVector rough_normal;    // encloses the normal, in units of length
   };
 
-  // Null on success, else why the polyhedron bounds no solid (open, not orientable, no volume).
+  // Empty on success, else why the polyhedron bounds no solid (open, not orientable, no volume).
   std::string assign(const Polyhedron& polyhedron, const ExactPoints& points);
 
-  // Makes one facet of those on both sides of each of these edges; what other edges lie between
-  // them are edges no more. Facets of different labels stay apart. Returns the smallest width of a
-  // slab, perpendicular to the sum of its area vectors, that contains a facet made so, rounded up;
-  // infinite if that sum is zero, or a triangle faces against it that is no needle thinner than
-  // `thin`: walls around something, or two sides of a plate, are no facet.
+  // Makes one facet of the two on either side of each of these edges; other edges between the two
+  // are no edges any more either. Facets of different labels stay apart. Each facet made so lies in
+  // a slab perpendicular to the sum of its area vectors. Returns the width of the widest of these
+  // slabs in input units, rounded up. The result is infinite if such a sum is zero, or if a
+  // triangle faces against it and is no needle thinner than `thin` (input units): walls around a
+  // hollow, or two sides of a plate, are no facet.
   double unite_facets(const std::vector<Index>& across, double thin, const ExactPoints& points);
 
-  // The same of facets that somebody names, by a number for each triangle: its connected sets.
+  // The same for given facets, by a number for each triangle: a facet is a connected set of
+  // triangles of one number and one label.
   double group_facets(const std::vector<Index>& group, double thin, const ExactPoints& points);
 
   const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
@@ -101,14 +103,15 @@ class InputSurface {
   void triangles_near(const BoxTree::Box& box, std::vector<Index>& found) const {
     tree_->query(box, found);
   }
-  // Components that had to be turned so that parity decides what is inside.
+  // The number of components that were turned, so that all normals point out of the solid that
+  // parity defines.
   std::uint64_t flipped_components() const { return flipped_; }
 
   // Is the centroid of these points (of any ExactPoints with the polyhedron's vertices first)
-  // inside? 1 inside, 0 outside, -1 exactly on the surface.
+  // inside, by parity? 1 inside, 0 outside, -1 exactly on the surface.
   int inside(const ExactPoints& points, std::span<const Index> corners) const;
 
-  // On which side of the planes of facets points lie; many tetrahedra ask the same.
+  // A cache: on which side of a facet's plane a point lies. Many tetrahedra ask the same.
   using PlaneSides = std::unordered_map<std::uint64_t, int>;
   // Does an input triangle meet the interior of the tetrahedron (positively oriented)?
   bool meets_interior(const ExactPoints& points, const std::array<Index, 4>& tetrahedron,
@@ -130,7 +133,7 @@ class InputSurface {
   int crossings_above(const ExactPoints& points, std::span<const Index> corners,
                       Index except) const;
   void measure(const ExactPoints& points);
-  // On which side of a triangle's plane a vertex lies, or 2 where doubles do not tell.
+  // The side of a triangle's plane on which a vertex lies, or 2 where doubles do not tell.
   int rough_side(const ExactPoints& points, Index triangle, Index v) const;
 
   std::vector<std::array<Index, 3>> triangles_;
@@ -145,7 +148,7 @@ class InputSurface {
   std::shared_ptr<const BoxTree> tree_;
 };
 
-// The smallest box around points as far as their enclosures tell.
+// The smallest box that certainly contains the points.
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners);
 BoxTree::Box enlarged(BoxTree::Box box, double by);
 

@@ -1,5 +1,5 @@
 // Intervals of doubles, rounded outwards without touching the rounding mode. They only ever certify
-// a sign; what they cannot decide goes to integers (exact_points.h).
+// a sign. Where they are not certain, integers decide (exact_points.h).
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct Interval {
   }
   static Interval around(double l, double h) { return {l - margin(l), h + margin(h)}; }
 
-  // 1 or -1 if certain, 2 if not (also for an exact zero that is not seen to be one).
+  // 1, -1 or 0 if certain, 2 if not (also for an exact zero that is not seen to be one).
   int sign() const {
     if (low > 0) return 1;
     if (high < 0) return -1;

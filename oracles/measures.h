@@ -1,4 +1,4 @@
-// Oracles that measure: volume, inside flags.
+// Oracles of volumes and of the flags that say what is inside.
 #pragma once
 
 #include "oracles/input_surface.h"
@@ -7,25 +7,27 @@
 namespace tetproof::oracles {
 
 // Volume oracle: the tetrahedra inside add up to exactly the volume of the polyhedron, or, for
-// rounded vertices, to within `allowed` of it.
+// rounded vertices, to within `allowed` (cubic input units) of it.
 OracleReport check_volume(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface, double allowed);
 
 // Six times the sum of the signed volumes of the tetrahedra with selected[t], or of all if it is
-// empty; exactly, in integer units. A tetrahedron's is the sum over its faces of what lies between
-// them and the origin, and faces that two of them share from opposite sides cancel: only the others
-// take arithmetic. `neighbours` only says where to look, and is not believed.
+// empty; exactly, in cubic integer units. The volume of a tetrahedron is the sum over its faces of
+// the volumes between face and origin. Faces that two tetrahedra share from opposite sides cancel,
+// so that only the others take arithmetic. `neighbours` only says where to look, and is not
+// believed.
 ExactSum sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours,
                          const std::vector<std::uint8_t>& selected);
 
-// Interior oracle: the centroid of every tetrahedron is inside by ray parity exactly if its flag
-// says so. The surface and the complex must use the same points.
+// Interior oracle: the flag of a tetrahedron says inside exactly if its centroid is inside by the
+// parity of a ray. The surface and the complex must use the same points.
 OracleReport check_interior(const TetComplex& complex, const InputSurface& surface);
 
-// Ray parity of every centroid (points exactly on the surface count as outside).
+// Per tetrahedron: is its centroid inside by the parity of a ray? Points exactly on the surface
+// count as outside.
 std::vector<std::uint8_t> inside_by_parity(const TetComplex& complex, const InputSurface& surface);
 
-// Rounded; 0 for a flat tetrahedron.
+// In input units, rounded; 0 for a flat tetrahedron.
 double smallest_altitude(const ExactPoints& points, const Tet& tet);
 
 }  // namespace tetproof::oracles

@@ -46,11 +46,11 @@ void read_facet_comments(TextReader& reader, MeshFile& mesh) {
 MeshFile read_medit(const std::string& path) {
   TextReader reader = TextReader::of_file(path);
   MeshFile mesh;
-  // Sections that hold nothing for us, with the integers or numbers of one entry.
+  // Sections without use here, with how many numbers an entry has.
   static const std::map<std::string_view, int> kSkipped = {
       {"Edges", 3},   {"Corners", 1},           {"RequiredVertices", 1}, {"Ridges", 1},
       {"Normals", 3}, {"RequiredTriangles", 1}, {"RequiredEdges", 1},    {"Tangents", 3}};
-  // Cells that no oracle would look at.
+  // No oracle would look at these cells.
   const auto none = [&](const std::string& section) {
     if (reader.count() > 0) reader.fail("a section of " + section + ", which are not read");
   };
@@ -146,7 +146,7 @@ class GmshReader {
   }
 
  private:
-  // Physical tags are positive: labels that are not stand in the name, "label -3".
+  // Physical tags are positive. Labels that are not are written in the name: "label -3".
   void read_names() {
     const std::uint64_t count = reader_.count();
     for (std::uint64_t i = 0; i < count; ++i) {
@@ -341,7 +341,8 @@ class VtuReader {
     return std::string(tag.substr(start, tag.find('"', start) - start));
   }
 
-  // Values of the DataArray of that name in the first section of that kind; empty if there is none.
+  // The values of the DataArray of that name in the first section of that kind; empty if there is
+  // none.
   std::vector<double> array(const std::string& section, const std::string& name) const {
     const std::size_t begin = text_.find(section);
     if (begin == std::string_view::npos) return {};
@@ -402,7 +403,8 @@ MeshFile read_tetgen(const std::string& stem) {
     face.integer();
     mesh.boundary.push_back(read_corners<3>(face, first, count));
     if (markers) mesh.labels.push_back(static_cast<std::int32_t>(face.integer()));
-    // TetGen's own files have no second number, or others; only a record says what it should be.
+    // TetGen's own files have no second number, or one with another meaning; only a record decides
+    // what it should be.
     if (const std::string_view facet = face.word_in_line(); !facet.empty() && markers) {
       Index value = 0;
       const auto [end, error] = std::from_chars(facet.data(), facet.data() + facet.size(), value);

@@ -1,4 +1,4 @@
-// Reading the files that meshers write: MEDIT .mesh, Gmsh .msh (4.1 and 2.2, text), .vtu (text),
+// Reads the files that meshers write: MEDIT .mesh, Gmsh .msh (4.1 and 2.2, text), .vtu (text),
 // TetGen's .node/.ele/.face, and .tet.
 #pragma once
 
@@ -14,14 +14,14 @@ struct MeshFile {
   std::vector<std::int64_t> regions;  // per tetrahedron; empty if the file says nothing
   std::vector<Face> boundary;         // triangles listed in the file
   std::vector<std::int32_t> labels;   // per triangle; empty if the file says nothing
-  std::vector<Index> facets;          // the same: the facet that it tiles
-  bool lists_boundary = true;         // false of a format that has no triangles
-  // Formats without a common convention: tetrahedra that are all turned the same way are right.
+  std::vector<Index> facets;          // per triangle, the facet that it tiles; or empty
+  bool lists_boundary = true;         // false for a format that has no triangles
+  // The format has no common convention: tetrahedra that are all turned the same way are right.
   bool either_orientation = false;
 };
 
-// Throws ReadError. Indices are checked by the complex oracle, except that a reference to no vertex
-// at all is an error of the file.
+// Throws ReadError. The complex oracle checks indices; but a reference to no vertex at all is an
+// error of the file.
 MeshFile read_mesh(const std::string& path);
 
 }  // namespace tetproof::oracles

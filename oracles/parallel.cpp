@@ -28,7 +28,7 @@ void run_tasks(unsigned threads, std::size_t count, const std::function<void(std
   try {
     while (others.size() + 1 < std::min<std::size_t>(threads, count)) others.emplace_back(work);
   } catch (const std::system_error&) {
-    // Those that there are do the work.
+    // The threads that were started do the work.
   }
   work();
   for (std::thread& other : others) other.join();

@@ -14,8 +14,8 @@ using Piece = PlaneGraph::Piece;
 using Point = PlaneGraph::Point;
 using Vector = std::array<double, 2>;
 
-// Features closer than this fraction of their coordinates: to place points between them leaves no
-// room between doubles. The mesher gives up at 2^-42 between points that it has made, which are
+// Features closer than this fraction of their coordinates leave no room for points between them, as
+// doubles are too coarse. The mesher gives up at 2^-42 between points that it has made, which are
 // closer to each other than the features.
 constexpr double kNoRoom = 0x1p-34;
 constexpr double kNoRoomAtAll = 0x1p-1034;  // among subnormal numbers
@@ -33,7 +33,7 @@ struct Stretch {
   }
 };
 
-// The distance of two stretches, and how much of the shorter is within four times that.
+// The distance of two stretches, and the length of the shorter one that is within four times that.
 struct Channel {
   double width = HUGE_VAL, length = 0;
 };
@@ -41,7 +41,7 @@ struct Channel {
 Channel channel(Stretch s, Stretch t) {
   if (s.length() > t.length()) std::swap(s, t);
   const auto distance = [&](double x) { return t.distance(s.at(x)); };
-  // Convex along s.
+  // The distance is convex along s.
   double low = 0, high = 1;
   for (int k = 0; k < 120; ++k) {
     const double third = (high - low) / 3, x = low + third, y = high - third;
@@ -121,7 +121,7 @@ class ChamferChecker {
   double feature_size(Index v) {
     const auto [at, fresh] = sizes_.emplace(v, 0);
     if (fresh) {
-      // From a guess on, until what was found is what is nearest.
+      // Enlarges a guess until the nearest feature has been found.
       double most = 0x1p-10 * graph_.diagonal();
       for (const Index p : graph_.pieces_at()[v]) {
         most = std::min(most, points_.distance(pieces()[p].a, pieces()[p].b));
@@ -151,8 +151,8 @@ class ChamferChecker {
   }
 
   void check_need() {
-    // 60 and 90 degrees are off by rounding: the mesher chamfers only what is below them by a
-    // billionth; nobody may chamfer what is above.
+    // The cosine is rounded. The mesher chamfers only angles that are below the threshold by a
+    // billionth, so only these must be chamfered; angles above the threshold may not be.
     const long double cosine = std::cos(promise_.acute * 3.14159265358979323846L / 180);
     const double square = static_cast<double>(cosine * cosine);
     const mpq_class least = square * (1 - 1e-12), certain = square * (1 + 4e-9) + 4e-18;
@@ -250,7 +250,7 @@ class ChamferChecker {
   void find_reasons(const std::vector<Index>& gone) {
     std::uint64_t narrow = 0, crowded = 0, beside = 0, elsewhere = 0;
     std::vector<Index> unexplained;
-    std::set<Index> ends;  // of what has a reason of its own
+    std::set<Index> ends;  // of pieces with a reason of their own
     for (const Index p : gone) {
       ++drops_.checked;
       const Reason reason = reason_of(p);
@@ -258,9 +258,9 @@ class ChamferChecker {
       if (reason != Reason::none) ends.insert({pieces()[p].a, pieces()[p].b});
       if (reason == Reason::none) unexplained.push_back(p);
     }
-    // Where refinement comes to grief at a vertex, all that ends there is left to the last step:
-    // beside channels that are nearly too narrow that may happen far from what is too close. And
-    // what doubles leave no room for spreads, in the end over everything.
+    // Where the refinement fails at a vertex, all pieces that end there are left to the last step.
+    // Beside channels that are nearly too narrow this may happen far from the features that are too
+    // close. Where doubles leave no room, it spreads, in the end over the whole input.
     const bool cramped = !unexplained.empty() && (crowded > 0 || no_room_somewhere());
     for (const Index p : unexplained) {
       if (ends.contains(pieces()[p].a) || ends.contains(pieces()[p].b)) {
@@ -313,7 +313,7 @@ class ChamferChecker {
         reason = Reason::crowded;
       }
     });
-    // (One search at a time: feature sizes are searched for as well.)
+    // One search at a time: reason_between searches for feature sizes as well.
     std::vector<Index> near;
     graph_.near_segments(box, [&](Index s) {
       for (const Index q : graph_.pieces_of()[s]) near.push_back(q);
@@ -330,8 +330,9 @@ class ChamferChecker {
     return {mpq_class(p.x - o.x).get_d(), mpq_class(p.y - o.y).get_d()};
   }
 
-  // A channel between what chamfering leaves of two pieces. Which of their ends were chamfered when
-  // one was dropped is not known, so any of them; but they have to be cut where they meet.
+  // Is there a channel between the parts that chamfering leaves of two pieces? It is not known
+  // which of their ends were chamfered when one was dropped, so all choices are tried; but where
+  // the pieces meet they have to be cut.
   Reason reason_between(Index p, Index q) {
     const std::array<Index, 4> ends = {pieces()[p].a, pieces()[p].b, pieces()[q].a, pieces()[q].b};
     std::array<double, 4> radius;

@@ -98,22 +98,22 @@ class FileChecker {
   double off(Index v, const PlaneGraph::Piece& piece) {
     return distance(points_.all()[v], graph_.vertex(piece.a), graph_.vertex(piece.b));
   }
-  // Of a point from a segment, without loss where both are far from the origin.
+  // The distance of a point from a segment, right even where both are far from the origin.
   static double distance(const Point& p, const Point& q, const Point& r) {
     PlanePoints three;
     for (const Point* x : {&p, &q, &r}) three.add(*x);
     return three.distance_to_segment(0, 1, 2);
   }
 
-  // Vertices of a piece in the order along it that a chain of edges joins; empty if there is none.
+  // The vertices of a chain of edges along a piece, in order; empty if there is none.
   std::vector<Index> chain(const PlaneGraph::Piece& piece) {
     const auto a = at_.find(place(piece.a)), b = at_.find(place(piece.b));
     if (a == at_.end() || b == at_.end()) return {};
     const Point &p = graph_.vertex(piece.a), &q = graph_.vertex(piece.b);
-    // A direction of about unit length, whatever the scale: products of tiny numbers vanish.
+    // The direction is scaled to about unit length, since products of tiny numbers vanish.
     scale_ = -std::max(exponent(p.dx, q.dx), exponent(p.dy, q.dy));
     const double dx = scaled(p.dx, q.dx), dy = scaled(p.dy, q.dy);
-    // Depth first, straight on: the next vertex is beyond this one, and near the piece. Few
+    // Depth first and straight on: the next vertex is beyond this one, and near the piece. Few
     // vertices have more than one such neighbour.
     std::vector<Index> path = {a->second};
     std::vector<std::vector<Index>> open = {next_of(a->second, piece, dx, dy)};
@@ -132,7 +132,7 @@ class FileChecker {
     return {};
   }
 
-  // Differences: halved only where they would overflow, since subnormal numbers have no halves.
+  // Differences are halved only where they would overflow, since subnormal numbers have no halves.
   static int exponent(double from, double to) {
     constexpr int kNothing = -2000;  // below that of any double
     const double d = to - from;
@@ -163,8 +163,8 @@ class FileChecker {
     return result;
   }
 
-  // What rounding and the repair of what it has turned may move a point by: some units in the last
-  // place of its own coordinates. A declared deviation is taken at its word.
+  // How far rounding, and the repair of triangles that it has turned, may move a point: some units
+  // in the last place of its own coordinates. A declared deviation is taken at its word.
   double allowed(const Point& p) const {
     constexpr double kSteps = 9;
     if (declared_ > 0) return tolerance_;
@@ -217,7 +217,7 @@ class FileChecker {
       }
     }
     for (Index v = 0; v < graph_.given().vertices.size(); ++v) input_places_.insert(place(v));
-    // Of a file that lists the edges on segments, no others are needed.
+    // If a file lists the edges on segments, no others count.
     std::set<Edge> listed;
     for (const auto& [a, b] : file_.edges) listed.insert(undirected(a, b));
     for (const auto& [edge, t] : left_of_) {
@@ -237,7 +237,7 @@ class FileChecker {
     const std::string what = "segment " + std::to_string(piece.segment);
     if (path.empty()) {
       if (hull() || graph_.closed_rings()) {
-        // (A border between two outside faces is in no file of the interior.)
+        // A border between two outside faces is in no file of the interior.
         const bool needed = hull() || graph_.separates(piece.segment);
         if (needed) return conformity_.fail(what + " is not tiled by edges");
       }
@@ -250,7 +250,8 @@ class FileChecker {
     }
   }
 
-  // Vertices that are on no segment: those well within what is inside are vertices of the file.
+  // An input vertex strictly inside a triangle, as one on no segment may be, is missing from the
+  // file. If the hull was promised none may be missing.
   void check_vertices() {
     for (Index v = 0; v < graph_.given().vertices.size(); ++v) {
       ++conformity_.checked;
@@ -324,7 +325,7 @@ class FileChecker {
           sides_.fail(name(t) + (truth ? " is inside" : " is outside"));
         }
       }
-      // Parity changes across them: of every two triangles one is inside, and it is there.
+      // Parity changes across chains, so exactly one of the two triangles beside an edge is inside.
       for (const auto& [edge, segment] : chains_) {
         if (!graph_.separates(segment)) continue;
         ++sides_.checked;
@@ -410,7 +411,8 @@ class FileChecker {
       for (std::size_t i = 0; i < 3; ++i) {
         const Point &o = points_.all()[v[i]], &p = points_.all()[v[(i + 1) % 3]],
                     &q = points_.all()[v[(i + 2) % 3]];
-        // Halves, so that the largest doubles do not overflow; of what vanishes nothing is said.
+        // Halves, so that the largest doubles do not overflow; an angle at an edge whose length
+        // vanishes is left out.
         const double ux = p.dx / 2 - o.dx / 2, uy = p.dy / 2 - o.dy / 2, wx = q.dx / 2 - o.dx / 2,
                      wy = q.dy / 2 - o.dy / 2, size = std::hypot(ux, uy),
                      other = std::hypot(wx, wy);

@@ -9,19 +9,19 @@
 namespace tetproof::oracles {
 
 // Adds to the report:
-//  - complex: indices in range, corners distinct, no directed edge twice, every vertex used;
-//  - orientation: every triangle is counter-clockwise;
-//  - conformity: every piece of a segment is a chain of edges (of those listed, if the file lists
-//  them), its
-//    vertices within 4 ulp of the largest coordinate, or within `declared` (input units), or is
-//    not met by the triangles; what bounds the triangles are such chains, or the outer rectangle
-//    where the hull was promised; triangles beside each other are on the same side but across
-//    them; input vertices are vertices;
-//  - sides: triangles are inside or outside as rays say, no hole is covered (inputs of rings: each
-//    separating piece is between an inside and an outside);
-//  - edge-list: the edges listed are those chains, each with the marker of its segment;
-//  - angles: for information.
-// Where corners were not to be restored (--approximate): complex, orientation and angles.
+// - complex: indices in range, corners distinct, no directed edge twice, every vertex used;
+// - orientation: every triangle is counter-clockwise;
+// - conformity: every piece of a segment is a chain of edges (of those listed, if the file lists
+//   them), or the triangles do not meet it. The chain's vertices are at most 4 ulp of the largest
+//   coordinate and 9 ulp of their own coordinates off the piece, or at most `declared` (input
+//   units) if that is given. The triangles are bounded by such chains, or by the outer rectangle
+//   where the hull was promised. Triangles beside each other are on the same side but across
+//   chains. Input vertices are vertices;
+// - sides: triangles are inside or outside as rays say, and no hole is covered (inputs of rings:
+//   each separating piece is between an inside and an outside);
+// - edge-list: the edges listed are those chains, each with the marker of its segment;
+// - angles: for information.
+// Where corners were not to be restored (--approximate): only complex, orientation and angles.
 // `deviation` gets the largest distance of a chain's vertex from its segment, in input units.
 void check_plane_file(PlaneGraph& graph, const PlaneFile& file, const Promise& promise,
                       double declared, VerifyReport& report, double& deviation);

@@ -71,7 +71,7 @@ void read_segments(TextReader& reader, const std::string& path, std::int64_t fir
   }
 }
 
-// Decimal points, commas as blanks: as delmesher reads Triangle's files and rings.
+// Commas count as blanks, as delmesher reads Triangle's files and rings.
 std::string without_commas(std::string text) {
   std::replace(text.begin(), text.end(), ',', ' ');
   return text;
@@ -277,7 +277,7 @@ PlaneFile read_gmsh(const std::string& path, std::string_view text) {
   PlaneFile file;
   file.lists_edges = true;
   std::map<std::int64_t, std::uint32_t> nodes;
-  std::map<std::int64_t, std::int32_t> markers;  // of physical curves, which curves are here
+  std::map<std::int64_t, std::int32_t> markers;  // by physical tag, here also the curve's own
   for (auto word = reader.word(); !word.empty(); word = reader.word()) {
     if (word == "$MeshFormat") {
       if (reader.number() != 4.1 || reader.integer() != 0) reader.fail("no text of version 4.1");

@@ -16,10 +16,10 @@ struct PlaneFile {
   std::vector<std::array<double, 2>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint8_t> inside;  // per triangle; empty: the file says nothing
-  bool lists_edges = false;          // those that tile the segments
+  bool lists_edges = false;          // the file lists the edges that tile the segments
   std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::int32_t> markers;    // per edge
-  std::vector<std::uint32_t> segments;  // per edge: of the input; empty: the file says nothing
+  std::vector<std::uint32_t> segments;  // per edge, of the input; empty: the file says nothing
 };
 
 // All throw ReadError.
@@ -30,7 +30,7 @@ delmesher::PlanarGraph read_plane_graph(const std::string& path);
 PlaneFile read_plane_file(const std::string& path);
 delmesher::PlaneRecord read_plane_sidecar(const std::string& path, unsigned* version = nullptr);
 
-// What a run of the library would write.
+// The file that a run of the library would write.
 PlaneFile plane_file_of(const delmesher::PlaneMesh& mesh);
 
 }  // namespace tetproof::oracles

@@ -71,7 +71,7 @@ bool PlaneGraph::separates(Index segment) const {
   return graph_.partitions.empty() || graph_.partitions[segment] == 0;
 }
 
-// The vertices of the one closed curve that the segments form, empty if they do not.
+// The vertices of the single closed curve that the segments form; empty if they do not form one.
 std::vector<Index> PlaneGraph::round_the_ring() const {
   std::map<Index, std::vector<Index>> next;
   for (const auto& [a, b] : graph_.segments) {
@@ -95,7 +95,7 @@ std::vector<Index> PlaneGraph::round_the_ring() const {
 
 void PlaneGraph::find_rings() {
   const std::vector<Index> ring = round_the_ring();
-  // No vertex within a segment: then the curve may touch itself.
+  // If a vertex lies within a segment, the curve may touch itself.
   if (!ring.empty() && pieces_.size() == graph_.segments.size() && graph_.partitions.empty()) {
     ring_area_ = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {

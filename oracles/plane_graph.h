@@ -1,5 +1,5 @@
-// The input of the plane as its checks see it: exact vertices, segments cut where vertices lie on
-// them, and what is inside by counting crossings.
+// The planar graph of the input as the checks see it: exact vertices, segments cut where vertices
+// lie on them, and the inside by counting crossings.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ class PlaneGraph {
  public:
   using Index = PlanePoints::Index;
   using Point = PlanePoints::Point;
-  // Part of a segment between two input vertices on it, from its first end to its second.
+  // The part of a segment between two consecutive input vertices on it, in the segment's direction.
   struct Piece {
     Index a, b, segment;
   };
@@ -27,28 +27,30 @@ class PlaneGraph {
   // The input vertices alone.
   PlanePoints& points() { return points_; }
   const Point& vertex(Index v) const { return points_.all()[v]; }
-  // Segment by segment, each in order; of segments given twice only the first.
+  // Segment by segment, each in order. A segment that is given twice has pieces only once.
   const std::vector<Piece>& pieces() const { return pieces_; }
   const std::vector<std::vector<Index>>& pieces_at() const { return pieces_at_; }  // per vertex
   const std::vector<std::vector<Index>>& pieces_of() const { return pieces_of_; }  // per segment
   double largest() const { return largest_; }                                      // coordinate
   double diagonal() const { return diagonal_; }  // of the bounding box
 
-  // Is what is on its two sides not the same?
+  // Does the inside change to the outside across the segment? (Some inputs have others, between two
+  // faces of the same side.)
   bool separates(Index segment) const;
   // Does parity decide what is inside, everywhere?
   bool closed_rings() const { return rings_; }
-  // If the segments are one simple closed curve, twice the area within; else negative.
+  // Twice the area within if the segments are one simple closed curve; else negative.
   const mpq_class& area_of_ring() const { return ring_area_; }
-  // Parity of separating segments on a ray to the right. For points on no segment.
+  // By the parity of separating segments on a ray to the right. The point must be on no segment.
   bool inside_by_ray(const Point& c);
   bool on_segment(const std::array<double, 2>& at);
-  // Distance from an input vertex to the nearest vertex or segment that it is not on, if that is
-  // at most `most`; else something larger.
+  // The distance from an input vertex to the nearest vertex or segment that it is not on, in input
+  // units, if it is at most `most`; else some larger number.
   double feature_size(Index v, double most);
 
-  // Calls meet(segment) or meet(vertex) for those whose boxes meet the given one, and others. One
-  // at a time: meet may not search again (feature_size, inside_by_ray and on_segment do).
+  // Calls meet(segment) or meet(vertex) for each whose box meets the given one, and for some
+  // others. One search at a time: meet may not search again, as feature_size, inside_by_ray and
+  // on_segment do.
   template <class Meet>
   void near_segments(const PlaneGrid::Box& box, Meet&& meet) {
     near_.visit(box, [&](Index item) {

@@ -1,5 +1,5 @@
-// Segments and points in the plane by the cells of a uniform grid, so that the checks of a large
-// input need not try all against all. Boxes only: what is near is for the caller to decide.
+// Boxes of segments and points in the cells of a uniform grid, so that the checks of a large input
+// need not try all against all. The grid compares boxes only; the caller decides what is near.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ class PlaneGrid {
 
  private:
   using Cell = std::array<std::size_t, 2>;
-  // Monotone in both coordinates; what is outside counts to the border.
+  // Monotone in both coordinates; a point outside the grid belongs to a cell of its border.
   Cell cell(const Corner& p) const;
 
   std::size_t side_ = 1;

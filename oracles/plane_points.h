@@ -1,5 +1,5 @@
-// Points of the plane as rationals, and the signs that decide the checks: rationals decide, a plain
-// floating-point bound only skips what is obvious.
+// Points of the plane as rationals, and the signs that decide the checks. Rationals decide; a plain
+// floating-point bound only skips the obvious cases.
 #pragma once
 
 #include <gmpxx.h>
@@ -28,14 +28,14 @@ class PlanePoints {
   int in_circle(Index a, Index b, Index c, Index d);
   // Is p strictly inside the disc with diameter ab?
   bool encroaches(Index a, Index p, Index b);
-  // Parameter of a point of the segment from a to b: 0 at a, 1 at b.
+  // The parameter of a point on the line through a and b: 0 at a, 1 at b.
   mpq_class parameter(Index v, Index a, Index b) const;
 
-  // Of the rounded coordinates.
+  // Distances in input units, rounded.
   double distance(Index a, Index b) const;
   double distance_to_segment(Index v, Index a, Index b) const;
 
-  std::uint64_t checks = 0;  // signs that were decided
+  std::uint64_t checks = 0;  // number of signs decided so far
 
  private:
   std::vector<Point> points_;

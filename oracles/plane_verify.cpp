@@ -28,7 +28,8 @@ using Index = PlanePoints::Index;
 using Point = PlanePoints::Point;
 using Edge = std::pair<Index, Index>;
 constexpr Index kNothing = 0xffffffffU;
-// Angles up to here are guaranteed in the plane; beyond, as good as it gets.
+// Angle bounds up to this one, in degrees, are guaranteed in the plane; above it the bound is best
+// effort.
 constexpr double kGuaranteed = 20.7;
 constexpr unsigned kVersion = 1;
 
@@ -59,7 +60,7 @@ class RecordVerifier {
         promise_(options.promised),
         report_(report) {}
 
-  // The largest distance of a written vertex from its place.
+  // Returns the largest distance of a written vertex from its exact place.
   double run() {
     check_promise();
     if (!read_points()) return 0;
@@ -172,7 +173,7 @@ class RecordVerifier {
       q.dy = q.y.get_d();
       exact_.add(std::move(q));
     }
-    // What follows takes these for granted.
+    // All later checks take these references for granted.
     const auto refers = [&](const char* what, const auto& vertices) {
       ++oracle.checked;
       for (const Index v : vertices) {
@@ -262,7 +263,8 @@ class RecordVerifier {
       if (mesh.left_of.contains({edge.second, edge.first})) continue;
       if (!on_side(edge)) oracle.fail(name(t) + " has a border inside the rectangle");
     }
-    // Marked edges: once each, of the mesh; what is of no segment is of the outer rectangle.
+    // Marked edges are edges of the mesh, once each; an edge on no segment is on the outer
+    // rectangle.
     if (mesh.segment.size() != mesh.edges->size()) oracle.fail("an edge is listed twice");
     for (const auto& [edge, segment] : mesh.segment) {
       ++oracle.checked;
@@ -305,7 +307,7 @@ class RecordVerifier {
     }
   };
 
-  // Of each segment, the edges that are said to be on it, as ranges of its parameter.
+  // Per segment, the edges that the record says are on it, as ranges of the segment's parameter.
   std::vector<std::vector<Part>> parts_of(const Mesh& mesh, OracleReport& oracle) {
     std::vector<std::vector<Part>> parts(graph_.segments.size());
     for (const auto& [edge, segment] : mesh.segment) {
@@ -342,7 +344,7 @@ class RecordVerifier {
     tell(std::move(oracle));
   }
 
-  // What is left of each piece: in one part, without holes.
+  // The part that is left of each piece, which has no holes.
   std::vector<oracles::PieceRest> verify_segments(const Mesh& mesh) {
     OracleReport oracle("refined-segments", "edges");
     oracle.checked = input_.pieces().size();
@@ -382,7 +384,8 @@ class RecordVerifier {
   void verify_refinement(const Mesh& mesh) {
     OracleReport angles("refined-angles", "triangles"), balls("refined-encroachment", "triangles"),
         edges("refined-edges", "triangles");
-    // What the record claims, if that is more; what is no angle has been refused.
+    // The record's claim counts if it is larger. No triangle can keep a bound above 60 degrees, so
+    // such a claim is ignored.
     double delta = std::min(promise_.delta, kGuaranteed);
     if (record_.delta <= 60) delta = std::max(delta, record_.delta);
     const long double radians = static_cast<long double>(delta) * 3.14159265358979323846L / 180;
@@ -482,8 +485,8 @@ class RecordVerifier {
     return true;
   }
 
-  // A triangle of the final mesh that has something in common with this one, which no segment
-  // crosses: at one of its corners, towards its middle.
+  // A triangle of the final mesh that overlaps this one, which no segment crosses: it has a corner
+  // in common, and contains the direction from there to this one's centroid.
   Index triangle_beside(const Mesh& final, const PlaneRecord::Triangle& triangle) {
     const Point c = centroid(triangle);
     for (const Index v : triangle.vertices) {
@@ -501,7 +504,7 @@ class RecordVerifier {
     return kNothing;
   }
 
-  // A triangle that has the point, on its border at most.
+  // A triangle that contains the point, possibly on its border.
   Index triangle_with(Mesh& mesh, const Point& p) {
     Index found = kNothing;
     mesh.cells.visit(box_of({&p}, 0), [&](Index t) {
@@ -534,7 +537,7 @@ class RecordVerifier {
            exact_.orient(points()[v], p, points()[to]) > 0;
   }
 
-  // Without a final mesh: between every two neighbouring pieces a point close to the vertex.
+  // Without a final mesh: tries a point close to the vertex between every two neighbouring pieces.
   int side_by_probes(Index v, Index from, Index to) {
     if (!input_.closed_rings()) return -1;
     std::vector<Index> ends;
@@ -568,7 +571,7 @@ class RecordVerifier {
 
   // ---------------------------------------------------------------------------------- final
 
-  // A flood from the border, with the number of separating segments that have to be crossed.
+  // Floods from the border, and counts the separating segments that have to be crossed.
   void verify_sides(Mesh& mesh) {
     OracleReport oracle("exact-sides", "triangles");
     const bool nested = graph_.insideness == Insideness::nested;
@@ -655,7 +658,7 @@ class RecordVerifier {
     tell(std::move(oracle));
   }
 
-  // Of the inside, where a single ring bounds it.
+  // The area of the inside, where a single ring bounds it.
   void verify_area(const Mesh& mesh) {
     if (input_.area_of_ring() < 0) return;
     OracleReport oracle("exact-area", "triangles");
@@ -833,7 +836,7 @@ std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const 
                             options.declared_deviation * input.diagonal(), report,
                             report.deviation);
   if (record != nullptr && options.promised.approximate && file.triangles.empty()) {
-    // Corners may have taken all there was; that the record has none either is for same-mesh.
+    // Corners may have taken all triangles; same-mesh decides whether the record has none either.
     for (OracleReport& oracle : report.oracles) {
       oracle.checked = std::max<std::uint64_t>(oracle.checked, 1);
       oracle.notes.emplace_back("the file has no triangle");

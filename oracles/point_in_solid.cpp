@@ -1,4 +1,4 @@
-// Exact answers about the solid: parity along a vertical ray, and does the surface enter a
+// Exact answers about the solid: the parity along a vertical ray, and whether the surface enters a
 // tetrahedron.
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 namespace tetproof::oracles {
 namespace {
 
-// The sum of some points minus so many times one vertex: the direction from the vertex to the
-// centroid, scaled.
+// The centroid of some points. The direction from a vertex to it is scaled by the number of points:
+// it is their sum minus that many times the vertex.
 class Centroid {
  public:
   Centroid(const ExactPoints& points, std::span<const Index> corners)
@@ -19,14 +19,14 @@ class Centroid {
       for (int axis = 0; axis < 3; ++axis) nearest_[axis] += points.nearest(v)[axis];
     }
     for (double& x : nearest_) x /= static_cast<double>(corners.size());
-    // Each of up to four points is within that of its nearest doubles, and all roundings of the sum
-    // and the quotient are within eight of the largest coordinate.
+    // Each of up to four points is within difference_error of its nearest doubles, and all
+    // roundings of the sum and the quotient are within eight of the largest coordinate.
     error_ = points.difference_error() + points.largest_coordinate() * 0x1p-50;
   }
 
-  // On which side of a -> b, seen from above, it lies, or 0 where doubles do not tell. Of the
-  // determinant of two differences the errors are those of the differences times the other one,
-  // and of rounding; all is taken twice or more.
+  // The side of a -> b, seen from above, on which the centroid lies, or 0 where doubles do not
+  // tell. The value is a determinant of two differences: its errors are those of each difference
+  // times the other one, and that of rounding. All bounds are taken twice or more.
   int rough_side_above(Index a, Index b) const {
     const Position &p = points_.nearest(a), &q = points_.nearest(b);
     const double u = q[0] - p[0], v = q[1] - p[1];
@@ -79,8 +79,8 @@ class Centroid {
   double error_ = 0;
 };
 
-// On which side of a -> b, seen from above, the centroid lies, after moving it by (e, e^2) for an
-// infinitesimal e: never on it unless a and b have the same projection.
+// The side of a -> b, seen from above, on which the centroid lies after moving it by (e, e^2) for
+// an infinitesimal e: never 0 unless a and b have the same projection.
 int side_above(const ExactPoints& points, Index a, Index b, const Centroid& q) {
   if (const int side = q.rough_side_above(a, b); side != 0) return side;
   const IntervalVector along = points.rough_difference(a, b), w = q.rough_from(a);
@@ -166,9 +166,9 @@ double middle(const Interval& x) {
   return x.low / 2 + x.high / 2;
 }
 
-// A cheap proof that the tetrahedron stays out, of large triangles above all: it lies beyond one of
-// the triangle's edges. Whatever direction has all of one on the far side of all of the other is
-// proof, so that the one across the edge may be rounded; the heights along it may not.
+// A cheap proof that the tetrahedron stays out, above all for large triangles: it lies beyond one
+// of the triangle's edges. Any direction along which one is wholly beyond the other is a proof. So
+// the direction across the edge may be rounded, but not the heights along it.
 bool beyond_edge(const ExactPoints& points, const std::array<Index, 3>& triangle,
                  const IntervalVector& rough_normal, const std::array<Index, 4>& tetrahedron) {
   const Position n = {middle(rough_normal[0]), middle(rough_normal[1]), middle(rough_normal[2])};
@@ -193,8 +193,8 @@ bool beyond_edge(const ExactPoints& points, const std::array<Index, 3>& triangle
   return false;
 }
 
-// Beyond each face of a tetrahedron, more or less: normals may be rounded, as long as all of the
-// tetrahedron is short of the offset.
+// The half-spaces beyond the faces of a tetrahedron. Their normals may be rounded, as long as the
+// whole tetrahedron is short of the offset.
 std::array<BoxTree::HalfSpace, 4> beyond_faces(const ExactPoints& points,
                                                const std::array<Index, 4>& tetrahedron) {
   std::array<BoxTree::HalfSpace, 4> result;
@@ -217,9 +217,9 @@ std::array<BoxTree::HalfSpace, 4> beyond_faces(const ExactPoints& points,
   return result;
 }
 
-// A cheap proof that triangle and tetrahedron have at most one corner in common: a direction in
-// which all other corners of one are on the far side of those of the other. Rosenblatt's perceptron
-// looks for it among the differences, in doubles; intervals decide.
+// A cheap proof that triangle and tetrahedron have at most one corner in common: a direction along
+// which all other corners of one are beyond those of the other. Rosenblatt's perceptron looks for
+// it among the differences, in doubles; intervals decide.
 bool apart(const ExactPoints& points, const std::array<Index, 3>& triangle,
            const std::array<Index, 4>& tetrahedron) {
   constexpr int kRounds = 30;
@@ -271,8 +271,8 @@ BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corner
   return box;
 }
 
-// Crossings of the surface with the upward ray from the centroid, not counting triangle `except`;
-// -1 if the centroid lies on a triangle.
+// The number of crossings of the surface with the upward ray from the centroid, without triangle
+// `except`; -1 if the centroid lies on a triangle.
 int InputSurface::crossings_above(const ExactPoints& points, std::span<const Index> corners,
                                   Index except) const {
   const Centroid q(points, corners);
@@ -321,8 +321,8 @@ bool InputSurface::meets_interior(const ExactPoints& points,
     }
     return at->second;
   };
-  // A facet's plane that does not enter the tetrahedron keeps all its triangles out. Only what
-  // doubles do not tell is looked up or decided.
+  // A facet's plane that does not enter the tetrahedron keeps all its triangles out. Only where
+  // doubles do not tell is the side looked up or decided.
   const auto plane_enters = [&](Index t) {
     bool above = false, below = false;
     std::array<int, 4> sides;

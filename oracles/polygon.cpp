@@ -14,7 +14,7 @@ using Triangles = std::vector<std::array<Index, 3>>;
 int turn(const Point& a, const Point& b, const Point& c) {
   const double left = (b[0] - a[0]) * (c[1] - a[1]), right = (b[1] - a[1]) * (c[0] - a[0]);
   const double sum = std::fabs(left) + std::fabs(right);
-  // Three roundings each; below the second bound they might have underflowed.
+  // Each product has three roundings; below 1e-280 they might have underflowed.
   if (sum > 1e-280 && std::fabs(left - right) > 1e-15 * sum) return left > right ? 1 : -1;
   const auto difference = [](double p, double q) { return mpq_class(mpq_class(p) - mpq_class(q)); };
   const mpq_class exact = difference(b[0], a[0]) * difference(c[1], a[1]) -
@@ -22,7 +22,7 @@ int turn(const Point& a, const Point& b, const Point& c) {
   return sgn(exact);
 }
 
-// The coordinate along which the face is seen best.
+// The axis along which the face has the largest projection.
 int widest_axis(const Polyhedron& surface, const std::vector<Index>& face) {
   const Position& o = surface.vertices[face[0]];
   std::array<double, 3> area = {0, 0, 0};

@@ -44,7 +44,7 @@ constexpr Number kNumbers[] = {{"--delta", &Promise::delta, 0, 60},
                                {"--budget", &Promise::budget, 0, 1e15},
                                {"--max-vertices", &Promise::max_vertices, 0, 1e15}};
 
-// They say where and how, not what; of --slivers nothing is guaranteed.
+// These options say where and how, not what; --slivers guarantees nothing.
 constexpr std::array kWithValue = {"-o",        "--output",     "--stats",          "--exact",
                                    "--threads", "--time-limit", "--save-chamfered", "--slivers"};
 constexpr std::array kWithout = {"-q", "--quiet", "-v", "--verbose", "--no-bridge-simplification"};
@@ -167,8 +167,8 @@ class PromiseCheck {
     section("facets", record_.facets.size());
     const bool enriched = promise_.task == Task::cdt || !promise_.approximate;
     if (enriched) {
-      // (Without the last step nothing is inside where the filter has left nothing; that the file
-      // has as many vertices is for same-mesh to decide.)
+      // With --approximate the mesh may be empty, because the filter may leave nothing. Then only
+      // same-mesh looks at the number of vertices.
       section("mesh_vertices", record_.mesh_vertices.size());
       section("final", record_.final.size());
       section("final_facets", record_.final_facets.size());

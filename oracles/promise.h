@@ -1,5 +1,5 @@
-// What a mesher was asked for: what its mesh and its record are held to. The caller says it; the
-// record cannot.
+// The options that a mesher was asked for. Its mesh and its record are held to them. The caller
+// says them, since the record cannot vouch for itself.
 #pragma once
 
 #include <cstdint>
@@ -32,30 +32,32 @@ struct Promise {
   double budget = 0;          // tetrahedra; 0: tau is not raised
   double max_vertices = 0;    // 0: no limit
 
-  // How far the surface may deviate between the vertices and edges that it keeps, as a fraction of
-  // the diagonal.
+  // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a
+  // fraction of the diagonal.
   double planar_share() const;
-  // The face angle that is guaranteed: above a radius-edge ratio of 2 the bound is best effort.
+  // The face angle that is guaranteed, in degrees. A larger delta asks for a radius-edge ratio
+  // below 2, where the bound is best effort.
   double guaranteed_delta() const;
-  // The threshold for two edges that is in force: an angle of two edges that is not chamfered is an
-  // angle of the mesh, so it has to exceed delta by some degrees.
+  // The threshold for two edges that is in force, in degrees. An angle of two edges that is not
+  // chamfered is an angle of the mesh, so the threshold has to exceed delta by some degrees.
   double corner_in_force() const;
 };
 
 // Reads a command line without the program's name: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS';
 // without a first word `mesh` is meant. Options that promise nothing of the result (files, threads,
-// times) are read over. Null, or why it is none.
+// times) are ignored. Empty on success, else what is wrong with it.
 std::string parse_promise(std::string_view text, Promise& promise);
 
-// The same of a call of the library.
+// The same for a call of the library.
 Promise promise_of(const delmesher::Options& options, Task task = Task::mesh);
 
 // Is the record of the present version, has it the sections that the promise needs, and are its
-// parameters those promised or stricter ones? `diagonal` is of the input's bounding box.
+// parameters those promised or stricter ones? `diagonal` is that of the input's bounding box, in
+// input units.
 OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord& record,
                            unsigned version, double diagonal);
 
-// The version of the sidecar that has all that is asked for.
+// The version of the sidecar that has all sections the oracles ask for.
 inline constexpr unsigned kRecordVersion = 4;
 
 }  // namespace tetproof::oracles

@@ -171,7 +171,7 @@ void Segments::check_input(std::size_t n, const ExactRecord::Chain& chain) {
   last_[e] = ordered.back();
 }
 
-// What of an edge is missing was cut off at a chamfered corner, or the edge was acute.
+// A missing part of an edge was cut off at a chamfered corner, or the edge was acute.
 void Segments::check_ends() {
   std::uint64_t missing = 0;
   for (std::size_t e = 0; e < surface_.edges().size(); ++e) {
@@ -409,8 +409,7 @@ OracleReport check_refined_facets(const RefinedMesh& mesh) {
 
 namespace {
 
-// Points given explicitly that are neither of the input nor on the outer box were put into the
-// volume.
+// Explicit points that are neither of the input nor on the outer box were put into the volume.
 std::vector<std::uint8_t> volume_points(const RefinedMesh& mesh) {
   std::vector<std::uint8_t> is_volume(mesh.points->size());
   const auto& tets = mesh.complex->tetrahedra;

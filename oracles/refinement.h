@@ -1,5 +1,5 @@
 // The refined mesh as the exact record describes it (sections 5.2 to 5.6): chains of segments,
-// faces on facets, encroachment, and where volume Steiner points were put.
+// faces on facets, encroachment, and the places of volume Steiner points.
 #pragma once
 
 #include "oracles/input_surface.h"
@@ -8,7 +8,7 @@
 
 namespace tetproof::oracles {
 
-// What the refined-stage oracles look at. `complex` holds record->refined.
+// The arguments of the oracles of the refined mesh. `complex` holds record->refined.
 struct RefinedMesh {
   const delmesher::ExactRecord* record = nullptr;
   const ExactPoints* points = nullptr;
@@ -19,13 +19,14 @@ struct RefinedMesh {
   Index input_vertices = 0;
 };
 
-// Facets of the surface by id, and which of them the filter kept.
+// Finds facets of the surface by id, and says which of them the filter kept.
 class FacetIndex {
  public:
   FacetIndex(const InputSurface& surface, const delmesher::ExactRecord& record);
   Index find(Index id) const;  // kNone if there is no such facet
   bool kept(Index facet) const { return kept_[facet] != 0; }
-  // Why the record's list of facets is not that of the surface; empty if it is.
+  // Why the record's list of facets is not that of the surface; empty if it is, or if there is
+  // none.
   const std::string& defect() const { return defect_; }
 
  private:
@@ -34,21 +35,22 @@ class FacetIndex {
   std::string defect_;
 };
 
-// The edge of the input, between two facets, on which a chain of the record lies.
+// Finds edges of the input between two facets, and the one on which a chain of the record lies.
 class InputEdges {
  public:
   explicit InputEdges(const InputSurface& surface);
   Index find(Index a, Index b) const;  // index into surface.edges(), or kNone
-  // By the form of the chain's points: two input vertices, or points on a segment.
+  // Judged by the chain's points alone: its first point on a segment names the edge, else its ends
+  // do. kNone if there is no such edge.
   Index of_chain(const delmesher::ExactRecord& record, const std::vector<Index>& chain) const;
 
  private:
   std::vector<std::pair<std::uint64_t, Index>> edges_;
 };
 
-// Chains on input edges: straight, on their edge, made of mesh edges, disjoint, and no part of an
-// edge is missing but at chamfered corners. Artificial chains: simple, exactly in the plane of a
-// kept facet, within 2^-20 of their length of the straight line.
+// Chains on input edges: straight, on their edge, made of mesh edges and disjoint. Nothing of an
+// edge is missing but at chamfered corners, and the whole of acute edges. Artificial chains:
+// simple, exactly in the plane of a kept facet, within 2^-20 of their length of the straight line.
 OracleReport check_segments(const RefinedMesh& mesh);
 
 // The faces on a facet are faces of the mesh, exactly in its plane, not folded, and bounded by
@@ -57,11 +59,12 @@ OracleReport check_refined_facets(const RefinedMesh& mesh);
 
 // No vertex lies strictly inside the diametral ball of an edge of a chain or of a face on a facet.
 // In a Delaunay mesh, an element whose ball holds any vertex has one in the ball that shares a
-// tetrahedron with it; a sample is tried against all vertices none the less. Counted, not failed,
-// where the record does not promise it.
+// tetrahedron with it. A sample is tried against all vertices none the less. Violations are
+// counted, not failed, where the record does not promise empty balls.
 OracleReport check_encroachment(const RefinedMesh& mesh);
 
-// Every volume Steiner point lies strictly inside the circumball it was made for (section 5.6).
+// Every volume Steiner point has exactly one circumball for which it was made (section 5.6), and
+// lies strictly inside it.
 OracleReport check_balls(const RefinedMesh& mesh);
 
 }  // namespace tetproof::oracles

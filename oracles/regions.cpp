@@ -44,8 +44,8 @@ std::map<std::int64_t, std::array<Number, 2>> volumes_of(const TetComplex& compl
   return volumes;
 }
 
-// Whether more of a region is inside than outside. Only where they are nearly equal it takes exact
-// volumes to tell.
+// Is more of a region inside than outside? Exact volumes are computed only where the two are nearly
+// equal.
 std::map<std::int64_t, bool> inside_regions(const TetComplex& complex,
                                             const std::vector<std::int64_t>& regions) {
   std::map<std::int64_t, bool> result;
@@ -68,7 +68,7 @@ std::map<std::int64_t, bool> inside_regions(const TetComplex& complex,
   return result;
 }
 
-// Certainly at most a millionth of the volume more or less than it?
+// Do the tetrahedra certainly have the volume of the solid to within a millionth?
 bool clearly_fills(const TetComplex& complex, const InputSurface& surface) {
   Interval sum(0);
   for (const Tet& tet : complex.tetrahedra) {

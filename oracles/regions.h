@@ -1,4 +1,4 @@
-// Which tetrahedra of a mesh file are inside, by its region numbers and by parity.
+// Decides which tetrahedra of a mesh file are inside, by its region numbers and by parity.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,11 @@
 
 namespace tetproof::oracles {
 
-// Regions are numbers without meaning, but none may hold both tetrahedra inside and outside. The
-// side of a region is where most of its volume lies by parity of the centroids. Rounding may leave
-// the centroid of a sliver along the surface on the other side: `complex.inside` follows the region
-// then, and the sliver may be no thicker than `allowed`, checked by check_strays.
+// Regions are numbers without meaning, but none may hold both tetrahedra inside and outside. A
+// region is on the side on which most of its volume lies, by parity of the centroids. Rounding may
+// leave the centroid of a sliver along the surface on the other side. Then `complex.inside` follows
+// the region, and the sliver may be no thicker than `allowed` (input units), which check_strays
+// checks.
 class Regions {
  public:
   // Sets complex.inside, which must hold the parity. Both arguments must outlive this.
@@ -29,12 +30,12 @@ class Regions {
   std::vector<std::size_t> strays_;
 };
 
-// In doubles.
+// In squares of the input unit, rounded.
 double surface_area(const TetComplex& complex, const std::vector<Face>& faces);
 
-// Have the tetrahedra, all together, about the volume of the solid? Up to what rounding of the
-// vertices, by at most `rounding`, adds to it, which is more than any share of the volume where
-// walls are thin.
+// Have the tetrahedra, all together, the volume of the solid, to a millionth? Or to as much as
+// rounding of the vertices by at most `rounding` (input units) adds: where walls are thin, that is
+// more than any share of the volume.
 bool fills(const TetComplex& complex, const InputSurface& surface, double rounding);
 
 }  // namespace tetproof::oracles

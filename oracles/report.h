@@ -1,5 +1,5 @@
-// What an oracle says: how much it checked, what is wrong and where. Oracles never abort and never
-// throw.
+// The report of an oracle: how much it checked, and what is wrong and where. Oracles never abort
+// and never throw.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace tetproof::oracles {
 
-// What an oracle notes that would ask another library too, in a program built without them.
+// The note of an oracle that would ask another library too, in a program built without it.
 inline constexpr const char* kNoSecondOpinion =
     "CGAL was not asked: built without second opinions (TETPROOF_SECOND_OPINIONS)";
 
@@ -23,11 +23,11 @@ struct OracleReport {
   std::uint64_t checked = 0;
   std::uint64_t violations = 0;
   bool promised = true;    // false: only counted and measured, because nobody promised it
-  bool undecided = false;  // what it was given does not tell whether the violations are any
+  bool undecided = false;  // its input does not tell whether the violations are real
   std::vector<std::string> findings;  // the first violations, each naming its element
   std::vector<std::string> notes;     // no violations, but worth knowing
   std::vector<std::pair<std::string, double>> figures;
-  // Of angles, 15 degrees a bin.
+  // Counts of angles, 15 degrees a bin.
   std::vector<std::pair<std::string, std::array<std::uint64_t, 12>>> histograms;
 
   // Counts a violation and keeps the first few in words.
@@ -37,7 +37,7 @@ struct OracleReport {
   }
   // An oracle that has looked at nothing has not passed.
   bool passed() const { return violations == 0 && checked > 0; }
-  // "pass", "FAIL", "info" of what was not promised, or "undecided".
+  // "pass", "FAIL", "info" for what was not promised, or "undecided".
   const char* status() const {
     if (undecided) return "undecided";
     return !passed() ? "FAIL" : promised ? "pass" : "info";
@@ -50,8 +50,8 @@ const char* verdict_name(Verdict verdict);
 
 struct VerifyReport {
   Verdict verdict = Verdict::broken;
-  double deviation = 0;  // of the surface as written, in input units, an upper bound
-  double slab = 0;       // the widest that contains a facet which stands for several of the input
+  double deviation = 0;  // upper bound for that of the surface as written, in input units
+  double slab = 0;       // width of the widest that holds a facet made of several, in input units
   double deviation_ulps = 0;             // in ulps of the largest coordinate
   double deviation_share = 0;            // as a fraction of the bounding-box diagonal
   std::uint64_t inverted = 0, flat = 0;  // cells as written
@@ -60,7 +60,7 @@ struct VerifyReport {
 
   const OracleReport* find(const std::string& name) const;
   bool all_passed() const;
-  bool any_failed() const;  // undecided ones have not
+  bool any_failed() const;  // an undecided one has not failed
 };
 
 std::string to_json(const VerifyReport& report);

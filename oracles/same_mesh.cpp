@@ -24,7 +24,7 @@ struct LabelledFace {
   Face face;
   std::int32_t label;
   Index facet;
-  bool even;  // `face` is an even permutation of what is seen from outside the solid
+  bool even;  // `face` is an even permutation of the face seen from outside
   auto operator<=>(const LabelledFace&) const = default;
 };
 
@@ -104,7 +104,7 @@ class SameMesh {
   void compare_regions(std::size_t w, std::size_t r) {
     const bool inside = tets_[r].inside;
     if (w >= mesh_.regions.size()) {
-      // Where all is inside, a file need not say so.
+      // If all tetrahedra are inside, a file need not say so.
       if (!inside || !mesh_.regions.empty()) {
         report_.fail("the file does not say on which side tetrahedron " + std::to_string(w) +
                      " is");
@@ -127,7 +127,7 @@ class SameMesh {
   }
 
   // The faces of the tetrahedra inside (of a refined mesh: of all that are written), and how they
-  // are seen from there.
+  // are oriented seen from outside their tetrahedron.
   std::vector<std::pair<Face, bool>> faces_of_tets() const {
     std::vector<std::pair<Face, bool>> faces;
     for (const ExactRecord::Tet& tet : tets_) {
@@ -142,7 +142,7 @@ class SameMesh {
     return faces;
   }
 
-  // Of a refined mesh, those faces on facets are listed whose tetrahedra are written.
+  // For a refined mesh only the faces on facets whose tetrahedra are written.
   std::vector<LabelledFace> recorded_faces() const {
     const std::vector<std::pair<Face, bool>> of_tets = faces_of_tets();
     const std::map<Index, std::int32_t> labels = labels_of_facets();
@@ -208,7 +208,7 @@ class SameMesh {
   OracleReport report_{"same-mesh", "tetrahedra of the file"};
 };
 
-// The exact distance of a written coordinate from the point, squared and summed, in input units.
+// The square of the exact distance of a written position from the point, in squares of input units.
 mpq_class exact_distance2(const Position& written, const ExactPoints& points, Index v) {
   mpq_class sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -252,7 +252,7 @@ OracleReport check_rounding(const MeshFile& mesh, const ExactRecord& record,
     const Position p = points.nearest(v), q = mesh.vertices[i];
     const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
     largest = std::max(largest, distance);
-    // What doubles say of it is off by less than two ulp.
+    // The distance in doubles is off by less than two ulp.
     if (distance <= gate - 2 * options.ulp) continue;
     if (std::isfinite(distance) &&
         exact_distance2(q, points, v) <= mpq_class(gate) * mpq_class(gate)) {

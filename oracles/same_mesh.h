@@ -1,4 +1,4 @@
-// The record and the file are one mesh.
+// Are the record and the file one mesh?
 #pragma once
 
 #include "oracles/mesh_file.h"
@@ -8,14 +8,14 @@
 namespace tetproof::oracles {
 
 struct SameMeshOptions {
-  double ulp = 0;      // of the largest coordinate of the surface
+  double ulp = 0;      // of the largest coordinate of the surface, in input units
   double allowed = 0;  // a declared deviation, in input units
 };
 
 // The tetrahedra of the file are, through mesh_vertices and one to one, those of the last mesh of
 // the record: of the solid, or all if the hull was promised. Region numbers tell inside from
 // outside as the record does. Listed boundary triangles are the record's faces on facets, one to
-// one, with their labels (faces of the hull may be listed besides).
+// one, with their labels and facets, and seen from outside.
 OracleReport check_same_mesh(const MeshFile& mesh, const delmesher::ExactRecord& record,
                              const Promise& promise, bool labelled);
 

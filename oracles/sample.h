@@ -1,5 +1,5 @@
-// Which elements are tried by brute force against all vertices: spread evenly, the same in every
-// run, and so few that it costs a bounded number of tests.
+// The elements that are tried by brute force against all vertices: spread evenly, the same in every
+// run, and so few that the number of tests is bounded.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Reading the sidecar that `delmesher mesh --exact FILE` writes. The oracles' own reader.
+// Reads the sidecar that `delmesher mesh --exact FILE` writes. The oracles' own reader.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace tetproof::oracles {
 
-// Throws ReadError. Older versions are read as far as they go: what they lack is for the oracle of
-// the promise to say, which is told the version.
+// Throws ReadError. Older versions are read as far as they go. The oracle of the promise is told
+// the version and says what they lack.
 delmesher::ExactRecord read_sidecar(const std::string& path, unsigned* version = nullptr);
 
 }  // namespace tetproof::oracles

@@ -1,5 +1,5 @@
-// The surface that was meshed instead of the input, on which near-coplanar triangles lie in one
-// plane: is it as near to the input as the record says?
+// The stand-in, the surface that was meshed instead of the input: is it as near to the input as the
+// record says?
 #pragma once
 
 #include "mesher/delmesher.h"
@@ -9,10 +9,10 @@
 namespace tetproof::oracles {
 
 // `surface` is that of the record, on `points`; `input` has the vertices and triangles as given.
-// - Every vertex as given is within parameters.planar of the planes of all its facets of more than
-//   one triangle, exactly.
-// - A vertex was moved by no more than a 16th of the shortest edge there, as given.
-// - A facet's triangles have the numbers, the corners and the outline that they have as given.
+// - Every vertex as given is within parameters.planar (input units) of the planes of all its facets
+//   of more than one triangle, exactly.
+// - A vertex was moved by no more than a 16th of its shortest edge as given.
+// - A facet has the triangles, the corners and the outline that it has as given.
 OracleReport check_stand_in(const Polyhedron& input, const delmesher::ExactRecord& record,
                             const InputSurface& surface);
 

@@ -61,7 +61,7 @@ Polyhedron read_obj(const std::string& path, std::string_view text) {
   TextReader reader(path, text);
   Polyhedron surface;
   Index polygons = 0;
-  // Labels are the names of the first of these that gives the faces at least two.
+  // Labels are the names of the first of these that gives the faces at least two different ones.
   static constexpr std::string_view kNamings[] = {"usemtl", "g", "o"};
   std::array<NamedLabels, 3> namings;
   while (!reader.at_end()) {
@@ -295,8 +295,8 @@ class PlyReader {
   std::size_t at_ = 0;
 };
 
-// TetGen's .smesh and .poly; a .poly facet must be one polygon, as there is nothing here to cut
-// holes with. Points may be in a .node file of the same name.
+// TetGen's .smesh and .poly. A .poly facet must be one polygon, as no code here cuts holes. Points
+// may be in a .node file of the same name.
 Polyhedron read_tetgen(const std::string& path, std::string_view text, bool poly) {
   TextReader reader(path, text);
   Polyhedron surface;

@@ -1,4 +1,4 @@
-// Surface validity: what CGAL and OpenMesh say of the input that a mesher has accepted.
+// Surface validity: do CGAL and OpenMesh agree with the mesher, which has accepted the input?
 #pragma once
 
 #include "oracles/input_surface.h"
@@ -7,9 +7,9 @@
 namespace tetproof::oracles {
 
 // The input is closed, manifold, consistently oriented and does not intersect itself. Both
-// libraries are asked (OpenMesh about the first three); one that objects is a failure, because the
-// mesher's own check has let the surface pass. Where some face is not simple in any projection
-// nothing is said about intersections.
+// libraries are asked (OpenMesh about the first three). If one objects the oracle fails, because
+// the mesher's own check has let the surface pass. Where some face is not simple in any projection
+// intersections are not looked for.
 OracleReport check_surface_validity(const Polyhedron& surface);
 
 }  // namespace tetproof::oracles

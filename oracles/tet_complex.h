@@ -17,8 +17,8 @@ struct TetComplex {
   const ExactPoints* points = nullptr;
   std::vector<Tet> tetrahedra;       // indices into points
   std::vector<std::uint8_t> inside;  // per tetrahedron: belongs to the solid
-  // The points that have to be used by some tetrahedron, [first, last); elements are reported less
-  // `first`, that is as numbered in the file.
+  // The points [first, last) have to be used by some tetrahedron. Reports number elements from
+  // `first` on, as the file does.
   Index first_vertex = 0, last_vertex = 0;
 
   std::string vertex_name(Index v) const;
@@ -38,16 +38,16 @@ struct Neighbours {
 std::vector<std::uint64_t> mesh_edges(const TetComplex& complex);
 
 // Complex oracle: indices in range, corners distinct, no duplicate tetrahedra, every face shared by
-// one or two with opposite orientation, no vertex unused, boundary closed; and the Euler
-// characteristic is half that of the boundary, as it is of every manifold of odd dimension: solids
-// that hang together at a vertex or an edge only fail. Fills `neighbours` as far as the complex
-// allows. `is_part`: the inside of a refined mesh, without what lies across the chamfered or
-// dropped part of the surface, need be no manifold and may be nothing; its characteristic is told
-// only.
+// one or two with opposite orientation, no vertex unused, boundary closed. The Euler characteristic
+// is half that of the boundary, as for every manifold of odd dimension, so solids that hang
+// together at a vertex or an edge only fail. Fills `neighbours` as far as the complex allows.
+// `is_part`: the complex is the inside of a refined mesh, without the tetrahedra that lie across
+// the chamfered or dropped part of the surface. It need be no manifold and may be empty; its
+// characteristic is reported only.
 OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours, bool is_part = false);
 
-// Orientation oracle: the exact sign of every tetrahedron. `inverted` and `flat` are figures of the
-// report.
+// Orientation oracle: every tetrahedron is positive, by its exact sign. The report has the figures
+// `inverted` and `flat`.
 OracleReport check_orientation(const TetComplex& complex);
 
 }  // namespace tetproof::oracles

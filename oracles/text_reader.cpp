@@ -35,7 +35,7 @@ TextReader TextReader::of_file(const std::string& path, char comment) {
   reader.source_ = std::make_unique<Source>();
   reader.source_->stream.open(path, std::ios::binary);
   if (!reader.source_->stream) throw ReadError(path + ": cannot be opened");
-  std::error_code unknown;  // of what is no regular file
+  std::error_code unknown;  // set if it is no regular file
   reader.size_ = std::filesystem::file_size(path, unknown);
   if (unknown) reader.size_ = std::numeric_limits<std::uint64_t>::max();
   if (!reader.refill()) throw ReadError(path + ": cannot be read, or is empty");
@@ -118,7 +118,8 @@ double TextReader::number() {
   const auto [end, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), value,
                       hexadecimal ? std::chars_format::hex : std::chars_format::general);
-  // Out of range leaves the value alone: what underflows is zero, what overflows is refused.
+  // from_chars leaves the value alone if it is out of range. A decimal number that underflows is
+  // zero; all others are refused.
   const bool underflow =
       error == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos;
   if ((error != std::errc() && !underflow) || end != digits.data() + digits.size() ||

@@ -1,4 +1,5 @@
-// Reading numbers and words out of a text file, with the line for error messages. The oracles' own.
+// Reads numbers and words out of a text file, and knows the line for error messages. The oracles'
+// own.
 #pragma once
 
 #include <cstdint>
@@ -15,33 +16,33 @@ struct ReadError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Whole contents of a file; throws ReadError.
+// The whole contents of a file. Throws ReadError, also if it is empty.
 std::string read_whole_file(const std::string& path);
 
-// A word that is handed out lasts until the next one is asked for.
+// A word that was returned lasts until the next one is asked for.
 class TextReader {
  public:
   // The text must outlive the reader. A comment sign ends its line; '\0' if there are no comments.
   TextReader(std::string name, std::string_view text, char comment = '#');
-  // Of a file, of which it holds a piece at a time. Throws ReadError if it cannot be read, or is
+  // Reads a file, and holds a piece of it at a time. Throws ReadError if it cannot be read, or is
   // empty.
   static TextReader of_file(const std::string& path, char comment = '#');
   TextReader(TextReader&&) noexcept;
   TextReader& operator=(TextReader&&) noexcept;
   ~TextReader();
 
-  // From here on.
+  // From here on a comment sign is a character like any other.
   void without_comments() { comment_ = '\0'; }
-  // Next word, empty at the end of the text.
+  // The next word, empty at the end of the text.
   std::string_view word();
-  // Next word of this line, empty if there is none.
+  // The next word of this line, empty if there is none.
   std::string_view word_in_line();
   std::string_view required_word(const char* what);
   void skip_line();
   bool at_end();
   // The next word has to be this one.
   void expect(const std::string& wanted);
-  // Nothing but this last word has to follow.
+  // This last word has to follow, and nothing else.
   void expect_end(const std::string& wanted);
   // A list of a record: its name, a count, and the items.
   template <class Item, class Read>
@@ -64,16 +65,16 @@ class TextReader {
  private:
   struct Source;  // where the rest of a file comes from
 
-  // Is nothing left? Moves text_ on, from kept_, if it has to.
+  // Is nothing left? Reads on, and keeps text_ from kept_ on, if it has to.
   bool at_its_end() { return at_ >= text_.size() && !refill(); }
   bool refill();
   void skip_blanks(bool over_lines);
 
   std::string name_;
-  std::string_view text_;  // what is there of it
+  std::string_view text_;  // the piece that is there
   char comment_;
-  std::unique_ptr<Source> source_;  // null: text_ is all
-  std::uint64_t size_;              // of all of it
+  std::unique_ptr<Source> source_;  // null: text_ is the whole text
+  std::uint64_t size_;              // of the whole text
   std::size_t at_ = 0, kept_ = 0;   // kept_: where the last word begins
   std::uint64_t line_ = 1;
 };

@@ -46,7 +46,8 @@ TetComplex complex_of(const std::vector<ExactRecord::Tet>& tets, const ExactPoin
   return complex;
 }
 
-// Which number of the record, beside its points, nothing can be decided with; or null.
+// Names a number of the record, apart from its points, that is not finite, so that nothing can be
+// decided; empty if all are.
 std::string endless(const ExactRecord& record) {
   const ExactRecord::Parameters& p = record.parameters;
   if (!std::isfinite(p.delta)) return "delta";
@@ -60,7 +61,7 @@ std::string endless(const ExactRecord& record) {
   return {};
 }
 
-// Of the bounding box of the vertices that have triangles.
+// The diagonal of the bounding box of the vertices that have triangles.
 double diagonal_of(const Polyhedron& input) {
   Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (const auto& t : input.triangles) {
@@ -74,18 +75,18 @@ double diagonal_of(const Polyhedron& input) {
   return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-// What several parts of a verification ask, made by the first that does.
+// Data that several parts of a verification need, made by the first that asks.
 class Shared {
  public:
   struct Sidecar {
     ExactPoints points;
-    // On the vertices as given, if some were moved: where the points are written.
+    // The same points on the vertices as given, if some were moved: these are written.
     ExactPoints given;
     InputSurface surface;  // that was meshed
     double diagonal = 0;   // of the input
     OracleReport report{"sidecar", "input vertices"};
     std::string why;      // the input bounds no solid
-    bool usable = false;  // points and surface are there
+    bool usable = false;  // points and surface have been made
 
     const ExactPoints& written() const { return given.size() > 0 ? given : points; }
   };
@@ -101,7 +102,7 @@ class Shared {
     std::call_once(sidecar_once_, [this] { read_sidecar(); });
     return sidecar_;
   }
-  // Of a usable sidecar.
+  // Only for a usable sidecar.
   const Refined& refined() {
     std::call_once(refined_once_, [this] {
       refined_.complex = complex_of(exact_->refined, sidecar().points);
@@ -169,8 +170,8 @@ void Shared::read_sidecar() {
   s.usable = s.why.empty();
 }
 
-// One part of a verification, with a report of its own. Each check gives why the input bounds no
-// solid, or null.
+// One part of a verification, with a report of its own. Each check returns why the input bounds no
+// solid, or an empty text.
 class Verification {
  public:
   using Check = std::string (Verification::*)();
@@ -180,7 +181,7 @@ class Verification {
                const VerifyOptions& options, Shared& shared)
       : input_(input), mesh_(mesh), exact_(exact), options_(options), shared_(shared) {}
 
-  // Those that make up a verification, in the order of their reports.
+  // The checks of a verification, in the order of their reports.
   static std::vector<Check> checks(const ExactRecord* exact, Stage stage);
   // Appends this part's report; the last part that knows them tells the measures of the input.
   void move_to(VerifyReport& report, double& ulp, double& diagonal);
@@ -276,7 +277,8 @@ void Verification::turn_all(TetComplex& complex) const {
   for (Tet& tet : complex.tetrahedra) std::swap(tet[2], tet[3]);
 }
 
-// Whatever a mesher wrote, it is for an oracle to say what is wrong with it.
+// Numbers that are not finite are reported by an oracle, as no file may make the verification fail
+// otherwise.
 bool Verification::check_finite() {
   OracleReport report("complex", "vertices");
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
@@ -310,11 +312,11 @@ std::string Verification::check_file() {
   const bool in_range = std::none_of(
       complex.tetrahedra.begin(), complex.tetrahedra.end(),
       [](const Tet& tet) { return *std::max_element(tet.begin(), tet.end()) == kNone; });
-  // Neighbours are told by face, so that nothing may be turned after they are.
+  // Neighbours are numbers of faces within tetrahedra, so no tetrahedron may be turned afterwards.
   if (in_range) turn_all(complex);
   Neighbours neighbours;
   add(check_complex(complex, neighbours, options_.stage == Stage::refined));
-  if (!in_range) return {};  // said by the complex oracle
+  if (!in_range) return {};  // the complex oracle has reported it
   OracleReport orientation = check_orientation(complex);
   report_.inverted = static_cast<std::uint64_t>(figure(orientation, "inverted"));
   report_.flat = static_cast<std::uint64_t>(figure(orientation, "flat"));
@@ -342,8 +344,9 @@ std::string Verification::check_file() {
   return {};
 }
 
-// Where facets that are planar within a bound may be one, those are united that no chain of mesh
-// edges separates, if the mesh conforms to the surface then.
+// Tries the surface as it is first. If facets that are planar within a bound may be one, those are
+// united that no chain of mesh edges separates, provided that the mesh conforms to the united
+// surface.
 ConformityResult Verification::conformity_of_file(const TetComplex& complex,
                                                   const Neighbours& neighbours,
                                                   InputSurface& surface) {
@@ -360,7 +363,7 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   const double rounding = kRoundedUlps * ulp_ / diagonal_;
   const double planar = options_.promised.planar_share();
   ConformityOptions rounded{.exact = false};
-  // Of a solid that is not much larger than roundings, these are no small part.
+  // A solid may be so small that roundings are a larger share of its diagonal.
   rounded.largest_tolerance = std::max(rounded.largest_tolerance, rounding);
   result = check(surface, rounded);
   if (planar == 0 || (result.report.passed() && result.deviation <= kRoundedUlps * ulp_)) {
@@ -386,8 +389,8 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   const double width =
       flat.unite_facets(check(surface, rounded).failed_edges, bound, *complex.points);
   if (conforms_to(flat, width) || exact_ == nullptr) return result;
-  // Triangles no wider than roundings may be of one facet or of another: the record says which, and
-  // whether that is a facet is decided as before.
+  // Triangles no wider than roundings may belong to one facet or to another. The record says to
+  // which, and whether that is a facet is decided as before.
   const std::vector<Index> named = recorded_facets();
   if (named.size() != surface.triangles().size()) return result;
   flat = surface;
@@ -396,7 +399,7 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   return result;
 }
 
-// Per triangle of the input the facet that has it, by the record; empty if one has none.
+// Per triangle of the input the facet that has it, by the record; empty if a triangle is in none.
 std::vector<Index> Verification::recorded_facets() const {
   std::vector<Index> facet(input_.triangles.size(), kNone);
   for (const delmesher::ExactRecord::Facet& f : exact_->facets) {
@@ -427,7 +430,7 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
   add(check_volume(complex, neighbours, input,
                    2 * slack_ * surface_area(complex, conformity.faces)));
   check_file_quality(complex, neighbours, surface, conformity);
-  // Where the faces' facets are unknown, so are the labels they should have.
+  // If the faces' facets are unknown, so are the labels they should have.
   if (mesh_.boundary.empty() || conformity.report.undecided) return;
   std::vector<Face> listed = mesh_.boundary;
   for (Face& face : listed) {
@@ -438,7 +441,8 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
                           labelled ? mesh_.labels : std::vector<std::int32_t>{}));
 }
 
-// On which mesh edges each edge of the surface lies on exact coordinates, in vertices of the file.
+// The chain of mesh edges on which each edge of the surface lies by the record's exact coordinates,
+// in vertices of the file.
 std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface& surface) {
   std::vector<std::vector<Index>> chains(surface.edges().size());
   const Shared::Sidecar& sidecar = shared_.sidecar();
@@ -451,7 +455,7 @@ std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface
   std::vector<Index> written(sidecar.points.size(), kNone);
   for (std::size_t i = 0; i < exact_->mesh_vertices.size(); ++i) {
     const Index v = exact_->mesh_vertices[i];
-    if (v >= written.size()) continue;  // said by check_rounding
+    if (v >= written.size()) continue;  // check_rounding reports it
     written[v] = static_cast<Index>(input_.vertices.size() + i);
   }
   // The surface that was meshed may have fewer edges than the input, or in another direction.
@@ -473,7 +477,7 @@ std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface
   return chains;
 }
 
-// Nothing is promised of the doubles as written: these only count and measure.
+// Nothing is promised of the doubles as written, so these oracles only count and measure.
 void Verification::check_file_quality(const TetComplex& complex, const Neighbours& neighbours,
                                       const InputSurface& surface,
                                       const ConformityResult& conformity) {
@@ -490,7 +494,7 @@ void Verification::check_file_quality(const TetComplex& complex, const Neighbour
 
 // Steiner points on the outer boundary are rounded like all others.
 void Verification::check_file_hull(const TetComplex& complex, const Neighbours& neighbours) {
-  if (report_.inverted + report_.flat > 0) return;  // what the oracle takes for granted
+  if (report_.inverted + report_.flat > 0) return;  // the oracle needs positive tetrahedra
   add(check_hull(complex, neighbours,
                  {.allowed = std::max(
                       {kRoundedUlps * ulp_, slack_, options_.declared_deviation * diagonal_})}));
@@ -498,7 +502,7 @@ void Verification::check_file_hull(const TetComplex& complex, const Neighbours& 
 
 std::string Verification::check_input() {
 #ifdef TETPROOF_SECOND_OPINIONS
-  add(check_surface_validity(input_));  // it has no opinion but theirs
+  add(check_surface_validity(input_));  // it only asks other libraries
 #endif
   return {};
 }
@@ -564,7 +568,7 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
   }
 }
 
-// The faces that are said to tile facets are those that do.
+// The faces that the record puts on facets are those that tile them.
 OracleReport Verification::check_facet_ids(const TetComplex& complex,
                                            const ConformityResult& conformity,
                                            const InputSurface& surface,
@@ -594,7 +598,7 @@ OracleReport Verification::check_facet_ids(const TetComplex& complex,
   return report;
 }
 
-// A gate before rounding was repaired, a count after.
+// The property is demanded before repairs of rounding, and counted after them.
 void Verification::check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                                      const InputSurface& surface) {
   std::vector<Face> constraints;
@@ -611,9 +615,9 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
   add(std::move(shape), "unrepaired-");
   if (!usable) return;
   add(check_orientation(before), "unrepaired-");
-  // Else it could leave out what is wrong with the final mesh.
+  // Else the unrepaired mesh could leave out the part that is wrong in the final one.
   add(check_hull(before, neighbours_before), "unrepaired-");
-  // None are listed if repairs did not change them.
+  // The record lists none if repairs did not change them.
   const auto& listed =
       exact_->unrepaired_facets.empty() ? exact_->final_facets : exact_->unrepaired_facets;
   const ConformityResult conformity =
@@ -661,7 +665,7 @@ std::string Verification::check_refined_promises() {
 void Verification::check_promises(const RefinedMesh& mesh) {
   add(check_refined_facets(mesh), "refined-");
   add(check_segments(mesh), "refined-");
-  if (!exact_->segments.empty() || !exact_->refined_facets.empty()) {  // else check_promise says so
+  if (!exact_->segments.empty() || !exact_->refined_facets.empty()) {  // else check_promise fails
     add(check_encroachment(mesh), "refined-");
     add(check_chamfer_angles(mesh), "refined-");
   }
@@ -701,7 +705,7 @@ OracleReport Verification::check_edges(const TetComplex& complex) const {
   return report;
 }
 
-// Those called inside are contained in the solid, and none of those called outside is.
+// A tetrahedron is called inside exactly if it is contained in the solid.
 OracleReport Verification::check_contained(const TetComplex& complex,
                                            const InputSurface& surface) const {
   OracleReport contained("contained", "tetrahedra");
@@ -770,7 +774,8 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRec
 }
 
 bool failed(const VerifyReport& report, const VerifyOptions& options) {
-  // Facets may be planar within what was promised. A vertex that is elsewhere is another matter.
+  // United facets may be planar within the promised bound. Without them only the declared deviation
+  // is allowed.
   const double declared =
       report.slab > 0 ? std::max(options.declared_deviation, options.promised.planar_share())
                       : options.declared_deviation;

@@ -26,7 +26,7 @@ enum ExitCode {
   kUsage = 2,
   kUnreadable = 3,
   kInvalid = 4,
-  kLimit = 5,  // also where a file alone does not tell
+  kLimit = 5,  // also if a file alone leaves the verdict undecided
   kInternal = 6
 };
 
@@ -69,8 +69,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("--json", arguments.json, "report as JSON");
 }
 
-// On a terminal, one line that says what has been checked last and how long all has taken; cleared
-// at the end. Nothing elsewhere.
+// On a terminal, a line that says what has been checked last and how long all has taken, cleared at
+// the end. Elsewhere nothing.
 class Terminal {
  public:
   void say(const std::string& what) {
@@ -114,14 +114,14 @@ std::string reason(const VerifyReport& report) {
   return line + " by more than declared";
 }
 
-// What is promised is checked, whether the record has it or not. Files alone are taken for final
-// meshes unless they are said not to be.
+// All that is promised is checked, whether the record has it or not. A file alone is taken for a
+// final mesh unless --promised or --stage says otherwise.
 Stage promised_stage(const Promise& promised, const std::string& exact) {
   if (promised.approximate) return Stage::refined;
   return exact.empty() || promised.task == Task::cdt ? Stage::final : Stage::both;
 }
 
-// Why the input bounds no solid, or null.
+// Empty on success, else why the input bounds no solid.
 std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   Terminal terminal;
   terminal.say("reading " + arguments.mesh);
@@ -168,7 +168,7 @@ int verify_files(const Arguments& arguments) {
   const int code = failed(report, arguments.options)      ? kFailed
                    : report.verdict == Verdict::undecided ? kLimit
                                                           : kDone;
-  // As text, the report has said it.
+  // As text, the report has given the reason.
   if (code != kDone && arguments.json) {
     std::fprintf(stderr, "tetproof: %s: %s\n", arguments.mesh.c_str(), reason(report).c_str());
   }

@@ -58,7 +58,7 @@ TEST(Budget, ThinPlatesAndGapsEndWithinIt) {
         ASSERT_TRUE(result.status.ok()) << result.status.message;
         EXPECT_LE(result.statistics.predicted_tetrahedra, kBudget);
         EXPECT_LE(result.mesh.tetrahedra.size(), kBudget);
-        // The gap is filtered; what is written conforms to it all the same.
+        // The gap is filtered; the written mesh conforms to it all the same.
         EXPECT_GT(result.statistics.tau, gap / 2);
         EXPECT_GT(result.statistics.dropped_triangles, 0U);
         oracles::VerifyReport report;
@@ -178,7 +178,7 @@ TEST(Budget, PredictionsAreAboutTheIntegral) {
     ratios.push_back(result.statistics.predicted_tetrahedra / integral_over_box(side));
   }
   const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-  // Each is promised within a factor of 3 of one multiple of it.
+  // Each prediction is promised within a factor of 3 of one multiple of the integral.
   EXPECT_LT(*most / *least, 9) << testing::PrintToString(ratios);
 }
 

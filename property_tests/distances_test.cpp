@@ -56,7 +56,7 @@ TEST(Distances, ToAFaceCountWhereTheFootIsOnIt) {
     EXPECT_LT(squared_distance_to_face(points, 6, face), 0);
     EXPECT_EQ(length_of(squared_distance_to_triangle(points, 6, face), points), 1);
   }
-  // A triangle of no area has no foot of anything; it has edges.
+  // A triangle of no area has no feet, but it has edges.
   EXPECT_LT(squared_distance_to_face(points, 3, {0, 1, 7}), 0);
   EXPECT_EQ(length_of(squared_distance_to_triangle(points, 6, {0, 1, 7}), points),
             length_of(squared_distance_to_segment(points, 6, 0, 1), points));

@@ -1,5 +1,5 @@
-// From file to file: what the program `delmesher` writes, in every format, is what `tetproof
-// verify` reads and accepts.
+// From file to file: `tetproof verify` reads and accepts the output of the program `delmesher` in
+// every format.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST_F(Files, AllFormatsAndTheSidecarAreVerified) {
   }
 }
 
-// What a run with planar facets records of its surface, as it comes back from a file.
+// The record of the surface of a run with planar facets, as it comes back from a file.
 TEST_F(Files, RecordedPlanesAndTrianglesComeBack) {
   delmesher::Options options;
   options.want_exact = true;
@@ -126,7 +126,7 @@ TEST_F(Files, RecordedPlanesAndTrianglesComeBack) {
 }
 
 // A report for programs leaves standard output to JSON; the reason of a failure is one line on
-// standard error. As text, the report has said it.
+// standard error. A report as text has given the reason already.
 TEST_F(Files, AFailureIsExplainedOnce) {
   write_off("in.off", samples::cube().input);
   write_off("other.off", samples::l_shape().input);
@@ -154,8 +154,7 @@ TEST_F(Files, AFailureIsExplainedOnce) {
   EXPECT_NE(testing::internal::GetCapturedStdout().find("{final|refined}"), std::string::npos);
 }
 
-// What is written is the refined mesh, of the chamfered wedge: with the sidecar it is taken for
-// that.
+// The output is the refined mesh, of the chamfered wedge. With the sidecar it is taken for that.
 TEST_F(Files, ApproximateMeshesAreVerifiedAsRefinedMeshes) {
   for (const samples::NamedSurface& model : samples::surfaces(1)) {
     if (model.name == "wedge") write_off("in.off", samples::to_polyhedron(model.surface));
@@ -412,7 +411,7 @@ TEST_F(Files, VerifyOfThePlaneTellsInItsExitCode) {
   EXPECT_EQ(verify({in, path("o.svg"), "--promised", "plane"}), 3);
   write("coinciding.poly", "4 2\n0 0 0\n1 1 0\n2 0 1\n3 0 1\n3 0\n0 0 1\n1 1 2\n2 3 0\n0\n");
   EXPECT_EQ(verify({path("coinciding.poly"), mesh, "--promised", "plane"}), 4);
-  // Records cut short are no records; all of them would take too long.
+  // Records cut short are refused; to try all lengths would take too long.
   const std::string record = contents(exact);
   for (std::size_t size = 0; size + 1 < record.size(); size += 1 + size / 8) {
     write("o.exact", record.substr(0, size));

@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kFileSize = 4096, kName = 40, kDigits = 16, kLine = 64;
 constexpr std::uint64_t kSample = 100;
 
-// A file in memory: what is written to it stays however the process ends.
+// A file mapped into memory: its contents stay however the process ends. Null if no folder is
+// named.
 char* map_file() {
   const char* folder = std::getenv("TETPROOF_COUNTERS");
   if (folder == nullptr) return nullptr;
@@ -58,7 +59,7 @@ class Counters {
     ++judged_;
     count(judged_digits_);
   }
-  // Where the digits of a new line are, or null without a file.
+  // The place of the digits of a new line, or null without a file.
   char* line(const char* name, double most) {
     if (memory_ == nullptr) return nullptr;
     if ((lines_ + 1) * kLine > kFileSize || std::strlen(name) >= kName) std::abort();

@@ -1,5 +1,5 @@
 // Leniencies: cases in which a check is content with less than it says. Each is counted, so that
-// somebody sees how often it is taken, and has a bound on that.
+// people see how often it is taken, and the share is bounded.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ class Leniency {
   // `most`: the largest share of the executions judged in which it may be taken, in [0, 1].
   constexpr Leniency(const char* name, double most) : name_(name), most_(most) {}
 
-  // Counts, once per execution however often it is taken in it.
+  // Counts the leniency, once per execution however often it is taken in it. Aborts if judging()
+  // has not named it.
   void take();
 
   const char* name() const { return name_; }
@@ -31,20 +32,20 @@ class Leniency {
   bool listed_ = false;
 };
 
-// Of one input: it was given to a target.
+// Counts an input that was given to a target.
 void executed();
-// A property begins: the input has got as far as that, and these may be taken. At most once per
-// input, and before any is taken.
+// To be called where a property begins: the input has got that far, and these leniencies may be
+// taken. At most once per input, and before any is taken.
 void judging(std::initializer_list<Leniency*> leniencies);
 
 // "12 executions, 11 judged", and a line per leniency: "NAME TAKEN of JUDGED (SHARE %, at most
-// BOUND %)", with "TOO OFTEN" behind those beyond their bound. Fewer than 100 judged are no sample:
-// nothing is beyond its bound then.
+// BOUND %)", with "TOO OFTEN" behind if it is beyond its bound. Fewer than 100 judged are no
+// sample, so none is beyond its bound then.
 std::string leniency_table();
 bool leniencies_within_bounds();
 
-// Where the environment's TETPROOF_COUNTERS names a folder, every process keeps its counters in a
-// file of its own there, at any moment, so that they survive every way to end: lines
-// "NAME COUNT BOUND", the first two "executed" and "judged" with bound 1. ci/fuzz adds them up.
+// If the environment's TETPROOF_COUNTERS names a folder, every process keeps its counters in a file
+// of its own there at all times, so that they survive every way to end. Its lines are "NAME COUNT
+// BOUND", the first two "executed" and "judged" with bound 1. ci/fuzz adds them up.
 
 }  // namespace tetproof

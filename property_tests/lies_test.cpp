@@ -21,7 +21,7 @@ using delmesher::ExactPoint;
 using delmesher::ExactRecord;
 using delmesher::Options;
 
-// What is told of a run, and what was asked for.
+// A run as it is told, and what was asked for.
 struct Told {
   samples::Sample sample;
   ExactRecord record;
@@ -161,8 +161,8 @@ std::size_t kept_facet(const ExactRecord& r) {
   return 0;
 }
 
-// A face in the middle of a facet is taken out, and the hole fenced by artificial segments, whose
-// ends are told to be made for a corner.
+// A face in the middle of a facet is taken out, and artificial segments fence the hole. The record
+// says that their ends were made for a corner.
 void fence_a_hole(ExactRecord& r) {
   std::set<Index> on_segments;
   for (const auto& chain : r.segments)
@@ -180,7 +180,7 @@ void fence_a_hole(ExactRecord& r) {
   ADD_FAILURE() << "no face away from all segments";
 }
 
-// All that is on one facet goes: faces and artificial segments.
+// Removes all faces and artificial segments of one facet.
 void take_facet_out(ExactRecord& r) {
   const Index id = r.facets[kept_facet(r)].id;
   std::erase_if(r.refined_facets, [id](const auto& face) { return face[3] == id; });
@@ -252,10 +252,10 @@ void leave_slab_out(Told& told) {
   told.sample.mesh = samples::to_mesh(run.mesh);
 }
 
-// What is not Delaunay is put into the final mesh: outside, the face between two tetrahedra becomes
-// an edge. It is told to have come with a repair of a mesh that had nothing outside.
+// Makes the final mesh not Delaunay: outside, the face between two tetrahedra is replaced by an
+// edge. The record says that this came with a repair of a mesh that had nothing outside.
 void flip_and_hide(Told& told, bool hide) {
-  // Of the wedge and the slab, nothing can be flipped.
+  // In the wedge and the slab nothing can be flipped.
   for (const samples::NamedSurface& model : samples::surfaces(1)) {
     Options options = honest_options();
     options.region = delmesher::Region::hull;
@@ -569,7 +569,8 @@ const Lie kForeign[] = {
      [](Told& t) { std::swap(t.record.mesh_vertices[0], t.record.mesh_vertices[5]); }},
     {"a written vertex 6 ulp off", "rounding",
      [](Told& t) {
-       // Of the largest coordinate, 3; vertices that are not of the input may move at all.
+       // The ulp is that of the largest coordinate, 3. Vertices that are not of the input may move
+       // at all.
        for (std::size_t i = 0; i < t.record.mesh_vertices.size(); ++i) {
          if (t.record.mesh_vertices[i] < t.sample.input.vertices.size()) continue;
          t.sample.mesh.vertices[i][0] += 6 * 0x1p-51;
@@ -867,7 +868,7 @@ std::map<std::string, double> figures_of(const VerifyReport& report, const std::
   return {found->figures.begin(), found->figures.end()};
 }
 
-// What is told of an honest run besides that it passes.
+// The figures of an honest run, apart from that it passes.
 TEST(Truths, FiguresAreThoseOfTheRun) {
   const ExactRecord& r = honest().record;
   const VerifyReport report = verdict_on(honest());

@@ -1,5 +1,5 @@
-// Metamorphic relations: what must not change, or change in a known way, when the input is written
-// differently or moved exactly. Seeded; TETPROOF_ITERATIONS adds random solids.
+// Metamorphic relations: properties that must not change, or change in a known way, when the input
+// is written differently or moved exactly. Seeded; TETPROOF_ITERATIONS adds random solids.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -126,7 +126,7 @@ TEST_P(Metamorphic, SignedAxisPermutationsKeepShapeAndVerdicts) {
   }
 }
 
-// With so few bits that translations by 2^12 are exact.
+// Rounds coordinates to few bits, so that translations by 2^12 are exact.
 Surface with_short_coordinates(Surface surface) {
   for (auto& p : surface.vertices) {
     for (double& x : p) x = std::nearbyint(x * 0x1p30) * 0x1p-30;

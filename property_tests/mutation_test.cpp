@@ -575,8 +575,8 @@ double figure_of(const OracleReport& report, const std::string& name) {
   return -1;
 }
 
-// What figures say of the filter and of the chamfer is what the record has, and the distance of a
-// chamfer is at most a third of the local feature size (section 4.1).
+// The figures of the filter and the chamfer agree with the record, and the distance of a chamfer is
+// at most a third of the local feature size (section 4.1).
 TEST(RefinedFigures, AreThoseOfTheRecord) {
   const MesherRun& good = good_run();
   const VerifyReport report =
@@ -595,9 +595,9 @@ TEST(RefinedFigures, AreThoseOfTheRecord) {
   EXPECT_LE(figure_of(need, "largest radius over local feature size"), (1 + 1e-9) / 3);
 }
 
-// A tetrahedron with an edge of 1.2 across from one of 1.5, ten apart: nothing is closer than the
-// tolerance of 0.7, but bridges in the narrow corners, which are to be a third of 1.2 from their
-// vertices and 0.15 / 1.5 of that long, are far below a sixteenth of it.
+// A tetrahedron with an edge of 1.2 across from one of 1.5, ten apart. No features are closer than
+// the tolerance of 0.7. But bridges in the narrow corners, which are to be a third of 1.2 from
+// their vertices and 0.15 / 1.5 of that long, are far below a sixteenth of it.
 TEST(RefinedFigures, FacetsDroppedForTheirChamfersAreAccountedFor) {
   delmesher::Surface s;
   s.vertices = {{0, 0, 0}, {0, 0, 1.2}, {10, 0, 0}, {10, 1.5, 0}};
@@ -640,7 +640,7 @@ TEST(ConstrainedDamage, AfterRepairsOnlyWhatWasBeforeIsAGate) {
   const VerifyReport counted = run(mutant.sample, &mutant.record, {.promised = mutant.promise});
   EXPECT_TRUE(counted.find("exact-constrained-delaunay")->passed()) << to_text(counted);
   EXPECT_GT(counted.find("exact-constrained-delaunay")->figures[0].second, 0);
-  // Nothing was there to be repaired.
+  // There was nothing to be repaired.
   judge("final wedge and slab", "face flipped as if to repair", "repairs", counted);
   mutant = good_run();
   mutant.record.unrepaired = mutant.record.final;

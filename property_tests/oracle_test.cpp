@@ -1,4 +1,4 @@
-// The oracles accept good meshes and measure small damage; mutation_test.cpp has the large.
+// The oracles accept good meshes and measure small damage; mutation_test.cpp does large damage.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,7 @@ TEST(Oracles, AnInsideOutSurfaceIsTheSameSolid) {
   expect_verdict(sample, Verdict::exact);
 }
 
-// Of a mesh of the solid without any promise of quality.
+// Options for a mesh of the solid without any promise of quality.
 VerifyOptions solid_only() {
   VerifyOptions options;
   options.promised.task = Task::cdt;
@@ -220,7 +220,7 @@ delmesher::ExactRecord refined_record(const Sample& sample) {
     for (Index& v : f) v = record.mesh_vertices[v];
     record.refined_facets.push_back({f[0], f[1], f[2], kNone});
   }
-  // Name the facets by what the oracle itself finds them to be.
+  // Names the facets as the oracle itself finds them.
   ExactPoints points;
   points.assign(record.points);
   InputSurface surface;
@@ -259,7 +259,7 @@ TEST(RefinedStage, AcceptsAndChecksARecord) {
   damaged = record;
   for (auto& tet : damaged.refined) tet.inside = true;
   EXPECT_FALSE(run(sample, &damaged, options).find("refined-contained")->passed());
-  // That something is not inside must be true as well.
+  // A tetrahedron that is called outside must be outside as well.
   for (auto& tet : damaged.refined) tet.inside = false;
   damaged.facets = {{0, 0, 1, {0}}};
   const VerifyReport none = run(sample, &damaged, options);

@@ -1,4 +1,4 @@
-// The pieces that oracles are made of, one by one: intervals, readers, exact signs and measures.
+// The pieces of the oracles, one by one: intervals, readers, exact signs and measures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,14 +72,14 @@ TEST(FileAlone, IsNotJudgedWhereDoublesDoNotTellEdgesApart) {
   EXPECT_EQ(verdict_on_needle(0x1p-52, 0), Verdict::exact);
   EXPECT_EQ(verdict_on_needle(0x1p-20, 0), Verdict::exact);
   EXPECT_EQ(verdict_on_needle(0x1p-52, 0.35), Verdict::undecided);
-  // That far apart doubles tell, and what is wrong otherwise is wrong there too.
+  // At that distance doubles tell; and an error of another kind is an error there too.
   EXPECT_EQ(verdict_on_needle(0x1p-20, 0.35), Verdict::broken);
   EXPECT_EQ(verdict_on_needle(0x1p-52, 0.35, false), Verdict::broken);
 }
 
-// A square pyramid upside down. Its base has a facet as thin as a needle P A B, whose edges a
-// vertex on PA and one on PB do not let anybody tell apart, and two vertices of the base are pushed
-// in and out by as much, which changes no volume.
+// A square pyramid upside down. Its base has a facet as thin as a needle P A B. A vertex on PA and
+// one on PB make its edges indistinguishable. Two vertices of the base are pushed in and out by as
+// much, which changes no volume.
 Verdict verdict_on_dented_base(double dent) {
   constexpr double kThin = 0x1p-52;
   const Polyhedron input = {{{0, 0, 0},
@@ -111,7 +111,7 @@ Verdict verdict_on_dented_base(double dent) {
   // In the triangles 3 4 1 and 5 6 2, of equal size.
   mesh.vertices.push_back({0.5, -1, dent});
   mesh.vertices.push_back({0.5, 1, -dent});
-  // Seen from above: the needle without an edge from vertex 8 to B, and what is around it.
+  // Seen from above: the needle without an edge from vertex 8 to B, and its surroundings.
   const std::vector<Face> base = {
       {0, 8, 9}, {8, 1, 9}, {1, 2, 9},  {0, 3, 8},  {3, 1, 8},  {3, 4, 10}, {4, 1, 10}, {1, 3, 10},
       {4, 2, 1}, {4, 5, 2}, {5, 6, 11}, {6, 2, 11}, {2, 5, 11}, {6, 0, 9},  {6, 9, 2},  {6, 3, 0}};
@@ -154,7 +154,7 @@ TEST(FileAlone, IsComparedWithTheWholeSurface) {
   EXPECT_EQ(figures.at("input vertices"), 8);
 }
 
-// The inside of a refined mesh may be nothing; a mesh may not.
+// The inside of a refined mesh may be empty; a mesh may not.
 TEST(Complex, OnlyAPartMayBeEmpty) {
   TetComplex complex;
   const ExactPoints none;
@@ -179,7 +179,7 @@ TEST(Intervals, HaveTheSignOfAllTheyHold) {
   EXPECT_EQ((Interval(kInfinity) - Interval(kInfinity)).sign(), 2);
 }
 
-// Rational arithmetic at the ends: nothing that the operands hold may be lost, and at most a few
+// Against rational arithmetic at the ends: no number of the operands may be lost, and at most a few
 // roundings are added.
 TEST(Intervals, EncloseAndAreTight) {
   std::mt19937_64 random(3);
@@ -387,8 +387,8 @@ TEST(ExactPoints, AreTheirDefinitions) {
         const Interval rough = points.rough_difference(v, to)[axis];
         EXPECT_LE(mpq_class(rough.low), exact);
         EXPECT_GE(mpq_class(rough.high), exact);
-        // What a second double per coordinate leaves open is 2^-105 of it, taken 2^5 times for
-        // safety; rounding outward at zero goes to the next subnormal number, a few times over.
+        // A second double per coordinate leaves an error of 2^-105 of it, taken 2^5 times for
+        // safety. Rounding outward at zero goes to the next subnormal number, a few times over.
         constexpr double kSubnormals = 16 * std::numeric_limits<double>::denorm_min();
         const double coordinates =
             std::fabs(points.nearest(v)[axis]) + std::fabs(points.nearest(to)[axis]);
@@ -441,7 +441,7 @@ TEST(ExactPoints, RefuseWhatIsNoPoint) {
 }
 
 TEST(ExactSigns, OfACornerAndItsMirrorImage) {
-  // Unit vectors from a point away from the origin, and what is inside and outside.
+  // Unit vectors from a point away from the origin, and points inside and outside.
   const double s = 17;
   const ExactPoints p = points_of({{s, s, s},
                                    {s + 1, s, s},
@@ -538,7 +538,7 @@ TEST(ExactSigns, AgreeWithMachineIntegersOnALattice) {
   }
 }
 
-// What is left of a polygon on the inner side of the plane through three points.
+// The part of a polygon on the inner side of the plane through three points.
 std::vector<std::array<mpq_class, 3>> clipped(const std::vector<std::array<mpq_class, 3>>& polygon,
                                               const std::array<std::array<int, 3>, 4>& tet,
                                               int face, bool& touches_inside) {
@@ -695,8 +695,8 @@ TEST(Measures, VolumesAddUpWhateverTheNeighbours) {
   }
   const ExactPoints points = points_of(positions);
   for (int round = 0; round < 300; ++round) {
-    // Any tetrahedra, turned as they come, that share faces or not; and what is said of them may be
-    // right or wrong.
+    // Random tetrahedra of any orientation, which share faces or not; and the neighbours claimed
+    // for them may be right or wrong.
     TetComplex complex;
     complex.points = &points;
     Neighbours neighbours;
@@ -883,13 +883,13 @@ TEST(BallSide, TellsInsideFromOutside) {
     EXPECT_EQ(ball.side(6), -1);
     EXPECT_EQ(ball.side(7), 1);
     EXPECT_EQ(ball.side(8), 1);
-    EXPECT_EQ(ball.side(4), 0);  // on the sphere, which nothing rounded tells
+    EXPECT_EQ(ball.side(4), 0);  // on the sphere, which rounded numbers cannot tell
     EXPECT_EQ(ball.side(9), 0);
   }
 }
 
-// Far from the origin as near it, a small query in a grid of 50 x 50 unit boxes comes to what it
-// meets and to little else.
+// Far from the origin as well as near it, a small query in a grid of 50 x 50 unit boxes visits the
+// boxes that it meets and few others.
 TEST(PlaneGrid, VisitsWhatIsNear) {
   for (const double offset : {-1000.0, -25.0, 0.0, 1000.0}) {
     std::vector<PlaneGrid::Box> items;
@@ -974,7 +974,7 @@ TEST(ChamferFeatures, OfASharpPrism) {
   }
 }
 
-// The boundary that delmesher lists tiles the surface: faces of the hull are none of it.
+// The boundary that delmesher lists tiles the surface; faces of the hull do not belong to it.
 TEST(SameMesh, FacesOfTheHullAreNoBoundary) {
   delmesher::ExactRecord record;
   record.points =
@@ -1219,7 +1219,7 @@ TEST(Ply, BinaryFilesHaveEightTypesOfNumbers) {
 
 // ---------------------------------------------------------------------------------------- reports
 
-// Whatever an oracle says stands in both forms of the report.
+// All that an oracle says stands in both forms of the report.
 TEST(Reports, LeaveNothingOut) {
   VerifyReport report;
   report.verdict = Verdict::deviating;
@@ -1270,7 +1270,7 @@ TEST(Reports, NameVerdicts) {
   EXPECT_STREQ(verdict_name(Verdict::broken), "broken");
 }
 
-// Whatever is said, and wherever it has to go on in another line.
+// For all lengths of texts, wherever a line has to be broken.
 TEST(Reports, NoLineOfTextIsLongerThan120Characters) {
   for (std::size_t length = 1; length <= 100; ++length) {
     VerifyReport report;
@@ -1374,7 +1374,7 @@ TEST(Repairs, AllIsCounted) {
   EXPECT_EQ(report.violations, 0U);
   EXPECT_EQ(figure(report, "tetrahedra changed"), 0);
   EXPECT_EQ(figure(report, "not positive on doubles"), 0);
-  // One that is turned over is not positive; the last mesh lacks it.
+  // An inverted tetrahedron is not positive; the last mesh lacks it.
   std::swap(sample.exact.unrepaired[1].vertices[0], sample.exact.unrepaired[1].vertices[1]);
   sample.exact.final.erase(sample.exact.final.begin() + 1);
   report = run();
@@ -1424,8 +1424,8 @@ TEST(PlaneSigns, OfASquareAndBeside) {
   EXPECT_EQ(p.distance_to_segment(4, 0, 2), 0);
 }
 
-// Where doubles tell, rationals are not asked: here these are all zero and would say 0, so that
-// what is said comes from the doubles, and it has to be right.
+// Where doubles tell, rationals are not asked. Here these are all zero and would answer 0, so the
+// answer comes from the doubles, and it has to be right.
 TEST(PlaneSigns, DoublesTellWhatIsObvious) {
   std::mt19937_64 random(11);
   for (int round = 0; round < 2000; ++round) {
@@ -1481,8 +1481,8 @@ TEST(PlaneSigns, AgreeWithMachineIntegersOnALattice) {
   }
 }
 
-// What lies on a segment cuts it, whichever vertex it is; what lies beside it, beyond its end or
-// at it does not.
+// A vertex on a segment cuts it, whichever vertex it is. A vertex beside it, beyond its end or at
+// its end does not.
 TEST(PlaneGraph, SegmentsAreCutWhereVerticesLieOnThem) {
   delmesher::PlanarGraph graph;
   graph.vertices = {{1, 0}, {0, 0}, {4, 0}, {2, 0x1p-40}, {3, 0}, {5, 0}};
@@ -1541,7 +1541,7 @@ TEST(PlaneFiles, ListedEdgesHaveMarkers) {
 // record
 
 // The sphere through the first tetrahedron contains the apex of the second, and the other way
-// round: said once of the face between them, once of each of the two.
+// round: reported once for the face between them, once for each of the two.
 TEST(Delaunay, AFaceBetweenTwoSpheresIsNamed) {
   ExactPoints points;
   ASSERT_EQ(

@@ -65,7 +65,7 @@ void expect_right(const NamedSurface& model, const Options& options) {
   EXPECT_NE(refined_report.find("refined-delaunay"), nullptr);
 }
 
-// That every face counts once although the pipeline does not compare the faces.
+// Every face counts once although the pipeline does not compare the faces.
 void expect_faces_counted_once(const NamedSurface& model, const Options& options) {
   SCOPED_TRACE(model.name);
   const Result result = delmesher::tetrahedralize(model.surface, options);
@@ -108,7 +108,7 @@ TEST_P(Models, HaveAConstrainedDelaunayTetrahedrization) {
   EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
 }
 
-// The regular tetrahedron and a bipyramid of two: nothing that could be added makes them better.
+// The regular tetrahedron and a bipyramid of two: no added point makes them better.
 TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
   const NamedSurface models[] = {
       {"regular",
@@ -124,7 +124,7 @@ TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
     const Result result = delmesher::tetrahedralize(model.surface);
     EXPECT_EQ(result.mesh.tetrahedra.size(), model.surface.triangles.size() / 3) << model.name;
     EXPECT_FALSE(result.statistics.enriched);
-    // Not where other sizes or the surroundings are asked for.
+    // But they are refined where other sizes or the surroundings are asked for.
     Options options;
     options.max_edge = 0.25;
     EXPECT_GT(delmesher::tetrahedralize(model.surface, options).mesh.tetrahedra.size(), 50U);
@@ -132,7 +132,7 @@ TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
     options.region = delmesher::Region::hull;
     EXPECT_TRUE(delmesher::tetrahedralize(model.surface, options).statistics.enriched);
   }
-  // A corner below the bound needs what refinement makes of it.
+  // A corner below the bound needs the points of the refinement.
   const Surface sharp = {{{0, 0, 0}, {1, 0, 0}, {1, 0.2, 0}, {0, 0, 1}},
                          {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}},
                          {}};
@@ -277,7 +277,7 @@ TEST(Threads, AnyNumberInOneRunGivesTheSameMeshStatisticsAndPredicateCalls) {
   }
 }
 
-// What is right, and findings in what was made wrong.
+// A correct result, and findings in a wrong one.
 TEST(Threads, AnyNumberGivesTheSameReport) {
   for (const NamedSurface& model : samples::surfaces(kSeed)) {
     Result result = delmesher::tetrahedralize(model.surface, default_options());

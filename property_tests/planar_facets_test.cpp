@@ -24,7 +24,7 @@ using delmesher::ExactRecord;
 using delmesher::Options;
 using delmesher::Surface;
 
-// By three angles, in doubles; then `round` is done to every coordinate.
+// Rotates by three angles, in doubles; then applies `round` to every coordinate.
 Surface rotated(Surface s, const std::function<double(double)>& round) {
   const auto turn = [](double& x, double& y, double angle) {
     const double u = x * std::cos(angle) - y * std::sin(angle);
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(By, Rotated,
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST_P(Rotated, PartsKeepTheirFacetsAndEveryPromise) {
-  // The first with its record, which takes the longest.
+  // The first is verified with its record, which takes the longest.
   const std::vector<Surface> parts = {stairs(), samples::random_voxels(3)};
   for (const Surface& part : parts) {
     const Told straight = run_of(part), turned = run_of(rotated(part, GetParam().round));
@@ -135,7 +135,7 @@ TEST_P(Rotated, PartsKeepTheirFacetsAndEveryPromise) {
   }
 }
 
-// Facets that were flat are so but for what happened to their vertices, and nothing else changes.
+// Facets that were flat still are, up to the changes of their vertices, and nothing else changes.
 void expect_the_facets_of(const Surface& part, const Surface& changed) {
   const Told straight = run_of(part), told = run_of(changed);
   EXPECT_GT(told.statistics.planar_groups, 0U);
@@ -239,7 +239,7 @@ TEST(ExactSum, IsEqualWhereTheNumbersAre) {
     ExactSum forwards, backwards, other;
     for (const mpq_class& q : terms) forwards += ExactNumber(q);
     std::reverse(terms.begin(), terms.end());
-    // In other pieces: the sum of two numbers as one of them.
+    // In other pieces: two numbers are added as one.
     for (std::size_t i = 0; i < terms.size(); i += 2) {
       backwards += ExactNumber(mpq_class(terms[i] + terms[i + 1]));
     }
@@ -429,7 +429,7 @@ INSTANTIATE_TEST_SUITE_P(Planes, PlanarLies, testing::ValuesIn(kLies), [](const 
   return name;
 });
 
-// A box whose waist is elsewhere in the mesh: the walls, taken together, would have no direction.
+// A box whose waist is elsewhere in the mesh: the united walls would have no direction.
 TEST(PlanarFile, WallsAroundABoxAreNoFacet) {
   samples::Sample stretched = samples::cube();
   const auto stretch = [](std::vector<Position>& vertices) {
@@ -450,7 +450,7 @@ TEST(PlanarFile, WallsAroundABoxAreNoFacet) {
   EXPECT_EQ(report.verdict, Verdict::broken) << to_text(report);
 }
 
-// The same by a little, which is no planar facet either.
+// The same by a small distance, which makes no planar facet either.
 TEST(PlanarFile, AVertexOffItsFacetIsNoPlanarFacet) {
   samples::Sample sample = samples::cube();
   for (Position& p : sample.mesh.vertices) {
@@ -463,8 +463,8 @@ TEST(PlanarFile, AVertexOffItsFacetIsNoPlanarFacet) {
   EXPECT_TRUE(failed(report, options));
 }
 
-// Of a box all of whose faces are bent along their diagonals, two triangles are one facet wherever
-// the mesh has the other diagonal.
+// A box with all faces bent along their diagonals: two triangles are one facet wherever the mesh
+// has the other diagonal.
 TEST(PlanarFile, FacetsThatWereUnitedAreCounted) {
   Surface box = samples::to_surface(samples::cube().input);
   std::mt19937 random(5);
@@ -516,7 +516,7 @@ Surface ridge(double height) {
   return s;
 }
 
-// A ridge that the mesh does not have, in a file without record: what is promised decides.
+// A ridge that the mesh does not have, in a file without record: the promise decides.
 TEST(PlanarFile, ARidgeAboveTheBoundIsMissed) {
   Told told = run_of(ridge(1e-3), 1e-3);
   ASSERT_GT(told.statistics.planar_groups, 0U);

@@ -24,7 +24,7 @@ using oracles::PlaneFile;
 using Side = PlaneRecord::Side;
 using Index = std::uint32_t;
 
-// What is told of a run, and what was asked for.
+// A run as it is told, and what was asked for.
 struct Told {
   PlanarGraph graph;
   PlaneFile file;
@@ -101,7 +101,7 @@ PlaneRecord::Triangle& some(std::vector<PlaneRecord::Triangle>& triangles, Side 
                        [side](const auto& t) { return t.side == side; });
 }
 
-// The edges between two triangles of the file, by the triangles, that are not on segments.
+// The edges between two triangles of the file that are not on segments, by the triangles.
 struct Pair {
   std::size_t left, right;
   Index a, b, c, d;  // left is abc, right is bad
@@ -133,8 +133,8 @@ double twice_area(const PlaneFile& file, Index a, Index b, Index c) {
   return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-// Another diagonal of two triangles that form a convex quadrilateral, in file and record. What was
-// strictly Delaunay is not any more.
+// Flips the diagonal of two triangles that form a convex quadrilateral, in file and record. The
+// result is not Delaunay where it was strictly so before.
 void flip_in_both(Told& told) {
   for (const Pair& p : pairs(told.file)) {
     const double area = twice_area(told.file, p.a, p.b, p.c) / 10;
@@ -553,7 +553,7 @@ INSTANTIATE_TEST_SUITE_P(Sections, PlaneLies, testing::ValuesIn(kSections), lie_
 INSTANTIATE_TEST_SUITE_P(Foreign, PlaneLies, testing::ValuesIn(kForeign), lie_name);
 INSTANTIATE_TEST_SUITE_P(Consistent, PlaneLies, testing::ValuesIn(kConsistent), lie_name);
 
-// The lies would be empty without them.
+// Without corners and drops the lies would be empty.
 TEST(PlaneLies, AreToldOfARunThatChamfersAndDrops) {
   EXPECT_GE(honest().record.corners.size(), 2U);
   EXPECT_EQ(honest().record.dropped.size(), 1U);
@@ -600,7 +600,7 @@ TEST(PlaneTruths, AnglesOfATriangleFarFromTheOrigin) {
   }
 }
 
-// What cannot be promised is not demanded, and said.
+// An angle that cannot be promised is not demanded, and the report says so.
 TEST(PlaneTruths, AnAngleThatWasNotReachedIsTold) {
   Told told = honest();
   told.how.promised.delta = 30;
@@ -666,7 +666,7 @@ TEST(PlaneLies, AboutAnEdgeOverAVertex) {
   EXPECT_TRUE(says(verdict_on(told), "refined-segments", "has an edge over a vertex"));
 }
 
-// A vertex that the file has not, by one.
+// A vertex index that is too large by one.
 TEST(PlaneLies, NamesTheTriangleThatRefersToNoVertex) {
   Told told = honest();
   told.file.triangles[2][1] = static_cast<Index>(told.file.vertices.size());
@@ -678,7 +678,7 @@ TEST(PlaneLies, NamesTheTriangleThatRefersToNoVertex) {
             complex->findings.end());
 }
 
-// Of a single ring, the area is known from the input alone.
+// The area of a single ring is known from the input alone.
 TEST(PlaneLies, AboutTheInsideOfASingleRingShowInItsArea) {
   PlanarGraph arrow;
   arrow.vertices = {{0, 0}, {4, 0}, {1, 1}, {0, 4}};

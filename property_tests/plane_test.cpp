@@ -105,8 +105,8 @@ TEST(Plane, BeyondTheProvenBound) {
 }
 
 TEST(Plane, CornersComeBackWithoutNeedles) {
-  // The cut points around a corner lie on a circle: the corner is its centre, and what the
-  // refinement puts there.
+  // The cut points around a corner lie on a circle whose centre is the corner. The refinement may
+  // put a circumcentre there, which must not come back beside the corner.
   const PlanarGraph graph = shapes::archipelago(500, 55, 1);
   const PlaneResult result = expect_verified(graph);
   EXPECT_GT(result.exact.corners.size(), 10U);
@@ -336,8 +336,8 @@ TEST(Plane, NoRoomBetweenDoubles) {
 }
 
 TEST(Plane, ExtremeScales) {
-  // Squares and fourth powers of the small lengths vanish beside the large ones; what is good must
-  // not be taken for bad, or there is no end.
+  // Squares and fourth powers of the small lengths vanish beside the large ones. Good triangles
+  // must not be taken for bad, or the refinement does not end.
   Options options = exact_options();
   options.max_vertices = 50000;
   const double up = std::nextafter(6.0, 7.0);
@@ -408,7 +408,7 @@ TEST(Plane, LimitsAndOptions) {
             StatusCode::invalid_options);
 }
 
-// --- the oracles themselves: what they are told wrong they notice
+// --- the oracles themselves notice what is wrong
 
 TEST(PlaneOracle, NoticesWhatIsWrong) {
   const PlanarGraph graph = shapes::figure();
@@ -452,7 +452,7 @@ TEST(PlaneOracle, NoticesWhatIsWrong) {
 }
 
 TEST(PlaneOracle, NoticesAnEdgeThatIsNotDelaunay) {
-  // A flip of an edge of the final mesh leaves everything right but this.
+  // A flip of an edge of the final mesh leaves all but this right.
   const PlanarGraph graph = shapes::square();
   Options options = exact_options();
   options.max_edge = 0.3;

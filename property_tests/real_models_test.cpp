@@ -60,7 +60,7 @@ fs::path extracted(const std::string& model) {
 }
 
 // Without the package these tests do not vanish: this one is skipped, and fails where all packages
-// are meant to be there (ci/test).
+// should be installed (ci/test).
 TEST(Package, OfRealModelsIsInstalled) {
   if (kInstalled) return;
   const char* const missing = "no models: Debian's libcgal-demo (data.tar.gz) was not found";

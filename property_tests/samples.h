@@ -18,13 +18,13 @@ struct Sample {
   oracles::MeshFile mesh;
 };
 
-// Which cells of a grid belong to the solid.
+// Tells which cells of a grid belong to the solid.
 using Cells = std::function<bool(int x, int y, int z)>;
 
-// A solid of the cells of a `coarse`^3 grid over the unit cube. Its surface is triangulated on that
-// grid, its mesh made of six tetrahedra per cell of a grid `finer` times as fine. Everything is
-// exact in doubles if both are powers of two. If `hull`, the mesh fills the cube, with regions 1
-// inside and 0 outside.
+// A solid made of cells of a `coarse`^3 grid over the unit cube. Its surface is triangulated on
+// that grid; its mesh consists of six tetrahedra per cell of a grid `finer` times as fine.
+// Everything is exact in doubles if both are powers of two. If `hull`, the mesh fills the cube,
+// with regions 1 inside and 0 outside.
 Sample grid_sample(int coarse, int finer, const Cells& solid, bool hull = false);
 
 Sample cube();         // one cell, refined
@@ -32,8 +32,8 @@ Sample l_shape();      // three of eight cells and their copies above: concave e
 Sample hollow_cube();  // 27 of 64 cells missing inside: a cavity, nested component
 Sample cube_in_hull();
 
-// The mesh of a sample under x -> A x with a matrix of rounded numbers: facets are exact (only
-// corners define them), but vertices inside them are rounded.
+// The sample under x -> A x with a matrix of rounded numbers. Facets are exact, because only
+// corners define them, but vertices inside them are rounded.
 Sample skewed(Sample sample);
 
 // A tetrahedron with a point on an edge and a point on a face, given exactly.
@@ -59,17 +59,17 @@ delmesher::Surface quantized_star(std::uint64_t seed);
 // A cube with a square fin on one side of the given length and thickness h (Figure 8's family).
 delmesher::Surface finned_cube(double length, double h);
 
-// What the mesher owes: exact, or rounded to doubles (4 ulp of the largest coordinate). A surface
-// that deviates by more is not what was asked for.
+// Is the verdict exact or rounded (to 4 ulp of the largest coordinate)? The mesher owes this; a
+// surface that deviates by more is not the one that was asked for.
 bool exact_or_rounded(const oracles::VerifyReport& report);
-// The same, or where facets were made planar, and the stand-in oracle has said that they are,
-// deviating by at most what was promised.
+// The same; or the verdict is deviating by at most the promise, if facets were made planar and the
+// stand-in oracle has passed.
 bool as_promised(const oracles::VerifyReport& report, const oracles::Promise& promise);
 
 // A wedge with an edge of 11 degrees, and a slab as thin as 2^-10 beside it, one unit long each.
 delmesher::Surface wedge_and_slab();
 
-// How often to repeat something: the given number, times the environment's TETPROOF_ITERATIONS.
+// The number of repetitions: `normal` times the environment's TETPROOF_ITERATIONS.
 int iterations(int normal);
 
 oracles::Polyhedron to_polyhedron(const delmesher::Surface& surface);

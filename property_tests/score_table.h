@@ -1,5 +1,5 @@
-// The mutation score: which damage was caught by which oracle, printed as a table when all tests of
-// a program have run.
+// The mutation score: the damage and the oracles that caught it, printed as a table when all tests
+// of a program have run.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Laws of single stages, each against something that shares no code with it: Delaunay against
-// CGAL's, chamfering against the paper's statements, refinement on the paper's Figure 8.
+// Laws of single stages, each against a judge that shares no code with it: Delaunay against CGAL's,
+// chamfering against the paper's statements, refinement on the paper's Figure 8.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -127,7 +127,7 @@ oracles::OracleReport chamfer_angles(const Surface& surface, const delmesher::Ex
 }
 
 // The naive chamfer of section 4.1 at P alone: the three edges at P are cut at one distance, and
-// the cut points joined. Only what is around the hole is in the record.
+// the cut points joined. The record has only the surroundings of the hole.
 delmesher::ExactRecord naive_chamfer(const Surface& surface, double share) {
   delmesher::ExactRecord r;
   r.parameters.acute = 90;
@@ -285,8 +285,8 @@ TEST(AppendixB, Statement2HoldsOnTheMeshersRectangles) {
 
 // --------------------------------------------------------------------------------------- filter
 
-// Two plates over one another are kept from the tolerance on, and one of the facets that face each
-// other is dropped below it; nothing else is.
+// Two plates over one another are kept from the tolerance on. Below it one of the facets that face
+// each other is dropped, and no other.
 TEST(FilterStage, DropsWhatIsCloserThanTheToleranceAndNothingElse) {
   for (const double gap : {0x1.01p-8, 0x1p-8, 0x1.fp-9, 0x1p-10}) {
     Surface plates;

@@ -32,9 +32,9 @@ double angle(double sine, double cosine) {
   return std::clamp(std::atan2(sine, cosine) * kDegrees, 0.0, 180.0);
 }
 
-// Differences q - p times a power of two that brings the largest component of all near 1, so that
-// products of four of them neither overflow nor underflow. Differences of doubles are correctly
-// rounded, so each component is right to half an ulp.
+// Half the differences q - p, scaled by a power of two if the largest component is far from 1, so
+// that products of four of them neither overflow nor underflow. Differences of doubles are
+// correctly rounded, so each component is right to half an ulp.
 template <std::size_t N>
 std::array<Vector<double>, N> scaled_differences(const std::array<const Point*, N>& from,
                                                  const std::array<const Point*, N>& to) {
@@ -111,8 +111,8 @@ int orientation(const Corners& p) {
     determinant += (left - right) * w[c];
     permanent += (std::fabs(left) + std::fabs(right)) * std::fabs(w[c]);
   }
-  // Shewchuk's first bound for orient3d, (7 + 56 eps) eps with eps = 2^-53, rounded up; products
-  // near underflow go to the exact path, as do overflows.
+  // Shewchuk's first bound for orient3d, (7 + 56 eps) eps with eps = 2^-53, rounded up. Products
+  // near underflow are decided exactly, as are overflows.
   constexpr double kBound = 7.8e-16;
   if (permanent > 1e-250 && std::isfinite(permanent)) {
     if (determinant > kBound * permanent) return 1;

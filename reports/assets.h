@@ -6,12 +6,12 @@
 
 namespace tetproof::assets {
 
-// Packaged: Chart.js, three.js and its OrbitControls, both MIT. Empty where they were not found
-// when the program was built.
+// From packages: Chart.js, three.js and its OrbitControls, all under the MIT licence. Empty if they
+// were not found when the program was built.
 std::string_view chart_js();
 std::string_view three_js();
 std::string_view orbit_controls_js();
-// Ours, in page/.
+// The project's own, in page/.
 std::string_view page_css();
 std::string_view charts_js();
 std::string_view view_js();

@@ -1,4 +1,4 @@
-// A chart as data: what is to be seen, not how. The page draws it (page/charts.js), CSV repeats it.
+// A chart as data: its contents, not its looks. The page draws it (page/charts.js), CSV repeats it.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct Chart {
     std::string label;
     std::vector<std::optional<double>> values = {};      // bars: one per category
     std::vector<std::pair<double, double>> points = {};  // the others
-    std::vector<std::string> point_names = {};  // points: what to say about each; may be empty
-    std::size_t style = 0;  // of series_style(), another one for each series of a chart
+    std::vector<std::string> point_names = {};           // points: a text for each; may be empty
+    std::size_t style = 0;  // index for series_style(), another for each series of a chart
   };
 
   std::string name;  // of the CSV file and of the element in the page

@@ -17,9 +17,9 @@ struct Pairing {
   std::string first, second;                              // meshers
   std::size_t models = 0;                                 // run with both
   std::size_t both = 0, only_first = 0, only_second = 0;  // successes
-  double mcnemar = 1;  // the probability of so uneven a split by chance
-  // second / first over the models on which both succeed, and the probabilities of Wilcoxon's test
-  // on the logarithms.
+  double mcnemar = 1;  // the probability by chance of a split that is as uneven
+  // The median of second / first over the models on which both succeed; and the probabilities of
+  // Wilcoxon's test on the logarithms.
   std::optional<double> time_ratio, size_ratio;
   double time_probability = 1, size_probability = 1;
   // Quantiles (10, 50, 90 %) of the difference second - first of the smallest and the average
@@ -30,8 +30,7 @@ struct Pairing {
 
 Pairing pair_up(const Selection& selection, const std::string& first, const std::string& second);
 
-// All pairs of meshers, or of each mesher NAME with NAME@base if there are such; probabilities
-// adjusted by Holm's method for the number of pairs.
+// Each mesher NAME with NAME@base if there are such, else all pairs of meshers.
 std::vector<std::pair<std::string, std::string>> pairs_of(const Selection& selection);
 Table pairing_table(const Selection& selection);
 

@@ -22,8 +22,8 @@ Json parsed(const std::string& text) {
   return text.empty() ? Json() : Json::parse(text, nullptr, false);
 }
 
-// Of a verdict what a comparison needs: which oracle passed, how far the surface as written is off,
-// and the figures that a gate compares.
+// The part of a verdict that a comparison needs: which oracle passed, how far the surface as
+// written is off, and the figures that a gate compares.
 Json brief_verdict(const std::string& text) {
   const Json full = parsed(text);
   if (!full.is_object()) return nullptr;
@@ -56,7 +56,8 @@ Json brief_mesh(const std::string& text) {
   return mesh;
 }
 
-// Of a mesher's own statistics: what it was set to, and the refined mesh.
+// The part of a mesher's own statistics that a comparison needs: its settings, and the refined
+// mesh.
 Json brief_stats(const std::string& text) {
   const Json stats = parsed(text);
   Json result = Json::object();
@@ -220,7 +221,7 @@ std::vector<std::string> csv_row(const RunRow& row, const ExportOptions& options
   const auto of = [](const std::optional<MeshColumns>& mesh, auto member) {
     return mesh ? fmt::format("{}", (*mesh).*member) : "";
   };
-  // Of the tetrahedra; nothing in results of versions that did not measure it.
+  // The share of the tetrahedra; empty in results of versions that did not measure it.
   const Json measured = parsed(row.mesh_json);
   const auto share = [&](const char* count) -> std::string {
     if (!measured.is_object() || !measured.contains(count) || row.mesh->tetrahedra == 0) return "";

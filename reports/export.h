@@ -1,4 +1,5 @@
-// The rows of a campaign for other programs: CSV, JSON and JUnit XML; and reading the JSON back.
+// Exports the rows of a campaign for other programs as CSV, JSON and JUnit XML, and reads the JSON
+// back.
 //
 // Laws: rows come in the order of sort_rows(), whatever the order of storing; a `stable` export
 // depends on models, meshers and results only, so that two campaigns over the same models, however
@@ -15,17 +16,19 @@
 namespace tetproof {
 
 struct ExportOptions {
-  // For baselines, what tetproof gate compares: no histograms, findings or ends of streams, of the
-  // statistics only parameters and the refined mesh, and not where it ran.
+  // For baselines: only what tetproof gate compares. Histograms, findings, ends of streams and the
+  // place of the run are left out, and of the statistics all but the parameters and the refined
+  // mesh.
   bool brief = false;
-  bool stable = false;  // nor times, memory, host, paths: what differs between equal campaigns
+  // Leaves out what differs between equal campaigns: times, memory, host, paths.
+  bool stable = false;
 };
 
 std::string rows_to_csv(std::vector<RunRow> rows, const ExportOptions& options = {});
 std::string rows_to_json(std::vector<RunRow> rows, const ExportOptions& options = {});
 
-// One suite per mesher, one test case per model. Everything that is not ok is a failure, also a
-// refusal: nothing is reported as skipped, so that no failure hides there.
+// One suite per mesher, one test case per model. Every row that is not ok is a failure or an error,
+// also a refusal. Nothing is reported as skipped, so that no failure hides there.
 std::string rows_to_junit(std::vector<RunRow> rows);
 
 // \throw std::runtime_error if the text is no export in JSON.

@@ -113,7 +113,7 @@ TEST(Export, UnverifiedMeshesAreErrorsInJunit) {
       << xml;
 }
 
-// Exports made before there was a word for it.
+// Exports of versions before the disposition `unverified`.
 TEST(Export, RowsReadAreNotOkWithoutAVerdict) {
   RunRow row = sample("a", "cdt", Disposition::ok);
   row.verdict_json.clear();

@@ -35,7 +35,7 @@ std::string printed(double value) {
   return fmt::format("{:g}", value);
 }
 
-// What stands for the paper's experiments.
+// The runs that stand for the paper's experiments.
 constexpr const char* kWhatIsHere =
     "\"Here\" are the runs of this campaign that bear the names of the paper's experiments. They "
     "are our "

@@ -1,4 +1,4 @@
-// The paper's figures beside ours: what it states, what this campaign gives, and what differs.
+// The paper's figures beside those of this campaign, and the differences.
 #pragma once
 
 #include <string>

@@ -209,7 +209,7 @@ Chart disposition_chart(const Selection& selection) {
   }
   percent.header[4] = "ok";
   Chart chart = stacked(percent, 4, 4 + kDispositionCount);
-  // Green for what is ok, and the same for a disposition in every report.
+  // Green for `ok`, and one style for a disposition in every report.
   static constexpr std::array<std::size_t, kDispositionCount> kStyles = {2, 5, 1, 0, 3, 4, 6, 7};
   for (Chart::Series& series : chart.series) series.style = kStyles.at(series.style);
   return chart;

@@ -20,15 +20,15 @@ std::vector<Chart> average_angle_charts(const Selection& selection);
 // Figure 13: all face and all dihedral angles of one model; of all models if `model` is empty.
 std::vector<Chart> angle_charts(const Selection& selection, const std::string& model);
 
-// What became of the runs, % of each mesher's runs.
+// The dispositions of the runs, in % of each mesher's runs.
 Chart disposition_chart(const Selection& selection);
-// Share of the successes by wall time, by microseconds per tetrahedron.
+// The share of the successes by wall time, and by microseconds per tetrahedron.
 Chart time_chart(const Selection& selection);
 Chart speed_chart(const Selection& selection);
 // The inset of section 8.1: mean share of each phase.
 Chart phase_chart(const Selection& selection);
-// Survival ("cactus"): how many models are meshed within so many seconds, or with so many
-// tetrahedra, each.
+// Survival ("cactus"): how many models are meshed within each time in seconds, and with at most
+// each number of tetrahedra.
 Chart cactus_chart(const Selection& selection);
 Chart size_cactus_chart(const Selection& selection);
 // Figure 8: tetrahedra over the thickness of the wall, and the estimate.

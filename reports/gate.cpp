@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 constexpr double kDeviations = 4;     // robust standard deviations that count as noise
 constexpr std::size_t kFewPairs = 8;  // below, neither spread nor resampling says anything
 constexpr int kResamplings = 2000;
-constexpr double kTail = 0.01;             // of the resamplings that may point elsewhere
+constexpr double kTail = 0.01;             // share of the resamplings that may point elsewhere
 constexpr double kLongestSeconds = 1;      // a run's largest weight in the mean of all
 constexpr double kLargestBytes = 64e6;     // the same for memory
 constexpr double kMostTetrahedra = 10000;  // and for sizes
@@ -37,12 +37,12 @@ int verdict_rank(const std::string& verdict) {
   return found == kRanks.end() ? 0 : found->second;
 }
 
-// A mesh is there that nothing is known to be wrong with, whether somebody vouches for it or not.
+// Is there a mesh that no oracle has objected to, verified or not?
 bool has_mesh(const RunRow& row) {
   return row.disposition == Disposition::ok || row.disposition == Disposition::unverified;
 }
 
-// A run with its repetitions, and what of its texts is compared.
+// A run with its repetitions, and the parsed texts that are compared.
 struct Run {
   RunRow row;
   std::vector<std::string> started;
@@ -64,7 +64,7 @@ Json object_of(const std::string& text) {
   return json.is_object() ? json : Json::object();
 }
 
-// Of repetitions the worst says how it ended; one that somebody killed says nothing.
+// The worst of the repetitions decides how the run ended; a run killed from outside tells nothing.
 int weight_of_ending(const RunRow& row) {
   if (row.disposition == Disposition::killed) return 0;
   if (!has_mesh(row)) return 3;
@@ -121,7 +121,7 @@ Getter of(std::optional<MeshColumns> RunRow::*part, double MeshColumns::*column)
   };
 }
 
-// Share of the tetrahedra that this count of the measured mesh is.
+// The share of the tetrahedra that this count of the measured mesh stands for.
 Getter share_of(const char* count) {
   return [=](const Run& run) -> std::optional<double> {
     if (!run.row.mesh || !run.measured.contains(count)) return std::nullopt;
@@ -130,7 +130,7 @@ Getter share_of(const char* count) {
   };
 }
 
-// What a largest angle leaves of 180 degrees, so that more is better.
+// The difference of a largest angle from 180 degrees, so that more is better.
 Getter rest_of(double MeshColumns::*column) {
   return [=](const Run& run) -> std::optional<double> {
     if (!run.row.mesh) return std::nullopt;
@@ -168,7 +168,7 @@ double resampled_quantile(const std::vector<Weighted>& sample, double p) {
   return *quantile(std::move(means), p);
 }
 
-// Whether the mean of many is beyond a limit in the direction of `sign`, and not by a few of them.
+// Is the mean of many beyond a limit in the direction of `sign`, and not because of a few of them?
 bool all_beyond(const std::vector<Weighted>& sample, double limit, double neutral, int sign) {
   if (sample.size() < kFewPairs) return false;
   if (sign * (mean_of(sample) - limit) <= 0) return false;
@@ -184,7 +184,7 @@ double spread(const std::vector<double>& values) {
   return 1.4826 * *median(distances);
 }
 
-// An angle, or what is left of one; more is better.
+// An angle, or its difference from 180 degrees; more is better.
 struct Angle {
   FindingKind kind;
   const char* name;
@@ -293,7 +293,8 @@ class Gate {
   }
 
   void compare_oracles(const Run& base, const Run& fresh) {
-    // Meshes are repaired after rounding where they must be; one that need not be is no worse.
+    // Meshes are repaired after rounding only if they need it. A mesh that does not need it is no
+    // worse.
     const auto is_repair = [](const auto& oracle) {
       return oracle.first.starts_with("unrepaired-");
     };
@@ -313,8 +314,8 @@ class Gate {
     }
   }
 
-  // Of a file with coordinates of one bit less, rounded points are twice as far off; where the
-  // input has full mantissas, its vertices are not where they were.
+  // If coordinates are written with a bit less, rounded points are twice as far off, and input
+  // vertices with full mantissas are moved.
   void compare_conformity(const Run& base, const Run& fresh) {
     const auto deviation = [](const Run& run) -> std::optional<double> {
       const auto found = run.verdict.find("deviation_ulps");
@@ -340,7 +341,7 @@ class Gate {
     }
   }
 
-  // Counts what cannot be compared.
+  // Can the measure be compared? Counts it if not.
   bool both(const std::string& mesher, const char* measure, const std::optional<double>& base,
             const std::optional<double>& fresh) {
     if (base && fresh) return true;
@@ -369,7 +370,7 @@ class Gate {
     }
   }
 
-  // What the mesher says it was set to: with the same flags, its defaults.
+  // Compares the settings by the mesher's account: with the same flags, its defaults.
   void compare_settings(const std::string& mesher, const std::vector<Pair>& pairs) {
     std::map<std::string, std::size_t> differing;
     for (const Pair& pair : pairs) {
@@ -432,7 +433,7 @@ class Gate {
     for (const Pair& pair : pairs) {
       const auto before = angle.value(*pair.base), after = angle.value(*pair.fresh);
       if (!both(mesher, angle.name, before, after)) continue;
-      if (*before <= 0) continue;  // nothing was refined, or as bad as can be
+      if (*before <= 0) continue;  // nothing was refined, or it cannot be worse
       const double ratio = *after / *before;
       if (ratio < angle.factor) {
         add(angle.kind, *pair.base,
@@ -572,7 +573,7 @@ class Gate {
       const double excess = log_ratios[i] - expected;
       const double before = cost.value(compared[i].base->row) * std::exp(expected);
       const double after = cost.value(compared[i].fresh->row);
-      // Where most models got slower, check_all has said so; the spread is about their middle.
+      // If most models got slower, check_all has reported it; the spread is about their median.
       const bool stands_out = compared.size() == 1 || log_ratios[i] - middle > noise;
       if (excess > std::log(cost.factor) && stands_out && after - before > cost.least) {
         add(cost.kind, *compared[i].base,
@@ -596,7 +597,8 @@ class Gate {
     const bool narrow =
         cost.kind != FindingKind::time || options_.quiet_machine || measured_in_turn(pairs);
     const bool above = all_beyond(ratios, cost.total_factor, 1, 1);
-    // Few pairs, or a drifting machine: what is slower by the factor of a single model counts.
+    // With few pairs, or on a drifting machine, all count as slower beyond the factor of a single
+    // model.
     const bool far_above =
         pairs.size() >= 2 && middle > std::log(cost.factor) && after - before > cost.least;
     if ((narrow && above) || far_above) {
@@ -609,8 +611,8 @@ class Gate {
     }
   }
 
-  // By the times at which the runs began: the side changes at least as often as in base, new, base,
-  // new.
+  // Decided by the times at which the runs began: the side changes at least as often as in base,
+  // new, base, new.
   static bool measured_in_turn(const std::vector<Pair>& pairs) {
     std::vector<std::pair<std::string, bool>> starts;
     for (const Pair& pair : pairs) {
@@ -618,7 +620,7 @@ class Gate {
       for (const std::string& start : pair.fresh->started) starts.emplace_back(start, true);
     }
     std::sort(starts.begin(), starts.end());
-    // Times are known to the second: within one the order is not.
+    // Times are known to the second; the order within one is unknown.
     int turns = 0;
     std::optional<bool> side;
     for (std::size_t i = 0; i < starts.size();) {

@@ -2,7 +2,7 @@
 //
 // Laws: a campaign against itself has no finding; leaving out models or adding better results gives
 // no finding but "missing"; every disposition but ok counts as not ok, refusals and skips included;
-// what only one of the two sides has measured is named, never passed over.
+// a measure that only one of the two sides has is named, never passed over.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@
 
 namespace tetproof {
 
-// Limits for one model are wide, because any change of the mesher changes every mesh a little;
-// those for all models of a mesher together are narrow, because such changes cancel out. A limit
-// for all models counts from 8 pairs on and only if 99 of 100 resamplings of the models (bootstrap)
-// agree on the direction, so that a few models never speak for all.
+// Limits for one model are wide, because any change of the mesher changes every mesh a little.
+// Those for all models of a mesher together are narrow, because such changes cancel out. A limit
+// for all models counts from 8 pairs on, and only if 99 of 100 resamplings of the models
+// (bootstrap) agree on the direction, so that a few models never decide for all.
 struct GateOptions {
   double time_factor = 1.5;     // processor seconds of one model, new/base
   double memory_factor = 1.3;   // peak resident set of one model
   double size_factor = 1.05;    // tetrahedra of one model, more or fewer
   double angle_factor = 0.8;    // an angle of one model: smallest face angle, smallest dihedral
-  double mean_factor = 0.95;    // a mean angle of one model; of largest angles what 180 leaves
+  double mean_factor = 0.95;    // a mean angle of one model; for largest angles, 180 less the mean
   double sliver_share = 0.02;   // share of tetrahedra with a small dihedral, new - base
-  double deviation_ulps = 0.2;  // surface off by so many ulps more, and by half as much again
+  double deviation_ulps = 0.2;  // surface off by this many ulp more, and 1.5 times as far
 
   // All models of a mesher together.
   double total_time_factor = 1.07;
@@ -35,24 +35,24 @@ struct GateOptions {
   double total_mean_factor = 0.98;
   double total_sliver_share = 0.005;
 
-  // Differences of one model below these are noise whatever the ratio.
+  // Differences of one model below these are noise, whatever the ratio.
   double least_seconds = 0.2;
   double least_bytes = 16e6;
   double least_tetrahedra = 50;
   double least_slivers = 5;  // tetrahedra with a small dihedral
 
   bool missing_is_bad = true;           // a model or mesher of the base that the new campaign lacks
-  bool fewer_is_bad = true;             // fewer tetrahedra, where nobody has said why
+  bool fewer_is_bad = true;             // fewer tetrahedra, unless declared to be intended
   bool quiet_machine = false;           // times count as if the two sides had been measured in turn
   std::set<std::string> may_be_silent;  // oracles that the new campaign need not have asked
 };
 
 enum class FindingKind : std::uint8_t {
-  disposition,  // was ok, is not
-  unverified,   // no oracle has finished with it any more
+  disposition,  // there was a mesh, and is none
+  unverified,   // the oracles do not come to a verdict any more
   verdict,      // exact, rounded, deviating: worse
-  oracle,       // passed and does not, or was not asked
-  conformity,   // written surface further off the input, input vertices moved
+  oracle,       // it passed, and fails or was not asked now
+  conformity,   // the written surface is farther off the input, or input vertices moved
   face_angle,   // smallest face angle, refined or final
   dihedral,     // smallest dihedral, refined or final
   slivers,      // share of tetrahedra with a dihedral below 5 or 10 degrees
@@ -74,26 +74,27 @@ struct GateReport {
   std::size_t both_ok = 0;   // of these, meshes on both sides
   std::size_t verified = 0;  // of these, verified on both sides
   std::vector<Finding> findings;
-  // What makes the two sides incomparable in part, a line each: other flags, versions, limits,
-  // settings; measures that one side lacks. They belong beside the count of findings.
+  // What makes the two sides incomparable in part, a line each: other flags, versions, limits or
+  // settings, and measures that one side lacks. Print them beside the count of findings.
   std::vector<std::string> differences;
-  std::vector<std::string> notes;  // what was taken relative, and what got better
+  std::vector<std::string> notes;  // measures compared relatively, and improvements
 };
 
-// Whether somebody vouches for the mesh of this run.
+// Do the oracles vouch for the mesh of this run?
 bool is_verified(const RunRow& row);
 
-// Rows belong together if model and mesher are the same, whatever versions, flags and limits; of
-// several the latest counts. Rows of one side that are alike in these as well (from several files)
-// are repetitions of one run: the least time and memory count, and the worst of anything else.
+// Rows belong together if model and mesher are the same, whatever versions, flags and limits; the
+// latest of several counts. Rows of one side that are alike in these as well (from several files)
+// are repetitions of one run: the least time and memory count, and the worst of all other measures.
 //
-// Times and memory are compared relative to the median ratio over the pairs of a mesher if the
-// campaigns ran on different machines, so that a slower machine is no regression. On the same
-// machine a single model is slower only if its ratio also stands out of the spread of all (4 robust
+// If the campaigns ran on different machines, times and memory are compared relative to the median
+// ratio over the pairs of a mesher, so that a slower machine is no regression. On the same machine
+// a single model is slower only if its ratio also stands out of the spread of all (4 robust
 // deviations). All models together are slower if the mean of their ratios, each weighted by the
-// seconds of the base up to 1 s, is beyond total_time_factor: of short runs that is the ratio of
-// the sums. This is so narrow only where the two sides were measured in turn (at least base, new,
-// base, new), since a machine's state drifts by more; else time_factor counts for all as well.
+// seconds of the base up to 1 s, is beyond total_time_factor; for short runs that is the ratio of
+// the sums. This limit is so narrow only if the two sides were measured in turn (at least base,
+// new, base, new), since the state of a machine drifts by more. Otherwise time_factor counts for
+// all models as well.
 GateReport compare_campaigns(const std::vector<RunRow>& base, const std::vector<RunRow>& fresh,
                              const GateOptions& options = {});
 

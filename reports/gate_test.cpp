@@ -1,4 +1,4 @@
-// Planted regressions are found, by the measure meant for them and by no other; noise is not.
+// Planted regressions are found, by the measure meant for them and by no other. Noise is not.
 #include "reports/gate.h"
 
 #include <fmt/format.h>
@@ -155,7 +155,7 @@ TEST(Gate, AnUnverifiedModelIsARegression) {
   EXPECT_EQ(report.verified, 9U);
   EXPECT_TRUE(compare_campaigns(fresh, campaign(10)).findings.empty());
   EXPECT_TRUE(compare_campaigns(fresh, fresh).findings.empty());
-  // Nor does a row vouch for itself that is ok without a verdict.
+  // A row that is ok without a verdict does not vouch for itself either.
   fresh = campaign(10);
   fresh[4].verdict_json.clear();
   expect_only(compare_campaigns(campaign(10), fresh), FindingKind::unverified, 1);
@@ -200,7 +200,7 @@ TEST(Gate, WithoutTurnsAllModelsHaveToBeMuchSlower) {
   for (RunRow& row : fresh) row.cpu_seconds *= 1.15;
   const auto report = compare_campaigns(base, fresh);
   EXPECT_TRUE(report.findings.empty());
-  ASSERT_EQ(report.notes.size(), 1U);  // but it is said
+  ASSERT_EQ(report.notes.size(), 1U);  // but a note reports it
   EXPECT_NE(report.notes[0].find("1.150 times"), std::string::npos) << report.notes[0];
   expect_only(compare_campaigns(base, fresh, with(&GateOptions::quiet_machine, true)),
               FindingKind::time, 1);

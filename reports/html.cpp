@@ -35,8 +35,8 @@ std::string dump(const Json& json) {
   return for_script(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-// Text in which words with hyphens, such as the names of meshers, are kept on one line, while what
-// is longer than a line of a phone, such as a path, may break.
+// Keeps words with hyphens, such as the names of meshers, on one line. A text that is longer than a
+// line of a phone, such as a path, may break.
 std::string whole_words(const std::string& text) {
   constexpr std::size_t kLongest = 36;
   std::string result;
@@ -113,7 +113,7 @@ std::string chart_html(const Chart& chart) {
       tall ? " tall" : "", markup_text(chart.title), markup_text(chart.name));
 }
 
-// A table whose notes are there on request, so that more fits on a screen.
+// A table whose notes are shown on request, so that more fits on a screen.
 std::string compact_html(const Table& table) {
   Table bare = table;
   bare.notes.clear();
@@ -124,7 +124,7 @@ std::string compact_html(const Table& table) {
   return text;
 }
 
-// What stands in the place of charts that cannot be drawn.
+// The text in the place of charts that cannot be drawn.
 std::string chart_list(const std::vector<Chart>& charts) {
   std::string text =
       "<p class=\"faint\">Not drawn, as this build lacks Chart.js; the numbers are in ";
@@ -173,7 +173,7 @@ Json phases_of(const RunRow& row) {
   return seconds;
 }
 
-// In percent, of the runs that have 3D parts only: for all of them the page would be large.
+// In percent. Only for runs with 3D parts, because the page would be large with all of them.
 Json histogram_of(const RunRow& row, const char* key) {
   const Json json = Json::parse(row.mesh_json, nullptr, false);
   if (!json.is_object() || !json.contains(key)) return {};

@@ -11,7 +11,7 @@
 
 namespace tetproof {
 
-// A part of the report: what all formats show, in their order.
+// A part of the report, with all that every format shows, in its order.
 struct Section {
   std::string id, title, text;  // `text`: a sentence or two, may be empty
   std::vector<Table> tables;
@@ -27,8 +27,8 @@ struct Page {
   std::vector<Section> sections;
   std::vector<ViewPart> views;
   std::vector<std::string> notes;
-  // Whether this build holds the libraries that draw charts (Chart.js) and pictures (three.js); a
-  // page without says what is missing.
+  // Does this build hold the libraries that draw charts (Chart.js) and pictures (three.js)? A page
+  // without them says what is missing.
   bool has_charts = true, has_pictures = true;
 };
 

@@ -11,7 +11,7 @@
 namespace tetproof {
 
 using Rows = std::vector<const RunRow*>;
-// Nothing where a run lacks the value.
+// A measure of a run; nothing if the run lacks the value.
 using Value = std::function<std::optional<double>(const RunRow&)>;
 // Which mesh of a run: RunRow::mesh, ::inside or ::refined.
 using Part = std::optional<MeshColumns> RunRow::*;
@@ -44,7 +44,7 @@ inline constexpr AngleMeasure kAverageAngles[] = {
 Value wall_seconds();
 Value verify_seconds();
 Value peak_megabytes();
-// Of the whole process, or of the meshing by the mesher's own account.
+// Per tetrahedron: of the whole process, or of the meshing by the mesher's own account.
 Value process_microseconds();
 Value meshing_microseconds();
 Value peak_bytes();  // per tetrahedron
@@ -55,17 +55,17 @@ std::vector<double> values_of(const Rows& rows, const Value& value);
 std::string fixed(std::optional<double> value, int digits);
 std::string degrees(std::optional<double> value);  // small ones keep two significant digits
 
-// Of these meshers those that the selection has runs of, in the order given.
+// The meshers of the list that the selection has runs of, in the order given.
 std::vector<std::string> present(const Selection& selection,
                                  const std::vector<std::string>& meshers);
 std::size_t run_count(const Selection& selection, const std::string& mesher);
-// Meshes of it that no oracle has finished with.
+// The number of its meshes that the oracles have not come to a verdict on.
 std::size_t unverified_count(const Selection& selection, const std::string& mesher);
 // "27/29", or "27/29, 1 unverified": successes of runs.
 std::string successes_of(const Selection& selection, const std::string& mesher);
 
-// A sentence on the limits of the runs of these meshers, which says so where they differ; empty
-// without runs.
+// A sentence on the limits of the runs of these meshers, which names them one by one if they
+// differ; empty without runs.
 std::string limits_caption(const Selection& selection, const std::vector<std::string>& meshers);
 bool limits_differ(const Selection& selection, const std::vector<std::string>& meshers);
 

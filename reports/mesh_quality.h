@@ -1,4 +1,4 @@
-// What a mesh is like, measured from the file as written, in the same way for every mesher.
+// Measures the quality of a mesh from the file as written, in the same way for every mesher.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace tetproof {
 
-// Angles in degrees. Face angles count every triangle once, also when two tetrahedra share it.
+// Angles in degrees. Face angles count every triangle once, even if two tetrahedra share it.
 struct AngleStatistics {
   double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
   double mean_min_face_angle = 0, mean_max_face_angle = 0;  // per face, as in the paper's Fig. 11
@@ -24,27 +24,27 @@ struct AngleStatistics {
 
 struct PartQuality {
   std::uint64_t tetrahedra = 0, vertices = 0, faces = 0;  // vertices in use
-  double shortest_edge = 0, volume = 0;                   // in units of the file
+  double shortest_edge = 0, volume = 0;                   // in (cubic) units of the file
   AngleStatistics angles;
 };
 
 struct MeshQuality {
   PartQuality all;                    // every tetrahedron of the file
-  std::optional<PartQuality> inside;  // where the file tells inside from outside
+  std::optional<PartQuality> inside;  // only if the file tells inside from outside
   std::uint64_t unused_vertices = 0;
   std::uint64_t inverted = 0, flat = 0;  // exact signs of the doubles as written
   std::uint64_t repeated_corners = 0;    // tetrahedra with a vertex twice (also flat)
   std::uint64_t crowded_faces = 0;       // shared by more than two tetrahedra
-  bool left_handed = false;              // most tetrahedra are: then the others count as inverted
+  bool left_handed = false;              // most are negative: then the others count as inverted
 };
 
 PartQuality measure_part(std::span<const std::array<double, 3>> vertices,
                          std::span<const std::array<std::uint32_t, 4>> tetrahedra,
                          std::uint64_t* crowded_faces = nullptr);
 
-// Inside are the tetrahedra of region 1 if the file has regions 1, and 0 or 2, only: the convention
-// of our own files. Other regions say nothing about inside and outside. \throw std::runtime_error
-// if a tetrahedron refers to a vertex that is not there.
+// Tetrahedra of region 1 are inside, if the only other regions of the file are 0 and 2: the
+// convention of our own files. Other regions tell nothing about inside and outside. \throw
+// std::runtime_error if a tetrahedron refers to a vertex that does not exist.
 MeshQuality measure(const oracles::MeshFile& mesh);
 
 // Keys as in the `final` object of the mesher's --stats, and `inside` with the same ones.

@@ -1,4 +1,4 @@
-// What the oracles said of every mesher's files.
+// The verdicts of the oracles on every mesher's files.
 #include <algorithm>
 #include <array>
 #include <map>

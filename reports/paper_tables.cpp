@@ -11,7 +11,7 @@
 namespace tetproof {
 namespace {
 
-// An angle of Table 3, digits of which matter near 0 and near 180.
+// An angle of Table 3, with more digits near 0 and near 180, where they matter.
 std::string precise(double degrees_value) {
   const double rest = std::min(degrees_value, 180 - degrees_value);
   return rest >= 0.1 || rest == 0 ? fmt::format("{:.2f}", degrees_value)

@@ -135,7 +135,7 @@ std::vector<std::string> headline_of(const Selection& selection) {
   return facts;
 }
 
-// What a reader must know before the first number.
+// Warnings that a reader must know before the first number.
 std::vector<std::string> warnings_of(const Selection& selection) {
   std::vector<std::string> warnings;
   std::size_t unverified = 0;

@@ -11,7 +11,8 @@
 namespace tetproof {
 
 struct ReportOptions {
-  std::string model;  // of Table 3 and Figure 13, by name; empty: the largest on which most succeed
+  // The model of Table 3 and Figure 13, by name; empty: the largest of those on which most succeed.
+  std::string model;
   ViewOptions views;
 };
 

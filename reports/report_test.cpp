@@ -441,7 +441,7 @@ TEST_F(ReportFolder, KeptMeshesAreShown) {
   EXPECT_EQ(notes.size(), 1U);
 }
 
-// Whatever it is called here, and however the names are sorted.
+// Under any name that it has here, and in any order of the names.
 TEST_F(ReportFolder, ThePageOpensOnOurMesh) {
   std::filesystem::create_directories(folder_);
   std::vector<RunRow> rows;
@@ -457,7 +457,7 @@ TEST_F(ReportFolder, ThePageOpensOnOurMesh) {
       row.key.flags = std::string(mesher) == "cdt" ? "cdt --region hull" : "mesh --delta 1";
       row.model_path = folder_ / (name + ".off");
       row.mesh_path = folder_ / (name + ".tet");
-      // Of model a ours was not kept.
+      // Our mesh of model a was not kept.
       if (std::string(model) == "a" && std::string(mesher) == "zzz") row.mesh_path.clear();
       rows.push_back(row);
     }
@@ -470,7 +470,7 @@ TEST_F(ReportFolder, ThePageOpensOnOurMesh) {
   EXPECT_TRUE(parts[1].ours);
   for (std::size_t i = 2; i < parts.size(); ++i) EXPECT_FALSE(parts[i].ours) << parts[i].label;
   EXPECT_TRUE(notes.empty());
-  // Where there is no room for all, every model has its input and its first mesh.
+  // If there is no room for all parts, every model has its input and its first mesh.
   ViewOptions tight;
   tight.bytes = 500;
   const auto few = collect_views(select_runs(rows), tight, notes);

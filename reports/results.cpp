@@ -116,7 +116,7 @@ std::optional<double> column(const std::optional<MeshColumns>& mesh, T MeshColum
   return mesh ? std::optional<double>(static_cast<double>((*mesh).*member)) : std::nullopt;
 }
 
-// What a row costs per tetrahedron; nothing without tetrahedra.
+// An amount per tetrahedron of the row's mesh; nothing without tetrahedra.
 std::optional<double> per_tetrahedron(const RunRow& row, double amount) {
   if (!row.mesh || row.mesh->tetrahedra == 0) return std::nullopt;
   return amount / static_cast<double>(row.mesh->tetrahedra);
@@ -201,15 +201,15 @@ RunRow read_row(SQLite::Statement& statement) {
   return row;
 }
 
-// A file beside the database, locked as long as somebody writes and removed by its holder. Not the
-// database itself: closing a descriptor of it would drop SQLite's own locks, and on NFS the two
-// kinds of locks exclude each other.
+// A file beside the database, locked as long as a process writes and removed by that process. The
+// database itself cannot serve: closing a descriptor of it would drop SQLite's own locks, and on
+// NFS the two kinds of locks exclude each other.
 std::string lock_name(const std::filesystem::path& path) {
   return path.string() + ".lock";
 }
 
-// Who locks a file that its holder has removed in the meantime holds nothing, hence the look at
-// whether the name still means the file that is locked.
+// The holder may remove the file before we lock it, and the lock is worth nothing then. So the name
+// is looked up again: it must still mean the locked file.
 int lock_for_writing(const std::filesystem::path& path) {
   const std::string name = lock_name(path);
   for (;;) {
@@ -236,7 +236,7 @@ void unlock(const std::filesystem::path& path, int fd) {
 }
 
 std::unique_ptr<SQLite::Database> open_for_reading(const std::filesystem::path& path) {
-  // The last connection takes the files of a WAL with it only if it may write.
+  // The last connection removes the files of a WAL only if it may write.
   const bool writable = access(path.c_str(), W_OK) == 0 &&
                         access(std::filesystem::absolute(path).parent_path().c_str(), W_OK) == 0;
   return std::make_unique<SQLite::Database>(
@@ -330,7 +330,7 @@ void ResultsDatabase::prepare_for_writing() {
   transaction.commit();
 }
 
-// For queries by hand; rows that are read obey anyway.
+// Changes the file for queries by hand; rows that are read obey anyway.
 void ResultsDatabase::demand_verdicts() {
   for (const RunRow& row : rows()) {
     if (row.disposition != Disposition::unverified) continue;
@@ -347,8 +347,8 @@ void ResultsDatabase::demand_verdicts() {
 ResultsDatabase::~ResultsDatabase() {
   if (lock_fd_ >= 0) {
     try {
-      // A single file again, which can be read where nobody may write. A reader that is at it keeps
-      // the WAL alive and takes its files away when it ends.
+      // Makes the database a single file again, which can be read in folders where nobody may
+      // write. An active reader keeps the WAL alive and removes its files when it ends.
       database_->setBusyTimeout(0);
       database_->exec("PRAGMA journal_mode = DELETE");
     } catch (const SQLite::Exception&) {

@@ -18,11 +18,11 @@ enum class Disposition : std::uint8_t {
   ok,          // a mesh was delivered, and the oracles have nothing against it
   unverified,  // a mesh was delivered, but the oracles have not finished with it, or were not asked
   wrong_result,   // a mesh was delivered, but it is broken or has inverted tetrahedra
-  rejected,       // the mesher refused the model; the reason says why
+  rejected,       // the mesher refused the model; `reason` says why
   crash,          // ended by a signal of its own making, or by an internal error it noticed
   timeout,        // wall or processor limit
   out_of_memory,  // memory limit, or it said so itself
-  killed          // by somebody else
+  killed          // ended from outside
 };
 
 inline constexpr std::size_t kDispositionCount = 8;
@@ -31,7 +31,7 @@ const char* disposition_name(Disposition disposition);  // "wrong-result", "out-
 // \throw std::runtime_error for anything that disposition_name() does not return.
 Disposition disposition_from_name(const std::string& name);
 
-// What identifies a run; a run with the same key is not repeated.
+// Identifies a run. A run with the same key is not repeated.
 struct RunKey {
   std::string model_sha256;
   std::string mesher;   // name as given to -m
@@ -55,7 +55,7 @@ struct RunRow {
   std::string model_name, model_path;
   std::uint64_t model_bytes = 0;
   Disposition disposition = Disposition::killed;
-  std::string reason;  // empty if ok; of an unverified mesh why nobody vouches for it
+  std::string reason;  // empty if ok; for an unverified mesh why no oracle vouches for it
   std::optional<int> exit_code, signal;
   double wall_seconds = 0, cpu_seconds = 0;
   std::optional<double> mesh_seconds;  // without reading, checking and writing, by its own account
@@ -78,11 +78,11 @@ struct RunRow {
 // decide, empty if they were not asked.
 std::string verdict_of(const RunRow& row);
 
-// No row is ok without a verdict: one that says so, as those of earlier versions may, becomes
-// unverified, with the reason. Rows are stored and read like that.
+// No row is ok without a verdict. A row of an earlier version that claims it becomes unverified,
+// with the reason. Rows are stored and read like that.
 void demand_verdict(RunRow& row);
 
-// Of two rows of one key the one that stays in a merge, whatever the order: a row that was killed
+// Of two rows of one key, does `row` stay in a merge, whatever the order? A row that was killed
 // from outside gives way, then one that is unverified, then the earlier one.
 bool supersedes(const RunRow& row, const RunRow& other);
 
@@ -94,8 +94,8 @@ class ResultsDatabase {
  public:
   enum class Mode : std::uint8_t { read, write };
 
-  // Write mode creates the file, and holds a lock so that there is one writer. Nothing but the file
-  // stays when the last user is gone, unless it was killed; the next one cleans up then.
+  // Write mode creates the file, and holds a lock so that there is one writer. When the last user
+  // is gone, only the file remains, unless that user was killed; the next one cleans up then.
   // \throw std::runtime_error if it cannot be opened, is not ours, or another writer has it.
   ResultsDatabase(const std::filesystem::path& path, Mode mode);
   ~ResultsDatabase();
@@ -103,7 +103,8 @@ class ResultsDatabase {
   bool has(const RunKey& key);
   // Durable against the death of this process once it returns. Replaces a row of the same key.
   void store(const RunRow& row);
-  // Stores the row unless one of the same key that stays is there; returns whether it did.
+  // Stores the row unless the database has one of the same key that stays. Returns whether it was
+  // stored.
   bool merge(const RunRow& row);
   std::optional<RunRow> find(const RunKey& key);
   std::vector<RunRow> rows();  // in the order of storing
@@ -111,7 +112,7 @@ class ResultsDatabase {
  private:
   void prepare_for_writing();
   void demand_verdicts();
-  // What stands between SELECT and FROM for read_row().
+  // The text between SELECT and FROM for read_row().
   std::string selected_columns() const;
 
   std::unique_ptr<SQLite::Database> database_;
@@ -120,7 +121,7 @@ class ResultsDatabase {
   int version_ = 0;  // of the file's schema, 0 if it was empty
 };
 
-// In an order that does not depend on how they came about: model name, then key.
+// Sorts by model name, then key, an order that does not depend on how the rows came about.
 void sort_rows(std::vector<RunRow>& rows);
 
 }  // namespace tetproof

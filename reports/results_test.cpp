@@ -108,7 +108,7 @@ TEST_F(Results, OneWriterAndAnyReaders) {
   }
 }
 
-// Whoever comes and goes in whatever order.
+// In whatever order users open and close the file.
 TEST_F(Results, NothingStaysBesideTheFile) {
   const auto expect_alone = [&](const char* when) {
     for (const char* suffix : {"-wal", "-shm", "-journal", ".lock"}) {
@@ -154,8 +154,8 @@ TEST_F(Results, ReadOnlyFilesAreRead) {
   fs::remove_all(folder);
 }
 
-// Many processes take turns at the lock, which each removes: never do two hold it, or the sum of
-// what they do one after the other would be wrong.
+// Many processes take turns at the lock, and each removes it. Two never hold it at once, or the sum
+// of their steps, made one after the other, would be wrong.
 TEST_F(Results, TheLockStaysOneThoughItIsRemoved) {
   ResultsDatabase(path_, Mode::write).store(sample());
   const fs::path counter = path_.string() + ".counter";
@@ -239,7 +239,7 @@ TEST_F(Results, VerdictsAreNamed) {
   EXPECT_EQ(verdict_of(row), "unknown");
 }
 
-// Whatever says so: nothing is ok that the oracles have not said something of.
+// Nothing is ok without a verdict of the oracles, whatever the row says.
 TEST(Verdict, NoRowIsOkWithoutOne) {
   RunRow row;
   row.disposition = Disposition::ok;
@@ -265,7 +265,7 @@ TEST(Verdict, NoRowIsOkWithoutOne) {
   }
 }
 
-// Files of earlier versions called meshes ok that nobody had looked at. Reading them changes
+// Files of earlier versions called meshes ok that no oracle had looked at. Reading them changes
 // nothing in the file, writing does.
 TEST_F(Results, EarlierVersionsAreReadWithVerdictsDemanded) {
   {

@@ -34,7 +34,7 @@ Name parsed(const std::string& file) {
   return {stem.substr(0, at), single ? in_float32 : in_doubles};
 }
 
-// What is inside of the model, where the file tells it: the hull around it is another in another
+// The mesh inside the model if both files tell it, because the hull around it depends on the
 // position.
 const MeshColumns& compared(const RunRow& row, const RunRow& other) {
   return row.inside && other.inside ? *row.inside : *row.mesh;
@@ -43,7 +43,7 @@ const MeshColumns& compared(const RunRow& row, const RunRow& other) {
 struct Copies {
   std::size_t runs = 0, ok = 0, worse = 0;  // worse: not ok, where the model as given is
   std::uint64_t tetrahedra = 0, given_tetrahedra = 0;
-  std::vector<double> sizes, face_angles, dihedrals;  // over those of the model as given
+  std::vector<double> sizes, face_angles, dihedrals;  // relative to the model as given
 };
 
 void add(const RunRow& row, const RunRow* given, Copies& copies) {

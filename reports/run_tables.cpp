@@ -1,4 +1,4 @@
-// Tables about runs rather than meshes: how long they took, and those that failed.
+// Tables about runs rather than meshes: their times, and the failed ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr TimeClass kTimeClasses[] = {{"< 1 s", 1},           {"1 to 10 s", 10},
                                       {"10 to 60 s", 60},     {"1 to 10 min", 600},
                                       {"10 to 60 min", 3600}, {"> 1 h", 1e300}};
 
-// Numbers and names out of a reason, so that equal failures look equal.
+// Removes numbers and names from a reason, so that equal failures look equal.
 std::string without_particulars(const RunRow& row) {
   std::string text = row.reason;
   for (const std::string& name : {row.model_path, row.model_name, short_name(row.model_name)}) {
@@ -93,7 +93,7 @@ Table time_table(const Selection& selection) {
       from = c.below;
     }
     for (const double p : {0.5, 0.95, 1.0}) row.push_back(fixed(quantile(seconds, p), 2));
-    Rows all;  // a mesh that is wrong took the oracles time, too
+    Rows all;  // the oracles took time for wrong meshes, too
     for (const auto& [model, run] : selection.runs.at(mesher)) all.push_back(&run);
     const auto verifying = values_of(all, verify_seconds());
     row.push_back(fixed(median(verifying), 2));

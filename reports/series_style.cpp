@@ -9,8 +9,9 @@ struct Colour {
   std::uint32_t light, dark;
 };
 
-// Chosen by farthest points in CIELAB among the colours of enough contrast and moderate chroma; of
-// the first eight also as seen without red or without green cones (Machado et al. 2009).
+// Chosen by farthest points in CIELAB among the colours of enough contrast and moderate chroma. For
+// the first eight, colours as seen without red or without green cones count as well (Machado et al.
+// 2009).
 constexpr std::array<Colour, kSeriesColours> kColours = {{{0x0072b2, 0x4da6ff},
                                                           {0xd55e00, 0xff8c42},
                                                           {0x008a65, 0x2fc49a},
@@ -29,7 +30,7 @@ constexpr std::array<Colour, kSeriesColours> kColours = {{{0x0072b2, 0x4da6ff},
                                                           {0xa80018, 0xa86048}}};
 constexpr std::size_t kPlain = 8;
 
-// Of the first and the last eight colours, each time that the colours come again.
+// The patterns of the first and of the last eight colours, for each time that the colours repeat.
 constexpr unsigned kPatterns[kSeriesStyles / kSeriesColours][2] = {{0, 1}, {2, 3}, {1, 0}, {3, 2}};
 
 }  // namespace

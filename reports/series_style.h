@@ -1,4 +1,4 @@
-// How the series of a chart are told apart.
+// The styles that tell the series of a chart apart.
 //
 // Laws: the first kSeriesColours styles differ in colour, in light and in dark pages, and stand out
 // from the ground; all kSeriesStyles differ in colour or pattern; from the ninth on a pattern is

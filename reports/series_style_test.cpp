@@ -1,5 +1,5 @@
-// Series are told apart: by colour, seen with any cones, and by pattern. Colours are measured here
-// from their definitions (sRGB, CIELAB, WCAG 2), not by anything that chose them.
+// Series can be told apart: by colour, seen with any cones, and by pattern. Colours are measured
+// here from their definitions (sRGB, CIELAB, WCAG 2), not by the code that chose them.
 #include "reports/series_style.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST(SeriesStyle, TheMeasuresAreRight) {
   EXPECT_LT(difference(0xff0000, 0x808000, kNoGreen), difference(0xff0000, 0x808000, kNormal));
 }
 
-// 2.3 is a just noticeable difference in CIELAB; tens are other colours to everybody.
+// 2.3 is a just noticeable difference in CIELAB; with tens everybody sees different colours.
 TEST(SeriesStyle, SixteenColoursDifferInLightAndDark) {
   for (std::size_t i = 0; i < kSeriesColours; ++i) {
     const SeriesStyle a = series_style(i);

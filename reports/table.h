@@ -17,7 +17,7 @@ struct Table {
   std::vector<std::size_t> folded_columns = {};
 };
 
-// Whether any cell says something: neither "-" nor nothing, row labels apart.
+// Has any cell contents other than "-"? Row labels do not count.
 bool has_data(const Table& table);
 
 std::string to_markdown(const Table& table);

@@ -24,7 +24,7 @@ std::string with_refined(std::optional<double> value, std::optional<double> refi
   return refined ? degrees(value) + " (" + degrees(refined) + ")" : degrees(value);
 }
 
-// What the meshes of these rows cover.
+// The region that the meshes of these rows cover.
 std::string region_of(const Rows& rows) {
   std::string region;
   for (const RunRow* row : rows) {
@@ -223,7 +223,7 @@ Table table_2_all(const Selection& selection) {
 
 Table table_2_inside(const Selection& selection) {
   Table table = comparison(selection, &RunRow::inside);
-  // Without a file that tells its inside there is nothing to say.
+  // Without a file that tells its inside the table has no data.
   const bool any = std::any_of(
       selection.meshers.begin(), selection.meshers.end(), [&](const std::string& mesher) {
         return !values_of(selection.ok_runs(mesher), of(&RunRow::inside, &MeshColumns::tetrahedra))

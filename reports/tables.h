@@ -1,5 +1,5 @@
-// The tables of a report. Every average says over how many models it is taken, and every comparison
-// of meshers within which limits they ran and how many meshes are unverified. A table without
+// The tables of a report. Every average says over how many models it is taken. Every comparison of
+// meshers says within which limits they ran and how many meshes are unverified. A table without
 // data has no rows.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace tetproof {
 // enriched CDT in brackets.
 Table table_1(const Selection& selection);
 
-// As the paper's Table 2, but of every mesher: averages over the models on which all succeed that
-// succeed at all.
+// As the paper's Table 2, but of every mesher: averages over the models on which all meshers with
+// any success succeed.
 Table table_2(const Selection& selection);
 
 // The same over all models on which each mesher succeeds.
@@ -37,7 +37,7 @@ Table ablation_table(const Selection& selection);
 Table figure_8_table(const Selection& selection);
 
 // Rotated copies (NAME@r1.off, NAME@r1s.off; tetproof rotate) beside their models: success, and
-// sizes and angles over those of the model as given. No rows if there are none.
+// sizes and angles relative to those of the model as given. No rows if there are none.
 Table rotated_table(const Selection& selection);
 
 // How long runs took, in the paper's classes and shorter ones.
@@ -46,7 +46,7 @@ Table time_table(const Selection& selection);
 // The mean share of each phase in the time of our runs, in percent.
 Table phase_table(const Selection& selection);
 
-// How many runs of each mesher ended how.
+// How many runs of each mesher ended in each disposition.
 Table disposition_table(const Selection& selection);
 
 // How many files of each mesher passed each oracle, with an example of every failure.

@@ -138,7 +138,7 @@ TEST(Tables, CaptionsTellTheLimitsAndWhetherTheyDiffer) {
     EXPECT_NE(to_markdown(table).find(table.caption), std::string::npos);
     EXPECT_NE(to_latex(table).find("The limits differ:"), std::string::npos);
   }
-  // Of one mesher, mixed.
+  // Mixed limits of one mesher.
   selection.runs.at("cdt").at("hash-a").key.limits = "wall 9 s";
   EXPECT_EQ(limits_caption(selection, {"cdt"}), "Limits of each run: l or wall 9 s.");
   EXPECT_TRUE(limits_differ(selection, {"cdt"}));
@@ -239,7 +239,7 @@ TEST(Tables, Speed) {
   EXPECT_EQ(t["safe-delmesher-e4"]["Peak bytes/tet, large, median (models)"], "100 (1)");
 }
 
-// Of the copies of a model the ratios to it; of one that is not ok none, but it is counted.
+// Copies of a model have their ratios to it. A copy that is not ok has none, but is counted.
 TEST(Tables, RotatedCopiesStandBesideTheirModels) {
   std::vector<RunRow> rows;
   for (const Made& made : std::initializer_list<Made>{

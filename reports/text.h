@@ -5,8 +5,8 @@
 
 namespace tetproof {
 
-// With everything escaped that has a meaning there, and with control characters, which XML 1.0 has
-// no way to write, as question marks.
+// Escapes all characters that have a meaning in markup. Control characters, which XML 1.0 cannot
+// express, become question marks.
 std::string markup_text(const std::string& text);
 
 }  // namespace tetproof

@@ -21,18 +21,18 @@ namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little);  // the page reads arrays as they are
 
-// The quality meshes of our program; its cdt has no quality to show.
+// Is the mesh a quality mesh of our program? Its cdt has no quality to show.
 bool is_ours(const RunRow& row) {
   return row.key.version.starts_with("delmesher ") && row.key.flags.starts_with("mesh");
 }
 
-// Which mesh of a model is shown first: our default run, our others, then those of others.
+// The order of the meshes of a model: our default run, our others, then those of other programs.
 int rank_of(const RunRow& row) {
   if (is_ours(row)) return row.key.mesher == "delmesher" ? 0 : 1;
   return 2;
 }
 
-// Moves a model's box to the middle of [-1, 1]^3; computed in double, shown in float.
+// Moves a model's box to the middle of [-1, 1]^3. Computed in double, shown in float.
 struct Frame {
   std::array<double, 3> middle{};
   double scale = 1;
@@ -104,7 +104,8 @@ bool can_be_shown(const RunRow* row, const ViewOptions& options) {
          fs::exists(row->mesh_path);
 }
 
-// Those asked for by name, then models spread evenly by size, so that the gallery shows all sorts.
+// The models asked for by name, then models spread evenly by size, so that the gallery shows all
+// sizes.
 std::vector<std::size_t> chosen_models(const Selection& selection, const ViewOptions& options) {
   std::vector<std::pair<std::uint64_t, std::size_t>> with_ours, others;
   std::vector<std::size_t> chosen;
@@ -147,7 +148,7 @@ class Collector {
     for (const bool first : {true, false}) {
       for (const std::size_t model : models) add_model(model, first);
     }
-    // Where the page opens: on a mesh of ours, if there is one.
+    // The page opens on the first part, which is of a model with a mesh of ours if there is one.
     const auto lacks_ours = [&](std::size_t model) {
       return std::none_of(parts_.begin(), parts_.end(),
                           [&](const ViewPart& part) { return part.model == model && part.ours; });

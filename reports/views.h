@@ -1,5 +1,5 @@
-// What the 3D view of a report shows: input surfaces, chamfered surfaces and meshes of some models,
-// packed for the page.
+// The contents of the 3D view of a report: input surfaces, chamfered surfaces and meshes of some
+// models, packed for the page.
 #pragma once
 
 #include <filesystem>
@@ -11,13 +11,13 @@
 namespace tetproof {
 
 struct ViewOptions {
-  std::size_t models = 10;           // at most so many models have pictures
+  std::size_t models = 10;           // at most this many models have pictures
   std::uint64_t tetrahedra = 60000;  // larger meshes are left out
   std::uint64_t bytes = 16u << 20;   // of all parts together, as text
   std::vector<std::string> wanted;   // names of models to begin with
 };
 
-// One thing to be seen; coordinates are relative to the model's box and fit into [-1, 1].
+// One object of the view. Coordinates are relative to the model's box and fit into [-1, 1].
 struct ViewPart {
   std::size_t model = 0;  // index into Selection::models
   std::string label;      // "input", "chamfered, MESHER", or the mesher
@@ -30,10 +30,10 @@ struct ViewPart {
   std::vector<std::uint8_t> inside;   // per tetrahedron; empty if the file does not tell
 };
 
-// Of every model first the input and the mesh that the page opens on, ours where one was kept; then
-// the others as far as there is room. Reads kept meshes (RunRow::mesh_path), the chamfered surfaces
-// beside them and the models. Files that are gone or cannot be read are left out; `notes` says
-// which.
+// For every model first the input and the mesh that the page opens on, which is ours if one was
+// kept; then the other meshes as far as there is room. Reads kept meshes (RunRow::mesh_path), the
+// chamfered surfaces beside them and the models. Files that are gone or cannot be read are left
+// out, and named in `notes`.
 std::vector<ViewPart> collect_views(const Selection& selection, const ViewOptions& options,
                                     std::vector<std::string>& notes);
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What an earlier manifest of this name decided, by hash.
+// The decisions of an earlier manifest of this name, by hash.
 std::map<std::string, Classification> decided_before(const std::string& output) {
   std::map<std::string, Classification> known;
   if (!fs::exists(output) || fs::path(output).extension() != ".csv") return known;
@@ -45,7 +45,7 @@ class Manifest {
     all_.push_back(std::move(c));
   }
 
-  // From time to time, so that an end by force loses little.
+  // Called from time to time, so that an end by force loses little.
   void save() const {
     if (!arguments_.output.empty()) write_whole(arguments_.output, text());
   }

@@ -1,5 +1,5 @@
-// The subcommands of tetproof: what each is asked to do, and doing it. They return an exit code:
-// 0 done, 1 a check failed, 3 unreadable input, 5 a limit was reached, 130 interrupted.
+// The subcommands of tetproof and their arguments. They return an exit code: 0 done, 1 a check
+// failed, 3 unreadable input, 5 a limit was reached, 130 interrupted.
 #pragma once
 
 #include <cstdint>
@@ -94,10 +94,10 @@ struct ShrinkArguments {
   bool no_verify = false;
 };
 
-// \throw UsageError if the folder in which the file is to be is not there.
+// \throw UsageError if the folder of the file does not exist.
 void demand_folder_of(const std::string& database);
 
-// Ctrl-C and the like end campaigns cleanly from now on.
+// From now on Ctrl-C and other signals to end the program end campaigns cleanly.
 void handle_interrupts();
 
 int run_command(const RunArguments& arguments);

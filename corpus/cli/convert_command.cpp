@@ -1,5 +1,5 @@
-// Surfaces for programs that read other formats than the model is in: triangles with the doubles
-// that all our meshers see.
+// Writes surfaces for programs that read other formats than that of the model: triangles with the
+// doubles that all our meshers see.
 #include <fmt/os.h>
 
 #include <filesystem>

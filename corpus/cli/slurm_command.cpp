@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the runner itself and its measuring children need besides the mesher.
+// The memory that the runner itself and its measuring children need besides the mesher.
 constexpr std::uint64_t kSpareMebibytes = 2048;
 
 // The request as arguments of `tetproof run`, with absolute paths since tasks start elsewhere.
@@ -25,7 +25,7 @@ std::vector<std::string> task_of(const RunArguments& run) {
     words.push_back(value);
   };
   for (const std::string& mesher : run.meshers) option("--mesher", mesher);
-  // A cluster that ends a task may end a mesher first, and its runner lives to note it.
+  // A cluster that ends a task may end a mesher first, and its runner lives on to store the row.
   std::set<std::string> retry(run.retry.begin(), run.retry.end());
   retry.insert("killed");
   for (const std::string& disposition : retry) option("--retry", disposition);

@@ -17,7 +17,7 @@ Point random_point(const Surface& s, const std::array<std::uint32_t, 3>& t, Rand
   return mix(on_edge, s.vertices[t[2]], r.between(0.1, 0.9));
 }
 
-// Where the vertex has to be for the surface to be valid; it is not at `approach.invalid`.
+// Halves the way between the last valid place and the first invalid one until they are neighbours.
 void bisect(Surface s, Approach& a) {
   double low = 0, high = 1;
   const Point far = a.invalid;

@@ -127,8 +127,8 @@ std::vector<Index> loop_of(const std::map<Index, Index>& next, Index first) {
   return loop;
 }
 
-// Triangles of a convex polygon around its first corner, in the order of `vertices`, for which none
-// is degenerate.
+// Adds the triangles of a convex polygon around a corner: the first in the order of `vertices` for
+// which no triangle is degenerate.
 void add_fan(const std::map<Index, Index>& next, Surface& surface) {
   for (const auto& [first, second] : next) {
     const std::vector<Index> loop = loop_of(next, first);

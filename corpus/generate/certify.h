@@ -8,10 +8,10 @@
 
 namespace tetproof {
 
-// The first thing that is wrong, in the order of Defect::Kind (so that what is reported for
-// a self-intersection is a surface with no other defect); null if the surface is closed, manifold,
-// oriented, without degenerate triangles, and no two closed triangles meet outside a shared vertex
-// or edge. Orientation is consistent within components; which side is inside is left to parity.
+// The first defect, in the order of Defect::Kind, so that a surface reported for a
+// self-intersection has no other defect. Nothing if the surface is closed, manifold, oriented,
+// without degenerate triangles, and no two closed triangles meet outside a shared vertex or edge.
+// Orientation is consistent within components; parity decides which side is inside.
 std::optional<delmesher::Defect::Kind> first_defect(const delmesher::Surface& surface);
 
 inline bool certified_valid(const delmesher::Surface& surface) {

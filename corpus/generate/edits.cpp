@@ -134,7 +134,7 @@ void extrude_face(Mesh& mesh, Random& random, int bits) {
   mesh = to_mesh(surface);
 }
 
-// From so many bits on a nudge may be of ulps, below it is of small steps.
+// From this many bits on a nudge may be of ulps, below of small steps.
 constexpr int kUlps = 36;
 
 void nudge_vertex(Mesh& mesh, Random& random, int bits) {
@@ -150,7 +150,7 @@ void nudge_vertex(Mesh& mesh, Random& random, int bits) {
       break;
     }
     default:
-      // Not from zero: what is 5e-324 beside it no mesher with double coordinates can resolve.
+      // Zeros stay: no mesher with double coordinates can resolve 5e-324 beside them.
       for (int i = 0; i < 3; ++i) {
         const int steps = random.integer(-3, 3);
         if (bits < kUlps) {

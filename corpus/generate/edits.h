@@ -16,7 +16,7 @@ bool edit(delmesher::Surface& surface, Random& random, int bits);
 // whether that was possible.
 bool combine(delmesher::Surface& surface, const delmesher::Surface& other, Random& random);
 
-// The part where p[axis] < value, closed by caps; for the caller to certify.
+// The part where p[axis] < value, closed by caps. Not certified.
 delmesher::Surface cut(const delmesher::Surface& surface, int axis, double value);
 
 }  // namespace tetproof

@@ -1,4 +1,4 @@
-// The families of polyhedra: each drives one kind of near-degeneracy towards zero.
+// The families of polyhedra. Each drives one kind of near-degeneracy towards zero.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct FamilyMember {
 struct Family {
   const char* name;
   const char* description;
-  // A candidate; whether it is valid is for the certificate to say.
+  // Makes a candidate. The certificate says whether it is valid.
   delmesher::Surface (*make)(FamilyMember&);
 };
 

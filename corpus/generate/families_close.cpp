@@ -73,7 +73,7 @@ Surface cavities(FamilyMember& m) {
   for (int i = 0; i < shells; ++i) {
     Surface shell = shape;
     move(shell, [&](const Point& p) { return Point{p[0] * scale, p[1] * scale, p[2] * scale}; });
-    // Some are left as they are: orientation of components is for parity to decide.
+    // Some are left as they are, because parity decides the orientation of components.
     if (i % 2 != 0 && r.chance(0.8)) reverse(shell);
     append(s, shell);
     scale *= r.chance(0.4) ? r.between(0.4, 0.8) : 1 - r.thin(m.bits);

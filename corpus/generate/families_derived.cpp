@@ -81,8 +81,8 @@ Surface rotated_member(FamilyMember& m) {
   return rotated(s, q, kPrecisions[r.below(3)]);
 }
 
-// Facets that are flat but for noise between an ulp and 2^-16, or but for a vertex that a split
-// put where doubles have it.
+// Facets that are flat but for noise between an ulp and 2^-16, or but for a vertex that a split put
+// at a rounded point.
 Surface noisy(FamilyMember& m) {
   Random& r = m.random;
   Surface s = some_surface(m, 12);

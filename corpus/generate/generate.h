@@ -13,7 +13,7 @@
 namespace tetproof {
 
 // Member number `index` of a family, certified valid; the same for the same arguments on every
-// machine. Null if no candidate passed, which is a defect of the family.
+// machine. Nothing if no candidate passed, which is a defect of the family.
 std::optional<delmesher::Surface> generate(const Family& family, std::uint64_t seed,
                                            std::uint64_t index,
                                            const std::vector<delmesher::Surface>& models = {});

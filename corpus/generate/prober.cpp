@@ -54,7 +54,7 @@ Failure Prober::failure(const delmesher::Surface& surface) const {
   const Outcome outcome = run_supervised(supervisor, {mesher.command(files), folder, limits});
   const Judgement judgement = judge(outcome, mesher.exit_codes);
   const std::string name = disposition_name(judgement.disposition);
-  // Limits are reached with different last words each time.
+  // At a limit the last words differ each time.
   if (judgement.disposition == Disposition::timeout ||
       judgement.disposition == Disposition::out_of_memory) {
     return name;

@@ -1,4 +1,4 @@
-// Random numbers that are the same everywhere: no distribution of the standard library is.
+// Random numbers that are the same everywhere, unlike the distributions of the standard library.
 #pragma once
 
 #include <cmath>
@@ -32,9 +32,9 @@ class Random {
     const double power = std::ldexp(1.0, -integer(1, bits_below_one));
     return chance(0.5) ? power : power * (1 + unit());
   }
-  // The thickness of something wide: as tiny(), but without what is neither thick enough for few
-  // elements nor thin enough for the mesher's filter (about 2^-13 of the diagonal), where any mesh
-  // of good shape has millions of elements.
+  // The thickness of a wide part. As tiny(), but thick enough for few elements or thin enough for
+  // the mesher's filter (about 2^-13 of the diagonal): in between any mesh of good shape has
+  // millions of elements.
   double thin(int bits_below_one) {
     if (bits_below_one < 16 || chance(0.3)) return tiny(bits_below_one < 5 ? bits_below_one : 5);
     const double power = std::ldexp(1.0, -integer(16, bits_below_one));

@@ -22,7 +22,7 @@ double to_precision(double x, Precision precision) {
   return x;
 }
 
-// A weight that is no short number.
+// A weight with a full mantissa.
 double weight(Random& random) {
   return random.between(0.2, 1);
 }

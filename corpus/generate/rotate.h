@@ -1,5 +1,5 @@
-// Surfaces in other positions, their coordinates rounded as files round them: what was flat is bent
-// by roundings.
+// Surfaces in other positions, with coordinates rounded as files round them, so that roundings bend
+// flat parts.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@ enum class Precision : std::uint8_t {
   decimals  // to six significant digits, as text often has them
 };
 
-// Not all zero. The matrix is rational: integers over the sum of squares.
+// A rotation; not all zero. The matrix is rational: integers over the sum of squares.
 using Quaternion = std::array<int, 4>;
 
-// Three for campaigns, by about 57, 98 and 154 degrees, none of them about an axis of coordinates.
+// Three rotations for campaigns, by about 57, 98 and 154 degrees, none about a coordinate axis.
 inline constexpr std::array<Quaternion, 3> kRotations = {
     Quaternion{11, 2, 3, 5}, Quaternion{4, 1, -3, 3}, Quaternion{3, 7, 8, -7}};
 
-// About the origin. In doubles, off by a few roundings; the same on every machine.
+// Rotates about the origin, in doubles, to a few roundings; the same on every machine.
 delmesher::Surface rotated(const delmesher::Surface& surface, const Quaternion& rotation,
                            Precision precision);
 

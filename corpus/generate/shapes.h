@@ -29,7 +29,7 @@ Surface box(const Point& low, const Point& high);
 Surface tetrahedron(const Point& a, const Point& b, const Point& c, const Point& d);
 // The polygon between two heights.
 Surface extrude(const Polygon& polygon, double bottom, double top);
-// Rings of equally many points above each other, closed by the fans of two apexes.
+// Rings with the same number of points above each other, closed by the fans of two apexes.
 Surface spindle(const Point& bottom, const std::vector<std::vector<Point>>& rings,
                 const Point& top);
 // Rings closed by the triangulations of the first and the last polygon; `flip` chooses the diagonal
@@ -38,11 +38,11 @@ Surface tower(const std::vector<Polygon>& rings, const std::vector<double>& heig
               const std::function<bool(int)>& flip = nullptr);
 // The octahedron, subdivided, with corners at the distances that `radius` gives.
 Surface sphere(int rounds, const std::function<double()>& radius);
-// The unit square's grid of n x n cells at two heights, given per grid point, closed at the sides.
+// Two copies of the unit square's grid of n x n cells, at the heights given per grid point, closed
+// at the sides.
 Surface slab(int n, const std::function<double(int x, int y)>& bottom,
              const std::function<double(int x, int y)>& top);
-// Which cells of a grid belong to the solid; the walls between inside and outside. Grid lines are
-// at arbitrary coordinates.
+// Tells which cells of a grid belong to the solid.
 using Cells = std::function<bool(int x, int y, int z)>;
 Surface walls(const std::array<std::vector<double>, 3>& lines, const Cells& solid);
 
@@ -53,7 +53,7 @@ void move(Surface& surface, const std::function<Point(const Point&)>& map);
 Surface welded(const Surface& surface);
 
 Point mix(const Point& a, const Point& b, double share_of_b);
-// x moved by so many doubles up (or down).
+// x moved up (or down, if negative) by this many doubles.
 double ulps_away(double x, int steps);
 // Signed permutation of the axes, chosen at random: exact.
 void turn(Surface& surface, Random& random);

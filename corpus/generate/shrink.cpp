@@ -90,7 +90,7 @@ class Shrinker {
       better |= step("cuts", [&] { return cut_away(); });
       better |= step("collapses", [&] { return collapse_edges(); });
     }
-    // Coordinates last: a collapse spoils them no more, but may be possible again after them.
+    // Coordinates come last, as a collapse keeps them simple; a collapse may become possible again.
     for (bool better = true; better && !spent();) {
       better = step("coordinates", [&] { return simplify_coordinates(); });
       step("collapses", [&] { return collapse_edges(); });
@@ -184,7 +184,7 @@ class Shrinker {
     shapes::reverse(s);
   }
 
-  // Many edges at once, then fewer, down to one by one.
+  // Collapses many edges at once, then fewer, down to one by one.
   bool collapse_edges() {
     bool better = false;
     for (std::size_t batch = std::max<std::size_t>(1, best_.triangles.size() / 8);; batch /= 2) {
@@ -239,7 +239,7 @@ class Shrinker {
       return Point{p[0] - r.low[0], p[1] - r.low[1], p[2] - r.low[2]};
     });
     bool better = accept_if_simpler(moved);
-    // As integers of few bits: the mesher may care, so every scale is tried.
+    // As integers of few bits, and at the original size, because failures may depend on the scale.
     int exponent = 0;
     std::frexp(range_of(best_).size(), &exponent);
     for (int bits = 4; bits <= 40; bits += bits < 16 ? 1 : 4) {

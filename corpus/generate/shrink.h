@@ -13,12 +13,12 @@
 
 namespace tetproof {
 
-// How a mesher failed on a surface: what must stay the same. Empty if it did not.
+// How a mesher failed on a surface, which must stay the same. Empty if it did not fail.
 // "crash: SIGABRT: Assertion `x' failed", "timeout", "wrong-result: conformity", ...
 // Numbers, which change with the input, are left out.
 using Failure = std::string;
 
-// Whether a surface that is certified valid still fails as wanted.
+// Does a surface that is certified valid still fail in the wanted way?
 using StillFails = std::function<bool(const delmesher::Surface&)>;
 
 struct ShrinkLimits {
@@ -41,7 +41,7 @@ struct Prober {
   std::filesystem::path supervisor, self;  // tetproof-supervise, tetproof
   std::filesystem::path folder;            // for the files of the runs
   Limits limits;
-  bool verify = true;  // look at what is delivered, with the oracles
+  bool verify = true;  // ask the oracles about meshes that are delivered
 
   Failure failure(const delmesher::Surface& surface) const;
 };

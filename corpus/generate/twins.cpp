@@ -21,7 +21,7 @@ std::optional<Surface> intersecting(const Surface& surface, Random& random) {
     twin.vertices[way->vertex] = way->invalid;
     return twin;
   }
-  // Nothing to run into: a part that touches a vertex.
+  // No vertex meets anything, so a part is added that touches a vertex.
   Surface twin = surface;
   const auto tip = surface.vertices[0];
   double size = 0;
@@ -47,8 +47,8 @@ std::optional<Surface> open(const Surface& surface, Random& random) {
   return twin;
 }
 
-// A triangle of no area between the two sides of an edge: its third corner in the middle of the
-// edge, or, where the middle is no double, at an end.
+// A triangle of no area between the two sides of an edge. Its third corner is the middle of the
+// edge, or an end if the middle is no double.
 std::optional<Surface> degenerate(const Surface& surface, Random& random) {
   Surface twin = surface;
   const auto t = random.below(twin.triangles.size());
@@ -57,7 +57,7 @@ std::optional<Surface> degenerate(const Surface& surface, Random& random) {
   auto middle = shapes::mix(p, q, 0.5);
   for (std::size_t i = 0; i < 3; ++i) {
     const double sum = p[i] + q[i];
-    // Exact if nothing was rounded on the way.
+    // The middle is exact if no step was rounded.
     if (middle[i] * 2 != sum || sum - p[i] != q[i] || sum - q[i] != p[i]) {
       middle = p;
       break;

@@ -1,5 +1,4 @@
-// Invalid twins: surfaces with one defect more than a valid one, and that as small as doubles
-// allow.
+// Invalid twins: surfaces with one defect more than a valid one, as small as doubles allow.
 #pragma once
 
 #include <optional>
@@ -17,9 +16,10 @@ struct Twin {
   delmesher::Defect::Kind reason;  // certified: the first defect of the surface
 };
 
-// What can be made of a valid surface: just intersecting (a vertex one double too far), open by one
-// ulp (one corner of one triangle beside the others), degenerate (a triangle of collinear corners),
-// one triangle turned over.
+// The twins of a valid surface: just intersecting (a vertex one double too far; where no vertex can
+// meet anything, a part that touches a vertex), open by one ulp (one corner of one triangle beside
+// the others), degenerate (a triangle of collinear corners), one triangle turned over. A twin that
+// cannot be made is left out.
 std::vector<Twin> make_twins(const delmesher::Surface& surface, Random& random);
 
 // As `delmesher check` words it.

@@ -1,4 +1,4 @@
-// What the parts of tetproof-plane share.
+// Declarations that the parts of tetproof-plane share.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct Input {
   PlanarGraph graph;
 };
 
-// "koch:4", "star:12", ...; throws std::invalid_argument.
+// A member of a family: "koch:4", "star:12", ... Throws std::invalid_argument.
 Input family(const std::string& what);
 const std::vector<std::string>& family_names();
 Input file(const std::string& path);
@@ -27,9 +27,9 @@ struct Measurement {
   bool ok = false;
   char reason[160] = {};
   std::uint64_t triangles = 0;
-  double refined_angle = 0;  // smallest, before the exact end; negative: not told apart
-  double final_angle = 0;    // smallest
-  double mean_angle = 0;     // of the smallest per triangle
+  double refined_angle = 0;  // smallest, degrees, before the last step; negative: not known
+  double final_angle = 0;    // smallest, degrees
+  double mean_angle = 0;     // of the smallest per triangle, degrees
   double seconds = 0;        // processor time
   double peak_megabytes = 0;
   std::uint64_t acute = 0, dropped = 0;
@@ -38,10 +38,10 @@ struct Measurement {
 
 struct Mesher {
   std::string name;
-  // Fills in all but the memory; the time is that of meshing alone, without reading, writing and
-  // counting. Throws to fail.
+  // Fills in all but the memory. The time is that of meshing alone, without reading, writing and
+  // counting (a foreign command's includes its reading and writing). Throws if the mesher fails.
   std::function<void(const PlanarGraph&, Measurement&)> run;
-  // After the time was taken, if wanted; throws to fail.
+  // Called after the time was taken, if wanted. Throws if the check fails.
   std::function<void(const PlanarGraph&, Measurement&)> verify = nullptr;
 };
 
@@ -58,10 +58,10 @@ struct Limits {
   double megabytes = 4000;  // of address space
 };
 
-// In a child process, which the limits end.
+// Runs the mesher in a child process, which is ended at the limits.
 Measurement measure(const Mesher& mesher, const PlanarGraph& graph, const Limits& limits);
 
-// Smallest and mean smallest angle.
+// Sets the smallest and the mean smallest angle.
 void count_angles(const std::vector<std::array<double, 2>>& vertices,
                   const std::vector<std::array<std::uint32_t, 3>>& triangles, Measurement& m);
 
@@ -76,8 +76,8 @@ std::string table_head();
 std::string table_row(const Row& row);
 std::string summary(const std::vector<Row>& rows);
 
-// The paper's figure 2 on the family `figure`, or on a file: five pictures as one SVG, and its
-// numbers as a table. Throws std::runtime_error.
+// The paper's figure 2 for an input: five pictures as one SVG, and its numbers as a table. Throws
+// std::runtime_error.
 void write_figure(const Input& input, const delmesher::Options& options, const std::string& folder);
 
 }  // namespace tetproof::plane_bench

@@ -1,5 +1,4 @@
-// The paper's figure 2 re-made: a graph, chamfered, refined, what goes into the exact end, and the
-// result.
+// The paper's figure 2: a graph, chamfered, refined, the input of the last step, and the result.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

@@ -54,7 +54,8 @@ void show_progress(std::size_t done, std::size_t all) {
   std::fprintf(stderr, "\r%zu of %zu inputs%s", done, all, done == all ? "\n" : "");
 }
 
-// In turns, so that what else the machine does weighs on all; the fastest run of each counts.
+// The meshers run in turns, so that other load of the machine affects all; the fastest run of each
+// counts.
 std::vector<Row> measured(const Input& input, const std::vector<Mesher>& meshers,
                           const Arguments& arguments) {
   std::vector<Row> rows;

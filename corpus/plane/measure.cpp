@@ -29,8 +29,8 @@ Measurement run_once(const Mesher& mesher, const PlanarGraph& graph) {
 Measurement run_here(const Mesher& mesher, const PlanarGraph& graph) {
   Measurement m;
   try {
-    // Small inputs several times: the mean of the runs, without the first one, which pays for
-    // memory and caches.
+    // Small inputs run several times. The result is the mean of the runs without the first one,
+    // which pays for memory and caches.
     constexpr double kEnough = 0.1;
     m = run_once(mesher, graph);
     if (m.seconds < kEnough) {

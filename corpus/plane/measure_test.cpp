@@ -20,7 +20,7 @@ Mesher worker(int size) {
           }};
 }
 
-// Says that its runs took this long, one after the other, and the last of them from then on.
+// Claims that its runs took these times, one after the other, and the last of them from then on.
 Mesher claims(std::vector<double> seconds) {
   return {"claims", [seconds, run = std::size_t{0}](const PlanarGraph&, Measurement& m) mutable {
             m.seconds = seconds[std::min(run++, seconds.size() - 1)];

@@ -1,4 +1,4 @@
-// CGAL's 2D Delaunay mesher: what users of C++ would pick. B = 1/8 is an angle of 20.7 degrees.
+// CGAL's 2D Delaunay mesher, the usual choice of users of C++. B = 1/8 is an angle of 20.7 degrees.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_size_criteria_2.h>

@@ -47,7 +47,7 @@ std::string table_row(const Row& row) {
 
 std::string summary(const std::vector<Row>& rows) {
   std::string text = "\n";
-  // Where both succeeded only, or the harder inputs would count for one mesher alone.
+  // Only inputs on which both succeeded, or the harder inputs would count for one mesher alone.
   std::map<std::string, int> successes;
   std::map<std::string, double> first_time;
   for (const Row& row : rows) {

@@ -32,7 +32,7 @@ constexpr int kPollMilliseconds = 20;
 constexpr double kGiveUpKillingSeconds = 20;
 constexpr std::size_t kTailBytes = 4096;
 constexpr std::uint64_t kShareable = 8u << 20;  // resident bytes beside the largest process
-constexpr double kProportionalPause = 20;       // times what the last look took
+constexpr double kProportionalPause = 20;       // times the duration of the last look
 constexpr int kLooksInVain = 8;                 // while processes end all the time
 
 double seconds_since(Clock::time_point start) {
@@ -43,7 +43,7 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-// What /proc/PID/stat says of a process.
+// The state of a process by /proc/PID/stat.
 struct ProcessState {
   pid_t parent = 0;
   char state = '?';
@@ -83,8 +83,9 @@ bool read_state(pid_t pid, ProcessState& result) {
   return true;
 }
 
-// Resident bytes with pages shared by N processes counted as 1/N of a page, of which nothing is
-// left over in a sum. Slow (the kernel walks the page tables), and not there on every kernel.
+// Resident bytes with pages shared by N processes counted as 1/N of a page, so that a sum over
+// processes counts every page once. Slow (the kernel walks the page tables), and not available on
+// every kernel.
 std::optional<std::uint64_t> proportional_bytes(pid_t pid) {
   std::array<char, 64> path;
   std::snprintf(path.data(), path.size(), "/proc/%d/smaps_rollup", static_cast<int>(pid));
@@ -162,7 +163,8 @@ class Tail {
 
   void drain() {
     std::array<char, 4096> buffer;
-    // Bounded, so that a child that writes without end cannot keep us from watching its limits.
+    // Bounded, so that a child that writes without end cannot keep this process from watching its
+    // limits.
     for (int round = 0; fd_ >= 0 && round < 64; ++round) {
       const ssize_t size = read(fd_, buffer.data(), buffer.size());
       if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
@@ -237,9 +239,10 @@ class Job {
       set_limit(RLIMIT_CPU, whole, whole + 2);
     }
     if (limits_.memory_bytes > 0 && kMemoryBackstop) {
-      // Also a backstop, for allocations faster than polling; a little above the polled limit so
-      // that the usual case is a clear verdict rather than whatever the command does without
-      // memory. Not RLIMIT_AS: allocators and thread pools reserve address space freely.
+      // Also a backstop, for allocations faster than polling. It is a little above the polled
+      // limit, so that the usual case is a clear verdict rather than whatever the command does
+      // without memory. RLIMIT_AS would not do: allocators and thread pools reserve address space
+      // freely.
       const std::uint64_t data = limits_.memory_bytes + limits_.memory_bytes / 8 + (64u << 20);
       set_limit(RLIMIT_DATA, data, data);
     }
@@ -283,7 +286,7 @@ class Job {
     return false;
   }
 
-  // Until the command ends or a limit is reached.
+  // Watches until the command ends or a limit is reached.
   void watch() {
     while (!leader_done_) {
       std::array<pollfd, 4> fds = {pollfd{signal_fd_, POLLIN, 0}, pollfd{control_fd_, POLLIN, 0},
@@ -336,11 +339,12 @@ class Job {
     if (limits_.cpu_seconds > 0 && cpu >= limits_.cpu_seconds) decide(Ending::cpu_limit);
   }
 
-  // Of everything below, whoever has waited for it. A process's time is its own until it is waited
-  // for and then in the children's time of who waited, so nobody counts twice: parents are read
-  // before their children, and those that end in between are missing for once rather than doubled.
-  // What is missing in a second look, too, was of processes that nobody waits for (their parent
-  // ignores SIGCHLD, and the kernel forgets their time): it stays counted as last seen.
+  // The processor time of all processes of the job, whichever process has waited for them. A
+  // process's time is its own until it is waited for, and then belongs to the children's time of
+  // the waiting process, so no time counts twice: parents are read before their children, and a
+  // process that ends in between is missing for once rather than doubled. If time is missing in a
+  // second look, too, it belonged to processes that nobody waits for (their parent ignores SIGCHLD,
+  // and the kernel forgets their time). It stays counted as last seen.
   double processor_seconds() {
     states_.clear();
     double sum = look() + cpu_forgotten_;
@@ -364,12 +368,12 @@ class Job {
     return sum;
   }
 
-  // Of everything seen by the last look(), pages shared among its processes once. The sum of the
-  // resident sets is an upper bound that costs nothing; the proportional sets are asked only where
-  // the bound could matter (it is beyond the peak so far, and by more than the little that a shell
-  // shares with the program it started), and seldom enough to take a small part of the time, unless
-  // the job is beyond its limit by what was shared at the last look. In between the largest process
-  // stands for the job.
+  // The resident bytes of all processes seen by the last look(), with shared pages counted once.
+  // The sum of the resident sets is an upper bound that costs nothing. The proportional sets are
+  // asked only where the bound could matter: it is beyond the peak so far, and by more than the
+  // little that a shell shares with the program it started. They are asked seldom enough to take a
+  // small part of the time, unless the job is beyond its limit even without the bytes shared at the
+  // last look. In between the largest process stands for the job.
   std::uint64_t resident_bytes() {
     std::uint64_t sum = 0, largest = 0;
     for (const auto& [pid, state] : states_) {
@@ -383,11 +387,12 @@ class Job {
     const Clock::time_point begin = Clock::now();
     std::uint64_t proportional = 0;
     for (const auto& [pid, state] : states_) {
-      // A process that has just ended has no pages any more; one that cannot be asked counts fully.
+      // A process that has just ended has no pages any more. A process that cannot be asked counts
+      // fully.
       proportional += proportional_bytes(pid).value_or(state.resident_bytes);
     }
-    // What a process shared counts for those that are read after its end as well as for itself: a
-    // sum over such a time is too large and is not taken, unless there is never another one.
+    // The bytes that an ended process shared count for itself and for the processes read after its
+    // end. A sum over such a time is too large and is not taken, unless processes end all the time.
     if (any_has_ended() && ++looks_in_vain_ < kLooksInVain) return largest;
     looks_in_vain_ = 0;
     proportional = std::clamp(proportional, largest, sum);
@@ -396,7 +401,7 @@ class Job {
     return proportional;
   }
 
-  // Of what the last look() saw alive.
+  // Has any process ended that the last look() saw alive?
   bool any_has_ended() const {
     return std::any_of(states_.begin(), states_.end(), [](const auto& seen) {
       ProcessState now;
@@ -405,7 +410,7 @@ class Job {
     });
   }
 
-  // Collects whoever has ended; returns false when there are no children any more.
+  // Collects all processes that have ended; returns false when there are no children any more.
   bool reap() {
     for (;;) {
       int status = 0;

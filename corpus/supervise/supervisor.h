@@ -1,5 +1,6 @@
-// Runs one command under limits of wall time, processor time and memory that hold for everything
-// it starts: children, grandchildren, those that ignore signals or leave their process group.
+// Runs one command under limits of wall time, processor time and memory. They hold for all
+// processes that it starts: children, grandchildren, and processes that ignore signals or leave
+// their process group.
 //
 // This is a small program of its own (tetproof-supervise) rather than part of the runner, because
 //   - as "subreaper" it inherits orphaned grandchildren, and every process below it belongs to
@@ -15,8 +16,8 @@
 
 namespace tetproof {
 
-// Is RLIMIT_DATA set besides polling? Not in builds with a sanitizer, whose shadow memory alone is
-// beyond any limit.
+// Is RLIMIT_DATA set in addition to polling? Not in builds with a sanitizer, whose shadow memory
+// alone is beyond any limit.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kMemoryBackstop = false;
 #elif defined(__has_feature)
@@ -29,7 +30,7 @@ inline constexpr bool kMemoryBackstop = true;
 // Limits of one child; 0 means none.
 struct Limits {
   double wall_seconds = 0;
-  double cpu_seconds = 0;          // all processes of the job together, those that have ended too
+  double cpu_seconds = 0;          // all processes of the job together, ended ones included
   std::uint64_t memory_bytes = 0;  // resident, all processes together, shared pages once
   std::uint64_t file_bytes = 0;    // largest file it may write
 };

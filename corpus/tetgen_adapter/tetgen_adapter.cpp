@@ -37,7 +37,7 @@ double seconds_since(Clock::time_point start) {
   _exit(code);  // without TetGen's destructors, which are not part of what is measured
 }
 
-// What TetGen means by the integer it throws.
+// Ends with the meaning of the integer that TetGen throws.
 [[noreturn]] void refused(int thrown, const std::string& file) {
   switch (thrown) {
     case 1:
@@ -57,9 +57,9 @@ double seconds_since(Clock::time_point start) {
   }
 }
 
-// Which triangles share a facet marker. TetGen merges adjacent facets of one marker that are almost
-// coplanar, by a tolerance of its own, and keeps the edges between different markers; README.md
-// here has what comes of it.
+// The triangles that share a facet marker. TetGen merges adjacent facets of one marker that are
+// almost coplanar, by a tolerance of its own, and keeps the edges between different markers.
+// README.md has the consequences.
 enum class MarkersBy : std::uint8_t {
   label,     // all triangles of one label of the input
   facet,     // adjacent triangles of one label that are exactly coplanar

@@ -1,4 +1,4 @@
-// The tetrahedrization of points is that of CGAL.
+// The tetrahedrization of points is Delaunay, and that of CGAL where there is only one.
 #include "fuzz/properties.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

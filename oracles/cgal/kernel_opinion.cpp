@@ -16,8 +16,8 @@ namespace tetproof::oracles {
 namespace {
 
 using Rough = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
-// Both predicates need ring operations only, so integers do; points with denominators are taken
-// times a common one.
+// Both predicates need ring operations only, so integers suffice; points with denominators are
+// multiplied by a common one.
 using Exact = CGAL::Simple_cartesian<CGAL::Gmpz>;
 
 Rough::Point_3 rough_point(const ExactPoints& points, Index i) {
@@ -52,7 +52,7 @@ mpz_class common_denominator(const ExactPoints& points, Indices... indices) {
 struct KernelOpinion::Kernel {
   const ExactPoints& points;
 
-  // CGAL's intervals work with the rounding mode set upwards, and say when they are not certain.
+  // CGAL's intervals need the rounding mode set upwards, and tell when they are not certain.
   template <class Predicate, class... Indices>
   int decide(const Predicate& predicate, Indices... indices) const {
     {
@@ -95,7 +95,7 @@ ExactNumber cgal_hull_volume6(const ExactPoints& points, std::span<const Index> 
   const Rational::Point_3 origin(0, 0, 0);
   CGAL::Gmpq sum = 0;
   for (const auto face : hull.faces()) {
-    // Faces may be polygons: fans of triangles around their first corner.
+    // Faces may be polygons, which are taken as fans of triangles around their first corner.
     std::vector<Rational::Point_3> ring;
     for (const auto v : hull.vertices_around_face(hull.halfedge(face))) {
       ring.push_back(hull.point(v));

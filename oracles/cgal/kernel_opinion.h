@@ -27,8 +27,8 @@ class KernelOpinion {
 // lie in a plane.
 ExactNumber cgal_hull_volume6(const ExactPoints& points, std::span<const Index> corners);
 
-// The tetrahedra of CGAL's Delaunay tetrahedrization of some points, positively oriented. Of points
-// that are on one sphere any choice is Delaunay.
+// The tetrahedra of CGAL's Delaunay tetrahedrization of some points, positively oriented. For
+// points on one sphere any choice is Delaunay.
 std::vector<std::array<Index, 4>> cgal_delaunay(std::span<const Position> points);
 
 }  // namespace tetproof::oracles

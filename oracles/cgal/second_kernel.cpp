@@ -20,9 +20,9 @@ using delmesher::ExactPoint;
 using delmesher::ExactRecord;
 using Rough = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
 
-// With a number type of CGAL's. Where no point is on three planes, all that is asked needs ring
-// operations only, and its exact floating-point numbers (Gmpzf) have them; in fractions, which are
-// reduced again and again, the same took most of a verification.
+// A point with a number type of CGAL's. Where no point is on three planes, all questions need ring
+// operations only, and CGAL's exact floating-point numbers (Gmpzf) have them. With fractions, which
+// are reduced again and again, they took most of the time of a verification.
 template <class Number>
 struct Point {
   using Kernel = CGAL::Simple_cartesian<Number>;
@@ -40,7 +40,7 @@ struct Point {
   }
 };
 
-// CGAL's intervals work with the rounding mode set upwards, and say when they are not certain.
+// CGAL's intervals need the rounding mode set upwards, and tell when they are not certain.
 template <class Predicate, class... Points>
 CGAL::Sign decide(const Predicate& predicate, const Points&... points) {
   {
@@ -57,7 +57,7 @@ CGAL::Sign orientation(const Point<Number>& a, const Point<Number>& b, const Poi
   return decide([](const auto&... p) { return CGAL::orientation(p...); }, a, b, c, d);
 }
 
-// Of the angle between the normal of abc and the direction from p to q, cosine's sign.
+// The sign of the cosine of the angle between the normal of abc and the direction from p to q.
 template <class Number>
 CGAL::Sign along_normal(const Point<Number>& a, const Point<Number>& b, const Point<Number>& c,
                         const Point<Number>& p, const Point<Number>& q) {
@@ -68,7 +68,7 @@ CGAL::Sign along_normal(const Point<Number>& a, const Point<Number>& b, const Po
       a, b, c, p, q);
 }
 
-// Of the angle between the normals of abc and pqr.
+// The sign of the cosine of the angle between the normals of abc and pqr.
 template <class Number>
 CGAL::Sign between_normals(const Point<Number>& a, const Point<Number>& b, const Point<Number>& c,
                            const Point<Number>& p, const Point<Number>& q, const Point<Number>& r) {
@@ -137,7 +137,7 @@ bool read_plane(std::istringstream& words, ExactRecord::Plane& plane) {
   return true;
 }
 
-// The definitions of planes and points, as written. False if the text is not what it should be.
+// Reads the definitions of planes and points, as written. False if the text is not in the format.
 bool read_definitions(const std::string& path, Definitions& definitions) {
   std::vector<ExactPoint>& points = definitions.points;
   std::ifstream in(path);
@@ -203,7 +203,7 @@ Number from_integer(const mpz_class& value, const Number& unit) {
   return value < 0 ? -result : result;
 }
 
-// Is x the number in these units? Without division, which not all number types have.
+// Is x the number in these units? Decided without division, which not all number types have.
 template <class Number>
 bool is_number(const Number& x, const ExactNumber& value, const Number& unit) {
   return x * from_integer<Number>(value.denominator(), Number(1)) ==
@@ -340,7 +340,8 @@ class SecondKernel {
     return {sum[0], sum[1], sum[2]};
   }
 
-  // Along rays in several directions, until one meets no edge. -1: the point is on the surface.
+  // The parity along a ray. Tries rays in several directions until one meets no edge. -1: the point
+  // is on the surface, or no ray was found.
   int parity(const Point& from) const {
     for (int attempt = 0; attempt < 16; ++attempt) {
       const Vector along(Number(0.2718281828 + 0.37 * attempt),

@@ -1,4 +1,4 @@
-// The final mesh of a record once more, with CGAL's exact kernel on points of its own.
+// Checks the final mesh of a record once more, with CGAL's exact kernel on points of its own.
 #pragma once
 
 #include <string>
@@ -9,17 +9,18 @@
 namespace tetproof::oracles {
 
 // Reads the points from the text of the sidecar (from the record itself if the path is empty) by
-// code that nothing else uses, expands them with CGAL's lazy exact numbers, and asks again:
-// - are they the points that the other oracles work on?
-// - is every tetrahedron positive, and on the side of the input (a ray's parity) that it is said to
-//   be on?
-// - does every face on a facet lie in its plane, turned outwards, with its corners on the facet,
-// and
-//   do their areas add up to the facet's?
-// - have the tetrahedra inside the volume of the input? So do the faces, by the theorem of Gauss.
-// Complete on small meshes, on a sample spread evenly over large ones; sums are complete or left
-// out, and the figures say how many of each were asked.
-// The input's triangles are taken as the surface has turned them; its coordinates from the input.
+// code that nothing else uses, expands them with CGAL's exact numbers, and asks again:
+// - Are they the points that the other oracles work on?
+// - Is every tetrahedron positive, and on the side of the input that the record says, by the parity
+//   of a ray?
+// - Does every face on a facet lie in its plane, turned outwards, with its corners on the facet,
+//   and do their areas add up to the facet's?
+// - Have the tetrahedra inside the volume of the input? Do the faces enclose it, by the theorem of
+//   Gauss?
+// On small meshes all elements are asked, on large ones an evenly spread sample. Sums are complete
+// or left out, and the figures say how many of each were asked. Triangles are oriented as in the
+// surface. Coordinates of the input are those given, but for vertices that were moved, which the
+// record defines.
 OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& surface,
                                  const delmesher::ExactRecord& record, const ExactPoints& points,
                                  const std::string& sidecar);

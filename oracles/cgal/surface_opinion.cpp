@@ -18,7 +18,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace processing = CGAL::Polygon_mesh_processing;
 
-// What neither library may be asked about.
+// The defect of lists about which neither library may be asked; empty if there is none.
 std::string defect_of_lists(const Polyhedron& surface) {
   if (surface.triangles.empty()) return "no triangles";
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {

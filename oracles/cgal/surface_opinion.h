@@ -9,10 +9,10 @@
 namespace tetproof::oracles {
 
 struct SurfaceOpinion {
-  // Each is decided only if what stands above it holds.
+  // Each is decided only if those above it hold.
   bool manifold = false;  // oriented consistently, edges of at most two triangles, one fan a vertex
   bool closed = false;
-  bool free_of_intersections = false;  // also of degenerate triangles
+  bool free_of_intersections = false;  // and of degenerate triangles
   bool decides_intersections = true;   // OpenMesh knows no geometry
   std::string reason;                  // what is wrong, with an element where the library names one
 

@@ -1,6 +1,6 @@
-// How long the oracles take, as a multiple of CGAL's plain Delaunay of the mesh's vertices, and how
-// much memory. Usage: verify_bench INPUT MESH [EXACT]. Both are measured in one run, in processor
-// time, because other programs change that less; reading is left out of the time.
+// Measures how long the oracles take, as a multiple of CGAL's plain Delaunay of the mesh's
+// vertices, and how much memory. Usage: verify_bench INPUT MESH [EXACT]. Both are measured in one
+// run, in processor time, because other programs change that less; reading is left out of the time.
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -22,15 +22,15 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The peak so far.
+// The peak of memory so far.
 double megabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024e-6 * static_cast<double>(usage.ru_maxrss);
 }
 
-// The time that has gone by since the last oracle is the next one's; so each line includes what
-// had to be prepared for it.
+// The time since the last oracle is counted for the next one, so each line includes what had to be
+// prepared for it.
 void measure(const char* input_path, const char* mesh_path, const char* exact_path) {
   const Polyhedron input = read_surface(input_path);
   const MeshFile mesh = read_mesh(mesh_path);

@@ -1,4 +1,4 @@
-// Where the smallest angles of a final mesh come from.
+// Finds the causes of the smallest angles of a final mesh.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace tetproof::benchmark {
 
-// Of faces of the final mesh with an angle below delta, in this order of precedence.
+// The causes of an angle below delta of a face of the final mesh, in order of precedence.
 enum class AngleCause : std::uint8_t {
   input_corner,  // the angle is at a chamfered input vertex
   cdt_steiner,   // a vertex was added by the last step
@@ -24,7 +24,7 @@ struct AngleCauses {
   // conforms has a larger smallest angle.
   double bound = 180;
   double smallest = 180;  // face angle of the final mesh, over the tetrahedra inside
-  AngleCause cause = AngleCause::refill;  // of that
+  AngleCause cause = AngleCause::refill;  // of `smallest`
   std::uint64_t faces = 0;                // inside, each counted once per tetrahedron
   std::array<std::uint64_t, 4> below{};   // with an angle below delta, by cause
 };

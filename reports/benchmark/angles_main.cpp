@@ -1,5 +1,5 @@
-// tetproof-angles SURFACE...: the smallest face angle inside the mesh that the default options
-// give, the bound that the facets' corners set, and where angles below delta come from. A line of
+// tetproof-angles SURFACE...: the smallest face angle inside the mesh made with the default
+// options, the bound that the facets' corners set, and the causes of angles below delta. A line of
 // JSON each, and a summary.
 #include <fmt/format.h>
 

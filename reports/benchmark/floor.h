@@ -25,7 +25,7 @@ Timing cgal_delaunay(const std::vector<std::array<double, 3>>& points);
 // The mesher's kernel on doubles, and on the points as they are defined.
 Timing own_delaunay(const std::vector<std::array<double, 3>>& points);
 
-// Those of `points` that the final mesh uses, as points of one kind or mixed.
+// The points of a record that the final mesh uses, as points of one kind or mixed.
 struct FinalPoints {
   explicit FinalPoints(const delmesher::ExactRecord& record);
   Timing own_delaunay() const;

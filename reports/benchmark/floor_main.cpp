@@ -1,6 +1,7 @@
 // tetproof-floor SIDECAR...: the plain Delaunay tetrahedrization of the final vertices of a run
-// (`delmesher mesh --exact SIDECAR`) three times over: by CGAL, by the mesher's kernel on the same
-// doubles, and by it on the points as they are defined. One line of JSON each; the best of three.
+// (`delmesher mesh --exact SIDECAR`) in three ways: by CGAL, by the mesher's kernel on the same
+// doubles, and by that kernel on the points as they are defined. One line of JSON each; the best of
+// three runs.
 #include <fmt/format.h>
 
 #include <cstdio>
