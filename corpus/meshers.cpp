@@ -22,7 +22,8 @@ struct OwnVariant {
 };
 
 // The paper's experiments by their names ("--preset paper" is delta 14.47, tau 1e-4, corners
-// below 90 degrees chamfered, and everything down to the outer box).
+// below 90 degrees chamfered, empty diametral balls, the surface to the last bit, and everything
+// down to the outer box).
 constexpr OwnVariant kOwn[] = {
     {"delmesher", "mesh"},
     {"delmesher-e4", "mesh --preset paper"},

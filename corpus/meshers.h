@@ -39,7 +39,8 @@ struct Mesher {
 };
 
 // Understands
-//   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter cdt tetgen tetgen-T0
+//   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges cdt
+//   tetgen tetgen-T0
 //   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options
 //   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it, and
 //   NAME=cmd,region=hull,deviation=1e-8:'...'   to say what it meshes and by how much it may miss

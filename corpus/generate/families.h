@@ -25,13 +25,14 @@ struct Family {
   delmesher::Surface (*make)(FamilyMember&);
 };
 
-// Angles towards zero: wedges, needles, fans, cones, high valence, notches.
+// Angles towards zero: wedges, needles, fans, cones, high valence, notches; and solids that have no
+// tetrahedrization without Steiner points (Schoenhardt, Chazelle).
 std::vector<Family> sharp_families();
 // Distances towards zero: plates, gaps, cavities, spirals, parts one ulp apart, nudged grids.
 std::vector<Family> close_families();
 // Ties: points on common spheres and cylinders, booleans on common planes; large and small numbers.
 std::vector<Family> tied_families();
-// Other surfaces, changed: moved, scaled, damaged, edited.
+// Other surfaces, changed: moved, scaled, damaged, edited; rotated and noisy ones.
 std::vector<Family> derived_families();
 
 // All of them.
