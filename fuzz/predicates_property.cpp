@@ -8,6 +8,7 @@
 #include "fuzz/properties.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/rational_reference.h"
+#include "mesher/predicates/vector.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
