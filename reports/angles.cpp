@@ -82,6 +82,42 @@ double exact_dihedral(const Corners& p, const int (&e)[4]) {
   return exact_angle(dot(edge, edge) * volume * volume, dot(n1, n2));
 }
 
+double root(const mpq_class& square) {
+  const mpf_class result(sqrt(mpf_class(square, 192)), 192);
+  return result.get_d();
+}
+
+// Six times the volume as `det`, twice the areas as `normals`, squared edges: then the radius of
+// the inscribed sphere is det over the sum of the areas, that of the circumsphere |centre| / (2
+// det), and the squared norms of S and of its inverse are half the sum of the squared edges, and
+// the sum of the squared areas over 2 det^2.
+constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+
+TetrahedronShape exact_shape(const Corners& p) {
+  const auto u = exact_difference(p[0], p[1]);
+  const auto v = exact_difference(p[0], p[2]);
+  const auto w = exact_difference(p[0], p[3]);
+  const mpq_class det = dot(cross(u, v), w);
+  if (det == 0) return {};
+  const auto vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
+  Vector<mpq_class> centre;
+  for (int c = 0; c < 3; ++c) centre[c] = dot(u, u) * vw[c] + dot(v, v) * wu[c] + dot(w, w) * uv[c];
+  mpf_class areas(0, 192);
+  mpq_class squared_areas = 0, squared_edges = 0;
+  for (const auto& f : kFaces) {
+    const auto n = cross(exact_difference(p[f[0]], p[f[1]]), exact_difference(p[f[0]], p[f[2]]));
+    squared_areas += dot(n, n);
+    areas += sqrt(mpf_class(dot(n, n), 192));
+  }
+  for (const auto& e : kEdges) {
+    const auto edge = exact_difference(p[e[0]], p[e[1]]);
+    squared_edges += dot(edge, edge);
+  }
+  const mpf_class radii = areas * sqrt(mpf_class(dot(centre, centre), 192));
+  const mpf_class gamma(6 * mpf_class(det * det, 192) / radii, 192);
+  return {gamma.get_d(), 6 * root(mpq_class(det * det / (squared_edges * squared_areas)))};
+}
+
 bool finite(const Corners& p) {
   return std::all_of(p.begin(), p.end(), [](const Point& q) {
     return std::isfinite(q[0]) && std::isfinite(q[1]) && std::isfinite(q[2]);
@@ -156,6 +192,31 @@ std::array<double, 6> dihedral_angles(const Corners& p) {
     }
   }
   return angles;
+}
+
+TetrahedronShape tetrahedron_shape(const Corners& p) {
+  const auto d = scaled_differences<6>({&p[0], &p[0], &p[0], &p[1], &p[1], &p[2]},
+                                       {&p[1], &p[2], &p[3], &p[2], &p[3], &p[3]});
+  const auto &u = d[0], &v = d[1], &w = d[2];
+  const auto vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
+  const double det = std::fabs(dot(u, vw));
+  const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  double squared_edges = 0;
+  for (const auto& edge : d) squared_edges += dot(edge, edge);
+  // Of a tetrahedron far from flat nothing is lost to rounding.
+  constexpr double kFlat = 1e-5;
+  const double size = squared_edges * std::sqrt(squared_edges);
+  if (!(det > kFlat * size)) return finite(p) ? exact_shape(p) : TetrahedronShape{};
+  double areas = 0, squared_areas = 0;
+  for (const auto& n : {cross(d[3], d[4]), vw, wu, uv}) {
+    const double squared = dot(n, n);
+    squared_areas += squared;
+    areas += std::sqrt(squared);
+  }
+  Vector<double> centre;
+  for (int c = 0; c < 3; ++c) centre[c] = uu * vw[c] + vv * wu[c] + ww * uv[c];
+  const double radii = areas * std::sqrt(dot(centre, centre));
+  return {6 * det * det / radii, 6 * det / std::sqrt(squared_edges * squared_areas)};
 }
 
 }  // namespace tetproof

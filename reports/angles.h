@@ -1,5 +1,5 @@
-// Angles of triangles and tetrahedra in degrees, and the exact orientation of a tetrahedron, for
-// meshes of any program. Independent of the mesher's own statistics.
+// Angles of triangles and tetrahedra in degrees, measures of their shape, and the exact orientation
+// of a tetrahedron, for meshes of any program. Independent of the mesher's own statistics.
 //
 // All angles are atan2(sine, cosine) with both computed to the same scale (Shewchuk, Lecture Notes
 // on Geometric Robustness, 2013); tetrahedra whose faces are needles, where rounding would show,
@@ -22,5 +22,16 @@ std::array<double, 3> triangle_angles(const Point& a, const Point& b, const Poin
 // Dihedral angles at the edges 01, 02, 03, 12, 13, 23, of the tetrahedron taken as positively
 // oriented. Flat tetrahedra have 0 and 180, or 0 where even a face has no area.
 std::array<double, 6> dihedral_angles(const Corners& corners);
+
+// Measures that are 1 for a regular tetrahedron, positive for every other one, and 0 for a flat
+// one. They do not depend on the orientation, and are right to about 1e-9.
+struct TetrahedronShape {
+  double gamma = 0;  // 3 times the radius of the inscribed sphere over that of the circumsphere
+  // Gmsh's SICN but for the sign: 3 over the product of the Frobenius norms of S and its inverse,
+  // where S maps a regular tetrahedron to this one.
+  double sicn = 0;
+};
+
+TetrahedronShape tetrahedron_shape(const Corners& corners);
 
 }  // namespace tetproof

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reports/angles.h"
+#include "reports/statistics.h"
 
 namespace tetproof {
 namespace {
@@ -26,10 +27,13 @@ Corners corners(Vertices vertices, const std::array<std::uint32_t, 4>& t) {
 
 void measure_dihedrals(Vertices vertices, Tetrahedra tetrahedra, AngleStatistics& result) {
   double sum_min = 0, sum_max = 0;
+  std::vector<double> smallest;
+  smallest.reserve(tetrahedra.size());
   result.min_dihedral = 180;
   for (const auto& t : tetrahedra) {
     const auto angles = dihedral_angles(corners(vertices, t));
     const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
+    smallest.push_back(*low);
     sum_min += *low;
     sum_max += *high;
     result.min_dihedral = std::min(result.min_dihedral, *low);
@@ -40,6 +44,28 @@ void measure_dihedrals(Vertices vertices, Tetrahedra tetrahedra, AngleStatistics
   }
   result.mean_min_dihedral = sum_min / static_cast<double>(tetrahedra.size());
   result.mean_max_dihedral = sum_max / static_cast<double>(tetrahedra.size());
+  result.dihedral_percent = *quantile(std::move(smallest), 0.01);
+}
+
+void measure_shapes(Vertices vertices, Tetrahedra tetrahedra, int upright,
+                    ShapeStatistics& result) {
+  double sum_gamma = 0, sum_sicn = 0;
+  std::vector<double> gammas;
+  gammas.reserve(tetrahedra.size());
+  result.min_gamma = result.min_sicn = 1;
+  for (const auto& t : tetrahedra) {
+    const Corners c = corners(vertices, t);
+    const TetrahedronShape shape = tetrahedron_shape(c);
+    const double sicn = orientation(c) == -upright ? -shape.sicn : shape.sicn;
+    gammas.push_back(shape.gamma);
+    sum_gamma += shape.gamma;
+    sum_sicn += sicn;
+    result.min_gamma = std::min(result.min_gamma, shape.gamma);
+    result.min_sicn = std::min(result.min_sicn, sicn);
+  }
+  result.mean_gamma = sum_gamma / static_cast<double>(tetrahedra.size());
+  result.mean_sicn = sum_sicn / static_cast<double>(tetrahedra.size());
+  result.gamma_percent = *quantile(std::move(gammas), 0.01);
 }
 
 double length(const Point& a, const Point& b) {
@@ -179,6 +205,7 @@ bool tells_inside(const oracles::MeshFile& mesh) {
 
 nlohmann::ordered_json json_of(const PartQuality& part) {
   const AngleStatistics& a = part.angles;
+  const ShapeStatistics& shapes = part.shapes;
   return {{"vertices", part.vertices},
           {"tetrahedra", part.tetrahedra},
           {"faces", part.faces},
@@ -192,6 +219,12 @@ nlohmann::ordered_json json_of(const PartQuality& part) {
           {"mean_max_dihedral", a.mean_max_dihedral},
           {"tetrahedra_below_5_degrees", a.below_5},
           {"tetrahedra_below_10_degrees", a.below_10},
+          {"dihedral_1_percent", a.dihedral_percent},
+          {"min_gamma", shapes.min_gamma},
+          {"mean_gamma", shapes.mean_gamma},
+          {"gamma_1_percent", shapes.gamma_percent},
+          {"min_sicn", shapes.min_sicn},
+          {"mean_sicn", shapes.mean_sicn},
           {"shortest_edge", part.shortest_edge},
           {"volume", part.volume},
           {"face_angle_histogram", a.face_angle_histogram},
@@ -200,12 +233,14 @@ nlohmann::ordered_json json_of(const PartQuality& part) {
 
 }  // namespace
 
-PartQuality measure_part(Vertices vertices, Tetrahedra tetrahedra, std::uint64_t* crowded_faces) {
+PartQuality measure_part(Vertices vertices, Tetrahedra tetrahedra, int upright,
+                         std::uint64_t* crowded_faces) {
   PartQuality result;
   result.tetrahedra = tetrahedra.size();
   result.vertices = used_vertices(vertices.size(), tetrahedra);
   if (tetrahedra.empty()) return result;
   measure_dihedrals(vertices, tetrahedra, result.angles);
+  measure_shapes(vertices, tetrahedra, upright, result.shapes);
   measure_sizes(vertices, tetrahedra, result);
   measure_faces(vertices, tetrahedra, result, crowded_faces);
   return result;
@@ -214,16 +249,18 @@ PartQuality measure_part(Vertices vertices, Tetrahedra tetrahedra, std::uint64_t
 MeshQuality measure(const oracles::MeshFile& mesh) {
   check_indices(mesh);
   MeshQuality result;
-  result.all = measure_part(mesh.vertices, mesh.tetrahedra, &result.crowded_faces);
-  result.unused_vertices = mesh.vertices.size() - result.all.vertices;
   count_signs(mesh, result);
+  const int upright = result.left_handed ? -1 : 1;
+  result.all = measure_part(mesh.vertices, mesh.tetrahedra, upright, &result.crowded_faces);
+  result.unused_vertices = mesh.vertices.size() - result.all.vertices;
   if (tells_inside(mesh)) {
     std::vector<std::array<std::uint32_t, 4>> inside;
     for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
       if (mesh.regions[i] == 1) inside.push_back(mesh.tetrahedra[i]);
     }
-    result.inside =
-        inside.size() == mesh.tetrahedra.size() ? result.all : measure_part(mesh.vertices, inside);
+    result.inside = inside.size() == mesh.tetrahedra.size()
+                        ? result.all
+                        : measure_part(mesh.vertices, inside, upright);
   }
   return result;
 }

@@ -20,12 +20,22 @@ struct AngleStatistics {
   std::array<std::uint64_t, 12> dihedral_histogram{};
   // Tetrahedra with a dihedral angle below 5 and below 10 degrees.
   std::uint64_t below_5 = 0, below_10 = 0;
+  // The 1 % quantile of the tetrahedra's smallest dihedral angles.
+  double dihedral_percent = 0;
+};
+
+// Of the tetrahedra: 3 times the radius of the inscribed sphere over that of the circumsphere, and
+// Gmsh's signed inverse condition number, which is negative for inverted tetrahedra.
+struct ShapeStatistics {
+  double min_gamma = 0, mean_gamma = 0, gamma_percent = 0;  // the last is the 1 % quantile
+  double min_sicn = 0, mean_sicn = 0;
 };
 
 struct PartQuality {
   std::uint64_t tetrahedra = 0, vertices = 0, faces = 0;  // vertices in use
   double shortest_edge = 0, volume = 0;                   // in (cubic) units of the file
   AngleStatistics angles;
+  ShapeStatistics shapes;
 };
 
 struct MeshQuality {
@@ -38,8 +48,9 @@ struct MeshQuality {
   bool left_handed = false;              // most are negative: then the others count as inverted
 };
 
+// Tetrahedra whose orientation() is that of `upright`, 1 or -1, are not inverted.
 PartQuality measure_part(std::span<const std::array<double, 3>> vertices,
-                         std::span<const std::array<std::uint32_t, 4>> tetrahedra,
+                         std::span<const std::array<std::uint32_t, 4>> tetrahedra, int upright = 1,
                          std::uint64_t* crowded_faces = nullptr);
 
 // Tetrahedra of region 1 are inside, if the only other regions of the file are 0 and 2: the

@@ -60,6 +60,68 @@ TEST(MeshQuality, SharesOfSmallDihedrals) {
   EXPECT_EQ(json.at("tetrahedra_below_10_degrees"), 3);
 }
 
+// Shapes of the regular tetrahedron and the corner of a cube, by hand: the corner has an inscribed
+// sphere of radius 1 / (3 + sqrt 3), a circumsphere of radius sqrt(3) / 2, squared edges of 9 and
+// squared doubled areas of 6.
+TEST(MeshQuality, ShapesByHand) {
+  MeshFile mesh;
+  mesh.vertices = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1},
+                   {0, 0, 0}, {1, 0, 0},   {0, 1, 0},   {0, 0, 1}};
+  mesh.tetrahedra = {{0, 2, 1, 3}};
+  ShapeStatistics s = measure(mesh).all.shapes;
+  for (const double value : {s.min_gamma, s.mean_gamma, s.gamma_percent, s.min_sicn, s.mean_sicn}) {
+    EXPECT_NEAR(value, 1, 1e-14);
+  }
+  mesh.tetrahedra = {{4, 5, 6, 7}};
+  const double gamma = 3 / (3 + std::sqrt(3.0)) / (std::sqrt(3.0) / 2), sicn = 6 / std::sqrt(54.0);
+  s = measure(mesh).all.shapes;
+  EXPECT_NEAR(s.mean_gamma, gamma, 1e-14);
+  EXPECT_NEAR(s.mean_sicn, sicn, 1e-14);
+  for (double& x : mesh.vertices[7]) x *= 1e-9;  // nearly flat, by exact arithmetic
+  EXPECT_NEAR(measure(mesh).all.shapes.min_gamma, 1.5e-9 / std::sqrt(0.5), 1e-16);
+  for (double& x : mesh.vertices[7]) x = 0;
+  EXPECT_EQ(measure(mesh).all.shapes.min_gamma, 0);
+  EXPECT_EQ(measure(mesh).all.shapes.min_sicn, 0);
+}
+
+TEST(MeshQuality, InvertedTetrahedraHaveANegativeConditionNumber) {
+  MeshFile mesh = two_regular();
+  mesh.tetrahedra.push_back({1, 2, 3, 4});  // of the same sign as one of the others, or not
+  const std::uint64_t inverted = measure(mesh).inverted;
+  std::swap(mesh.tetrahedra[2][0], mesh.tetrahedra[2][1]);
+  EXPECT_EQ(measure(mesh).inverted, 1 - inverted);
+  if (inverted == 1) std::swap(mesh.tetrahedra[2][0], mesh.tetrahedra[2][1]);
+  const ShapeStatistics s = measure(mesh).all.shapes;
+  EXPECT_LT(s.min_sicn, -0.1);
+  EXPECT_GT(s.min_gamma, 0.1);
+  for (auto& t : mesh.tetrahedra) std::swap(t[0], t[1]);
+  EXPECT_EQ(measure(mesh).all.shapes.min_sicn, s.min_sicn);
+}
+
+// Of 101 slivers of one kind, at angles of 1, 2, ... 101 tenths of a degree, the second one.
+TEST(MeshQuality, QuantilesOfOnePercent) {
+  MeshFile mesh;
+  std::vector<double> gammas;
+  for (int n = 101; n >= 1; --n) {
+    const double angle = 0.1 * n * 3.14159265358979323846 / 180;
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(
+        mesh.vertices.end(),
+        {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, std::cos(angle), std::sin(angle)}});
+    mesh.tetrahedra.push_back({first, first + 1, first + 2, first + 3});
+    MeshFile one = mesh;
+    one.tetrahedra = {mesh.tetrahedra.back()};
+    gammas.push_back(measure(one).all.shapes.mean_gamma);
+  }
+  const PartQuality q = measure(mesh).all;
+  EXPECT_NEAR(q.angles.dihedral_percent, 0.2, 1e-9);
+  EXPECT_EQ(q.shapes.gamma_percent, gammas[99]);
+  EXPECT_EQ(q.shapes.min_gamma, gammas[100]);
+  const auto json = nlohmann::json::parse(to_json(measure(mesh)));
+  EXPECT_EQ(json.at("gamma_1_percent"), q.shapes.gamma_percent);
+  EXPECT_EQ(json.at("dihedral_1_percent"), q.angles.dihedral_percent);
+}
+
 TEST(MeshQuality, OrientationOfTheFileIsFoundByMajority) {
   MeshFile mesh = two_regular();
   EXPECT_EQ(measure(mesh).inverted, 0u);
