@@ -172,7 +172,7 @@ Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
 
 using Pipeline = Status (*)(const Surface&, Session&, Recorder&);
 
-Result run_pipeline(const Surface& surface, const Options& options, Pipeline pipeline) {
+Result run(Pipeline pipeline, const Surface& surface, const Options& options) {
   Result result;
   Control control(options);
   Session session(options, control);
@@ -187,21 +187,27 @@ Result run_pipeline(const Surface& surface, const Options& options, Pipeline pip
   return result;
 }
 
+Result run_mesh(const Surface& surface, const Options& options) {
+  FinerPlanes planes(options);
+  Result best = run(mesh, surface, options);
+  while (planes.wants_run_after(best)) {
+    FinerPlanes::compare(run(mesh, surface, planes.options()), best);
+  }
+  return best;
+}
+
+Result run_plain_cdt(const Surface& surface, const Options& options) {
+  return run(plain_cdt, surface, options);
+}
+
 }  // namespace
 
 Result tetrahedralize(const Surface& surface, const Options& options) {
-  const auto once = [](const Surface& s, const Options& o) { return run_pipeline(s, o, mesh); };
-  const auto in_units = [&](const Surface& s, const Options& o) {
-    return with_finer_planes(s, o, once);
-  };
-  return in_ordinary_units(surface, options, in_units);
+  return in_ordinary_units(surface, options, run_mesh);
 }
 
 Result constrained_delaunay(const Surface& surface, const Options& options) {
-  const auto in_units = [](const Surface& s, const Options& o) {
-    return run_pipeline(s, o, plain_cdt);
-  };
-  return in_ordinary_units(surface, options, in_units);
+  return in_ordinary_units(surface, options, run_plain_cdt);
 }
 
 SurfaceReport check_surface(const Surface& surface, const Options& options) {

@@ -1,9 +1,13 @@
 #include "mesher/policies/finer_planes.h"
 
-#include <chrono>
+#include <iterator>
+#include <utility>
 
 namespace delmesher::policies {
 namespace {
+
+// Of the bound in force, in the second and third run.
+constexpr double kFactors[] = {0x1p-5, 0};
 
 std::uint64_t defects(const Result& result) {
   return result.statistics.rounding_inverted + result.statistics.rounding_flat;
@@ -11,27 +15,24 @@ std::uint64_t defects(const Result& result) {
 
 }  // namespace
 
-Result with_finer_planes(const Surface& surface, const Options& options,
-                         const std::function<Result(const Surface&, const Options&)>& task) {
-  using Clock = std::chrono::steady_clock;
-  constexpr double kFiner = 0x1p-5;
-  const Clock::time_point start = Clock::now();
-  Result best = task(surface, options);
-  Options again = options;
-  for (const double factor : {kFiner, 0.0}) {
-    const Statistics& s = best.statistics;
-    if (!best.status.ok() || s.planar_groups == 0 || defects(best) == 0) break;
-    if (options.time_limit_seconds > 0) {
-      const std::chrono::duration<double> spent = Clock::now() - start;
-      again.time_limit_seconds = options.time_limit_seconds - spent.count();
-      if (again.time_limit_seconds <= 0) break;
-    }
-    again.planar = factor * 2 * s.planar_bound / s.bbox_diagonal;
-    Result finer = task(surface, again);
-    if (finer.status.code == StatusCode::interrupted) return finer;
-    if (finer.status.ok() && defects(finer) < defects(best)) best = std::move(finer);
+bool FinerPlanes::wants_run_after(const Result& best) {
+  const Statistics& s = best.statistics;
+  if (!best.status.ok() || s.planar_groups == 0 || defects(best) == 0) return false;
+  if (attempts_ == std::size(kFactors)) return false;
+  if (time_limit_ > 0) {
+    const std::chrono::duration<double> spent = Clock::now() - start_;
+    options_.time_limit_seconds = time_limit_ - spent.count();
+    if (options_.time_limit_seconds <= 0) return false;
   }
-  return best;
+  // Options::planar is twice the bound (planar_bound.h).
+  options_.planar = kFactors[attempts_++] * 2 * s.planar_bound / s.bbox_diagonal;
+  return true;
+}
+
+void FinerPlanes::compare(Result result, Result& best) {
+  const bool interrupted = result.status.code == StatusCode::interrupted;
+  const bool better = result.status.ok() && defects(result) < defects(best);
+  if (interrupted || better) best = std::move(result);
 }
 
 }  // namespace delmesher::policies

@@ -56,12 +56,7 @@ int unit_exponent(const Surface& surface) {
   return is_exact(surface.vertices, -exponent) ? exponent : 0;
 }
 
-}  // namespace
-
-namespace {
-
-Result scaled_and_back(const Surface& surface, const Options& options,
-                       const std::function<Result(const Surface&, const Options&)>& task) {
+Result scaled_and_back(const Surface& surface, const Options& options, Task& task) {
   const int exponent = unit_exponent(surface);
   if (exponent == 0) return task(surface, options);
   Surface scaled = surface;
@@ -89,8 +84,7 @@ Result scaled_and_back(const Surface& surface, const Options& options,
 }  // namespace
 
 // The copies, of surface and options, are no part of a task: their memory is guarded here.
-Result in_ordinary_units(const Surface& surface, const Options& options,
-                         const std::function<Result(const Surface&, const Options&)>& task) {
+Result in_ordinary_units(const Surface& surface, const Options& options, Task& task) {
   try {
     return scaled_and_back(surface, options, task);
   } catch (const std::bad_alloc&) {

@@ -3,15 +3,14 @@
 // their size, which is exact, and the result is given back in theirs.
 #pragma once
 
-#include <functional>
-
 #include "mesher/delmesher.h"
 
 namespace delmesher::results {
 
+using Task = Result(const Surface&, const Options&);
+
 // Calls `task` with surface and options, in other units if the model's size calls for it and if
 // that is exact for every coordinate.
-Result in_ordinary_units(const Surface& surface, const Options& options,
-                         const std::function<Result(const Surface&, const Options&)>& task);
+Result in_ordinary_units(const Surface& surface, const Options& options, Task& task);
 
 }  // namespace delmesher::results

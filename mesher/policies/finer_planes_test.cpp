@@ -1,0 +1,82 @@
+#include "mesher/policies/finer_planes.h"
+
+#include <gtest/gtest.h>
+
+namespace delmesher::policies {
+namespace {
+
+Result result_with(std::uint64_t inverted, std::uint64_t flat) {
+  Result result;
+  Statistics& s = result.statistics;
+  s.planar_groups = 3;
+  s.planar_bound = 0.5;
+  s.bbox_diagonal = 4;
+  s.rounding_inverted = inverted;
+  s.rounding_flat = flat;
+  return result;
+}
+
+TEST(FinerPlanes, NothingIsWantedAfterAGoodMesh) {
+  EXPECT_FALSE(FinerPlanes({}).wants_run_after(result_with(0, 0)));
+}
+
+TEST(FinerPlanes, NothingIsWantedWherePlanesAreNotTheCause) {
+  Result exact = result_with(1, 0);
+  exact.statistics.planar_groups = 0;
+  EXPECT_FALSE(FinerPlanes({}).wants_run_after(exact));
+}
+
+TEST(FinerPlanes, NothingIsWantedAfterAFailure) {
+  Result failed = result_with(1, 0);
+  failed.status = {StatusCode::limit_reached, "out of memory", Limit::memory};
+  EXPECT_FALSE(FinerPlanes({}).wants_run_after(failed));
+}
+
+// A vertex may be 0.5 from its plane, so the surface 1, a quarter of the diagonal.
+TEST(FinerPlanes, AThirtySecondOfTheBoundThenNoPlanes) {
+  Options options;
+  options.tau = 0.25;
+  FinerPlanes planes(options);
+  const Result bad = result_with(0, 2);
+  ASSERT_TRUE(planes.wants_run_after(bad));
+  EXPECT_EQ(planes.options().planar, 0.25 / 32);
+  EXPECT_EQ(planes.options().tau, 0.25);
+  ASSERT_TRUE(planes.wants_run_after(bad));
+  EXPECT_EQ(planes.options().planar, 0);
+  EXPECT_FALSE(planes.wants_run_after(bad));
+}
+
+TEST(FinerPlanes, AllRunsShareTheTimeLimit) {
+  Options options;
+  options.time_limit_seconds = 1e6;
+  FinerPlanes planes(options);
+  ASSERT_TRUE(planes.wants_run_after(result_with(1, 0)));
+  EXPECT_LT(planes.options().time_limit_seconds, 1e6);
+  options.time_limit_seconds = 1e-300;
+  FinerPlanes late(options);
+  EXPECT_FALSE(late.wants_run_after(result_with(1, 0)));
+}
+
+TEST(FinerPlanes, TheBestResultCounts) {
+  Result best = result_with(2, 1);
+  FinerPlanes::compare(result_with(3, 0), best);
+  EXPECT_EQ(best.statistics.rounding_inverted, 2U);
+  Result failed = result_with(0, 0);
+  failed.status = {StatusCode::limit_reached, "vertex limit reached", Limit::size};
+  FinerPlanes::compare(failed, best);
+  EXPECT_EQ(best.statistics.rounding_inverted, 2U);
+  FinerPlanes::compare(result_with(1, 1), best);
+  EXPECT_EQ(best.statistics.rounding_inverted, 1U);
+}
+
+TEST(FinerPlanes, AnInterruptionIsReported) {
+  Result best = result_with(1, 0), interrupted;
+  interrupted.status = {StatusCode::interrupted, "interrupted"};
+  FinerPlanes planes({});
+  FinerPlanes::compare(interrupted, best);
+  EXPECT_EQ(best.status.code, StatusCode::interrupted);
+  EXPECT_FALSE(planes.wants_run_after(best));
+}
+
+}  // namespace
+}  // namespace delmesher::policies
