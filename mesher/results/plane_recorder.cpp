@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/plane/record.h"
+#include "mesher/plane/statistics.h"
 
 namespace delmesher::plane {
 namespace {

@@ -5,7 +5,10 @@
 #include <vector>
 
 #include "mesher/delmesher_plane.h"
-#include "mesher/plane/output.h"
+#include "mesher/plane/chamfer.h"
+#include "mesher/plane/graph.h"
+#include "mesher/plane/refine.h"
+#include "mesher/plane/rounding.h"
 #include "mesher/run/plane_session.h"
 
 namespace delmesher::plane {
