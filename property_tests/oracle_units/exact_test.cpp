@@ -1,0 +1,313 @@
+// Intervals, exact points, and the signs that they decide.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "oracles/ball_side.h"
+#include "oracles/exact_points.h"
+#include "oracles/interval.h"
+#include "property_tests/oracle_units/helpers.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::ExactPoint;
+
+TEST(Intervals, HaveTheSignOfAllTheyHold) {
+  EXPECT_EQ(Interval(1, 2).sign(), 1);
+  EXPECT_EQ(Interval(-2, -1).sign(), -1);
+  EXPECT_EQ(Interval(0).sign(), 0);
+  EXPECT_EQ(Interval(0, 1).sign(), 2);
+  EXPECT_EQ(Interval(-1, 0).sign(), 2);
+  EXPECT_EQ(Interval(-1, 1).sign(), 2);
+  EXPECT_EQ((Interval(1e308) * Interval(10)).sign(), 2);  // overflow certifies nothing
+  EXPECT_EQ((Interval(kInfinity) - Interval(kInfinity)).sign(), 2);
+}
+
+// Against rational arithmetic at the ends: no number of the operands may be lost, and at most a few
+// roundings are added.
+TEST(Intervals, EncloseAndAreTight) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto interval = [&] {
+    const double a = unit(random), b = a + std::ldexp(unit(random), -int(random() % 60));
+    return Interval(std::min(a, b), std::max(a, b));
+  };
+  const auto expect = [](const Interval& found, const mpq_class& low, const mpq_class& high) {
+    const mpq_class scale = std::max(abs(low), abs(high));
+    EXPECT_LE(mpq_class(found.low), low);
+    EXPECT_GE(mpq_class(found.high), high);
+    EXPECT_LE(low - mpq_class(found.low), scale * mpq_class(0x1p-49));
+    EXPECT_LE(mpq_class(found.high) - high, scale * mpq_class(0x1p-49));
+  };
+  for (int round = 0; round < 500; ++round) {
+    const Interval a = interval(), b = interval();
+    const mpq_class al = a.low, ah = a.high, bl = b.low, bh = b.high;
+    expect(a + b, al + bl, ah + bh);
+    expect(a - b, al - bh, ah - bl);
+    expect(-a, -ah, -al);
+    const std::array<mpq_class, 4> products = {al * bl, al * bh, ah * bl, ah * bh};
+    expect(a * b, *std::min_element(products.begin(), products.end()),
+           *std::max_element(products.begin(), products.end()));
+  }
+  const Interval tiny = Interval(0x1p-1070) * Interval(0x1p-10);  // underflows to zero
+  EXPECT_GT(tiny.high, 0);
+  EXPECT_EQ(tiny.sign(), 2);
+  EXPECT_LE(tiny.high, 16 * std::numeric_limits<double>::denorm_min());
+}
+
+mpq_class coordinate(const ExactPoints& points, Index v, int axis) {
+  mpq_class value = points.exact(v)[axis].rational();
+  if (points.exponent() >= 0) return value << static_cast<unsigned long>(points.exponent());
+  return value >> static_cast<unsigned long>(-points.exponent());
+}
+
+TEST(ExactPoints, AreTheirDefinitions) {
+  std::vector<ExactPoint> given =
+      explicit_points(std::vector<Position>{{0.1, -3, 7e5}, {1e-7, 0, -2}, {5, 0.3, 0x1p-60}});
+  ExactPoint on_segment;
+  on_segment.kind = ExactPoint::Kind::on_segment;
+  on_segment.i = 0;
+  on_segment.j = 2;
+  on_segment.x = 0.3;
+  given.push_back(on_segment);
+  ExactPoint on_triangle;
+  on_triangle.kind = ExactPoint::Kind::on_triangle;
+  on_triangle.i = 2;
+  on_triangle.j = 0;
+  on_triangle.k = 1;
+  on_triangle.x = 0.7;
+  on_triangle.y = 0x1.8p-3;
+  given.push_back(on_triangle);
+  on_segment.x = 3;  // beyond an end
+  given.push_back(on_segment);
+  ExactPoints points;
+  ASSERT_EQ(points.assign(given), "");
+  ASSERT_EQ(points.size(), given.size());
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<mpq_class, 3> c;
+    for (int v = 0; v < 3; ++v) {
+      const ExactPoint& p = given[v];
+      c[v] = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+      EXPECT_EQ(coordinate(points, v, axis), c[v]);
+      EXPECT_EQ(points.nearest(v)[axis], c[v].get_d());
+      EXPECT_EQ(points.enclosure(v)[axis].low, points.enclosure(v)[axis].high);
+    }
+    const mpq_class t = 0.3, u = 0.7, w = 0x1.8p-3;
+    const std::array<mpq_class, 3> made = {
+        t * c[0] + (1 - t) * c[2], u * c[2] + w * c[0] + (1 - u - w) * c[1], 3 * c[0] - 2 * c[2]};
+    for (Index i = 0; i < 3; ++i) {
+      EXPECT_EQ(coordinate(points, 3 + i, axis), made[i]);
+      const Interval around = points.enclosure(3 + i)[axis];
+      EXPECT_LE(mpq_class(around.low), made[i]);
+      EXPECT_GE(mpq_class(around.high), made[i]);
+      EXPECT_LE(around.high - around.low, 0x1p-48 * std::fabs(made[i].get_d()));
+      EXPECT_NEAR(points.nearest(3 + i)[axis], made[i].get_d(),
+                  0x1p-51 * std::fabs(made[i].get_d()));
+    }
+    for (Index v = 0; v < points.size(); ++v) {
+      for (Index to = 0; to < points.size(); ++to) {
+        const mpq_class exact = coordinate(points, to, axis) - coordinate(points, v, axis);
+        const Interval rough = points.rough_difference(v, to)[axis];
+        EXPECT_LE(mpq_class(rough.low), exact);
+        EXPECT_GE(mpq_class(rough.high), exact);
+        // A second double per coordinate leaves an error of 2^-105 of it, taken 2^5 times for
+        // safety. Rounding outward at zero goes to the next subnormal number, a few times over.
+        constexpr double kSubnormals = 16 * std::numeric_limits<double>::denorm_min();
+        const double coordinates =
+            std::fabs(points.nearest(v)[axis]) + std::fabs(points.nearest(to)[axis]);
+        EXPECT_LE(rough.high - rough.low,
+                  0x1p-48 * std::fabs(exact.get_d()) + 0x1p-99 * coordinates + kSubnormals);
+      }
+      largest = std::max(largest, std::fabs(points.nearest(v)[axis]));
+    }
+  }
+  EXPECT_EQ(points.largest_coordinate(), largest);
+  EXPECT_GE(points.difference_error(), 0x1p-52 * largest);
+  EXPECT_LE(points.difference_error(), 0x1p-48 * largest);
+  EXPECT_EQ(points_of({{1, 2, -3}}).difference_error(), 0);  // doubles are exact
+  EXPECT_EQ(points_of({{1, 2, -3}}).largest_coordinate(), 3);
+  EXPECT_EQ(points_of({{0, 0, 0}}).size(), 1U);
+}
+
+TEST(ExactPoints, RefuseWhatIsNoPoint) {
+  ExactPoints points;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double bad : {kInfinity, std::nan("")}) {
+      Position position = {1, 2, 3};
+      position[axis] = bad;
+      EXPECT_NE(points.assign(std::vector<Position>{{0, 0, 0}, position}).find("point 1"),
+                std::string::npos);
+      EXPECT_EQ(points.size(), 0U);
+    }
+  }
+  const std::vector<ExactPoint> three =
+      explicit_points(std::vector<Position>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  for (const auto kind : {ExactPoint::Kind::on_segment, ExactPoint::Kind::on_triangle}) {
+    const int corners = kind == ExactPoint::Kind::on_segment ? 2 : 3;
+    for (int corner = -1; corner < corners; ++corner) {
+      for (const Index wrong : {4U, 3U, 5U, 1000U}) {  // itself, another such point, nothing
+        std::vector<ExactPoint> given = three;
+        ExactPoint p;
+        p.kind = kind;
+        p.i = 0;
+        p.j = 1;
+        p.k = corners == 3 ? 2 : 1000;  // not looked at on segments
+        given.push_back(p);
+        if (corner == 0) p.i = wrong;
+        if (corner == 1) p.j = wrong;
+        if (corner == 2) p.k = wrong;
+        given.push_back(p);
+        EXPECT_EQ(points.assign(given).empty(), corner < 0) << corner << " " << wrong;
+      }
+    }
+  }
+}
+
+TEST(ExactSigns, OfACornerAndItsMirrorImage) {
+  // Unit vectors from a point away from the origin, and points inside and outside.
+  const double s = 17;
+  const ExactPoints p = points_of({{s, s, s},
+                                   {s + 1, s, s},
+                                   {s, s + 1, s},
+                                   {s, s, s + 1},
+                                   {s + 0.5, s + 0.5, s + 0.25},  // in the sphere, not its centre
+                                   {s + 1, s + 1, s + 1},         // on it
+                                   {s + 2, s + 2, s + 2},
+                                   {s + 2, s, s}});
+  EXPECT_EQ(exact::orient3d(p, 0, 1, 2, 3), 1);
+  EXPECT_EQ(exact::orient3d(p, 0, 2, 1, 3), -1);
+  EXPECT_EQ(exact::orient3d(p, 0, 1, 2, 7), 0);
+  EXPECT_EQ(to_double(exact::volume6(p, 0, 1, 2, 3), 3 * p.exponent()), 1);
+  EXPECT_EQ(to_double(exact::volume6(p, 0, 1, 2, 6), 3 * p.exponent()), 2);
+  EXPECT_EQ(exact::insphere(p, 0, 1, 2, 3, 4), 1);
+  EXPECT_EQ(exact::insphere(p, 0, 1, 2, 3, 5), 0);
+  EXPECT_EQ(exact::insphere(p, 0, 1, 2, 3, 6), -1);
+  EXPECT_EQ(exact::insphere(p, 0, 2, 1, 3, 4), -1);  // the other orientation
+  EXPECT_EQ(exact::dot_sign(p, 0, 1, 2), 0);
+  EXPECT_EQ(exact::dot_sign(p, 0, 1, 5), 1);
+  EXPECT_EQ(exact::dot_sign(p, 0, 1, 7), 1);
+  EXPECT_EQ(exact::dot_sign(p, 1, 0, 7), -1);
+  EXPECT_TRUE(exact::in_diametral_ball(p, 1, 2, 3, 4));
+  EXPECT_FALSE(exact::in_diametral_ball(p, 1, 2, 3, 1));
+  EXPECT_FALSE(exact::in_diametral_ball(p, 1, 2, 3, 6));
+  EXPECT_TRUE(exact::collinear(p, 0, 1, 7));
+  EXPECT_TRUE(exact::collinear(p, 0, 5, 6));
+  EXPECT_TRUE(exact::collinear(p, 0, 0, 6));
+  for (const auto& [a, b] : {std::array<Index, 2>{1, 2}, {2, 3}, {3, 1}}) {
+    EXPECT_FALSE(exact::collinear(p, 0, a, b));
+  }
+  EXPECT_TRUE(exact::equal(p, 3, 3));
+  EXPECT_FALSE(exact::equal(p, 1, 7));
+  EXPECT_NEAR(exact::distance(p, 0, 6), std::sqrt(12.0), 1e-15);
+  EXPECT_NEAR(exact::distance(p, 7, 3), std::sqrt(5.0), 1e-15);
+  EXPECT_EQ(length(exact::area2(p, 0, 1, 2), 2 * p.exponent()), 1);
+}
+
+// The same signs where intervals cannot tell: on a lattice, against integers of the machine.
+TEST(ExactSigns, AgreeWithMachineIntegersOnALattice) {
+  std::mt19937_64 random(5);
+  std::array<std::array<int, 3>, 4> counts{};  // by predicate and sign
+  for (int round = 0; round < 4000; ++round) {
+    std::array<std::array<std::int64_t, 3>, 5> x;
+    std::vector<Position> positions(5);
+    for (int i = 0; i < 5; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        x[i][k] = static_cast<std::int64_t>(random() % 3);
+        // Offset and steps that doubles hold, but not the products of their differences.
+        positions[i][k] = 0x1p40 + static_cast<double>(x[i][k]) * 0x1.00001p10;
+      }
+    }
+    const auto minus = [&](int a, int b) {
+      return std::array<std::int64_t, 3>{x[a][0] - x[b][0], x[a][1] - x[b][1], x[a][2] - x[b][2]};
+    };
+    const auto cross = [](const auto& u, const auto& v) {
+      return std::array<std::int64_t, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                                         u[0] * v[1] - u[1] * v[0]};
+    };
+    const auto dot = [](const auto& u, const auto& v) {
+      return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+    };
+    const auto sign = [](std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
+    const ExactPoints p = points_of(positions);
+    const auto u = minus(1, 0), v = minus(2, 0), w = minus(3, 0);
+    const auto n = cross(u, v);
+    const std::int64_t volume = dot(n, w);
+    const int orientation = sign(volume);
+    ASSERT_EQ(exact::orient3d(p, 0, 1, 2, 3), orientation);
+    const mpq_class step = std::ldexp(0x1.00001p10, static_cast<int>(-p.exponent()));
+    const mpq_class expected = step * step * step * static_cast<long>(volume);
+    ASSERT_EQ(exact::volume6(p, 0, 1, 2, 3).rational(), expected);
+    ++counts[0][orientation + 1];
+    const int angle = sign(dot(u, v));
+    ASSERT_EQ(exact::dot_sign(p, 0, 1, 2), angle);
+    ++counts[1][angle + 1];
+    ASSERT_EQ(exact::collinear(p, 0, 1, 2), n == (std::array<std::int64_t, 3>{0, 0, 0}));
+    // Lifted to the paraboloid: e is inside the sphere of abcd.
+    const auto a = minus(0, 4), b = minus(1, 4), c = minus(2, 4), d = minus(3, 4);
+    const std::int64_t lifted = dot(a, a) * dot(b, cross(c, d)) - dot(b, b) * dot(a, cross(c, d)) +
+                                dot(c, c) * dot(a, cross(b, d)) - dot(d, d) * dot(a, cross(b, c));
+    ASSERT_EQ(exact::insphere(p, 0, 1, 2, 3, 4), sign(lifted));
+    ++counts[2][sign(lifted) + 1];
+    if (dot(n, n) == 0) continue;
+    // |w|^2 < 2 w . (centre - a), the centre as in circumcentre formulas.
+    const auto vn = cross(v, n), nu = cross(n, u);
+    const std::int64_t power =
+        dot(w, w) * dot(n, n) - dot(u, u) * dot(w, vn) - dot(v, v) * dot(w, nu);
+    ASSERT_EQ(exact::in_diametral_ball(p, 0, 1, 2, 3), power < 0);
+    ++counts[3][sign(power) + 1];
+  }
+  for (const auto& of_predicate : counts) {
+    for (const int count : of_predicate) EXPECT_GT(count, 100);
+  }
+}
+
+TEST(ExactSigns, LengthsAndDoubles) {
+  EXPECT_EQ(to_double(mpz_class(-5), 3), -40);
+  EXPECT_EQ(to_double(mpz_class(3), -2), 0.75);
+  EXPECT_EQ(to_double(mpz_class(0), 100), 0);
+  EXPECT_EQ(to_double(mpz_class(1), 100000), kInfinity);
+  EXPECT_EQ(to_double(mpz_class(1), -100000), 0);
+  EXPECT_EQ(to_double(mpz_class(mpz_class(1) << 2000), -2000), 1);
+  EXPECT_EQ(length({3, 4, 12}, 1), 26);
+}
+
+// Spheres of radius 1 around the origin: through the corners of a tetrahedron, of a triangle and
+// the ends of an edge, diametral ones of the latter two.
+TEST(BallSide, TellsInsideFromOutside) {
+  const ExactPoints p = points_of({{1, 0, 0},
+                                   {0, 1, 0},
+                                   {0, 0, 1},
+                                   {-1, 0, 0},
+                                   {0, -1, 0},
+                                   {0.5, 0.5, 0.5},
+                                   {-0.5, 0.25, -0.75},
+                                   {0.75, -0.75, 0.75},
+                                   {0, 0, -2},
+                                   {0, 0, -1}});
+  // Positively oriented, as all tetrahedra of a mesh are.
+  const bool positive = exact::orient3d(p, 0, 1, 2, 3) > 0;
+  const std::array<Index, 4> tet =
+      positive ? std::array<Index, 4>{0, 1, 2, 3} : std::array<Index, 4>{1, 0, 2, 3};
+  for (const BallSide& ball :
+       {BallSide::circumscribed(p, tet), BallSide::diametral(p, std::array<Index, 3>{0, 1, 3}),
+        BallSide::diametral(p, 0, 3)}) {
+    EXPECT_EQ(ball.side(5), -1);
+    EXPECT_EQ(ball.side(6), -1);
+    EXPECT_EQ(ball.side(7), 1);
+    EXPECT_EQ(ball.side(8), 1);
+    EXPECT_EQ(ball.side(4), 0);  // on the sphere, which rounded numbers cannot tell
+    EXPECT_EQ(ball.side(9), 0);
+  }
+}
+
+}  // namespace
+}  // namespace tetproof

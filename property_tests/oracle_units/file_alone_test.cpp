@@ -1,0 +1,134 @@
+// What is said of a mesh file without a record.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "oracles/tet_complex.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+
+// A tetrahedron with a needle P A B of width w, cut by s1 in the middle of PA and s2 at a quarter
+// of PB, without an edge from s1 to B. s1 is off PA by a share of w, away from PB: beyond 0.25 the
+// chain of boundary edges that begins nearest to PA is that over s2, and PB is left without one.
+Verdict verdict_on_needle(double w, double share, bool whole = true) {
+  const Position p = {0, 0, 0}, a = {1, 0, 0}, b = {1, w, 0}, c = {0, 0, 1};
+  const Polyhedron input = {
+      {p, a, b, c}, {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}}, {}, {}};
+  MeshFile mesh;
+  mesh.vertices = {p, a, b, c, {0.5, -share * w, 0}, {0.25, 0.25 * w, 0}};
+  mesh.tetrahedra = {{0, 4, 5, 3}, {4, 1, 5, 3}};
+  if (whole) mesh.tetrahedra.push_back({1, 2, 5, 3});
+  mesh.either_orientation = true;
+  VerifyReport report;
+  EXPECT_EQ(verify(input, mesh, nullptr, {.promised = {.planar = 0}}, report), "");
+  return report.verdict;
+}
+
+TEST(FileAlone, IsNotJudgedWhereDoublesDoNotTellEdgesApart) {
+  EXPECT_EQ(verdict_on_needle(0x1p-52, 0), Verdict::exact);
+  EXPECT_EQ(verdict_on_needle(0x1p-20, 0), Verdict::exact);
+  EXPECT_EQ(verdict_on_needle(0x1p-52, 0.35), Verdict::undecided);
+  // At that distance doubles tell; and an error of another kind is an error there too.
+  EXPECT_EQ(verdict_on_needle(0x1p-20, 0.35), Verdict::broken);
+  EXPECT_EQ(verdict_on_needle(0x1p-52, 0.35, false), Verdict::broken);
+}
+
+// A square pyramid upside down. Its base has a facet as thin as a needle P A B. A vertex on PA and
+// one on PB make its edges indistinguishable. Two vertices of the base are pushed in and out by as
+// much, which changes no volume.
+Verdict verdict_on_dented_base(double dent) {
+  constexpr double kThin = 0x1p-52;
+  const Polyhedron input = {{{0, 0, 0},
+                             {1, 0, 0},
+                             {1, kThin, 0},
+                             {-1, -2, 0},
+                             {2, -2, 0},
+                             {2, 2, 0},
+                             {-1, 2, 0},
+                             {0.5, 0, -3}},
+                            {{{0, 1, 2}},
+                             {{0, 3, 1}},
+                             {{3, 4, 1}},
+                             {{4, 2, 1}},
+                             {{4, 5, 2}},
+                             {{5, 6, 2}},
+                             {{6, 0, 2}},
+                             {{6, 3, 0}},
+                             {{3, 6, 7}},
+                             {{4, 3, 7}},
+                             {{5, 4, 7}},
+                             {{6, 5, 7}}},
+                            {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+                            {}};
+  MeshFile mesh;
+  mesh.vertices = input.vertices;
+  mesh.vertices.push_back({0.5, -0.35 * kThin, 0});
+  mesh.vertices.push_back({0.25, 0.25 * kThin, 0});
+  // In the triangles 3 4 1 and 5 6 2, of equal size.
+  mesh.vertices.push_back({0.5, -1, dent});
+  mesh.vertices.push_back({0.5, 1, -dent});
+  // Seen from above: the needle without an edge from vertex 8 to B, and its surroundings.
+  const std::vector<Face> base = {
+      {0, 8, 9}, {8, 1, 9}, {1, 2, 9},  {0, 3, 8},  {3, 1, 8},  {3, 4, 10}, {4, 1, 10}, {1, 3, 10},
+      {4, 2, 1}, {4, 5, 2}, {5, 6, 11}, {6, 2, 11}, {2, 5, 11}, {6, 0, 9},  {6, 9, 2},  {6, 3, 0}};
+  for (const auto& [a, b, c] : base) mesh.tetrahedra.push_back({a, b, c, 7});
+  mesh.either_orientation = true;
+  VerifyReport report;
+  EXPECT_EQ(verify(input, mesh, nullptr, {}, report), "");
+  return report.verdict;
+}
+
+TEST(FileAlone, MayBeTurnedOverWhereTheFormatHasNoConvention) {
+  const samples::Sample honest = samples::l_shape();
+  for (const bool either : {true, false}) {
+    MeshFile turned = honest.mesh;
+    turned.either_orientation = either;
+    for (Tet& tet : turned.tetrahedra) std::swap(tet[0], tet[1]);
+    VerifyReport report;
+    EXPECT_EQ(verify(honest.input, turned, nullptr, {}, report), "");
+    EXPECT_EQ(report.verdict, either ? Verdict::exact : Verdict::broken) << to_text(report);
+  }
+}
+
+TEST(FileAlone, IsNoExcuseForWhatIsFarFromTheSurface) {
+  EXPECT_EQ(verdict_on_dented_base(0), Verdict::undecided);
+  EXPECT_EQ(verdict_on_dented_base(0x1p-10), Verdict::broken);
+  EXPECT_EQ(verdict_on_dented_base(0x1p-30), Verdict::broken);
+}
+
+// A cube has six faces, twelve edges and eight corners, however it is triangulated.
+TEST(FileAlone, IsComparedWithTheWholeSurface) {
+  const samples::Sample cube = samples::cube();
+  VerifyReport report;
+  EXPECT_EQ(verify(cube.input, cube.mesh, nullptr, {}, report), "");
+  const OracleReport* conformity = report.find("conformity");
+  ASSERT_NE(conformity, nullptr);
+  const std::map<std::string, double> figures(conformity->figures.begin(),
+                                              conformity->figures.end());
+  EXPECT_EQ(figures.at("facets"), 6);
+  EXPECT_EQ(figures.at("edges"), 12);
+  EXPECT_EQ(figures.at("input vertices"), 8);
+}
+
+// The inside of a refined mesh may be empty; a mesh may not.
+TEST(Complex, OnlyAPartMayBeEmpty) {
+  TetComplex complex;
+  const ExactPoints none;
+  complex.points = &none;
+  Neighbours neighbours;
+  EXPECT_EQ(check_complex(complex, neighbours, true).violations, 0U);
+  const OracleReport report = check_complex(complex, neighbours);
+  EXPECT_EQ(report.violations, 1U);
+  EXPECT_EQ(report.findings, std::vector<std::string>{"there are no tetrahedra"});
+}
+
+}  // namespace
+}  // namespace tetproof

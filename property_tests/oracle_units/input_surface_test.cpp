@@ -1,0 +1,201 @@
+// The input surface: its facets, what is in its interior, and the tree of boxes that finds its
+// triangles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "oracles/exact_points.h"
+#include "oracles/input_surface.h"
+#include "property_tests/oracle_units/helpers.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+
+// The part of a polygon on the inner side of the plane through three points.
+std::vector<std::array<mpq_class, 3>> clipped(const std::vector<std::array<mpq_class, 3>>& polygon,
+                                              const std::array<std::array<int, 3>, 4>& tet,
+                                              int face, bool& touches_inside) {
+  const auto height = [&](const std::array<mpq_class, 3>& x) {
+    const auto &a = tet[(face + 1) % 4], &b = tet[(face + 2) % 4], &c = tet[(face + 3) % 4];
+    const auto at = [&](const auto& p) {
+      mpq_class sum = 0;
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const int n = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
+        sum += n * (mpq_class(p[i]) - a[i]);
+      }
+      return sum;
+    };
+    return mpq_class(at(x) * sgn(at(tet[face])));
+  };
+  std::vector<std::array<mpq_class, 3>> result;
+  touches_inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const auto &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const mpq_class s = height(p), t = height(q);
+    touches_inside = touches_inside || s > 0;
+    if (s >= 0) result.push_back(p);
+    if (sgn(s) * sgn(t) >= 0) continue;
+    std::array<mpq_class, 3> cut;
+    for (int k = 0; k < 3; ++k) cut[k] = (s * q[k] - t * p[k]) / (s - t);
+    result.push_back(cut);
+  }
+  return result;
+}
+
+// Triangles that are larger than tetrahedra, and pass by them at all distances, 0 among them;
+// against clipping in rational coordinates.
+TEST(InputSurface, EntersWhatRationalClippingSaysItEnters) {
+  std::mt19937_64 random(11);
+  std::array<int, 2> counts{};
+  for (int round = 0; round < 3000; ++round) {
+    std::array<std::array<int, 3>, 4> solid, tet;
+    for (auto& x : solid) {
+      for (int& c : x) c = static_cast<int>(random() % 19) - 9;
+    }
+    for (auto& x : tet) {
+      for (int& c : x) c = static_cast<int>(random() % 4);
+    }
+    if (round % 3 == 0) tet[0] = solid[0];
+    std::vector<Position> positions;
+    for (const auto& x : {solid, tet}) {
+      for (const auto& c : x) {
+        positions.push_back({1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
+      }
+    }
+    const ExactPoints points = points_of(positions);
+    if (exact::orient3d(points, 0, 1, 2, 3) == 0) continue;
+    std::array<Index, 4> corners = {4, 5, 6, 7};
+    const int orientation = exact::orient3d(points, 4, 5, 6, 7);
+    if (orientation == 0) continue;
+    if (orientation < 0) std::swap(corners[2], corners[3]);
+    const Polyhedron polyhedron = {{positions.begin(), positions.begin() + 4},
+                                   {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}},
+                                   {},
+                                   {}};
+    InputSurface surface;
+    ASSERT_EQ(surface.assign(polyhedron, points), "");
+    bool entered = false;
+    for (int without = 0; without < 4; ++without) {
+      std::vector<std::array<mpq_class, 3>> polygon;
+      for (int v = 0; v < 4; ++v) {
+        if (v != without) polygon.push_back({solid[v][0], solid[v][1], solid[v][2]});
+      }
+      bool inside = true;
+      for (int face = 0; face < 4; ++face) {
+        bool ignored = false;
+        polygon = clipped(polygon, tet, face, ignored);
+      }
+      for (int face = 0; face < 4; ++face) {
+        bool touches = false;
+        clipped(polygon, tet, face, touches);
+        inside = inside && touches;
+      }
+      entered = entered || inside;
+    }
+    InputSurface::PlaneSides known;
+    ASSERT_EQ(surface.meets_interior(points, corners, known), entered) << "round " << round;
+    ++counts[entered];
+  }
+  EXPECT_GT(counts[0], 300);
+  EXPECT_GT(counts[1], 300);
+}
+
+TEST(BoxTree, FindsWhatMeetsTheQueryAndNothingFarInAHalfSpace) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> real(-1, 1);
+  std::vector<BoxTree::Box> boxes(500);
+  for (BoxTree::Box& box : boxes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = real(random);
+      box.high[axis] = box.low[axis] + 0.1 * std::fabs(real(random));
+    }
+  }
+  const BoxTree tree(boxes);
+  std::size_t left_out = 0, kept = 0;
+  for (int round = 0; round < 200; ++round) {
+    BoxTree::Box query;
+    for (int axis = 0; axis < 3; ++axis) {
+      query.low[axis] = real(random);
+      query.high[axis] = query.low[axis] + std::fabs(real(random));
+    }
+    const std::array<BoxTree::HalfSpace, 2> but_in = {
+        {{{real(random), real(random), real(random)}, 0.5 * real(random)},
+         {{real(random), real(random), real(random)}, 0.5 * real(random)}}};
+    std::vector<Index> found;
+    tree.query(query, found, but_in);
+    std::sort(found.begin(), found.end());
+    for (Index i = 0; i < boxes.size(); ++i) {
+      bool meets = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        meets = meets && boxes[i].low[axis] <= query.high[axis] &&
+                query.low[axis] <= boxes[i].high[axis];
+      }
+      double depth = -kInfinity;  // of the box in one of them
+      for (const BoxTree::HalfSpace& half : but_in) {
+        double height = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+          height += std::min(half.normal[axis] * boxes[i].low[axis],
+                             half.normal[axis] * boxes[i].high[axis]);
+        }
+        depth = std::max(depth, height - half.offset);
+      }
+      const bool is_found = std::binary_search(found.begin(), found.end(), i);
+      if (!meets) {
+        ASSERT_FALSE(is_found);
+      } else if (depth <= 0) {
+        ASSERT_TRUE(is_found);
+        ++kept;
+      } else if (depth > 1e-12) {
+        ASSERT_FALSE(is_found);
+        ++left_out;
+      }
+    }
+  }
+  EXPECT_GT(kept, 200U);
+  EXPECT_GT(left_out, 500U);
+}
+
+// A quadrilateral face is one facet if it is flat, however steep. A saddle is two, though the sum
+// of its triangles' normals is upright.
+TEST(InputSurface, PolygonsAreFacetsWhereTheyAreFlat) {
+  const auto facets = [](const Polyhedron& polyhedron) {
+    const ExactPoints points = points_of(polyhedron.vertices);
+    InputSurface surface;
+    EXPECT_EQ(surface.assign(polyhedron, points), "");
+    return surface.facets().size();
+  };
+  const auto box = [](double top, double lift) {
+    Polyhedron p;
+    const std::array<std::array<double, 2>, 4> corner = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+    for (const auto& [x, y] : corner) p.vertices.push_back({2 * x, 2 * y, 0});
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double z = 4 + (i % 2 == 0 ? lift : -lift);
+      p.vertices.push_back({top * corner[i][0], top * corner[i][1], z});
+    }
+    for (const auto& [a, b, c, d] : {std::array<Index, 4>{0, 3, 2, 1},
+                                     {4, 5, 6, 7},
+                                     {0, 1, 5, 4},
+                                     {1, 2, 6, 5},
+                                     {2, 3, 7, 6},
+                                     {3, 0, 4, 7}}) {
+      p.triangles.push_back({a, b, c});
+      p.triangles.push_back({a, c, d});
+      p.polygons.insert(p.polygons.end(), 2, static_cast<Index>(p.polygons.size() / 2));
+    }
+    return p;
+  };
+  EXPECT_EQ(facets(box(1, 0)), 6U);
+  EXPECT_EQ(facets(box(2, 0)), 6U);
+  EXPECT_EQ(facets(box(2, 0.5)), 7U);  // upright sides stay flat
+}
+
+}  // namespace
+}  // namespace tetproof

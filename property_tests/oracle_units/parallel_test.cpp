@@ -1,0 +1,47 @@
+// Tasks that run side by side.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <stdexcept>
+
+#include "oracles/parallel.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+
+TEST(Parallel, TasksRunOnceEachAndTheFirstErrorIsThrown) {
+  for (const unsigned threads : {0U, 1U, 3U}) {
+    std::array<std::atomic<int>, 20> runs{};
+    run_tasks(threads, runs.size(), [&](std::size_t i) { ++runs[i]; });
+    for (const auto& count : runs) EXPECT_EQ(count, 1);
+    run_tasks(threads, 0, [](std::size_t) { FAIL(); });
+    EXPECT_THROW(run_tasks(threads, 5,
+                           [](std::size_t i) {
+                             if (i >= 2) throw std::runtime_error(std::to_string(i));
+                           }),
+                 std::runtime_error);
+  }
+}
+
+// Three tasks that wait for each other would not end with fewer than three threads.
+TEST(Parallel, AsManyTasksRunAtOnceAsThereAreThreads) {
+  std::mutex mutex;
+  std::condition_variable all_here;
+  int here = 0, met = 0;
+  run_tasks(3, 3, [&](std::size_t) {
+    std::unique_lock lock(mutex);
+    ++here;
+    all_here.notify_all();
+    met += all_here.wait_for(lock, std::chrono::seconds(20), [&] { return here == 3; }) ? 1 : 0;
+  });
+  EXPECT_EQ(met, 3);
+}
+
+}  // namespace
+}  // namespace tetproof

@@ -1,0 +1,191 @@
+// The oracles of the plane: signs, graphs, files, the grid.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "oracles/plane_file.h"
+#include "oracles/plane_graph.h"
+#include "oracles/plane_grid.h"
+#include "oracles/plane_points.h"
+#include "oracles/text_reader.h"
+#include "property_tests/oracle_units/helpers.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+
+// Far from the origin as well as near it, a small query in a grid of 50 x 50 unit boxes visits the
+// boxes that it meets and few others.
+TEST(PlaneGrid, VisitsWhatIsNear) {
+  for (const double offset : {-1000.0, -25.0, 0.0, 1000.0}) {
+    std::vector<PlaneGrid::Box> items;
+    for (int i = 0; i < 2500; ++i) {
+      const PlaneGrid::Corner low = {offset + i % 50, offset + i / 50};  // NOLINT: rows of 50
+      items.push_back({low, {low[0] + 1, low[1] + 1}});
+    }
+    PlaneGrid grid(items);
+    for (const double place : {0.5, 20.5, 49.5}) {
+      const PlaneGrid::Corner at = {offset + place, offset + place};
+      std::vector<std::uint32_t> found;
+      grid.visit({at, at}, [&](std::uint32_t item) { found.push_back(item); });
+      const auto here = static_cast<std::uint32_t>(51 * static_cast<int>(place));
+      EXPECT_EQ(std::count(found.begin(), found.end(), here), 1);
+      EXPECT_LE(found.size(), 25U) << offset;
+    }
+  }
+}
+
+PlanePoints plane_points(const std::vector<std::array<double, 2>>& given) {
+  PlanePoints points;
+  for (const auto& [x, y] : given) points.add({x, y, x, y});
+  return points;
+}
+
+TEST(PlaneSigns, OfASquareAndBeside) {
+  PlanePoints p = plane_points({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0.5, 0.5}, {2, 0}, {3, 3}});
+  EXPECT_EQ(p.orient(0U, 1U, 2U), 1);
+  EXPECT_EQ(p.orient(0U, 2U, 1U), -1);
+  EXPECT_EQ(p.orient(0U, 1U, 5U), 0);
+  EXPECT_EQ(p.in_circle(0, 1, 2, 4), 1);
+  EXPECT_EQ(p.in_circle(0, 1, 2, 3), 0);
+  EXPECT_EQ(p.in_circle(0, 1, 2, 5), -1);
+  EXPECT_EQ(p.in_circle(0, 2, 1, 5), 1);
+  EXPECT_TRUE(p.encroaches(0, 4, 5));
+  EXPECT_FALSE(p.encroaches(0, 4, 1));  // on the circle
+  EXPECT_TRUE(p.encroaches(0, 1, 5));
+  EXPECT_FALSE(p.encroaches(0, 1, 2));  // a right angle
+  EXPECT_FALSE(p.encroaches(0, 6, 1));
+  EXPECT_EQ(p.checks, 12U);
+  EXPECT_EQ(p.parameter(4, 0, 2), mpq_class(0.5));
+  EXPECT_EQ(p.parameter(6, 0, 2), 3);
+  EXPECT_EQ(p.parameter(3, 0, 3), 1);  // upright
+  EXPECT_NEAR(p.distance(0, 6), std::sqrt(18.0), 1e-15);
+  EXPECT_NEAR(p.distance(5, 3), std::sqrt(5.0), 1e-15);
+  EXPECT_EQ(p.distance_to_segment(3, 0, 1), 1);
+  EXPECT_DOUBLE_EQ(p.distance_to_segment(3, 1, 5), std::sqrt(2.0));   // beyond the first end
+  EXPECT_DOUBLE_EQ(p.distance_to_segment(6, 0, 1), std::sqrt(13.0));  // beyond the second
+  EXPECT_NEAR(p.distance_to_segment(1, 0, 2), std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(p.distance_to_segment(4, 0, 2), 0);
+}
+
+// Where doubles tell, rationals are not asked. Here these are all zero and would answer 0, so the
+// answer comes from the doubles, and it has to be right.
+TEST(PlaneSigns, DoublesTellWhatIsObvious) {
+  std::mt19937_64 random(11);
+  for (int round = 0; round < 2000; ++round) {
+    std::array<std::array<std::int64_t, 2>, 4> x;
+    PlanePoints p;
+    for (auto& point : x) {
+      for (std::int64_t& c : point) c = static_cast<std::int64_t>(random() % 2001) - 1000;
+      p.add({0, 0, static_cast<double>(point[0]), static_cast<double>(point[1])});
+    }
+    const auto sign = [](std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
+    const auto area = [&](int a, int b, int c) {
+      return (x[b][0] - x[a][0]) * (x[c][1] - x[a][1]) - (x[b][1] - x[a][1]) * (x[c][0] - x[a][0]);
+    };
+    EXPECT_EQ(p.orient(0U, 1U, 2U), sign(area(0, 1, 2)));
+    std::int64_t lifted = 0;
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t u = x[i][0] - x[3][0], v = x[i][1] - x[3][1];
+      lifted += (u * u + v * v) * area(3, (i + 1) % 3, (i + 2) % 3);
+    }
+    EXPECT_EQ(p.in_circle(0, 1, 2, 3), sign(lifted));
+  }
+}
+
+TEST(PlaneSigns, AgreeWithMachineIntegersOnALattice) {
+  std::mt19937_64 random(7);
+  std::array<std::array<int, 3>, 2> counts{};
+  for (int round = 0; round < 4000; ++round) {
+    std::vector<std::array<double, 2>> given(4);
+    std::array<std::array<std::int64_t, 2>, 4> x;
+    for (int i = 0; i < 4; ++i) {
+      for (int k = 0; k < 2; ++k) {
+        x[i][k] = static_cast<std::int64_t>(random() % 4);
+        given[i][k] = 0x1p40 + static_cast<double>(x[i][k]) * 0x1.0000001p10;
+      }
+    }
+    PlanePoints p = plane_points(given);
+    const auto sign = [](std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
+    const auto area = [&](int a, int b, int c) {
+      return (x[b][0] - x[a][0]) * (x[c][1] - x[a][1]) - (x[b][1] - x[a][1]) * (x[c][0] - x[a][0]);
+    };
+    ASSERT_EQ(p.orient(0U, 1U, 2U), sign(area(0, 1, 2)));
+    ++counts[0][sign(area(0, 1, 2)) + 1];
+    std::int64_t lifted = 0;
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t u = x[i][0] - x[3][0], v = x[i][1] - x[3][1];
+      lifted += (u * u + v * v) * area(3, (i + 1) % 3, (i + 2) % 3);
+    }
+    ASSERT_EQ(p.in_circle(0, 1, 2, 3), sign(lifted));
+    ++counts[1][sign(lifted) + 1];
+  }
+  for (const auto& of_predicate : counts) {
+    for (const int count : of_predicate) EXPECT_GT(count, 100);
+  }
+}
+
+// A vertex on a segment cuts it, whichever vertex it is. A vertex beside it, beyond its end or at
+// its end does not.
+TEST(PlaneGraph, SegmentsAreCutWhereVerticesLieOnThem) {
+  delmesher::PlanarGraph graph;
+  graph.vertices = {{1, 0}, {0, 0}, {4, 0}, {2, 0x1p-40}, {3, 0}, {5, 0}};
+  graph.segments = {{1, 2}, {2, 1}};
+  PlaneGraph cut(graph);
+  ASSERT_EQ(cut.pieces().size(), 3U);
+  const std::array<Index, 4> along = {1, 0, 4, 2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(cut.pieces()[i].a, along[i]);
+    EXPECT_EQ(cut.pieces()[i].b, along[i + 1]);
+    EXPECT_EQ(cut.pieces()[i].segment, 0U);
+  }
+}
+
+TEST(PlaneGraph, KnowsTheAreaOfASingleRing) {
+  delmesher::PlanarGraph graph;
+  graph.vertices = {{0, 0}, {4, 0}, {4, 3}, {10, 0}, {11, 0}, {11, 1}};
+  const auto twice_area = [&](const std::vector<std::array<Index, 2>>& segments) {
+    graph.segments.assign(segments.begin(), segments.end());
+    return PlaneGraph(graph).area_of_ring();
+  };
+  EXPECT_EQ(twice_area({{0, 1}, {1, 2}, {2, 0}}), 12);
+  EXPECT_EQ(twice_area({{2, 1}, {0, 2}, {0, 1}}), 12);  // clockwise, as they come
+  EXPECT_LT(twice_area({{0, 1}, {1, 2}}), 0);
+  EXPECT_LT(twice_area({{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}}), 0);
+  graph.segments = {{0, 1}, {1, 2}, {2, 0}};
+  EXPECT_TRUE(PlaneGraph(graph).closed_rings());
+  graph.segments.pop_back();
+  EXPECT_FALSE(PlaneGraph(graph).closed_rings());
+}
+
+// The last line is a line, with or without its end.
+TEST(PlaneFiles, AreReadToTheirLastCharacter) {
+  const std::string ring = "0 0\n4 0\n0 4";
+  for (const char* end : {"", "\n", "\n\n", "\r\n", "\n>"}) {
+    EXPECT_EQ(read_plane_graph(written("ring.txt", ring + end)).vertices.size(), 3U);
+  }
+  EXPECT_THROW(read_plane_graph(written("ring.txt", ring + "\n7")), ReadError);
+  EXPECT_THROW(read_plane_graph(written("ring.txt", ring + "\nx")), ReadError);
+}
+
+TEST(PlaneFiles, ListedEdgesHaveMarkers) {
+  const std::string path = written("triangle.node", "3 2 0 0\n1 0 0\n2 4 0\n3 0 4\n");
+  written("triangle.ele", "1 3 0\n1 1 2 3\n");
+  written("triangle.poly", "0 2 0 0\n3 1\n1 1 2 7\n2 2 3 8\n3 3 1 9\n0\n");
+  PlaneFile file = read_plane_file(path);
+  EXPECT_TRUE(file.lists_edges);
+  EXPECT_EQ(file.edges, (std::vector<std::array<Index, 2>>{{0, 1}, {1, 2}, {2, 0}}));
+  EXPECT_EQ(file.markers, (std::vector<std::int32_t>{7, 8, 9}));
+  written("triangle.poly", "0 2 0 0\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
+  file = read_plane_file(path);
+  EXPECT_EQ(file.markers, (std::vector<std::int32_t>{0, 0, 0}));
+}
+
+}  // namespace
+}  // namespace tetproof

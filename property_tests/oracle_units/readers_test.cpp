@@ -1,0 +1,219 @@
+// The readers of the oracles: text by words, STL, PLY.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "oracles/surface_file.h"
+#include "oracles/text_reader.h"
+#include "property_tests/oracle_units/helpers.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+
+TEST(TextReader, ReadsWordsAndCountsLines) {
+  TextReader reader("file", "one two # three\n\n\t four\r\nfive");
+  EXPECT_EQ(reader.word(), "one");
+  EXPECT_EQ(reader.line(), 1U);
+  EXPECT_EQ(reader.word_in_line(), "two");
+  EXPECT_EQ(reader.word_in_line(), "");
+  EXPECT_EQ(reader.word(), "four");
+  EXPECT_EQ(reader.line(), 3U);
+  EXPECT_FALSE(reader.at_end());
+  EXPECT_EQ(reader.required_word("a word"), "five");
+  EXPECT_EQ(reader.line(), 4U);
+  EXPECT_TRUE(reader.at_end());
+  EXPECT_EQ(reader.word(), "");
+  EXPECT_THROW(reader.required_word("a word"), ReadError);
+}
+
+TEST(TextReader, ReadsAFilePieceByPieceAsItReadsTheWhole) {
+  std::mt19937 random(7);
+  std::string text;
+  while (text.size() < 1500000) {
+    // Words and comments of many lengths, now and then one that is longer than a piece.
+    const std::size_t length = random() % 20000 == 0 ? 300000 : 1 + random() % 40;
+    if (random() % 50 == 0) text += '#';
+    text.append(length, static_cast<char>('a' + random() % 26));
+    text += " \t\r\n\n "[random() % 6];
+  }
+  const std::string path = testing::TempDir() + "pieces.txt";
+  std::ofstream(path, std::ios::binary) << text;
+  for (const char comment : {'#', '\0'}) {
+    TextReader whole(path, text, comment), pieces = TextReader::of_file(path, comment);
+    for (std::size_t i = 0;; ++i) {
+      if (i % 7 == 3) {
+        whole.skip_line();
+        pieces.skip_line();
+      }
+      const std::string_view wanted = i % 3 == 0 ? whole.word_in_line() : whole.word();
+      ASSERT_EQ(i % 3 == 0 ? pieces.word_in_line() : pieces.word(), wanted) << "word " << i;
+      ASSERT_EQ(pieces.line(), whole.line());
+      if (i % 3 != 0 && wanted.empty()) break;
+    }
+    EXPECT_TRUE(pieces.at_end());
+    EXPECT_GT(whole.line(), 1000U);
+  }
+  // A count is judged by the whole file, not by the piece.
+  std::ofstream(path, std::ios::binary) << "500000 " << std::string(1000000, 'x');
+  EXPECT_EQ(TextReader::of_file(path).count(), 500000U);
+  std::ofstream(path, std::ios::binary) << "500006 " << std::string(1000000, 'x');
+  EXPECT_THROW(TextReader::of_file(path).count(), ReadError);
+  EXPECT_THROW(TextReader::of_file(testing::TempDir()), ReadError);
+  EXPECT_THROW(TextReader::of_file(path + ".none"), ReadError);
+  std::ofstream(path, std::ios::binary | std::ios::trunc).flush();
+  EXPECT_THROW(TextReader::of_file(path), ReadError);
+}
+
+TEST(TextReader, ACommentMayEndTheText) {
+  TextReader reader("file", "1 # 2");
+  EXPECT_EQ(reader.integer(), 1);
+  EXPECT_TRUE(reader.at_end());
+  TextReader none("file", "a#b", '\0');
+  EXPECT_EQ(none.word(), "a#b");
+  TextReader skipped("file", "a b c\nd");
+  EXPECT_EQ(skipped.word(), "a");
+  skipped.skip_line();
+  EXPECT_EQ(skipped.word(), "d");
+  EXPECT_EQ(skipped.line(), 2U);
+}
+
+TEST(TextReader, ReadsNumbersExactlyOrRefuses) {
+  const auto number = [](const char* text) { return TextReader("file", text).number(); };
+  EXPECT_EQ(number("0.1"), 0.1);
+  EXPECT_EQ(number("-2.5e3"), -2500);
+  EXPECT_EQ(number("+3"), 3);
+  EXPECT_EQ(number("0x1.8p3"), 12);
+  EXPECT_EQ(number("-0X1p-2"), -0.25);
+  EXPECT_EQ(number("1e-400"), 0);
+  for (const char* text : {"", "1e400", "--1", "+-1", "1.5x", "x", "-", "1,5", "0x"}) {
+    EXPECT_THROW(number(text), ReadError) << text;
+  }
+  const auto integer = [](const char* text) { return TextReader("file", text).integer(); };
+  EXPECT_EQ(integer("-7"), -7);
+  EXPECT_EQ(integer("+7"), 7);
+  for (const char* text : {"", "1.0", "7x", "99999999999999999999", "+"}) {
+    EXPECT_THROW(integer(text), ReadError) << text;
+  }
+}
+
+TEST(TextReader, IndicesAndCountsHaveBounds) {
+  const auto index = [](const char* text) { return TextReader("file", text).index(1, 5); };
+  EXPECT_EQ(index("1"), 0U);
+  EXPECT_EQ(index("5"), 4U);
+  EXPECT_THROW(index("0"), ReadError);
+  EXPECT_THROW(index("6"), ReadError);
+  EXPECT_EQ(TextReader("file", "0").count(), 0U);
+  EXPECT_EQ(TextReader("file", "4 a b c").count(), 4U);  // 7 characters: at most 4 things
+  EXPECT_THROW(TextReader("file", "5 a b c").count(), ReadError);
+  EXPECT_THROW(TextReader("file", "-1").count(), ReadError);
+}
+
+TEST(TextReader, ErrorsNameFileAndLine) {
+  TextReader reader("name", "1\n2\nx");
+  reader.integer();
+  reader.integer();
+  try {
+    reader.integer();
+    FAIL();
+  } catch (const ReadError& error) {
+    EXPECT_EQ(std::string(error.what()), "name:3: \"x\" is no integer");
+  }
+}
+
+// Each solid of a text file is a label of its own, from 0; equal corners are one vertex.
+TEST(Stl, SolidsAreLabelsAndCornersAreWelded) {
+  const std::string first =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+      "0\nendloop\nendfacet\n";
+  const std::string second =
+      "facet normal 0 0 1\nouter loop\nvertex 1 0 -0\nvertex 1 1 0.5\nvertex 0 1 "
+      "0\nendloop\nendfacet\n";
+  const Polyhedron surface = read_surface(written(
+      "two_solids.stl", "solid a\n" + first + "endsolid a\nsolid b\n" + second + "endsolid b\n"));
+  EXPECT_EQ(surface.labels, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(surface.triangles, (std::vector<std::array<Index, 3>>{{0, 1, 2}, {1, 3, 2}}));
+  ASSERT_EQ(surface.vertices.size(), 4U);
+  EXPECT_EQ(surface.vertices[3], (Position{1, 1, 0.5}));
+  for (const char* wrong : {"vertex 0 0\n", "vertex 0 0 0\nvertex 0 0 0\n"}) {
+    std::string text = "solid a\n" + first;
+    text.replace(text.find("vertex 0 0 0\n"), 13, wrong);  // a number less, a corner more
+    EXPECT_THROW(read_surface(written("wrong.stl", text)), ReadError);
+  }
+  std::string two_corners = "solid a\n" + first;
+  two_corners.erase(two_corners.find("vertex 0 0 0\n"), 13);
+  EXPECT_THROW(read_surface(written("wrong.stl", two_corners)), ReadError);
+}
+
+// The same as 84 bytes and 50 for each triangle, the corners from byte 12 of these.
+TEST(Stl, BinaryFilesHaveTheirCornersWhereTheFormatSays) {
+  const float corners[2][9] = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0.5, 0, 1, 0}};
+  std::string bytes(84 + 2 * 50, '\0');
+  bytes[80] = 2;
+  for (std::size_t t = 0; t < 2; ++t) {
+    std::memcpy(&bytes[84 + 50 * t + 12], corners[t], sizeof corners[t]);
+  }
+  const Polyhedron surface = read_surface(written("binary.stl", bytes));
+  EXPECT_EQ(surface.triangles, (std::vector<std::array<Index, 3>>{{0, 1, 2}, {1, 3, 2}}));
+  ASSERT_EQ(surface.vertices.size(), 4U);
+  EXPECT_EQ(surface.vertices[1], (Position{1, 0, 0}));
+  EXPECT_EQ(surface.vertices[3], (Position{1, 1, 0.5}));
+}
+
+template <class Value>
+void append(std::string& bytes, Value value, bool big) {
+  char of_value[sizeof value];
+  std::memcpy(of_value, &value, sizeof value);
+  if (big) std::reverse(of_value, of_value + sizeof value);
+  bytes.append(of_value, sizeof value);
+}
+
+// A triangle with one coordinate and one index of this type, in both orders of bytes. (That of this
+// machine is little-endian.)
+template <class Value>
+void expect_binary_ply(const char* type, Value value) {
+  for (const bool big : {false, true}) {
+    std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                        "_endian 1.0\ncomment no end_header yet\nelement vertex 3\n"
+                        "property double x\nproperty " +
+                        type + " y\nproperty float z\nelement face 1\nproperty list uchar " + type +
+                        " vertex_indices\nproperty int label\nend_header\n";
+    for (int v = 0; v < 3; ++v) {
+      append(bytes, 0.1 * v, big);
+      append(bytes, v == 0 ? value : static_cast<Value>(v), big);
+      append(bytes, 0.5F, big);
+    }
+    append(bytes, std::uint8_t{3}, big);
+    for (const int v : {2, 0, 1}) append(bytes, static_cast<Value>(v), big);
+    append(bytes, std::int32_t{-7}, big);
+    const Polyhedron surface = read_surface(written("binary.ply", bytes));
+    EXPECT_EQ(surface.vertices,
+              (std::vector<Position>{
+                  {0, static_cast<double>(value), 0.5}, {0.1, 1, 0.5}, {0.1 * 2, 2, 0.5}}))
+        << type;
+    EXPECT_EQ(surface.triangles, (std::vector<std::array<Index, 3>>{{2, 0, 1}})) << type;
+    EXPECT_EQ(surface.labels, std::vector<std::int32_t>{-7}) << type;
+    EXPECT_THROW(read_surface(written("cut.ply", bytes.substr(0, bytes.size() - 1))), ReadError);
+  }
+}
+
+TEST(Ply, BinaryFilesHaveEightTypesOfNumbers) {
+  for (const char* type : {"double", "float64"}) expect_binary_ply<double>(type, 0.3);
+  for (const char* type : {"float", "float32"}) expect_binary_ply<float>(type, 0.3F);
+  for (const char* type : {"int", "int32"}) expect_binary_ply<std::int32_t>(type, -2000000000);
+  for (const char* type : {"uint", "uint32"}) expect_binary_ply<std::uint32_t>(type, 4000000000U);
+  for (const char* type : {"short", "int16"}) expect_binary_ply<std::int16_t>(type, -30000);
+  for (const char* type : {"ushort", "uint16"}) expect_binary_ply<std::uint16_t>(type, 60000);
+  for (const char* type : {"char", "int8"}) expect_binary_ply<std::int8_t>(type, -100);
+  for (const char* type : {"uchar", "uint8"}) expect_binary_ply<std::uint8_t>(type, 200);
+}
+
+}  // namespace
+}  // namespace tetproof

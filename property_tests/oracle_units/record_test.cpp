@@ -1,0 +1,173 @@
+// The record and the file: same mesh, promises, sidecars, rounding, repairs.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "oracles/enrichment.h"
+#include "oracles/promise.h"
+#include "oracles/same_mesh.h"
+#include "oracles/sidecar.h"
+#include "oracles/text_reader.h"
+#include "property_tests/oracle_units/helpers.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+
+// The boundary that delmesher lists tiles the surface; faces of the hull do not belong to it.
+TEST(SameMesh, FacesOfTheHullAreNoBoundary) {
+  delmesher::ExactRecord record;
+  record.points =
+      explicit_points(std::vector<Position>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  record.mesh_vertices = {0, 1, 2, 3};
+  record.final = {{{0, 1, 2, 3}, true}};
+  record.final_facets = {{1, 2, 3, 7}};
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  mesh.regions = {1};
+  const auto violations = [&](const std::vector<Face>& boundary, Index facet = 7) {
+    mesh.boundary = boundary;
+    mesh.facets.assign(boundary.size(), facet);
+    Promise promise;
+    promise.region = delmesher::Region::hull;
+    return check_same_mesh(mesh, record, promise, false).violations;
+  };
+  EXPECT_EQ(violations({{1, 2, 3}}), 0U);
+  EXPECT_EQ(violations({{3, 1, 2}}), 0U);
+  EXPECT_EQ(violations({{2, 1, 3}}), 1U);
+  EXPECT_EQ(violations({{1, 2, 3}}, 0), 1U);
+  EXPECT_EQ(violations({}), 1U);
+  for (const Face& face : {Face{0, 3, 2}, {0, 1, 3}, {0, 2, 1}}) {
+    EXPECT_EQ(violations({{1, 2, 3}, face}), 1U);
+  }
+}
+
+// Formats without a region 0 have 2 for the outside; no other number is one, nor are both at once.
+TEST(SameMesh, TheOutsideIsOneOfTwoRegions) {
+  delmesher::ExactRecord record;
+  record.points = explicit_points(
+      std::vector<Position>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, -1}});
+  record.mesh_vertices = {0, 1, 2, 3, 4, 5};
+  record.final = {{{0, 1, 2, 3}, true}, {{1, 2, 3, 4}, false}, {{0, 2, 1, 5}, false}};
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {0, 0, -1}};
+  for (const auto& tet : record.final) mesh.tetrahedra.push_back(tet.vertices);
+  Promise promise;
+  promise.region = delmesher::Region::hull;
+  const auto violations = [&](std::vector<std::int64_t> regions) {
+    mesh.regions.assign(regions.begin(), regions.end());
+    return check_same_mesh(mesh, record, promise, false).violations;
+  };
+  EXPECT_EQ(violations({1, 0, 0}), 0U);
+  EXPECT_EQ(violations({1, 2, 2}), 0U);
+  EXPECT_EQ(violations({1, 0, 2}), 1U);
+  EXPECT_EQ(violations({1, 3, 3}), 2U);
+  EXPECT_EQ(violations({1, -1, -1}), 2U);
+  EXPECT_EQ(violations({2, 2, 2}), 1U);
+}
+
+// The defaults are those of README's table of options.
+TEST(Promises, AreReadFromCommandLines) {
+  Promise p;
+  EXPECT_EQ(parse_promise("", p), "");
+  EXPECT_EQ(p.delta, 14.47);
+  EXPECT_EQ(parse_promise("plane", p), "");
+  EXPECT_EQ(p.delta, 20.7);
+  for (const char* text : {"mesh --delta=3 --tau 0.5", "--delta 3 --tau=0.5"}) {
+    EXPECT_EQ(parse_promise(text, p), "") << text;
+    EXPECT_EQ(p.delta, 3) << text;
+    EXPECT_EQ(p.tau, 0.5) << text;
+    EXPECT_EQ(p.acute, 60) << text;
+  }
+  for (const char* text : {"--preset=paper --delta=3", "--delta 3 --preset paper"}) {
+    EXPECT_EQ(parse_promise(text, p), "") << text;
+    EXPECT_EQ(p.delta, 3) << text;
+    EXPECT_EQ(p.acute, 90) << text;
+    EXPECT_TRUE(p.gabriel) << text;
+  }
+  for (const char* text : {"paper", "--preset", "mesh --preset", "--preset=", "--preset paperback",
+                           "--delta", "--delta=", "--delta=3x", "--nothing=3"}) {
+    EXPECT_NE(parse_promise(text, p), "") << text;
+  }
+}
+
+TEST(Sidecars, OfNoVersionAreRefusedForThat) {
+  for (const char* version : {"0", "99"}) {
+    std::string said = "nothing";
+    try {
+      read_sidecar(written("version.exact", std::string("delmesher-exact ") + version + "\n"));
+    } catch (const ReadError& error) {
+      said = error.what();
+    }
+    EXPECT_NE(said.find(version == std::string("0") ? "unknown version 0" : "99"),
+              std::string::npos)
+        << said;
+  }
+}
+
+// The distance of a written vertex from its place is measured, not only compared.
+TEST(Rounding, TheLargestDistanceIsSaid) {
+  const samples::ExactSample sample = samples::exact_sample();
+  const ExactPoints points = [&] {
+    ExactPoints result;
+    EXPECT_EQ(result.assign(sample.exact.points), "");
+    return result;
+  }();
+  MeshFile mesh = sample.sample.mesh;
+  const auto largest = [&] {
+    const OracleReport report =
+        check_rounding(mesh, sample.exact, points, {.ulp = 0x1p-52, .allowed = 0.5});
+    EXPECT_EQ(report.violations, 0U);
+    EXPECT_EQ(report.checked, mesh.vertices.size());
+    EXPECT_EQ(report.figures.at(0).first, "largest distance");
+    return report.figures.at(0).second;
+  };
+  EXPECT_EQ(largest(), 0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double was = mesh.vertices[1][axis];
+    mesh.vertices[1][axis] += 0.25;
+    EXPECT_NEAR(largest(), 0.25, 1e-15) << axis;
+    mesh.vertices[1][axis] = was;
+  }
+}
+
+// Every vertex of the last mesh and every tetrahedron of that before repairs is looked at.
+TEST(Repairs, AllIsCounted) {
+  samples::ExactSample sample = samples::exact_sample();
+  sample.exact.unrepaired = sample.exact.final;
+  ExactPoints points;
+  ASSERT_EQ(points.assign(sample.exact.points), "");
+  const auto run = [&] { return check_repairs(sample.exact, points, Promise()); };
+  const auto figure = [](const OracleReport& report, const std::string& name) {
+    for (const auto& [key, value] : report.figures) {
+      if (key == name) return value;
+    }
+    return -1.0;
+  };
+  OracleReport report = run();
+  EXPECT_EQ(report.checked, 6U + 4U);
+  EXPECT_EQ(report.violations, 0U);
+  EXPECT_EQ(figure(report, "tetrahedra changed"), 0);
+  EXPECT_EQ(figure(report, "not positive on doubles"), 0);
+  // An inverted tetrahedron is not positive; the last mesh lacks it.
+  std::swap(sample.exact.unrepaired[1].vertices[0], sample.exact.unrepaired[1].vertices[1]);
+  sample.exact.final.erase(sample.exact.final.begin() + 1);
+  report = run();
+  EXPECT_EQ(report.checked, 6U + 4U);
+  EXPECT_EQ(report.violations, 0U);
+  EXPECT_EQ(figure(report, "tetrahedra changed"), 1);
+  EXPECT_EQ(figure(report, "not positive on doubles"), 1);
+  EXPECT_EQ(figure(report, "edges from there"), 0);
+  // A point that no tetrahedron had came with the repairs.
+  sample.exact.final = sample.exact.unrepaired;
+  sample.exact.unrepaired = {sample.exact.final[0]};
+  EXPECT_GT(run().violations, 0U);
+}
+
+}  // namespace
+}  // namespace tetproof

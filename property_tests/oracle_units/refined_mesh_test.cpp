@@ -1,0 +1,135 @@
+// What is promised of the refined mesh: features of chamfers, encroachment, Delaunay.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "oracles/chamfer_features.h"
+#include "oracles/corners.h"
+#include "oracles/delaunay.h"
+#include "oracles/input_surface.h"
+#include "oracles/refinement.h"
+#include "oracles/tet_complex.h"
+#include "property_tests/oracle_units/helpers.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+
+// A prism over a triangle whose corner at vertex 0 has the half angle a, tan a = 1 / 4, and whose
+// opposite side is 12 away, so that the chamfer distance is 4 at most. Smallest is the side of the
+// bridge in that corner, sin a / (cos a + 1 / 2) of the chamfer distance (Figure 4).
+TEST(ChamferFeatures, OfASharpPrism) {
+  Polyhedron prism;
+  for (const double z : {0.0, 100.0}) {
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), {12.0, -3.0}, {12.0, 3.0}}) {
+      prism.vertices.push_back({x, y, z});
+    }
+  }
+  prism.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
+                     {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
+  const ExactPoints points = points_of(prism.vertices);
+  InputSurface surface;
+  ASSERT_EQ(surface.assign(prism, points), "");
+  const AcuteCorners corners(points, surface);
+  const auto sixty = [](Index) { return 60.0; };
+  const CornerThresholds thresholds = {sixty, sixty};
+  const auto all = [](Index) { return true; };
+  const double side = 1 / (4 + std::sqrt(17.0) / 2);
+  for (const Index v : {0U, 3U}) {
+    EXPECT_NEAR(ChamferFeatures(points, surface, corners, thresholds, 0).smallest(v, all), 4 * side,
+                1e-12);
+    EXPECT_NEAR(ChamferFeatures(points, surface, corners, thresholds, 1).smallest(v, all), side,
+                1e-12);
+  }
+  for (const Index v : {1U, 2U, 4U, 5U}) {  // no angle below 60 degrees
+    EXPECT_EQ(ChamferFeatures(points, surface, corners, thresholds, 0).smallest(v, all), kInfinity);
+  }
+}
+
+// One edge after another of 16 is encroached by a corner of its own tetrahedron. With that many
+// vertices only a few edges can be tried against all of them, yet each has to be found.
+TEST(Encroachment, ByANeighbourIsFoundWhateverIsSampled) {
+  constexpr std::size_t kVertices = 1U << 16U, kEdges = 16;
+  std::vector<Position> positions;
+  TetComplex complex;
+  delmesher::ExactRecord record;
+  record.parameters.gabriel = true;
+  while (positions.size() < kVertices) {
+    const auto first = static_cast<Index>(positions.size());
+    const double x = 10.0 * first;
+    for (const Position& p : {Position{0, 0, 0}, {2, 0, 0}, {1, 0.5, 0}, {1, 3, 3}}) {
+      positions.push_back({x + p[0], p[1], p[2]});
+    }
+    complex.tetrahedra.push_back({first, first + 1, first + 2, first + 3});
+    if (record.segments.size() < kEdges) {
+      record.segments.push_back({false, kNone, {first, first + 1}});
+    }
+  }
+  const ExactPoints points = points_of(positions);
+  complex.points = &points;
+  RefinedMesh mesh;
+  mesh.record = &record;
+  mesh.points = &points;
+  mesh.complex = &complex;
+  const OracleReport report = check_encroachment(mesh);
+  EXPECT_EQ(report.checked, kEdges);
+  EXPECT_GE(report.violations, kEdges);
+}
+
+// The vertex is of another tetrahedron, and doubles do not tell on which side of the ball around
+// the edge or the face it is: centre (1, 0, 0), radius 1.
+TEST(Encroachment, ByAnotherTetrahedronIsDecidedExactly) {
+  const auto violations = [](const Position& v) {
+    std::array<std::uint64_t, 2> result{};  // of the edge, of the face
+    for (const bool face : {false, true}) {
+      const ExactPoints points = points_of(
+          {{0, 0, 0}, {2, 0, 0}, {1, -1, 0}, {1, 0, 5}, v, {50, 0, 0}, {50, 1, 0}, {50, 0, 1}});
+      TetComplex complex;
+      complex.points = &points;
+      complex.tetrahedra = {{0, 1, 2, 3}, {4, 5, 6, 7}};
+      delmesher::ExactRecord record;
+      record.parameters.gabriel = true;
+      if (face) {
+        record.refined_facets.push_back({0, 1, 2, 0});
+      } else {
+        record.segments.push_back({false, kNone, {0, 1}});
+      }
+      RefinedMesh mesh;
+      mesh.record = &record;
+      mesh.points = &points;
+      mesh.complex = &complex;
+      result[face ? 1 : 0] = check_encroachment(mesh).violations;
+    }
+    return result;
+  };
+  using Two = std::array<std::uint64_t, 2>;
+  EXPECT_EQ(violations({1, 0, 0.5}), (Two{1, 1}));
+  EXPECT_EQ(violations({1, 0, 1 - 0x1p-53}), (Two{1, 1}));
+  EXPECT_EQ(violations({1, 0, 1}), (Two{0, 0}));
+  EXPECT_EQ(violations({1, 0, 1 + 0x1p-52}), (Two{0, 0}));
+}
+
+// record
+
+// The sphere through the first tetrahedron contains the apex of the second, and the other way
+// round: reported once for the face between them, once for each of the two.
+TEST(Delaunay, AFaceBetweenTwoSpheresIsNamed) {
+  ExactPoints points;
+  ASSERT_EQ(
+      points.assign(std::vector<Position>{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, -1}}),
+      "");
+  TetComplex complex{&points, {{0, 1, 2, 3}, {0, 2, 1, 4}}, {}, 0, 5};
+  Neighbours neighbours;
+  ASSERT_TRUE(check_complex(complex, neighbours).passed());
+  const OracleReport report = check_delaunay(complex, neighbours);
+  EXPECT_EQ(report.violations, 3U) << report.findings.front();
+  EXPECT_NE(report.findings.front().find("face"), std::string::npos) << report.findings.front();
+}
+
+}  // namespace
+}  // namespace tetproof
