@@ -1,0 +1,101 @@
+// Lies: promises in the record that are laxer than those of the options.
+#include <cmath>
+
+#include "property_tests/lies/told.h"
+
+namespace tetproof::lies {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::Options;
+
+const Lie kRelaxed[] = {
+    {"delta relaxed to nothing", "promise", [](Told& t) { t.record.parameters.delta = 0x1p-20; }},
+    {"threshold of corners relaxed", "promise", [](Told& t) { t.record.parameters.acute = 1; }},
+    {"threshold of two edges relaxed", "promise", [](Told& t) { t.record.parameters.corner = 0; }},
+    {"no empty balls", "promise", [](Told& t) { t.record.parameters.gabriel = false; }},
+    {"another region", "promise",
+     [](Told& t) { t.record.parameters.region = delmesher::Region::hull; }},
+    {"tolerance doubled", "promise", [](Told& t) { t.record.parameters.tolerance *= 2; }},
+    {"tolerance relaxed to nothing", "promise", [](Told& t) { t.record.parameters.tolerance = 0; }},
+    {"tolerance raised for a budget, by no power of two", "promise",
+     [](Told& t) {
+       t.promise.budget = 1000;
+       t.record.parameters.tolerance *= 3;
+     }},
+    {"tolerance raised beyond what a budget may", "promise",
+     [](Told& t) {
+       t.promise.budget = 1000;
+       t.record.parameters.tolerance *= 256;
+     }},
+    {"threshold of one corner relaxed", "promise",
+     [](Told& t) { t.record.corners.front().threshold = 30; }},
+    {"threshold of one corner above a right angle", "promise",
+     [](Told& t) { t.record.corners.front().threshold = 179; }},
+    {"corner tightened without empty balls", "promise",
+     [](Told& t) {
+       t.promise.gabriel = t.record.parameters.gabriel = false;
+       t.record.corners.front().threshold = 90;
+     }},
+    {"radii of 2^60", "refined-chamfer-need",
+     [](Told& t) {
+       for (auto& corner : t.record.corners) corner.radius = 0x1p60;
+     }},
+    {"a radius half as large again", "refined-chamfer-need",
+     [](Told& t) { t.record.corners.front().radius *= 1.5; }},
+    {"a radius of nothing", "refined-chamfer-need",
+     [](Told& t) { t.record.corners.front().radius = 0; }},
+    {"all relaxed at once", "promise",
+     [](Told& t) {
+       t.record.parameters = {};
+       t.record.parameters.tolerance = 0x1p60;
+     }},
+    {"delta that is no number", "sidecar",
+     [](Told& t) { t.record.parameters.delta = std::nan(""); }},
+    {"delta infinite", "sidecar", [](Told& t) { t.record.parameters.delta = HUGE_VAL; }},
+    {"delta that the mesh does not have", "refined-angles",
+     [](Told& t) { t.record.parameters.delta = 30; }},
+    {"threshold of corners infinite", "sidecar",
+     [](Told& t) { t.record.parameters.acute = HUGE_VAL; }},
+    {"threshold of corners above a right angle", "promise",
+     [](Told& t) { t.record.parameters.acute = t.record.parameters.corner = 120; }},
+    {"threshold of one corner that is no number", "sidecar",
+     [](Told& t) { t.record.corners.front().threshold = std::nan(""); }},
+    {"tolerance that is no number", "sidecar",
+     [](Told& t) {
+       t.promise.budget = 1000;
+       t.record.parameters.tolerance = std::nan("");
+     }},
+    {"tolerance negative", "promise",
+     [](Told& t) { t.record.parameters.tolerance = -t.record.parameters.tolerance; }},
+    {"tolerance denormal", "promise", [](Told& t) { t.record.parameters.tolerance = 0x1p-1070; }},
+    {"a radius that is no number", "sidecar",
+     [](Told& t) { t.record.corners.front().radius = std::nan(""); }},
+    {"a radius negative", "refined-chamfer-need",
+     [](Told& t) { t.record.corners.front().radius *= -1; }},
+    {"a radius denormal", "refined-chamfer-extent",
+     [](Told& t) { t.record.corners.front().radius = 0x1p-1070; }},
+    {"empty balls that the mesh does not have", "refined-encroachment",
+     [](Told& t) {
+       Options options = honest_options();
+       options.gabriel = false;
+       t = run_of(options);
+       t.record.parameters.gabriel = true;
+     }},
+    {"an old version", "promise", [](Told& t) { t.version = 2; }},
+    {"version 1, which lacks what could be asked", "promise",
+     [](Told& t) {
+       t.version = 1;
+       t.record.parameters = {};
+       t.record.chamfer_points.clear();
+       t.record.balls.clear();
+     }},
+};
+
+}  // namespace
+
+std::span<const Lie> relaxed() {
+  return kRelaxed;
+}
+
+}  // namespace tetproof::lies

@@ -1,0 +1,56 @@
+#include "property_tests/lies/told.h"
+
+#include <gtest/gtest.h>
+
+namespace tetproof::lies {
+
+using namespace oracles;  // NOLINT
+using delmesher::ExactRecord;
+using delmesher::Options;
+
+Options honest_options() {
+  Options options;
+  options.want_exact = true;
+  options.gabriel = true;
+  options.tau = 0x1p-9;
+  return options;
+}
+
+Told run_of(const Options& options, Task task, const delmesher::Surface& surface) {
+  const delmesher::Result result = task == Task::cdt
+                                       ? delmesher::constrained_delaunay(surface, options)
+                                       : delmesher::tetrahedralize(surface, options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  return {{samples::to_polyhedron(surface), samples::to_mesh(result.mesh)},
+          result.exact,
+          promise_of(options, task)};
+}
+
+const Told& honest() {
+  static const Told told = run_of(honest_options());
+  return told;
+}
+
+std::size_t kept_facet(const ExactRecord& r) {
+  for (std::size_t f = 0; f < r.facets.size(); ++f) {
+    if (r.facets[f].filtered == 0) return f;
+  }
+  ADD_FAILURE() << "no facet was kept";
+  return 0;
+}
+
+void run_hull(Told& told, Task task) {
+  Options options = honest_options();
+  options.region = delmesher::Region::hull;
+  told = run_of(options, task);
+}
+
+void run_cdt(Told& told) {
+  run_hull(told, Task::cdt);
+}
+
+void PrintTo(const Lie& lie, std::ostream* stream) {
+  *stream << lie.name;
+}
+
+}  // namespace tetproof::lies

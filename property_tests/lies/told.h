@@ -1,0 +1,54 @@
+// Lies about a run: what is told, and to which oracle it should be plain.
+#pragma once
+
+#include <iosfwd>
+#include <span>
+
+#include "mesher/delmesher.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+
+namespace tetproof::lies {
+
+// A run as it is told, and what was asked for.
+struct Told {
+  samples::Sample sample;
+  delmesher::ExactRecord record;
+  oracles::Promise promise;
+  unsigned version = oracles::kRecordVersion;
+};
+
+// The filter takes the slab apart, the wedge is chamfered.
+delmesher::Options honest_options();
+
+Told run_of(const delmesher::Options& options, oracles::Task task = oracles::Task::mesh,
+            const delmesher::Surface& surface = samples::wedge_and_slab());
+
+// The one run that most lies are about.
+const Told& honest();
+
+// The first facet that the filter has kept.
+std::size_t kept_facet(const delmesher::ExactRecord& r);
+
+// A run of the hull, told as it was.
+void run_hull(Told& told, oracles::Task task = oracles::Task::mesh);
+
+// The constrained Delaunay tetrahedrization of the hull, told as it was.
+void run_cdt(Told& told);
+
+struct Lie {
+  const char* name;
+  const char* oracle;  // the one meant to catch it
+  void (*tell)(Told&);
+};
+
+void PrintTo(const Lie& lie, std::ostream* stream);
+
+// Relaxed promises; sections emptied, cut short, out of date; records and files of other runs; mesh
+// and record changed together, so that both agree.
+std::span<const Lie> relaxed();
+std::span<const Lie> sections();
+std::span<const Lie> foreign();
+std::span<const Lie> consistent();
+
+}  // namespace tetproof::lies

@@ -1,0 +1,88 @@
+// Lies in the plane: records and files of other runs.
+#include <cmath>
+#include <utility>
+
+#include "property_tests/plane_lies/told.h"
+
+namespace tetproof::plane_lies {
+namespace {
+
+using delmesher::Options;
+using delmesher::PlanarGraph;
+
+const Lie kForeign[] = {
+    {"file of another run", "same-mesh",
+     [](Told& t) {
+       Options options = honest_options();
+       options.max_edge = 0.5;
+       t.file = run_of(options).file;
+     }},
+    {"the same, every written vertex point 0", "rounding",
+     [](Told& t) {
+       Options options = honest_options();
+       options.max_edge = 0.5;
+       t.file = run_of(options).file;
+       t.record.mesh_vertices.assign(t.file.vertices.size(), 0);
+     }},
+    {"file of another run, its vertices right", "same-mesh",
+     [](Told& t) {
+       Options options = honest_options();
+       options.max_edge = 0.5;
+       const Told other = run_of(options);
+       t.file = other.file;
+       t.record.points = other.record.points;
+       t.record.mesh_vertices = other.record.mesh_vertices;
+     }},
+    {"record of another input", "sidecar",
+     [](Told& t) {
+       PlanarGraph graph = honest_graph();
+       graph.vertices[3] = {2.25, 1.125};
+       t.record = run_of(honest_options(), graph).record;
+     }},
+    {"two written vertices exchanged in the record", "rounding",
+     [](Told& t) { std::swap(t.record.mesh_vertices[0], t.record.mesh_vertices[5]); }},
+    {"a written vertex 6 ulp off", "rounding",
+     [](Told& t) { t.file.vertices[steiner(t)][0] += 6 * 0x1p-50; }},  // of the largest, 4.5
+    {"an input vertex an ulp off", "rounding", [](Told& t) { t.file.vertices[0][0] = 0x1p-60; }},
+    {"a written vertex that is infinite", "complex",
+     [](Told& t) { t.file.vertices[steiner(t)][0] = HUGE_VAL; }},
+    {"an input vertex that is infinite", "complex",
+     [](Told& t) { t.file.vertices[0][0] = HUGE_VAL; }},
+    {"a triangle of the file twice, another missing", "same-mesh",
+     [](Told& t) { t.file.triangles[1] = t.file.triangles[0]; }},
+    {"the corners of two triangles of the file exchanged", "same-mesh",
+     [](Told& t) { std::swap(t.file.triangles[0][0], t.file.triangles[7][1]); }},
+    {"a triangle of the file missing", "same-mesh",
+     [](Told& t) {
+       t.file.triangles.pop_back();
+       t.file.inside.pop_back();
+     }},
+    {"a triangle of the file turned over", "orientation",
+     [](Told& t) { std::swap(t.file.triangles[0][0], t.file.triangles[0][1]); }},
+    {"a triangle of the file with a corner twice", "complex",
+     [](Told& t) { t.file.triangles[0][0] = t.file.triangles[0][1]; }},
+    {"a triangle of the file of no vertices", "complex",
+     [](Told& t) { t.file.triangles[0][0] = 0xfffffff0U; }},
+    {"a triangle of the file called outside", "same-mesh", [](Told& t) { t.file.inside[0] = 0; }},
+    {"a listed edge with another marker", "same-mesh", [](Told& t) { t.file.markers[2] = 77; }},
+    {"a listed edge fewer", "same-mesh",
+     [](Told& t) {
+       t.file.edges.pop_back();
+       t.file.markers.pop_back();
+       t.file.segments.pop_back();
+     }},
+    {"a listed edge twice", "edge-list",
+     [](Told& t) {
+       t.file.edges.push_back(t.file.edges.front());
+       t.file.markers.push_back(t.file.markers.front());
+       t.file.segments.push_back(t.file.segments.front());
+     }},
+};
+
+}  // namespace
+
+std::span<const Lie> foreign() {
+  return kForeign;
+}
+
+}  // namespace tetproof::plane_lies

@@ -1,0 +1,57 @@
+// Lies in the plane: promises in the record that are laxer than those of the options.
+#include <cmath>
+
+#include "property_tests/plane_lies/told.h"
+
+namespace tetproof::plane_lies {
+namespace {
+
+using Index = std::uint32_t;
+
+const Lie kRelaxed[] = {
+    {"delta relaxed to nothing", "promise", [](Told& t) { t.record.delta = 0x1p-20; }},
+    {"delta that is no number", "promise", [](Told& t) { t.record.delta = NAN; }},
+    {"delta that no triangle has", "promise", [](Told& t) { t.record.delta = 1000; }},
+    {"threshold of corners relaxed", "promise", [](Told& t) { t.record.acute = 1; }},
+    {"an old version", "promise", [](Told& t) { t.how.record_version = 0; }},
+    {"a radius half as large again", "refined-chamfer-radius",
+     [](Told& t) { t.record.corners.front().radius *= 1.5; }},
+    {"a radius half as large", "refined-chamfer-cuts",
+     [](Told& t) { t.record.corners.front().radius /= 2; }},
+    {"a radius of nothing", "refined-chamfer-radius",
+     [](Told& t) { t.record.corners.front().radius = 0; }},
+    {"radii of 2^60", "refined-chamfer-radius",
+     [](Told& t) {
+       for (auto& corner : t.record.corners) corner.radius = 0x1p60;
+     }},
+    {"a corner fewer", "refined-chamfer-need", [](Told& t) { t.record.corners.pop_back(); }},
+    {"a corner fewer, by its cuts", "refined-chamfer-cuts",
+     [](Told& t) { t.record.corners.pop_back(); }},
+    {"no corners", "refined-chamfer-need", [](Told& t) { t.record.corners.clear(); }},
+    {"a corner twice", "refined-chamfer-radius",
+     [](Told& t) { t.record.corners.push_back(t.record.corners.front()); }},
+    {"a corner that is not acute", "refined-chamfer-need",
+     [](Told& t) {
+       t.record.corners.push_back({0, 0x1p-4});
+     }},
+    {"a corner that is no vertex of the input", "refined-chamfer-radius",
+     [](Told& t) {
+       t.record.corners.push_back({static_cast<Index>(t.graph.vertices.size()), 0x1p-4});
+     }},
+    {"a dropped segment that is not called so", "refined-drops",
+     [](Told& t) { t.record.dropped.clear(); }},
+    {"a segment called dropped that is there", "refined-drops",
+     [](Told& t) { t.record.dropped.push_back(0); }},
+    {"a segment dropped twice", "refined-drops",
+     [](Told& t) { t.record.dropped.push_back(t.record.dropped.front()); }},
+    {"a dropped segment that is none", "refined-drops",
+     [](Told& t) { t.record.dropped.push_back(77); }},
+};
+
+}  // namespace
+
+std::span<const Lie> relaxed() {
+  return kRelaxed;
+}
+
+}  // namespace tetproof::plane_lies
