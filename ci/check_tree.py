@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks of the source tree that no compiler makes: include directions, machine paths, licence notes.
+"""Checks of the source tree that no compiler makes: include directions, machine paths, licence notes, one list of packages.
 
 Usage: check_tree.py [ROOT]. Prints one line per violation (file:line: reason) and exits 1 if there is any.
 """
@@ -221,6 +221,19 @@ def licences_used(path, text):
     return used
 
 
+# Names of Debian's libraries, which are no paths.
+PACKAGE = re.compile(r"(?<![\w./+-])(?:lib[\w.+-]+|[\w.+-]+-dev)(?![\w/])")
+
+
+def check_packages(texts):
+    """What is to be installed stands in ci/packages alone; another list of it would be forgotten."""
+    known = {line.split()[0] for line in texts.get("ci/packages", "").split("\n") if line and not line.startswith("#")}
+    for path, text in texts.items():
+        for number, line in enumerate(text.split("\n"), 1):
+            if path != "ci/packages" and len(known.intersection(PACKAGE.findall(line))) > 1:
+                yield path, number, "lists packages, which ci/packages does: " + line.strip()[:80]
+
+
 def check_licences(files, texts, root):
     if "MIT License" not in texts.get("LICENSE", ""):
         yield "LICENSE", 1, "the licence of the project (MIT) must stand here"
@@ -252,6 +265,7 @@ def check_tree(root):
         if path.endswith(SOURCE) and path.split("/")[0] in TOP:
             for number, reason in itertools.chain(check_source(path, lines, root), check_namespaces(path, lines, texts)):
                 yield path, number, reason
+    yield from check_packages(texts)
     yield from check_licences(files, texts, root)
 
 

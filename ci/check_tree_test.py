@@ -10,6 +10,8 @@ import check_tree  # noqa: E402
 
 GOOD = {
     "LICENSE": "MIT License",
+    "ci/packages": "# package  section\nlibone-dev  build\nlibtwo-dev  tests\n",
+    "ci/install": "Debian: libone-dev; /usr/share/doc/libone-dev /usr/share/doc/libtwo-dev\n",
     "mesher/delmesher.h": "#pragma once\n#include <vector>\n#include \"delmesher/surface.h\"\n",
     "mesher/delmesher/run.h": "#pragma once\n#include <cstdint>\n",
     "mesher/delmesher/surface.h": "#pragma once\n#include \"run.h\"\n",
@@ -66,6 +68,7 @@ BAD = {
     "internals in the public namespace": ({"mesher/cdt/a.h": "#pragma once\nnamespace delmesher {\n}  // namespace delmesher\n"},
                                           "a file of mesher/cdt opens namespace delmesher::cdt"),
     "machine path": ({"ci/x.sh": "cd /" + "home/someone\n"}, "path of one machine"),
+    "packages listed twice": ({"ci/x.sh": "apt-get install libone-dev libtwo-dev\n"}, "lists packages"),
     "licence missing": ({"LICENSE": ""}, "licence of the project"),
     "AGPL unsaid": ({"corpus/tetgen_adapter/LICENSE.md": "free\n"}, "uses AGPL code"),
     "GPL unsaid": ({"oracles/c.cpp": "#include <CGAL/Epeck.h>\n"}, "uses GPL code"),
