@@ -212,7 +212,7 @@ class Job {
 
   bool after_mesh() {
     const Outcome& outcome = process_->outcome();
-    cannot_run_ = tetproof::cannot_run(outcome, !mesher_.line.empty());
+    cannot_run_ = tetproof::cannot_run(outcome, mesher_.exit_codes, !mesher_.line.empty());
     const Judgement judgement = judge(outcome, mesher_.exit_codes);
     row_.disposition = judgement.disposition;
     row_.reason = without_folder(judgement.reason);

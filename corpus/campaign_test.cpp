@@ -371,6 +371,11 @@ TEST_F(CampaignTest, WhatCannotBeRunEndsTheCampaign) {
   EXPECT_EQ(error_of({"sh -c no-such-mesher"}).find("m0: exit 127: "), 0U);
   EXPECT_EQ(error_of({"cd / && " + plain.string()}).find("m0: exit 126: "), 0U);
   EXPECT_EQ(row_count(), 0U);
+  // And one of ours that does not know its options.
+  Mesher ours = shell("ours", "echo '--no: unknown' >&2; exit 2");
+  ours.exit_codes = ExitCodes::ours;
+  EXPECT_THROW(run_campaign(models(), {ours}, options_), CannotRun);
+  EXPECT_EQ(row_count(), 0U);
   // If it ran on a model before, the failure is that of the next model, and so it is when resumed.
   const std::string second = "case {in} in *m1.off) exit 127;; *) exit 4;; esac";
   EXPECT_EQ(error_of({second}), "");

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "corpus/disposition.h"
 #include "corpus/process.h"
 
 namespace tetproof {
@@ -15,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kNotExecutable = 126, kNotFound = 127;  // POSIX, "Exit Status for Commands"
+constexpr int kUsage = 2;                             // of all programs of the project
 
 // The first word of a command line if it is plain, that is, if no expansion changes it.
 std::string plain_first_word(const std::string& line) {
@@ -68,10 +68,11 @@ std::string why_not_runnable(const std::string& line, const fs::path& supervisor
   return interpreter.empty() ? "" : word + ": " + interpreter;
 }
 
-bool cannot_run(const Outcome& outcome, bool through_shell) {
+bool cannot_run(const Outcome& outcome, ExitCodes codes, bool through_shell) {
   if (outcome.ending == Ending::not_started) return true;
-  return through_shell && outcome.ending == Ending::exited &&
-         (outcome.exit_code == kNotExecutable || outcome.exit_code == kNotFound);
+  if (outcome.ending != Ending::exited) return false;
+  if (codes == ExitCodes::ours && outcome.exit_code == kUsage) return true;
+  return through_shell && (outcome.exit_code == kNotExecutable || outcome.exit_code == kNotFound);
 }
 
 }  // namespace tetproof

@@ -5,12 +5,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "corpus/disposition.h"
 #include "corpus/supervise/supervisor.h"
 
 namespace tetproof {
 
 // A mesher that cannot be run on any model: its program does not exist, is not executable, or is a
-// script whose interpreter does not exist. Says nothing about any model, and ends a campaign.
+// script whose interpreter does not exist, or it does not know what it is asked for. Says nothing
+// about any model, and ends a campaign.
 struct CannotRun : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -24,8 +26,9 @@ std::string why_not_runnable(const std::string& line, const std::filesystem::pat
 // Why a script's interpreter ("#!" in its first line) cannot be run; empty if it can.
 std::string why_no_interpreter(const std::filesystem::path& program);
 
-// Did the run end because there was nothing to run: exec failed, or a shell says so by its exit
-// codes 126 (not executable) and 127 (not found)?
-bool cannot_run(const Outcome& outcome, bool through_shell);
+// Did the run end because there was nothing to run: exec failed, a shell says so by its exit codes
+// 126 (not executable) and 127 (not found), or a program with our exit codes was called in a wrong
+// way?
+bool cannot_run(const Outcome& outcome, ExitCodes codes, bool through_shell);
 
 }  // namespace tetproof

@@ -46,15 +46,27 @@ TEST(Runnable, ExitCodesOfShells) {
   outcome.ending = Ending::exited;
   for (const int code : {126, 127}) {
     outcome.exit_code = code;
-    EXPECT_TRUE(cannot_run(outcome, true));
-    EXPECT_FALSE(cannot_run(outcome, false));
+    EXPECT_TRUE(cannot_run(outcome, ExitCodes::unknown, true));
+    EXPECT_FALSE(cannot_run(outcome, ExitCodes::unknown, false));
   }
-  for (const int code : {0, 1, 125, 128}) {
+  for (const int code : {0, 1, 2, 125, 128}) {
     outcome.exit_code = code;
-    EXPECT_FALSE(cannot_run(outcome, true));
+    EXPECT_FALSE(cannot_run(outcome, ExitCodes::unknown, true));
   }
   outcome.ending = Ending::not_started;
-  EXPECT_TRUE(cannot_run(outcome, false));
+  EXPECT_TRUE(cannot_run(outcome, ExitCodes::unknown, false));
+}
+
+TEST(Runnable, WrongCallsOfOurPrograms) {
+  Outcome outcome;
+  outcome.ending = Ending::exited;
+  for (const int code : {0, 1, 2, 3, 4, 5, 6}) {
+    outcome.exit_code = code;
+    EXPECT_EQ(cannot_run(outcome, ExitCodes::ours, false), code == 2) << code;
+  }
+  outcome.exit_code = 2;
+  outcome.ending = Ending::wall_limit;
+  EXPECT_FALSE(cannot_run(outcome, ExitCodes::ours, false));
 }
 
 }  // namespace
