@@ -43,8 +43,8 @@ Finding guarded(const char* stage, const Surface& surface, Body&& body) {
 
 // Points on triangles are rounded to dyadic parameters; the angles are measured in doubles.
 constexpr double kDegreesLost = 0.02;
-// The filter compares distances in doubles.
-constexpr double kDistanceRoundings = 1e-9;
+// The filter compares distances in doubles: 4 ulp of the diagonal.
+constexpr double kDistanceRoundings = 0x1p-50;
 
 double length(const delmesher::predicates::PointStore& points,
               const std::array<delmesher::base::VertexId, 2>& ends) {
@@ -57,7 +57,7 @@ Finding distances_fit(const Stages& s, const delmesher::chamfer::ChamferResult& 
   for (std::uint32_t e = 0; e < s.topology.edge_count(); ++e) {
     if (s.topology.edge_is_flat[e] != 0) continue;
     const auto ends = s.topology.edge_vertices(e);
-    const double most = length(s.points, ends) * (1.0 / 3 + 1e-6);
+    const double most = length(s.points, ends) * (1.0 / 3 + 0x1p-50);
     if (result.vertex_distance[ends[0]] > most || result.vertex_distance[ends[1]] > most) {
       return "chamfer distance: more than a third of an edge";
     }
@@ -95,7 +95,7 @@ Finding kept_is_apart(const FeatureSizes& sizes,
   const auto is_kept = [&](std::uint32_t t) { return kept[topology.facet_of[t]] != 0; };
   for (std::uint32_t i = 0; i < topology.triangles.size(); ++i) {
     for (std::uint32_t j = 0; is_kept(i) && j < i; ++j) {
-      if (!is_kept(j) || !sizes.closer(i, j, tolerance * (1 - kDistanceRoundings))) continue;
+      if (!is_kept(j) || !sizes.closer(i, j, tolerance)) continue;
       if (!sizes.facets_touch(i, j)) return "filter distance: kept facets closer than allowed";
     }
   }
@@ -166,10 +166,11 @@ Finding filter_holds(const Surface& surface) {
       }
       const bool all = std::all_of(result.facet_kept.begin(), result.facet_kept.end(),
                                    [](std::uint8_t kept) { return kept != 0; });
-      if (!all && apart > tau * diagonal * (1 + kDistanceRoundings)) {
+      if (!all && apart > (tau + kDistanceRoundings) * diagonal) {
         return "filter reason: drops facets although no features are closer than the tolerance";
       }
-      Finding f = kept_is_apart(sizes, s.topology, result.facet_kept, tau * diagonal);
+      Finding f = kept_is_apart(sizes, s.topology, result.facet_kept,
+                                (tau - kDistanceRoundings) * diagonal);
       if (!f.empty()) return f;
     }
     return {};
