@@ -46,17 +46,10 @@ std::uint32_t hash(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-}  // namespace
-
-InsertionRounds::InsertionRounds(std::size_t points)
-    : last_(std::clamp(static_cast<int>(std::bit_width(points)) - 6, 0, 31)) {}
-
-int InsertionRounds::operator()(std::uint32_t n) const {
-  return std::max(0, last_ - std::countr_zero(hash(n) | (1U << 31)));
-}
-
-void spatial_sort(std::span<std::uint32_t> order,
-                  std::span<const std::array<double, 3>> coordinates) {
+// Permutes `order` by a number from 0 to 15 for each position, then along a Hilbert curve.
+template <class Group>
+void sort_in_groups(std::span<std::uint32_t> order,
+                    std::span<const std::array<double, 3>> coordinates, Group&& group) {
   if (order.empty()) return;
   std::array<double, 3> low = coordinates[order[0]];
   std::array<double, 3> high = low;
@@ -71,7 +64,6 @@ void spatial_sort(std::span<std::uint32_t> order,
   for (int k = 0; k < 3; ++k) extent = std::max(extent, high[k] / 2 - low[k] / 2);
   const double cells = static_cast<double>((1U << kBits) - 1);
 
-  const InsertionRounds rounds(order.size());
   struct Item {
     std::uint64_t key;
     std::uint32_t position, point;
@@ -83,14 +75,35 @@ void spatial_sort(std::span<std::uint32_t> order,
       const double half = coordinates[order[n]][k] / 2 - low[k] / 2;
       cell[k] = extent > 0 ? static_cast<std::uint32_t>(half / extent * cells) : 0;
     }
-    // A Hilbert key has 60 bits, so at most 15 rounds get their own group.
-    const int group = std::clamp(rounds(n) - rounds.last() + 15, 0, 15);
-    items[n] = {(std::uint64_t(group) << 60) | hilbert_key(cell), n, order[n]};
+    items[n] = {(std::uint64_t(group(n)) << 60) | hilbert_key(cell), n, order[n]};
   }
   std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
     return a.key != b.key ? a.key < b.key : a.position < b.position;
   });
   for (std::size_t n = 0; n < items.size(); ++n) order[n] = items[n].point;
+}
+
+}  // namespace
+
+InsertionRounds::InsertionRounds(std::size_t points)
+    : last_(std::clamp(static_cast<int>(std::bit_width(points)) - 6, 0, 31)) {}
+
+int InsertionRounds::operator()(std::uint32_t n) const {
+  return std::max(0, last_ - std::countr_zero(hash(n) | (1U << 31)));
+}
+
+void spatial_sort(std::span<std::uint32_t> order,
+                  std::span<const std::array<double, 3>> coordinates) {
+  const InsertionRounds rounds(order.size());
+  // A Hilbert key has 60 bits, so at most 15 rounds get their own group.
+  sort_in_groups(order, coordinates, [&](std::uint32_t n) {
+    return std::clamp(rounds(n) - rounds.last() + 15, 0, 15);
+  });
+}
+
+void hilbert_sort(std::span<std::uint32_t> order,
+                  std::span<const std::array<double, 3>> coordinates) {
+  sort_in_groups(order, coordinates, [](std::uint32_t) { return 0; });
 }
 
 }  // namespace delmesher::base

@@ -29,4 +29,8 @@ class InsertionRounds {
 void spatial_sort(std::span<std::uint32_t> order,
                   std::span<const std::array<double, 3>> coordinates);
 
+// Permutes `order` along a Hilbert curve, without rounds.
+void hilbert_sort(std::span<std::uint32_t> order,
+                  std::span<const std::array<double, 3>> coordinates);
+
 }  // namespace delmesher::base

@@ -13,6 +13,7 @@
 #include "mesher/base/validating.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/surface/surface_face.h"
 #include "mesher/surface/topology.h"
 
 namespace delmesher::cdt {
@@ -41,12 +42,6 @@ struct CdtInput {
   // is Delaunay with every subsegment an edge; then it has every triangle of every facet as a face,
   // is Delaunay wherever no facet hides, and changes sides at the facets and nowhere else.
   bool validate = kValidating;
-};
-
-// A face of the tetrahedrization lying on the surface.
-struct SurfaceFace {
-  std::array<VertexId, 3> vertices;  // counter-clockwise seen from outside the solid
-  FacetId facet;
 };
 
 // Counts the work of facet recovery.

@@ -136,6 +136,13 @@ VertexId PointStore::add_explicit(double x, double y, double z) {
   return static_cast<VertexId>(size() - 1);
 }
 
+void PointStore::move_explicit(VertexId v, const Vec3& x) {
+  DELMESHER_CHECK(detail_of_[v] == kNone, "only a plain point can move");
+  DELMESHER_CHECK(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]),
+                  "point not finite");
+  approximations_[v] = {x[0] + 0.0, x[1] + 0.0, x[2] + 0.0, 0.0};
+}
+
 VertexId PointStore::add_on_segment(VertexId p, VertexId q, double t) {
   return add_implicit({PointKind::on_segment, {p, q, kNone}, t, 0});
 }

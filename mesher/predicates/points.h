@@ -91,6 +91,8 @@ class PointStore {
   // Appends the first `count` points of another store to an empty one; they are explicit or on
   // planes. Supports are left out.
   void copy_corners(const PointStore& from, std::size_t count);
+  // Moves an explicit point that has no supports and is no corner of others.
+  void move_explicit(VertexId v, const Vec3& x);
   // Removes the last point.
   void pop_back();
   // Removes the points from `first` on, the last one first.

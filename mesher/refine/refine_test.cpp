@@ -12,10 +12,10 @@
 
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/vector.h"
-#include "mesher/refine/facet_locator.h"
 #include "mesher/refine/prediction.h"
 #include "mesher/refine/refiner.h"
 #include "mesher/refine/test_complexes.h"
+#include "mesher/surface/facet_locator.h"
 
 namespace delmesher::refine {
 

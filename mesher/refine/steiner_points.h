@@ -13,11 +13,11 @@
 
 #include "mesher/predicates/placement.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/refine/facet_locator.h"
 #include "mesher/refine/goal.h"
 #include "mesher/refine/refine.h"
 #include "mesher/refine/segment_facets.h"
 #include "mesher/refine/shells.h"
+#include "mesher/surface/facet_locator.h"
 
 namespace delmesher::refine {
 

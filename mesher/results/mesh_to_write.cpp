@@ -3,33 +3,18 @@
 #include <algorithm>
 
 #include "mesher/base/face_key.h"
+#include "mesher/surface/given_place.h"
 
 namespace delmesher::results {
 namespace {
 
-// Where points of the stand-in go on the surface that was given: the same parameters on the same
-// corners.
-std::vector<std::array<double, 3>> places(const PointStore& points, std::span<const Vec3> given) {
-  std::vector<std::array<double, 3>> place;
+std::vector<Vec3> places(const PointStore& points, std::span<const Vec3> given) {
+  std::vector<Vec3> place;
   if (given.empty()) return place;
   place.reserve(points.size());
   PointStore scratch;
   for (VertexId v = 0; v < points.size(); ++v) {
-    const auto corner = [&](VertexId w) { return w < given.size() ? given[w] : points.nearest(w); };
-    PointDefinition d = points.definition(v);
-    if (points.is_corner(v)) {
-      place.push_back(corner(v));
-      continue;
-    }
-    VertexId next = 0;
-    for (VertexId& w : d.corner) {
-      if (w == kNone) continue;
-      const Vec3 x = corner(w);
-      w = next++;
-      scratch.add_explicit(x[0], x[1], x[2]);
-    }
-    place.push_back(scratch.nearest(scratch.add(d)));
-    scratch.truncate(0);
+    place.push_back(given_place(points, v, given, scratch));
   }
   return place;
 }

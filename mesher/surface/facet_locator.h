@@ -10,7 +10,7 @@
 #include "mesher/predicates/points.h"
 #include "mesher/surface/topology.h"
 
-namespace delmesher::refine {
+namespace delmesher::surface {
 
 class FacetLocator {
  public:
@@ -38,4 +38,4 @@ class FacetLocator {
   std::vector<std::uint8_t> built_;
 };
 
-}  // namespace delmesher::refine
+}  // namespace delmesher::surface

@@ -1,9 +1,9 @@
-#include "mesher/refine/facet_locator.h"
+#include "mesher/surface/facet_locator.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace delmesher::refine {
+namespace delmesher::surface {
 namespace {
 
 constexpr std::size_t kBruteForce = 8;  // triangles; below it a grid does not pay
@@ -117,4 +117,4 @@ std::uint32_t FacetLocator::triangle_at(FacetId facet, const Vec3& p) {
   return best;
 }
 
-}  // namespace delmesher::refine
+}  // namespace delmesher::surface

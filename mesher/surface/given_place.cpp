@@ -1,0 +1,23 @@
+#include "mesher/surface/given_place.h"
+
+namespace delmesher::surface {
+
+Vec3 given_place(const PointStore& points, VertexId v, std::span<const Vec3> given,
+                 PointStore& scratch) {
+  if (given.empty()) return points.nearest(v);
+  const auto corner = [&](VertexId w) { return w < given.size() ? given[w] : points.nearest(w); };
+  if (points.is_corner(v)) return corner(v);
+  PointDefinition d = points.definition(v);
+  VertexId next = 0;
+  for (VertexId& w : d.corner) {
+    if (w == kNone) continue;
+    const Vec3 x = corner(w);
+    w = next++;
+    scratch.add_explicit(x[0], x[1], x[2]);
+  }
+  const Vec3 place = scratch.nearest(scratch.add(d));
+  scratch.truncate(0);
+  return place;
+}
+
+}  // namespace delmesher::surface
