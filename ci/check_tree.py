@@ -36,6 +36,7 @@ LAYERS = {
     "refine": FOUNDATION,
     "cdt": FOUNDATION,
     "plane": FOUNDATION,
+    "improve": FOUNDATION,
     "output": FOUNDATION,
     "enrich": FOUNDATION + ("chamfer", "refine", "cdt"),
     "run": FOUNDATION + ("plane",),

@@ -35,6 +35,9 @@ using namespace foundation;  // NOLINT(google-build-using-namespace)
 namespace cdt {
 using namespace foundation;  // NOLINT(google-build-using-namespace)
 }
+namespace improve {
+using namespace foundation;  // NOLINT(google-build-using-namespace)
+}
 namespace output {
 using namespace foundation;  // NOLINT(google-build-using-namespace)
 }

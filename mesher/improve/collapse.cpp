@@ -1,0 +1,103 @@
+#include "mesher/improve/collapse.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/base/epoch.h"
+
+namespace delmesher::improve {
+
+bool Collapse::run(VertexId v) {
+  if (state_.mobility(v) == Mobility::fixed) return false;
+  state_.mesh.star(v, star_);
+  find_targets(v);
+  const Quality least = state_.to_be_acceptable(state_.worst_of(star_));
+  VertexId best = kNone;
+  float best_score = 0;
+  for (const VertexId w : targets_) {
+    const float score = score_after(v, w, least);
+    if (score <= best_score) continue;
+    best = w;
+    best_score = score;
+  }
+  if (best == kNone || !certain(v, best)) return false;
+  state_.contract(v, best, star_);
+  return true;
+}
+
+// The neighbours, without those off what v lies on.
+void Collapse::find_targets(VertexId v) {
+  targets_.clear();
+  mark_.resize(state_.mesh.vertices(), 0);
+  next_epoch(epoch_, mark_);
+  mark_[v] = epoch_;
+  for (const TetId t : star_) {
+    for (const VertexId w : state_.mesh.tet(t)) {
+      if (mark_[w] == epoch_) continue;
+      mark_[w] = epoch_;
+      targets_.push_back(w);
+    }
+  }
+  if (state_.mobility(v) == Mobility::free) return;
+  find_edges_on_surface(v);
+  std::erase_if(targets_, [&](VertexId w) { return !stays_on_surface(v, w); });
+}
+
+// The edges from v on the surface: each twice, with the facets of the faces beside it.
+void Collapse::find_edges_on_surface(VertexId v) {
+  const WorkMesh& mesh = state_.mesh;
+  edges_.clear();
+  for (const TetId t : star_) {
+    if (!mesh.inside(t)) continue;
+    for (int k = 0; k < 4; ++k) {
+      if (mesh.facet(t, k) == kNone || mesh.tet(t)[k] == v) continue;
+      for (const int j : kFace[k]) {
+        if (mesh.tet(t)[j] != v) edges_.emplace_back(mesh.tet(t)[j], mesh.facet(t, k));
+      }
+    }
+  }
+}
+
+// To where v may go: within its facet, or between its two facets.
+bool Collapse::stays_on_surface(VertexId v, VertexId w) const {
+  FacetId first = kNone;
+  for (const auto& [x, facet] : edges_) {
+    if (x != w) continue;
+    if (first != kNone) {
+      return state_.mobility(v) == (facet == first ? Mobility::in_plane : Mobility::on_line);
+    }
+    first = facet;
+  }
+  return false;
+}
+
+// Of the worst of what v's star becomes; 0 if it must not become that.
+float Collapse::score_after(VertexId v, VertexId w, const Quality& least) const {
+  float score = HUGE_VALF;
+  for (const TetId t : star_) {
+    if (state_.mesh.index_of(t, w) >= 0) continue;
+    const Tet& tet = state_.mesh.tet(t);
+    const int i = state_.mesh.index_of(t, v);
+    const bool counts = state_.counts(t);
+    const Quality q = state_.quality_with(tet, i, state_.position(w), counts ? least : Quality{});
+    if (!(q.dihedral > 0)) return 0;
+    if (!counts) continue;
+    if (!State::reaches(q, least)) return 0;
+    score = std::min(score, state_.score(q));
+    for (int k = 0; k < 4; ++k) {
+      if (k != i && state_.too_long(state_.position(w), state_.position(tet[k]))) return 0;
+    }
+  }
+  return score;
+}
+
+bool Collapse::certain(VertexId v, VertexId w) {
+  return std::all_of(star_.begin(), star_.end(), [&](TetId t) {
+    if (state_.mesh.index_of(t, w) >= 0) return true;
+    Tet tet = state_.mesh.tet(t);
+    tet[state_.mesh.index_of(t, v)] = w;
+    return state_.is_positive(tet);
+  });
+}
+
+}  // namespace delmesher::improve

@@ -1,0 +1,36 @@
+// Contracts an edge: one of its vertices goes, and its star is filled from the other. A vertex of a
+// facet goes to another one of that facet, a vertex of an input edge along that edge, so that the
+// surface is the same.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "mesher/improve/state.h"
+
+namespace delmesher::improve {
+
+class Collapse {
+ public:
+  explicit Collapse(State& state) : state_(state) {}
+
+  // Takes v out, to the best of its neighbours, if all tetrahedra that change are good enough
+  // afterwards (State::to_be_acceptable).
+  bool run(VertexId v);
+
+ private:
+  void find_targets(VertexId v);
+  void find_edges_on_surface(VertexId v);
+  bool stays_on_surface(VertexId v, VertexId w) const;
+  float score_after(VertexId v, VertexId w, const Quality& least) const;
+  bool certain(VertexId v, VertexId w);
+
+  State& state_;
+  std::vector<TetId> star_;
+  std::vector<VertexId> targets_;
+  std::vector<std::uint32_t> mark_;  // of find_targets()
+  std::uint32_t epoch_ = 0;
+  std::vector<std::pair<VertexId, FacetId>> edges_;  // of the surface
+};
+
+}  // namespace delmesher::improve

@@ -1,0 +1,160 @@
+#include "mesher/improve/edge_removal.h"
+
+#include <algorithm>
+
+namespace delmesher::improve {
+namespace {
+
+// The two vertices of t other than i and j, such that (i, j, x, y) is an even permutation.
+std::array<int, 2> opposite_edge(int i, int j) {
+  static constexpr int kOpposite[4][4][2] = {{{0, 0}, {2, 3}, {3, 1}, {1, 2}},
+                                             {{3, 2}, {0, 0}, {0, 3}, {2, 0}},
+                                             {{1, 3}, {3, 0}, {0, 0}, {0, 1}},
+                                             {{2, 1}, {0, 2}, {1, 0}, {0, 0}}};
+  return {kOpposite[i][j][0], kOpposite[i][j][1]};
+}
+
+}  // namespace
+
+bool EdgeRemoval::run(TetId t, int i, int j) {
+  if (!find_ring(t, state_.mesh.tet(t)[i], state_.mesh.tet(t)[j]) || !split_ring()) return false;
+  least_ = state_.to_be_better(state_.worst_of(ring_));
+  created_.clear();
+  for (Polygon& polygon : polygons_) {
+    if (!triangulate(polygon)) return false;
+    collect(polygon);
+  }
+  for (const CreatedTet& tet : created_) {
+    if (!state_.is_positive(tet.vertices)) return false;
+  }
+  state_.replace(ring_, created_, faces_);
+  return true;
+}
+
+// Collects what is around the edge from a to b, so that (a, b, vertex[n], vertex[n + 1]) is the
+// n-th tetrahedron. False if there is too much.
+bool EdgeRemoval::find_ring(TetId t, VertexId a, VertexId b) {
+  const WorkMesh& mesh = state_.mesh;
+  a_ = a;
+  b_ = b;
+  // Back to the beginning of an open ring, if it is one.
+  TetId first = t;
+  for (int steps = 0;; ++steps) {
+    if (steps > kLongest) return false;
+    const auto [x, y] = opposite_edge(mesh.index_of(first, a), mesh.index_of(first, b));
+    const TetId previous = mesh.neighbor(first, y);
+    if (previous == t) {
+      first = t;
+      break;
+    }
+    if (previous == kNone) break;
+    first = previous;
+  }
+  ring_.clear();
+  vertex_.clear();
+  facet_.clear();
+  for (TetId u = first;;) {
+    if (ring_.size() == kLongest) return false;
+    const auto [x, y] = opposite_edge(mesh.index_of(u, a), mesh.index_of(u, b));
+    ring_.push_back(u);
+    vertex_.push_back(mesh.tet(u)[x]);
+    facet_.push_back(mesh.facet(u, y));
+    const TetId next = mesh.neighbor(u, x);
+    if (next == first) return ring_.size() >= 3;
+    if (next == kNone) {
+      vertex_.push_back(mesh.tet(u)[y]);
+      facet_.push_back(mesh.facet(u, x));
+      return true;
+    }
+    u = next;
+  }
+}
+
+// Into the polygons between faces of the surface. False if the edge may not go.
+bool EdgeRemoval::split_ring() {
+  const std::size_t n = ring_.size();
+  const bool open = vertex_.size() > n;
+  std::vector<std::size_t>& walls = walls_;
+  walls.clear();
+  for (std::size_t k = 0; k < vertex_.size(); ++k) {
+    if (facet_[k] != kNone) walls.push_back(k);
+  }
+  polygons_.clear();
+  faces_.clear();
+  const auto polygon = [&](std::size_t from, std::size_t steps) {
+    Polygon p;
+    p.size = static_cast<int>(steps) + 1;
+    p.inside = state_.mesh.inside(ring_[from]);
+    for (std::size_t k = 0; k <= steps; ++k) p.vertex[k] = vertex_[(from + k) % vertex_.size()];
+    polygons_.push_back(p);
+  };
+  if (walls.empty()) {
+    if (open) return false;
+    polygon(0, n - 1);
+    return true;
+  }
+  if (walls.size() != 2 || facet_[walls[0]] != facet_[walls[1]]) return false;
+  if (open && (walls[0] != 0 || walls[1] != n)) return false;
+  polygon(walls[0], walls[1] - walls[0]);
+  if (!open) polygon(walls[1], n - (walls[1] - walls[0]));
+  const VertexId x = vertex_[walls[0]], y = vertex_[walls[1]];
+  faces_ = {{{a_, x, y}, facet_[walls[0]]}, {{b_, x, y}, facet_[walls[0]]}};
+  return true;
+}
+
+// Two tetrahedra, towards a and b, for each triangle of the polygon, the worst of them as good as
+// can be (Klincsek's dynamic program). False if they are not better than before.
+bool EdgeRemoval::triangulate(Polygon& polygon) {
+  const int n = polygon.size;
+  const bool counts = state_.counts(polygon.inside);
+  const bool is_diagonal = !faces_.empty();  // of a facet: the edge from first to last is new, too
+  std::array<std::array<Quality, kLongest + 1>, kLongest + 1> best;
+  for (int i = 0; i + 1 < n; ++i) best[i][i + 1] = kNotCounted;
+  for (int width = 2; width < n; ++width) {
+    for (int i = 0; i + width < n; ++i) {
+      const int j = i + width;
+      best[i][j] = {};
+      const bool is_new = width < n - 1 || is_diagonal;
+      if (counts && is_new &&
+          state_.too_long(state_.position(polygon.vertex[i]), state_.position(polygon.vertex[j]))) {
+        continue;
+      }
+      Quality least = counts ? least_ : Quality{};
+      for (int k = i + 1; k < j; ++k) {
+        Quality q = worse(best[i][k], best[k][j]);
+        const auto fails = [&] {
+          return !(q.dihedral > 0) || !State::reaches(q, least) ||
+                 state_.score(q) <= state_.score(best[i][j]);
+        };
+        if (fails()) continue;
+        const auto& v = polygon.vertex;
+        q = worse(q, state_.quality_of({v[i], v[k], v[j], b_}, least));
+        if (fails()) continue;
+        q = worse(q, state_.quality_of({v[k], v[i], v[j], a_}, least));
+        if (fails()) continue;
+        best[i][j] = q;
+        polygon.middle[i][j] = static_cast<std::int8_t>(k);
+        if (!counts) break;
+      }
+    }
+  }
+  return best[0][n - 1].dihedral > 0;
+}
+
+void EdgeRemoval::collect(const Polygon& polygon) {
+  std::array<std::array<int, 2>, 2 * kLongest> open;
+  int count = 0;
+  open[count++] = {0, polygon.size - 1};
+  while (count > 0) {
+    const auto [i, j] = open[--count];
+    if (j == i + 1) continue;
+    const int k = polygon.middle[i][j];
+    const auto& v = polygon.vertex;
+    created_.push_back({{v[i], v[k], v[j], b_}, polygon.inside});
+    created_.push_back({{v[k], v[i], v[j], a_}, polygon.inside});
+    open[count++] = {i, k};
+    open[count++] = {k, j};
+  }
+}
+
+}  // namespace delmesher::improve

@@ -1,0 +1,52 @@
+// Removes an edge: the ring of tetrahedra around it is tetrahedrized anew, without the edge
+// (Shewchuk 2002, "Two discrete optimization algorithms for the topological improvement of
+// tetrahedral meshes"). An edge within a facet has a ring of two halves, each of which gets its
+// own; the two triangles of the facet beside it become the other two of their quadrilateral.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesher/improve/state.h"
+
+namespace delmesher::improve {
+
+class EdgeRemoval {
+ public:
+  explicit EdgeRemoval(State& state) : state_(state) {}
+
+  // Removes edge i-j of t if that makes the worst tetrahedron of the ring better.
+  bool run(TetId t, int i, int j);
+
+ private:
+  // The longest ring that is considered.
+  static constexpr int kLongest = 9;
+
+  // A polygon of the ring's vertices, from the first to the last; between two triangles of a facet,
+  // or all around.
+  struct Polygon {
+    int size = 0;
+    bool inside = false;
+    std::array<VertexId, kLongest + 1> vertex{};
+    // Of the best triangulation of vertices i to j: the third vertex of the triangle at i-j.
+    std::array<std::array<std::int8_t, kLongest + 1>, kLongest + 1> middle{};
+  };
+
+  bool find_ring(TetId t, VertexId a, VertexId b);
+  bool split_ring();
+  bool triangulate(Polygon& polygon);
+  void collect(const Polygon& polygon);
+
+  State& state_;
+  VertexId a_ = 0, b_ = 0;
+  std::vector<TetId> ring_;         // tetrahedra a, b, vertex[n], vertex[n + 1]
+  std::vector<VertexId> vertex_;    // one more than tetrahedra if the ring is open
+  std::vector<FacetId> facet_;      // of the face a, b, vertex[n]
+  Quality least_;                   // what the new tetrahedra have to reach
+  std::vector<std::size_t> walls_;  // numbers of the faces of the surface
+  std::vector<Polygon> polygons_;
+  std::vector<CreatedTet> created_;
+  std::vector<SurfaceFace> faces_;
+};
+
+}  // namespace delmesher::improve

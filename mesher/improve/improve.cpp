@@ -1,0 +1,264 @@
+#include "mesher/improve/improve.h"
+
+#include <algorithm>
+
+#include "mesher/base/spatial_sort.h"
+#include "mesher/base/validating.h"
+#include "mesher/improve/collapse.h"
+#include "mesher/improve/edge_removal.h"
+#include "mesher/improve/face_removal.h"
+#include "mesher/improve/insertion.h"
+#include "mesher/improve/smoothing.h"
+#include "mesher/improve/state.h"
+
+namespace delmesher::improve {
+namespace {
+
+// What is as good as this is left alone. (Lower targets were tried: they take a quarter less time,
+// but nearly as many tetrahedra; then the worst of them are worse.)
+constexpr double kDihedral = 22, kFaceAngle = 20;  // degrees
+constexpr float kGamma = 0.4F;
+
+float squared_sine(double degrees) {
+  return static_cast<float>(1 - cosine_squared(degrees));
+}
+
+class Improvement {
+ public:
+  Improvement(State& state, Control& control)
+      : state_(state),
+        control_(control),
+        edges_(state),
+        faces_(state),
+        collapse_(state),
+        smoothing_(state),
+        insertion_(state),
+        vertices_(static_cast<std::int64_t>(state.mesh.vertices())) {}
+
+  // What can go goes first; then less is left to repair. Points are put in when everything else has
+  // been tried.
+  void run() {
+    coarsen();
+    repair();
+    insert_ = true;
+    tried_.clear();
+    coarsen();
+    repair();
+    polish();
+    polish();
+  }
+
+ private:
+  // Passes over all that is not good, and then over the worst alone.
+  static constexpr int kPasses = 4, kPassesForWorst = 12;
+  static constexpr float kWorst = 0.4F;  // score
+
+  void poll() { control_.poll(static_cast<std::uint64_t>(vertices_ + state_.vertices_gained())); }
+
+  template <class Operation>
+  void for_each_vertex(Operation&& operation) {
+    const auto limit = static_cast<VertexId>(state_.mesh.vertices());
+    for (VertexId v = 0; v < limit; ++v) {
+      if (state_.mesh.incident(v) == kNone || state_.mobility(v) == Mobility::fixed) continue;
+      poll();
+      operation(v);
+    }
+  }
+
+  // Takes out what is not needed for good tetrahedra.
+  void coarsen() {
+    for_each_vertex([&](VertexId v) { collapse(v); });
+    validate();
+  }
+
+  // Moves vertices to where tetrahedra are rounder on average.
+  void polish() {
+    for_each_vertex([&](VertexId v) {
+      unless_tried(v, polish_tried_, [&] { return smoothing_.round_off(v); });
+    });
+    validate();
+  }
+
+  // Tries all operations on the tetrahedra that are not good, the worst first, until nothing helps
+  // or hardly anything is left to gain.
+  void repair() {
+    std::vector<std::pair<float, TetId>> work;
+    for (int pass = 0; pass < kPasses + kPassesForWorst; ++pass) {
+      const float limit = pass < kPasses ? 1 : kWorst;
+      tried_.resize(state_.mesh.slots(), 0);
+      work.clear();
+      for (TetId t = 0; t < state_.mesh.slots(); ++t) {
+        if (!state_.mesh.alive(t) || state_.score(t) >= limit || !changed_since(t, tried_[t]))
+          continue;
+        work.emplace_back(state_.score(t), t);
+      }
+      std::sort(work.begin(), work.end());
+      bool success = false;
+      for (const auto& [score, t] : work) {
+        if (!state_.mesh.alive(t) || state_.score(t) != score) continue;
+        poll();
+        if (attempt(t)) {
+          success = true;
+        } else {
+          tried_[t] = state_.clock() + 1;
+        }
+      }
+      validate();
+      if (!success) break;
+    }
+  }
+
+  bool changed_since(TetId t, std::uint32_t when) const {
+    const Tet& tet = state_.mesh.tet(t);
+    return std::any_of(tet.begin(), tet.end(),
+                       [&](VertexId v) { return state_.changed_at(v) >= when; });
+  }
+
+  bool attempt(TetId t) {
+    const Tet tet = state_.mesh.tet(t);
+    for (const auto& [i, j] : kEdge) {
+      // The ring of an edge has changed only if there was a change at both of its ends.
+      if (state_.changed_at(tet[i]) < tried_[t] || state_.changed_at(tet[j]) < tried_[t]) continue;
+      if (edges_.run(t, i, j)) return true;
+    }
+    for (int i = 0; i < 4; ++i) {
+      if (faces_.run(t, i)) return true;
+    }
+    for (const VertexId v : tet) {
+      if (smooth(v)) return true;
+    }
+    for (const VertexId v : tet) {
+      if (collapse(v)) return true;
+    }
+    return insert_ && insertion_.run(t);
+  }
+
+  bool smooth(VertexId v) {
+    return unless_tried(v, smooth_tried_, [&] { return smoothing_.improve_worst(v); });
+  }
+  bool collapse(VertexId v) {
+    return unless_tried(v, collapse_tried_, [&] { return collapse_.run(v); });
+  }
+
+  // Not again where nothing has changed since it failed.
+  template <class Operation>
+  bool unless_tried(VertexId v, std::vector<std::uint32_t>& tried, Operation&& operation) {
+    if (v >= tried.size()) tried.resize(state_.mesh.vertices(), 0);
+    if (tried[v] > state_.changed_at(v)) return false;
+    if (operation()) return true;
+    tried[v] = state_.clock() + 1;
+    return false;
+  }
+
+  void validate() const {
+    if (kValidating) state_.mesh.validate();
+  }
+
+  State& state_;
+  Control& control_;
+  EdgeRemoval edges_;
+  FaceRemoval faces_;
+  Collapse collapse_;
+  Smoothing smoothing_;
+  Insertion insertion_;
+  bool insert_ = false;
+  std::int64_t vertices_ = 0;  // at the beginning
+  // The clock when attempts failed, plus 1: per slot, and per vertex.
+  std::vector<std::uint32_t> tried_, smooth_tried_, collapse_tried_, polish_tried_;
+};
+
+// The vertices of a mesh, along a Hilbert curve, so that what is near is near in memory.
+std::vector<VertexId> vertices_in_order(const ImproveMesh& mesh, const PointStore& points) {
+  std::vector<std::uint8_t> used(points.size(), 0);
+  for (const Tet& t : mesh.tetrahedra) {
+    for (const VertexId v : t) used[v] = 1;
+  }
+  std::vector<VertexId> order;
+  std::vector<Vec3> coordinates;
+  coordinates.reserve(points.size());
+  for (VertexId v = 0; v < points.size(); ++v) {
+    if (used[v] != 0) order.push_back(v);
+    coordinates.push_back(points.nearest(v));
+  }
+  hilbert_sort(order, coordinates);
+  return order;
+}
+
+// The mesh in numbers of its own vertices, `point` in the store; its tetrahedra in the order of
+// their first vertices.
+WorkMesh work_mesh(ImproveMesh mesh, std::span<const VertexId> point, std::size_t points) {
+  std::vector<VertexId> number(points, kNone);
+  for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
+  std::vector<std::uint32_t> begin(point.size() + 1, 0);
+  for (Tet& t : mesh.tetrahedra) {
+    for (VertexId& v : t) v = number[v];
+    ++begin[*std::min_element(t.begin(), t.end()) + 1];
+  }
+  for (std::size_t v = 0; v < point.size(); ++v) begin[v + 1] += begin[v];
+  std::vector<Tet> tetrahedra(mesh.tetrahedra.size());
+  std::vector<std::uint8_t> inside(tetrahedra.size());
+  for (std::size_t n = 0; n < tetrahedra.size(); ++n) {
+    const Tet& t = mesh.tetrahedra[n];
+    const std::uint32_t slot = begin[*std::min_element(t.begin(), t.end())]++;
+    tetrahedra[slot] = t;
+    inside[slot] = mesh.inside[n];
+  }
+  for (SurfaceFace& face : mesh.boundary) {
+    for (VertexId& v : face.vertices) v = number[v];
+  }
+  return {std::move(tetrahedra), inside, mesh.boundary, point.size()};
+}
+
+ImproveMesh result_of(const State& state) {
+  const WorkMesh& mesh = state.mesh;
+  ImproveMesh result;
+  for (TetId t = 0; t < mesh.slots(); ++t) {
+    if (!mesh.alive(t)) continue;
+    Tet v;
+    for (int i = 0; i < 4; ++i) v[i] = state.point(mesh.tet(t)[i]);
+    result.tetrahedra.push_back(v);
+    result.inside.push_back(mesh.inside(t) ? 1 : 0);
+    for (int i = 0; i < 4; ++i) {
+      if (!mesh.inside(t) || mesh.facet(t, i) == kNone) continue;
+      result.boundary.push_back(
+          {{v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]}, mesh.facet(t, i)});
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
+                      std::span<const Vec3> given, const ImproveOptions& options,
+                      PointStore& points, Predicates& predicates, Control& control) {
+  const Goals goals{.target = {squared_sine(kDihedral), squared_sine(kFaceAngle), kGamma * kGamma},
+                    .promised = squared_sine(options.delta),
+                    .max_edge = options.max_edge,
+                    .everywhere = options.region == Region::hull};
+  // A face that is a facet of its own has no other triangulation.
+  std::vector<FacetId> facets;
+  if (topology == nullptr) {
+    for (SurfaceFace& face : mesh.boundary) {
+      facets.push_back(face.facet);
+      face.facet = static_cast<FacetId>(facets.size() - 1);
+    }
+  }
+  ImproveResult result;
+  result.became.assign(points.size(), kNone);
+  const std::vector<VertexId> point = vertices_in_order(mesh, points);
+  State state(work_mesh(std::move(mesh), point, points.size()), point, topology, given, points,
+              predicates, goals);
+  Improvement(state, control).run();
+  for (VertexId v = 0; v < point.size(); ++v) {
+    if (state.mesh.incident(v) != kNone) result.became[point[v]] = state.point(v);
+  }
+  result.changed = state.clock() > 0;
+  result.mesh = result_of(state);
+  if (topology == nullptr) {
+    for (SurfaceFace& face : result.mesh.boundary) face.facet = facets[face.facet];
+  }
+  return result;
+}
+
+}  // namespace delmesher::improve

@@ -1,0 +1,45 @@
+// Improvement of a conforming tetrahedral mesh by local operations (section 8.3 names it as what is
+// left to do): fewer and better tetrahedra on exactly the same surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/base/control.h"
+#include "mesher/delmesher/run.h"
+#include "mesher/predicates/predicates.h"
+#include "mesher/surface/surface_face.h"
+#include "mesher/surface/topology.h"
+
+namespace delmesher::improve {
+
+struct ImproveOptions {
+  double delta = 14.47;  // degrees: no face angle below it is made, unless one was there
+  double max_edge = 0;   // no edge longer than this is made; 0: any
+  Region region = Region::interior;  // which tetrahedra are to be good
+};
+
+// A conforming mesh: tetrahedra of positive orientation on points of a store, and the faces that
+// tile the surface.
+struct ImproveMesh {
+  std::vector<std::array<VertexId, 4>> tetrahedra;
+  std::vector<std::uint8_t> inside;
+  std::vector<SurfaceFace> boundary;
+};
+
+struct ImproveResult {
+  ImproveMesh mesh;
+  bool changed = false;
+  std::vector<VertexId> became;  // per point of the store before: what it is now, kNone if gone
+};
+
+// `topology`: of the surface that the mesh conforms to; null if all of its faces stay as they are.
+// `given`: its vertices as given, if it is a stand-in. New points are appended to the store.
+// Deterministic. Throws Stopped when the control says so.
+ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
+                      std::span<const Vec3> given, const ImproveOptions& options,
+                      PointStore& points, Predicates& predicates, Control& control);
+
+}  // namespace delmesher::improve

@@ -1,0 +1,241 @@
+#include "mesher/improve/improve.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "mesher/cdt/model_reference.h"
+#include "mesher/cdt/test_models.h"
+#include "mesher/improve/quality.h"
+#include "mesher/surface/test_surfaces.h"
+
+namespace delmesher::improve {
+
+namespace rational = cdt::rational;
+
+namespace {
+
+using namespace cdt::test_models;
+
+// A conforming mesh of a surface with points on edges, in facets and in the volume, inside and out.
+struct Case {
+  Case(const Surface& surface, int density, std::uint32_t seed) : model(surface) {
+    EXPECT_TRUE(model.valid);
+    if (density > 0) cdt::test_models::enrich(model, density, seed);
+    before = after = model.run();
+  }
+
+  void run(const ImproveOptions& options = {}, bool on_topology = true) {
+    ImproveMesh given{before.tetrahedra, before.inside, before.boundary};
+    result = improve(std::move(given), on_topology ? &model.topology : nullptr, {}, options,
+                     model.points, model.predicates, model.control);
+    after.tetrahedra = result.mesh.tetrahedra;
+    after.inside = result.mesh.inside;
+    after.boundary = result.mesh.boundary;
+    after.repeated_faces.clear();
+    for (auto* vertices : {&after.steiner}) follow(*vertices);
+    for (auto& chain : after.chain) follow(chain);
+  }
+
+  void follow(std::vector<VertexId>& vertices) const {
+    for (VertexId& v : vertices) v = result.became[v];
+    std::erase(vertices, kNone);
+  }
+
+  std::string wrong() const {
+    return rational::Checker(model.topology, model.points, after, false).run();
+  }
+
+  // Six times the volume of all tetrahedra, exactly.
+  mpq_class volume(const cdt::CdtResult& mesh) const {
+    mpq_class sum = 0;
+    for (const auto& t : mesh.tetrahedra) {
+      rational::Vector x[4];
+      for (int i = 0; i < 4; ++i) x[i] = rational::exact(model.points, t[i]);
+      sum += rational::volume(x[0], x[1], x[2], x[3]);
+    }
+    return sum;
+  }
+
+  Quality worst(const cdt::CdtResult& mesh, bool all = false) const {
+    Quality q = kNotCounted;
+    for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
+      if (!all && mesh.inside[n] == 0) continue;
+      const auto& t = mesh.tetrahedra[n];
+      const auto at = [&](int i) { return model.points.nearest(t[i]); };
+      q = worse(q, quality(at(0), at(1), at(2), at(3)));
+    }
+    return q;
+  }
+
+  Model model;
+  cdt::CdtResult before, after;
+  ImproveResult result;
+};
+
+std::set<VertexId> vertices(const cdt::CdtResult& mesh) {
+  std::set<VertexId> used;
+  for (const auto& t : mesh.tetrahedra) used.insert(t.begin(), t.end());
+  return used;
+}
+
+// With labels that separate coplanar triangles, with a wall around a cavity, with sharp corners.
+std::vector<Surface> surfaces() {
+  Surface labelled =
+      voxels({{{0, 1, 2, 3}, {0, 1, 2}, {0, 0.5}}}, [](int, int, int) { return true; });
+  for (std::size_t t = 0; t < labelled.triangles.size(); ++t) {
+    labelled.labels.push_back(labelled.vertices[labelled.triangles[t][0]][0] < 2 ? 1 : 0);
+  }
+  Surface nested = box(0, 8);
+  append(nested, inside_out(box(1, 7)));
+  return {box(0, 1),
+          perforated_plate(5, 0.25, 2),
+          star(1, 0.1, 5),
+          chazelle(2, 0.5),
+          twisted_prism(5, 0.1, 1, true),
+          labelled,
+          nested};
+}
+
+float squared_sine(double degrees) {
+  return static_cast<float>(1 - cosine_squared(degrees));
+}
+
+// The surface and the hull are the same, by rational arithmetic, and no angle that misses its goal
+// has become worse.
+TEST(Improve, KeepsTheSurfaceAndTheWorstAngles) {
+  std::uint32_t seed = 1;
+  for (const Surface& s : surfaces()) {
+    for (const int density : {1, 3}) {
+      Case c(s, density, seed++);
+      c.run();
+      EXPECT_EQ(c.wrong(), "");
+      EXPECT_EQ(c.volume(c.after), c.volume(c.before));
+      const Quality before = c.worst(c.before), after = c.worst(c.after);
+      EXPECT_GE(after.dihedral, std::min(before.dihedral, squared_sine(22)));
+      EXPECT_GE(after.face, std::min(before.face, squared_sine(14.47)));
+      EXPECT_LT(c.after.tetrahedra.size(), c.before.tetrahedra.size());
+      const std::size_t input = c.model.topology.vertex_half_edge.size();
+      const std::set<VertexId> used = vertices(c.after);
+      for (VertexId v = 0; v < input; ++v) EXPECT_TRUE(used.contains(v)) << v;
+    }
+  }
+}
+
+// Random points in a box make slivers everywhere; none has to be there.
+TEST(Improve, LeavesNoBadTetrahedronInABox) {
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    Case c(box(0, 1), 4, seed);
+    EXPECT_LT(c.worst(c.before).dihedral, squared_sine(5));
+    c.run();
+    EXPECT_GT(c.worst(c.after).dihedral, squared_sine(12));
+    EXPECT_GT(c.worst(c.after).face, squared_sine(12));
+  }
+}
+
+TEST(Improve, OutsideCountsForTheHull) {
+  ImproveOptions options;
+  options.region = Region::hull;
+  std::uint32_t seed = 1;
+  for (const Surface& s : surfaces()) {
+    Case c(s, 2, seed++);
+    c.run(options);
+    EXPECT_EQ(c.wrong(), "");
+    const Quality before = c.worst(c.before, true), after = c.worst(c.after, true);
+    EXPECT_GE(after.dihedral, std::min(before.dihedral, squared_sine(22)));
+    EXPECT_GE(after.face, std::min(before.face, squared_sine(14.47)));
+  }
+}
+
+// Without the surface's topology its faces and vertices stay as they are.
+TEST(Improve, KeepsTheBoundaryOfAnyMesh) {
+  std::uint32_t seed = 1;
+  for (const Surface& s : surfaces()) {
+    Case c(s, 2, seed++);
+    c.run({}, false);
+    const auto faces = [](const cdt::CdtResult& mesh) {
+      std::multiset<std::array<VertexId, 3>> keys;
+      for (const SurfaceFace& face : mesh.boundary) {
+        std::array<VertexId, 3> v = face.vertices;
+        std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+        keys.insert(v);
+      }
+      return keys;
+    };
+    EXPECT_EQ(faces(c.after), faces(c.before));
+    EXPECT_EQ(c.volume(c.after), c.volume(c.before));
+    EXPECT_LT(c.after.tetrahedra.size(), c.before.tetrahedra.size());
+  }
+}
+
+// A grid of points, of which much can go; with a bound on the edges less.
+TEST(Improve, MakesNoLongEdges) {
+  const auto longest = [](const Case& c, const cdt::CdtResult& mesh) {
+    double length = 0;
+    for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
+      const auto& t = mesh.tetrahedra[n];
+      for (const auto& [i, j] : kEdge) {
+        if (mesh.inside[n] == 0) continue;
+        length = std::max(length, norm(c.model.points.difference(t[i], t[j])));
+      }
+    }
+    return length;
+  };
+  const auto run = [&](double limit, double& before) {
+    Case c(surface::test_surfaces::box({0, 0, 0}, {1, 1, 1}, 8), 0, 1);
+    std::mt19937 random(1);
+    for (int n = 0; n < 343; ++n) {
+      const auto at = [&](int k) {
+        return (1 + k % 7 + 1e-9 * static_cast<double>(random() % 1000)) / 8;
+      };
+      c.model.input.vertices.push_back(c.model.points.add_explicit(at(n), at(n / 7), at(n / 49)));
+    }
+    c.before = c.model.run();
+    before = longest(c, c.before);
+    ImproveOptions options;
+    options.max_edge = limit < 1 ? before : 0;
+    c.run(options);
+    EXPECT_EQ(c.wrong(), "");
+    return longest(c, c.after);
+  };
+  double before = 0;
+  EXPECT_LE(run(0, before), before);
+  EXPECT_GT(run(1, before), before);
+}
+
+// Scaling by a power of two scales the mesh; running again gives it again.
+TEST(Improve, ScalesAndRepeats) {
+  const Surface s = star(1, 0.1, 5);
+  Case one(s, 3, 7);
+  one.run();
+  for (const double scale : {1.0, 0x1p40, 0x1p-40}) {
+    Surface scaled = s;
+    for (auto& x : scaled.vertices) x = {x[0] * scale, x[1] * scale, x[2] * scale};
+    Case other(scaled, 3, 7);
+    ASSERT_EQ(other.before.tetrahedra, one.before.tetrahedra);
+    other.run();
+    EXPECT_EQ(other.after.tetrahedra, one.after.tetrahedra);
+    for (const VertexId v : vertices(one.after)) {
+      const Vec3 x = one.model.points.nearest(v), y = other.model.points.nearest(v);
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(x[k] * scale, y[k]);
+    }
+  }
+}
+
+TEST(Improve, EndsWhenItIsCancelled) {
+  Limits limits;
+  int calls = 0;
+  limits.progress = [&calls](const Progress&) { return ++calls < 2; };
+  Case c(box(0, 1), 8, 1);
+  Control control(limits);
+  control.enter(Phase::improve);
+  ImproveMesh given{c.before.tetrahedra, c.before.inside, c.before.boundary};
+  EXPECT_THROW(improve(std::move(given), &c.model.topology, {}, {}, c.model.points,
+                       c.model.predicates, control),
+               Stopped);
+}
+
+}  // namespace
+}  // namespace delmesher::improve

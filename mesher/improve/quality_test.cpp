@@ -1,0 +1,111 @@
+#include "mesher/improve/quality.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <random>
+
+namespace delmesher::improve {
+namespace {
+
+using Points = std::array<Vec3, 4>;
+
+const Points kRegular = {{{0, 0, 0}, {1, 1, 0}, {0, 1, 1}, {1, 0, 1}}};
+const Points kCorner = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+Quality of(const Points& p, const Quality& least = {}) {
+  return quality(p[0], p[1], p[2], p[3], least);
+}
+
+Points positive(Points p) {
+  if (of(p).dihedral == 0) std::swap(p[2], p[3]);
+  return p;
+}
+
+Points random_points(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Points p;
+  for (Vec3& x : p) x = {unit(random), unit(random), unit(random)};
+  return positive(p);
+}
+
+// The dihedral angle of a regular one has a cosine of 1/3. In the corner of a cube the smallest
+// dihedral angle has a cosine of 1/sqrt(3), the smallest face angle is 45 degrees, the circumradius
+// is sqrt(3)/2 and the inradius 1/(3 + sqrt(3)).
+TEST(Quality, OfKnownTetrahedra) {
+  const Quality regular = of(positive(kRegular));
+  EXPECT_NEAR(regular.dihedral, 8.0 / 9, 1e-6);
+  EXPECT_NEAR(regular.face, 0.75, 1e-6);
+  EXPECT_NEAR(regular.gamma, 1, 1e-6);
+  const Quality corner = of(positive(kCorner));
+  EXPECT_NEAR(corner.dihedral, 2.0 / 3, 1e-6);
+  EXPECT_NEAR(corner.face, 0.5, 1e-6);
+  const double gamma = 6 / (std::sqrt(3.0) * (3 + std::sqrt(3.0)));
+  EXPECT_NEAR(corner.gamma, gamma * gamma, 1e-6);
+}
+
+TEST(Quality, IsZeroForFlatAndInverted) {
+  Points p = positive(kRegular);
+  std::swap(p[0], p[1]);
+  for (const Points& bad : {p, Points{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}},
+                            Points{{{0, 0, 0}, {0, 0, 0}, {0, 1, 0}, {1, 1, 1}}}}) {
+    EXPECT_EQ(of(bad).dihedral, 0);
+    EXPECT_EQ(of(bad).face, 0);
+    EXPECT_EQ(of(bad).gamma, 0);
+  }
+}
+
+// Angles by another formula, whatever the order of the vertices and the scale.
+TEST(Quality, AgreesWithAnglesOneByOne) {
+  std::mt19937 random(1);
+  for (int n = 0; n < 200; ++n) {
+    const Points p = random_points(random);
+    double dihedral = 1, face = 1;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        for (int k = 0; k < 4; ++k) {
+          if (i == j || j == k || i == k) continue;
+          const int l = 6 - i - j - k;
+          const Vec3 a = subtract(p[j], p[i]), b = subtract(p[k], p[i]), c = subtract(p[l], p[i]);
+          const Vec3 ab = cross(a, b), ac = cross(a, c);
+          face = std::min(face, squared_norm(ab) / (squared_norm(a) * squared_norm(b)));
+          dihedral = std::min(dihedral,
+                              squared_norm(cross(ab, ac)) / (squared_norm(ab) * squared_norm(ac)));
+        }
+      }
+    }
+    const Quality q = of(p);
+    EXPECT_NEAR(q.dihedral, dihedral, 1e-5 * dihedral);
+    EXPECT_NEAR(q.face, face, 1e-5 * face);
+    const Quality turned = quality(p[1], p[2], p[0], p[3]);
+    EXPECT_NEAR(turned.gamma, q.gamma, 1e-5 * q.gamma);
+    Points scaled = p;
+    for (Vec3& x : scaled) x = {x[0] * 0x1p60, x[1] * 0x1p60, x[2] * 0x1p60};
+    EXPECT_EQ(of(scaled).dihedral, q.dihedral);
+    EXPECT_EQ(of(scaled).face, q.face);
+    EXPECT_EQ(of(scaled).gamma, q.gamma);
+  }
+}
+
+TEST(Quality, IsIncompleteBelowTheLeast) {
+  const Points p = positive(kCorner);
+  const Quality q = of(p);
+  EXPECT_EQ(of(p, {q.dihedral, q.face, q.gamma}).gamma, q.gamma);
+  EXPECT_EQ(of(p, {1, 0, 0}).dihedral, q.dihedral);
+  EXPECT_EQ(of(p, {1, 0, 0}).gamma, 0);
+  EXPECT_EQ(of(p, {0, 1, 0}).face, q.face);
+  EXPECT_EQ(of(p, {0, 1, 0}).gamma, 0);
+}
+
+TEST(Quality, TheBestApexIsNearlyRegular) {
+  std::mt19937 random(2);
+  const Vec3 a = {0, 0, 0}, b = {2, 0, 0}, c = {1, std::sqrt(3.0), 0};
+  const Vec3 apex = best_apex(a, b, c);
+  EXPECT_GT(quality(apex, a, c, b).gamma + quality(apex, a, b, c).gamma, 0.99);
+  EXPECT_LT(apex[2], 0);
+  EXPECT_EQ(best_apex(a, a, a), a);
+}
+
+}  // namespace
+}  // namespace delmesher::improve

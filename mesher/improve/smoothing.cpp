@@ -1,0 +1,229 @@
+#include "mesher/improve/smoothing.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace delmesher::improve {
+namespace {
+
+// Fineness of the grid of new points, in the shortest edge at the vertex.
+constexpr double kGrid = 1.0 / 1024;
+
+}  // namespace
+
+// Collects the star; false if v cannot move.
+bool Smoothing::begin(VertexId v) {
+  if (state_.mobility(v) == Mobility::fixed) return false;
+  v_ = v;
+  const WorkMesh& mesh = state_.mesh;
+  mesh.star(v, star_);
+  // The worst one first: it ends most attempts.
+  for (TetId& t : star_) {
+    if (state_.score(t) < state_.score(star_[0])) std::swap(t, star_[0]);
+  }
+  index_.clear();
+  double shortest2 = HUGE_VAL, neighbours = 0;
+  center_ = {0, 0, 0};
+  const auto take = [&](VertexId w) {
+    center_ = predicates::add(center_, state_.position(w));
+    ++neighbours;
+  };
+  for (const TetId t : star_) {
+    const int i = mesh.index_of(t, v);
+    index_.push_back(i);
+    for (int k = 0; k < 4; ++k) {
+      if (k == i) continue;
+      const Vec3 edge = subtract(state_.position(mesh.tet(t)[k]), state_.position(v));
+      shortest2 = std::min(shortest2, squared_norm(edge));
+      if (state_.mobility(v) == Mobility::free) {
+        take(mesh.tet(t)[k]);
+      } else if (mesh.facet(t, k) != kNone) {
+        for (const int j : kFace[k]) {
+          if (j != i) take(mesh.tet(t)[j]);
+        }
+      }
+    }
+  }
+  shortest_ = std::sqrt(shortest2);
+  for (double& x : center_) x /= neighbours;
+  return shortest_ > 0 && find_axis();
+}
+
+// The normal of the facet that v is in, or the direction of the edge that it is on.
+bool Smoothing::find_axis() {
+  Vec3 axis{};
+  if (state_.mobility(v_) == Mobility::free) return true;
+  if (state_.mobility(v_) == Mobility::on_line) {
+    const PointDefinition d = state_.points().definition(state_.point(v_));
+    axis = state_.points().difference(d.corner[0], d.corner[1]);
+  } else {
+    for (std::size_t n = 0; n < star_.size(); ++n) {
+      const TetId t = star_[n];
+      if (!state_.mesh.inside(t)) continue;
+      for (int k = 0; k < 4; ++k) {
+        if (k == index_[n] || state_.mesh.facet(t, k) == kNone) continue;
+        const auto at = [&](int j) { return state_.position(state_.mesh.tet(t)[kFace[k][j]]); };
+        axis = predicates::add(axis, cross(subtract(at(1), at(0)), subtract(at(2), at(0))));
+      }
+    }
+  }
+  const double length = norm(axis);
+  axis_ = {axis[0] / length, axis[1] / length, axis[2] / length};
+  return length > 0;
+}
+
+// The part of a displacement that keeps v where it belongs.
+Vec3 Smoothing::allowed(const Vec3& offset) const {
+  switch (state_.mobility(v_)) {
+    case Mobility::free:
+      return offset;
+    case Mobility::in_plane:
+      return add_scaled(offset, -dot(offset, axis_), axis_);
+    default: {
+      const double along = dot(offset, axis_);
+      return {along * axis_[0], along * axis_[1], along * axis_[2]};
+    }
+  }
+}
+
+// From x to the apex that would make a tetrahedron of the star nearly regular.
+Vec3 Smoothing::towards_best_apex(TetId t, const Vec3& x) const {
+  const Tet& tet = state_.mesh.tet(t);
+  const int* f = kFace[state_.mesh.index_of(t, v_)];
+  return subtract(
+      best_apex(state_.position(tet[f[0]]), state_.position(tet[f[1]]), state_.position(tet[f[2]])),
+      x);
+}
+
+// The worst of the star with v at x; incomplete if it does not reach `least`.
+Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
+  Quality worst = kNotCounted;
+  for (std::size_t n = 0; n < star_.size(); ++n) {
+    const TetId t = star_[n];
+    const bool counts = state_.counts(t);
+    const Quality q =
+        state_.quality_with(state_.mesh.tet(t), index_[n], x, counts ? least : Quality{});
+    if (!(q.dihedral > 0)) return {};
+    if (!counts) continue;
+    if (state_.score(q) < state_.score(worst)) worst_ = n;
+    worst = worse(worst, q);
+    if (!State::reaches(worst, least)) return {};
+  }
+  return worst;
+}
+
+bool Smoothing::improve_worst(VertexId v) {
+  constexpr int kRounds = 4;
+  constexpr double kSteps[] = {0.5, 0.25, 0.125, 0.0625, 0.015625};
+  if (!begin(v)) return false;
+  const Quality least = state_.to_be_better(state_.worst_of(star_));
+  Quality best = state_.worst_of(star_);
+  Vec3 x = state_.position(v);
+  bool any = false;
+  worst_ = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::size_t worst = worst_;
+    std::size_t best_worst = worst;
+    Vec3 best_x = x;
+    bool success = false;
+    for (const Vec3& direction :
+         {allowed(towards_best_apex(star_[worst], x)), allowed(subtract(center_, x))}) {
+      for (const double step : kSteps) {
+        const Vec3 candidate = add_scaled(x, step, direction);
+        const Quality q = worst_at(candidate, any || success ? state_.to_be_better(best) : least);
+        if (!(q.dihedral > 0)) {
+          if (success) break;
+          continue;
+        }
+        best = q;
+        best_x = candidate;
+        best_worst = worst_;
+        success = true;
+      }
+    }
+    worst_ = best_worst;
+    if (!success) break;
+    x = best_x;
+    any = true;
+    if (state_.good(best)) break;
+  }
+  return any && commit(v, subtract(x, state_.position(v)), least);
+}
+
+// The sum of the gammas of the star with v at x; 0 if it does not reach `least`.
+double Smoothing::roundness_at(const Vec3& x, const Quality& least) const {
+  double sum = 0;
+  for (std::size_t n = 0; n < star_.size(); ++n) {
+    const TetId t = star_[n];
+    const bool counts = state_.counts(t);
+    const Quality q =
+        state_.quality_with(state_.mesh.tet(t), index_[n], x, counts ? least : Quality{});
+    if (!(q.dihedral > 0)) return 0;
+    if (!counts) continue;
+    if (!State::reaches(q, least)) return 0;
+    sum += std::sqrt(q.gamma);
+  }
+  return sum;
+}
+
+bool Smoothing::round_off(VertexId v) {
+  constexpr double kLeastGain = 1.002;
+  if (!begin(v)) return false;
+  const Quality least = state_.to_be_acceptable(state_.worst_of(star_));
+  double before = 0;
+  for (const TetId t : star_) {
+    if (state_.counts(t)) before += std::sqrt(state_.quality(t).gamma);
+  }
+  if (!(before > 0)) return false;
+  double best = before * kLeastGain;
+  Vec3 best_offset{};
+  bool any = false;
+  const Vec3 direction = allowed(subtract(center_, state_.position(v)));
+  for (const double step : {1.0, 0.5, 0.25}) {
+    const Vec3 offset = {step * direction[0], step * direction[1], step * direction[2]};
+    const double sum = roundness_at(add(state_.position(v), offset), least);
+    if (sum > best) {
+      best = sum;
+      best_offset = offset;
+      any = true;
+    } else if (any) {
+      break;
+    }
+  }
+  if (!any) return false;
+  const Place place = state_.moved(v, best_offset, shortest_ * kGrid);
+  return settle(v, place, roundness_at(place.position, least) > before);
+}
+
+// Puts v there if that is what it has to be; there may be a little beside.
+bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least) {
+  const Place place = state_.moved(v, offset, shortest_ * kGrid);
+  return settle(v, place, worst_at(place.position, least).dihedral > 0);
+}
+
+bool Smoothing::becomes_too_long(TetId t, int i, const Vec3& x) const {
+  const Tet& tet = state_.mesh.tet(t);
+  for (int k = 0; k < 4; ++k) {
+    const Vec3& end = state_.position(tet[k]);
+    if (k != i && state_.counts(t) && state_.too_long(x, end) &&
+        squared_norm(subtract(end, x)) > squared_norm(subtract(end, state_.position(v_)))) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Smoothing::settle(VertexId v, const Place& place, bool ok) {
+  for (std::size_t n = 0; ok && n < star_.size(); ++n) {
+    ok = !becomes_too_long(star_[n], index_[n], place.position) &&
+         state_.is_positive_with(state_.mesh.tet(star_[n]), index_[n], place);
+  }
+  if (ok) {
+    state_.move(v, place, star_);
+  } else {
+    state_.forget(place);
+  }
+  return ok;
+}
+
+}  // namespace delmesher::improve

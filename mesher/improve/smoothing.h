@@ -1,0 +1,40 @@
+// Moves a vertex: in the volume anywhere, in its facet, or along its edge.
+#pragma once
+
+#include <vector>
+
+#include "mesher/improve/state.h"
+
+namespace delmesher::improve {
+
+class Smoothing {
+ public:
+  explicit Smoothing(State& state) : state_(state) {}
+
+  // Moves v to where the worst tetrahedron at it is better.
+  bool improve_worst(VertexId v);
+  // Moves v to where its tetrahedra are rounder on average, if the worst ones stay good enough.
+  bool round_off(VertexId v);
+
+ private:
+  bool begin(VertexId v);
+  bool find_axis();
+  Vec3 allowed(const Vec3& offset) const;
+  Vec3 towards_best_apex(TetId worst, const Vec3& x) const;
+  Quality worst_at(const Vec3& x, const Quality& least);
+  double roundness_at(const Vec3& x, const Quality& least) const;
+  bool commit(VertexId v, const Vec3& offset, const Quality& least);
+  bool becomes_too_long(TetId t, int i, const Vec3& x) const;
+  bool settle(VertexId v, const Place& place, bool ok);
+
+  State& state_;
+  VertexId v_ = 0;
+  std::vector<TetId> star_;
+  std::vector<int> index_;  // of v in each
+  std::size_t worst_ = 0;   // of the star at the place asked last
+  Vec3 axis_{};             // normal of its facet, or direction of its edge; unused if it is free
+  double shortest_ = 0;     // edge at v
+  Vec3 center_{};           // of the neighbours
+};
+
+}  // namespace delmesher::improve

@@ -1,0 +1,169 @@
+#include "mesher/improve/state.h"
+
+#include "mesher/base/check.h"
+#include "mesher/base/sort_unique.h"
+#include "mesher/predicates/placement.h"
+#include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/surface/given_place.h"
+
+namespace delmesher::improve {
+
+State::State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopology* topology,
+             std::span<const Vec3> given, PointStore& points, Predicates& predicates,
+             const Goals& goals)
+    : mesh(std::move(work_mesh)),
+      points_(points),
+      predicates_(predicates),
+      topology_(topology),
+      given_(given),
+      goals_(goals),
+      per_target_{1 / goals.target.dihedral, 1 / goals.target.face, 1 / goals.target.gamma},
+      first_new_(points.size()),
+      point_(std::move(point)),
+      mobility_(point_.size(), Mobility::free),
+      facet_(point_.size(), kNone),
+      changed_at_(point_.size(), 0) {
+  if (topology != nullptr) locator_.emplace(*topology, points);
+  PointStore scratch;
+  position_.reserve(point_.size());
+  for (const VertexId p : point_) position_.push_back(given_place(points, p, given, scratch));
+  find_mobility();
+  quality_.resize(mesh.slots());
+  for (TetId t = 0; t < mesh.slots(); ++t) measure(t);
+}
+
+// A Steiner point of the surface is on a segment or on a triangle; what is explicit there is of the
+// input.
+void State::find_mobility() {
+  for (TetId t = 0; t < mesh.slots(); ++t) {
+    for (int i = 0; i < 4; ++i) {
+      const FacetId facet = mesh.facet(t, i);
+      const bool hull = mesh.neighbor(t, i) == kNone;
+      if (facet == kNone && !hull) continue;
+      for (const int k : kFace[i]) {
+        const VertexId v = mesh.tet(t)[k];
+        Mobility& m = mobility_[v];
+        if (facet == kNone) {
+          if (m == Mobility::free) m = Mobility::fixed;  // unless it is on the surface, too
+        } else if (points_.is_corner(point_[v]) || topology_ == nullptr) {
+          m = Mobility::fixed;
+        } else if (facet_[v] == kNone) {
+          m = Mobility::in_plane;
+          facet_[v] = facet;
+        } else if (facet_[v] != facet) {
+          const bool on_edge = points_.definition(point_[v]).kind == PointKind::on_segment;
+          m = on_edge ? Mobility::on_line : Mobility::fixed;
+        }
+      }
+    }
+  }
+}
+
+void State::measure(TetId t) {
+  quality_[t] = counts(t) ? quality_of(mesh.tet(t)) : kNotCounted;
+}
+
+Quality State::worst_of(std::span<const TetId> tets) const {
+  Quality worst = kNotCounted;
+  for (const TetId t : tets) worst = worse(worst, quality_[t]);
+  return worst;
+}
+
+bool State::is_positive(const Tet& t) {
+  return is_positive_with(t, 0, {point_[t[0]], position_[t[0]]});
+}
+
+bool State::is_positive_with(const Tet& t, int i, const Place& place) {
+  const auto point = [&](int k) { return k == i ? place.point : point_[t[k]]; };
+  const auto at = [&](int k) -> const Vec3& { return k == i ? place.position : position_[t[k]]; };
+  return predicates_.orient3d(point(0), point(1), point(2), point(3)) > 0 &&
+         orient3d_sign(at(0), at(1), at(2), at(3)) > 0;
+}
+
+void State::note(TetId t) {
+  measure(t);
+  for (const VertexId v : mesh.tet(t)) changed_at_[v] = clock_;
+}
+
+void State::replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
+                    std::span<const SurfaceFace> faces) {
+  ++clock_;
+  mesh.replace(removed, created, faces);
+  quality_.resize(mesh.slots());
+  for (const TetId t : mesh.created()) note(t);
+}
+
+void State::contract(VertexId v, VertexId w, std::span<const TetId> star) {
+  ++clock_;
+  --gained_;
+  mesh.contract(v, w, star);
+  for (const TetId t : star) {
+    if (mesh.alive(t)) note(t);
+  }
+}
+
+Place State::moved(VertexId v, const Vec3& offset, double tolerance) {
+  const VertexId p = point_[v];
+  const Vec3 target = add(points_.nearest(p), offset);
+  if (mobility_[v] == Mobility::free) return new_place(target, tolerance);
+  DELMESHER_CHECK(mobility_[v] != Mobility::fixed, "a fixed vertex was to move");
+  PointDefinition d = points_.definition(p);
+  if (mobility_[v] == Mobility::on_line) {
+    d = place_on_segment(points_, d.corner[0], d.corner[1], target, tolerance);
+  } else {
+    const auto& corner = topology_->triangles[locator_->triangle_at(facet_[v], target)];
+    d = place_on_triangle(points_, corner[0], corner[1], corner[2], target, tolerance);
+  }
+  const std::vector<PlaneId> planes(points_.planes(p).begin(), points_.planes(p).end());
+  const std::vector<std::uint32_t> lines(points_.lines(p).begin(), points_.lines(p).end());
+  const VertexId moved = points_.add(d);
+  points_.set_supports(moved, planes, lines);
+  PointStore scratch;
+  return {moved, given_place(points_, moved, given_, scratch)};
+}
+
+Place State::new_place(const Vec3& x, double tolerance) {
+  const Vec3 at = snap_to_grid(x, tolerance);
+  return {points_.add_explicit(at[0], at[1], at[2]), at};
+}
+
+void State::forget(const Place& place) {
+  DELMESHER_CHECK(place.point + 1 == points_.size(), "only the last point can be forgotten");
+  points_.pop_back();
+}
+
+void State::move(VertexId v, const Place& place, std::span<const TetId> star) {
+  ++clock_;
+  if (mobility_[v] == Mobility::free && point_[v] >= first_new_) {
+    // Nobody else has seen where it was.
+    forget(place);
+    points_.move_explicit(point_[v], place.position);
+  } else {
+    point_[v] = place.point;
+  }
+  position_[v] = place.position;
+  for (const TetId t : star) note(t);
+}
+
+void State::insert(const Place& place, std::span<const TetId> removed,
+                   std::span<CreatedTet> created) {
+  const VertexId v = mesh.add_vertex();
+  ++gained_;
+  point_.push_back(place.point);
+  position_.push_back(place.position);
+  mobility_.push_back(Mobility::free);
+  facet_.push_back(kNone);
+  changed_at_.push_back(clock_);
+  for (CreatedTet& tet : created) {
+    std::replace(tet.vertices.begin(), tet.vertices.end(), kNone, v);
+  }
+  swallowed_.clear();
+  for (const TetId t : removed) {
+    swallowed_.insert(swallowed_.end(), mesh.tet(t).begin(), mesh.tet(t).end());
+  }
+  sort_unique(swallowed_);
+  replace(removed, created, {});
+  for (const VertexId w : swallowed_) gained_ -= mesh.incident(w) == kNone ? 1 : 0;
+}
+
+}  // namespace delmesher::improve

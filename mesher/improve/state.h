@@ -1,0 +1,165 @@
+// What all operations of the improvement share: the mesh, where its vertices are and how they may
+// move, how good its tetrahedra are, and the rule by which a change is accepted.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesher/improve/quality.h"
+#include "mesher/improve/work_mesh.h"
+#include "mesher/predicates/predicates.h"
+#include "mesher/surface/facet_locator.h"
+#include "mesher/surface/topology.h"
+
+namespace delmesher::improve {
+
+// Where a vertex may go.
+enum class Mobility : std::uint8_t {
+  fixed,     // nowhere: a vertex of the input or of the hull
+  on_line,   // along its edge of the input
+  in_plane,  // within its facet
+  free       // anywhere in its star
+};
+
+struct Goals {
+  Quality target;           // tetrahedra as good as this are left alone
+  float promised = 0;       // squared sine: no face angle below this is made, unless one was there
+  double max_edge = 0;      // no edge longer than this is made; 0: any
+  bool everywhere = false;  // what is outside counts as well
+};
+
+// Where a vertex is or could be: a point of the store, and as it will be written, before repairs of
+// rounding.
+struct Place {
+  VertexId point;
+  Vec3 position;
+};
+
+// Laws:
+//  - Of the tetrahedra that count, what a change makes has no dihedral angle below the target and
+//  no
+//    face angle below the promise, unless those that it replaces had one as bad; so neither the
+//    smallest dihedral nor the smallest face angle of a mesh that misses them becomes worse.
+//  - All tetrahedra that a change makes are positive, on exact coordinates and as doubles.
+class State {
+ public:
+  // `point`: of each vertex, in the store. `topology`: of the surface; null if no vertex of it may
+  // move. `given`: its vertices as given, where it is a stand-in; else empty. What is passed by
+  // reference or pointer must outlive the state.
+  State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopology* topology,
+        std::span<const Vec3> given, PointStore& points, Predicates& predicates,
+        const Goals& goals);
+
+  WorkMesh mesh;
+
+  const PointStore& points() const { return points_; }
+  VertexId point(VertexId v) const { return point_[v]; }
+  const Goals& goals() const { return goals_; }
+  const Vec3& position(VertexId v) const { return position_[v]; }
+  Mobility mobility(VertexId v) const { return mobility_[v]; }
+
+  bool counts(bool inside) const { return inside || goals_.everywhere; }
+  bool counts(TetId t) const { return counts(mesh.inside(t)); }
+  // Of a tetrahedron of the mesh; kNotCounted where nobody asks.
+  const Quality& quality(TetId t) const { return quality_[t]; }
+  // Of any four vertices, or of t with its i-th vertex at x; incomplete if below `least`.
+  Quality quality_of(const Tet& t, const Quality& least = {}) const {
+    return improve::quality(position_[t[0]], position_[t[1]], position_[t[2]], position_[t[3]],
+                            least);
+  }
+  Quality quality_with(const Tet& t, int i, const Vec3& x, const Quality& least = {}) const {
+    const auto at = [&](int k) -> const Vec3& { return k == i ? x : position_[t[k]]; };
+    return improve::quality(at(0), at(1), at(2), at(3), least);
+  }
+  Quality worst_of(std::span<const TetId> tets) const;
+
+  // By the worst of the three: 1 and more is good enough.
+  float score(const Quality& q) const {
+    return std::min({q.dihedral * per_target_.dihedral, q.face * per_target_.face,
+                     q.gamma * per_target_.gamma});
+  }
+  bool good(const Quality& q) const { return score(q) >= 1; }
+  float score(TetId t) const { return score(quality_[t]); }
+
+  // What a change that replaces tetrahedra as bad as `before` has to reach: to be better than they
+  // are, or, where something else is gained, good or as good as they are.
+  Quality to_be_better(const Quality& before) const {
+    return at_least(kGain * score(before), before);
+  }
+  Quality to_be_acceptable(const Quality& before) const {
+    return at_least(std::min(1.0F, score(before)), before);
+  }
+  static bool reaches(const Quality& q, const Quality& least) {
+    return q.dihedral >= least.dihedral && q.face >= least.face && q.gamma >= least.gamma;
+  }
+
+  // Exactly positive, and as doubles; of any four vertices, or of t with its i-th vertex elsewhere.
+  bool is_positive(const Tet& t);
+  bool is_positive_with(const Tet& t, int i, const Place& place);
+
+  // Is an edge between these longer than what is wanted? Those that there are may stay.
+  bool too_long(const Vec3& x, const Vec3& y) const {
+    return goals_.max_edge > 0 && squared_norm(subtract(y, x)) > goals_.max_edge * goals_.max_edge;
+  }
+
+  // --- changes
+  void replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
+               std::span<const SurfaceFace> faces);
+  void contract(VertexId v, VertexId w, std::span<const TetId> star);
+  // Where v goes if it moves by `offset`, within about `tolerance`; and any place in the volume.
+  // The point is the last of the store, until it is forgotten, v is moved to it, or it becomes a
+  // vertex whose star replaces tetrahedra.
+  Place moved(VertexId v, const Vec3& offset, double tolerance);
+  Place new_place(const Vec3& x, double tolerance);
+  void forget(const Place& place);
+  void move(VertexId v, const Place& place, std::span<const TetId> star);
+  // `created` has kNone where the new vertex is.
+  void insert(const Place& place, std::span<const TetId> removed, std::span<CreatedTet> created);
+
+  // Counts changes.
+  std::uint32_t clock() const { return clock_; }
+  // When a tetrahedron at v last changed.
+  std::uint32_t changed_at(VertexId v) const { return changed_at_[v]; }
+
+  // How many vertices there are more than at the beginning.
+  std::int64_t vertices_gained() const { return gained_; }
+
+ private:
+  // A change has to be worth it: many small steps cost time and bring little.
+  static constexpr float kGain = 1.1F;
+
+  Quality at_least(float score, const Quality& before) const {
+    return {
+        std::max(score * goals_.target.dihedral, std::min(goals_.target.dihedral, before.dihedral)),
+        std::max(score * goals_.target.face, std::min(goals_.promised, before.face)),
+        score * goals_.target.gamma};
+  }
+  void find_mobility();
+  void measure(TetId t);
+  void note(TetId t);
+
+  PointStore& points_;
+  Predicates& predicates_;
+  const SurfaceTopology* topology_;
+  std::span<const Vec3> given_;
+  Goals goals_;
+  Quality per_target_;
+  std::size_t first_new_;  // point of the store
+  std::optional<FacetLocator> locator_;
+  // Per vertex.
+  std::vector<VertexId> point_;
+  std::vector<Vec3> position_;
+  std::vector<Mobility> mobility_;
+  std::vector<FacetId> facet_;  // if in_plane
+  std::vector<std::uint32_t> changed_at_;
+  std::vector<Quality> quality_;  // per slot
+  std::vector<VertexId> swallowed_;
+  std::uint32_t clock_ = 0;
+  std::int64_t gained_ = 0;
+};
+
+}  // namespace delmesher::improve

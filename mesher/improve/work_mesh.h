@@ -1,0 +1,98 @@
+// A tetrahedral mesh that local operations change: its tetrahedra, their neighbours, and which
+// faces are on the surface. It knows no coordinates. Vertices have numbers of their own.
+//
+// Invariants (validate()):
+//  - a face has one tetrahedron, or two that name each other as neighbours across it;
+//  - the two tetrahedra at a face of the surface agree on its facet; where there is none, both are
+//    inside or both outside;
+//  - incident(v) is alive and has v as a vertex, for every vertex of the mesh.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/base/epoch.h"
+#include "mesher/delaunay/tetrahedrization.h"
+#include "mesher/surface/surface_face.h"
+
+namespace delmesher::improve {
+
+using Tet = std::array<VertexId, 4>;
+
+// The new tetrahedra of a local operation, all inside or all outside.
+struct CreatedTet {
+  Tet vertices;
+  bool inside;
+};
+
+class WorkMesh {
+ public:
+  WorkMesh(std::vector<Tet> tetrahedra, std::span<const std::uint8_t> inside,
+           std::span<const SurfaceFace> boundary, std::size_t vertices);
+
+  std::size_t slots() const { return tet_.size(); }
+  bool alive(TetId t) const { return tet_[t][0] != kNone; }
+  const Tet& tet(TetId t) const { return tet_[t]; }
+  bool inside(TetId t) const { return inside_[t] != 0; }
+  // kNone beyond the hull.
+  TetId neighbor(TetId t, int i) const {
+    return neighbor_[t][i] == kNone ? kNone : neighbor_[t][i] >> 2U;
+  }
+  int mirror(TetId t, int i) const { return static_cast<int>(neighbor_[t][i] & 3U); }
+  // The facet that face i of t tiles, kNone if it is not on the surface.
+  FacetId facet(TetId t, int i) const { return facet_[t][i]; }
+  // Some tetrahedron at v; kNone if there is none any more.
+  TetId incident(VertexId v) const { return incident_[v]; }
+  std::size_t vertices() const { return incident_.size(); }
+  int index_of(TetId t, VertexId v) const {
+    const Tet& w = tet_[t];
+    return w[0] == v ? 0 : w[1] == v ? 1 : w[2] == v ? 2 : w[3] == v ? 3 : -1;
+  }
+
+  // The tetrahedra around v, in an order that depends on the mesh alone.
+  void star(VertexId v, std::vector<TetId>& star) const;
+
+  // A new vertex, without tetrahedra as yet.
+  VertexId add_vertex() {
+    incident_.push_back(kNone);
+    return static_cast<VertexId>(incident_.size() - 1);
+  }
+  // Contracts the edge from v to w: v goes. `star`: the tetrahedra around v. Those at both are
+  // removed.
+  void contract(VertexId v, VertexId w, std::span<const TetId> star);
+  // Replaces tetrahedra by others with the same outer faces; faces between the new ones that are on
+  // the surface are given. The slots of the new ones are in created().
+  void replace(std::span<const TetId> removed, std::span<const CreatedTet> created,
+               std::span<const SurfaceFace> faces);
+  std::span<const TetId> created() const { return created_; }
+
+  // Throws InternalError at the first invariant that does not hold.
+  void validate() const;
+
+ private:
+  struct FaceEntry {
+    std::array<VertexId, 3> key;
+    std::uint32_t side;  // 4 * tet + face, kNone beyond the hull
+    FacetId facet;
+  };
+
+  void link(std::span<const SurfaceFace> boundary);
+  void join(const FaceEntry& a, const FaceEntry& b);
+  TetId take_slot();
+
+  std::vector<Tet> tet_;
+  std::vector<std::array<std::uint32_t, 4>> neighbor_;  // 4 * tet + face
+  std::vector<std::array<FacetId, 4>> facet_;
+  std::vector<std::uint8_t> inside_;
+  std::vector<TetId> incident_;  // per vertex
+  std::vector<TetId> free_;
+  mutable std::vector<std::uint32_t> mark_;  // of star()
+  mutable std::uint32_t epoch_ = 0;
+  std::vector<TetId> created_;
+  std::vector<FaceEntry> faces_;  // of replace()
+  std::vector<VertexId> vertices_;
+};
+
+}  // namespace delmesher::improve

@@ -1,0 +1,124 @@
+#include "mesher/improve/work_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "mesher/base/check.h"
+
+namespace delmesher::improve {
+namespace {
+
+// Two tetrahedra on both sides of the face 0 1 2, the second one outside.
+struct Pair {
+  std::vector<Tet> tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  std::vector<std::uint8_t> inside = {1, 0};
+  std::vector<SurfaceFace> boundary = {{{0, 1, 2}, 7}};
+
+  WorkMesh mesh() const { return {tetrahedra, inside, boundary, 5}; }
+};
+
+// Three tetrahedra around the edge 3 4, inside a wall of six faces.
+WorkMesh three_around_an_edge() {
+  const std::vector<Tet> tetrahedra = {{0, 1, 3, 4}, {1, 2, 3, 4}, {2, 0, 3, 4}};
+  const std::vector<std::uint8_t> inside = {1, 1, 1};
+  std::vector<SurfaceFace> boundary;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    boundary.push_back({{i, (i + 1) % 3, 3}, i});
+    boundary.push_back({{(i + 1) % 3, i, 4}, 3 + i});
+  }
+  return {tetrahedra, inside, boundary, 5};
+}
+
+std::vector<TetId> star(const WorkMesh& mesh, VertexId v) {
+  std::vector<TetId> result;
+  mesh.star(v, result);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+TEST(WorkMesh, KnowsNeighboursAndFacets) {
+  const WorkMesh mesh = Pair().mesh();
+  mesh.validate();
+  EXPECT_EQ(mesh.neighbor(0, 3), 1U);
+  EXPECT_EQ(mesh.mirror(0, 3), 3);
+  EXPECT_EQ(mesh.facet(0, 3), 7U);
+  EXPECT_EQ(mesh.facet(1, 3), 7U);
+  EXPECT_EQ(mesh.neighbor(0, 0), kNone);
+  EXPECT_EQ(mesh.facet(0, 0), kNone);
+  EXPECT_EQ(star(mesh, 0), (std::vector<TetId>{0, 1}));
+  EXPECT_EQ(star(mesh, 3), (std::vector<TetId>{0}));
+}
+
+TEST(WorkMesh, RefusesAFaceOfThree) {
+  Pair pair;
+  pair.tetrahedra.push_back({0, 1, 2, 4});
+  pair.inside.push_back(0);
+  EXPECT_THROW(pair.mesh(), InternalError);
+}
+
+TEST(WorkMesh, SidesChangeAtTheSurfaceAlone) {
+  Pair same_side;
+  same_side.inside = {1, 1};
+  EXPECT_THROW(same_side.mesh().validate(), InternalError);
+  Pair no_surface;
+  no_surface.boundary.clear();
+  EXPECT_THROW(no_surface.mesh().validate(), InternalError);
+}
+
+TEST(WorkMesh, ReplacesAndKeepsTheOuterFaces) {
+  WorkMesh mesh = three_around_an_edge();
+  mesh.validate();
+  const std::vector<TetId> all = {0, 1, 2};
+  const std::vector<CreatedTet> two = {{{0, 1, 2, 4}, true}, {{1, 0, 2, 3}, true}};
+  mesh.replace(all, two, {});
+  mesh.validate();
+  EXPECT_EQ(mesh.created().size(), 2U);
+  EXPECT_EQ(star(mesh, 3).size(), 1U);
+  for (const TetId t : mesh.created()) {
+    for (int i = 0; i < 4; ++i) {
+      const VertexId opposite = mesh.tet(t)[i];
+      EXPECT_EQ(mesh.facet(t, i) == kNone, opposite == 3 || opposite == 4);
+    }
+  }
+}
+
+TEST(WorkMesh, ForgetsAVertexThatIsSwallowed) {
+  // Four tetrahedra around 4 become one.
+  const std::vector<Tet> tetrahedra = {{0, 1, 2, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}, {0, 2, 3, 4}};
+  const std::vector<std::uint8_t> inside = {1, 1, 1, 1};
+  std::vector<SurfaceFace> boundary = {
+      {{0, 1, 2}, 0}, {{0, 3, 1}, 1}, {{1, 3, 2}, 2}, {{0, 2, 3}, 3}};
+  WorkMesh mesh(tetrahedra, inside, boundary, 5);
+  mesh.validate();
+  const std::vector<TetId> all = {0, 1, 2, 3};
+  const std::vector<CreatedTet> one = {{{0, 1, 2, 3}, true}};
+  mesh.replace(all, one, {});
+  mesh.validate();
+  EXPECT_EQ(mesh.incident(4), kNone);
+  EXPECT_NE(mesh.incident(3), kNone);
+}
+
+TEST(WorkMesh, ContractsAnEdge) {
+  const std::vector<Tet> tetrahedra = {{0, 1, 2, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}, {0, 2, 3, 4}};
+  const std::vector<std::uint8_t> inside = {1, 1, 1, 1};
+  std::vector<SurfaceFace> boundary = {
+      {{0, 1, 2}, 0}, {{0, 3, 1}, 1}, {{1, 3, 2}, 2}, {{0, 2, 3}, 3}};
+  WorkMesh mesh(tetrahedra, inside, boundary, 5);
+  std::vector<TetId> around;
+  mesh.star(4, around);
+  mesh.contract(4, 0, around);
+  mesh.validate();
+  EXPECT_EQ(mesh.incident(4), kNone);
+  std::size_t alive = 0;
+  for (TetId t = 0; t < mesh.slots(); ++t) alive += mesh.alive(t) ? 1 : 0;
+  EXPECT_EQ(alive, 1U);
+  const TetId left = mesh.incident(0);
+  std::multiset<FacetId> facets;
+  for (int i = 0; i < 4; ++i) facets.insert(mesh.facet(left, i));
+  EXPECT_EQ(facets, (std::multiset<FacetId>{0, 1, 2, 3}));
+}
+
+}  // namespace
+}  // namespace delmesher::improve
