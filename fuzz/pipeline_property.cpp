@@ -175,6 +175,7 @@ Options options_for(const Surface& surface) {
   options.region = (hash & 24) == 0 ? delmesher::Region::hull : delmesher::Region::interior;
   options.simplify_bridges = (hash & 96) != 0;
   options.gabriel = (hash >> 16) % 2 == 0;
+  options.improve = (hash >> 19) % 4 != 0;
   constexpr double kPlanar[] = {delmesher::kPlanarAuto, delmesher::kPlanarAuto, 0, 1e-4};
   options.planar = kPlanar[(hash >> 17) % 4];
   if ((hash >> 7) % 8 == 0) options.max_edge = size / 4;

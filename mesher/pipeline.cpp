@@ -10,6 +10,7 @@
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/delmesher.h"
 #include "mesher/enrich/enrichment.h"
+#include "mesher/improve/improve.h"
 #include "mesher/policies/budget.h"
 #include "mesher/policies/fallback.h"
 #include "mesher/policies/finer_planes.h"
@@ -111,6 +112,27 @@ cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
                                                     std::move(delaunay));
 }
 
+// Fewer and better tetrahedra on the same surface (section 8.3). False if there was nothing to do.
+bool improve_mesh(cdt::CdtResult& cdt, Session& s) {
+  const improve::ImproveOptions options{
+      .delta = s.options.delta, .max_edge = s.options.max_edge, .region = s.options.region};
+  improve::ImproveMesh before{std::move(cdt.tetrahedra), std::move(cdt.inside),
+                              std::move(cdt.boundary)};
+  improve::ImproveResult result = improve::improve(std::move(before), &s.topology, s.given, options,
+                                                   s.points, s.predicates, s.control);
+  cdt.tetrahedra = std::move(result.mesh.tetrahedra);
+  cdt.inside = std::move(result.mesh.inside);
+  cdt.boundary = std::move(result.mesh.boundary);
+  cdt.repeated_faces.clear();
+  const auto follow = [&](std::vector<VertexId>& vertices) {
+    for (VertexId& v : vertices) v = result.became[v];
+    std::erase(vertices, kNone);
+  };
+  for (std::vector<VertexId>& chain : cdt.chain) follow(chain);
+  follow(cdt.steiner);
+  return result.changed;
+}
+
 void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineResult refined,
                    Session& s, Recorder& recorder) {
   refined.delaunay.reset();
@@ -152,6 +174,10 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
     recorder.plain_taken();
   }
   recorder.tetrahedrized(cdt);
+  if (s.options.improve) {
+    s.control.enter(Phase::improve);
+    if (improve_mesh(cdt, s)) recorder.improved(cdt);
+  }
   s.control.enter(Phase::round);
   round_and_record(std::move(cdt), s, recorder);
   return {};

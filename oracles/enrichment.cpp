@@ -250,6 +250,32 @@ class Enrichment {
 
 // --- repairs
 
+// The nearest doubles of a point without denominators, as all written points are.
+Position rounded(const ExactPoints& points, Index v) {
+  Position result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const mpz_class& x = points.exact(v)[axis].numerator();
+    const std::size_t bits = x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2);
+    if (bits <= 53) {
+      result[axis] = to_double(x, points.exponent());
+      continue;
+    }
+    // Adding half of the last place before truncation rounds to nearest.
+    mpz_class half;
+    mpz_ui_pow_ui(half.get_mpz_t(), 2, bits - 54);
+    result[axis] = to_double(x > 0 ? mpz_class(x + half) : mpz_class(x - half), points.exponent());
+  }
+  return result;
+}
+
+ExactPoints all_rounded(const ExactPoints& points) {
+  std::vector<Position> nearest(points.size());
+  for (Index v = 0; v < points.size(); ++v) nearest[v] = rounded(points, v);
+  ExactPoints doubles;
+  doubles.assign(nearest);
+  return doubles;
+}
+
 class Repairs {
  public:
   Repairs(const ExactRecord& record, const ExactPoints& points, const Promise& promise)
@@ -308,10 +334,7 @@ class Repairs {
   }
 
   void find_defects() {
-    std::vector<Position> nearest(points_.size());
-    for (Index v = 0; v < points_.size(); ++v) nearest[v] = rounded(v);
-    ExactPoints doubles;
-    doubles.assign(nearest);
+    const ExactPoints doubles = all_rounded(points_);
     ring_.assign(points_.size(), kFar);
     for (const ExactRecord::Tet& tet : record_.unrepaired) {
       if (!all_ && !tet.inside) continue;
@@ -320,25 +343,6 @@ class Repairs {
       ++defects_;
       for (const Index v : tet.vertices) ring_[v] = 0;
     }
-  }
-
-  // The nearest doubles of a point without denominators, as all written points are.
-  Position rounded(Index v) const {
-    Position result;
-    for (int axis = 0; axis < 3; ++axis) {
-      const mpz_class& x = points_.exact(v)[axis].numerator();
-      const std::size_t bits = x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2);
-      if (bits <= 53) {
-        result[axis] = to_double(x, points_.exponent());
-        continue;
-      }
-      // Adding half of the last place before truncation rounds to nearest.
-      mpz_class half;
-      mpz_ui_pow_ui(half.get_mpz_t(), 2, bits - 54);
-      result[axis] =
-          to_double(x > 0 ? mpz_class(x + half) : mpz_class(x - half), points_.exponent());
-    }
-    return result;
   }
 
   // Finds how many edges every vertex is from the nearest defect.
@@ -362,7 +366,71 @@ class Repairs {
   OracleReport report_{"repairs", "vertices and tetrahedra"};
 };
 
+// --- improvement
+
+// The smallest face angle of a part of a mesh, and the smallest of its dihedral angles and of what
+// these lack of 180 degrees.
+struct WorstAngles {
+  double face = 180, dihedral = 180;
+};
+
+WorstAngles worst_angles(const std::vector<ExactRecord::Tet>& tets, const ExactPoints& points,
+                         bool all) {
+  TetComplex complex;
+  complex.points = &points;
+  for (const ExactRecord::Tet& tet : tets) {
+    if (all || tet.inside) complex.tetrahedra.push_back(tet.vertices);
+  }
+  const Neighbours nobody{std::vector<Index>(4 * complex.tetrahedra.size(), kNone)};
+  const std::vector<std::uint8_t> selected(complex.tetrahedra.size(), 1);
+  OracleReport measured("angles");
+  measure_angles(complex, nobody, selected, measured);
+  WorstAngles worst;
+  for (const auto& [name, value] : measured.figures) {
+    if (name == "smallest face angle") worst.face = value;
+    if (name == "smallest dihedral angle") worst.dihedral = std::min(worst.dihedral, value);
+    if (name == "largest dihedral angle") worst.dihedral = std::min(worst.dihedral, 180 - value);
+  }
+  return worst;
+}
+
 }  // namespace
+
+OracleReport check_improvement(const ExactRecord& record, const ExactPoints& points,
+                               const Promise& promise) {
+  constexpr double kSlack = 1 - 1e-6;
+  OracleReport report("improvement", "tetrahedra");
+  const bool all = promise.region == delmesher::Region::hull;
+  const ExactPoints doubles = all_rounded(points);
+  std::uint64_t defects = 0;
+  for (const ExactRecord::Tet& tet : record.unrepaired) {
+    const auto& [a, b, c, d] = tet.vertices;
+    if ((all || tet.inside) && exact::orient3d(doubles, a, b, c, d) <= 0) ++defects;
+  }
+  const WorstAngles before = worst_angles(record.unrepaired, doubles, all),
+                    after = worst_angles(record.final, doubles, all);
+  report.checked = record.final.size();
+  report.promised = defects == 0;
+  report.figures = {{"smallest face angle before", before.face},
+                    {"after", after.face},
+                    {"flattest dihedral angle before", before.dihedral},
+                    {"after", after.dihedral},
+                    {"tetrahedra before", static_cast<double>(record.unrepaired.size())},
+                    {"not positive on doubles", static_cast<double>(defects)}};
+  if (defects > 0) return report;
+  const auto keeps = [](double now, double then, double promised) {
+    return now >= std::min(then, promised) * kSlack;
+  };
+  if (!keeps(after.face, before.face, promise.guaranteed_delta())) {
+    report.fail("the smallest face angle became " + std::to_string(after.face) + " degrees, from " +
+                std::to_string(before.face));
+  }
+  if (!keeps(after.dihedral, before.dihedral, kImprovedDihedral)) {
+    report.fail("the flattest dihedral angle became " + std::to_string(after.dihedral) +
+                " degrees, from " + std::to_string(before.dihedral));
+  }
+  return report;
+}
 
 OracleReport check_enrichment(const RefinedMesh& mesh) {
   return Enrichment(mesh).run();

@@ -22,6 +22,17 @@ OracleReport check_enrichment(const RefinedMesh& mesh);
 OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoints& points,
                            const Promise& promise);
 
+// Of an improved mesh (--improve): in the region, neither the smallest face angle nor the flattest
+// dihedral angle, the one whose sine is the smallest, is worse than in the constrained Delaunay
+// mesh that it was made from, as far as they are below what is promised: the bound on face angles,
+// and kImprovedDihedral degrees. Measured on the nearest doubles, where the improvement weighs its
+// steps, by doubles with a relative slack of 1e-6. Not decided, only counted, if the mesh before
+// has tetrahedra that are not positive there: repairs of rounding may then have changed it once
+// more.
+inline constexpr double kImprovedDihedral = 20;
+OracleReport check_improvement(const delmesher::ExactRecord& record, const ExactPoints& points,
+                               const Promise& promise);
+
 // Of a plain constrained Delaunay tetrahedrization: every vertex is an input vertex or exactly on
 // the surface. No other step gives it points, and none may widen the hull.
 OracleReport check_origins(const delmesher::ExactRecord& record, const ExactPoints& points,

@@ -64,6 +64,7 @@ void set_defaults(Task task, bool paper, Promise& p) {
   p = {};
   p.task = task;
   if (task == Task::cdt) p.region = Region::hull;
+  p.improve = task == Task::mesh && !paper;
   if (task != Task::mesh || paper) p.planar = 0;
   if (task == Task::plane) p.delta = 20.7;
   if (!paper) return;
@@ -125,6 +126,11 @@ class PromiseReader {
     if (option == "--region") {
       if (*value_ != "interior" && *value_ != "hull") return "no region \"" + *value_ + "\"";
       p.region = *value_ == "hull" ? Region::hull : Region::interior;
+      return {};
+    }
+    if (option == "--improve") {
+      if (*value_ != "on" && *value_ != "off") return option + " is on or off";
+      p.improve = *value_ == "on";
       return {};
     }
     if (option == "--planar" && *value_ == "auto") {
@@ -301,6 +307,7 @@ Promise promise_of(const delmesher::Options& options, Task task) {
   p.corner = options.corner;
   p.gabriel = options.gabriel;
   p.approximate = options.approximate;
+  p.improve = task == Task::mesh && options.improve;
   p.region = options.region;
   p.chamfer_radius = options.chamfer_radius;
   p.max_edge = options.max_edge;

@@ -26,6 +26,7 @@ struct Promise {
   double corner = 20;           // degrees, as given
   bool gabriel = false;
   bool approximate = false;
+  bool improve = true;
   delmesher::Region region = delmesher::Region::interior;
   double chamfer_radius = 0;  // input units; 0: no bound
   double max_edge = 0;        // input units; 0: no bound

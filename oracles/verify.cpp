@@ -598,16 +598,19 @@ OracleReport Verification::check_facet_ids(const TetComplex& complex,
   return report;
 }
 
-// The property is demanded before repairs of rounding, and counted after them.
+// The property is demanded before improvement and repairs of rounding, and counted after them.
 void Verification::check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                                      const InputSurface& surface) {
   std::vector<Face> constraints;
   for (const auto& [a, b, c, id] : exact_->final_facets) constraints.push_back({a, b, c});
   const bool repaired = !exact_->unrepaired.empty();
-  add(check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = !repaired}),
-      "exact-");
+  OracleReport delaunay =
+      check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = !repaired});
+  // Where nothing is demanded, a mesh all of whose faces are on the surface has nothing to count.
+  if (!repaired || delaunay.checked > 0) add(std::move(delaunay), "exact-");
   if (!repaired) return;
-  add(check_repairs(*exact_, shared_.sidecar().written(), options_.promised));
+  add((options_.promised.improve ? check_improvement : check_repairs)(
+      *exact_, shared_.sidecar().written(), options_.promised));
   const TetComplex before = complex_of(exact_->unrepaired, *complex.points);
   Neighbours neighbours_before;
   OracleReport shape = check_complex(before, neighbours_before);

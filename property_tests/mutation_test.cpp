@@ -294,6 +294,7 @@ MesherRun mesher_run() {
   delmesher::Options options;
   options.want_exact = true;
   options.gabriel = true;
+  options.improve = false;
   options.tau = 0x1p-9;
   const delmesher::Result result = delmesher::tetrahedralize(s, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;

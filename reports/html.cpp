@@ -18,8 +18,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kPhases = {"read",   "check",  "filter", "chamfer",  "delaunay", "segments",
-                                "facets", "refine", "enrich", "classify", "round",    "write"};
+constexpr std::array kPhases = {"read",     "check",  "filter", "chamfer", "delaunay",
+                                "segments", "facets", "refine", "enrich",  "classify",
+                                "improve",  "round",  "write"};
 
 // Inside a script element only "</" and "<!--" matter.
 std::string for_script(std::string text) {

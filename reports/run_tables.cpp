@@ -114,9 +114,9 @@ Table phase_table(const Selection& selection) {
   table.name = "phases";
   table.title = "Time by phase, mean share in %";
   // In the order in which the mesher goes through them.
-  static constexpr std::array kPhases = {"read",     "check",    "filter", "chamfer",
-                                         "delaunay", "segments", "facets", "refine",
-                                         "enrich",   "classify", "round",  "write"};
+  static constexpr std::array kPhases = {"read",     "check",  "filter", "chamfer", "delaunay",
+                                         "segments", "facets", "refine", "enrich",  "classify",
+                                         "improve",  "round",  "write"};
   table.header = {"Mesher", "Runs"};
   table.header.insert(table.header.end(), kPhases.begin(), kPhases.end());
   for (const std::string& mesher : selection.meshers) {

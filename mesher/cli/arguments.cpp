@@ -20,7 +20,7 @@ namespace {
 struct Given {
   // As text, so that they are read like numbers in files: in no locale, and never inf or nan.
   std::map<std::string, std::string> numbers;
-  std::optional<bool> slivers;
+  std::optional<bool> slivers, improve;
   std::optional<Region> region;
   bool approximate = false, gabriel = false, no_bridges = false, paper = false;
 };
@@ -113,7 +113,11 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
                "split constraints until their diametral balls are empty");
   app.add_option_function<std::string>(
          "--slivers", [&given](const std::string& text) { given.slivers = text == "on"; },
-         "treat slivers: on or off (on)")
+         "treat slivers in the refinement: on or off (off; on if nothing is improved)")
+      ->check(CLI::IsMember({"on", "off"}));
+  app.add_option_function<std::string>(
+         "--improve", [&given](const std::string& text) { given.improve = text == "on"; },
+         "fewer and better tetrahedra by local operations: on or off (on)")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_flag("--approximate", given.approximate,
                "stop before restoring the input: a mesh of the chamfered surface");
@@ -122,8 +126,9 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
-         "paper: delta 14.47, tau 1e-4, planar 0, acute 90, corner 90, gabriel, region hull; other "
-         "options override it")
+         "paper: delta 14.47, tau 1e-4, planar 0, acute 90, corner 90, gabriel, improve off, "
+         "region "
+         "hull; other options override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
   add_threads(app, given);
@@ -181,7 +186,8 @@ void apply(const Given& given, Command& command) {
   options.threads = static_cast<unsigned>(threads);
   options.budget = static_cast<std::uint64_t>(budget);
   options.max_vertices = static_cast<std::uint64_t>(vertices);
-  options.slivers = given.slivers.value_or(options.slivers);
+  options.improve = given.improve.value_or(options.improve);
+  options.slivers = given.slivers.value_or(options.slivers || !options.improve);
   options.region = given.region.value_or(options.region);
   options.approximate = given.approximate;
   options.simplify_bridges = !given.no_bridges;

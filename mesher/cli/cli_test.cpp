@@ -42,7 +42,8 @@ TEST(Arguments, DefaultsAreTheLibrarys) {
   EXPECT_EQ(parsed.command.options.tau, defaults.tau);
   EXPECT_EQ(parsed.command.options.acute, defaults.acute);
   EXPECT_EQ(parsed.command.options.region, Region::interior);
-  EXPECT_TRUE(parsed.command.options.slivers);
+  EXPECT_TRUE(parsed.command.options.improve);
+  EXPECT_FALSE(parsed.command.options.slivers);
   EXPECT_TRUE(parsed.command.options.simplify_bridges);
   EXPECT_FALSE(parsed.command.options.want_exact);
 }
@@ -329,9 +330,9 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
       "final planar filter prediction chamfer guarantee steiner rounding predicates ");
   EXPECT_EQ(keys(json["predicates"]), "filter support extended exact symbolic ");
   EXPECT_EQ(keys(json["input"]), "file vertices triangles bbox_diagonal ");
-  EXPECT_EQ(
-      keys(json["phases_seconds"]),
-      "read check filter chamfer delaunay segments facets refine enrich classify round write ");
+  EXPECT_EQ(keys(json["phases_seconds"]),
+            "read check filter chamfer delaunay segments facets refine enrich classify improve "
+            "round write ");
   const std::string mesh =
       "vertices tetrahedra interior_tetrahedra min_face_angle max_face_angle min_dihedral "
       "max_dihedral mean_min_face_angle mean_max_face_angle mean_min_dihedral mean_max_dihedral "

@@ -54,6 +54,7 @@ Json parameters_json(const Command& command) {
           {"acute", o.acute},
           {"corner", o.corner},
           {"gabriel", o.gabriel},
+          {"improve", o.improve},
           {"slivers", o.slivers},
           {"approximate", o.approximate},
           {"bridge_simplification", o.simplify_bridges},
@@ -173,8 +174,8 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts) {
   const PlaneStatistics& s = result.statistics;
   Json json = run_json(command, result, facts, "segments");
-  for (const char* key :
-       {"planar", "budget", "corner", "gabriel", "slivers", "bridge_simplification", "threads"}) {
+  for (const char* key : {"planar", "budget", "corner", "gabriel", "improve", "slivers",
+                          "bridge_simplification", "threads"}) {
     json["parameters"].erase(key);
   }
   json["refined"] = mesh_json(s.refined);

@@ -88,7 +88,8 @@ struct ExactRecord {
   std::vector<Ball> balls;
   std::vector<Tet> final;
   std::vector<std::array<std::uint32_t, 4>> final_facets;  // a, b, c, facet id
-  // `final` before local repairs of rounding; empty if there were none.
+  // `final` before local operations, those of the improvement and of repairs of rounding: the
+  // constrained Delaunay mesh; empty if there were none.
   std::vector<Tet> unrepaired;
   // `final_facets` then; empty if they were the same.
   std::vector<std::array<std::uint32_t, 4>> unrepaired_facets;

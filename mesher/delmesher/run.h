@@ -26,10 +26,11 @@ enum class Phase : std::uint8_t {
   refine,
   enrich,
   classify,
+  improve,
   round,
   write
 };
-inline constexpr std::size_t kPhaseCount = 12;
+inline constexpr std::size_t kPhaseCount = 13;
 
 // Name of a phase as used by the statistics ("read", "check", ...).
 const char* phase_name(Phase phase);

@@ -107,7 +107,7 @@ void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, Ex
   }
 }
 
-void record_thinned(const cdt::CdtResult& thinned, const SurfaceTopology& topology,
+void record_changed(const cdt::CdtResult& changed, const SurfaceTopology& topology,
                     ExactRecord& record) {
   if (record.unrepaired.empty()) {
     record.unrepaired = std::move(record.final);
@@ -115,7 +115,7 @@ void record_thinned(const cdt::CdtResult& thinned, const SurfaceTopology& topolo
   }
   record.final.clear();
   record.final_facets.clear();
-  record_final(thinned, topology, record);
+  record_final(changed, topology, record);
 }
 
 void record_repaired(const output::RoundingResult& rounded, Region region, ExactRecord& record) {

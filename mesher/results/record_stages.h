@@ -22,8 +22,9 @@ void record_chamfer(const chamfer::ChamferResult& chamfered, const InForce& forc
 void record_refined(const chamfer::ChamferResult& chamfered, const refine::RefineResult& refined,
                     const SurfaceTopology& topology, ExactRecord& record);
 void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, ExactRecord& record);
-// Replaces the final tetrahedra by the thinned ones.
-void record_thinned(const cdt::CdtResult& thinned, const SurfaceTopology& topology,
+// Replaces the final tetrahedra by what local operations made of them; those before the first are
+// kept as `unrepaired`.
+void record_changed(const cdt::CdtResult& changed, const SurfaceTopology& topology,
                     ExactRecord& record);
 // Replaces the final tetrahedra that were handed to rounding by those that it returned.
 void record_repaired(const output::RoundingResult& rounded, Region region, ExactRecord& record);

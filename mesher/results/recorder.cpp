@@ -99,9 +99,13 @@ void Recorder::tetrahedrized(const cdt::CdtResult& cdt) {
   record_final(cdt, session_.topology, result_.exact);
 }
 
+void Recorder::improved(const cdt::CdtResult& cdt) {
+  if (exact()) record_changed(cdt, session_.topology, result_.exact);
+}
+
 void Recorder::thinned(const cdt::CdtResult& cdt, std::uint64_t vertices) {
   result_.statistics.rounding_thinned = vertices;
-  if (exact()) record_thinned(cdt, session_.topology, result_.exact);
+  if (exact()) record_changed(cdt, session_.topology, result_.exact);
 }
 
 void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) {

@@ -27,6 +27,8 @@ class Recorder {
   // The mesh is that of the input alone, without the vertices of the refined one.
   void plain_taken() { result_.statistics.enriched = false; }
   void tetrahedrized(const cdt::CdtResult& cdt);
+  // The same mesh after local operations.
+  void improved(const cdt::CdtResult& cdt);
   // `vertices` in all were taken out again before rounding.
   void thinned(const cdt::CdtResult& cdt, std::uint64_t vertices);
   // The mesh itself, as written.

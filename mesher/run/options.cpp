@@ -55,6 +55,8 @@ Options paper_options() {
   Options options;
   options.acute = options.corner = 90;
   options.gabriel = true;
+  options.improve = false;
+  options.slivers = true;
   options.planar = 0;
   options.region = Region::hull;
   return options;

@@ -12,6 +12,7 @@ Options honest_options() {
   Options options;
   options.want_exact = true;
   options.gabriel = true;
+  options.improve = false;
   options.tau = 0x1p-9;
   return options;
 }

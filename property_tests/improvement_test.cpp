@@ -1,0 +1,268 @@
+// Laws of the improvement of final meshes, asked of oracles that share nothing with it, and lies
+// about it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesher/delmesher.h"
+#include "oracles/enrichment.h"
+#include "oracles/verify.h"
+#include "property_tests/samples.h"
+
+namespace tetproof {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::ExactRecord;
+using delmesher::Options;
+using delmesher::Result;
+using samples::NamedSurface;
+
+constexpr std::uint64_t kSeed = 1;
+
+struct Told {
+  samples::Sample sample;
+  ExactRecord record;
+  Promise promise;
+  delmesher::Statistics statistics;
+
+  VerifyReport verify() const {
+    VerifyReport report;
+    EXPECT_EQ(oracles::verify(sample.input, sample.mesh, &record,
+                              {.stage = Stage::both, .promised = promise}, report),
+              "");
+    return report;
+  }
+};
+
+Told run_of(const delmesher::Surface& surface, Options options = {}) {
+  options.want_exact = true;
+  const Result result = delmesher::tetrahedralize(surface, options);
+  EXPECT_TRUE(result.status.ok()) << result.status.message;
+  return {{samples::to_polyhedron(surface), samples::to_mesh(result.mesh)},
+          result.exact,
+          promise_of(options),
+          result.statistics};
+}
+
+const Told& honest() {
+  static const Told told = [] {
+    Options options;
+    options.tau = 0x1p-9;  // takes the slab apart
+    return run_of(samples::wedge_and_slab(), options);
+  }();
+  return told;
+}
+
+class Models : public testing::TestWithParam<NamedSurface> {};
+
+// Not improved, sliver treatment off too, as it is where meshes are improved.
+TEST_P(Models, AreNeverWorseThanWithoutIt) {
+  for (const auto region : {delmesher::Region::interior, delmesher::Region::hull}) {
+    Options options;
+    options.region = region;
+    const Told improved = run_of(GetParam().surface, options);
+    const VerifyReport report = improved.verify();
+    EXPECT_TRUE(samples::as_promised(report, improved.promise)) << to_text(report);
+    options.improve = false;
+    const Told plain = run_of(GetParam().surface, options);
+    const auto &before = plain.statistics.final, &after = improved.statistics.final;
+    EXPECT_GE(after.min_face_angle, std::min(before.min_face_angle, 14.47) - 1e-6);
+    EXPECT_GE(after.min_dihedral,
+              std::min({before.min_dihedral, 180 - before.max_dihedral, kImprovedDihedral}) - 1e-6);
+    EXPECT_EQ(improved.record.refined.size(), plain.record.refined.size());
+    const bool changed = !improved.record.unrepaired.empty();
+    EXPECT_EQ((changed ? improved.record.unrepaired : improved.record.final).size(),
+              plain.record.final.size());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Improvement, Models, testing::ValuesIn(samples::surfaces(kSeed)),
+                         [](const auto& tested) { return tested.param.name; });
+
+// A polyhedron inscribed in the unit sphere: no sharp corner or edge.
+delmesher::Surface ball(int rounds) {
+  delmesher::Surface s;
+  s.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  s.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                 {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  for (int round = 0; round < rounds; ++round) {
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> middle;
+    const auto between = [&](std::uint32_t a, std::uint32_t b) {
+      const std::array<std::uint32_t, 2> key = {std::min(a, b), std::max(a, b)};
+      const auto [at, fresh] = middle.emplace(key, static_cast<std::uint32_t>(s.vertices.size()));
+      if (fresh) {
+        std::array<double, 3> x;
+        for (int k = 0; k < 3; ++k) x[k] = s.vertices[a][k] + s.vertices[b][k];
+        const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+        s.vertices.push_back({x[0] / length, x[1] / length, x[2] / length});
+      }
+      return at->second;
+    };
+    std::vector<std::array<std::uint32_t, 3>> finer;
+    for (const auto& [a, b, c] : s.triangles) {
+      const std::uint32_t x = between(a, b), y = between(b, c), z = between(c, a);
+      finer.insert(finer.end(), {{a, x, z}, {b, y, x}, {c, z, y}, {x, y, z}});
+    }
+    s.triangles = finer;
+  }
+  return s;
+}
+
+TEST(Improvement, OfABallTakesLessAndIsRounder) {
+  Options options;
+  const auto improved = run_of(ball(3), options).statistics.final;
+  options.improve = false;
+  options.slivers = true;
+  const auto treated = run_of(ball(3), options).statistics.final;
+  EXPECT_LE(improved.tetrahedra, treated.tetrahedra);
+  EXPECT_GT(improved.min_dihedral, treated.min_dihedral);
+  EXPECT_GT(improved.min_dihedral, 12);
+}
+
+struct Lie {
+  const char* what;
+  const char* oracle;
+  void (*tell)(Told&);
+};
+
+// The inner tetrahedra of the record, as numbers in `final`.
+std::vector<std::size_t> inner(const ExactRecord& record) {
+  std::vector<std::size_t> result;
+  for (std::size_t n = 0; n < record.final.size(); ++n) {
+    if (record.final[n].inside) result.push_back(n);
+  }
+  return result;
+}
+
+// A point close to a face of an inner tetrahedron splits it in file and record: all stay positive.
+void add_flat_split(Told& run) {
+  ExactPoints points;
+  points.assign(run.record.points);
+  const std::size_t n = inner(run.record).front();
+  const ExactRecord::Tet tet = run.record.final[n];
+  Position x{};
+  const double weight[4] = {0.334, 0.333, 0.3329, 0.0001};
+  for (int i = 0; i < 4; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      x[axis] += weight[i] * points.nearest(tet.vertices[i])[axis];
+    }
+  }
+  const auto in_record = static_cast<Index>(run.record.points.size());
+  run.record.points.push_back(
+      {delmesher::ExactPoint::Kind::explicit_point, 0, 0, 0, x[0], x[1], x[2]});
+  const auto in_file = static_cast<Index>(run.sample.mesh.vertices.size());
+  run.sample.mesh.vertices.push_back(x);
+  run.record.mesh_vertices.push_back(in_record);
+  const auto written = [&](Index v) {
+    const auto& list = run.record.mesh_vertices;
+    return static_cast<Index>(std::find(list.begin(), list.end(), v) - list.begin());
+  };
+  Tet same = tet.vertices;
+  for (Index& v : same) v = written(v);
+  std::sort(same.begin(), same.end());
+  auto& tets = run.sample.mesh.tetrahedra;
+  const auto found = std::find_if(tets.begin(), tets.end(), [&](Tet t) {
+    std::sort(t.begin(), t.end());
+    return t == same;
+  });
+  ASSERT_NE(found, tets.end());
+  const Tet whole = *found;
+  const std::int64_t region =
+      run.sample.mesh.regions[static_cast<std::size_t>(found - tets.begin())];
+  for (int i = 0; i < 4; ++i) {
+    ExactRecord::Tet part = tet;
+    part.vertices[i] = in_record;
+    Tet file_part = whole;
+    std::replace(file_part.begin(), file_part.end(), written(tet.vertices[i]), in_file);
+    if (i == 0) {
+      run.record.final[n] = part;
+      *found = file_part;
+    } else {
+      run.record.final.push_back(part);
+      run.sample.mesh.tetrahedra.push_back(file_part);
+      run.sample.mesh.regions.push_back(region);
+    }
+  }
+}
+
+const Lie kLies[] = {
+    {"a flat tetrahedron after the improvement", "improvement", add_flat_split},
+    {"improved where that was not wanted", "repairs", [](Told& r) { r.promise.improve = false; }},
+    {"an improved mesh told to be constrained Delaunay", "exact-constrained-delaunay",
+     [](Told& r) {
+       r.record.unrepaired.clear();
+       r.record.unrepaired_facets.clear();
+     }},
+    {"the improved mesh told to be the one before", "unrepaired-constrained-delaunay",
+     [](Told& r) {
+       r.record.unrepaired = r.record.final;
+       r.record.unrepaired_facets = r.record.final_facets;
+     }},
+    {"a mesh before that lacks a tetrahedron", "unrepaired-hull",
+     [](Told& r) { r.record.unrepaired.erase(r.record.unrepaired.begin()); }},
+    {"a mesh before on other facets", "unrepaired-facets",
+     [](Told& r) { r.record.unrepaired_facets[0][3] = r.record.facets.back().id + 1; }},
+    {"the mesh before, told to be the improved one", "same-mesh",
+     [](Told& r) {
+       r.record.final = r.record.unrepaired;
+       r.record.final_facets = r.record.unrepaired_facets;
+     }},
+    {"a vertex of the surface moved off it", "exact-conformity",
+     [](Told& r) {
+       std::vector<std::uint8_t> final(r.record.points.size(), 0);
+       for (const auto& face : r.record.final_facets) {
+         for (int k = 0; k < 3; ++k) final[face[k]] = 1;
+       }
+       for (const auto& tet : r.record.unrepaired) {
+         for (const Index v : tet.vertices) final[v] = 0;
+       }
+       const auto v = std::find(final.begin(), final.end(), 1) - final.begin();
+       ASSERT_LT(static_cast<std::size_t>(v), final.size());
+       ExactPoints points;
+       points.assign(r.record.points);
+       const Position x = points.nearest(static_cast<Index>(v));
+       r.record.points[static_cast<std::size_t>(v)] = {delmesher::ExactPoint::Kind::explicit_point,
+                                                       0,
+                                                       0,
+                                                       0,
+                                                       x[0] + 0x1p-20,
+                                                       x[1] + 0x1p-21,
+                                                       x[2] + 0x1p-22};
+     }},
+};
+
+TEST(Improvement, LiesAboutItAreCaught) {
+  const VerifyReport good = honest().verify();
+  ASSERT_TRUE(samples::as_promised(good, honest().promise)) << to_text(good);
+  ASSERT_NE(good.find("improvement"), nullptr);
+  EXPECT_TRUE(good.find("improvement")->promised);
+  ASSERT_FALSE(honest().record.unrepaired_facets.empty());
+  for (const Lie& lie : kLies) {
+    Told told = honest();
+    lie.tell(told);
+    const VerifyReport report = told.verify();
+    const OracleReport* oracle = report.find(lie.oracle);
+    ASSERT_NE(oracle, nullptr) << lie.what << '\n' << to_text(report);
+    EXPECT_FALSE(oracle->passed()) << lie.what << '\n' << to_text(report);
+  }
+}
+
+// Tetrahedra before that are not positive on doubles: nobody can tell what repairs did after that.
+TEST(Improvement, IsOnlyCountedWhereRoundingMayHaveInterfered) {
+  Told told = honest();
+  auto& before = told.record.unrepaired;
+  const auto flipped = std::find_if(before.begin(), before.end(), [](auto& t) { return t.inside; });
+  std::swap(flipped->vertices[0], flipped->vertices[1]);
+  add_flat_split(told);
+  ExactPoints points;
+  points.assign(told.record.points);
+  const OracleReport report = check_improvement(told.record, points, told.promise);
+  EXPECT_FALSE(report.promised);
+  EXPECT_TRUE(report.passed());
+}
+
+}  // namespace
+}  // namespace tetproof
