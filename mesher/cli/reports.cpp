@@ -27,6 +27,14 @@ Json mesh_json(const MeshStatistics& s) {
           {"mean_max_face_angle", s.mean_max_face_angle},
           {"mean_min_dihedral", s.mean_min_dihedral},
           {"mean_max_dihedral", s.mean_max_dihedral},
+          {"tetrahedra_below_5_degrees", s.below_5},
+          {"tetrahedra_below_10_degrees", s.below_10},
+          {"dihedral_1_percent", s.dihedral_1_percent},
+          {"min_gamma", s.min_gamma},
+          {"mean_gamma", s.mean_gamma},
+          {"gamma_1_percent", s.gamma_1_percent},
+          {"min_sicn", s.min_sicn},
+          {"mean_sicn", s.mean_sicn},
           {"face_angle_histogram", s.face_angle_histogram},
           {"dihedral_histogram", s.dihedral_histogram}};
 }

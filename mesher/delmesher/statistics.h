@@ -8,7 +8,8 @@
 
 namespace delmesher {
 
-// Size and angles of a mesh, in degrees; angles over the tetrahedra that Options::region covers.
+// Size, angles in degrees and shapes of a mesh; angles and shapes over the tetrahedra that
+// Options::region covers.
 struct MeshStatistics {
   std::uint64_t vertices = 0, tetrahedra = 0, interior_tetrahedra = 0;
   double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
@@ -16,6 +17,17 @@ struct MeshStatistics {
   double mean_min_dihedral = 0, mean_max_dihedral = 0;      // per tetrahedron
   std::array<std::uint64_t, 12> face_angle_histogram{};     // 15-degree bins
   std::array<std::uint64_t, 12> dihedral_histogram{};
+  // Of the smallest dihedral angle of each tetrahedron: how many are below 5 and 10 degrees, and
+  // the 1 % quantile.
+  std::uint64_t below_5 = 0, below_10 = 0;
+  double dihedral_1_percent = 0;
+  // Gamma is 3 times the inscribed sphere's radius over the circumsphere's. SICN is Gmsh's signed
+  // inverse condition number, negative for inverted tetrahedra. Both are 1 for regular ones.
+  double min_gamma = 0, mean_gamma = 0, gamma_1_percent = 0, min_sicn = 0, mean_sicn = 0;
+  // Where the smallest angles are, as vertices of the mesh: the edge of the dihedral angle with the
+  // two other vertices of the tetrahedron, and the corner of the face angle with the two others.
+  std::array<std::uint32_t, 4> sharpest_dihedral{};
+  std::array<std::uint32_t, 3> sharpest_face_angle{};
 };
 
 struct Statistics {

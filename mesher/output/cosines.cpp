@@ -90,11 +90,16 @@ void CosineBatch::measure(std::span<const std::array<double, 3>> coordinates,
   cross(edge[2], edge[1], normal[1]);
   cross(edge[0], edge[2], normal[2]);
   cross(edge[1], edge[0], normal[3]);
-  std::array<Lanes, 4> area;  // one over it
+  std::array<Lanes, 4> squared_area, area;  // the latter is one over it
+  Lanes areas{}, squared_areas{}, squared_edges{};
   for (std::size_t f = 0; f < 4; ++f) {
-    dot(normal[f], normal[f], area[f]);
-    inverse_root(area[f], area[f]);
-    in_lanes([&](auto l) { thinnest[l] = area[f][l] > thinnest[l] ? area[f][l] : thinnest[l]; });
+    dot(normal[f], normal[f], squared_area[f]);
+    inverse_root(squared_area[f], area[f]);
+    in_lanes([&](auto l) {
+      thinnest[l] = area[f][l] > thinnest[l] ? area[f][l] : thinnest[l];
+      squared_areas[l] += squared_area[f][l];
+      areas[l] += squared_area[f][l] * area[f][l];
+    });
   }
   for (std::size_t e = 0; e < 6; ++e) {
     // The faces at an edge are opposite the two other vertices.
@@ -102,7 +107,25 @@ void CosineBatch::measure(std::span<const std::array<double, 3>> coordinates,
     dot(normal[f], normal[g], dihedral[e]);
     in_lanes([&](auto l) { dihedral[e][l] *= -(area[f][l] * area[g][l]); });
     note(dihedral[e]);
+    in_lanes([&](auto l) { squared_edges[l] += squared[e][l]; });
   }
+  // From vertex 0 to the centre of the circumsphere, times twice the determinant, which is six
+  // times the volume.
+  Vectors centre;
+  for (std::size_t k = 0; k < 3; ++k) {
+    in_lanes([&](auto l) {
+      centre[k][l] = squared[0][l] * normal[1][k][l] + squared[1][l] * normal[2][k][l] +
+                     squared[2][l] * normal[3][k][l];
+    });
+  }
+  Lanes determinant, squared_centre;
+  dot(edge[0], normal[1], determinant);
+  dot(centre, centre, squared_centre);
+  in_lanes([&](auto l) {
+    const double six = -6 * determinant[l];
+    gamma[l] = std::fabs(six * determinant[l]) / (areas[l] * std::sqrt(squared_centre[l]));
+    sicn[l] = six / std::sqrt(squared_edges[l] * squared_areas[l]);
+  });
   for (std::size_t l = 0; l < kLanes; ++l) {
     ordinary[l] = l < count && longest[l] < kMaxSquared && longest[l] > 1 / kMaxSquared &&
                   largest[l] < kMaxCosine && thinnest[l] < kMaxInverseArea;

@@ -1,5 +1,5 @@
-// The angles of tetrahedra that are not extreme, many at once: written so that the compiler uses
-// vector instructions, which takes half the time of one by one.
+// The angles and shapes of tetrahedra that are not extreme, many at once: written so that the
+// compiler uses vector instructions, which takes half the time of one by one.
 #pragma once
 
 #include <array>
@@ -19,6 +19,7 @@ struct CosineBatch {
   // Of face i, opposite vertex i, and of edges 01, 02, 03, 12, 13, 23. Only where `ordinary`.
   std::array<std::array<Lanes, 3>, 4> face;
   std::array<Lanes, 6> dihedral;
+  Lanes gamma, sicn;  // as in MeshStatistics
   std::array<bool, kLanes> ordinary;
 
   // Of the first kLanes tetrahedra; where there are fewer, the other lanes are not ordinary.

@@ -105,8 +105,8 @@ Vec3 face_normal(const Shape& shape, int f) {
   return cross(edge_vector(shape, a, b), edge_vector(shape, b, c));
 }
 
-// Six times the unsigned volume, from the vertex with the shortest edges, for the same reason.
-double volume_term(const Shape& shape) {
+// The vertex with the shortest edges: from there, for the same reason.
+int base_vertex(const Shape& shape) {
   int base = 0;
   double best = INFINITY;
   for (int i = 0; i < 4; ++i) {
@@ -119,9 +119,47 @@ double volume_term(const Shape& shape) {
       base = i;
     }
   }
+  return base;
+}
+
+// Six times the volume, negative if the tetrahedron is inverted.
+double volume_term(const Shape& shape) {
+  const int base = base_vertex(shape);
   const auto [a, b, c] = kFaces[base];
-  return std::fabs(dot(cross(edge_vector(shape, base, a), edge_vector(shape, base, b)),
-                       edge_vector(shape, base, c)));
+  return dot(cross(edge_vector(shape, base, a), edge_vector(shape, base, b)),
+             edge_vector(shape, base, c));
+}
+
+struct Quality {
+  double gamma = 0, sicn = 0;
+};
+
+// The radius of the inscribed sphere is the volume term over the sum of the doubled areas.
+Quality quality(const Shape& shape, double volume) {
+  Quality result;
+  if (!shape.comparable || volume == 0) return result;
+  const int base = base_vertex(shape);
+  double areas = 0, squared_areas = 0, squared_edges = 0, longest = 0;
+  Vec3 centre{};  // from the base to that of the circumsphere, times twice the volume term
+  for (int f = 0; f < 4; ++f) {
+    const Vec3 normal = face_normal(shape, f);
+    squared_areas += dot(normal, normal);
+    areas += norm(normal);
+    if (f == base) continue;
+    // The face opposite to the end of this edge.
+    const double square = shape.squared_length[edge_index(base, f)];
+    for (int k = 0; k < 3; ++k) centre[k] += square * normal[k];
+  }
+  for (const double square : shape.squared_length) {
+    squared_edges += square;
+    longest = std::max(longest, square);
+  }
+  const double size = std::fabs(volume);
+  // The radius is at least half the longest edge, whatever rounding makes of the centre.
+  const double diameter = std::max(norm(centre), size * std::sqrt(longest));
+  result.gamma = std::min(1.0, 6 * (size / areas) * (size / diameter));
+  result.sicn = 6 * volume / std::sqrt(squared_edges * squared_areas);
+  return result;
 }
 
 std::array<double, 3> face_angles(const Shape& shape, int f) {
@@ -236,17 +274,92 @@ std::vector<std::uint8_t> find_repeated_faces(std::span<const Tet> tetrahedra,
 
 using Extremes = std::array<double, 2>;  // the smallest and the largest angle
 
-// The angles of consecutive tetrahedra, which need no others.
+// The 1 % quantile of a sample of known size, linear between the two nearest values. It keeps few
+// values besides the lowest ones.
+class LowestPercent {
+ public:
+  explicit LowestPercent(std::size_t size)
+      : place_(0.01 * static_cast<double>(size > 0 ? size - 1 : 0)), kept_(below() + 2) {}
+
+  void add(double value) {
+    if (value >= bound_) return;
+    values_.push_back(value);
+    if (values_.size() < 2 * kept_) return;
+    std::nth_element(values_.begin(), at(kept_ - 1), values_.end());
+    values_.resize(kept_);
+    bound_ = values_.back();
+  }
+
+  double value() {
+    if (values_.empty()) return 0;
+    std::sort(values_.begin(), values_.end());
+    const double share = place_ - static_cast<double>(below());
+    const double above = values_[std::min(below() + 1, values_.size() - 1)];
+    return (1 - share) * values_[below()] + share * above;
+  }
+
+ private:
+  std::size_t below() const { return static_cast<std::size_t>(place_); }
+  std::vector<double>::iterator at(std::size_t n) {
+    return values_.begin() + static_cast<std::ptrdiff_t>(n);
+  }
+
+  double place_, bound_ = INFINITY;
+  std::size_t kept_;
+  std::vector<double> values_;
+};
+
+// The tetrahedron with the smallest angle of a kind: given by cosines, or by degrees.
+class Sharpest {
+ public:
+  void add_cosine(double cosine, std::size_t tetrahedron) {
+    if (cosine <= cosine_) return;
+    cosine_ = cosine;
+    by_cosine_ = tetrahedron;
+  }
+  void add_degrees(double degrees, std::size_t tetrahedron) {
+    if (degrees >= degrees_) return;
+    degrees_ = degrees;
+    tetrahedron_ = tetrahedron;
+  }
+  void add(const Sharpest& other) {
+    double degrees = other.cosine_;
+    if (degrees >= -1) {
+      degrees_of_cosines({&degrees, 1});
+      add_degrees(degrees, other.by_cosine_);
+    }
+    add_degrees(other.degrees_, other.tetrahedron_);
+  }
+  std::size_t tetrahedron() const { return tetrahedron_; }
+
+ private:
+  double cosine_ = -2, degrees_ = INFINITY;
+  std::size_t by_cosine_ = 0, tetrahedron_ = 0;
+};
+
+// What all chunks of tetrahedra add up to, besides the statistics themselves.
+struct Collected {
+  explicit Collected(std::size_t tetrahedra) : dihedrals(tetrahedra), gammas(tetrahedra) {}
+
+  std::uint64_t faces = 0;
+  LowestPercent dihedrals, gammas;
+  Sharpest sharpest_face, sharpest_dihedral;
+};
+
+// The angles and shapes of consecutive tetrahedra, which need no others.
 class Angles {
  public:
-  // Of all of them, in batches.
+  // Of `count` of all of them from `first` on, in batches.
   void measure(std::span<const Vec3> coordinates, std::span<const Tet> tetrahedra,
-               std::span<const std::uint8_t> repeated, const CosineBins& bins) {
+               std::size_t first, std::size_t count, std::span<const std::uint8_t> repeated,
+               const CosineBins& bins) {
     CosineBatch batch;
-    for (std::size_t begin = 0; begin < tetrahedra.size(); begin += CosineBatch::kLanes) {
-      batch.measure(coordinates, tetrahedra.subspan(begin));
-      const std::size_t count = std::min(CosineBatch::kLanes, tetrahedra.size() - begin);
-      for (std::size_t l = 0; l < count; ++l) {
+    const std::size_t end = first + count;
+    for (std::size_t begin = first; begin < end; begin += CosineBatch::kLanes) {
+      const std::size_t lanes = std::min(CosineBatch::kLanes, end - begin);
+      batch.measure(coordinates, tetrahedra.subspan(begin, lanes));
+      for (std::size_t l = 0; l < lanes; ++l) {
+        tetrahedron_ = begin + l;
         if (batch.ordinary[l]) {
           add_cosines(batch, l, repeated[begin + l], bins);
         } else {
@@ -258,10 +371,12 @@ class Angles {
 
   // Adds up, one by one, those of the robust formulas first. Chunks do not depend on the number of
   // threads, so neither do the sums. Then empty.
-  void move_to(MeshStatistics& s, std::uint64_t& faces) {
+  void move_to(MeshStatistics& s, Collected& all) {
     append_degrees(face_cosines_, face_);
     append_degrees(dihedral_cosines_, dihedral_);
-    faces += face_.size();
+    all.faces += face_.size();
+    all.sharpest_face.add(sharpest_face_);
+    all.sharpest_dihedral.add(sharpest_dihedral_);
     for (const auto& [low, high] : face_) {
       s.min_face_angle = std::min(s.min_face_angle, low);
       s.max_face_angle = std::max(s.max_face_angle, high);
@@ -273,6 +388,16 @@ class Angles {
       s.max_dihedral = std::max(s.max_dihedral, high);
       s.mean_min_dihedral += low;
       s.mean_max_dihedral += high;
+      s.below_5 += low < 5 ? 1 : 0;
+      s.below_10 += low < 10 ? 1 : 0;
+      all.dihedrals.add(low);
+    }
+    for (const auto& [gamma, sicn] : quality_) {
+      s.min_gamma = std::min(s.min_gamma, gamma);
+      s.min_sicn = std::min(s.min_sicn, sicn);
+      s.mean_gamma += gamma;
+      s.mean_sicn += sicn;
+      all.gammas.add(gamma);
     }
     for (std::size_t n = 0; n < face_histogram_.size(); ++n) {
       s.face_angle_histogram[n] += face_histogram_[n];
@@ -280,13 +405,16 @@ class Angles {
     }
     face_.clear();
     dihedral_.clear();
+    quality_.clear();
     face_histogram_ = dihedral_histogram_ = {};
+    sharpest_face_ = sharpest_dihedral_ = {};
   }
 
  private:
   void add_face(const std::array<double, 3>& angles) {
     const auto [low, high] = std::minmax({angles[0], angles[1], angles[2]});
     face_.push_back({low, high});
+    sharpest_face_.add_degrees(low, tetrahedron_);
     for (const double a : angles) ++face_histogram_[bin(a)];
   }
 
@@ -296,7 +424,9 @@ class Angles {
       if ((repeated >> f & 1U) != 0) continue;
       const double a = batch.face[f][0][lane], b = batch.face[f][1][lane],
                    c = batch.face[f][2][lane];
-      face_cosines_.push_back(std::max(std::max(a, b), c));
+      const double sharpest = std::max(std::max(a, b), c);
+      sharpest_face_.add_cosine(sharpest, tetrahedron_);
+      face_cosines_.push_back(sharpest);
       face_cosines_.push_back(std::min(std::min(a, b), c));
       for (const double cosine : {a, b, c}) ++face_histogram_[bins(cosine)];
     }
@@ -308,6 +438,8 @@ class Angles {
     }
     dihedral_cosines_.push_back(low);
     dihedral_cosines_.push_back(high);
+    sharpest_dihedral_.add_cosine(low, tetrahedron_);
+    quality_.push_back({batch.gamma[lane], batch.sicn[lane]});
   }
 
   void add_robustly(const Shape& shape, unsigned repeated) {
@@ -315,9 +447,10 @@ class Angles {
       if ((repeated >> f & 1U) == 0) add_face(face_angles(shape, f));
     }
     const double volume = volume_term(shape);
-    add_dihedrals(
-        shape.comparable ? comparable_dihedrals(shape, volume) : incomparable_dihedrals(shape),
-        shape.comparable && volume == 0);
+    add_dihedrals(shape.comparable ? comparable_dihedrals(shape, std::fabs(volume))
+                                   : incomparable_dihedrals(shape),
+                  shape.comparable && volume == 0);
+    quality_.push_back(quality(shape, volume));
   }
 
   // Of the smallest and the largest angle in turn. Then empty.
@@ -334,23 +467,62 @@ class Angles {
     const double low = flat ? 0 : *std::min_element(angles.begin(), angles.end());
     const double high = flat ? 180 : *std::max_element(angles.begin(), angles.end());
     dihedral_.push_back({low, high});
+    sharpest_dihedral_.add_degrees(low, tetrahedron_);
     for (const double a : angles) ++dihedral_histogram_[bin(a)];
   }
 
+  std::size_t tetrahedron_ = 0;  // the present one
   std::vector<double> face_cosines_, dihedral_cosines_;
   std::vector<Extremes> face_, dihedral_;
+  std::vector<Quality> quality_;
+  Sharpest sharpest_face_, sharpest_dihedral_;
   std::array<std::uint64_t, 12> face_histogram_{}, dihedral_histogram_{};
 };
 
-void finish(MeshStatistics& s, std::uint64_t faces) {
-  if (faces == 0) {
-    s.min_face_angle = s.min_dihedral = 0;
+// The edge with the smallest dihedral angle, and the other two vertices.
+Tet sharpest_dihedral(std::span<const Vec3> coordinates, const Tet& tet) {
+  const Shape shape = make_shape(coordinates, tet);
+  const auto angles = shape.comparable ? comparable_dihedrals(shape, std::fabs(volume_term(shape)))
+                                       : incomparable_dihedrals(shape);
+  const auto e = std::min_element(angles.begin(), angles.end()) - angles.begin();
+  const auto [a, b] = kEdges[e];
+  const auto [c, d] = kEdges[5 - e];
+  return {tet[a], tet[b], tet[c], tet[d]};
+}
+
+// The corner with the smallest face angle, and the other two vertices of the face.
+Face sharpest_face_angle(std::span<const Vec3> coordinates, const Tet& tet) {
+  const Shape shape = make_shape(coordinates, tet);
+  double smallest = INFINITY;
+  Face result{};
+  for (int f = 0; f < 4; ++f) {
+    const auto angles = face_angles(shape, f);
+    for (int i = 0; i < 3; ++i) {
+      if (angles[i] >= smallest) continue;
+      smallest = angles[i];
+      result = {tet[kFaces[f][i]], tet[kFaces[f][(i + 1) % 3]], tet[kFaces[f][(i + 2) % 3]]};
+    }
+  }
+  return result;
+}
+
+void finish(MeshStatistics& s, std::span<const Vec3> coordinates, std::span<const Tet> tetrahedra,
+            Collected& all) {
+  if (all.faces == 0) {
+    s.min_face_angle = s.min_dihedral = s.min_gamma = s.min_sicn = 0;
     return;
   }
-  s.mean_min_face_angle /= static_cast<double>(faces);
-  s.mean_max_face_angle /= static_cast<double>(faces);
-  s.mean_min_dihedral /= static_cast<double>(s.tetrahedra);
-  s.mean_max_dihedral /= static_cast<double>(s.tetrahedra);
+  s.mean_min_face_angle /= static_cast<double>(all.faces);
+  s.mean_max_face_angle /= static_cast<double>(all.faces);
+  for (double* mean : {&s.mean_min_dihedral, &s.mean_max_dihedral, &s.mean_gamma, &s.mean_sicn}) {
+    *mean /= static_cast<double>(s.tetrahedra);
+  }
+  s.dihedral_1_percent = all.dihedrals.value();
+  s.gamma_1_percent = all.gammas.value();
+  s.sharpest_dihedral =
+      sharpest_dihedral(coordinates, tetrahedra[all.sharpest_dihedral.tetrahedron()]);
+  s.sharpest_face_angle =
+      sharpest_face_angle(coordinates, tetrahedra[all.sharpest_face.tetrahedron()]);
 }
 
 }  // namespace
@@ -370,21 +542,21 @@ MeshStatistics mesh_statistics(std::span<const Vec3> coordinates, std::span<cons
   // The angles of one batch take a few megabytes.
   constexpr std::size_t kChunk = 1024, kBatch = 32 * kChunk;
   statistics.min_face_angle = statistics.min_dihedral = 180;
+  statistics.min_gamma = statistics.min_sicn = 1;
   const CosineBins bins;
   std::vector<Angles> angles(kBatch / kChunk);
-  std::uint64_t faces = 0;
+  Collected all(tetrahedra.size());
   for (std::size_t begin = 0; begin < tetrahedra.size(); begin += kBatch) {
     const std::size_t count = std::min(kBatch, tetrahedra.size() - begin);
     for_chunks(control, count, kChunk, [&](Worker& worker, const Chunk& chunk) {
       worker.poll();
-      const std::size_t size = chunk.end - chunk.begin;
-      angles[chunk.index].measure(coordinates, tetrahedra.subspan(begin + chunk.begin, size),
-                                  repeated_faces.subspan(begin + chunk.begin, size), bins);
+      angles[chunk.index].measure(coordinates, tetrahedra, begin + chunk.begin,
+                                  chunk.end - chunk.begin, repeated_faces, bins);
       return true;
     });
-    for (Angles& chunk : angles) chunk.move_to(statistics, faces);
+    for (Angles& chunk : angles) chunk.move_to(statistics, all);
   }
-  finish(statistics, faces);
+  finish(statistics, coordinates, tetrahedra, all);
   return statistics;
 }
 

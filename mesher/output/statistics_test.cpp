@@ -147,6 +147,106 @@ TEST(CosineBatch, ExtremesAreNotOrdinary) {
   }
 }
 
+// The corner of a cube: inscribed sphere of radius 1 / (3 + sqrt 3), circumsphere of radius
+// sqrt(3) / 2, squared edges of 9, squared doubled areas of 6. Tiny and huge ones, and one whose
+// edges are not comparable, take the robust formulas.
+TEST(Statistics, ShapesByHand) {
+  const double gamma = 3 / (3 + std::sqrt(3.0)) / (std::sqrt(3.0) / 2), sicn = 6 / std::sqrt(54.0);
+  for (const double scale : {1.0, 1e-3, 1e-200, 1e200, 1e-307, 1.7e307}) {
+    SCOPED_TRACE(scale);
+    MeshStatistics s = of(scaled(kRegular, scale), {{0, 2, 1, 3}});
+    for (const double value : {s.min_gamma, s.mean_gamma, s.gamma_1_percent, s.min_sicn}) {
+      EXPECT_NEAR(value, 1, 1e-14);
+    }
+    s = of(scaled(kCorner, scale));
+    EXPECT_NEAR(s.mean_gamma, gamma, 1e-14);
+    EXPECT_NEAR(s.mean_sicn, sicn, 1e-14);
+    s = of(scaled(kCorner, scale), {{1, 0, 2, 3}});
+    EXPECT_NEAR(s.mean_gamma, gamma, 1e-14);
+    EXPECT_NEAR(s.mean_sicn, -sicn, 1e-14);
+  }
+  // Inscribed sphere of radius h / 2, circumsphere of radius sqrt(1 / 2).
+  const MeshStatistics low = of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1e-9}});
+  EXPECT_NEAR(low.min_gamma / (1.5e-9 / std::sqrt(0.5)), 1, 1e-8);
+  const MeshStatistics flat = of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  EXPECT_EQ(flat.min_gamma, 0);
+  EXPECT_EQ(flat.min_sicn, 0);
+  const MeshStatistics incomparable = of({{0, 0, 0}, {0, 0, 1e-250}, {1, 0, 0}, {0, 1, 0}});
+  EXPECT_EQ(incomparable.min_gamma, 0);
+}
+
+TEST(Statistics, BothWaysGiveTheSameShapes) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int round = 0; round < 200; ++round) {
+    Points points(4);
+    for (auto& p : points) p = {coordinate(random), coordinate(random), coordinate(random)};
+    const MeshStatistics s = of(points), far = of(scaled(points, 0x1p700));
+    EXPECT_NEAR(s.mean_gamma, far.mean_gamma, 1e-12);
+    EXPECT_NEAR(s.mean_sicn, far.mean_sicn, 1e-12);
+    EXPECT_EQ(s.sharpest_dihedral, far.sharpest_dihedral);
+    EXPECT_EQ(s.sharpest_face_angle, far.sharpest_face_angle);
+  }
+}
+
+// Slivers over a common triangle, with a vertex each: at angles of 0.1 degrees, 0.2, and so on.
+struct Slivers {
+  explicit Slivers(int count) : points{{0, 0, 0}, {1, 0, 0}, {0.5, -1, 0}} {
+    for (int n = 1; n <= count; ++n) {
+      const double angle = 0.1 * n * M_PI / 180;
+      tets.push_back({0, 1, 2, static_cast<std::uint32_t>(points.size())});
+      points.push_back({0.5, -std::cos(angle), -std::sin(angle)});
+    }
+  }
+  Points points;
+  Tets tets;
+};
+
+TEST(Statistics, QuantilesAndCounts) {
+  for (const int count : {1, 2, 99, 100, 101, 150, 1001, 1701}) {
+    SCOPED_TRACE(count);
+    Slivers slivers(count);
+    std::shuffle(slivers.tets.begin(), slivers.tets.end(), std::mt19937(5));
+    const MeshStatistics s = of(slivers.points, slivers.tets);
+    EXPECT_NEAR(s.dihedral_1_percent, 0.1 * (1 + 0.01 * (count - 1)), 1e-9);
+    std::vector<double> gammas;
+    for (const auto& tet : slivers.tets) gammas.push_back(of(slivers.points, {tet}).mean_gamma);
+    std::sort(gammas.begin(), gammas.end());
+    const double place = 0.01 * (count - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const double above = gammas[std::min(below + 1, gammas.size() - 1)];
+    EXPECT_NEAR(s.gamma_1_percent, gammas[below] + (place - below) * (above - gammas[below]),
+                1e-12);
+    EXPECT_EQ(s.min_gamma, gammas.front());
+    EXPECT_NEAR(s.mean_gamma, std::accumulate(gammas.begin(), gammas.end(), 0.0) / count, 1e-12);
+    if (count == 1001) {  // rounding decides about the two at the bounds
+      EXPECT_NEAR(static_cast<double>(s.below_5), 49.5, 0.6);
+      EXPECT_NEAR(static_cast<double>(s.below_10), 99.5, 0.6);
+    }
+  }
+}
+
+TEST(Statistics, TellsWhereTheSmallestAnglesAre) {
+  Slivers slivers(300);
+  std::shuffle(slivers.tets.begin(), slivers.tets.end(), std::mt19937(6));
+  // The sharpest one is over the edge 01 and has vertex 3.
+  MeshStatistics s = of(slivers.points, slivers.tets);
+  EXPECT_EQ(s.sharpest_dihedral, (std::array<std::uint32_t, 4>{0, 1, 2, 3}));
+  // A needle at vertex 0, once as an ordinary tetrahedron and once not.
+  for (const double width : {0.06, 1e-5}) {
+    Points points = slivers.points;
+    const auto n = static_cast<std::uint32_t>(points.size());
+    points.insert(points.end(), {{0, width, 0}, {0, 0, 1}, {width, 0, 0}});
+    Tets tets = slivers.tets;
+    for (auto& tet : tets) {  // others have no small face angles
+      if (tet[3] < 103) tet[3] = n - 1;
+    }
+    tets.insert(tets.begin() + 7, {n + 1, n, 0, n + 2});
+    s = of(points, tets);
+    EXPECT_EQ(s.sharpest_face_angle[0], n + 1) << width;
+  }
+}
+
 TEST(Statistics, SharedFacesCountOnce) {
   // Two corners glued along the face x = 0: three orthogonal faces of the second are new.
   Points points = kCorner;
@@ -203,6 +303,8 @@ TEST(Statistics, ScaleDoesNotMatter) {
       // Far from ordinary sizes every angle is computed in another way.
       EXPECT_NEAR(s.mean_min_face_angle, t.mean_min_face_angle, 1e-9);
       EXPECT_NEAR(s.mean_max_face_angle, t.mean_max_face_angle, 1e-9);
+      EXPECT_NEAR(s.min_gamma, t.min_gamma, 1e-9);
+      EXPECT_NEAR(s.min_sicn, t.min_sicn, 1e-9);
       EXPECT_EQ(s.face_angle_histogram, t.face_angle_histogram);
       EXPECT_EQ(s.dihedral_histogram, t.dihedral_histogram);
     }
