@@ -255,6 +255,83 @@ TEST_F(Run, WritesEveryOutputAndIsSilent) {
   EXPECT_NE(error_.find("b.tet: 4 vertices, 1 tetrahedra"), std::string::npos);
 }
 
+TEST_F(Run, EndsWithALineOfQualityUnlessQuiet) {
+  MeshStatistics& s = answer_.statistics.final;
+  s.tetrahedra = 1;
+  s.min_dihedral = 54.736;
+  s.max_dihedral = 90;
+  s.min_face_angle = 45;
+  s.gamma_1_percent = s.mean_gamma = 0.7320508;
+  s.min_gamma = 2e-10;
+  s.below_5 = 3;
+  s.sharpest_dihedral = {1, 2, 0, 3};
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_EQ(error_, path("a.mesh") +
+                        ": 1 tetrahedra, dihedral angles 54.74 to 90.00 degrees, smallest face "
+                        "angle 45.00, gamma 0.732 / 0.732 / 2e-10 (1 % / mean / smallest), 3 below "
+                        "5 degrees, the worst at (0.5, 0.5, 0)\n");
+  EXPECT_EQ(go({"cdt", path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_NE(error_.find(": 1 tetrahedra, dihedral"), std::string::npos);
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-q"}), kDone);
+  EXPECT_EQ(error_, "");
+  answer_.statistics.rounding_inverted = 1;  // what failed is said at the very end
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kFailed);
+  EXPECT_NE(error_.find("(0.5, 0.5, 0)\ndelmesher: "), std::string::npos) << error_;
+}
+
+// The tetrahedron in the corner of a cube, squeezed to a height of 0.001, as its own mesh, and as a
+// mesh of something larger.
+TEST_F(Run, WarnsOfSmallAnglesAndSaysWhetherTheInputForcesThem) {
+  answer_.mesh.vertices[3] = {0, 0, 0.001};
+  answer_.mesh.boundary = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  answer_.mesh.boundary_facets = {0, 1, 2, 3};
+  answer_.mesh.boundary_labels = {0, 0, 0, 0};
+  MeshStatistics& s = answer_.statistics.final;
+  s.tetrahedra = 1;
+  s.min_dihedral = 0.081;
+  s.min_face_angle = 0.0573;
+  s.sharpest_dihedral = {1, 2, 0, 3};
+  s.sharpest_face_angle = {1, 0, 3};
+  const auto lines = [&] { return std::count(error_.begin(), error_.end(), '\n'); };
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_EQ(lines(), 3) << error_;
+  const std::string start = "delmesher: " + path("in.off") + ": warning: the smallest ";
+  EXPECT_TRUE(error_.starts_with(start + "face angle is 0.057 degrees, at (1, 0, 0), where the "
+                                         "input has a corner of 0.057\n"))
+      << error_;
+  EXPECT_NE(
+      error_.find(start + "dihedral angle is 0.081 degrees, at (0.5, 0.5, 0), where facets of "
+                          "the input meet at 0.081\n"),
+      std::string::npos)
+      << error_;
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-q"}), kDone);
+  EXPECT_EQ(error_, "");
+  // No angles are promised of these.
+  EXPECT_EQ(go({"cdt", path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_EQ(lines(), 1) << error_;
+  // Less was asked for.
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "--delta", "0.05"}), kDone);
+  EXPECT_EQ(error_.find("face angle is"), std::string::npos) << error_;
+
+  // With a neighbour, the small angles are at no edge and no corner of the input.
+  answer_.mesh.vertices.push_back({0.2, 0.2, -1});
+  answer_.mesh.tetrahedra.push_back({0, 2, 1, 4});
+  answer_.mesh.inside.push_back(1);
+  answer_.mesh.boundary = {{0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 4, 1}, {1, 4, 2}, {2, 4, 0}};
+  answer_.mesh.boundary_facets = {1, 2, 3, 1, 2, 3};
+  answer_.mesh.boundary_labels = std::vector<std::int32_t>(6);
+  s.tetrahedra = 2;
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_NE(error_.find("at (1, 0, 0), not the 14.47 asked for\n"), std::string::npos) << error_;
+  EXPECT_NE(error_.find("at (0.5, 0.5, 0), and no edge of the input forces it there\n"),
+            std::string::npos)
+      << error_;
+  // Facets that meet there, but at a much larger angle.
+  answer_.mesh.boundary_facets = {1, 2, 3, 4, 5, 6};
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_NE(error_.find("and no edge of the input forces it there\n"), std::string::npos);
+}
+
 TEST_F(Run, StatusesBecomeExitCodesAndLeaveNoOutput) {
   const std::vector<std::pair<StatusCode, int>> cases = {{StatusCode::invalid_options, 2},
                                                          {StatusCode::invalid_surface, 4},
@@ -336,6 +413,8 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
   const std::string mesh =
       "vertices tetrahedra interior_tetrahedra min_face_angle max_face_angle min_dihedral "
       "max_dihedral mean_min_face_angle mean_max_face_angle mean_min_dihedral mean_max_dihedral "
+      "tetrahedra_below_5_degrees tetrahedra_below_10_degrees dihedral_1_percent min_gamma "
+      "mean_gamma gamma_1_percent min_sicn mean_sicn "
       "face_angle_histogram dihedral_histogram ";
   EXPECT_EQ(keys(json["refined"]), mesh);
   EXPECT_EQ(keys(json["final"]), mesh);

@@ -1,5 +1,6 @@
 #include "mesher/cli/plane_run.h"
 
+#include "mesher/cli/quality.h"
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/read_plane.h"
 #include "mesher/io/write_plane.h"
@@ -59,9 +60,10 @@ int PlaneRunner::mesh() {
                  [&](io::OutputSet& outputs) { return write_all(outputs, result); },
                  [&] { return plane_stats_json(command_, result, facts_); },
                  [&] {
-                   return conclude(s.phase_seconds,
-                                   {result.mesh.vertices.size(), result.mesh.triangles.size(),
-                                    s.rounding_inverted, s.rounding_flat, "triangles"});
+                   return conclude(
+                       s.phase_seconds,
+                       {result.mesh.vertices.size(), result.mesh.triangles.size(),
+                        s.rounding_inverted, s.rounding_flat, "triangles", quality_text(result)});
                  }});
 }
 

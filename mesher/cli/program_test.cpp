@@ -149,11 +149,47 @@ const BadFile kBadFiles[] = {
 INSTANTIATE_TEST_SUITE_P(Program, BadFiles, testing::ValuesIn(kBadFiles),
                          [](const auto& bad) { return std::string(bad.param.law); });
 
-TEST_F(Program, AGoodFileIsMeshedInSilence) {
+TEST_F(Program, AGoodFileIsMeshedInOneLineOrSilence) {
   write("in.off", cube());
   EXPECT_EQ(run("in.off -o mesh.mesh"), 0);
-  EXPECT_EQ(text("out.txt") + text("err.txt"), "");
+  EXPECT_EQ(text("out.txt"), "");
+  EXPECT_EQ(text("err.txt"),
+            "mesh.mesh: 6 tetrahedra, dihedral angles 35.26 to 125.26 degrees, smallest face angle "
+            "35.26, gamma 0.623 / 0.691 / 0.623 (1 % / mean / smallest), 0 below 5 degrees, the "
+            "worst at (1, 0.5, 0.5)\n");
   EXPECT_GT(text("mesh.mesh").size(), 100U);
+  EXPECT_EQ(run("in.off -o mesh.mesh -q"), 0);
+  EXPECT_EQ(text("out.txt") + text("err.txt"), "");
+}
+
+// A prism over a triangle with an angle of a degree: its facets meet at that, and two of them have
+// such a corner.
+TEST_F(Program, AnglesThatTheInputForcesAreSaid) {
+  write("in.off",
+        "OFF\n6 8 0\n0 0 0\n1 0 0\n1 0.0174550649 0\n0 0 1\n1 0 1\n1 0.0174550649 1\n"
+        "3 0 2 1\n3 3 4 5\n3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 2 0 3\n3 2 3 5\n");
+  EXPECT_EQ(run("in.off -o mesh.mesh"), 0);
+  const std::string said = text("err.txt");
+  EXPECT_NE(said.find("delmesher: in.off: warning: the smallest face angle is "),
+            std::string::npos);
+  EXPECT_NE(said.find("where the input has a corner of 1.00\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("where facets of the input meet at 1.00\n"), std::string::npos) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 3) << said;
+  EXPECT_EQ(run("cdt in.off -o mesh.mesh"), 0);
+  const std::string cdt = text("err.txt");
+  EXPECT_TRUE(cdt.starts_with("mesh.mesh: ")) << cdt;
+  EXPECT_EQ(std::count(cdt.begin(), cdt.end(), '\n'), 1) << cdt;
+}
+
+TEST_F(Program, InThePlaneTheLineTellsOfTriangles) {
+  write("in.txt", "0 0\n1 0\n1 1\n0 1\n");
+  EXPECT_EQ(run("plane in.txt -o mesh.off"), 0);
+  const std::string said = text("err.txt");
+  EXPECT_EQ(said,
+            "mesh.off: 2 triangles, angles 45.00 to 90.00 degrees, mean of the smallest 45.00, the "
+            "worst at (1, 0)\n");
+  EXPECT_EQ(run("plane in.txt -o mesh.off -q"), 0);
+  EXPECT_EQ(text("err.txt"), "");
 }
 
 TEST_F(Program, MissingAndUnwritableFilesAreSaid) {

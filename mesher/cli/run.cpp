@@ -3,6 +3,7 @@
 #include <new>
 
 #include "mesher/cli/plane_run.h"
+#include "mesher/cli/quality.h"
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/exact_file.h"
 #include "mesher/io/parse_surface.h"
@@ -74,13 +75,20 @@ int Runner::mesh() {
   note_interruption(result.status);
   const Statistics& s = result.statistics;
   if (s.planar_groups > 0) remark(planar_text(command_.input, s));
+  // The constrained Delaunay tetrahedrization promises no angles.
+  if (result.status.ok() && command_.job == Job::mesh) {
+    for (std::string& warning : quality_warnings(result, command_.options.delta)) {
+      result.warnings.push_back(std::move(warning));
+    }
+  }
   return finish({result.status, result.warnings,
                  [&](io::OutputSet& outputs) { return write_all(outputs, result); },
                  [&] { return stats_json(command_, result, facts_); },
                  [&] {
-                   return conclude(s.phase_seconds,
-                                   {result.mesh.vertices.size(), result.mesh.tetrahedra.size(),
-                                    s.rounding_inverted, s.rounding_flat, "tetrahedra"});
+                   return conclude(
+                       s.phase_seconds,
+                       {result.mesh.vertices.size(), result.mesh.tetrahedra.size(),
+                        s.rounding_inverted, s.rounding_flat, "tetrahedra", quality_text(result)});
                  }});
 }
 

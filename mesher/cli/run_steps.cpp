@@ -29,6 +29,10 @@ void RunSteps::warn(const std::string& reason) const {
   streams_.error("delmesher: " + one_line(command_.input + ": warning: " + reason) + "\n");
 }
 
+void RunSteps::say(const std::string& text) const {
+  if (!command_.quiet) streams_.error(one_line(text) + "\n");
+}
+
 void RunSteps::tell(const std::string& text) const {
   if (command_.verbose) streams_.error(one_line(text) + "\n");
 }
@@ -153,11 +157,10 @@ int RunSteps::conclude(const std::array<double, kPhaseCount>& phase_seconds,
          std::to_string(written.cells) + cells + time);
   const std::string left =
       std::to_string(written.flat) + " flat" + cells + " left in the written mesh";
-  if (written.inverted > 0) {
-    return fail_input(kFailed, std::to_string(written.inverted) + " inverted and " + left);
-  }
-  if (written.flat > 0) warn(left);
-  return kDone;
+  if (written.flat > 0 && written.inverted == 0) warn(left);
+  if (!written.quality.empty()) say(command_.outputs.front() + ": " + written.quality);
+  if (written.inverted == 0) return kDone;
+  return fail_input(kFailed, std::to_string(written.inverted) + " inverted and " + left);
 }
 
 }  // namespace delmesher::cli

@@ -25,6 +25,7 @@ class RunSteps {
   int fail(int code, const std::string& reason) const;
   int fail_input(int code, const std::string& reason) const;
   void warn(const std::string& reason) const;
+  void say(const std::string& text) const;     // unless quiet
   void tell(const std::string& text) const;    // with -v
   void remark(const std::string& text) const;  // with -v, and on a terminal
 
@@ -63,10 +64,11 @@ class RunSteps {
     if (status.ok() && interrupted()) status = {StatusCode::interrupted, "interrupted"};
   }
 
-  // The common end of every `conclude`.
+  // The common end of every `conclude`: the line on quality is the last, but for what failed.
   struct Written {
     std::uint64_t vertices, cells, inverted, flat;
     const char* cell_name;  // "tetrahedra"
+    std::string quality;    // one line; empty for none
   };
   int conclude(const std::array<double, kPhaseCount>& phase_seconds, const Written& written) const;
 

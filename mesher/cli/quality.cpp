@@ -1,0 +1,222 @@
+#include "mesher/cli/quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <span>
+
+namespace delmesher::cli {
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;  // per radian
+constexpr double kSharp = 5;                    // degrees: dihedral angles below are a problem
+constexpr double kRounding = 1e-6;              // of angles that meet a bound, in degrees
+// An angle is forced by one of the input that is at most so many times as large: it cannot be
+// shared among more than so many elements.
+constexpr double kForced = 2;
+
+using Vector = std::array<double, 3>;
+
+Vector from_to(const Vector& a, const Vector& b) {
+  return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+}
+
+double dot(const Vector& u, const Vector& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+Vector cross(const Vector& u, const Vector& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+double between(const Vector& u, const Vector& v) {
+  const Vector n = cross(u, v);
+  return std::atan2(std::sqrt(dot(n, n)), dot(u, v)) * kDegrees;
+}
+
+// With some digits after the point, and at least the first two that are not 0.
+std::string number(double value, int digits) {
+  char text[40];
+  const bool shown = value == 0 || std::fabs(value) >= std::pow(10.0, 1 - digits);
+  std::snprintf(text, sizeof text, shown ? "%.*f" : "%.*g", shown ? digits : 2, value);
+  return text;
+}
+
+std::string place(std::span<const double> p) {
+  std::string out = "(";
+  for (const double x : p) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%s%.6g", out.size() > 1 ? ", " : "", x);
+    out += text;
+  }
+  return out + ")";
+}
+
+Vector middle(const Vector& a, const Vector& b) {
+  return {a[0] / 2 + b[0] / 2, a[1] / 2 + b[1] / 2, a[2] / 2 + b[2] / 2};
+}
+
+// Angles of the input that the written mesh has, measured from the mesh.
+class InputAngles {
+ public:
+  explicit InputAngles(const TetMesh& mesh) : mesh_(mesh) {}
+
+  // Between the two facets at this edge of a tetrahedron, on the side of the tetrahedron; 360 if it
+  // is no edge between facets.
+  double wedge(const std::array<std::uint32_t, 4>& edge_first) const {
+    const auto [a, b, c, d] = edge_first;
+    std::vector<std::uint32_t> facets;
+    for (std::size_t t = 0; t < mesh_.boundary.size(); ++t) {
+      if (has(mesh_.boundary[t], a) && has(mesh_.boundary[t], b)) {
+        facets.push_back(mesh_.boundary_facets[t]);
+      }
+    }
+    if (facets.size() != 2 || facets[0] == facets[1]) return 360;
+    std::uint8_t side = 0;
+    double inside[2] = {0, 0};
+    for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
+      const auto& tet = mesh_.tetrahedra[t];
+      if (!has(tet, a) || !has(tet, b)) continue;
+      if (has(tet, c) && has(tet, d)) side = mesh_.inside[t];
+      inside[mesh_.inside[t] != 0 ? 1 : 0] += dihedral(tet, a, b);
+    }
+    return inside[side != 0 ? 1 : 0];
+  }
+
+  // The smallest corner of a facet at this vertex; 360 if it is at none.
+  double corner(std::uint32_t v) const {
+    struct Part {
+      std::uint32_t from, to, facet;
+      double angle;
+    };
+    std::vector<Part> parts;
+    for (std::size_t t = 0; t < mesh_.boundary.size(); ++t) {
+      const auto& triangle = mesh_.boundary[t];
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (triangle[i] != v) continue;
+        const std::uint32_t from = triangle[(i + 1) % 3], to = triangle[(i + 2) % 3];
+        parts.push_back({from, to, mesh_.boundary_facets[t], between(edge(v, from), edge(v, to))});
+      }
+    }
+    const auto next_to = [&](const Part& part, std::uint32_t Part::*mine,
+                             std::uint32_t Part::*other) {
+      return std::find_if(parts.begin(), parts.end(), [&](const Part& p) {
+        return p.facet == part.facet && p.*other == part.*mine;
+      });
+    };
+    double smallest = 360;
+    for (const Part& first : parts) {
+      if (next_to(first, &Part::from, &Part::to) != parts.end()) continue;
+      double sum = 0;
+      for (auto p = next_to(first, &Part::from, &Part::from); p != parts.end();
+           p = next_to(*p, &Part::to, &Part::from)) {
+        sum += p->angle;
+      }
+      smallest = std::min(smallest, sum);
+    }
+    return smallest;
+  }
+
+ private:
+  template <class Cell>
+  static bool has(const Cell& cell, std::uint32_t v) {
+    return std::find(cell.begin(), cell.end(), v) != cell.end();
+  }
+
+  Vector edge(std::uint32_t a, std::uint32_t b) const {
+    return from_to(mesh_.vertices[a], mesh_.vertices[b]);
+  }
+
+  double dihedral(const std::array<std::uint32_t, 4>& tet, std::uint32_t a, std::uint32_t b) const {
+    Vector normal[2];
+    int sides = 0;
+    for (const std::uint32_t v : tet) {
+      if (v != a && v != b && sides < 2) normal[sides++] = cross(edge(a, b), edge(a, v));
+    }
+    return between(normal[0], normal[1]);
+  }
+
+  const TetMesh& mesh_;
+};
+
+// Are the numbers of vertices in the statistics those of this mesh?
+bool has_sharpest(const Result& result) {
+  const MeshStatistics& s = result.statistics.final;
+  const auto known = [&](std::uint32_t v) { return v < result.mesh.vertices.size(); };
+  return s.tetrahedra > 0 && s.tetrahedra == result.mesh.tetrahedra.size() &&
+         std::ranges::all_of(s.sharpest_dihedral, known) &&
+         std::ranges::all_of(s.sharpest_face_angle, known);
+}
+
+std::string sharpest_edge(const Result& result) {
+  const auto& v = result.statistics.final.sharpest_dihedral;
+  return place(middle(result.mesh.vertices[v[0]], result.mesh.vertices[v[1]]));
+}
+
+}  // namespace
+
+std::string quality_text(const Result& result) {
+  const MeshStatistics& s = result.statistics.final;
+  if (!has_sharpest(result)) return "";
+  return std::to_string(s.tetrahedra) + " tetrahedra, dihedral angles " +
+         number(s.min_dihedral, 2) + " to " + number(s.max_dihedral, 2) +
+         " degrees, smallest face angle " + number(s.min_face_angle, 2) + ", gamma " +
+         number(s.gamma_1_percent, 3) + " / " + number(s.mean_gamma, 3) + " / " +
+         number(s.min_gamma, 3) + " (1 % / mean / smallest), " + std::to_string(s.below_5) +
+         " below 5 degrees, the worst at " + sharpest_edge(result);
+}
+
+std::string quality_text(const PlaneResult& result) {
+  const PlaneMeshStatistics& s = result.statistics.final;
+  const PlaneMesh& mesh = result.mesh;
+  if (s.triangles == 0) return "";
+  const auto at = [&](std::uint32_t v) {
+    return Vector{mesh.vertices[v][0], mesh.vertices[v][1], 0};
+  };
+  double smallest = 360;
+  std::uint32_t worst = 0;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector apex = at(t[i]);
+      const double angle =
+          between(from_to(apex, at(t[(i + 1) % 3])), from_to(apex, at(t[(i + 2) % 3])));
+      if (angle >= smallest) continue;
+      smallest = angle;
+      worst = t[i];
+    }
+  }
+  if (smallest > 180) return "";
+  return std::to_string(s.triangles) + " triangles, angles " + number(s.min_angle, 2) + " to " +
+         number(s.max_angle, 2) + " degrees, mean of the smallest " + number(s.mean_min_angle, 2) +
+         ", the worst at " + place(mesh.vertices[worst]);
+}
+
+std::vector<std::string> quality_warnings(const Result& result, double delta) {
+  std::vector<std::string> warnings;
+  if (!has_sharpest(result)) return warnings;
+  const MeshStatistics& s = result.statistics.final;
+  const InputAngles input(result.mesh);
+  if (s.min_face_angle < delta - kRounding) {
+    const std::uint32_t apex = s.sharpest_face_angle[0];
+    const double corner = input.corner(apex);
+    const std::string at = place(result.mesh.vertices[apex]);
+    warnings.push_back("the smallest face angle is " + number(s.min_face_angle, 2) +
+                       " degrees, at " + at +
+                       (corner < delta && corner <= kForced * s.min_face_angle
+                            ? ", where the input has a corner of " + number(corner, 2)
+                            : ", not the " + number(delta, 2) + " asked for"));
+  }
+  if (s.min_dihedral < kSharp) {
+    const double wedge = input.wedge(s.sharpest_dihedral);
+    const bool forced = wedge <= kForced * s.min_dihedral;
+    warnings.push_back("the smallest dihedral angle is " + number(s.min_dihedral, 2) +
+                       " degrees, at " + sharpest_edge(result) +
+                       (forced ? ", where facets of the input meet at " + number(wedge, 2)
+                               : ", and no edge of the input forces it there"));
+  }
+  return warnings;
+}
+
+}  // namespace delmesher::cli

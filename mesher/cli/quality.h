@@ -1,0 +1,20 @@
+// What a run says at its end about the quality of the mesh that it wrote.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher_plane.h"
+
+namespace delmesher::cli {
+
+// One line on the angles and shapes of the tetrahedra, or triangles inside, without the file's
+// name; empty if there are none.
+std::string quality_text(const Result& result);
+std::string quality_text(const PlaneResult& result);
+
+// Warnings where angles are smaller than asked for, or dihedral angles below 5 degrees: where, and
+// whether an edge or a corner of the input forces it. `delta` is that of the options.
+std::vector<std::string> quality_warnings(const Result& result, double delta);
+
+}  // namespace delmesher::cli
