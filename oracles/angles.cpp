@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "oracles/shapes.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -312,7 +314,7 @@ class AngleMeasure {
       for (int i = 0; i < 4; ++i) {
         if (counts(4 * t + i)) add_face(rough, i, face_of(tet, i));
       }
-      add_dihedrals(rough, tet);
+      shapes_.add(shape_of(*complex_.points, tet), add_dihedrals(rough, tet));
     }
     if (smallest_dihedral_.count == 0) return;
     report.figures.emplace_back("smallest face angle", face_.smallest);
@@ -323,6 +325,7 @@ class AngleMeasure {
     report.figures.emplace_back("mean of faces' largest angles", largest_face_.value());
     report.figures.emplace_back("mean of smallest dihedral angles", smallest_dihedral_.value());
     report.figures.emplace_back("mean of largest dihedral angles", largest_dihedral_.value());
+    shapes_.report(report);
     report.histograms.emplace_back("face angles", face_.histogram);
     report.histograms.emplace_back("dihedral angles", dihedral_.histogram);
   }
@@ -342,7 +345,8 @@ class AngleMeasure {
     largest_face_.add(std::max({a, b, c}));
   }
 
-  void add_dihedrals(const RoughTet& rough, const Tet& t) {
+  // Returns the smallest one.
+  double add_dihedrals(const RoughTet& rough, const Tet& t) {
     static constexpr int kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
                                          {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
     double low = 180, high = 0;
@@ -354,6 +358,7 @@ class AngleMeasure {
     }
     smallest_dihedral_.add(low);
     largest_dihedral_.add(high);
+    return low;
   }
 
   const TetComplex& complex_;
@@ -361,6 +366,7 @@ class AngleMeasure {
   const std::vector<std::uint8_t>& selected_;
   Distribution face_, dihedral_;
   Mean smallest_face_, largest_face_, smallest_dihedral_, largest_dihedral_;
+  ShapeMeasure shapes_;
 };
 
 }  // namespace

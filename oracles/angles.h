@@ -23,7 +23,7 @@ OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbour
 
 // Adds to the report, without any gate: extremes, means and histograms (15 degrees a bin, decided
 // exactly) of the face angles, each face once, and of the dihedral angles of the tetrahedra with
-// selected[t]. Angles are in degrees.
+// selected[t], and their shapes. Angles are in degrees.
 void measure_angles(const TetComplex& complex, const Neighbours& neighbours,
                     const std::vector<std::uint8_t>& selected, OracleReport& report);
 

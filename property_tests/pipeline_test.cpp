@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <thread>
 
@@ -79,6 +80,30 @@ void expect_faces_counted_once(const NamedSurface& model, const Options& options
   EXPECT_NEAR(told.mean_min_face_angle, compared.mean_min_face_angle, 1e-9);
 }
 
+// What the mesher says of the angles and shapes is what the oracle finds in the file.
+void expect_quality_told(const NamedSurface& model, const Options& options) {
+  SCOPED_TRACE(model.name);
+  const Result result = delmesher::tetrahedralize(model.surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const delmesher::MeshStatistics& s = result.statistics.final;
+  VerifyReport report;
+  ASSERT_EQ(oracles::verify(samples::to_polyhedron(model.surface), samples::to_mesh(result.mesh),
+                            nullptr, {}, report),
+            "");
+  const oracles::OracleReport* angles = report.find("angles");
+  ASSERT_NE(angles, nullptr);
+  const std::map<std::string, double> figures(angles->figures.begin(), angles->figures.end());
+  EXPECT_NEAR(s.min_dihedral, figures.at("smallest dihedral angle"), 1e-6);
+  EXPECT_NEAR(s.min_gamma, figures.at("smallest gamma"), 1e-6);
+  EXPECT_NEAR(s.mean_gamma, figures.at("mean gamma"), 1e-6);
+  EXPECT_NEAR(s.gamma_1_percent, figures.at("1 % quantile of gamma"), 1e-6);
+  EXPECT_NEAR(s.dihedral_1_percent, figures.at("1 % quantile of smallest dihedral angles"), 1e-6);
+  EXPECT_NEAR(s.min_sicn, figures.at("smallest SICN"), 1e-6);
+  EXPECT_NEAR(s.mean_sicn, figures.at("mean SICN"), 1e-6);
+  EXPECT_EQ(static_cast<double>(s.below_5), figures.at("tetrahedra below 5 degrees"));
+  EXPECT_EQ(static_cast<double>(s.below_10), figures.at("tetrahedra below 10 degrees"));
+}
+
 class Models : public testing::TestWithParam<NamedSurface> {};
 
 std::string model_name(const testing::TestParamInfo<NamedSurface>& info) {
@@ -92,6 +117,10 @@ TEST_P(Models, AreMeshedExactlyWithTheDefaults) {
 TEST_P(Models, CountEveryFaceOnce) {
   expect_faces_counted_once(GetParam(), default_options());
   expect_faces_counted_once(GetParam(), paper_options());
+}
+
+TEST_P(Models, HaveTheQualityThatTheMesherTells) {
+  expect_quality_told(GetParam(), default_options());
 }
 
 TEST_P(Models, AreMeshedExactlyWithThePapersSettings) {

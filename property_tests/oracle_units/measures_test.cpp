@@ -1,9 +1,10 @@
-// Volumes, altitudes and angles of tetrahedra.
+// Volumes, altitudes, angles and shapes of tetrahedra.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "oracles/exact_points.h"
 #include "oracles/input_surface.h"
 #include "oracles/measures.h"
+#include "oracles/shapes.h"
 #include "oracles/tet_complex.h"
 #include "property_tests/oracle_units/helpers.h"
 
@@ -121,6 +123,81 @@ TEST(Angles, BelowTheBoundAreFoundAmongMachineIntegers) {
   }
   EXPECT_GT(counts[0], 300U);
   EXPECT_GT(counts[1], 300U);
+}
+
+// The corner of a cube has an inscribed sphere of radius 1 / (3 + sqrt 3), a circumsphere of radius
+// sqrt(3) / 2, squared edges of 9 and squared doubled areas of 6. Far from the origin, tiny, or
+// nearly flat, it needs exact coordinates.
+TEST(Shapes, ByHand) {
+  const auto shape = [](const std::vector<Position>& positions, const Tet& tet = {0, 1, 2, 3}) {
+    return shape_of(points_of(positions), tet);
+  };
+  const std::vector<Position> regular = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  EXPECT_NEAR(shape(regular, {0, 1, 3, 2}).gamma, 1, 1e-14);
+  EXPECT_NEAR(shape(regular, {0, 1, 3, 2}).sicn, 1, 1e-14);
+  const double gamma = 3 / (3 + std::sqrt(3.0)) / (std::sqrt(3.0) / 2), sicn = 6 / std::sqrt(54.0);
+  for (const double size : {1.0, 1e-3, 0x1p-200, 0x1p200}) {
+    const std::vector<Position> corner = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}};
+    EXPECT_NEAR(shape(corner).gamma, gamma, 1e-14) << size;
+    EXPECT_NEAR(shape(corner).sicn, sicn, 1e-14) << size;
+    EXPECT_NEAR(shape(corner, {1, 0, 2, 3}).gamma, gamma, 1e-14) << size;
+    EXPECT_NEAR(shape(corner, {1, 0, 2, 3}).sicn, -sicn, 1e-14) << size;
+  }
+  const double far = 0x1p50;
+  EXPECT_NEAR(shape({{far, 0, 0}, {far + 1, 0, 0}, {far, 1, 0}, {far, 0, 1}}).gamma, gamma, 1e-14);
+  for (const double h : {1e-4, 1e-9, 1e-200}) {
+    const TetShape low = shape({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, h}});
+    EXPECT_NEAR(low.gamma / (1.5 * h / std::sqrt(0.5)), 1, 2 * h + 1e-12) << h;
+    EXPECT_NEAR(low.sicn / (6 * h / std::sqrt(12.0)), 1, 2 * h + 1e-12) << h;
+  }
+  const TetShape flat = shape({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
+  EXPECT_EQ(flat.gamma, 0);
+  EXPECT_EQ(flat.sicn, 0);
+}
+
+// Where doubles count as certain, they are as good as exact coordinates, which tiny tetrahedra ask
+// for.
+TEST(Shapes, DoublesAgreeWithExactCoordinates) {
+  std::mt19937 random(23);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Position> near(4);
+    const double height = std::pow(10, -7 * coordinate(random) - 7);
+    for (auto& p : near) p = {coordinate(random), coordinate(random), height * coordinate(random)};
+    std::vector<Position> tiny = near;
+    for (auto& p : tiny) {
+      for (double& x : p) x *= 0x1p-150;  // too small for doubles
+    }
+    const TetShape a = shape_of(points_of(near), {0, 1, 2, 3});
+    const TetShape b = shape_of(points_of(tiny), {0, 1, 2, 3});
+    EXPECT_NEAR(a.gamma, b.gamma, 1e-7 * b.gamma);
+    EXPECT_NEAR(a.sicn, b.sicn, 1e-7 * std::fabs(b.sicn));
+  }
+}
+
+TEST(Shapes, QuantilesAndCounts) {
+  for (const int count : {1, 2, 100, 101, 250}) {
+    ShapeMeasure measure;
+    std::vector<int> order(static_cast<std::size_t>(count));
+    std::iota(order.begin(), order.end(), 1);
+    std::shuffle(order.begin(), order.end(), std::mt19937(3));
+    for (const int n : order) measure.add({0.001 * n, -0.002 * n}, 0.1 * n);
+    OracleReport report("angles");
+    measure.report(report);
+    const std::map<std::string, double> figures(report.figures.begin(), report.figures.end());
+    const double place = 1 + 0.01 * (count - 1);
+    EXPECT_NEAR(figures.at("1 % quantile of gamma"), 0.001 * place, 1e-12);
+    EXPECT_NEAR(figures.at("1 % quantile of smallest dihedral angles"), 0.1 * place, 1e-12);
+    EXPECT_EQ(figures.at("tetrahedra below 5 degrees"), std::min(count, 49));
+    EXPECT_EQ(figures.at("tetrahedra below 10 degrees"), std::min(count, 99));
+    EXPECT_NEAR(figures.at("smallest gamma"), 0.001, 1e-12);
+    EXPECT_NEAR(figures.at("mean gamma"), 0.0005 * (count + 1), 1e-12);
+    EXPECT_NEAR(figures.at("smallest SICN"), -0.002 * count, 1e-12);
+    EXPECT_NEAR(figures.at("mean SICN"), -0.001 * (count + 1), 1e-12);
+  }
+  OracleReport none("angles");
+  ShapeMeasure().report(none);
+  EXPECT_TRUE(none.figures.empty());
 }
 
 TEST(AngleBound, IntervalsNeverContradictIntegers) {
