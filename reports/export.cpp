@@ -204,6 +204,12 @@ std::vector<std::string> csv_header(const ExportOptions& options) {
                                      "max_dihedral",
                                      "share_below_5_degrees",
                                      "share_below_10_degrees",
+                                     "dihedral_1_percent",
+                                     "min_gamma",
+                                     "mean_gamma",
+                                     "gamma_1_percent",
+                                     "min_sicn",
+                                     "mean_sicn",
                                      "inside_min_face_angle",
                                      "inverted",
                                      "flat"};
@@ -221,12 +227,9 @@ std::vector<std::string> csv_row(const RunRow& row, const ExportOptions& options
   const auto of = [](const std::optional<MeshColumns>& mesh, auto member) {
     return mesh ? fmt::format("{}", (*mesh).*member) : "";
   };
-  // The share of the tetrahedra; empty in results of versions that did not measure it.
-  const Json measured = parsed(row.mesh_json);
-  const auto share = [&](const char* count) -> std::string {
-    if (!measured.is_object() || !measured.contains(count) || row.mesh->tetrahedra == 0) return "";
-    return fmt::format(
-        "{}", measured.at(count).get<double>() / static_cast<double>(row.mesh->tetrahedra));
+  // Empty in results of versions that did not measure it.
+  const auto told = [&](std::optional<double> MeshColumns::*member) {
+    return row.mesh ? text((*row.mesh).*member) : "";
   };
   std::vector<std::string> cells = {row.model_name,
                                     row.key.model_sha256,
@@ -247,8 +250,14 @@ std::vector<std::string> csv_row(const RunRow& row, const ExportOptions& options
                                     of(row.mesh, &MeshColumns::max_face_angle),
                                     of(row.mesh, &MeshColumns::min_dihedral),
                                     of(row.mesh, &MeshColumns::max_dihedral),
-                                    share("tetrahedra_below_5_degrees"),
-                                    share("tetrahedra_below_10_degrees"),
+                                    told(&MeshColumns::share_below_5),
+                                    told(&MeshColumns::share_below_10),
+                                    told(&MeshColumns::dihedral_percent),
+                                    told(&MeshColumns::min_gamma),
+                                    told(&MeshColumns::mean_gamma),
+                                    told(&MeshColumns::gamma_percent),
+                                    told(&MeshColumns::min_sicn),
+                                    told(&MeshColumns::mean_sicn),
                                     of(row.inside, &MeshColumns::min_face_angle),
                                     text(row.inverted),
                                     text(row.flat)};

@@ -46,17 +46,18 @@ std::vector<std::optional<double>> histogram(const std::vector<double>& values, 
   return percent;
 }
 
-Chart angle_chart(const Selection& selection, const AngleMeasure& angle, const Bins& bins,
-                  const std::string& figure) {
+// Of one value of each model.
+Chart model_chart(const Selection& selection, const std::string& label, const Value& value,
+                  const Bins& bins, const std::string& figure) {
   Chart chart;
-  chart.name = figure + "-" + angle.label;
+  chart.name = figure + "-" + label;
   std::replace(chart.name.begin(), chart.name.end(), ' ', '-');
-  chart.title = std::string(1, static_cast<char>(std::toupper(angle.label[0]))) + (angle.label + 1);
-  chart.x_title = "degrees";
+  chart.title = label;
+  chart.title[0] = static_cast<char>(std::toupper(label[0]));
   chart.y_title = "% of successes";
   chart.categories = labels(bins);
   for (const std::string& mesher : selection.meshers) {
-    const auto values = values_of(selection.ok_runs(mesher), of(&RunRow::mesh, angle.column));
+    const auto values = values_of(selection.ok_runs(mesher), value);
     if (values.empty()) continue;
     chart.series.push_back({.label = fmt::format("{} ({})", mesher, values.size()),
                             .values = histogram(values, bins),
@@ -72,7 +73,9 @@ std::vector<Chart> angle_charts_of(const Selection& selection, const AngleMeasur
                                    const std::string& figure) {
   std::vector<Chart> charts;
   for (std::size_t i = 0; i < 4; ++i) {
-    charts.push_back(angle_chart(selection, angles[i], kBinsOfAngles[i], figure));
+    charts.push_back(model_chart(selection, angles[i].label, of(&RunRow::mesh, angles[i].column),
+                                 kBinsOfAngles[i], figure));
+    charts.back().x_title = "degrees";
   }
   return charts;
 }
@@ -189,6 +192,19 @@ std::vector<Chart> extreme_angle_charts(const Selection& selection) {
 
 std::vector<Chart> average_angle_charts(const Selection& selection) {
   return angle_charts_of(selection, kAverageAngles, "figure11");
+}
+
+std::vector<Chart> gamma_charts(const Selection& selection) {
+  constexpr Bins kGamma = {0, 0.05, 20};
+  std::vector<Chart> charts = {
+      model_chart(selection, "mean gamma", of(&RunRow::mesh, &MeshColumns::mean_gamma), kGamma,
+                  "gamma"),
+      model_chart(selection, "quantile of gamma", of(&RunRow::mesh, &MeshColumns::gamma_percent),
+                  kGamma, "gamma")};
+  charts[1].title = "1 % quantile of gamma";
+  for (Chart& chart : charts) chart.x_title = "gamma";
+  std::erase_if(charts, [](const Chart& chart) { return chart.series.empty(); });
+  return charts;
 }
 
 std::vector<Chart> angle_charts(const Selection& selection, const std::string& model) {

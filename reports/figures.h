@@ -17,6 +17,8 @@ namespace tetproof {
 std::vector<Chart> extreme_angle_charts(const Selection& selection);
 // Figure 11: the average angles of each model, four charts.
 std::vector<Chart> average_angle_charts(const Selection& selection);
+// The mean and the 1 % quantile of gamma of each model, two charts; none of old results.
+std::vector<Chart> gamma_charts(const Selection& selection);
 // Figure 13: all face and all dihedral angles of one model; of all models if `model` is empty.
 std::vector<Chart> angle_charts(const Selection& selection, const std::string& model);
 

@@ -47,7 +47,7 @@ struct Run {
   RunRow row;
   std::vector<std::string> started;
   std::map<std::string, bool> passed;  // by oracle
-  Json verdict, stats, measured;
+  Json verdict, stats;
 
   std::optional<double> figure(const char* oracle, const char* name) const {
     for (const Json& entry : verdict.value("oracles", Json::array())) {
@@ -75,12 +75,7 @@ Run run_of(std::vector<const RunRow*> repetitions) {
   const RunRow& decisive = **std::max_element(
       repetitions.begin(), repetitions.end(),
       [](const RunRow* a, const RunRow* b) { return weight_of_ending(*a) < weight_of_ending(*b); });
-  Run run{decisive,
-          {},
-          {},
-          object_of(decisive.verdict_json),
-          object_of(decisive.stats_json),
-          object_of(decisive.mesh_json)};
+  Run run{decisive, {}, {}, object_of(decisive.verdict_json), object_of(decisive.stats_json)};
   for (const RunRow* row : repetitions) {
     run.started.push_back(row->started);
     if (!has_mesh(*row)) continue;
@@ -121,13 +116,8 @@ Getter of(std::optional<MeshColumns> RunRow::*part, double MeshColumns::*column)
   };
 }
 
-// The share of the tetrahedra that this count of the measured mesh stands for.
-Getter share_of(const char* count) {
-  return [=](const Run& run) -> std::optional<double> {
-    if (!run.row.mesh || !run.measured.contains(count)) return std::nullopt;
-    const auto all = static_cast<double>(run.row.mesh->tetrahedra);
-    return all > 0 ? run.measured.at(count).get<double>() / all : 0;
-  };
+Getter of(std::optional<double> MeshColumns::*column) {
+  return [=](const Run& run) { return run.row.mesh ? (*run.row.mesh).*column : std::nullopt; };
 }
 
 // The difference of a largest angle from 180 degrees, so that more is better.
@@ -184,12 +174,13 @@ double spread(const std::vector<double>& values) {
   return 1.4826 * *median(distances);
 }
 
-// An angle, or its difference from 180 degrees; more is better.
+// An angle, or its difference from 180 degrees, or gamma; more is better.
 struct Angle {
   FindingKind kind;
   const char* name;
   Getter value;
   double factor, total_factor;
+  const char* unit = " degrees";
 };
 
 // Processor time or memory.
@@ -405,7 +396,9 @@ class Gate {
         {mean_angle, "mean of smallest dihedrals", of(&RunRow::mesh, &Columns::mean_min_dihedral),
          one_mean, all_means},
         {mean_angle, "180 degrees less the mean of largest dihedrals",
-         rest_of(&Columns::mean_max_dihedral), one_mean, all_means}};
+         rest_of(&Columns::mean_max_dihedral), one_mean, all_means},
+        {gamma, "mean gamma", of(&Columns::mean_gamma), one_mean, all_means, ""},
+        {gamma, "1 % quantile of gamma", of(&Columns::gamma_percent), one, all, ""}};
     compare_refined_angle(mesher, pairs);
     for (const Angle& angle : angles) compare_angle(mesher, pairs, angle);
     say_what_lacks(mesher);
@@ -437,7 +430,7 @@ class Gate {
       const double ratio = *after / *before;
       if (ratio < angle.factor) {
         add(angle.kind, *pair.base,
-            fmt::format("{} {:.4g} instead of {:.4g} degrees", angle.name, *after, *before));
+            fmt::format("{} {:.4g} instead of {:.4g}{}", angle.name, *after, *before, angle.unit));
       }
       const double bounded = std::clamp(ratio, 1 / kLargestRatio, kLargestRatio);
       logs.push_back({std::log(bounded), 1});
@@ -450,8 +443,8 @@ class Gate {
   }
 
   void compare_slivers(const std::string& mesher, const std::vector<Pair>& pairs) {
-    compare_share(mesher, pairs, "share below 5 degrees", share_of("tetrahedra_below_5_degrees"));
-    compare_share(mesher, pairs, "share below 10 degrees", share_of("tetrahedra_below_10_degrees"));
+    compare_share(mesher, pairs, "share below 5 degrees", of(&MeshColumns::share_below_5));
+    compare_share(mesher, pairs, "share below 10 degrees", of(&MeshColumns::share_below_10));
     say_what_lacks(mesher);
   }
 
@@ -665,7 +658,7 @@ GateReport compare_campaigns(const std::vector<RunRow>& base, const std::vector<
 const char* finding_name(FindingKind kind) {
   static constexpr std::array kNames = {
       "disposition", "unverified", "verdict", "oracle", "conformity", "face-angle", "dihedral",
-      "slivers",     "mean-angle", "size",    "time",   "memory",     "missing"};
+      "slivers",     "mean-angle", "gamma",   "size",   "time",       "memory",     "missing"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 

@@ -22,8 +22,8 @@ struct GateOptions {
   double time_factor = 1.5;     // processor seconds of one model, new/base
   double memory_factor = 1.3;   // peak resident set of one model
   double size_factor = 1.05;    // tetrahedra of one model, more or fewer
-  double angle_factor = 0.8;    // an angle of one model: smallest face angle, smallest dihedral
-  double mean_factor = 0.95;    // a mean angle of one model; for largest angles, 180 less the mean
+  double angle_factor = 0.8;    // smallest face angle, smallest dihedral, 1 % quantile of gamma
+  double mean_factor = 0.95;    // a mean of one model: angles (of largest ones, 180 less it), gamma
   double sliver_share = 0.02;   // share of tetrahedra with a small dihedral, new - base
   double deviation_ulps = 0.2;  // surface off by this many ulp more, and 1.5 times as far
 
@@ -57,7 +57,8 @@ enum class FindingKind : std::uint8_t {
   dihedral,     // smallest dihedral, refined or final
   slivers,      // share of tetrahedra with a dihedral below 5 or 10 degrees
   mean_angle,
-  size,  // more tetrahedra, or fewer
+  gamma,  // mean or 1 % quantile of gamma
+  size,   // more tetrahedra, or fewer
   time,
   memory,
   missing

@@ -48,7 +48,7 @@ RunRow run(int model, double seconds = 1) {
   row.mesh_json = R"({"tetrahedra": 10000, "min_face_angle": 8, "min_dihedral": 4,
       "mean_min_face_angle": 40, "mean_max_face_angle": 90, "mean_min_dihedral": 36,
       "mean_max_dihedral": 110, "tetrahedra_below_5_degrees": 100,
-      "tetrahedra_below_10_degrees": 300})";
+      "tetrahedra_below_10_degrees": 300, "mean_gamma": 0.6, "gamma_1_percent": 0.2})";
   row.stats_json = R"({"parameters": {"tau": 0.0001, "delta": 14.47},
       "refined": {"tetrahedra": 9000, "min_face_angle": 14.5, "min_dihedral": 5}})";
   row.verdict_json = R"({"verdict": "rounded", "deviation_ulps": 0.5, "oracles": [
@@ -317,6 +317,8 @@ std::vector<Limit> limits() {
        94.51},
       {"mean smallest dihedral", FindingKind::mean_angle, mesh("mean_min_dihedral"), 34.21, 34.19},
       {"mean largest dihedral", FindingKind::mean_angle, mesh("mean_max_dihedral"), 113.49, 113.51},
+      {"mean gamma", FindingKind::gamma, mesh("mean_gamma"), 0.571, 0.569},
+      {"quantile of gamma", FindingKind::gamma, mesh("gamma_1_percent"), 0.161, 0.159},
       {"deviation", FindingKind::conformity,
        [](Json&, Json&, Json& verdict, double value) { verdict["deviation_ulps"] = value; }, 0.74,
        0.76},
@@ -356,6 +358,8 @@ TEST(Gate, EveryMeasureOfAllModelsHasItsLimit) {
       {"dihedral", FindingKind::dihedral, mesh("min_dihedral"), 3.61, 3.59},
       {"below 5", FindingKind::slivers, mesh("tetrahedra_below_5_degrees"), 149, 151},
       {"mean", FindingKind::mean_angle, mesh("mean_min_dihedral"), 35.29, 35.27},
+      {"mean gamma", FindingKind::gamma, mesh("mean_gamma"), 0.589, 0.587},
+      {"quantile of gamma", FindingKind::gamma, mesh("gamma_1_percent"), 0.181, 0.179},
       {"more", FindingKind::size, mesh("tetrahedra"), 10290, 10310},
       {"fewer", FindingKind::size, mesh("tetrahedra"), 9720, 9700}};
   for (const Limit& limit : all) {
@@ -466,16 +470,18 @@ TEST(Gate, WhatOneSideDidNotMeasureIsSaid) {
   change_all(old, [](Json& mesh, Json&, Json& verdict) {
     mesh.erase("tetrahedra_below_5_degrees");
     mesh.erase("tetrahedra_below_10_degrees");
+    mesh.erase("mean_gamma");
+    mesh.erase("gamma_1_percent");
     verdict.erase("deviation_ulps");
   });
   auto report = compare_campaigns(old, campaign(10));
   EXPECT_TRUE(report.findings.empty());
-  EXPECT_EQ(report.differences.size(), 3U);
+  EXPECT_EQ(report.differences.size(), 5U);
   for (const std::string& text : report.differences) {
     EXPECT_NE(text.find("which only the new side has measured"), std::string::npos) << text;
   }
   report = compare_campaigns(campaign(10), old);
-  EXPECT_EQ(report.differences.size(), 3U);
+  EXPECT_EQ(report.differences.size(), 5U);
 }
 
 // A baseline in the repository holds all that is compared.

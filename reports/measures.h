@@ -24,6 +24,10 @@ Value of(Part part, T MeshColumns::*column) {
   };
 }
 
+inline Value of(Part part, std::optional<double> MeshColumns::*column) {
+  return [=](const RunRow& row) { return row.*part ? (*(row.*part)).*column : std::nullopt; };
+}
+
 struct AngleMeasure {
   const char* label;
   double MeshColumns::*column;
@@ -40,6 +44,26 @@ inline constexpr AngleMeasure kAverageAngles[] = {
     {"average max face angle", &MeshColumns::mean_max_face_angle},
     {"average min dihedral angle", &MeshColumns::mean_min_dihedral},
     {"average max dihedral angle", &MeshColumns::mean_max_dihedral}};
+
+// Shares in percent, the 1 % quantile in degrees, gamma and SICN from 0 to 1.
+struct ShapeMeasure {
+  const char* label;
+  std::optional<double> MeshColumns::*column;
+  double factor;
+  int digits;
+};
+inline constexpr ShapeMeasure kShapes[] = {
+    {"% of tets below 5 degrees", &MeshColumns::share_below_5, 100, 3},
+    {"% of tets below 10 degrees", &MeshColumns::share_below_10, 100, 2},
+    {"1 % quantile of min dihedrals", &MeshColumns::dihedral_percent, 1, 2},
+    {"mean gamma", &MeshColumns::mean_gamma, 1, 3},
+    {"1 % quantile of gamma", &MeshColumns::gamma_percent, 1, 3},
+    {"min gamma", &MeshColumns::min_gamma, 1, 4},
+    {"mean SICN", &MeshColumns::mean_sicn, 1, 3},
+    {"min SICN", &MeshColumns::min_sicn, 1, 4}};
+inline constexpr const char* kGammaNote =
+    "gamma: 3 times the inscribed sphere's radius over the circumsphere's. SICN: Gmsh's signed "
+    "inverse condition number. Both are 1 for a regular tetrahedron.";
 
 Value wall_seconds();
 Value verify_seconds();

@@ -246,6 +246,16 @@ PartQuality measure_part(Vertices vertices, Tetrahedra tetrahedra, int upright,
   return result;
 }
 
+std::vector<std::array<std::uint32_t, 4>> inside_of(const oracles::MeshFile& mesh) {
+  check_indices(mesh);
+  if (!tells_inside(mesh)) return mesh.tetrahedra;
+  std::vector<std::array<std::uint32_t, 4>> inside;
+  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
+    if (mesh.regions[i] == 1) inside.push_back(mesh.tetrahedra[i]);
+  }
+  return inside;
+}
+
 MeshQuality measure(const oracles::MeshFile& mesh) {
   check_indices(mesh);
   MeshQuality result;
@@ -254,10 +264,7 @@ MeshQuality measure(const oracles::MeshFile& mesh) {
   result.all = measure_part(mesh.vertices, mesh.tetrahedra, upright, &result.crowded_faces);
   result.unused_vertices = mesh.vertices.size() - result.all.vertices;
   if (tells_inside(mesh)) {
-    std::vector<std::array<std::uint32_t, 4>> inside;
-    for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-      if (mesh.regions[i] == 1) inside.push_back(mesh.tetrahedra[i]);
-    }
+    const auto inside = inside_of(mesh);
     result.inside = inside.size() == mesh.tetrahedra.size()
                         ? result.all
                         : measure_part(mesh.vertices, inside, upright);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "oracles/mesh_file.h"
 
@@ -54,8 +55,9 @@ PartQuality measure_part(std::span<const std::array<double, 3>> vertices,
                          std::uint64_t* crowded_faces = nullptr);
 
 // Tetrahedra of region 1 are inside, if the only other regions of the file are 0 and 2: the
-// convention of our own files. Other regions tell nothing about inside and outside. \throw
-// std::runtime_error if a tetrahedron refers to a vertex that does not exist.
+// convention of our own files. Other regions tell nothing about inside and outside: then all are.
+// \throw std::runtime_error if a tetrahedron refers to a vertex that does not exist.
+std::vector<std::array<std::uint32_t, 4>> inside_of(const oracles::MeshFile& mesh);
 MeshQuality measure(const oracles::MeshFile& mesh);
 
 // Keys as in the `final` object of the mesher's --stats, and `inside` with the same ones.

@@ -65,9 +65,20 @@ Table table_3(const Selection& selection, const std::string& model) {
       add(angles[i].label, [&](const RunRow& r) { return precise((*r.mesh).*(angles[i].column)); });
     }
   }
-  add("Time (s)", [](const RunRow& r) { return fixed(r.wall_seconds, 2); });
   table.notes = {
       "Only meshers that succeed on the model. Averages are over faces and over tetrahedra."};
+  bool any_shape = false;
+  for (const ShapeMeasure& shape : kShapes) {
+    const Value value = of(&RunRow::mesh, shape.column);
+    if (values_of(rows, value).empty()) continue;
+    any_shape = true;
+    add(shape.label, [&](const RunRow& r) {
+      const auto told = value(r);
+      return fixed(told ? std::optional(shape.factor * *told) : std::nullopt, shape.digits);
+    });
+  }
+  if (any_shape) table.notes.emplace_back(kGammaNote);
+  add("Time (s)", [](const RunRow& r) { return fixed(r.wall_seconds, 2); });
   for (const std::string& mesher : unverified) {
     table.notes.push_back("Left out, as its mesh is unverified: " + mesher + ".");
   }

@@ -83,11 +83,12 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
       {table_1(selection), table_2(selection)}, {})
       .side_by_side = true;
   add("figures", "Angles (after Figures 10, 11, 13)",
-      "Extreme angles of each model, average angles of each model, and all angles of all models. "
+      "Extreme angles of each model, average angles of each model, all angles of all models, and "
+      "gamma of each model. "
       "Same bins for all meshers; each mesher's bars add up to 100 % of its own successes.",
       {},
       joined(joined(extreme_angle_charts(selection), average_angle_charts(selection)),
-             angle_charts(selection, "")));
+             joined(angle_charts(selection, ""), gamma_charts(selection))));
   add("success", "Success",
       "What became of the runs, and what the oracles say of the files that were delivered.",
       {disposition_table(selection), oracle_table(selection), failure_group_table(selection)},

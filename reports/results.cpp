@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kSchemaVersion = 3;
+constexpr int kSchemaVersion = 4;
 constexpr int kApplicationId = 0x74657470;  // "tetp"
 constexpr std::array<const char*, kDispositionCount> kDispositions = {
     "ok", "unverified", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"};
@@ -44,6 +44,8 @@ CREATE TABLE IF NOT EXISTS runs (
   command TEXT NOT NULL, host TEXT NOT NULL, started TEXT NOT NULL,
   verdict TEXT NOT NULL DEFAULT '', mesh_path TEXT NOT NULL DEFAULT '',
   verify_seconds REAL,
+  share_below_5_degrees REAL, share_below_10_degrees REAL, dihedral_1_percent REAL,
+  min_gamma REAL, mean_gamma REAL, gamma_1_percent REAL, min_sicn REAL, mean_sicn REAL,
   UNIQUE (model_sha256, mesher, version, flags, limits)))";
 
 constexpr const char* kColumns =
@@ -54,7 +56,22 @@ constexpr const char* kColumns =
     "peak_bytes_per_tetrahedron, stats_json, mesh_json, verdict_json, stderr_tail, stdout_tail, "
     "command, host, started";
 constexpr const char* kLaterColumns = ", verdict, mesh_path, verify_seconds";
-constexpr int kColumnCount = 38;
+
+// Written for queries by hand only: they are read from the JSON texts.
+struct QualityColumn {
+  const char* name;
+  std::optional<double> MeshColumns::*column;
+};
+constexpr QualityColumn kQualityColumns[] = {
+    {"share_below_5_degrees", &MeshColumns::share_below_5},
+    {"share_below_10_degrees", &MeshColumns::share_below_10},
+    {"dihedral_1_percent", &MeshColumns::dihedral_percent},
+    {"min_gamma", &MeshColumns::min_gamma},
+    {"mean_gamma", &MeshColumns::mean_gamma},
+    {"gamma_1_percent", &MeshColumns::gamma_percent},
+    {"min_sicn", &MeshColumns::min_sicn},
+    {"mean_sicn", &MeshColumns::mean_sicn}};
+constexpr std::size_t kColumnCount = 38 + std::size(kQualityColumns);
 
 constexpr const char* kWhereKey =
     " WHERE model_sha256 = ? AND mesher = ? AND version = ? AND flags = ? AND limits = ?";
@@ -158,6 +175,9 @@ void bind_row(SQLite::Statement& statement, const RunRow& row) {
   bind(verdict_of(row));
   bind(row.mesh_path);
   bind(row.verify_seconds);
+  for (const QualityColumn& quality : kQualityColumns) {
+    bind(row.mesh ? (*row.mesh).*quality.column : std::nullopt);
+  }
 }
 
 RunRow read_row(SQLite::Statement& statement) {
@@ -277,6 +297,22 @@ std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std:
   columns.mean_max_dihedral = number("mean_max_dihedral");
   columns.shortest_edge = number("shortest_edge");
   columns.volume = number("volume");
+  const auto told = [&](const char* key) {
+    return json.contains(key) ? std::optional(number(key)) : std::nullopt;
+  };
+  const auto share = [&](const char* key) {
+    const auto count = told(key);
+    const bool any = count && columns.tetrahedra > 0;
+    return any ? std::optional(*count / static_cast<double>(columns.tetrahedra)) : std::nullopt;
+  };
+  columns.share_below_5 = share("tetrahedra_below_5_degrees");
+  columns.share_below_10 = share("tetrahedra_below_10_degrees");
+  columns.dihedral_percent = told("dihedral_1_percent");
+  columns.min_gamma = told("min_gamma");
+  columns.mean_gamma = told("mean_gamma");
+  columns.gamma_percent = told("gamma_1_percent");
+  columns.min_sicn = told("min_sicn");
+  columns.mean_sicn = told("mean_sicn");
   return columns;
 }
 
@@ -324,6 +360,11 @@ void ResultsDatabase::prepare_for_writing() {
     database_->exec("ALTER TABLE runs ADD COLUMN verify_seconds REAL");
     demand_verdicts();
   }
+  if (!empty && version_ < 4) {
+    for (const QualityColumn& quality : kQualityColumns) {
+      database_->exec(std::string("ALTER TABLE runs ADD COLUMN ") + quality.name + " REAL");
+    }
+  }
   version_ = kSchemaVersion;
   database_->exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   database_->exec("PRAGMA application_id = " + std::to_string(kApplicationId));
@@ -367,9 +408,11 @@ bool ResultsDatabase::has(const RunKey& key) {
 
 void ResultsDatabase::store(const RunRow& row) {
   std::string places = "?";
-  for (int i = 1; i < kColumnCount; ++i) places += ", ?";
-  SQLite::Statement insert(*database_, std::string("INSERT OR REPLACE INTO runs (") + kColumns +
-                                           kLaterColumns + ") VALUES (" + places + ")");
+  for (std::size_t i = 1; i < kColumnCount; ++i) places += ", ?";
+  std::string columns = std::string(kColumns) + kLaterColumns;
+  for (const QualityColumn& quality : kQualityColumns) columns += std::string(", ") + quality.name;
+  SQLite::Statement insert(*database_,
+                           "INSERT OR REPLACE INTO runs (" + columns + ") VALUES (" + places + ")");
   RunRow honest = row;
   demand_verdict(honest);
   bind_row(insert, honest);

@@ -41,13 +41,16 @@ struct RunKey {
   auto operator<=>(const RunKey&) const = default;
 };
 
-// Size and angles of a written mesh, as measured from the file (reports/mesh_quality.h).
+// Size, angles and shapes of a written mesh, as measured from the file (reports/mesh_quality.h).
 struct MeshColumns {
   std::uint64_t vertices = 0, tetrahedra = 0;
   double min_face_angle = 0, max_face_angle = 0, min_dihedral = 0, max_dihedral = 0;
   double mean_min_face_angle = 0, mean_max_face_angle = 0;
   double mean_min_dihedral = 0, mean_max_dihedral = 0;
   double shortest_edge = 0, volume = 0;  // 0 where a mesher's own statistics do not tell
+  // Nothing in results of versions that did not measure it. Shares are fractions of the tetrahedra.
+  std::optional<double> share_below_5, share_below_10, dihedral_percent;
+  std::optional<double> min_gamma, mean_gamma, gamma_percent, min_sicn, mean_sicn;
 };
 
 struct RunRow {

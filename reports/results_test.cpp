@@ -265,6 +265,54 @@ TEST(Verdict, NoRowIsOkWithoutOne) {
   }
 }
 
+// The columns that came with the fourth version.
+void drop_quality(SQLite::Database& raw) {
+  for (const char* column :
+       {"share_below_5_degrees", "share_below_10_degrees", "dihedral_1_percent", "min_gamma",
+        "mean_gamma", "gamma_1_percent", "min_sicn", "mean_sicn"}) {
+    raw.exec(std::string("ALTER TABLE runs DROP COLUMN ") + column);
+  }
+}
+
+TEST_F(Results, FilesOfTheThirdVersionGetColumnsOfQuality) {
+  RunRow row = sample();
+  row.mesh_json = R"({"tetrahedra": 200, "tetrahedra_below_5_degrees": 3,
+      "tetrahedra_below_10_degrees": 8, "dihedral_1_percent": 7.5, "min_gamma": 0.01,
+      "mean_gamma": 0.6, "gamma_1_percent": 0.2, "min_sicn": -0.5, "mean_sicn": 0.7})";
+  row.mesh = mesh_columns(row.mesh_json, "");
+  ResultsDatabase(path_, Mode::write).store(sample());
+  {
+    SQLite::Database raw(path_.string(), SQLite::OPEN_READWRITE);
+    drop_quality(raw);
+    raw.exec("PRAGMA user_version = 3");
+  }
+  const MeshColumns old = *ResultsDatabase(path_, Mode::read).rows().at(0).mesh;
+  EXPECT_EQ(old.mean_gamma, std::nullopt);
+  EXPECT_EQ(old.share_below_5, std::nullopt);
+  row.key.model_sha256 = "bb";
+  ResultsDatabase(path_, Mode::write).store(row);
+  const auto rows = ResultsDatabase(path_, Mode::read).rows();
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[1].mesh->share_below_5, 0.015);
+  EXPECT_EQ(rows[1].mesh->share_below_10, 0.04);
+  EXPECT_EQ(rows[1].mesh->dihedral_percent, 7.5);
+  EXPECT_EQ(rows[1].mesh->gamma_percent, 0.2);
+  EXPECT_EQ(rows[1].mesh->min_sicn, -0.5);
+  SQLite::Database raw(path_.string(), SQLite::OPEN_READONLY);
+  const auto in_column = [&](const std::string& name) {
+    return raw.execAndGet("SELECT " + name + " FROM runs WHERE model_sha256 = 'bb'").getDouble();
+  };
+  EXPECT_EQ(in_column("share_below_5_degrees"), 0.015);
+  EXPECT_EQ(in_column("share_below_10_degrees"), 0.04);
+  EXPECT_EQ(in_column("dihedral_1_percent"), 7.5);
+  EXPECT_EQ(in_column("min_gamma"), 0.01);
+  EXPECT_EQ(in_column("mean_gamma"), 0.6);
+  EXPECT_EQ(in_column("gamma_1_percent"), 0.2);
+  EXPECT_EQ(in_column("min_sicn"), -0.5);
+  EXPECT_EQ(in_column("mean_sicn"), 0.7);
+  EXPECT_TRUE(raw.execAndGet("SELECT mean_gamma FROM runs WHERE id = 1").isNull());
+}
+
 // Files of earlier versions called meshes ok that no oracle had looked at. Reading them changes
 // nothing in the file, writing does.
 TEST_F(Results, EarlierVersionsAreReadWithVerdictsDemanded) {
@@ -283,6 +331,7 @@ TEST_F(Results, EarlierVersionsAreReadWithVerdictsDemanded) {
     EXPECT_EQ(raw.execAndGet("SELECT count(*) FROM runs WHERE disposition = 'ok'").getInt(), 1);
     raw.exec("UPDATE runs SET disposition = 'ok', reason = ''");
     raw.exec("ALTER TABLE runs DROP COLUMN verify_seconds");
+    drop_quality(raw);
     raw.exec("PRAGMA user_version = 2");
   }
   const auto expect_rows = [](const std::vector<RunRow>& rows) {
@@ -313,6 +362,7 @@ TEST_F(Results, FilesOfTheFirstVersionAreReadAndUpgraded) {
     raw.exec("ALTER TABLE runs DROP COLUMN verdict");
     raw.exec("ALTER TABLE runs DROP COLUMN mesh_path");
     raw.exec("ALTER TABLE runs DROP COLUMN verify_seconds");
+    drop_quality(raw);
     raw.exec("PRAGMA user_version = 1");
   }
   EXPECT_EQ(ResultsDatabase(path_, Mode::read).rows().at(0).stderr_tail, sample().stderr_tail);

@@ -20,6 +20,22 @@ void add_row(Table& table, const std::string& label, const std::vector<Rows>& co
   table.rows.push_back(std::move(row));
 }
 
+// Rows of the shapes, where any mesh has been measured for them. Returns whether there are any.
+bool add_shapes(Table& table, const std::vector<Rows>& columns, Part part) {
+  const std::size_t before = table.rows.size();
+  for (const ShapeMeasure& shape : kShapes) {
+    const bool any = std::any_of(columns.begin(), columns.end(), [&](const Rows& rows) {
+      return !values_of(rows, of(part, shape.column)).empty();
+    });
+    if (!any) continue;
+    add_row(table, std::string("Avg. ") + shape.label, columns, [&](const Rows& rows) {
+      const auto average = mean(values_of(rows, of(part, shape.column)));
+      return fixed(average ? std::optional(shape.factor * *average) : std::nullopt, shape.digits);
+    });
+  }
+  return table.rows.size() > before;
+}
+
 std::string with_refined(std::optional<double> value, std::optional<double> refined) {
   return refined ? degrees(value) + " (" + degrees(refined) + ")" : degrees(value);
 }
@@ -122,6 +138,7 @@ Table comparison(const Selection& selection, Part part, Over over = Over::common
       return degrees(mean(values_of(rows, of(part, angle.column))));
     });
   }
+  const bool shapes = add_shapes(table, columns, part);
   add_row(table, "Avg. # vertices", columns, [&](const Rows& rows) {
     return fixed(mean(values_of(rows, of(part, &MeshColumns::vertices))), 0);
   });
@@ -143,6 +160,7 @@ Table comparison(const Selection& selection, Part part, Over over = Over::common
         listed(without) + ".");
   }
   if (part == &RunRow::mesh) table.notes.emplace_back(kRegions);
+  if (shapes) table.notes.emplace_back(kGammaNote);
   return table;
 }
 
@@ -185,6 +203,7 @@ Table table_1(const Selection& selection) {
           [](const Rows& rows) { return fixed(mean(values_of(rows, wall_seconds())), 2); });
   add_row(table, "Average memory (MB)", columns,
           [](const Rows& rows) { return fixed(mean(values_of(rows, peak_megabytes())), 0); });
+  const bool shapes = add_shapes(table, columns, &RunRow::mesh);
   const bool verified = std::any_of(columns.begin(), columns.end(), [](const Rows& rows) {
     return !values_of(rows, verify_seconds()).empty();
   });
@@ -200,6 +219,7 @@ Table table_1(const Selection& selection) {
       kRegions,
       "Time is the " + selection.clock +
           " time of the whole process, memory its peak resident set, 1 MB = 10^6 bytes."};
+  if (shapes) table.notes.emplace_back(kGammaNote);
   return table;
 }
 

@@ -50,6 +50,30 @@ TEST(Tables, ProcessorTimeTakesThePlaceOfWallTimeOnRequest) {
   EXPECT_DOUBLE_EQ(*row.mesh_seconds, row.wall_seconds / 2);
 }
 
+// Two of three meshes were measured for their shapes; cdt has none.
+TEST(Tables, ShapesAreAveragedOverTheMeshesMeasuredForThem) {
+  Selection selection = campaign();
+  const auto measured = [&](const char* model, double mean_gamma, double below_5) {
+    RunRow& row = selection.runs.at("safe-delmesher-e4").at(std::string("hash-") + model);
+    row.mesh->mean_gamma = mean_gamma;
+    row.mesh->share_below_5 = below_5;
+  };
+  EXPECT_FALSE(cells(table_1(selection)).contains("Avg. mean gamma"));
+  measured("a", 0.5, 0.01);
+  measured("b", 0.7, 0.03);
+  for (const Table& table : {table_1(selection), table_2_all(selection)}) {
+    auto t = cells(table);
+    EXPECT_EQ(t["Avg. mean gamma"]["safe-delmesher-e4"], "0.600");
+    EXPECT_EQ(t["Avg. % of tets below 5 degrees"]["safe-delmesher-e4"], "2.000");
+    EXPECT_EQ(t["Avg. mean gamma"]["cdt"], "-");
+    EXPECT_FALSE(t.contains("Avg. mean SICN"));
+    EXPECT_TRUE(table.notes.back().starts_with("gamma: "));
+  }
+  auto t = cells(table_3(selection, "hash-b"));
+  EXPECT_EQ(t["mean gamma"]["safe-delmesher-e4"], "0.700");
+  EXPECT_EQ(t["mean gamma"]["cdt"], "-");
+}
+
 TEST(Tables, Table2IsOverTheCommonSubset) {
   const Table table = table_2(campaign());
   auto t = cells(table);

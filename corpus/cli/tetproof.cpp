@@ -138,10 +138,13 @@ CLI::App* declare_gate(CLI::App& tetproof, GateArguments& a) {
   limit(one, "--memory-factor", o.memory_factor, "Peak memory this many times as large", 1, most);
   limit(one, "--size-factor", o.size_factor, "Tetrahedra this many times as many, or as few", 1,
         most);
-  limit(one, "--angle-factor", o.angle_factor,
-        "Smallest face angle (refined, final) or dihedral below this fraction of the base's", 0, 1);
+  limit(
+      one, "--angle-factor", o.angle_factor,
+      "Smallest face angle (refined, final), dihedral or 1 % quantile of gamma below this fraction "
+      "of the base's",
+      0, 1);
   limit(one, "--mean-factor", o.mean_factor,
-        "The same for mean angles; of the largest what 180 degrees leave", 0, 1);
+        "The same for mean gamma and mean angles; of the largest what 180 degrees leave", 0, 1);
   limit(one, "--sliver-share", o.sliver_share,
         "Share of tetrahedra with a dihedral below 5 or 10 degrees larger by this", 0, 1);
   limit(one, "--deviation-ulps", o.deviation_ulps,
@@ -155,8 +158,9 @@ CLI::App* declare_gate(CLI::App& tetproof, GateArguments& a) {
         "Processor time, if the sides were measured in turn (else --time-factor)", 1, most);
   limit(all, "--total-memory-factor", o.total_memory_factor, "Peak memory", 1, most);
   limit(all, "--total-size-factor", o.total_size_factor, "Tetrahedra, more or fewer", 1, most);
-  limit(all, "--total-angle-factor", o.total_angle_factor, "Smallest angles", 0, 1);
-  limit(all, "--total-mean-factor", o.total_mean_factor, "Mean angles", 0, 1);
+  limit(all, "--total-angle-factor", o.total_angle_factor,
+        "Smallest angles and 1 % quantile of gamma", 0, 1);
+  limit(all, "--total-mean-factor", o.total_mean_factor, "Mean angles and gamma", 0, 1);
   limit(all, "--total-sliver-share", o.total_sliver_share, "Share of small dihedrals", 0, 1);
   app->add_flag("--quiet-machine", o.quiet_machine,
                 "Judge times as if the sides had been measured in turn");
