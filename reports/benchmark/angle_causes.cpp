@@ -7,6 +7,8 @@
 #include <set>
 #include <vector>
 
+#include "reports/angles.h"
+
 namespace tetproof::benchmark {
 namespace {
 
@@ -28,10 +30,10 @@ double angle_at(const Point& a, const Point& b, const Point& c) {
   return std::atan2(std::sqrt(cross), dot) * 180 / std::numbers::pi;
 }
 
-// The least sum of triangle angles between two edges of a facet's boundary.
-class FacetCorners {
+// Angles of the surface where its facets end.
+class FacetAngles {
  public:
-  FacetCorners(const delmesher::Surface& surface, const ExactRecord& record) : surface_(surface) {
+  FacetAngles(const delmesher::Surface& surface, const ExactRecord& record) : surface_(surface) {
     facet_.resize(surface.triangles.size());
     for (std::uint32_t f = 0; f < record.facets.size(); ++f) {
       for (const std::uint32_t t : record.facets[f].triangles) facet_[t] = f;
@@ -39,13 +41,16 @@ class FacetCorners {
     for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
       const auto& v = surface.triangles[t];
       for (int i = 0; i < 3; ++i) triangle_at_[{v[i], v[(i + 1) % 3]}] = t;
+      volume6_ += volume6(v);
     }
   }
 
-  double smallest() const {
-    double least = 180;
+  AngleBounds bounds() const {
+    AngleBounds least;
     for (const auto& [edge, t] : triangle_at_) {
-      if (is_boundary(edge[0], edge[1], t)) least = std::min(least, corner(edge[0], edge[1], t));
+      if (!is_boundary(edge[0], edge[1], t)) continue;
+      least.face = std::min(least.face, corner(edge[0], edge[1], t));
+      if (edge[0] < edge[1]) least.dihedral = std::min(least.dihedral, wedge(edge[0], edge[1], t));
     }
     return least;
   }
@@ -56,6 +61,37 @@ class FacetCorners {
   bool is_boundary(std::uint32_t a, std::uint32_t b, std::uint32_t t) const {
     const auto beyond = triangle_at_.find({b, a});
     return beyond == triangle_at_.end() || facet_[beyond->second] != facet_[t];
+  }
+
+  // Of the tetrahedron with the first vertex.
+  double volume6(const std::array<std::uint32_t, 3>& triangle) const {
+    double u[3][3];
+    for (int i = 0; i < 3; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        u[i][k] = surface_.vertices[triangle[i]][k] - surface_.vertices[0][k];
+      }
+    }
+    return u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) +
+           u[0][1] * (u[1][2] * u[2][0] - u[1][0] * u[2][2]) +
+           u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
+  }
+
+  std::uint32_t opposite(std::uint32_t a, std::uint32_t b, std::uint32_t t) const {
+    const auto& v = surface_.triangles[t];
+    return v[0] != a && v[0] != b ? v[0] : v[1] != a && v[1] != b ? v[1] : v[2];
+  }
+
+  // Between the triangle t at edge ab and the one beyond, on their inner side. The tetrahedron of
+  // the two has this angle there, or what it lacks of 360 degrees; two coplanar triangles have 180.
+  double wedge(std::uint32_t a, std::uint32_t b, std::uint32_t t) const {
+    const auto beyond = triangle_at_.find({b, a});
+    if (beyond == triangle_at_.end()) return 180;
+    const auto at = [&](std::uint32_t v) { return surface_.vertices[v]; };
+    const Corners corners{at(a), at(b), at(opposite(a, b, t)), at(opposite(a, b, beyond->second))};
+    const int outside = orientation(corners);  // of the other triangle, seen from this one
+    const double angle = outside == 0 ? 180 : dihedral_angles(corners)[0];
+    const bool reflex = volume6_ > 0 ? outside > 0 : outside < 0;  // else it is inside out
+    return reflex ? 360 - angle : angle;
   }
 
   // From the boundary edge ab, counter-clockwise around a, to the next one.
@@ -75,6 +111,7 @@ class FacetCorners {
   const delmesher::Surface& surface_;
   std::vector<std::uint32_t> facet_;
   std::map<Edge, std::uint32_t> triangle_at_;
+  double volume6_ = 0;
 };
 
 // Marks per point of the record.
@@ -111,18 +148,27 @@ struct Marks {
 
 }  // namespace
 
+AngleBounds find_bounds(const delmesher::Surface& surface, const ExactRecord& record) {
+  return FacetAngles(surface, record).bounds();
+}
+
 AngleCauses find_angle_causes(const delmesher::Surface& surface, const delmesher::Result& result) {
   const ExactRecord& record = result.exact;
   AngleCauses causes;
-  causes.bound = FacetCorners(surface, record).smallest();
+  causes.bounds = find_bounds(surface, record);
   const Marks marks(surface, record);
   const delmesher::TetMesh& mesh = result.mesh;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
     if (mesh.inside[t] == 0) continue;
+    const auto& tet = mesh.tetrahedra[t];
+    for (const double angle : dihedral_angles({mesh.vertices[tet[0]], mesh.vertices[tet[1]],
+                                               mesh.vertices[tet[2]], mesh.vertices[tet[3]]})) {
+      causes.smallest_dihedral = std::min(causes.smallest_dihedral, angle);
+    }
     for (int skip = 0; skip < 4; ++skip) {
       std::array<std::uint32_t, 3> face{};
       for (int k = 0, i = 0; k < 4; ++k) {
-        if (k != skip) face[i++] = mesh.tetrahedra[t][k];
+        if (k != skip) face[i++] = tet[k];
       }
       double least = 180;
       std::array<std::uint32_t, 3> at{};

@@ -1,0 +1,222 @@
+#include "reports/benchmark/poisson.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "reports/mesh_quality.h"
+
+namespace tetproof::benchmark {
+namespace {
+
+using oracles::Index;
+using oracles::Position;
+using oracles::Tet;
+
+double dot(const Position& u, const Position& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+Position cross(const Position& u, const Position& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+Position from_to(const Position& a, const Position& b) {
+  return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+}
+
+// u = sin(w . (p - p0)), for which - Laplace u = |w|^2 u.
+class Solution {
+ public:
+  Solution(const std::vector<Position>& points, const std::vector<Tet>& tetrahedra) {
+    Position low = points[tetrahedra[0][0]], high = low;
+    for (const Tet& tet : tetrahedra) {
+      for (const Index v : tet) {
+        for (int axis = 0; axis < 3; ++axis) {
+          low[axis] = std::min(low[axis], points[v][axis]);
+          high[axis] = std::max(high[axis], points[v][axis]);
+        }
+      }
+    }
+    const Position diagonal = from_to(low, high);
+    const double length = std::sqrt(dot(diagonal, diagonal));
+    origin_ = low;
+    for (int axis = 0; axis < 3; ++axis) wave_[axis] = (axis + 1) / length;
+  }
+
+  double value(const Position& p) const { return std::sin(dot(wave_, from_to(origin_, p))); }
+  double load(const Position& p) const { return dot(wave_, wave_) * value(p); }
+
+ private:
+  Position origin_{}, wave_{};
+};
+
+// Vertices of faces that only one tetrahedron has, or that none of them has.
+std::vector<std::uint8_t> fixed_vertices(std::size_t vertices, const std::vector<Tet>& tetrahedra) {
+  std::vector<std::array<Index, 3>> faces;
+  faces.reserve(4 * tetrahedra.size());
+  std::vector<std::uint8_t> fixed(vertices, 1);
+  for (const Tet& tet : tetrahedra) {
+    for (int i = 0; i < 4; ++i) {
+      std::array<Index, 3> face{tet[(i + 1) % 4], tet[(i + 2) % 4], tet[(i + 3) % 4]};
+      std::sort(face.begin(), face.end());
+      faces.push_back(face);
+      fixed[tet[i]] = 0;
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const bool alone =
+        (i == 0 || faces[i - 1] != faces[i]) && (i + 1 == faces.size() || faces[i + 1] != faces[i]);
+    if (!alone) continue;
+    for (const Index v : faces[i]) fixed[v] = 1;
+  }
+  return fixed;
+}
+
+// A symmetric matrix by rows.
+class Matrix {
+ public:
+  // With an entry for each pair of vertices of a tetrahedron.
+  Matrix(std::size_t vertices, const std::vector<Tet>& tetrahedra) : begin_(vertices + 1, 0) {
+    std::vector<std::vector<Index>> rows(vertices);
+    for (const Tet& tet : tetrahedra) {
+      for (const Index v : tet) {
+        for (const Index w : tet) {
+          const auto at = std::lower_bound(rows[v].begin(), rows[v].end(), w);
+          if (at == rows[v].end() || *at != w) rows[v].insert(at, w);
+        }
+      }
+    }
+    for (std::size_t v = 0; v < vertices; ++v) {
+      columns_.insert(columns_.end(), rows[v].begin(), rows[v].end());
+      begin_[v + 1] = columns_.size();
+    }
+    values_.resize(columns_.size());
+  }
+
+  void add(Index row, Index column, double value) { values_[at(row, column)] += value; }
+  double diagonal(Index row) const { return values_[at(row, row)]; }
+
+  // result = A x, with nothing from and to the vertices that are fixed.
+  void multiply(const std::vector<double>& x, const std::vector<std::uint8_t>& fixed,
+                std::vector<double>& result) const {
+    for (std::size_t row = 0; row + 1 < begin_.size(); ++row) {
+      result[row] = 0;
+      if (fixed[row] == 0) result[row] = product(row, x);
+    }
+  }
+
+  double product(std::size_t row, const std::vector<double>& x) const {
+    double sum = 0;
+    for (std::size_t i = begin_[row]; i < begin_[row + 1]; ++i) sum += values_[i] * x[columns_[i]];
+    return sum;
+  }
+
+ private:
+  std::size_t at(Index row, Index column) const {
+    const auto first = columns_.begin() + static_cast<std::ptrdiff_t>(begin_[row]);
+    const auto last = columns_.begin() + static_cast<std::ptrdiff_t>(begin_[row + 1]);
+    return static_cast<std::size_t>(std::lower_bound(first, last, column) - columns_.begin());
+  }
+
+  std::vector<std::size_t> begin_;
+  std::vector<Index> columns_;
+  std::vector<double> values_;
+};
+
+struct Problem {
+  Matrix matrix;
+  std::vector<double> load, volume;  // per vertex; a quarter of each tetrahedron's
+};
+
+Problem assemble(const std::vector<Position>& points, const std::vector<Tet>& tetrahedra,
+                 const Solution& solution) {
+  Problem problem{Matrix(points.size(), tetrahedra), std::vector<double>(points.size()),
+                  std::vector<double>(points.size())};
+  for (const Tet& t : tetrahedra) {
+    // The gradients of the four linear functions are -n / (6 V), for doubled areas n outwards.
+    const Position &a = points[t[0]], &b = points[t[1]], &c = points[t[2]], &d = points[t[3]];
+    const Position n[4] = {cross(from_to(b, c), from_to(b, d)), cross(from_to(a, d), from_to(a, c)),
+                           cross(from_to(a, b), from_to(a, d)),
+                           cross(from_to(a, c), from_to(a, b))};
+    const double volume6 = std::fabs(dot(from_to(a, b), n[1]));
+    if (volume6 == 0) continue;
+    double loads = 0;
+    for (const Index v : t) loads += solution.load(points[v]);
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) problem.matrix.add(t[i], t[j], dot(n[i], n[j]) / (6 * volume6));
+      problem.load[t[i]] += volume6 / 120 * (loads + solution.load(points[t[i]]));
+      problem.volume[t[i]] += volume6 / 24;
+    }
+  }
+  return problem;
+}
+
+double inner(const std::vector<double>& u, const std::vector<double>& v) {
+  double sum = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) sum += u[i] * v[i];
+  return sum;
+}
+
+// Improves x on the vertices that are not fixed.
+void conjugate_gradients(const Problem& problem, const std::vector<std::uint8_t>& fixed,
+                         std::vector<double>& x, PoissonRun& run) {
+  constexpr double kResidual = 1e-8;
+  const std::size_t n = x.size();
+  std::vector<double> residual(n), z(n), direction(n), product(n), inverse(n);
+  for (std::size_t v = 0; v < n; ++v) {
+    if (fixed[v] != 0) continue;
+    residual[v] = problem.load[v] - problem.matrix.product(v, x);
+    inverse[v] = 1 / problem.matrix.diagonal(static_cast<Index>(v));
+    direction[v] = z[v] = inverse[v] * residual[v];
+  }
+  const double goal = kResidual * kResidual * inner(residual, residual);
+  const auto most = static_cast<unsigned>(10 * run.unknowns + 100);
+  double rz = inner(residual, z);
+  while (!(run.converged = inner(residual, residual) <= goal) && run.iterations < most) {
+    ++run.iterations;
+    problem.matrix.multiply(direction, fixed, product);
+    const double step = rz / inner(direction, product);
+    for (std::size_t v = 0; v < n; ++v) {
+      x[v] += step * direction[v];
+      residual[v] -= step * product[v];
+      z[v] = inverse[v] * residual[v];
+    }
+    const double before = rz;
+    rz = inner(residual, z);
+    for (std::size_t v = 0; v < n; ++v) direction[v] = z[v] + rz / before * direction[v];
+  }
+}
+
+}  // namespace
+
+PoissonRun solve_poisson(const oracles::MeshFile& mesh) {
+  PoissonRun run;
+  const std::vector<Tet> tetrahedra = inside_of(mesh);
+  run.tetrahedra = tetrahedra.size();
+  if (tetrahedra.empty()) return run;
+  const std::vector<Position>& points = mesh.vertices;
+  const Solution solution(points, tetrahedra);
+  const std::vector<std::uint8_t> fixed = fixed_vertices(points.size(), tetrahedra);
+  run.unknowns = static_cast<std::uint64_t>(std::count(fixed.begin(), fixed.end(), 0));
+  const Problem problem = assemble(points, tetrahedra, solution);
+  std::vector<double> x(points.size());
+  for (std::size_t v = 0; v < x.size(); ++v) x[v] = fixed[v] != 0 ? solution.value(points[v]) : 0;
+  conjugate_gradients(problem, fixed, x, run);
+  double largest = 0, volume = 0;
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    if (problem.volume[v] == 0) continue;
+    const double exact = solution.value(points[v]), error = std::fabs(x[v] - exact);
+    run.largest_error = std::max(run.largest_error, error);
+    run.mean_error += error * error * problem.volume[v];
+    volume += problem.volume[v];
+    largest = std::max(largest, std::fabs(exact));
+  }
+  run.largest_error /= largest;
+  run.mean_error = std::sqrt(run.mean_error / volume) / largest;
+  return run;
+}
+
+}  // namespace tetproof::benchmark

@@ -1,0 +1,23 @@
+// What a solver sees of a mesh: the Poisson equation with linear elements, by conjugate gradients.
+#pragma once
+
+#include <cstdint>
+
+#include "oracles/mesh_file.h"
+
+namespace tetproof::benchmark {
+
+struct PoissonRun {
+  std::uint64_t tetrahedra = 0, unknowns = 0;
+  unsigned iterations = 0;  // until the residual is 1e-8 of what it was; `converged` says whether
+  bool converged = false;
+  double largest_error = 0;  // of the solution at a vertex, relative to the largest value
+  double mean_error = 0;     // root of the mean square over the volume, in the same way
+};
+
+// Solves it on the tetrahedra inside (all, if the file does not tell them apart), with a smooth
+// solution that is known and given on the boundary, preconditioned by the diagonal. The solution
+// has about half a wave along the diagonal of the bounding box, in a direction that is no axis.
+PoissonRun solve_poisson(const oracles::MeshFile& mesh);
+
+}  // namespace tetproof::benchmark
