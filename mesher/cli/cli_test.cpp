@@ -304,6 +304,26 @@ TEST_F(Run, WarnsOfSmallAnglesAndSaysWhetherTheInputForcesThem) {
                           "the input meet at 0.081\n"),
       std::string::npos)
       << error_;
+  s.sharpest_face_angle = {4, 0, 3};  // a vertex on the sharp edge, in a face across
+  answer_.mesh.vertices.push_back({0.5, 0.5, 0});
+  answer_.mesh.tetrahedra = {{0, 1, 4, 3}, {0, 4, 2, 3}};
+  answer_.mesh.inside = {1, 1};
+  answer_.mesh.boundary = {{0, 2, 4}, {0, 4, 1}, {0, 1, 3}, {1, 4, 3}, {4, 2, 3}, {0, 3, 2}};
+  answer_.mesh.boundary_facets = {0, 0, 1, 2, 2, 3};
+  answer_.mesh.boundary_labels = std::vector<std::int32_t>(6);
+  s.tetrahedra = 2;
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_TRUE(error_.starts_with(start + "face angle is 0.057 degrees, at (0.5, 0.5, 0), where "
+                                         "facets of the input meet at 0.081\n"))
+      << error_;
+  answer_.mesh.vertices.pop_back();
+  answer_.mesh.tetrahedra = {{0, 1, 2, 3}};
+  answer_.mesh.inside = {1};
+  answer_.mesh.boundary = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  answer_.mesh.boundary_facets = {0, 1, 2, 3};
+  answer_.mesh.boundary_labels = {0, 0, 0, 0};
+  s.sharpest_face_angle = {1, 0, 3};
+  s.tetrahedra = 1;
   EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-q"}), kDone);
   EXPECT_EQ(error_, "");
   // No angles are promised of these.

@@ -67,22 +67,30 @@ class InputAngles {
   // is no edge between facets.
   double wedge(const std::array<std::uint32_t, 4>& edge_first) const {
     const auto [a, b, c, d] = edge_first;
-    std::vector<std::uint32_t> facets;
-    for (std::size_t t = 0; t < mesh_.boundary.size(); ++t) {
-      if (has(mesh_.boundary[t], a) && has(mesh_.boundary[t], b)) {
-        facets.push_back(mesh_.boundary_facets[t]);
-      }
-    }
-    if (facets.size() != 2 || facets[0] == facets[1]) return 360;
-    std::uint8_t side = 0;
-    double inside[2] = {0, 0};
     for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
       const auto& tet = mesh_.tetrahedra[t];
-      if (!has(tet, a) || !has(tet, b)) continue;
-      if (has(tet, c) && has(tet, d)) side = mesh_.inside[t];
-      inside[mesh_.inside[t] != 0 ? 1 : 0] += dihedral(tet, a, b);
+      if (has(tet, a) && has(tet, b) && has(tet, c) && has(tet, d)) {
+        return wedges(a, b)[mesh_.inside[t] != 0 ? 1 : 0];
+      }
     }
-    return inside[side != 0 ? 1 : 0];
+    return 360;
+  }
+
+  // The smallest one at the edges of this vertex, on any side.
+  double wedge_at(std::uint32_t v) const {
+    std::vector<std::uint32_t> ends;
+    for (const auto& triangle : mesh_.boundary) {
+      if (has(triangle, v)) ends.insert(ends.end(), triangle.begin(), triangle.end());
+    }
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    double smallest = 360;
+    for (const std::uint32_t end : ends) {
+      if (end == v) continue;
+      const auto [outside, inside] = wedges(v, end);
+      smallest = std::min({smallest, outside, inside});
+    }
+    return smallest;
   }
 
   // The smallest corner of a facet at this vertex; 360 if it is at none.
@@ -123,6 +131,27 @@ class InputAngles {
   template <class Cell>
   static bool has(const Cell& cell, std::uint32_t v) {
     return std::find(cell.begin(), cell.end(), v) != cell.end();
+  }
+
+  // Outside and inside, between the facets at this edge; 360 where there are no tetrahedra, or if
+  // it is no edge between facets.
+  std::array<double, 2> wedges(std::uint32_t a, std::uint32_t b) const {
+    std::vector<std::uint32_t> facets;
+    for (std::size_t t = 0; t < mesh_.boundary.size(); ++t) {
+      if (has(mesh_.boundary[t], a) && has(mesh_.boundary[t], b)) {
+        facets.push_back(mesh_.boundary_facets[t]);
+      }
+    }
+    if (facets.size() != 2 || facets[0] == facets[1]) return {360, 360};
+    std::array<double, 2> sum{};
+    for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
+      const auto& tet = mesh_.tetrahedra[t];
+      if (has(tet, a) && has(tet, b)) sum[mesh_.inside[t] != 0 ? 1 : 0] += dihedral(tet, a, b);
+    }
+    for (double& angle : sum) {
+      if (angle == 0) angle = 360;
+    }
+    return sum;
   }
 
   Vector edge(std::uint32_t a, std::uint32_t b) const {
@@ -199,14 +228,18 @@ std::vector<std::string> quality_warnings(const Result& result, double delta) {
   const MeshStatistics& s = result.statistics.final;
   const InputAngles input(result.mesh);
   if (s.min_face_angle < delta - kRounding) {
+    // Of a vertex on a sharp edge, faces across have angles that are no larger.
     const std::uint32_t apex = s.sharpest_face_angle[0];
-    const double corner = input.corner(apex);
-    const std::string at = place(result.mesh.vertices[apex]);
+    const double corner = input.corner(apex), wedge = input.wedge_at(apex);
+    const double forced = std::min(delta, kForced * s.min_face_angle);
+    std::string why = ", not the " + number(delta, 2) + " asked for";
+    if (corner <= forced) {
+      why = ", where the input has a corner of " + number(corner, 2);
+    } else if (wedge <= forced) {
+      why = ", where facets of the input meet at " + number(wedge, 2);
+    }
     warnings.push_back("the smallest face angle is " + number(s.min_face_angle, 2) +
-                       " degrees, at " + at +
-                       (corner < delta && corner <= kForced * s.min_face_angle
-                            ? ", where the input has a corner of " + number(corner, 2)
-                            : ", not the " + number(delta, 2) + " asked for"));
+                       " degrees, at " + place(result.mesh.vertices[apex]) + why);
   }
   if (s.min_dihedral < kSharp) {
     const double wedge = input.wedge(s.sharpest_dihedral);
