@@ -9,7 +9,7 @@ namespace {
 
 // A face, listed among the faces with the same lowest corner.
 struct FaceRecord {
-  Index middle, high, apex;  // the other corners, and the tetrahedron's fourth
+  Index middle, high, opposite;  // the other corners, and the tetrahedron's fourth
   Index packed;
   Index tet_face() const { return packed & ~kEven; }
   bool even() const { return (packed & kEven) != 0; }
@@ -168,7 +168,7 @@ void match_face(const TetComplex& complex, const Face& sorted, std::span<const F
                 Neighbours& neighbours, std::vector<Face>& boundary, OracleReport& report) {
   // Duplicates are reported once, at the face without the highest corner.
   for (std::size_t i = 1; i < faces.size(); ++i) {
-    if (faces[i].apex == faces[i - 1].apex && faces[i].apex > sorted[2]) {
+    if (faces[i].opposite == faces[i - 1].opposite && faces[i].opposite > sorted[2]) {
       report.fail(complex.tet_name(faces[i].tet_face() / 4) + " duplicates " +
                   complex.tet_name(faces[i - 1].tet_face() / 4));
     }

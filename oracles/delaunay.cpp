@@ -70,10 +70,10 @@ class TwoOpinions {
 
 struct ViolationNames {
   const TetComplex& complex;
-  std::string face(Index tet_face, Index apex) const {
+  std::string face(Index tet_face, Index opposite) const {
     const Tet& tet = complex.tetrahedra[tet_face / 4];
     return complex.face_name(face_of(tet, static_cast<int>(tet_face % 4))) + ": " +
-           complex.vertex_name(apex) + " lies inside the circumsphere of " +
+           complex.vertex_name(opposite) + " lies inside the circumsphere of " +
            complex.tet_name(tet_face / 4);
   }
 };
@@ -171,12 +171,12 @@ OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbo
   for (Index i = 0; i < neighbours.across.size(); ++i) {
     const Index j = neighbours.across[i];
     if (j == kNone || j < i) continue;
-    const Index apex = complex.tetrahedra[j / 4][j % 4];
+    const Index opposite = complex.tetrahedra[j / 4][j % 4];
     ++report.checked;
     const Tet& tet = complex.tetrahedra[i / 4];
     sphere.move_to(*complex.points, tet, i / 4);
-    if (opinions.insphere(sphere, tet, apex, report) > 0) {
-      report.fail(names.face(i, apex));
+    if (opinions.insphere(sphere, tet, opposite, report) > 0) {
+      report.fail(names.face(i, opposite));
     }
   }
   const std::uint64_t tried = for_each_inside(complex, [&](std::size_t t, Index v) {
@@ -214,16 +214,16 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
       std::sort(face.begin(), face.end());
       if (std::binary_search(constraints.begin(), constraints.end(), face)) continue;
     }
-    const Index apex = complex.tetrahedra[j / 4][j % 4];
+    const Index opposite = complex.tetrahedra[j / 4][j % 4];
     ++report.checked;
     const Tet& tet = complex.tetrahedra[i / 4];
     sphere.move_to(*complex.points, tet, i / 4);
     // Violations that are only counted need no second opinion.
-    const int side = options.gate ? opinions.insphere(sphere, tet, apex, report)
-                                  : sphere.insphere(*complex.points, tet, apex);
+    const int side = options.gate ? opinions.insphere(sphere, tet, opposite, report)
+                                  : sphere.insphere(*complex.points, tet, opposite);
     if (side <= 0) continue;
     ++not_delaunay;
-    if (options.gate) report.fail(names.face(i, apex));
+    if (options.gate) report.fail(names.face(i, opposite));
   }
   report.figures.emplace_back("not locally Delaunay", not_delaunay);
   if (!options.gate) return report;

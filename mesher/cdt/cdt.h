@@ -46,7 +46,7 @@ struct CdtInput {
 
 // Counts the work of facet recovery.
 struct CdtCounters {
-  std::uint64_t missing_triangles = 0, regions = 0;
+  std::uint64_t missing_triangles = 0, patches = 0;
   std::uint64_t cavity_tetrahedra = 0, largest_cavity = 0;
   std::uint64_t isolated_vertices = 0;   // of cavities, on neither their skin nor the facet
   std::uint64_t wrapped_tetrahedra = 0;  // found by gift wrapping

@@ -21,10 +21,10 @@ CdtResult expect_good(const Surface& surface) {
   EXPECT_EQ(model.wrong(result), "");
   const CdtCounters& n = result.counters;
   EXPECT_EQ(n.facet_restarts, 0U);
-  // A region is missing triangles, and its cavity is one of those that are counted.
-  EXPECT_GE(n.missing_triangles, n.regions);
+  // A patch is missing triangles, and its cavity is one of those that are counted.
+  EXPECT_GE(n.missing_triangles, n.patches);
   EXPECT_GE(n.cavity_tetrahedra, n.largest_cavity);
-  EXPECT_LE(n.cavity_tetrahedra, n.regions * n.largest_cavity);
+  EXPECT_LE(n.cavity_tetrahedra, n.patches * n.largest_cavity);
   return result;
 }
 

@@ -47,8 +47,8 @@ bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles,
     control_.poll(predicates_.points().size());
     found.push_back(done_[t] != 0 ? kNone : find_face(mesh_, chains_, triangles.triangles[t]));
     if (done_[t] != 0 || found.back() != kNone) continue;
-    collect_region(triangles, t);
-    if (!recover_region()) return false;
+    collect_patch(triangles, t);
+    if (!recover_patch()) return false;
   }
   counters_.wrapped_tetrahedra = filler_.counters().wrapped;
   counters_.hidden_vertices = filler_.counters().hidden;
@@ -58,20 +58,20 @@ bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles,
 
 // The missing triangles connected to `start` through missing edges, and the border between them and
 // what is present.
-void FacetRecovery::collect_region(const FacetTriangles& all, std::uint32_t start) {
-  region_.clear();
-  region_border_.clear();
+void FacetRecovery::collect_patch(const FacetTriangles& all, std::uint32_t start) {
+  patch_.clear();
+  patch_border_.clear();
   std::vector<std::uint32_t> queue = {start};
   done_[start] = 1;
   for (std::size_t n = 0; n < queue.size(); ++n) {
     control_.poll(predicates_.points().size());
     const Triangle& v = all.triangles[queue[n]];
-    region_.push_back(v);
+    patch_.push_back(v);
     for (int i = 0; i < 3; ++i) {
       const VertexId a = v[(i + 1) % 3], b = v[(i + 2) % 3];
       const std::uint32_t next = all.neighbors[queue[n]][i];
       if (next == kNone || find_edge(mesh_, chains_, a, b) != kNone) {
-        region_border_.push_back({a, b});
+        patch_border_.push_back({a, b});
       } else if (done_[next] == 0) {
         done_[next] = 1;
         queue.push_back(next);
@@ -86,8 +86,8 @@ void FacetRecovery::add_to_cavity(TetId t) {
   cavity_.push_back(t);
 }
 
-// The tetrahedron at a border edge that the region enters there: its other two vertices are on
-// strictly different sides of the plane, and the region leaves the edge between them.
+// The tetrahedron at a border edge that the patch enters there: its other two vertices are on
+// strictly different sides of the plane, and the patch leaves the edge between them.
 bool FacetRecovery::seed(const std::array<VertexId, 2>& edge) {
   const VertexId a = edge[0], b = edge[1];
   const TetId first = find_edge(mesh_, chains_, a, b);
@@ -104,7 +104,7 @@ bool FacetRecovery::seed(const std::array<VertexId, 2>& edge) {
     const int s0 = side(other[0]), s1 = side(other[1]);
     if (s0 * s1 >= 0) continue;
     const VertexId above = s0 > 0 ? other[0] : other[1], below = s0 > 0 ? other[1] : other[0];
-    // Seen along the edge the region leaves to the right, "above" is up: the angle from below to
+    // Seen along the edge the patch leaves to the right, "above" is up: the angle from below to
     // above must open to the right.
     if (predicates_.orient3d(a, b, below, above) > 0) {
       add_to_cavity(t);
@@ -169,11 +169,11 @@ void FacetRecovery::collect_isolated() {
   }
 }
 
-bool FacetRecovery::recover_region() {
+bool FacetRecovery::recover_patch() {
   next_epoch(cavity_epoch_, cavity_mark_, skin_mark_);
   if (cavity_mark_.size() < mesh_.capacity()) cavity_mark_.resize(mesh_.capacity() * 3 / 2, 0);
   cavity_.clear();
-  for (const auto& edge : region_border_) {
+  for (const auto& edge : patch_border_) {
     if (!seed(edge)) return false;
   }
   if (!grow_cavity()) return false;
@@ -181,17 +181,17 @@ bool FacetRecovery::recover_region() {
   collect_isolated();
   number_vertices();
   counters_.isolated_vertices += upper_isolated_.size() + lower_isolated_.size();
-  counters_.missing_triangles += region_.size();
-  ++counters_.regions;
+  counters_.missing_triangles += patch_.size();
+  ++counters_.patches;
   counters_.cavity_tetrahedra += cavity_.size();
   counters_.largest_cavity = std::max<std::uint64_t>(counters_.largest_cavity, cavity_.size());
 
   std::vector<Tetrahedron> upper, lower;
   std::vector<Triangle> faces;
-  for (const Triangle& t : region_) faces.push_back(reversed(t));
+  for (const Triangle& t : patch_) faces.push_back(reversed(t));
   for (const SkinFace& f : upper_skin_) faces.push_back(f.vertices);
   if (!filler_.fill(std::move(faces), upper_isolated_, upper)) return false;
-  faces = region_;
+  faces = patch_;
   for (const SkinFace& f : lower_skin_) faces.push_back(f.vertices);
   if (!filler_.fill(std::move(faces), lower_isolated_, lower)) return false;
   return replace_cavity(upper, lower);
@@ -202,14 +202,14 @@ void FacetRecovery::number_vertices() {
   for (const TetId t : cavity_) {
     for (int i = 0; i < 4; ++i) local_.push_back(mesh_.vertex(t, i));
   }
-  for (const Triangle& t : region_) local_.insert(local_.end(), t.begin(), t.end());
+  for (const Triangle& t : patch_) local_.insert(local_.end(), t.begin(), t.end());
   sort_unique(local_);
   // Three numbers to a key, here and in gift wrapping, whose vertices are among these.
   constexpr std::size_t kMost = (std::size_t{1} << 21) - 1;
   if (local_.size() > kMost) stop_at_size(kMost, "vertices of one cavity");
 }
 
-// Are all vertices of the cavity and the region (numbered) corners of the tetrahedra?
+// Are all vertices of the cavity and the patch (numbered) corners of the tetrahedra?
 bool FacetRecovery::keeps_all_vertices(const std::vector<Tetrahedron>& tetrahedra) const {
   std::vector<std::uint8_t> kept(local_.size(), 0);
   for (const Tetrahedron& t : tetrahedra) {

@@ -2,17 +2,17 @@
 //
 // All subsegments are edges of the perturbed Delaunay tetrahedrization. Then the constrained
 // Delaunay tetrahedrization of any set of facets exists (Shewchuk 2000), and facets can enter one
-// region at a time. A region is a set of missing triangles that are connected through missing
-// edges.
+// patch at a time. A patch is a set of missing triangles that are connected through missing
+// edges (a missing region in the literature).
 //
-// No edge of the tetrahedrization crosses the boundary of a region or lies in its interior. So the
-// tetrahedra that the region crosses can be found from one of them: a walk through the faces that
+// No edge of the tetrahedrization crosses the boundary of a patch or lies in its interior. So the
+// tetrahedra that the patch crosses can be found from one of them: a walk through the faces that
 // have vertices strictly on both sides of the plane reaches all of them and no others. These
-// tetrahedra are the cavity. All other faces stay constrained Delaunay when the region becomes a
+// tetrahedra are the cavity. All other faces stay constrained Delaunay when the patch becomes a
 // wall.
 //
-// The region cuts the cavity into an upper and a lower polyhedron, which are filled independently.
-// If all tetrahedra of a vertex reach through the region, the vertex is on no face of either
+// The patch cuts the cavity into an upper and a lower polyhedron, which are filled independently.
+// If all tetrahedra of a vertex reach through the patch, the vertex is on no face of either
 // polyhedron and is isolated inside one of them. That is rare: it happened to one of 7649 vertices
 // of a spiral squeezed flat.
 #pragma once
@@ -45,8 +45,8 @@ class FacetRecovery {
   };
 
   int side(VertexId v);
-  void collect_region(const FacetTriangles& all, std::uint32_t start);
-  bool recover_region();
+  void collect_patch(const FacetTriangles& all, std::uint32_t start);
+  bool recover_patch();
   bool seed(const std::array<VertexId, 2>& edge);
   bool grow_cavity();
   void collect_skin();
@@ -71,8 +71,8 @@ class FacetRecovery {
   std::vector<std::int8_t> side_;
 
   std::vector<std::uint8_t> done_;  // per triangle of the facet at hand
-  std::vector<Triangle> region_;
-  std::vector<std::array<VertexId, 2>> region_border_;  // directed, region on the left
+  std::vector<Triangle> patch_;
+  std::vector<std::array<VertexId, 2>> patch_border_;  // directed, patch on the left
   std::vector<TetId> cavity_, ring_;
   std::vector<std::uint32_t> cavity_mark_;  // per tet
   std::uint32_t cavity_epoch_ = 0;

@@ -101,7 +101,7 @@ class IsolatedVertices {
     for (VertexId v : flat_of_facet_[f]) {
       if (!near_chamfer(v) && !near_boundary(f, v)) result.push_back(v);
     }
-    if (clearance_ > 0) drop_crowded(result);
+    if (clearance_ > 0) keep_clearance(result);
     return result;
   }
 
@@ -156,7 +156,7 @@ class IsolatedVertices {
   }
 
   // Of vertices closer than the clearance, the one with the smallest id stays.
-  void drop_crowded(std::vector<VertexId>& vertices) const {
+  void keep_clearance(std::vector<VertexId>& vertices) const {
     std::vector<Box> boxes;
     for (VertexId v : vertices) {
       const std::array<Vec3, 1> point = {surface_.position(v)};

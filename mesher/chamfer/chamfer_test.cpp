@@ -275,8 +275,8 @@ TEST(RemovedSurface, IsTheDroppedFacetsAndNothingElse) {
       for (const VertexId v : model.topology.triangles[t]) {
         for (int k = 0; k < 3; ++k) middle[k] += model.points.nearest(v)[k] / 3;
       }
-      EXPECT_EQ(removed.crowded(middle, 0.5), model.topology.facet_of[t] == f) << t;
-      EXPECT_FALSE(nothing.crowded(middle, 0.5));
+      EXPECT_EQ(removed.too_near(middle, 0.5), model.topology.facet_of[t] == f) << t;
+      EXPECT_FALSE(nothing.too_near(middle, 0.5));
     }
   }
 }

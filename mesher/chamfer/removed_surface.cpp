@@ -49,15 +49,15 @@ RemovedSurface::RemovedSurface(const ChamferResult& chamfered,
       chamfers_(build_chamfers(chamfered)),
       dropped_(build_dropped(facet_kept)) {}
 
-bool RemovedSurface::crowded(const Vec3& p, double spacing) const {
+bool RemovedSurface::too_near(const Vec3& p, double spacing) const {
   const bool in_chamfer = !chamfers_.query({p, p}, [&](std::uint32_t n) {
     return !(point_segment_distance(p, items_[n].a, items_[n].b) < items_[n].radius);
   });
   if (in_chamfer) return true;
   // Nearer than this fraction of its spacing, a vertex sees a filtered facet under too small
   // angles.
-  constexpr double kCrowding = 0.3;
-  const double reach = kCrowding * spacing;
+  constexpr double kTooNear = 0.3;
+  const double reach = kTooNear * spacing;
   return !dropped_.query(enlarged({p, p}, reach), [&](std::uint32_t n) {
     return !(point_triangle_distance(p, corners(dropped_triangles_[n])) <= reach);
   });

@@ -16,15 +16,15 @@ std::vector<Box> removed_boxes(const ChamferResult& chamfered,
                                const SurfaceTopology& topology, const PointStore& points);
 
 // Tells which points of the refined mesh are too near it for the last step (section 6): a volume
-// vertex inside a chamfer, or one that crowds a dropped facet, would make needless bad tetrahedra
-// when the surface returns. `facet_kept`: per facet; empty: all.
+// vertex inside a chamfer, or one within 0.3 of its spacing of a dropped facet, would make needless
+// bad tetrahedra when the surface returns. `facet_kept`: per facet; empty: all.
 class RemovedSurface {
  public:
   RemovedSurface(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,
                  const SurfaceTopology& topology, const PointStore& points);
 
   // `spacing` is the distance of p to its nearest neighbour in the refined mesh.
-  bool crowded(const Vec3& p, double spacing) const;
+  bool too_near(const Vec3& p, double spacing) const;
 
  private:
   struct Chamfer {

@@ -65,7 +65,7 @@ void add_complex_points(const chamfer::ChamferResult& chamfered,
 }
 
 // Drops points that coincide with an input vertex which the complex lacks, e.g. the midpoint of a
-// chamfered region that happens to be a flat vertex: one of coincident points stays, the input
+// bridge or strip that happens to be a flat vertex: one of coincident points stays, the input
 // vertex.
 void drop_coincident(const PointStore& points, Predicates& predicates, cdt::CdtInput& input) {
   std::vector<VertexId>& all = input.vertices;
@@ -118,7 +118,7 @@ cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
   const std::vector<double> spacing = spacings(refined, points);
   for (const VertexId v : refined.in_volume) {
     control.poll(points.size());
-    if (!removed.crowded(points.nearest(v), spacing[v])) input.vertices.push_back(v);
+    if (!removed.too_near(points.nearest(v), spacing[v])) input.vertices.push_back(v);
   }
   drop_coincident(points, predicates, input);
   return input;

@@ -12,8 +12,8 @@ namespace delmesher::enrich {
 cdt::CdtInput plain_input(const SurfaceTopology& topology);
 
 // The input surface with the vertices of the refined mesh, without those on artificial segments,
-// volume vertices that crowd what was removed (RemovedSurface), and points that coincide with input
-// vertices.
+// volume vertices too near to what was removed (RemovedSurface), and points that coincide with
+// input vertices.
 cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
                              const std::vector<std::uint8_t>& facet_kept,
                              const refine::RefineResult& refined, const SurfaceTopology& topology,

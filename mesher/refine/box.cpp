@@ -9,7 +9,7 @@ namespace delmesher::refine {
 namespace {
 
 // Margin on each side: half the extent of the axis, but not less than a quarter of the largest
-// extent, so that the box does not crowd thin models.
+// extent, so that the box is not close to thin models.
 constexpr double kMarginOfAxis = 0.5;
 constexpr double kMarginOfLargest = 0.25;
 

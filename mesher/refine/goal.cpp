@@ -56,8 +56,8 @@ std::uint8_t level_of(double ratio2) {
 
 Goal::Goal(double delta, bool slivers, double max_edge)
     : max_cosine_squared_(cosine_squared(delta)), slivers_(slivers), max_edge_(max_edge) {
-  // An isosceles triangle with unit base and apex angle delta has height cot(delta / 2) / 2, and
-  // cot^2(delta / 2) = (1 + cos delta) / (1 - cos delta).
+  // An isosceles triangle with unit base and the angle delta opposite has height cot(delta / 2) /
+  // 2, and cot^2(delta / 2) = (1 + cos delta) / (1 - cos delta).
   const double cosine = std::sqrt(max_cosine_squared_);
   offcentre2_ = (1 + cosine) / (1 - cosine) / 4;
 }

@@ -169,23 +169,23 @@ bool GroupPlanes::relieve_vertices() {
   for (std::uint32_t g = 0; g < planes_.size(); ++g) {
     if (growth_.is_group(g)) sharing[plane_of_[g]].push_back(g);
   }
-  std::vector<VertexId> crowded;
-  std::vector<std::uint8_t> is_crowded(planes_at_.size(), 0);
+  std::vector<VertexId> stuck;
+  std::vector<std::uint8_t> is_stuck(planes_at_.size(), 0);
   // A plane that is moved for one vertex may leave another behind.
   for (bool again = true; again;) {
     again = false;
     for (VertexId v = 0; v < planes_at_.size(); ++v) {
-      if (planes_at_[v].size() <= 3 || is_crowded[v] != 0 || !must_move(v)) continue;
+      if (planes_at_[v].size() <= 3 || is_stuck[v] != 0 || !must_move(v)) continue;
       if (pin_all(v, sharing)) {
         again = true;
       } else {
-        crowded.push_back(v);
-        is_crowded[v] = 1;
+        stuck.push_back(v);
+        is_stuck[v] = 1;
       }
     }
   }
-  make_room(crowded);
-  return !crowded.empty();
+  make_room(stuck);
+  return !stuck.empty();
 }
 
 // All planes at the vertex, or none.
@@ -208,13 +208,13 @@ bool GroupPlanes::pin_all(VertexId v, const std::vector<std::vector<std::uint32_
 // A plane that is given up at one vertex mostly is at all vertices of its group, if that is one of
 // few triangles. So few planes are enough: the one first that makes room at most vertices for the
 // least harm. Harm is done by what is then a facet of its own, the more the narrower it is.
-void GroupPlanes::make_room(const std::vector<VertexId>& crowded) {
+void GroupPlanes::make_room(const std::vector<VertexId>& stuck) {
   struct Candidate {
     std::vector<VertexId> at;
     double harm = 0;
   };
   std::map<std::uint32_t, Candidate> candidates;
-  for (const VertexId v : crowded) {
+  for (const VertexId v : stuck) {
     for (const std::uint32_t g : planes_at_[v]) {
       Candidate& candidate = candidates[g];
       candidate.at.push_back(v);

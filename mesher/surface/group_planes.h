@@ -73,7 +73,7 @@ class GroupPlanes {
   std::uint32_t largest_triangle(std::uint32_t group) const;
   bool one_plane(std::uint32_t g, std::uint32_t h) const;
   bool pin_all(VertexId v, const std::vector<std::vector<std::uint32_t>>& sharing);
-  void make_room(const std::vector<VertexId>& crowded);
+  void make_room(const std::vector<VertexId>& stuck);
   bool pin(VertexId v, std::uint32_t g, const std::vector<std::uint32_t>& sharing);
   PlaneEquation pinned_plane(const Plane& plane) const;
   bool release(VertexId v, std::uint32_t plane);

@@ -128,10 +128,10 @@ void PlanarGrowth::grow_all() {
   hand_over_needles();
 }
 
-// A triangle whose apex is within the noise of its longest edge lies in the planes on both sides
-// of it. It goes to the one across that edge, so that the apex comes to lie in both planes, on
-// the edge, and a flip of the edge leaves no trace of the triangle. Else it would have its own
-// height to be resolved.
+// A needle is a triangle whose third vertex is within the noise of its longest edge, so that it lies
+// in the planes on both sides of that edge. It goes to the one across: then the vertex comes to lie
+// in both planes, on the edge, and a flip of the edge leaves no trace of the triangle. Else it would
+// have its own height to be resolved.
 void PlanarGrowth::hand_over_needles() {
   std::vector<std::pair<double, std::uint32_t>> needles;  // by length, longest first
   for (std::uint32_t t = 0; t < surface_.triangles().size(); ++t) {
