@@ -39,19 +39,21 @@ class Improvement {
   // been tried.
   void run() {
     coarsen();
-    repair();
+    repair(kFirst);
     insert_ = true;
     tried_.clear();
     coarsen();
-    repair();
+    repair(kAgain);
     polish();
     polish();
+    repair({});
   }
 
  private:
-  // Passes over all that is not good, and then over the worst alone.
-  static constexpr int kPasses = 4, kPassesForWorst = 12;
-  static constexpr float kWorst = 0.4F;  // score
+  // The score below which tetrahedra are tried, pass by pass: later ones take as long as the first,
+  // but bring less, except to what is bad.
+  static constexpr float kFirst[] = {1, 0.8F, 0.6F, 0.5F}, kAgain[] = {0.7F, 0.5F};
+  static constexpr int kPassesForBad = 10;
 
   void poll() { control_.poll(static_cast<std::uint64_t>(vertices_ + state_.vertices_gained())); }
 
@@ -81,10 +83,10 @@ class Improvement {
 
   // Tries all operations on the tetrahedra that are not good, the worst first, until nothing helps
   // or hardly anything is left to gain.
-  void repair() {
+  void repair(std::span<const float> limits) {
     std::vector<std::pair<float, TetId>> work;
-    for (int pass = 0; pass < kPasses + kPassesForWorst; ++pass) {
-      const float limit = pass < kPasses ? 1 : kWorst;
+    for (std::size_t pass = 0; pass < limits.size() + kPassesForBad; ++pass) {
+      const float limit = pass < limits.size() ? limits[pass] : State::kBad;
       tried_.resize(state_.mesh.slots(), 0);
       work.clear();
       for (TetId t = 0; t < state_.mesh.slots(); ++t) {
@@ -93,19 +95,24 @@ class Improvement {
         work.emplace_back(state_.score(t), t);
       }
       std::sort(work.begin(), work.end());
-      bool success = false;
+      std::size_t successes = 0;
       for (const auto& [score, t] : work) {
         if (!state_.mesh.alive(t) || state_.score(t) != score) continue;
         poll();
         if (attempt(t)) {
-          success = true;
+          ++successes;
         } else {
           tried_[t] = state_.clock() + 1;
         }
       }
       validate();
-      if (!success) break;
+      // Where much is bad and stays bad, the surface leaves no room.
+      if (successes == 0 || in_vain(work.size(), successes)) break;
     }
+  }
+
+  bool in_vain(std::size_t attempts, std::size_t successes) const {
+    return attempts > state_.mesh.slots() / 100 && successes < attempts / 6;
   }
 
   bool changed_since(TetId t, std::uint32_t when) const {

@@ -9,25 +9,43 @@ namespace {
 constexpr std::size_t kLargestCavity = 24, kSmallCavity = 8;
 // Fineness of the grid of new points, in the shortest edge.
 constexpr double kGrid = 1.0 / 1024;
-// A point has to be worth it: the score of the new tetrahedra is at least this, and this much
-// better than what was.
+// A point has to be worth it: its star is not bad, or much better than what was.
 constexpr float kLeastScore = 0.4F;
-constexpr float kLeastGain = 1.5F;
+constexpr float kLeastGain = 4;
 
 }  // namespace
 
 bool Insertion::run(TetId t) {
-  if (!state_.counts(t) || state_.score(t) * kLeastGain >= 1) return false;
-  Vec3 x = middle(t);
-  grow(t, x);
-  settle(x);
+  // A point does not mend a face with a small angle, which is mostly one of the surface.
+  if (!state_.counts(t) || state_.score(t) >= State::kBad || state_.face_score(t) < State::kBad)
+    return false;
+  if (try_from(t, middle(t))) return true;
+  // Below each of its faces, where their tetrahedra would be the best.
+  for (const auto& f : kFace) {
+    const Tet& tet = state_.mesh.tet(t);
+    const auto at = [&](int k) { return state_.position(tet[f[k]]); };
+    if (try_from(t, best_apex(at(0), at(1), at(2)))) return true;
+  }
+  return false;
+}
+
+bool Insertion::try_from(TetId t, Vec3 x) {
+  cavity_.clear();
+  faces_.clear();
+  add(t, x);
+  // Where x went, other faces are the worst.
+  for (std::size_t size = 0; size < cavity_.size();) {
+    size = cavity_.size();
+    grow(x);
+    settle(x);
+  }
   if (!(state_.score(worst()->quality) > 0)) return false;
   const Place place = state_.new_place(x, shortest_edge(t) * kGrid);
   measure(place.position);
   const Quality before = state_.worst_of(cavity_);
   const Quality least = state_.to_be_better(before);
-  bool ok =
-      state_.score(worst()->quality) >= std::max(kLeastScore, kLeastGain * state_.score(before));
+  const float was = state_.score(before);
+  bool ok = state_.score(worst()->quality) >= std::min(kLeastScore, kLeastGain * was);
   created_.clear();
   for (std::size_t n = 0; ok && n < faces_.size(); ++n) {
     const auto& [tet, face, quality] = faces_[n];
@@ -74,12 +92,9 @@ double Insertion::shortest_edge(TetId t) const {
   return std::sqrt(shortest2);
 }
 
-// Grows the cavity of x from t across its worst face, until that is on the surface or good, or the
+// Grows the cavity of x across its worst face, until that is on the surface or good, or the
 // tetrahedron beyond it is not worth it.
-void Insertion::grow(TetId t, const Vec3& x) {
-  cavity_.clear();
-  faces_.clear();
-  add(t, x);
+void Insertion::grow(const Vec3& x) {
   while (cavity_.size() < kLargestCavity) {
     const auto& [tet, face, quality] = *worst();
     const TetId next = state_.mesh.neighbor(tet, face);
@@ -129,10 +144,11 @@ void Insertion::settle(Vec3& x) {
     const Vec3 towards = subtract(best_apex(state_.position(tet[f[0]]), state_.position(tet[f[1]]),
                                             state_.position(tet[f[2]])),
                                   x);
+    const Quality least = state_.to_reach(before);
     const auto better = [&](const Vec3& moved) {
       return std::all_of(faces_.begin(), faces_.end(), [&](const Face& face) {
-        return state_.score(state_.quality_with(state_.mesh.tet(face.tet), face.face, moved)) >
-               before;
+        return state_.score(state_.quality_with(state_.mesh.tet(face.tet), face.face, moved,
+                                                least)) > before;
       });
     };
     bool success = false;

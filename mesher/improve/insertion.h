@@ -24,9 +24,10 @@ class Insertion {
     Quality quality;  // of its tetrahedron with the new point
   };
 
+  bool try_from(TetId t, Vec3 x);
   Vec3 middle(TetId t) const;
   double shortest_edge(TetId t) const;
-  void grow(TetId t, const Vec3& x);
+  void grow(const Vec3& x);
   void add(TetId t, const Vec3& x);
   void measure(const Vec3& x);
   std::vector<Face>::const_iterator worst() const;

@@ -95,6 +95,18 @@ Vec3 Smoothing::towards_best_apex(TetId t, const Vec3& x) const {
       x);
 }
 
+// The same on average, of those that count.
+Vec3 Smoothing::towards_best_apexes(const Vec3& x) const {
+  Vec3 sum{};
+  double count = 0;
+  for (const TetId t : star_) {
+    if (!state_.counts(t)) continue;
+    sum = predicates::add(sum, towards_best_apex(t, x));
+    ++count;
+  }
+  return {sum[0] / count, sum[1] / count, sum[2] / count};
+}
+
 // The worst of the star with v at x; incomplete if it does not reach `least`.
 Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
   Quality worst = kNotCounted;
@@ -113,7 +125,6 @@ Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
 }
 
 bool Smoothing::improve_worst(VertexId v) {
-  constexpr int kRounds = 4;
   constexpr double kSteps[] = {0.5, 0.25, 0.125, 0.0625, 0.015625};
   if (!begin(v)) return false;
   const Quality least = state_.to_be_better(state_.worst_of(star_));
@@ -121,14 +132,18 @@ bool Smoothing::improve_worst(VertexId v) {
   Vec3 x = state_.position(v);
   bool any = false;
   worst_ = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  // Small steps and many are for what is bad.
+  const bool bad = state_.score(best) < State::kBad;
+  const std::size_t steps = bad ? std::size(kSteps) : 3;
+  const int rounds = bad ? 4 : 3;
+  for (int round = 0; round < rounds; ++round) {
     const std::size_t worst = worst_;
     std::size_t best_worst = worst;
     Vec3 best_x = x;
     bool success = false;
     for (const Vec3& direction :
          {allowed(towards_best_apex(star_[worst], x)), allowed(subtract(center_, x))}) {
-      for (const double step : kSteps) {
+      for (const double step : std::span(kSteps, steps)) {
         const Vec3 candidate = add_scaled(x, step, direction);
         const Quality q = worst_at(candidate, any || success ? state_.to_be_better(best) : least);
         if (!(q.dihedral > 0)) {
@@ -178,16 +193,19 @@ bool Smoothing::round_off(VertexId v) {
   double best = before * kLeastGain;
   Vec3 best_offset{};
   bool any = false;
-  const Vec3 direction = allowed(subtract(center_, state_.position(v)));
-  for (const double step : {1.0, 0.5, 0.25}) {
-    const Vec3 offset = {step * direction[0], step * direction[1], step * direction[2]};
-    const double sum = roundness_at(add(state_.position(v), offset), least);
-    if (sum > best) {
-      best = sum;
-      best_offset = offset;
-      any = true;
-    } else if (any) {
-      break;
+  const Vec3 x = state_.position(v);
+  for (const Vec3& direction : {allowed(towards_best_apexes(x)), allowed(subtract(center_, x))}) {
+    bool success = false;
+    for (const double step : {1.0, 0.5, 0.25}) {
+      const Vec3 offset = {step * direction[0], step * direction[1], step * direction[2]};
+      const double sum = roundness_at(predicates::add(x, offset), least);
+      if (sum > best) {
+        best = sum;
+        best_offset = offset;
+        any = success = true;
+      } else if (success) {
+        break;
+      }
     }
   }
   if (!any) return false;

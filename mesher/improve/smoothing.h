@@ -20,6 +20,7 @@ class Smoothing {
   bool begin(VertexId v);
   bool find_axis();
   Vec3 allowed(const Vec3& offset) const;
+  Vec3 towards_best_apexes(const Vec3& x) const;
   Vec3 towards_best_apex(TetId worst, const Vec3& x) const;
   Quality worst_at(const Vec3& x, const Quality& least);
   double roundness_at(const Vec3& x, const Quality& least) const;

@@ -82,16 +82,26 @@ class State {
     return std::min({q.dihedral * per_target_.dihedral, q.face * per_target_.face,
                      q.gamma * per_target_.gamma});
   }
+  // Below this score it is worth trying hard.
+  static constexpr float kBad = 0.4F;
   bool good(const Quality& q) const { return score(q) >= 1; }
   float score(TetId t) const { return score(quality_[t]); }
+  // By its face angles alone.
+  float face_score(TetId t) const { return quality_[t].face * per_target_.face; }
 
   // What a change that replaces tetrahedra as bad as `before` has to reach: to be better than they
   // are, or, where something else is gained, good or as good as they are.
   Quality to_be_better(const Quality& before) const {
-    return at_least(kGain * score(before), before);
+    const float now = score(before);
+    return at_least((now < kBad ? kLeastGain : kGain) * now, before);
   }
   Quality to_be_acceptable(const Quality& before) const {
     return at_least(std::min(1.0F, score(before)), before);
+  }
+  // What has this score at least.
+  Quality to_reach(float score) const {
+    return {score * goals_.target.dihedral, score * goals_.target.face,
+            score * goals_.target.gamma};
   }
   static bool reaches(const Quality& q, const Quality& least) {
     return q.dihedral >= least.dihedral && q.face >= least.face && q.gamma >= least.gamma;
@@ -129,8 +139,9 @@ class State {
   std::int64_t vertices_gained() const { return gained_; }
 
  private:
-  // A change has to be worth it: many small steps cost time and bring little.
-  static constexpr float kGain = 1.1F;
+  // A change has to be worth it: many small steps cost time and bring little. What is bad may
+  // become better by small steps alone.
+  static constexpr float kGain = 1.1F, kLeastGain = 1.01F;
 
   Quality at_least(float score, const Quality& before) const {
     return {
