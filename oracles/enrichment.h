@@ -29,7 +29,7 @@ OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoin
 // steps, by doubles with a relative slack of 1e-6. Not decided, only counted, if the mesh before
 // has tetrahedra that are not positive there: repairs of rounding may then have changed it once
 // more.
-inline constexpr double kImprovedDihedral = 20;
+inline constexpr double kImprovedDihedral = 17;
 OracleReport check_improvement(const delmesher::ExactRecord& record, const ExactPoints& points,
                                const Promise& promise);
 

@@ -241,6 +241,7 @@ ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
                       PointStore& points, Predicates& predicates, Control& control) {
   const Goals goals{.target = {squared_sine(kDihedral), squared_sine(kFaceAngle), kGamma * kGamma},
                     .promised = squared_sine(options.delta),
+                    .floor = squared_sine(kFlattestDihedral),
                     .max_edge = options.max_edge,
                     .everywhere = options.region == Region::hull};
   // A face that is a facet of its own has no other triangulation.

@@ -15,6 +15,9 @@
 
 namespace delmesher::improve {
 
+// No dihedral angle flatter than this, in degrees, is made where none was before.
+inline constexpr double kFlattestDihedral = 17;
+
 struct ImproveOptions {
   double delta = 14.47;  // degrees: no face angle below it is made, unless one was there
   double max_edge = 0;   // no edge longer than this is made; 0: any

@@ -114,7 +114,7 @@ TEST(Improve, KeepsTheSurfaceAndTheWorstAngles) {
       EXPECT_EQ(c.wrong(), "");
       EXPECT_EQ(c.volume(c.after), c.volume(c.before));
       const Quality before = c.worst(c.before), after = c.worst(c.after);
-      EXPECT_GE(after.dihedral, std::min(before.dihedral, squared_sine(22)));
+      EXPECT_GE(after.dihedral, std::min(before.dihedral, squared_sine(kFlattestDihedral)));
       EXPECT_GE(after.face, std::min(before.face, squared_sine(14.47)));
       EXPECT_LT(c.after.tetrahedra.size(), c.before.tetrahedra.size());
       const std::size_t input = c.model.topology.vertex_half_edge.size();
@@ -144,7 +144,7 @@ TEST(Improve, OutsideCountsForTheHull) {
     c.run(options);
     EXPECT_EQ(c.wrong(), "");
     const Quality before = c.worst(c.before, true), after = c.worst(c.after, true);
-    EXPECT_GE(after.dihedral, std::min(before.dihedral, squared_sine(22)));
+    EXPECT_GE(after.dihedral, std::min(before.dihedral, squared_sine(kFlattestDihedral)));
     EXPECT_GE(after.face, std::min(before.face, squared_sine(14.47)));
   }
 }

@@ -26,8 +26,10 @@ enum class Mobility : std::uint8_t {
 };
 
 struct Goals {
-  Quality target;           // tetrahedra as good as this are left alone
-  float promised = 0;       // squared sine: no face angle below this is made, unless one was there
+  Quality target;  // tetrahedra as good as this are left alone
+  // Squared sines: no face angle below `promised` and no dihedral angle flatter than `floor` is
+  // made, unless one as bad was there.
+  float promised = 0, floor = 0;
   double max_edge = 0;      // no edge longer than this is made; 0: any
   bool everywhere = false;  // what is outside counts as well
 };
@@ -40,10 +42,9 @@ struct Place {
 };
 
 // Laws:
-//  - Of the tetrahedra that count, what a change makes has no dihedral angle below the target and
-//  no
-//    face angle below the promise, unless those that it replaces had one as bad; so neither the
-//    smallest dihedral nor the smallest face angle of a mesh that misses them becomes worse.
+//  - Of the tetrahedra that count, what a change makes has no dihedral angle flatter than the floor
+//    and no face angle below the promise, unless those that it replaces had one as bad; so neither
+//    the flattest dihedral nor the smallest face angle of a mesh that misses them becomes worse.
 //  - All tetrahedra that a change makes are positive, on exact coordinates and as doubles.
 class State {
  public:
@@ -90,13 +91,13 @@ class State {
   float face_score(TetId t) const { return quality_[t].face * per_target_.face; }
 
   // What a change that replaces tetrahedra as bad as `before` has to reach: to be better than they
-  // are, or, where something else is gained, good or as good as they are.
+  // are; or, where something else is gained, nearly good or as good as they are.
   Quality to_be_better(const Quality& before) const {
     const float now = score(before);
     return at_least((now < kBad ? kLeastGain : kGain) * now, before);
   }
   Quality to_be_acceptable(const Quality& before) const {
-    return at_least(std::min(1.0F, score(before)), before);
+    return at_least(std::min(kNearlyGood, score(before)), before);
   }
   // What has this score at least.
   Quality to_reach(float score) const {
@@ -141,13 +142,13 @@ class State {
  private:
   // A change has to be worth it: many small steps cost time and bring little. What is bad may
   // become better by small steps alone.
+  static constexpr float kNearlyGood = 0.6F;
   static constexpr float kGain = 1.1F, kLeastGain = 1.01F;
 
   Quality at_least(float score, const Quality& before) const {
-    return {
-        std::max(score * goals_.target.dihedral, std::min(goals_.target.dihedral, before.dihedral)),
-        std::max(score * goals_.target.face, std::min(goals_.promised, before.face)),
-        score * goals_.target.gamma};
+    return {std::max(score * goals_.target.dihedral, std::min(goals_.floor, before.dihedral)),
+            std::max(score * goals_.target.face, std::min(goals_.promised, before.face)),
+            score * goals_.target.gamma};
   }
   void find_mobility();
   void measure(TetId t);
