@@ -15,9 +15,9 @@ bool exactly_on(const PlaneEquation& plane, const Vec3& p);
 // The plane in doubles.
 Fit rough(const PlaneEquation& plane);
 
-// Call fit(), share(), spread_moves() and relieve_vertices() in this order; whenever one of the two
-// that can says so, groups have lost triangles, and all has to be done again. The same after
-// release() and after PlanarGrowth::detach().
+// Call fit(), share(), spread_moves() and relieve_vertices() in this order. If the last one says
+// that groups have lost triangles, all has to be done again; the same after release() and after
+// PlanarGrowth::detach().
 class GroupPlanes {
  public:
   GroupPlanes(MeasuredSurface& surface, PlanarGrowth& growth)
@@ -53,8 +53,9 @@ class GroupPlanes {
   bool must_move(VertexId v) const;
 
  private:
-  // on_plane: all vertices are on the plane exactly. planar: they are in one plane, whose equation
-  // doubles cannot hold; it needs one only if one of its vertices moves for another group.
+  // on_plane: all vertices are on the plane exactly. planar: they are in one plane exactly, whose
+  // equation doubles cannot hold; the group becomes moving if one of its vertices moves for
+  // another.
   enum class State : std::uint8_t { on_plane, planar, moving };
   struct Plane {
     PlaneEquation fitted{};      // of the group's triangles alone

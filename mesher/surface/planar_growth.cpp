@@ -128,10 +128,10 @@ void PlanarGrowth::grow_all() {
   hand_over_needles();
 }
 
-// A needle is a triangle whose third vertex is within the noise of its longest edge, so that it lies
-// in the planes on both sides of that edge. It goes to the one across: then the vertex comes to lie
-// in both planes, on the edge, and a flip of the edge leaves no trace of the triangle. Else it would
-// have its own height to be resolved.
+// A needle is a triangle whose third vertex is within the noise of its longest edge, so that it
+// lies in the planes on both sides of that edge. It goes to the one across: then the vertex comes
+// to lie in both planes, on the edge, and a flip of the edge leaves no trace of the triangle. Else
+// it would have its own height to be resolved.
 void PlanarGrowth::hand_over_needles() {
   std::vector<std::pair<double, std::uint32_t>> needles;  // by length, longest first
   for (std::uint32_t t = 0; t < surface_.triangles().size(); ++t) {
@@ -164,83 +164,121 @@ void PlanarGrowth::grow_from(std::vector<std::uint32_t> seeds, double noise) {
   }
 }
 
-// The largest neighbours first. A triangle joins if it is within the bound of the plane that it
-// helps to find: that of a small seed says nothing about places far away. Whenever the group has
-// doubled, all of it is asked; if it has become a bent one, it goes back to what it was and takes
-// only what is within the bound of that plane.
-void PlanarGrowth::grow(std::uint32_t seed, double noise) {
-  const auto id = static_cast<std::uint32_t>(groups_.size());
-  groups_.emplace_back();
-  groups_.back().noise = noise;
-  std::vector<std::uint32_t>& members = groups_.back().triangles;
-  const auto smaller = [&](std::uint32_t h, std::uint32_t g) {
-    return surface_.size(h / 3) != surface_.size(g / 3)
-               ? surface_.size(h / 3) < surface_.size(g / 3)
-               : h > g;
-  };
-  std::vector<std::uint32_t> heap, refused;  // half-edges of triangles outside
-  const auto push = [&](std::uint32_t h) {
-    heap.push_back(h);
-    std::push_heap(heap.begin(), heap.end(), smaller);
-  };
-  const auto push_neighbours = [&](std::uint32_t t) {
-    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-      const std::uint32_t g = surface_.opposite()[h];
-      if (open_[g / 3] != 0 && surface_.label(g / 3) == surface_.label(t)) push(g);
+// A group while it grows. The largest neighbours come first. A triangle joins if it is within the
+// bound of the plane that it helps to find: that of a small seed says nothing about places far
+// away. Whenever the group has doubled, all of it is asked; if it has become a bent one, it goes
+// back to what it was and takes only what is within the bound of that plane.
+class PlanarGrowth::Growing {
+ public:
+  Growing(PlanarGrowth& growth, std::uint32_t id, std::uint32_t seed)
+      : growth_(growth),
+        surface_(growth.surface_),
+        id_(id),
+        group_(growth.groups_[id]),
+        sum_(surface_.vertices()) {
+    sum_.add(surface_.triangles()[seed]);
+    join(seed);
+    verified_plane_ = sum_.fit();
+  }
+
+  void run() {
+    while (!heap_.empty()) {
+      const std::uint32_t h = pop();
+      if (growth_.open_[h / 3] == 0) continue;
+      if (bent_) {
+        if (growth_.fits(h / 3, verified_plane_, group_.noise)) join(h / 3);
+        continue;
+      }
+      offer(h);
+      const bool doubled = members().size() >= 2 * verified_;
+      if (doubled || (heap_.empty() && members().size() > verified_)) verify();
     }
-  };
-  const auto join = [&](std::uint32_t t) {
-    group_of_[t] = id;
-    open_[t] = 0;
-    members.push_back(t);
+    std::sort(members().begin(), members().end());
+  }
+
+ private:
+  std::vector<std::uint32_t>& members() { return group_.triangles; }
+
+  // A heap of half-edges of triangles outside.
+  bool smaller(std::uint32_t h, std::uint32_t g) const {
+    const double a = surface_.size(h / 3), b = surface_.size(g / 3);
+    return a != b ? a < b : h > g;
+  }
+  auto order() const {
+    return [this](std::uint32_t h, std::uint32_t g) { return smaller(h, g); };
+  }
+  void push(std::uint32_t h) {
+    heap_.push_back(h);
+    std::push_heap(heap_.begin(), heap_.end(), order());
+  }
+  std::uint32_t pop() {
+    std::pop_heap(heap_.begin(), heap_.end(), order());
+    const std::uint32_t h = heap_.back();
+    heap_.pop_back();
+    return h;
+  }
+  void push_neighbours(std::uint32_t t) {
+    for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+      const std::uint32_t u = surface_.opposite()[h] / 3;
+      if (growth_.open_[u] != 0 && surface_.label(u) == surface_.label(t)) {
+        push(surface_.opposite()[h]);
+      }
+    }
+  }
+
+  void join(std::uint32_t t) {
+    growth_.group_of_[t] = id_;
+    growth_.open_[t] = 0;
+    members().push_back(t);
     push_neighbours(t);
-  };
-  PlaneFit sum(surface_.vertices());
-  sum.add(surface_.triangles()[seed]);
-  join(seed);
-  std::size_t verified = 1;
-  Fit fixed = sum.fit();
-  bool bent = false;
-  const auto verify = [&] {
-    const Fit fit = sum.fit();
-    const auto inside = [&](std::uint32_t t) { return fits(t, fit, noise); };
-    if (std::ranges::all_of(members, inside)) {
-      verified = members.size();
-      fixed = fit;
-      for (const std::uint32_t h : refused) push(h);
-      refused.clear();
+  }
+  void offer(std::uint32_t h) {
+    PlaneFit with = sum_;
+    with.add(surface_.triangles()[h / 3]);
+    if (growth_.fits(h / 3, with.fit(), group_.noise)) {
+      sum_ = with;
+      join(h / 3);
+    } else {
+      refused_.push_back(h);
+    }
+  }
+
+  // Do all triangles fit the plane of all? If not, those that joined since this was so leave.
+  void verify() {
+    const Fit fit = sum_.fit();
+    if (std::ranges::all_of(members(),
+                            [&](std::uint32_t t) { return growth_.fits(t, fit, group_.noise); })) {
+      verified_ = members().size();
+      verified_plane_ = fit;
+      for (const std::uint32_t h : refused_) push(h);
+      refused_.clear();
       return;
     }
-    bent = true;
-    for (std::size_t n = verified; n < members.size(); ++n) {
-      group_of_[members[n]] = kNone;
-      open_[members[n]] = 1;
+    bent_ = true;
+    for (std::size_t n = verified_; n < members().size(); ++n) {
+      growth_.group_of_[members()[n]] = kNone;
+      growth_.open_[members()[n]] = 1;
     }
-    members.resize(verified);
-    heap.clear();
-    for (const std::uint32_t t : std::vector<std::uint32_t>(members)) push_neighbours(t);
-  };
-  while (!heap.empty()) {
-    std::pop_heap(heap.begin(), heap.end(), smaller);
-    const std::uint32_t h = heap.back(), t = h / 3;
-    heap.pop_back();
-    if (open_[t] == 0) continue;
-    if (bent) {
-      if (fits(t, fixed, noise)) join(t);
-      continue;
-    }
-    PlaneFit with = sum;
-    with.add(surface_.triangles()[t]);
-    if (fits(t, with.fit(), noise)) {
-      sum = with;
-      join(t);
-    } else {
-      refused.push_back(h);
-    }
-    const bool doubled = members.size() >= 2 * verified;
-    if (doubled || (heap.empty() && members.size() > verified)) verify();
+    members().resize(verified_);
+    heap_.clear();
+    for (std::size_t n = 0; n < verified_; ++n) push_neighbours(members()[n]);
   }
-  std::sort(members.begin(), members.end());
+
+  PlanarGrowth& growth_;
+  const MeasuredSurface& surface_;
+  const std::uint32_t id_;
+  Group& group_;
+  PlaneFit sum_;  // of the members
+  std::vector<std::uint32_t> heap_, refused_;
+  std::size_t verified_ = 1;  // so many members fit the plane of all of them, which is
+  Fit verified_plane_;
+  bool bent_ = false;
+};
+
+void PlanarGrowth::grow(std::uint32_t seed, double noise) {
+  const auto id = static_cast<std::uint32_t>(groups_.size());
+  groups_.push_back({.triangles = {}, .noise = noise});
+  Growing(*this, id, seed).run();
 }
 
 bool PlanarGrowth::fits(std::uint32_t t, const Fit& fit, double noise) const {

@@ -103,6 +103,8 @@ class PlanarGrowth {
   bool within(std::uint32_t triangle, const Fit& fit, double noise) const;
 
  private:
+  class Growing;
+
   void grow_from(std::vector<std::uint32_t> seeds, double noise);
   void grow(std::uint32_t seed, double noise);
   void hand_over_needles();
