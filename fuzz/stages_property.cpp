@@ -9,7 +9,7 @@
 #include "mesher/base/check.h"
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/chamfer/filter.h"
-#include "mesher/chamfer/plc_angles.h"
+#include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/enrich/enrichment.h"
 #include "mesher/predicates/box_tree.h"
 #include "property_tests/leniency.h"

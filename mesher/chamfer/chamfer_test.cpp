@@ -11,8 +11,8 @@
 #include "mesher/chamfer/assemble.h"
 #include "mesher/chamfer/boundary_distance.h"
 #include "mesher/chamfer/chamfer_surface.h"
-#include "mesher/chamfer/plc_angles.h"
 #include "mesher/chamfer/removed_surface.h"
+#include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
 #include "mesher/surface/validity.h"
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "mesher/chamfer/closest.h"
-#include "mesher/chamfer/plc_angles.h"
+#include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/surface/feature_size.h"
