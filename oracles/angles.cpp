@@ -409,18 +409,16 @@ void measure_angles(const TetComplex& complex, const Neighbours& neighbours,
 }
 
 OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbours,
-                          const InputSurface& surface, double delta, AngleScope scope) {
+                          const Places& places, double delta, AngleScope scope) {
   OracleReport report("angles", "tetrahedra");
   const SmallestAngle bound(delta);
   std::uint64_t left_alone = 0;
-  InputSurface::PlaneSides known;
   std::vector<std::uint8_t> selected(complex.tetrahedra.size(), 1);
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
     const Tet& tet = complex.tetrahedra[t];
     Face at;
     const bool bad = find_small_angle(*complex.points, tet, bound, at);
-    if (bad && scope == AngleScope::solid && surface.inside(*complex.points, tet) == 0 &&
-        !surface.meets_interior(*complex.points, tet, known)) {
+    if (bad && scope == AngleScope::solid && places.of(t) == Place::outside) {
       ++left_alone;
       selected[t] = 0;
       continue;

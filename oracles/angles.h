@@ -4,7 +4,7 @@
 #include <array>
 #include <functional>
 
-#include "oracles/input_surface.h"
+#include "oracles/places.h"
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -19,7 +19,7 @@ enum class AngleScope : std::uint8_t {
 // by squared cosines. The bound on the squared cosine is a relative 1e-9 laxer, so that the
 // rounding of libm fails no mesh. The report holds the histograms of these tetrahedra.
 OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbours,
-                          const InputSurface& surface, double delta, AngleScope scope);
+                          const Places& places, double delta, AngleScope scope);
 
 // Adds to the report, without any gate: extremes, means and histograms (15 degrees a bin, decided
 // exactly) of the face angles, each face once, and of the dihedral angles of the tetrahedra with

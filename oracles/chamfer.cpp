@@ -468,13 +468,14 @@ void ChamferExtent::check_areas() {
     const ExactVector n = exact::area2(points_, a, b, c);
     for (int axis = 0; axis < 3; ++axis) area[f][axis] += n[axis];
   }
+  const std::vector<std::array<ExactSum, 3>> whole = surface_.facet_areas2(points_);
   for (Index f = 0; f < area.size(); ++f) {
     const InputSurface::Facet& facet = surface_.facets()[f];
     // All areas are multiples of one vector, so one component of it that is not zero decides.
     std::size_t axis = 0;
     while (axis < 2 && sgn(facet.normal[axis]) == 0) ++axis;
-    if (area[f][axis] == facet.area2[axis]) continue;
-    if (difference(area[f][axis], facet.area2[axis], 0) * sgn(facet.normal[axis]) > 0) {
+    if (area[f][axis] == whole[f][axis]) continue;
+    if (difference(area[f][axis], whole[f][axis], 0) * sgn(facet.normal[axis]) > 0) {
       report_.fail("the faces on facet " + std::to_string(facet.id) + " cover more than the facet");
     }
   }

@@ -92,9 +92,9 @@ class Enrichment {
     }
     Neighbours neighbours;
     if (!check_complex(plain, neighbours).passed()) return false;
-    const bool good =
-        check_angles(plain, neighbours, surface_, promise.guaranteed_delta(), AngleScope::solid)
-            .passed();
+    const bool good = check_angles(plain, neighbours, Places(plain, neighbours, surface_),
+                                   promise.guaranteed_delta(), AngleScope::solid)
+                          .passed();
     if (good) report_.notes.emplace_back("the input alone keeps the bound: it was not enriched");
     return good;
   }

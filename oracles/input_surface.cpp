@@ -179,17 +179,16 @@ void InputSurface::number_facets(const std::function<Index(Index)>& representati
     const Index root = representative(t);
     if (root == t) {
       facet_of_triangle_[t] = static_cast<Index>(facets_.size());
-      facets_.push_back({t, label(t), {}, {}, triangles_[t][0], 0, {}});
+      facets_.push_back({t, label(t), {}, triangles_[t][0], 0, {}});
     }
     facet_of_triangle_[t] = facet_of_triangle_[root];
     Facet& facet = facets_[facet_of_triangle_[t]];
     ExactVector area = area2(points, t);
-    for (int axis = 0; axis < 3; ++axis) facet.area2[axis] += area[axis];
     // The denominator of a sum of many areas would outgrow all memory, so the normal of one
-    // triangle serves.
+    // triangle that is not flat serves.
     if (points.all_integers()) {
       for (int axis = 0; axis < 3; ++axis) facet.normal[axis] += area[axis];
-    } else if (root == t) {
+    } else if (exact::is_zero(facet.normal)) {
       facet.normal = std::move(area);
     }
   }
@@ -200,6 +199,17 @@ void InputSurface::number_facets(const std::function<Index(Index)>& representati
     }
   }
   count_euler();
+}
+
+std::vector<std::array<ExactSum, 3>> InputSurface::facet_areas2(const ExactPoints& points) const {
+  std::vector<std::array<ExactSum, 3>> areas(facets_.size());
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    const ExactVector area = area2(points, t);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      areas[facet_of_triangle_[t]][axis] += area[axis];
+    }
+  }
+  return areas;
 }
 
 ExactVector InputSurface::area2(const ExactPoints& points, Index t) const {
@@ -218,6 +228,8 @@ void InputSurface::unite_polygons(const Polyhedron& polyhedron, const ExactPoint
     ExactVector normal;
     for (std::size_t t = first; t < last; ++t) {
       const ExactVector area = area2(points, static_cast<Index>(t));
+      // As in number_facets.
+      if (!points.all_integers() && !exact::is_zero(normal)) break;
       for (int axis = 0; axis < 3; ++axis) normal[axis] += area[axis];
     }
     bool flat = true;

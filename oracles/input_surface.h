@@ -67,11 +67,10 @@ class InputSurface {
   struct Facet {
     Index id;  // smallest triangle index
     std::int32_t label;
-    ExactVector normal;             // outwards; exact
-    std::array<ExactSum, 3> area2;  // twice its area vector
-    Index vertex;                   // one of its corners
-    std::int64_t euler;             // of the union of its closed triangles, flat edges included
-    IntervalVector rough_normal;    // encloses the normal, in units of length
+    ExactVector normal;           // outwards; exact
+    Index vertex;                 // one of its corners
+    std::int64_t euler;           // of the union of its closed triangles, flat edges included
+    IntervalVector rough_normal;  // encloses the normal, in units of length
   };
 
   // Empty on success, else why the polyhedron bounds no solid (open, not orientable, no volume).
@@ -92,6 +91,8 @@ class InputSurface {
   const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
   const std::vector<Facet>& facets() const { return facets_; }
   const std::vector<Index>& facet_of_triangle() const { return facet_of_triangle_; }
+  // Twice the area vector of each facet. They would take more memory than all the rest.
+  std::vector<std::array<ExactSum, 3>> facet_areas2(const ExactPoints& points) const;
   // The triangle across the edge from corner i to corner i + 1.
   Index neighbour(Index triangle, int i) const { return neighbours_[triangle][i]; }
   const std::vector<Edge>& edges() const { return edges_; }
@@ -113,9 +114,21 @@ class InputSurface {
 
   // A cache: on which side of a facet's plane a point lies. Many tetrahedra ask the same.
   using PlaneSides = std::unordered_map<std::uint64_t, int>;
-  // Does an input triangle meet the interior of the tetrahedron (positively oriented)?
-  bool meets_interior(const ExactPoints& points, const std::array<Index, 4>& tetrahedron,
-                      PlaneSides& known) const;
+  struct Contact {
+    bool enters = false;  // an input triangle meets the interior
+    // If none does, bit i is set wherever a triangle that touches the face opposite to corner i
+    // lies in its plane, and perhaps elsewhere.
+    std::uint8_t covered = 0;
+  };
+  // How the surface meets a tetrahedron (positively oriented).
+  Contact contact(const ExactPoints& points, const std::array<Index, 4>& tetrahedron,
+                  PlaneSides& known) const {
+    return contact(points, tetrahedron, *tree_, {}, known);
+  }
+  // The same with some parts of the surface, by boxes around them and the triangle of each box; no
+  // triangles: all, in order.
+  Contact contact(const ExactPoints& points, const std::array<Index, 4>& tetrahedron,
+                  const BoxTree& parts, std::span<const Index> triangles, PlaneSides& known) const;
 
  private:
   std::string find_neighbours();
@@ -135,6 +148,9 @@ class InputSurface {
   void measure(const ExactPoints& points);
   // The side of a triangle's plane on which a vertex lies, or 2 where doubles do not tell.
   int rough_side(const ExactPoints& points, Index triangle, Index v) const;
+  // Those of four vertices; 0 for the triangle's own corners.
+  std::array<int, 4> rough_sides(const ExactPoints& points, Index triangle,
+                                 const std::array<Index, 4>& vertices) const;
 
   std::vector<std::array<Index, 3>> triangles_;
   std::vector<std::array<Index, 3>> neighbours_;  // across edge corner i -> i + 1

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracles/places.h"
+
 namespace tetproof::oracles {
 
 double smallest_altitude(const ExactPoints& points, const Tet& tet) {
@@ -79,11 +81,24 @@ std::vector<std::uint8_t> inside_by_parity(const TetComplex& complex, const Inpu
   return inside;
 }
 
-OracleReport check_interior(const TetComplex& complex, const InputSurface& surface) {
+OracleReport check_interior(const TetComplex& complex, const Neighbours& neighbours,
+                            const InputSurface& surface, const std::vector<std::uint8_t>& walls) {
   OracleReport report("interior", "tetrahedra");
+  std::vector<std::uint8_t> open(complex.tetrahedra.size());
+  for (std::size_t t = 0; t < open.size(); ++t) {
+    const auto& [a, b, c, d] = complex.tetrahedra[t];
+    const bool positive = exact::orient3d(*complex.points, a, b, c, d) > 0;
+    open[t] = positive ? static_cast<std::uint8_t>(~walls[t]) : 0;
+  }
+  const std::vector<Index> group = groups_over(neighbours, open);
+  std::vector<std::int8_t> parities(open.size());
   std::uint64_t inside = 0;
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
-    const int parity = surface.inside(*complex.points, complex.tetrahedra[t]);
+    if (group[t] == t) {
+      parities[t] =
+          static_cast<std::int8_t>(surface.inside(*complex.points, complex.tetrahedra[t]));
+    }
+    const int parity = parities[t] = parities[group[t]];
     ++report.checked;
     inside += complex.inside[t];
     if (parity == -1) {

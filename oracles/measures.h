@@ -20,8 +20,11 @@ ExactSum sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours
                          const std::vector<std::uint8_t>& selected);
 
 // Interior oracle: the flag of a tetrahedron says inside exactly if its centroid is inside by the
-// parity of a ray. The surface and the complex must use the same points.
-OracleReport check_interior(const TetComplex& complex, const InputSurface& surface);
+// parity of a ray. The surface and the complex must use the same points. Tetrahedra with a common
+// face that is no wall (see walls_of) share a ray: where the conformity oracle passes, the walls
+// are the surface.
+OracleReport check_interior(const TetComplex& complex, const Neighbours& neighbours,
+                            const InputSurface& surface, const std::vector<std::uint8_t>& walls);
 
 // Per tetrahedron: is its centroid inside by the parity of a ray? Points exactly on the surface
 // count as outside.

@@ -104,6 +104,15 @@ int side_of_plane(const ExactPoints& points, const std::array<Index, 3>& t, cons
 // common factor.
 using FaceSides = std::array<ExactNumber, 4>;
 
+void drop_denominators(FaceSides& sides) {
+  mpz_class common = 1;
+  for (const ExactNumber& side : sides) common = lcm(common, side.denominator());
+  if (common == 1) return;
+  for (ExactNumber& side : sides) {
+    side = ExactNumber(mpz_class(side.numerator() * (common / side.denominator())));
+  }
+}
+
 std::vector<FaceSides> clip(const std::vector<FaceSides>& polygon, int face) {
   std::vector<FaceSides> result;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -132,6 +141,7 @@ bool meets(const ExactPoints& points, const std::array<Index, 3>& triangle,
       polygon[corner][face] =
           exact::volume6(points, replaced[0], replaced[1], replaced[2], replaced[3]);
     }
+    drop_denominators(polygon[corner]);
   }
   const auto strictly_inside = [&](int face) {
     return std::any_of(polygon.begin(), polygon.end(),
@@ -301,53 +311,84 @@ int InputSurface::inside(const ExactPoints& points, std::span<const Index> corne
   return crossings < 0 ? -1 : crossings % 2;
 }
 
+// The height is a sum of three products. Each component of the normal is off by at most half the
+// width of its interval, each difference by a rounding and what difference_error() says. All bounds
+// are taken twice or more.
 int InputSurface::rough_side(const ExactPoints& points, Index triangle, Index v) const {
   const IntervalVector& n = facets_[facet_of_triangle_[triangle]].rough_normal;
-  const IntervalVector w = points.rough_difference(triangles_[triangle][0], v);
-  return (n[0] * w[0] + n[1] * w[1] + n[2] * w[2]).sign();
+  const Position &p = points.nearest(triangles_[triangle][0]), &q = points.nearest(v);
+  double height = 0, error = 0x1p-1000, steepness = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double slope = middle(n[axis]), width = n[axis].high - n[axis].low;
+    const double along = q[axis] - p[axis];
+    height += slope * along;
+    error += (std::fabs(slope) * 0x1p-48 + width) * std::fabs(along);
+    steepness += std::fabs(slope) + width;
+  }
+  error += 2 * steepness * points.difference_error();
+  if (height > error) return 1;
+  if (height < -error) return -1;
+  return exact::dot(n, points.rough_difference(triangles_[triangle][0], v)).sign();
 }
 
-bool InputSurface::meets_interior(const ExactPoints& points,
-                                  const std::array<Index, 4>& tetrahedron,
-                                  PlaneSides& known) const {
+std::array<int, 4> InputSurface::rough_sides(const ExactPoints& points, Index triangle,
+                                             const std::array<Index, 4>& vertices) const {
+  const auto& corners = triangles_[triangle];
+  std::array<int, 4> sides;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Index v = vertices[i];
+    const bool own = v == corners[0] || v == corners[1] || v == corners[2];
+    sides[i] = own ? 0 : rough_side(points, triangle, v);
+  }
+  return sides;
+}
+
+InputSurface::Contact InputSurface::contact(const ExactPoints& points,
+                                            const std::array<Index, 4>& tetrahedron,
+                                            const BoxTree& parts, std::span<const Index> triangles,
+                                            PlaneSides& known) const {
   std::vector<Index> found;
-  tree_->query(box_around(points, tetrahedron), found, beyond_faces(points, tetrahedron));
+  parts.query(box_around(points, tetrahedron), found, beyond_faces(points, tetrahedron));
+  if (!triangles.empty()) {
+    for (Index& t : found) t = triangles[t];
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+  }
   const auto side = [&](Index t, Index v) {
     const auto key = static_cast<std::uint64_t>(facet_of_triangle_[t]) << 32 | v;
     const auto [at, fresh] = known.try_emplace(key, 0);
-    if (fresh) {
-      const auto& [a, b, c] = triangles_[t];
-      at->second = exact::orient3d(points, a, b, c, v);
+    if (fresh) {  // the triangle itself may be flat, but its facet is not
+      const Facet& facet = facets_[facet_of_triangle_[t]];
+      at->second = sgn(exact::dot(facet.normal, exact::difference(points, facet.vertex, v)));
     }
     return at->second;
   };
+  Contact contact;
   // A facet's plane that does not enter the tetrahedron keeps all its triangles out. Only where
   // doubles do not tell is the side looked up or decided.
   const auto plane_enters = [&](Index t) {
-    bool above = false, below = false;
-    std::array<int, 4> sides;
+    std::array<int, 4> sides = rough_sides(points, t, tetrahedron);
+    const auto has = [&](int wanted) {
+      return std::find(sides.begin(), sides.end(), wanted) != sides.end();
+    };
+    for (std::size_t i = 0; i < 4 && !(has(1) && has(-1)); ++i) {
+      if (sides[i] == 2) sides[i] = side(t, tetrahedron[i]);
+    }
     for (std::size_t i = 0; i < 4; ++i) {
-      sides[i] = rough_side(points, t, tetrahedron[i]);
-      above = above || sides[i] == 1;
-      below = below || sides[i] == -1;
+      bool off = false;
+      for (std::size_t j = 0; j < 4; ++j) off = off || (j != i && sides[j] % 2 != 0);
+      if (!off) contact.covered |= static_cast<std::uint8_t>(1U << i);
     }
-    const auto& corners = triangles_[t];
-    for (std::size_t i = 0; i < 4 && !(above && below); ++i) {
-      const Index v = tetrahedron[i];
-      if (sides[i] != 2 || std::find(corners.begin(), corners.end(), v) != corners.end()) continue;
-      const int s = side(t, v);
-      above = above || s > 0;
-      below = below || s < 0;
-    }
-    return above && below;
+    return has(1) && has(-1);
   };
-  return std::any_of(found.begin(), found.end(), [&](Index t) {
+  contact.enters = std::any_of(found.begin(), found.end(), [&](Index t) {
     return plane_enters(t) &&
            !beyond_edge(points, triangles_[t], facets_[facet_of_triangle_[t]].rough_normal,
                         tetrahedron) &&
            !separated(points, triangles_[t], tetrahedron) &&
            !apart(points, triangles_[t], tetrahedron) && meets(points, triangles_[t], tetrahedron);
   });
+  return contact;
 }
 
 }  // namespace tetproof::oracles

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <mutex>
 
 #include "oracles/chamfer.h"
@@ -12,6 +13,7 @@
 #include "oracles/filter.h"
 #include "oracles/hull.h"
 #include "oracles/parallel.h"
+#include "oracles/places.h"
 #include "oracles/refinement.h"
 #include "oracles/regions.h"
 #include "oracles/same_mesh.h"
@@ -94,19 +96,32 @@ class Shared {
     TetComplex complex;
     Neighbours neighbours;
     OracleReport shape{"complex"};
+    std::unique_ptr<const Places> places;
   };
 
-  Shared(const Polyhedron& input, const ExactRecord* exact) : input_(input), exact_(exact) {}
+  Shared(const Polyhedron& input, const ExactRecord* exact, const Promise& promise)
+      : input_(input), exact_(exact), promise_(promise) {}
 
   const Sidecar& sidecar() {
     std::call_once(sidecar_once_, [this] { read_sidecar(); });
     return sidecar_;
+  }
+  // The arguments of the oracles of the refined mesh, once there is one.
+  RefinedMesh refined_mesh() const {
+    return {exact_,
+            &sidecar_.points,
+            &sidecar_.surface,
+            &refined_.complex,
+            &refined_.neighbours,
+            &promise_,
+            static_cast<Index>(input_.vertices.size())};
   }
   // Only for a usable sidecar.
   const Refined& refined() {
     std::call_once(refined_once_, [this] {
       refined_.complex = complex_of(exact_->refined, sidecar().points);
       refined_.shape = check_complex(refined_.complex, refined_.neighbours);
+      refined_.places = std::make_unique<const Places>(refined_mesh());
     });
     return refined_;
   }
@@ -117,6 +132,7 @@ class Shared {
 
   const Polyhedron& input_;
   const ExactRecord* exact_;
+  const Promise& promise_;
   std::once_flag sidecar_once_, refined_once_;
   Sidecar sidecar_;
   Refined refined_;
@@ -194,7 +210,8 @@ class Verification {
   std::vector<std::vector<Index>> recorded_chains(const InputSurface& surface);
   std::vector<Index> recorded_facets() const;
   ConformityResult conformity_of_file(const TetComplex& complex, const Neighbours& neighbours,
-                                      InputSurface& surface);
+                                      const InputSurface& surface,
+                                      std::optional<InputSurface>& united);
   void check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& input);
   void check_file_hull(const TetComplex& complex, const Neighbours& neighbours);
@@ -215,7 +232,7 @@ class Verification {
   void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                          const InputSurface& surface);
   void check_promises(const RefinedMesh& mesh);
-  OracleReport check_contained(const TetComplex& complex, const InputSurface& surface) const;
+  OracleReport check_contained(const TetComplex& complex, const Places& places) const;
   OracleReport check_edges(const TetComplex& complex) const;
   double delta() const;
   AngleScope scope() const;
@@ -323,7 +340,7 @@ std::string Verification::check_file() {
   add(std::move(orientation));
   complex.inside = inside_by_parity(complex, surface);
   if (options_.stage == Stage::refined) {
-    add(check_angles(complex, neighbours, surface, delta(), scope()));
+    add(check_angles(complex, neighbours, Places(complex, neighbours, surface), delta(), scope()));
     return {};
   }
   std::vector<std::int64_t> given = mesh_.regions;
@@ -346,10 +363,11 @@ std::string Verification::check_file() {
 
 // Tries the surface as it is first. If facets that are planar within a bound may be one, those are
 // united that no chain of mesh edges separates, provided that the mesh conforms to the united
-// surface.
+// surface, which is then returned as well.
 ConformityResult Verification::conformity_of_file(const TetComplex& complex,
                                                   const Neighbours& neighbours,
-                                                  InputSurface& surface) {
+                                                  const InputSurface& surface,
+                                                  std::optional<InputSurface>& united) {
   ConformityResult result =
       check_conformity(complex, neighbours, surface, {.exact = true, .first_failure_ends = true});
   if (result.report.passed()) return result;
@@ -374,20 +392,20 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   const auto conforms_to = [&](InputSurface& flat, double width) {
     if (!(width <= bound)) return false;
     rounded.off_plane = width + kRoundedUlps * ulp_;
-    ConformityResult united = check(flat, rounded);
-    if (!united.report.passed()) return false;
-    united.slab = width;
-    united.deviation = std::max(united.deviation, width);
-    united.report.figures.emplace_back(
+    ConformityResult of_flat = check(flat, rounded);
+    if (!of_flat.report.passed()) return false;
+    of_flat.slab = width;
+    of_flat.deviation = std::max(of_flat.deviation, width);
+    of_flat.report.figures.emplace_back(
         "facets united",
         static_cast<double>(surface.facets().size()) - static_cast<double>(flat.facets().size()));
-    surface = std::move(flat);
-    result = std::move(united);
+    united = std::move(flat);
+    result = std::move(of_flat);
     return true;
   };
+  const std::vector<Index> failed_edges = check(surface, rounded).failed_edges;
   InputSurface flat = surface;
-  const double width =
-      flat.unite_facets(check(surface, rounded).failed_edges, bound, *complex.points);
+  const double width = flat.unite_facets(failed_edges, bound, *complex.points);
   if (conforms_to(flat, width) || exact_ == nullptr) return result;
   // Triangles no wider than roundings may belong to one facet or to another. The record says to
   // which, and whether that is a facet is decided as before.
@@ -413,8 +431,9 @@ std::vector<Index> Verification::recorded_facets() const {
 
 void Verification::check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
                                       const InputSurface& input) {
-  InputSurface surface = input;
-  ConformityResult conformity = conformity_of_file(complex, neighbours, surface);
+  std::optional<InputSurface> united;
+  ConformityResult conformity = conformity_of_file(complex, neighbours, input, united);
+  const InputSurface& surface = united ? *united : input;
   if (conformity.report.passed()) {  // else the deviation means nothing
     report_.deviation = conformity.deviation;
     report_.slab = conformity.slab;
@@ -555,7 +574,8 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
   add(std::move(shape), "exact-");
   if (!usable) return;
   add(check_orientation(complex), "exact-");
-  add(check_interior(complex, surface), "exact-");
+  add(check_interior(complex, neighbours, surface, walls_of(complex, exact_->final_facets)),
+      "exact-");
   const ConformityResult conformity =
       check_conformity(complex, neighbours, surface, {.exact = true});
   add(conformity.report, "exact-");
@@ -634,7 +654,7 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
 
 std::string Verification::check_refined_complex() {
   if (!shared_.sidecar().usable) return {};
-  const auto& [complex, neighbours, shape] = shared_.refined();
+  const auto& [complex, neighbours, shape, places] = shared_.refined();
   add(shape, "refined-");
   if (!shape.passed()) return {};
   add(check_orientation(complex), "refined-");
@@ -645,23 +665,20 @@ std::string Verification::check_refined_complex() {
 
 std::string Verification::check_refined_angles() {
   if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
-  const auto& [complex, neighbours, shape] = shared_.refined();
-  add(check_angles(complex, neighbours, shared_.sidecar().surface, delta(), scope()), "refined-");
+  const auto& [complex, neighbours, shape, places] = shared_.refined();
+  add(check_angles(complex, neighbours, *places, delta(), scope()), "refined-");
   return {};
 }
 
 std::string Verification::check_refined_inside() {
   if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
-  add(check_contained(shared_.refined().complex, shared_.sidecar().surface), "refined-");
+  add(check_contained(shared_.refined().complex, *shared_.refined().places), "refined-");
   return {};
 }
 
 std::string Verification::check_refined_promises() {
   if (!shared_.sidecar().usable || !shared_.refined().shape.passed()) return {};
-  const auto& [complex, neighbours, shape] = shared_.refined();
-  const Shared::Sidecar& sidecar = shared_.sidecar();
-  check_promises({exact_, &sidecar.points, &sidecar.surface, &complex, &neighbours,
-                  &options_.promised, static_cast<Index>(input_.vertices.size())});
+  check_promises(shared_.refined_mesh());
   return {};
 }
 
@@ -709,15 +726,11 @@ OracleReport Verification::check_edges(const TetComplex& complex) const {
 }
 
 // A tetrahedron is called inside exactly if it is contained in the solid.
-OracleReport Verification::check_contained(const TetComplex& complex,
-                                           const InputSurface& surface) const {
+OracleReport Verification::check_contained(const TetComplex& complex, const Places& places) const {
   OracleReport contained("contained", "tetrahedra");
-  InputSurface::PlaneSides known;
   std::uint64_t inside = 0;
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
-    const Tet& tet = complex.tetrahedra[t];
-    const bool within = surface.inside(*complex.points, tet) == 1 &&
-                        !surface.meets_interior(*complex.points, tet, known);
+    const bool within = places.of(t) == Place::inside;
     ++contained.checked;
     inside += complex.inside[t];
     if (within == (complex.inside[t] != 0)) continue;
@@ -757,7 +770,7 @@ void conclude(double ulp, double diagonal, VerifyReport& report) {
 std::string verify(const Polyhedron& input, const MeshFile& mesh, const ExactRecord* exact,
                    const VerifyOptions& options, VerifyReport& report) {
   report = {};
-  Shared shared(input, exact);
+  Shared shared(input, exact, options.promised);
   const std::vector<Verification::Check> checks = Verification::checks(exact, options.stage);
   std::vector<Verification> parts(checks.size(), {input, mesh, exact, options, shared});
   std::vector<std::string> why(checks.size());

@@ -101,7 +101,7 @@ TEST(InputSurface, EntersWhatRationalClippingSaysItEnters) {
       entered = entered || inside;
     }
     InputSurface::PlaneSides known;
-    ASSERT_EQ(surface.meets_interior(points, corners, known), entered) << "round " << round;
+    ASSERT_EQ(surface.contact(points, corners, known).enters, entered) << "round " << round;
     ++counts[entered];
   }
   EXPECT_GT(counts[0], 300);

@@ -92,6 +92,7 @@ TEST(Angles, BelowTheBoundAreFoundAmongMachineIntegers) {
         positions, {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}}, {}, {}};
     InputSurface surface;
     ASSERT_EQ(surface.assign(polyhedron, points), "");
+    const Places places(complex, neighbours, surface);
     for (const double delta : {20.0, 45.0, 45.001}) {
       bool below = false, close = false;
       for (int a = 0; a < 4; ++a) {
@@ -115,8 +116,7 @@ TEST(Angles, BelowTheBoundAreFoundAmongMachineIntegers) {
         }
       }
       if (close) continue;
-      const OracleReport report =
-          check_angles(complex, neighbours, surface, delta, AngleScope::all);
+      const OracleReport report = check_angles(complex, neighbours, places, delta, AngleScope::all);
       ASSERT_EQ(report.violations > 0, below) << "round " << round << ", " << delta;
       ++counts[below];
     }

@@ -1,0 +1,27 @@
+// What the faces of a mesh on facets cover of the surface.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "oracles/refinement.h"
+
+namespace tetproof::oracles {
+
+// Per tetrahedron, bit i: its face opposite to corner i is one of these faces (a, b, c, facet).
+std::vector<std::uint8_t> walls_of(const TetComplex& complex,
+                                   std::span<const std::array<std::uint32_t, 4>> faces);
+
+struct Cover {
+  std::vector<std::uint8_t> walls;  // see walls_of
+  // Boxes around what the faces leave of the surface, and for each the triangle that it is part of.
+  std::unique_ptr<const BoxTree> rest;
+  std::vector<Index> triangles;
+};
+
+// Right where the oracles of the segments and of the facets of the record pass.
+Cover cover_of(const RefinedMesh& mesh);
+
+}  // namespace tetproof::oracles

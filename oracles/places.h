@@ -1,0 +1,57 @@
+// On which side of the surface the tetrahedra of a mesh are, as wholes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <vector>
+
+#include "oracles/cover.h"
+#include "oracles/input_surface.h"
+#include "oracles/tet_complex.h"
+
+namespace tetproof::oracles {
+
+enum class Place : std::uint8_t {
+  crossed,  // the surface enters it, or its centroid is on the surface
+  inside,   // contained in the solid
+  outside   // has no point of the solid's interior inside
+};
+
+// Several oracles ask, in several threads; the first question is answered for all tetrahedra. All
+// arguments must outlive this.
+class Places {
+ public:
+  Places(const TetComplex& complex, const Neighbours& neighbours, const InputSurface& surface)
+      : complex_(complex), neighbours_(neighbours), surface_(surface) {}
+  // With faces on facets far less has to be decided. The answers are right only if the mesh is a
+  // complex that fills its hull and its segments and facets are what the record says, so other
+  // oracles must pass as well.
+  explicit Places(const RefinedMesh& mesh)
+      : complex_(*mesh.complex),
+        neighbours_(*mesh.neighbours),
+        surface_(*mesh.surface),
+        cover_([mesh] { return cover_of(mesh); }) {}
+
+  Place of(std::size_t t) const {
+    std::call_once(once_, [this] { find(); });
+    return places_[t];
+  }
+
+ private:
+  void find() const;
+
+  const TetComplex& complex_;
+  const Neighbours& neighbours_;
+  const InputSurface& surface_;
+  std::function<Cover()> cover_;  // or none
+  mutable std::once_flag once_;
+  mutable std::vector<Place> places_;
+};
+
+// For each tetrahedron the first one that is reached from it over faces that are open from both
+// sides (bit i of a tetrahedron: its face opposite to corner i).
+std::vector<Index> groups_over(const Neighbours& neighbours, const std::vector<std::uint8_t>& open);
+
+}  // namespace tetproof::oracles
