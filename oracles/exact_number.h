@@ -1,36 +1,53 @@
-// An exact number: an integer, or one over an odd denominator. Only the coordinates of points on
-// three planes, and of points placed relative to those, have denominators; all others pay for it
-// with a null test.
+// An exact number: an integer, or one over an odd denominator, not in lowest terms. Only the
+// coordinates of points on three planes, and of points placed relative to those, have denominators;
+// all others pay for it with a null test.
 #pragma once
 
 #include <gmpxx.h>
 
-#include <memory>
+#include <array>
+#include <atomic>
+#include <cstdint>
 #include <utility>
 
 namespace tetproof::oracles {
 
 class ExactNumber {
   // Odd, above 1; null: 1. Every coordinate has one, so an empty one is as small as possible.
+  // Numbers share theirs, so most comparisons are of pointers.
   class Denominator {
+    struct Shared {
+      mpz_class value;
+      std::atomic<std::uint32_t> uses = 1;
+    };
+
    public:
     Denominator() = default;
     explicit Denominator(mpz_class value)
-        : value_(value == 1 ? nullptr : std::make_unique<mpz_class>(std::move(value))) {}
-    Denominator(const Denominator& other)
-        : value_(other.value_ ? std::make_unique<mpz_class>(*other.value_) : nullptr) {}
-    Denominator(Denominator&&) noexcept = default;
-    Denominator& operator=(const Denominator& other) {
-      return *this = Denominator(other);  // NOLINT: copied, then moved
+        : shared_(value == 1 ? nullptr : new Shared{std::move(value)}) {}
+    Denominator(const Denominator& other) : shared_(other.shared_) {
+      if (shared_ != nullptr) shared_->uses.fetch_add(1, std::memory_order_relaxed);
     }
-    Denominator& operator=(Denominator&&) noexcept = default;
-    ~Denominator() = default;
+    Denominator(Denominator&& other) noexcept : shared_(std::exchange(other.shared_, nullptr)) {}
+    Denominator& operator=(Denominator other) noexcept {
+      std::swap(shared_, other.shared_);
+      return *this;
+    }
+    ~Denominator() {
+      if (shared_ != nullptr && shared_->uses.fetch_sub(1, std::memory_order_acq_rel) == 1) {
+        delete shared_;  // NOLINT: counted
+      }
+    }
 
-    explicit operator bool() const { return value_ != nullptr; }
-    const mpz_class& operator*() const { return *value_; }
+    explicit operator bool() const { return shared_ != nullptr; }
+    const mpz_class& operator*() const { return shared_->value; }
+    bool operator==(const Denominator& other) const {
+      if (shared_ == other.shared_) return true;
+      return shared_ != nullptr && other.shared_ != nullptr && **this == *other;
+    }
 
    private:
-    std::unique_ptr<mpz_class> value_;
+    Shared* shared_ = nullptr;
   };
 
  public:
@@ -39,8 +56,15 @@ class ExactNumber {
   ExactNumber(int value) : numerator_(value) {}   // NOLINT
   ExactNumber(mpz_class value) : numerator_(std::move(value)) {}  // NOLINT
   // The rational must be in lowest terms and have an odd denominator.
-  explicit ExactNumber(const mpq_class& value) : numerator_(value.get_num()) {
-    denominator_ = Denominator(mpz_class(value.get_den()));
+  explicit ExactNumber(const mpq_class& value)
+      : numerator_(value.get_num()), denominator_(mpz_class(value.get_den())) {}
+  // Numbers over one denominator, which must be odd.
+  static std::array<ExactNumber, 3> over(std::array<mpz_class, 3> numerators,
+                                         mpz_class denominator) {
+    const Denominator shared(std::move(denominator));
+    return {ExactNumber(std::move(numerators[0]), shared),
+            ExactNumber(std::move(numerators[1]), shared),
+            ExactNumber(std::move(numerators[2]), shared)};
   }
 
   bool is_integer() const { return !denominator_; }
@@ -69,11 +93,7 @@ class ExactNumber {
     return a.plus(b, -1);
   }
   friend ExactNumber operator*(const ExactNumber& a, const ExactNumber& b) {
-    Denominator denominator = a.denominator_ ? a.denominator_ : b.denominator_;
-    if (a.denominator_ && b.denominator_) {
-      denominator = Denominator(mpz_class(*a.denominator_ * *b.denominator_));
-    }
-    return {mpz_class(a.numerator_ * b.numerator_), std::move(denominator)};
+    return {mpz_class(a.numerator_ * b.numerator_), product(a.denominator_, b.denominator_)};
   }
   ExactNumber& operator+=(const ExactNumber& b) {
     if (is_integer() && b.is_integer()) {
@@ -103,6 +123,61 @@ class ExactNumber {
     return {std::move(n), denominator_};
   }
 
+  // Vectors whose components have one denominator, as most have, keep it, and it is computed once.
+  using Vector = std::array<ExactNumber, 3>;
+  static bool uniform(const Vector& v) {
+    return v[0].same_denominator(v[1]) && v[0].same_denominator(v[2]);
+  }
+  // q - p, of uniform vectors.
+  static Vector difference(const Vector& p, const Vector& q) {
+    Vector result;
+    if (p[0].same_denominator(q[0])) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        result[i] = {mpz_class(q[i].numerator_ - p[i].numerator_), q[0].denominator_};
+      }
+      return result;
+    }
+    const mpz_class d = p[0].denominator(), e = q[0].denominator();
+    mpz_class times_p = e, times_q = d;
+    Denominator common;
+    if (mpz_divisible_p(e.get_mpz_t(), d.get_mpz_t()) != 0) {
+      common = q[0].denominator_;
+      times_p = e / d;
+      times_q = 1;
+    } else if (mpz_divisible_p(d.get_mpz_t(), e.get_mpz_t()) != 0) {
+      common = p[0].denominator_;
+      times_p = 1;
+      times_q = d / e;
+    } else {
+      common = Denominator(mpz_class(d * e));
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_class n = q[i].numerator_ * times_q;
+      mpz_submul(n.get_mpz_t(), p[i].numerator_.get_mpz_t(), times_p.get_mpz_t());
+      result[i] = {std::move(n), common};
+    }
+    return result;
+  }
+  // Of uniform vectors. The sum takes the memory of one number.
+  static ExactNumber dot(const Vector& u, const Vector& v) {
+    mpz_class sum = u[0].numerator_ * v[0].numerator_;
+    for (std::size_t i = 1; i < 3; ++i) {
+      mpz_addmul(sum.get_mpz_t(), u[i].numerator_.get_mpz_t(), v[i].numerator_.get_mpz_t());
+    }
+    return {std::move(sum), product(u[0].denominator_, v[0].denominator_)};
+  }
+  static Vector cross(const Vector& u, const Vector& v) {
+    const Denominator common = product(u[0].denominator_, v[0].denominator_);
+    Vector result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      mpz_class n = u[j].numerator_ * v[k].numerator_;
+      mpz_submul(n.get_mpz_t(), u[k].numerator_.get_mpz_t(), v[j].numerator_.get_mpz_t());
+      result[i] = {std::move(n), common};
+    }
+    return result;
+  }
+
   friend int sgn(const ExactNumber& a) { return sgn(a.numerator_); }
   friend int cmp(const ExactNumber& a, const ExactNumber& b) {
     if (a.same_denominator(b)) return cmp(a.numerator_, b.numerator_);
@@ -116,16 +191,38 @@ class ExactNumber {
   ExactNumber(mpz_class numerator, Denominator denominator)
       : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {}
 
-  bool same_denominator(const ExactNumber& b) const {
-    if (!denominator_ || !b.denominator_) return !denominator_ && !b.denominator_;
-    return *denominator_ == *b.denominator_;
+  static Denominator product(const Denominator& a, const Denominator& b) {
+    if (!a || !b) return a ? a : b;
+    return Denominator(mpz_class(*a * *b));
   }
-  // Over the least common denominator: sums of many numbers share most factors.
+  bool same_denominator(const ExactNumber& b) const { return denominator_ == b.denominator_; }
+  // Over the larger denominator if it is a multiple of the other one, else over the product: common
+  // divisors take far longer to find than the arithmetic that they would save.
   ExactNumber plus(const ExactNumber& b, int sign) const {
-    const mpz_class p = denominator(), q = b.denominator(), common = gcd(p, q),
-                    a_times = q / common, b_times = p / common;
-    mpz_class n = numerator_ * a_times + sign * b.numerator_ * b_times;
-    return {std::move(n), Denominator(mpz_class(p * a_times))};
+    mpz_class n;
+    const auto sum = [&](const mpz_class& p, const mpz_class& q) {
+      sign > 0 ? mpz_add(n.get_mpz_t(), p.get_mpz_t(), q.get_mpz_t())
+               : mpz_sub(n.get_mpz_t(), p.get_mpz_t(), q.get_mpz_t());
+    };
+    if (!b.denominator_) {
+      sum(numerator_, mpz_class(b.numerator_ * *denominator_));
+      return {std::move(n), denominator_};
+    }
+    if (!denominator_) {
+      sum(mpz_class(numerator_ * *b.denominator_), b.numerator_);
+      return {std::move(n), b.denominator_};
+    }
+    const mpz_class &p = *denominator_, &q = *b.denominator_;
+    if (mpz_divisible_p(p.get_mpz_t(), q.get_mpz_t()) != 0) {
+      sum(numerator_, mpz_class(b.numerator_ * mpz_class(p / q)));
+      return {std::move(n), denominator_};
+    }
+    if (mpz_divisible_p(q.get_mpz_t(), p.get_mpz_t()) != 0) {
+      sum(mpz_class(numerator_ * mpz_class(q / p)), b.numerator_);
+      return {std::move(n), b.denominator_};
+    }
+    sum(mpz_class(numerator_ * q), mpz_class(b.numerator_ * p));
+    return {std::move(n), Denominator(mpz_class(p * q))};
   }
 
   mpz_class numerator_;

@@ -183,10 +183,6 @@ long parameter_exponent(std::span<const ExactPoint> points) {
   return parameter;
 }
 
-ExactNumber scaled(mpq_class value, long exponent) {
-  return ExactNumber(times_power_of_two(std::move(value), -exponent));
-}
-
 // Adds parameter * (to - from); the product is an integer by the choice of the common exponent.
 void add_multiple(ExactNumber& sum, double parameter, const ExactNumber& from,
                   const ExactNumber& to) {
@@ -250,11 +246,19 @@ std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Pla
   exponent_ = corner_exponent(points, moved);
   exponent_ = exponent_ == kNoExponent ? 0 : exponent_ + parameter_exponent(points);
   for (const auto& [i, place] : moved) {
-    for (int axis = 0; axis < 3; ++axis) {
-      ExactNumber& x = coordinates_[i][axis];
-      x = scaled(place[axis], exponent_);
-      all_integers_ = all_integers_ && x.is_integer();
+    // Over one denominator, as sums of products of these coordinates need none then.
+    std::array<mpq_class, 3> x;
+    mpz_class common = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      x[axis] = times_power_of_two(place[axis], -exponent_);
+      common = lcm(common, mpz_class(x[axis].get_den()));
     }
+    std::array<mpz_class, 3> numerators;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      numerators[axis] = x[axis].get_num() * mpz_class(common / x[axis].get_den());
+    }
+    all_integers_ = all_integers_ && common == 1;
+    coordinates_[i] = ExactNumber::over(std::move(numerators), std::move(common));
   }
   return {};
 }
@@ -350,8 +354,8 @@ Number diametral(const std::array<Number, 3>& u, const std::array<Number, 3>& v,
   return sum;
 }
 
-bool all_integers(const ExactVector& v) {
-  return v[0].is_integer() && v[1].is_integer() && v[2].is_integer();
+bool uniform(const ExactVector& u, const ExactVector& v) {
+  return ExactNumber::uniform(u) && ExactNumber::uniform(v);
 }
 
 // Determinant of the four rows (x - e, |x - e|^2) with the sign turned so that inside is positive.
@@ -369,33 +373,17 @@ Number insphere_determinant(const std::array<std::array<Number, 3>, 4>& r) {
 
 ExactVector difference(const ExactPoints& points, Index from, Index to) {
   const ExactVector &p = points.exact(from), &q = points.exact(to);
+  if (uniform(p, q)) return ExactNumber::difference(p, q);
   return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
 }
 
-// Without denominators the sum takes the memory of one number.
 ExactNumber dot(const ExactVector& u, const ExactVector& v) {
-  if (!all_integers(u) || !all_integers(v)) return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-  mpz_class sum = u[0].numerator() * v[0].numerator();
-  for (std::size_t i = 1; i < 3; ++i) {
-    mpz_addmul(sum.get_mpz_t(), u[i].numerator().get_mpz_t(), v[i].numerator().get_mpz_t());
-  }
-  return sum;
+  if (uniform(u, v)) return ExactNumber::dot(u, v);
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
 ExactVector cross(const ExactVector& u, const ExactVector& v) {
-  const bool integers = all_integers(u) && all_integers(v);
-  ExactVector result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    if (!integers) {
-      result[i] = u[j] * v[k] - u[k] * v[j];
-      continue;
-    }
-    mpz_class n = u[j].numerator() * v[k].numerator();
-    mpz_submul(n.get_mpz_t(), u[k].numerator().get_mpz_t(), v[j].numerator().get_mpz_t());
-    result[i] = ExactNumber(std::move(n));
-  }
-  return result;
+  return uniform(u, v) ? ExactNumber::cross(u, v) : product(u, v);
 }
 
 bool is_zero(const ExactVector& v) {
@@ -419,9 +407,9 @@ const ExactNumber& Volume6::operator()(const ExactPoints& points,
                                        const std::array<Index, 4>& tetrahedron) {
   const ExactVector& origin = points.exact(tetrahedron[0]);
   if (!points.all_integers()) {
-    return value_ = determinant3(difference(points, tetrahedron[0], tetrahedron[1]),
-                                 difference(points, tetrahedron[0], tetrahedron[2]),
-                                 difference(points, tetrahedron[0], tetrahedron[3]));
+    return value_ = dot(difference(points, tetrahedron[0], tetrahedron[1]),
+                        cross(difference(points, tetrahedron[0], tetrahedron[2]),
+                              difference(points, tetrahedron[0], tetrahedron[3])));
   }
   std::array<const mpz_class*, 9> rows;
   for (std::size_t i = 0; i < 9; ++i) {
@@ -436,8 +424,8 @@ const ExactNumber& Volume6::operator()(const ExactPoints& points,
 const ExactNumber& Volume6::from_origin(const ExactPoints& points,
                                         const std::array<Index, 3>& triangle) {
   if (!points.all_integers()) {
-    return value_ = determinant3(points.exact(triangle[0]), points.exact(triangle[1]),
-                                 points.exact(triangle[2]));
+    return value_ = dot(points.exact(triangle[0]),
+                        cross(points.exact(triangle[1]), points.exact(triangle[2])));
   }
   std::array<const mpz_class*, 9> rows;
   for (std::size_t i = 0; i < 9; ++i) {

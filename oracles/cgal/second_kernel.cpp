@@ -1,16 +1,21 @@
 #include "oracles/cgal/second_kernel.h"
 
-#include <CGAL/Gmpq.h>
 #include <CGAL/Gmpzf.h>
+#include <CGAL/Homogeneous.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <sstream>
+#include <type_traits>
 #include <vector>
 
 namespace tetproof::oracles {
@@ -20,25 +25,47 @@ using delmesher::ExactPoint;
 using delmesher::ExactRecord;
 using Rough = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
 
-// A point with a number type of CGAL's. Where no point is on three planes, all questions need ring
-// operations only, and CGAL's exact floating-point numbers (Gmpzf) have them. With fractions, which
-// are reduced again and again, they took most of the time of a verification.
-template <class Number>
+using Number = CGAL::Gmpzf;
+using Whole = CGAL::Simple_cartesian<Number>;
+using Fractions = CGAL::Homogeneous<Number>;
+
+// All questions need ring operations only, and CGAL's exact floating-point numbers have them. Where
+// points are on three planes, coordinates are homogeneous: fractions would be reduced again and
+// again, which takes most of the time of a verification.
+template <class K>
 struct Point {
-  using Kernel = CGAL::Simple_cartesian<Number>;
-  typename Kernel::Point_3 exact;
+  typename K::Point_3 exact;
   Rough::Point_3 rough;
 
-  explicit Point(const typename Kernel::Point_3& p)
-      : exact(p), rough(interval(p.x()), interval(p.y()), interval(p.z())) {}
-  Point(const Number& x, const Number& y, const Number& z)
-      : Point(typename Kernel::Point_3(x, y, z)) {}
+  explicit Point(const typename K::Point_3& p) : exact(p), rough(enclosure(p)) {}
 
  private:
-  static CGAL::Interval_nt<false> interval(const Number& x) {
-    return CGAL::Interval_nt<false>(CGAL::to_interval(x));
+  static Rough::Point_3 enclosure(const typename K::Point_3& p) {
+    return {enclosure(p.hx(), p.hw()), enclosure(p.hy(), p.hw()), enclosure(p.hz(), p.hw())};
+  }
+  // Of x / w. CGAL's own enclosures of these numbers are zero where doubles underflow.
+  static CGAL::Interval_nt<false> enclosure(const Number& x, const Number& w) {
+    if (CGAL::is_zero(x)) return 0;
+    const auto [upper, upper_power] = x.to_interval_exp();
+    const auto [lower, lower_power] = w.to_interval_exp();
+    const CGAL::Protect_FPU_rounding<true> protection;
+    const auto ratio = CGAL::Interval_nt<false>(upper) / CGAL::Interval_nt<false>(lower);
+    const auto power = static_cast<int>(std::clamp(upper_power - lower_power, -5000L, 5000L));
+    const double low = std::ldexp(ratio.inf(), power), high = std::ldexp(ratio.sup(), power);
+    if (power > -1000) return {low, high};
+    constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+    return {low - kLeast, high + kLeast};
   }
 };
+
+template <class K>
+typename K::Point_3 place(const Number& x, const Number& y, const Number& z, const Number& w) {
+  if constexpr (std::is_same_v<K, Whole>) {
+    return {x, y, z};  // w is 1
+  } else {
+    return {x, y, z, w};
+  }
+}
 
 // CGAL's intervals need the rounding mode set upwards, and tell when they are not certain.
 template <class Predicate, class... Points>
@@ -51,16 +78,15 @@ CGAL::Sign decide(const Predicate& predicate, const Points&... points) {
   return CGAL::make_certain(predicate(points.exact...));
 }
 
-template <class Number>
-CGAL::Sign orientation(const Point<Number>& a, const Point<Number>& b, const Point<Number>& c,
-                       const Point<Number>& d) {
+template <class K>
+CGAL::Sign orientation(const Point<K>& a, const Point<K>& b, const Point<K>& c, const Point<K>& d) {
   return decide([](const auto&... p) { return CGAL::orientation(p...); }, a, b, c, d);
 }
 
 // The sign of the cosine of the angle between the normal of abc and the direction from p to q.
-template <class Number>
-CGAL::Sign along_normal(const Point<Number>& a, const Point<Number>& b, const Point<Number>& c,
-                        const Point<Number>& p, const Point<Number>& q) {
+template <class K>
+CGAL::Sign along_normal(const Point<K>& a, const Point<K>& b, const Point<K>& c, const Point<K>& p,
+                        const Point<K>& q) {
   return decide(
       [](const auto& u, const auto& v, const auto& w, const auto& from, const auto& to) {
         return CGAL::sign(CGAL::cross_product(v - u, w - u) * (to - from));
@@ -69,9 +95,9 @@ CGAL::Sign along_normal(const Point<Number>& a, const Point<Number>& b, const Po
 }
 
 // The sign of the cosine of the angle between the normals of abc and pqr.
-template <class Number>
-CGAL::Sign between_normals(const Point<Number>& a, const Point<Number>& b, const Point<Number>& c,
-                           const Point<Number>& p, const Point<Number>& q, const Point<Number>& r) {
+template <class K>
+CGAL::Sign between_normals(const Point<K>& a, const Point<K>& b, const Point<K>& c,
+                           const Point<K>& p, const Point<K>& q, const Point<K>& r) {
   return decide(
       [](const auto& u, const auto& v, const auto& w, const auto& x, const auto& y, const auto& z) {
         return CGAL::sign(CGAL::cross_product(v - u, w - u) * CGAL::cross_product(y - x, z - x));
@@ -181,7 +207,6 @@ bool read_definitions(const std::string& path, Definitions& definitions) {
 // --- the mesh
 
 // 2^exponent, beyond the range of doubles as well.
-template <class Number>
 Number power_of_two(long exponent) {
   constexpr long kStep = 900;
   Number result(1);
@@ -190,7 +215,6 @@ Number power_of_two(long exponent) {
   return result * Number(std::ldexp(1.0, static_cast<int>(exponent)));
 }
 
-template <class Number>
 Number from_integer(const mpz_class& value, const Number& unit) {
   Number result(0), scale = unit;
   mpz_class rest = abs(value), part;
@@ -203,19 +227,75 @@ Number from_integer(const mpz_class& value, const Number& unit) {
   return value < 0 ? -result : result;
 }
 
-// Is x the number in these units? Decided without division, which not all number types have.
-template <class Number>
-bool is_number(const Number& x, const ExactNumber& value, const Number& unit) {
-  return x * from_integer<Number>(value.denominator(), Number(1)) ==
-         from_integer<Number>(value.numerator(), unit);
+// Is x / w the number in these units?
+bool is_number(const Number& x, const Number& w, const ExactNumber& value, const Number& unit) {
+  return x * from_integer(value.denominator(), Number(1)) ==
+         from_integer(value.numerator(), unit) * w;
 }
 
-template <class Number>
+// Residues modulo the two primes below 2^61 that follow those of exact_sum.cpp.
+class Residue {
+ public:
+  static constexpr std::array<std::uint64_t, 2> kPrimes = {(std::uint64_t{1} << 61) - 45,
+                                                           (std::uint64_t{1} << 61) - 229};
+  Residue() = default;
+  // Of x / w. False if a prime divides w.
+  static bool of(const Number& x, const Number& w, Residue& result) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::uint64_t below = reduced(w, kPrimes[i]);
+      if (below == 0) return false;
+      result.value_[i] =
+          times(reduced(x, kPrimes[i]), power(below, kPrimes[i] - 2, kPrimes[i]), kPrimes[i]);
+    }
+    return true;
+  }
+  friend Residue operator+(const Residue& a, const Residue& b) {
+    Residue r;
+    for (std::size_t i = 0; i < 2; ++i) r.value_[i] = (a.value_[i] + b.value_[i]) % kPrimes[i];
+    return r;
+  }
+  friend Residue operator-(const Residue& a, const Residue& b) {
+    Residue r;
+    for (std::size_t i = 0; i < 2; ++i) {
+      r.value_[i] = (a.value_[i] + (kPrimes[i] - b.value_[i])) % kPrimes[i];
+    }
+    return r;
+  }
+  friend Residue operator*(const Residue& a, const Residue& b) {
+    Residue r;
+    for (std::size_t i = 0; i < 2; ++i) r.value_[i] = times(a.value_[i], b.value_[i], kPrimes[i]);
+    return r;
+  }
+  friend bool operator==(const Residue&, const Residue&) = default;
+
+ private:
+  __extension__ using Wide = unsigned __int128;
+
+  static std::uint64_t times(std::uint64_t a, std::uint64_t b, std::uint64_t prime) {
+    return static_cast<std::uint64_t>(static_cast<Wide>(a) * b % prime);
+  }
+  static std::uint64_t power(std::uint64_t a, std::uint64_t exponent, std::uint64_t prime) {
+    std::uint64_t result = 1;
+    for (; exponent > 0; exponent /= 2, a = times(a, a, prime)) {
+      if (exponent % 2 == 1) result = times(result, a, prime);
+    }
+    return result;
+  }
+  static std::uint64_t reduced(const Number& x, std::uint64_t prime) {
+    const std::uint64_t mantissa = mpz_fdiv_ui(x.man(), prime);
+    const auto exponent = static_cast<std::uint64_t>(std::llabs(x.exp()));
+    const std::uint64_t two = x.exp() >= 0 ? 2 : (prime + 1) / 2;
+    return times(mantissa, power(two, exponent, prime), prime);
+  }
+
+  std::array<std::uint64_t, 2> value_{};
+};
+
+template <class K>
 class SecondKernel {
-  using Point = oracles::Point<Number>;
-  using Kernel = typename Point::Kernel;
-  using Vector = typename Kernel::Vector_3;
-  using Place = typename Kernel::Point_3;
+  using Point = oracles::Point<K>;
+  using Vector = typename K::Vector_3;
+  using Place = typename K::Point_3;
 
  public:
   SecondKernel(const Polyhedron& input, const InputSurface& surface, const ExactRecord& record,
@@ -234,8 +314,7 @@ class SecondKernel {
     for (std::size_t v = 0; v < input_.vertices.size(); ++v) {
       const Position& p = input_.vertices[v];
       const bool moved = definitions_.points[v].kind == ExactPoint::Kind::on_planes;
-      corners_.push_back(moved ? expand(static_cast<Index>(v))
-                               : Point(Number(p[0]), Number(p[1]), Number(p[2])));
+      corners_.push_back(moved ? expand(static_cast<Index>(v)) : Point(place(p)));
     }
     check_tetrahedra();
     check_faces();
@@ -256,46 +335,61 @@ class SecondKernel {
   Place place_of(Index v) const {
     const ExactPoint& p = definitions_.points[v];
     if (p.kind == ExactPoint::Kind::explicit_point) return place({p.x, p.y, p.z});
-    if constexpr (std::is_same_v<Number, CGAL::Gmpq>) {
-      const auto plane = [&](Index n) -> typename Kernel::Plane_3 {
+    if constexpr (std::is_same_v<K, Fractions>) {
+      const auto plane = [&](Index n) -> typename K::Plane_3 {
         const ExactRecord::Plane& e = definitions_.planes[n];
         if (e.spanned) return {place(e.through[0]), place(e.through[1]), place(e.through[2])};
         return {place(e.through[0]), Vector(CGAL::ORIGIN, place(e.normal))};
       };
       const auto meeting = CGAL::intersection(plane(p.i), plane(p.j), plane(p.k));
       if (meeting) {
-        if (const Place* found = boost::get<Place>(&*meeting)) return *found;
+        if (const Place* found = boost::get<Place>(&*meeting)) return with_positive_weight(*found);
       }
     }
     return {Number(0), Number(0), Number(0)};  // other than the oracles' point
+  }
+  // Signs of homogeneous polynomials are those of the points only so.
+  static Place with_positive_weight(const Place& p) {
+    if (CGAL::sign(p.hw()) != CGAL::NEGATIVE) return p;
+    return oracles::place<K>(-p.hx(), -p.hy(), -p.hz(), -p.hw());
   }
   Point expand(Index v) const {
     const ExactPoint& p = definitions_.points[v];
     if (p.kind == ExactPoint::Kind::explicit_point || p.kind == ExactPoint::Kind::on_planes) {
       return Point(corner(v));
     }
-    const Place a = corner(p.i), b = corner(p.j);
-    const Number t(p.x);
-    if (p.kind == ExactPoint::Kind::on_segment) {
-      const Number rest = Number(1) - t;
-      return {t * a.x() + rest * b.x(), t * a.y() + rest * b.y(), t * a.z() + rest * b.z()};
+    const bool triangle = p.kind == ExactPoint::Kind::on_triangle;
+    const std::array<Place, 3> at = {corner(p.i), corner(p.j),
+                                     triangle ? corner(p.k) : corner(p.j)};
+    const Number first(p.x), second(triangle ? p.y : 0);
+    return Point(combined(at, std::array{first, second, Number(1) - first - second}));
+  }
+  // The sum of points times shares that add up to 1.
+  template <std::size_t N>
+  static Place combined(const std::array<Place, N>& points, const std::array<Number, N>& shares) {
+    Number x(0), y(0), z(0), w(1);
+    for (std::size_t i = 0; i < N; ++i) {
+      const Place& p = points[i];
+      const Number share = shares[i] * w;
+      x = x * p.hw() + p.hx() * share;
+      y = y * p.hw() + p.hy() * share;
+      z = z * p.hw() + p.hz() * share;
+      w = w * p.hw();
     }
-    const Place c = corner(p.k);
-    const Number u(p.y), rest = Number(1) - t - u;
-    return {t * a.x() + u * b.x() + rest * c.x(), t * a.y() + u * b.y() + rest * c.y(),
-            t * a.z() + u * b.z() + rest * c.z()};
+    return oracles::place<K>(x, y, z, w);
   }
 
   void compare_points() {
     constexpr std::size_t kMost = 20000;
-    const Number unit = power_of_two<Number>(points_.exponent());
+    const Number unit = power_of_two(points_.exponent());
     std::size_t asked = 0;
     for (std::size_t v = 0; v < definitions_.points.size();
          v += step(definitions_.points.size(), kMost), ++asked) {
       const Place p = expand(static_cast<Index>(v)).exact;
       const ExactVector& other = points_.exact(static_cast<Index>(v));
-      if (!is_number(p.x(), other[0], unit) || !is_number(p.y(), other[1], unit) ||
-          !is_number(p.z(), other[2], unit)) {
+      if (!is_number(p.hx(), p.hw(), other[0], unit) ||
+          !is_number(p.hy(), p.hw(), other[1], unit) ||
+          !is_number(p.hz(), p.hw(), other[2], unit)) {
         report_.fail("point " + std::to_string(v) + " is elsewhere to CGAL's kernel");
       }
     }
@@ -332,12 +426,9 @@ class SecondKernel {
   }
 
   static Point centroid(const std::array<Point, 4>& p) {
-    std::array<Number, 3> sum;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const Point& corner : p) sum[axis] += corner.exact[axis];
-      sum[axis] *= Number(0.25);
-    }
-    return {sum[0], sum[1], sum[2]};
+    const Number quarter(0.25);
+    return Point(combined(std::array{p[0].exact, p[1].exact, p[2].exact, p[3].exact},
+                          std::array{quarter, quarter, quarter, quarter}));
   }
 
   // The parity along a ray. Tries rays in several directions until one meets no edge. -1: the point
@@ -416,59 +507,87 @@ class SecondKernel {
     report_.figures.emplace_back("faces", static_cast<double>(asked));
   }
 
+  // Sums of coordinates: exact numbers, or residues of fractions. Two sums of these that are called
+  // equal are so, but for a chance of 2^-120.
+  using Term = std::conditional_t<std::is_same_v<K, Whole>, Number, Residue>;
+  using Terms = std::array<Term, 3>;
+
+  Terms terms(const Place& p) {
+    if constexpr (std::is_same_v<K, Whole>) {
+      return {p.hx(), p.hy(), p.hz()};
+    } else {
+      Terms result;
+      const bool known = Residue::of(p.hx(), p.hw(), result[0]) &&
+                         Residue::of(p.hy(), p.hw(), result[1]) &&
+                         Residue::of(p.hz(), p.hw(), result[2]);
+      if (!known) report_.fail("a prime divides a denominator");  // a chance of 2^-60
+      return result;
+    }
+  }
+  static Terms minus(const Terms& a, const Terms& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  }
+  static Terms cross(const Terms& a, const Terms& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
   // Six times the volume of a tetrahedron.
-  static Number volume(const Point& origin, const Point& a, const Point& b, const Point& c) {
-    return CGAL::determinant(a.exact - origin.exact, b.exact - origin.exact,
-                             c.exact - origin.exact);
+  static Term volume(const Terms& origin, const Terms& a, const Terms& b, const Terms& c) {
+    const Terms u = minus(a, origin), n = cross(minus(b, origin), minus(c, origin));
+    return u[0] * n[0] + u[1] * n[1] + u[2] * n[2];
   }
 
   void check_volumes() {
     constexpr std::size_t kMostTetrahedra = 20000, kMostFaces = 20000;
-    const Point origin = corners_[0];
-    std::map<Index, std::array<Number, 3>> areas;
-    const auto add_area = [&](Index id, const Point& a, const Point& b, const Point& c, int sign) {
-      const Vector n = CGAL::cross_product(b.exact - a.exact, c.exact - a.exact);
-      std::array<Number, 3>& sum = areas[id];
-      for (int axis = 0; axis < 3; ++axis) sum[axis] += sign > 0 ? n[axis] : -n[axis];
-    };
-    Number solid(0);
-    for (const auto& [i, j, k] : triangles_) {
-      solid += volume(origin, corners_[i], corners_[j], corners_[k]);
-    }
     const bool faces = record_.final_facets.size() <= kMostFaces;
     const bool tetrahedra = record_.final.size() <= kMostTetrahedra;
+    report_.checked += (faces ? 1 : 0) + (tetrahedra ? 1 : 0);
+    report_.figures.emplace_back("volumes and areas", (faces ? 1 : 0) + (tetrahedra ? 1 : 0));
+    if (!faces && !tetrahedra) return;
+    std::vector<Terms> corners;
+    for (const Point& corner : corners_) corners.push_back(terms(corner.exact));
+    std::map<Index, Terms> known;
+    const auto at = [&](Index v) -> const Terms& {
+      const auto [found, fresh] = known.try_emplace(v);
+      if (fresh) found->second = terms(expand(v).exact);
+      return found->second;
+    };
+    Term solid{};
+    for (const auto& [i, j, k] : triangles_) {
+      solid = solid + volume(corners[0], corners[i], corners[j], corners[k]);
+    }
     if (faces) {
-      Number sum(0);
+      // Per facet, the areas of its faces and of its triangles.
+      std::map<Index, std::array<Terms, 2>> areas;
+      const auto add = [&](Terms& sum, const Terms& a, const Terms& b, const Terms& c) {
+        const Terms n = cross(minus(b, a), minus(c, a));
+        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] = sum[axis] + n[axis];
+      };
+      Term sum{};
       for (const auto& [i, j, k, id] : record_.final_facets) {
-        const Point a = expand(i), b = expand(j), c = expand(k);
-        sum += volume(origin, a, b, c);
-        add_area(id, a, b, c, 1);
+        sum = sum + volume(corners[0], at(i), at(j), at(k));
+        add(areas[id][0], at(i), at(j), at(k));
       }
-      if (sum != solid) report_.fail("the faces enclose another volume");
+      if (!(sum == solid)) report_.fail("the faces enclose another volume");
       for (const ExactRecord::Facet& facet : record_.facets) {
         for (const Index t : facet.triangles) {
           const auto& [i, j, k] = triangles_[t];
-          add_area(facet.id, corners_[i], corners_[j], corners_[k], -1);
+          add(areas[facet.id][1], corners[i], corners[j], corners[k]);
         }
       }
-      for (const auto& [id, sum_of_areas] : areas) {
-        if (!CGAL::is_zero(sum_of_areas[0]) || !CGAL::is_zero(sum_of_areas[1]) ||
-            !CGAL::is_zero(sum_of_areas[2])) {
-          report_.fail("the faces on facet " + std::to_string(id) + " have another area");
-        }
+      for (const auto& [id, sums] : areas) {
+        if (sums[0] == sums[1]) continue;
+        report_.fail("the faces on facet " + std::to_string(id) + " have another area");
       }
     }
     if (tetrahedra) {
-      Number sum(0);
+      Term sum{};
       for (const ExactRecord::Tet& tet : record_.final) {
         if (!tet.inside) continue;
-        sum += volume(expand(tet.vertices[0]), expand(tet.vertices[1]), expand(tet.vertices[2]),
-                      expand(tet.vertices[3]));
+        const auto& [i, j, k, l] = tet.vertices;
+        sum = sum + volume(at(i), at(j), at(k), at(l));
       }
-      if (sum != solid) report_.fail("the tetrahedra inside have another volume");
+      if (!(sum == solid)) report_.fail("the tetrahedra inside have another volume");
     }
-    report_.checked += (faces ? 1 : 0) + (tetrahedra ? 1 : 0);
-    report_.figures.emplace_back("volumes and areas", (faces ? 1 : 0) + (tetrahedra ? 1 : 0));
   }
 
   const Polyhedron& input_;
@@ -497,9 +616,9 @@ OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& su
     return report;
   }
   if (record.planes.empty()) {
-    return SecondKernel<CGAL::Gmpzf>(input, surface, record, points, std::move(definitions)).run();
+    return SecondKernel<Whole>(input, surface, record, points, std::move(definitions)).run();
   }
-  return SecondKernel<CGAL::Gmpq>(input, surface, record, points, std::move(definitions)).run();
+  return SecondKernel<Fractions>(input, surface, record, points, std::move(definitions)).run();
 }
 
 }  // namespace tetproof::oracles
