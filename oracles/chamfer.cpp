@@ -343,7 +343,13 @@ class ChamferExtent {
   }
 
   OracleReport run() {
-    for (const auto& [point, vertex] : record_.chamfer_points) check_point(point, vertex);
+    std::vector<std::uint8_t> made(points_.size());
+    for (const auto& [point, vertex] : record_.chamfer_points) {
+      check_point(point, vertex);
+      if (made[point]++ != 0) {
+        report_.fail(complex_.vertex_name(point) + " was made by chamfering twice");
+      }
+    }
     for (const ExactRecord::Chain& chain : record_.segments) {
       if (chain.artificial) check_chain(chain);
     }

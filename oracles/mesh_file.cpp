@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -303,20 +304,22 @@ class VtuReader {
     }
     std::size_t start = 0;
     for (std::size_t cell = 0; cell < types.size(); ++cell) {
-      const std::size_t end = static_cast<std::size_t>(offsets[cell]);
+      const auto end = static_cast<std::size_t>(integer(offsets[cell]));
       if (end < start || end > corners.size()) fail("offsets leave the connectivity");
       const auto corner = [&](std::size_t k) {
-        const double v = corners[start + k];
-        if (!(v >= 0 && v < static_cast<double>(mesh.vertices.size())))
+        const std::int64_t v = integer(corners[start + k]);
+        if (v < 0 || v >= static_cast<std::int64_t>(mesh.vertices.size())) {
           fail("a cell refers to no point");
+        }
         return static_cast<Index>(v);
       };
       if (types[cell] == 10 && end - start == 4) {
         mesh.tetrahedra.push_back({corner(0), corner(1), corner(2), corner(3)});
-        if (!values.empty()) mesh.regions.push_back(static_cast<std::int64_t>(values[cell]));
+        if (!values.empty()) mesh.regions.push_back(integer(values[cell]));
       } else if (types[cell] == 5 && end - start == 3) {
         mesh.boundary.push_back({corner(0), corner(1), corner(2)});
-        if (!labels.empty()) mesh.labels.push_back(static_cast<std::int32_t>(labels[cell]));
+        if (!labels.empty())
+          mesh.labels.push_back(static_cast<std::int32_t>(integer(labels[cell])));
         if (!facets.empty()) {
           const bool known = facets[cell] >= 0 && facets[cell] < 0x1p32;
           mesh.facets.push_back(known ? static_cast<Index>(facets[cell]) : kNone);
@@ -332,6 +335,11 @@ class VtuReader {
  private:
   [[noreturn]] void fail(const std::string& reason) const {
     throw ReadError(path_ + ": " + reason);
+  }
+
+  std::int64_t integer(double value) const {
+    if (!(std::fabs(value) < 0x1p53) || value != std::trunc(value)) fail("a value is no integer");
+    return static_cast<std::int64_t>(value);
   }
 
   static std::string attribute(std::string_view tag, const std::string& name) {

@@ -181,6 +181,8 @@ class PromiseCheck {
     } else {
       demand(record_.final.empty(), "the record has a final mesh, promised was --approximate");
     }
+    check_planar();
+    check_unasked();
     if (promise_.task == Task::mesh) {
       section("refined", record_.refined.size());
       check_refined_sections();
@@ -201,6 +203,19 @@ class PromiseCheck {
     demand(recorded >= promised, "the record has " + name + " " + number(recorded) +
                                      ", promised was " + number(promised));
     if (recorded > promised) report_.figures.emplace_back("stricter: " + name, recorded);
+  }
+
+  // Sections that no oracle would look at.
+  void check_unasked() {
+    const ExactRecord& r = record_;
+    demand(!r.final.empty() || r.unrepaired.empty(),
+           "the record has a mesh before repairs, but none after them");
+    demand(!r.unrepaired.empty() || r.unrepaired_facets.empty(),
+           "the record has faces on facets before repairs, but no mesh before them");
+    if (promise_.task != Task::cdt) return;
+    demand(r.refined.empty() && r.refined_facets.empty() && r.segments.empty() &&
+               r.corners.empty() && r.chamfer_points.empty() && r.balls.empty(),
+           "the record has a refined mesh, promised was a plain tetrahedrization");
   }
 
   void check_refined_sections() {
@@ -224,7 +239,6 @@ class PromiseCheck {
     demand(p.gabriel || !promise_.gabriel, "the record has no empty balls, promised was --gabriel");
     demand(p.region == promise_.region, "the record is of another region than was promised");
     check_tolerance();
-    check_planar();
     // The guard tightens corners only where empty balls alone did not help.
     std::uint64_t tightened = 0;
     for (const ExactRecord::Corner& corner : record_.corners) {

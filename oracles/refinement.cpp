@@ -409,13 +409,20 @@ OracleReport check_refined_facets(const RefinedMesh& mesh) {
 
 namespace {
 
-// Explicit points that are neither of the input nor on the outer box were put into the volume.
+// Points that are neither of the input nor on the outer box were put into the volume, if they are
+// explicit, or on no segment and no facet, however they are given.
 std::vector<std::uint8_t> volume_points(const RefinedMesh& mesh) {
-  std::vector<std::uint8_t> is_volume(mesh.points->size());
+  std::vector<std::uint8_t> is_volume(mesh.points->size()), on_surface(mesh.points->size());
+  for (const ExactRecord::Chain& chain : mesh.record->segments) {
+    for (const Index v : chain.vertices) on_surface[v] = 1;
+  }
+  for (const auto& [a, b, c, id] : mesh.record->refined_facets) {
+    on_surface[a] = on_surface[b] = on_surface[c] = 1;
+  }
   const auto& tets = mesh.complex->tetrahedra;
   for (const Index v : used_vertices(*mesh.complex)) {
-    is_volume[v] =
-        v >= mesh.input_vertices && mesh.record->points[v].kind == ExactPoint::Kind::explicit_point;
+    const bool is_explicit = mesh.record->points[v].kind == ExactPoint::Kind::explicit_point;
+    is_volume[v] = v >= mesh.input_vertices && (is_explicit || on_surface[v] == 0);
   }
   for (Index i = 0; i < mesh.neighbours->across.size(); ++i) {
     if (mesh.neighbours->across[i] != kNone) continue;

@@ -31,7 +31,8 @@ class SidecarReader {
       chain.artificial = reader_.required_word("I or A") == "A";
       chain.facet = chain.artificial ? number() : kNone;
       if (!chain.artificial) reader_.expect("-");
-      numbers(chain.vertices);
+      chain.vertices.resize(reader_.count());
+      for (Index& v : chain.vertices) v = point();
     });
     reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = point();
@@ -58,8 +59,8 @@ class SidecarReader {
     p.acute = reader_.number();
     p.corner = reader_.number();
     p.tolerance = reader_.number();
-    p.region = number() != 0 ? delmesher::Region::hull : delmesher::Region::interior;
-    p.gabriel = number() != 0;
+    p.region = flag() ? delmesher::Region::hull : delmesher::Region::interior;
+    p.gabriel = flag();
     if (version_ >= 4) p.planar = reader_.number();
   }
 
@@ -121,7 +122,7 @@ class SidecarReader {
   void read_tets(const std::string& name, std::vector<ExactRecord::Tet>& tets) {
     reader_.list(name, tets, [&](ExactRecord::Tet& tet) {
       for (Index& v : tet.vertices) v = point();
-      tet.inside = number() != 0;
+      tet.inside = flag();
     });
   }
 
@@ -133,6 +134,7 @@ class SidecarReader {
   }
 
   Index number() { return reader_.index(0, 0x100000000U); }
+  bool flag() { return reader_.index(0, 2) != 0; }
   Index point() { return reader_.index(0, record_.points.size()); }
   void numbers(std::vector<Index>& list) {
     list.resize(reader_.count());

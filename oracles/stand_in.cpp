@@ -62,7 +62,9 @@ class StandInCheck {
       ++report_.checked;
       const double distance = exact::distance(points_, v, given_ + v);
       displacement_ = std::max(displacement_, distance);
-      if (!(16 * distance <= shortest[v] * (1 + 1e-9))) {
+      if (shortest[v] == HUGE_VAL) {
+        report_.fail("vertex " + std::to_string(v) + " was moved, and is in no triangle");
+      } else if (!(16 * distance <= shortest[v] * (1 + 1e-9))) {
         report_.fail("vertex " + std::to_string(v) + " was moved by " + std::to_string(distance) +
                      ", its shortest edge is " + std::to_string(shortest[v]) + " long");
       }

@@ -63,6 +63,37 @@ std::string endless(const ExactRecord& record) {
   return {};
 }
 
+// Names a section with a number of no point, or of no triangle of the input, so that nothing can be
+// decided; empty if there is none. Tetrahedra and written vertices are for other oracles.
+std::string out_of_range(const ExactRecord& record, std::size_t triangles) {
+  const std::size_t points = record.points.size();
+  const auto all_below = [](const auto& list, std::size_t count) {
+    return std::all_of(list.begin(), list.end(), [count](Index i) { return i < count; });
+  };
+  for (const ExactRecord::Facet& facet : record.facets) {
+    if (!all_below(facet.triangles, triangles)) return "facets";
+  }
+  for (const ExactRecord::Chain& chain : record.segments) {
+    if (!all_below(chain.vertices, points)) return "segments";
+  }
+  for (const ExactRecord::Corner& corner : record.corners) {
+    if (corner.vertex >= points) return "corners";
+  }
+  for (const auto& made : record.chamfer_points) {
+    if (!all_below(made, points)) return "chamfer_points";
+  }
+  for (const ExactRecord::Ball& ball : record.balls) {
+    if (ball.vertex >= points || !all_below(ball.tetrahedron, points)) return "balls";
+  }
+  for (const auto* faces :
+       {&record.refined_facets, &record.final_facets, &record.unrepaired_facets}) {
+    for (const auto& [a, b, c, id] : *faces) {
+      if (std::max({a, b, c}) >= points) return "faces on facets";
+    }
+  }
+  return {};
+}
+
 // The diagonal of the bounding box of the vertices that have triangles.
 double diagonal_of(const Polyhedron& input) {
   Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -169,6 +200,9 @@ void Shared::read_sidecar() {
   if (const std::string name = endless(*exact_); !name.empty()) {
     s.report.fail(name + " is not finite");
   }
+  if (const std::string name = out_of_range(*exact_, input_.triangles.size()); !name.empty()) {
+    s.report.fail(name + " name what does not exist");
+  }
   if (!s.report.passed()) return;
   if (moved) {
     std::vector<delmesher::ExactPoint> definitions = exact_->points;
@@ -184,6 +218,10 @@ void Shared::read_sidecar() {
   if (!exact_->triangles.empty()) meshed.triangles = exact_->triangles;
   s.why = s.surface.assign(meshed, s.points);
   s.usable = s.why.empty();
+  if (!s.usable && (moved || !exact_->triangles.empty())) {
+    s.report.fail("the surface that was meshed: " + s.why);
+    s.why.clear();
+  }
 }
 
 // One part of a verification, with a report of its own. Each check returns why the input bounds no
@@ -601,6 +639,7 @@ OracleReport Verification::check_facet_ids(const TetComplex& complex,
     std::sort(facet_of.back().first.begin(), facet_of.back().first.end());
   }
   std::sort(facet_of.begin(), facet_of.end());
+  std::vector<std::uint8_t> seen(facet_of.size());
   for (const auto& [a, b, c, id] : listed) {
     Face face = {a, b, c};
     std::sort(face.begin(), face.end());
@@ -609,6 +648,8 @@ OracleReport Verification::check_facet_ids(const TetComplex& complex,
         std::lower_bound(facet_of.begin(), facet_of.end(), std::pair(face, Index{0}));
     if (found == facet_of.end() || found->first != face) {
       report.fail(complex.face_name(face) + " is no boundary face of the solid");
+    } else if (seen[found - facet_of.begin()]++ != 0) {
+      report.fail(complex.face_name(face) + " is listed twice");
     } else if (found->second != kNone && surface.facets()[found->second].id != id) {
       report.fail(complex.face_name(face) + " is said to tile facet " + std::to_string(id) +
                   " but tiles " + std::to_string(surface.facets()[found->second].id));

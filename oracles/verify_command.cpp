@@ -199,6 +199,11 @@ int run_verify(int argc, char** argv) {
     std::fprintf(stderr, "tetproof: --promised: %s\n", why.c_str());
     return kUsage;
   }
+  // Nothing is more than no number.
+  if (const double declared = arguments.options.declared_deviation; !(declared >= 0)) {
+    std::fprintf(stderr, "tetproof: --declared-deviation: %g is no deviation\n", declared);
+    return kUsage;
+  }
   if (arguments.stage && arguments.options.promised.task == Task::plane) {
     std::fputs("tetproof: --stage: in the plane --promised 'plane --approximate' says it\n",
                stderr);

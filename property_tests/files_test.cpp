@@ -102,6 +102,46 @@ TEST_F(Files, AllFormatsAndTheSidecarAreVerified) {
   }
 }
 
+TEST_F(Files, WhatSaysNothingIsRefused) {
+  write_off("in.off", samples::l_shape().input);
+  ASSERT_EQ(run("mesh -q " + path("in.off") + " -o " + path("out.mesh") + " -o " + path("out.vtu") +
+                " --exact " + path("out.exact")),
+            0);
+  const auto verified = [&](const std::string& mesh, const std::string& exact) {
+    return verify({path("in.off"), path(mesh), "--exact", path(exact)});
+  };
+  ASSERT_EQ(verified("out.mesh", "out.exact"), 0);
+  // No number is less than no number.
+  for (const char* deviation : {"nan", "-1"}) {
+    EXPECT_EQ(verify({path("in.off"), path("out.mesh"),
+                      std::string("--declared-deviation=") + deviation}),
+              2);
+  }
+  const auto changed = [&](const std::string& name, const std::string& from,
+                           const std::string& to) {
+    std::string text = oracles::read_whole_file(path(name));
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+    write("changed" + name.substr(name.find('.')), text);
+  };
+  changed("out.exact", " 0\nrefined_facets", " 2\nrefined_facets");
+  if (HasFatalFailure()) return;
+  EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
+  changed("out.exact", "\nmesh_vertices", "\nfinal 0\nmesh_vertices");
+  EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
+  changed("out.exact", "\nballs ", "\nballs 99999999999999999999");
+  EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
+  const std::string record = oracles::read_whole_file(path("out.exact"));
+  write("changed.exact", record.substr(0, record.size() - 4));
+  EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
+  changed("out.vtu", "\"offsets\" format=\"ascii\">\n4", "\"offsets\" format=\"ascii\">\nnan");
+  EXPECT_EQ(verified("changed.vtu", "out.exact"), 3);
+  changed("out.vtu", "\"connectivity\" format=\"ascii\">\n",
+          "\"connectivity\" format=\"ascii\">\n0.");
+  EXPECT_EQ(verified("changed.vtu", "out.exact"), 3);
+}
+
 // The record of the surface of a run with planar facets, as it comes back from a file.
 TEST_F(Files, RecordedPlanesAndTrianglesComeBack) {
   delmesher::Options options;

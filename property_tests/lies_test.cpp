@@ -40,7 +40,7 @@ TEST_P(Lies, AreCaughtByTheOracleMeantForThem) {
   static const VerifyReport good = verdict(told);
   ASSERT_TRUE(samples::exact_or_rounded(good)) << to_text(good);
   GetParam().tell(told);
-  judge("wedge and slab", GetParam().name, GetParam().oracle, verdict(told));
+  judge("wedge and slab", GetParam().name, GetParam().oracle, verdict(told), GetParam().before);
 }
 
 std::string lie_name(const testing::TestParamInfo<Lie>& tested) {

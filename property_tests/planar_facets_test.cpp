@@ -328,10 +328,43 @@ std::size_t moved_vertex(const ExactRecord& record) {
   return 0;
 }
 
+// Puts a point before others; all numbers of points follow.
+void insert_point(ExactRecord& r, Index at, const ExactPoint& point) {
+  const auto move = [at](auto& list) {
+    for (Index& v : list) v += v >= at ? 1 : 0;
+  };
+  for (ExactPoint& p : r.points) {
+    if (p.kind == ExactPoint::Kind::explicit_point || p.kind == ExactPoint::Kind::on_planes)
+      continue;
+    std::array<Index, 3> corners = {p.i, p.j, p.k};
+    move(corners);
+    p.i = corners[0];
+    p.j = corners[1];
+    p.k = corners[2];
+  }
+  r.points.insert(r.points.begin() + at, point);
+  for (auto& chain : r.segments) move(chain.vertices);
+  for (auto& made : r.chamfer_points) move(made);
+  for (auto* tets : {&r.refined, &r.final, &r.unrepaired}) {
+    for (auto& tet : *tets) move(tet.vertices);
+  }
+  for (auto* faces : {&r.refined_facets, &r.final_facets, &r.unrepaired_facets}) {
+    for (auto& face : *faces) {
+      for (int i = 0; i < 3; ++i) face[i] += face[i] >= at ? 1 : 0;
+    }
+  }
+  for (auto& ball : r.balls) {
+    ball.vertex += ball.vertex >= at ? 1 : 0;
+    move(ball.tetrahedron);
+  }
+  move(r.mesh_vertices);
+}
+
 struct Lie {
   const char* name;
   const char* oracle;  // the one meant to catch it
   void (*tell)(Told&);
+  const char* before = "";  // for the table: what became of it before its row was there
 };
 void PrintTo(const Lie& lie, std::ostream* out) {
   *out << lie.name;
@@ -403,6 +436,39 @@ const Lie kLies[] = {
          t.sample.mesh.vertices[i] = points.nearest(t.record.mesh_vertices[i]);
        }
      }},
+    {"a vertex on a plane that does not exist", "sidecar",
+     [](Told& t) { t.record.points[moved_vertex(t.record)].k = 4294967295U; }},
+    {"a moved vertex told to be as given", "exact-conformity",
+     [](Told& t) {
+       const std::size_t v = moved_vertex(t.record);
+       const Position& x = t.sample.input.vertices[v];
+       t.record.points[v] = {ExactPoint::Kind::explicit_point, 0, 0, 0, x[0], x[1], x[2]};
+     }},
+    {"planes of two facets exchanged", "sidecar",
+     [](Told& t) { std::swap(t.record.planes.front(), t.record.planes.back()); }},
+    {"facets made planar within less than promised now", "promise",
+     [](Told& t) { t.promise.planar = 1e-12; }},
+    {"two facets told to be one", "facet-list",
+     [](Told& t) {
+       auto& facets = t.record.facets;
+       auto& first = facets.front().triangles;
+       first.insert(first.end(), facets.back().triangles.begin(), facets.back().triangles.end());
+       facets.pop_back();
+     }},
+    {"a vertex of no triangle moved", "stand-in",
+     [](Told& t) {
+       const auto v = static_cast<Index>(t.sample.input.vertices.size());
+       t.sample.input.vertices.push_back({0, 0, 0});
+       ExactPoint moved = t.record.points[moved_vertex(t.record)];
+       insert_point(t.record, v, moved);
+     },
+     "passed"},
+    {"moved triangles that bound nothing", "sidecar",
+     [](Told& t) {
+       t.record.triangles = t.sample.input.triangles;
+       t.record.triangles.back()[0] = 4294967295U;
+     },
+     "called an invalid input"},
     {"labels merged", "conformity",
      [](Told& t) {
        t.sample.input.labels.assign(t.sample.input.triangles.size(), 1);
@@ -418,7 +484,7 @@ TEST_P(PlanarLies, AreCaughtByTheOracleMeantForThem) {
   ASSERT_EQ(good.verdict, Verdict::deviating);
   Told told = honest();
   GetParam().tell(told);
-  judge("rotated stairs", GetParam().name, GetParam().oracle, verdict_on(told));
+  judge("rotated stairs", GetParam().name, GetParam().oracle, verdict_on(told), GetParam().before);
 }
 
 INSTANTIATE_TEST_SUITE_P(Planes, PlanarLies, testing::ValuesIn(kLies), [](const auto& tested) {

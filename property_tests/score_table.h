@@ -15,7 +15,8 @@ namespace tetproof {
 struct Score {
   std::string base, damage, meant;
   bool caught = false;
-  std::string also;  // other oracles that objected
+  std::string before;  // what became of it before its row was there, if that is known
+  std::string also;    // other oracles that objected
 };
 
 class ScoreTable : public testing::Environment {
@@ -26,13 +27,13 @@ class ScoreTable : public testing::Environment {
   }
   void TearDown() override {
     if (rows().empty()) return;
-    std::cout << "| mesh | damage | meant to catch it | caught | objecting as well |\n"
-              << "|---|---|---|---|---|\n";
+    std::cout << "| mesh | damage | meant to catch it | caught | before | objecting as well |\n"
+              << "|---|---|---|---|---|---|\n";
     std::size_t caught = 0;
     for (const Score& s : rows()) {
       caught += s.caught;
       std::cout << "| " << s.base << " | " << s.damage << " | " << s.meant << " | "
-                << (s.caught ? "yes" : "NO") << " | " << s.also << " |\n";
+                << (s.caught ? "yes" : "NO") << " | " << s.before << " | " << s.also << " |\n";
     }
     std::cout << "mutation score: " << caught << " of " << rows().size() << "\n";
   }
@@ -42,8 +43,8 @@ class ScoreTable : public testing::Environment {
     testing::AddGlobalTestEnvironment(new ScoreTable);
 
 inline void judge(const std::string& base, const std::string& damage, const std::string& meant,
-                  const oracles::VerifyReport& report) {
-  Score score{base, damage, meant, false, {}};
+                  const oracles::VerifyReport& report, const std::string& before = {}) {
+  Score score{base, damage, meant, false, before, {}};
   for (const oracles::OracleReport& oracle : report.oracles) {
     if (oracle.passed()) continue;
     if (oracle.name == meant) {

@@ -449,6 +449,38 @@ const Lie kConsistent[] = {
          return;
        }
      }},
+    {"a tetrahedron inside left out of file and record", "exact-conformity",
+     [](Told& t) {
+       const Tet gone = t.sample.mesh.tetrahedra.back();
+       t.sample.mesh.tetrahedra.pop_back();
+       t.sample.mesh.regions.pop_back();
+       std::set<Index> corners;
+       for (const Index v : gone) corners.insert(t.record.mesh_vertices[v]);
+       for (auto& tet : t.record.final) {
+         if (std::set<Index>(tet.vertices.begin(), tet.vertices.end()) == corners) {
+           tet.inside = false;
+         }
+       }
+     }},
+    {"all numbers of the file and the record moved by a sixteenth", "sidecar",
+     [](Told& t) {
+       for (Position& p : t.sample.mesh.vertices) p[0] += 0x1p-4;
+       for (ExactPoint& p : t.record.points) {
+         if (p.kind == ExactPoint::Kind::explicit_point) p.x += 0x1p-4;
+       }
+     }},
+    {"a Steiner point on an edge moved to its end, in file and record", "exact-orientation",
+     [](Told& t) {
+       ExactPoints points;
+       for (std::size_t i = 0; i < t.record.mesh_vertices.size(); ++i) {
+         ExactPoint& p = t.record.points[t.record.mesh_vertices[i]];
+         if (p.kind != ExactPoint::Kind::on_segment) continue;
+         p.x = 1;
+         points.assign(t.record.points);
+         t.sample.mesh.vertices[i] = points.nearest(t.record.mesh_vertices[i]);
+         return;
+       }
+     }},
 };
 
 }  // namespace

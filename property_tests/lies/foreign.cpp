@@ -123,6 +123,28 @@ const Lie kForeign[] = {
      }},
     {"a face on a facet fewer in the record", "same-mesh",
      [](Told& t) { t.record.final_facets.pop_back(); }},
+    {"a written vertex that is no point of the record", "rounding",
+     [](Told& t) { t.record.mesh_vertices.back() = 4294967295U; }},
+    {"outside called by two numbers", "same-mesh",
+     [](Told& t) {
+       run_hull(t);
+       *std::find(t.sample.mesh.regions.begin(), t.sample.mesh.regions.end(), 0) = 2;
+     }},
+    {"a final mesh where --approximate was promised", "promise",
+     [](Told& t) { t.promise.approximate = true; }},
+    {"a mesh before repairs, none after, for --approximate", "promise",
+     [](Told& t) {
+       Options options = honest_options();
+       options.approximate = true;
+       t = run_of(options);
+       t.record.unrepaired = t.record.refined;
+     },
+     "passed"},
+    {"a plain tetrahedrization where a mesh was promised", "promise",
+     [](Told& t) {
+       run_cdt(t);
+       t.promise.task = Task::mesh;
+     }},
 };
 
 }  // namespace

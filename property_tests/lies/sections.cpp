@@ -1,5 +1,8 @@
 // Lies: sections emptied, swapped, doubled, cut short, out of date.
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "property_tests/lies/told.h"
@@ -8,6 +11,63 @@ namespace tetproof::lies {
 namespace {
 
 using namespace oracles;  // NOLINT
+using delmesher::ExactPoint;
+using delmesher::ExactRecord;
+
+// A point put into the volume is moved a little, in file and record, so that it can be given on a
+// triangle of three input vertices; the record says nothing more of how it came about.
+void give_as_surface_point(Told& told) {
+  ExactRecord& r = told.record;
+  const auto& x = told.sample.input.vertices;
+  double nearest = HUGE_VAL;
+  std::size_t chosen = 0;
+  ExactPoint best;
+  for (std::size_t n = 0; n < r.balls.size(); ++n) {
+    const ExactPoint& p = r.points[r.balls[n].vertex];
+    for (Index i = 2; i < x.size(); ++i) {
+      for (Index j = 1; j < i; ++j) {
+        for (Index k = 0; k < j; ++k) {
+          Position u, v, w;
+          for (int axis = 0; axis < 3; ++axis) {
+            u[axis] = x[i][axis] - x[k][axis];
+            v[axis] = x[j][axis] - x[k][axis];
+          }
+          w = {p.x - x[k][0], p.y - x[k][1], p.z - x[k][2]};
+          const auto dot = [](const Position& a, const Position& b) {
+            return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+          };
+          const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v);
+          const double d = uu * vv - uv * uv;
+          if (d < 1e-3) continue;
+          const double s = (dot(u, w) * vv - dot(v, w) * uv) / d,
+                       t = (dot(v, w) * uu - dot(u, w) * uv) / d;
+          Position off;
+          for (int axis = 0; axis < 3; ++axis) {
+            off[axis] = w[axis] - s * u[axis] - t * v[axis];
+          }
+          if (dot(off, off) >= nearest) continue;
+          nearest = dot(off, off);
+          chosen = n;
+          best = {ExactPoint::Kind::on_triangle,
+                  i,
+                  j,
+                  k,
+                  std::ldexp(std::round(s * 0x1p20), -20),
+                  std::ldexp(std::round(t * 0x1p20), -20),
+                  0};
+        }
+      }
+    }
+  }
+  const Index vertex = r.balls[chosen].vertex;
+  r.points[vertex] = best;
+  r.balls.erase(r.balls.begin() + static_cast<std::ptrdiff_t>(chosen));
+  ExactPoints points;
+  ASSERT_EQ(points.assign(r.points), "");
+  for (std::size_t i = 0; i < r.mesh_vertices.size(); ++i) {
+    if (r.mesh_vertices[i] == vertex) told.sample.mesh.vertices[i] = points.nearest(vertex);
+  }
+}
 
 const Lie kSections[] = {
     {"no facets", "promise", [](Told& t) { t.record.facets.clear(); }},
@@ -113,6 +173,120 @@ const Lie kSections[] = {
      [](Told& t) { std::swap(t.record.points[0], t.record.points[1]); }},
     {"labels of facets exchanged", "refined-segments",
      [](Told& t) { t.record.facets[kept_facet(t.record)].label = 17; }},
+    {"a facet of a triangle that does not exist", "sidecar",
+     [](Told& t) { t.record.facets.front().triangles.back() = 4294967295U; }, "crashed"},
+    {"a segment over a point that does not exist", "sidecar",
+     [](Told& t) { t.record.segments.front().vertices.back() = 4294967295U; }, "crashed"},
+    {"a ball of a point that does not exist", "sidecar",
+     [](Told& t) { t.record.balls.front().tetrahedron[2] = 4294967295U; }, "crashed"},
+    {"a point made by chamfering twice", "refined-chamfer-extent",
+     [](Told& t) { t.record.chamfer_points.push_back(t.record.chamfer_points.front()); }, "passed"},
+    {"a point made by chamfering for no corner", "refined-chamfer-extent",
+     [](Told& t) { t.record.chamfer_points.front()[1] = 8; }},
+    {"an input vertex called made by chamfering", "refined-chamfer-extent",
+     [](Told& t) {
+       t.record.chamfer_points.push_back({0, t.record.corners.front().vertex});
+     }},
+    {"a corner that is no vertex of the input", "refined-chamfer-need",
+     [](Told& t) {
+       t.record.corners.push_back({t.record.chamfer_points.front()[0], 60, 0x1p-4});
+     }},
+    {"an artificial segment called one of the input", "refined-segments",
+     [](Told& t) {
+       for (auto& chain : t.record.segments) {
+         if (chain.artificial) return void(chain.artificial = false);
+       }
+     }},
+    {"a segment of the input called artificial", "refined-segments",
+     [](Told& t) {
+       for (auto& chain : t.record.segments) {
+         if (chain.artificial) continue;
+         chain.artificial = true;
+         chain.facet = t.record.facets[kept_facet(t.record)].id;
+         return;
+       }
+     }},
+    {"a volume point given on a triangle, without a ball", "refined-steiner-balls",
+     give_as_surface_point, "caught by enrichment"},
+    {"faces before repairs without a mesh before them", "promise",
+     [](Told& t) {
+       t.record.unrepaired.clear();
+       t.record.unrepaired_facets = t.record.final_facets;
+     },
+     "passed"},
+    {"a face before repairs twice, another not at all", "unrepaired-facets",
+     [](Told& t) {
+       t.record.unrepaired = t.record.final;
+       t.record.unrepaired_facets = t.record.final_facets;
+       t.record.unrepaired_facets.back() = t.record.unrepaired_facets.front();
+     },
+     "passed"},
+    {"a tetrahedron before repairs fewer", "unrepaired-hull",
+     [](Told& t) {
+       t.record.unrepaired = t.record.final;
+       std::erase_if(t.record.unrepaired, [](const auto& tet) { return !tet.inside; });
+     }},
+    {"a tetrahedron before repairs turned over", "unrepaired-complex",
+     [](Told& t) {
+       t.record.unrepaired = t.record.final;
+       auto& tet = t.record.unrepaired.front().vertices;
+       std::swap(tet[0], tet[1]);
+     }},
+    {"all tetrahedra before repairs turned over", "unrepaired-orientation",
+     [](Told& t) {
+       t.record.unrepaired = t.record.final;
+       for (auto& tet : t.record.unrepaired) std::swap(tet.vertices[0], tet.vertices[1]);
+     }},
+    {"a tetrahedron before repairs twice", "unrepaired-complex",
+     [](Told& t) {
+       t.record.unrepaired = t.record.final;
+       t.record.unrepaired.push_back(t.record.unrepaired.front());
+     }},
+    {"a tetrahedron before repairs called outside", "unrepaired-conformity",
+     [](Told& t) {
+       t.record.unrepaired = t.record.final;
+       std::find_if(t.record.unrepaired.begin(), t.record.unrepaired.end(), [](const auto& tet) {
+         return tet.inside;
+       })->inside = false;
+     }},
+    {"the refined mesh before repairs", "unrepaired-conformity",
+     [](Told& t) {
+       t.record.unrepaired = t.record.refined;
+       t.record.unrepaired_facets = t.record.refined_facets;
+     }},
+    {"a face of the final mesh twice, another not at all", "exact-facets",
+     [](Told& t) {
+       t.sample.mesh.lists_boundary = false;
+       t.sample.mesh.boundary.clear();
+       t.sample.mesh.labels.clear();
+       t.sample.mesh.facets.clear();
+       t.record.final_facets.back() = t.record.final_facets.front();
+     },
+     "caught by exact-second-kernel"},
+    {"a refined mesh with a plain tetrahedrization", "promise",
+     [](Told& t) {
+       const ExactRecord refined = t.record;
+       run_cdt(t);
+       t.record.refined = refined.refined;
+     },
+     "passed"},
+    {"planar facets in a plain tetrahedrization", "promise",
+     [](Told& t) {
+       run_cdt(t);
+       t.record.parameters.planar = 0x1p-20;
+     },
+     "passed"},
+    {"triangles that bound nothing", "sidecar",
+     [](Told& t) {
+       t.record.triangles = t.sample.input.triangles;
+       t.record.triangles.back() = t.record.triangles.front();
+     },
+     "called an invalid input"},
+    {"triangles turned inwards", "stand-in",
+     [](Told& t) {
+       t.record.triangles = t.sample.input.triangles;
+       for (auto& corners : t.record.triangles) std::swap(corners[0], corners[1]);
+     }},
 };
 
 }  // namespace

@@ -40,6 +40,7 @@ struct Lie {
   const char* name;
   const char* oracle;  // the one meant to catch it
   void (*tell)(Told&);
+  const char* before = "";  // for the table: what became of it before its row was there
 };
 
 void PrintTo(const Lie& lie, std::ostream* stream);
