@@ -285,10 +285,7 @@ class Job {
                                      "--declared-deviation",
                                      deviation.str()};
     if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
-    // Our mesher is held to the options that it was called with. Other meshers were not asked for
-    // planar facets: their surface is the one given, but for the deviation that they declare.
-    argv.insert(argv.end(),
-                {"--promised", mesher_.sidecar_command ? mesher_.flags : "mesh --planar 0"});
+    argv.insert(argv.end(), {"--promised", mesher_.promised()});
     start(argv, options_.verify_limits);
     return true;
   }

@@ -1,5 +1,6 @@
 #include "oracles/text_reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
@@ -107,6 +108,27 @@ bool TextReader::at_end() {
   return at_its_end();
 }
 
+namespace {
+
+// Of digits without a sign that are a number beyond the range of doubles: is it too small, and not
+// too large? The first digit that is no zero decides, as doubles reach about as far both ways.
+bool underflows(std::string_view digits, bool hexadecimal) {
+  const std::size_t mark = std::min(digits.find_first_of(hexadecimal ? "pP" : "eE"), digits.size());
+  const std::string_view mantissa = digits.substr(0, mark);
+  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+  const std::size_t first = std::min(mantissa.find_first_not_of("0."), mantissa.size());
+  const auto place = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
+  std::string_view exponent = digits.substr(std::min(mark + 1, digits.size()));
+  if (exponent.starts_with('+')) exponent.remove_prefix(1);
+  std::int64_t power = 0;
+  const auto [end, error] =
+      std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
+  if (error == std::errc::result_out_of_range) return exponent.starts_with('-');
+  return power + (hexadecimal ? 4 : 1) * place < 0;
+}
+
+}  // namespace
+
 double TextReader::number() {
   const std::string_view text = required_word("a number");
   std::string_view digits = text;
@@ -118,10 +140,9 @@ double TextReader::number() {
   const auto [end, error] =
       std::from_chars(digits.data(), digits.data() + digits.size(), value,
                       hexadecimal ? std::chars_format::hex : std::chars_format::general);
-  // from_chars leaves the value alone if it is out of range. A decimal number that underflows is
-  // zero; all others are refused.
-  const bool underflow =
-      error == std::errc::result_out_of_range && digits.find("e-") != std::string_view::npos;
+  // from_chars leaves the value alone if it is out of range. A number that underflows is zero; all
+  // others are refused.
+  const bool underflow = error == std::errc::result_out_of_range && underflows(digits, hexadecimal);
   if ((error != std::errc() && !underflow) || end != digits.data() + digits.size() ||
       digits.starts_with('-')) {
     fail("\"" + std::string(text.substr(0, 40)) + "\" is no number");

@@ -66,8 +66,10 @@ Failure Prober::failure(const delmesher::Surface& surface) const {
   if (!verify) return {};
   const Outcome checked = run_supervised(
       supervisor, {{"/bin/sh", "-c",
-                    "exec \"$0\" verify \"$1\" \"$2\" --declared-deviation 1e-8 --json > \"$3\"",
-                    self.string(), files.input.string(), files.mesh.string(), verdict.string()},
+                    "exec \"$0\" verify \"$1\" \"$2\" --declared-deviation 1e-8 --promised \"$4\" "
+                    "--json > \"$3\"",
+                    self.string(), files.input.string(), files.mesh.string(), verdict.string(),
+                    mesher.promised()},
                    folder,
                    {.wall_seconds = 300}});
   if (checked.ending != Ending::exited || checked.exit_code != 1) return {};

@@ -34,6 +34,24 @@ TEST(TextReader, ReadsWordsAndCountsLines) {
   EXPECT_THROW(reader.required_word("a word"), ReadError);
 }
 
+TEST(TextReader, NumbersBelowDoublesAreZeroThoseAboveAreRefused) {
+  const std::string zeros(400, '0');
+  for (const std::string& text :
+       {std::string("1e-400"), std::string("-1E-400"), "0." + zeros + "1", "0." + zeros + "1e+5",
+        std::string("0x1p-1100"), std::string("0x0.00001P-1070"), "-0x0." + zeros + "1",
+        std::string("1e-99999999999999999999"), "1" + zeros + "e-900"}) {
+    EXPECT_EQ(TextReader("file", text).number(), 0) << text;
+  }
+  for (const std::string& text :
+       {std::string("1e400"), std::string("-1E+400"), "1" + zeros, "1" + zeros + "e-5",
+        std::string("0x1p1100"), "0x1" + zeros + "p-5", std::string("1e99999999999999999999"),
+        "0." + zeros + "1e900", std::string("1e-400x")}) {
+    EXPECT_THROW(TextReader("file", text).number(), ReadError) << text;
+  }
+  EXPECT_EQ(TextReader("file", "0x1p-1074").number(), 0x1p-1074);
+  EXPECT_EQ(TextReader("file", "4e-324").number(), 0x1p-1074);
+}
+
 TEST(TextReader, ReadsAFilePieceByPieceAsItReadsTheWhole) {
   std::mt19937 random(7);
   std::string text;

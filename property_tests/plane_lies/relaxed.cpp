@@ -12,6 +12,8 @@ const Lie kRelaxed[] = {
     {"delta relaxed to nothing", "promise", [](Told& t) { t.record.delta = 0x1p-20; }},
     {"delta that is no number", "promise", [](Told& t) { t.record.delta = NAN; }},
     {"delta that no triangle has", "promise", [](Told& t) { t.record.delta = 1000; }},
+    {"delta between what triangles have and a right angle", "promise",
+     [](Told& t) { t.record.delta = 61; }},
     {"threshold of corners relaxed", "promise", [](Told& t) { t.record.acute = 1; }},
     {"an old version", "promise", [](Told& t) { t.how.record_version = 0; }},
     {"a radius half as large again", "refined-chamfer-radius",
