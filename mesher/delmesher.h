@@ -69,6 +69,8 @@ struct TetMesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
   std::vector<std::uint8_t> inside;  // per tetrahedron: 1 if contained in the solid
+  // Per tetrahedron, of meshes from elsewhere; empty: 1 inside the solid, 2 outside.
+  std::vector<std::int32_t> regions;
   // Triangles tiling the input surface, counter-clockwise seen from outside the solid, with the
   // label of the input and the id of the facet they tile (its smallest input triangle index).
   std::vector<std::array<std::uint32_t, 3>> boundary;
@@ -92,6 +94,18 @@ Result tetrahedralize(const Surface& surface, const Options& options = {});
 // Constrained Delaunay tetrahedrization of the convex hull of a valid surface, no quality
 // (Diazzi et al. 2023; Si and Gaertner 2011). Uses region, limits, progress, want_exact.
 Result constrained_delaunay(const Surface& surface, const Options& options = {});
+
+// Fewer and better tetrahedra, by local operations (section 8.3), on a conforming mesh of whatever
+// origin. Kept to the last bit: the triangles of `mesh.boundary`, the faces that one tetrahedron
+// has, those between tetrahedra of different regions or sides, and the vertices of all these. Every
+// tetrahedron counts, inside or not; no dihedral angle below 17 degrees (or above 163), and no face
+// angle below `delta` is made, unless there was one as bad. Vertices of no tetrahedron are dropped.
+// Uses delta, max_edge (no longer edge is made) and limits. `inside` may be empty, then all are
+// inside; so may labels and facets. Statistics::refined is of the mesh as given, `final` of the
+// result; `rounding_flat` counts flat tetrahedra that are left, as there may be some in the mesh
+// given. What is not conforming, by exact signs, is refused with StatusCode::invalid_mesh; but
+// whether tetrahedra without a common face overlap is not asked.
+Result improve_mesh(const TetMesh& mesh, const Options& options = {});
 
 // Decides exactly whether a surface is valid input. Angles are judged with options.acute.
 SurfaceReport check_surface(const Surface& surface, const Options& options = {});

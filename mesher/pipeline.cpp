@@ -116,12 +116,12 @@ cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
 bool improve_mesh(cdt::CdtResult& cdt, Session& s) {
   const improve::ImproveOptions options{
       .delta = s.options.delta, .max_edge = s.options.max_edge, .region = s.options.region};
-  improve::ImproveMesh before{std::move(cdt.tetrahedra), std::move(cdt.inside),
-                              std::move(cdt.boundary)};
+  improve::ImproveMesh before{
+      std::move(cdt.tetrahedra), {cdt.inside.begin(), cdt.inside.end()}, std::move(cdt.boundary)};
   improve::ImproveResult result = improve::improve(std::move(before), &s.topology, s.given, options,
                                                    s.points, s.predicates, s.control);
   cdt.tetrahedra = std::move(result.mesh.tetrahedra);
-  cdt.inside = std::move(result.mesh.inside);
+  cdt.inside.assign(result.mesh.region.begin(), result.mesh.region.end());
   cdt.boundary = std::move(result.mesh.boundary);
   cdt.repeated_faces.clear();
   const auto follow = [&](std::vector<VertexId>& vertices) {

@@ -52,7 +52,7 @@ Json mesh_json(const PlaneMeshStatistics& s) {
 }
 
 Json parameters_json(const Command& command) {
-  static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check"};
+  static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check", "improve"};
   const Options& o = command.options;
   return {{"job", kJobs[static_cast<std::size_t>(command.job)]},
           {"delta", o.delta},
@@ -130,12 +130,14 @@ std::uint64_t total_defects(const SurfaceReport& report) {
 
 const char* status_name(StatusCode code) {
   static constexpr const char* kNames[] = {
-      "ok", "invalid-options", "invalid-surface", "limit-reached", "interrupted", "internal-error"};
+      "ok",          "invalid-options", "invalid-surface", "limit-reached",
+      "interrupted", "internal-error",  "invalid-mesh"};
   return kNames[static_cast<std::size_t>(code)];
 }
 
 int exit_code_of(StatusCode code) {
-  static constexpr int kCodes[] = {kDone, kUsage, kInvalid, kLimit, kInterrupted, kInternal};
+  static constexpr int kCodes[] = {kDone,        kUsage,    kInvalid, kLimit,
+                                   kInterrupted, kInternal, kInvalid};
   return kCodes[static_cast<std::size_t>(code)];
 }
 
@@ -175,6 +177,21 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                         {"extended", s.predicate_extended},
                         {"exact", s.predicate_exact},
                         {"symbolic", s.predicate_symbolic}};
+  return dump(json);
+}
+
+std::string improve_stats_json(const Command& command, const Result& result,
+                               const RunFacts& facts) {
+  const Statistics& s = result.statistics;
+  Json json = run_json(command, result, facts, "tetrahedra");
+  for (const char* key :
+       {"tau", "planar", "budget", "acute", "corner", "gabriel", "improve", "slivers",
+        "approximate", "bridge_simplification", "chamfer_radius", "region"}) {
+    json["parameters"].erase(key);
+  }
+  json["given"] = mesh_json(s.refined);
+  json["final"] = mesh_json(s.final);
+  json["flat"] = s.rounding_flat;
   return dump(json);
 }
 

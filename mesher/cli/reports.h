@@ -25,6 +25,7 @@ double seconds_of(Phase phase, const std::array<double, kPhaseCount>& phase_seco
 
 // The JSON of --stats; its keys are stable.
 std::string stats_json(const Command& command, const Result& result, const RunFacts& facts);
+std::string improve_stats_json(const Command& command, const Result& result, const RunFacts& facts);
 std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts);
 

@@ -59,7 +59,8 @@ enum class StatusCode : std::uint8_t {
   invalid_surface,  // the message names the vertices, edges or triangles
   limit_reached,    // vertices, time, memory or the precision of doubles
   interrupted,      // the progress callback returned false
-  internal_error    // a bug; the message says where
+  internal_error,   // a bug; the message says where
+  invalid_mesh      // the message names the vertices, triangles or tetrahedra
 };
 
 enum class Limit : std::uint8_t {

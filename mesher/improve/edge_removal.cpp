@@ -84,7 +84,7 @@ bool EdgeRemoval::split_ring() {
   const auto polygon = [&](std::size_t from, std::size_t steps) {
     Polygon p;
     p.size = static_cast<int>(steps) + 1;
-    p.inside = state_.mesh.inside(ring_[from]);
+    p.region = state_.mesh.region(ring_[from]);
     for (std::size_t k = 0; k <= steps; ++k) p.vertex[k] = vertex_[(from + k) % vertex_.size()];
     polygons_.push_back(p);
   };
@@ -106,7 +106,7 @@ bool EdgeRemoval::split_ring() {
 // can be (Klincsek's dynamic program). False if they are not better than before.
 bool EdgeRemoval::triangulate(Polygon& polygon) {
   const int n = polygon.size;
-  const bool counts = state_.counts(polygon.inside);
+  const bool counts = state_.counts_in(polygon.region);
   const bool is_diagonal = !faces_.empty();  // of a facet: the edge from first to last is new, too
   std::array<std::array<Quality, kLongest + 1>, kLongest + 1> best;
   for (int i = 0; i + 1 < n; ++i) best[i][i + 1] = kNotCounted;
@@ -150,8 +150,8 @@ void EdgeRemoval::collect(const Polygon& polygon) {
     if (j == i + 1) continue;
     const int k = polygon.middle[i][j];
     const auto& v = polygon.vertex;
-    created_.push_back({{v[i], v[k], v[j], b_}, polygon.inside});
-    created_.push_back({{v[k], v[i], v[j], a_}, polygon.inside});
+    created_.push_back({{v[i], v[k], v[j], b_}, polygon.region});
+    created_.push_back({{v[k], v[i], v[j], a_}, polygon.region});
     open[count++] = {i, k};
     open[count++] = {k, j};
   }

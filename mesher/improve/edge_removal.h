@@ -26,7 +26,7 @@ class EdgeRemoval {
   // or all around.
   struct Polygon {
     int size = 0;
-    bool inside = false;
+    RegionId region = kOutside;
     std::array<VertexId, kLongest + 1> vertex{};
     // Of the best triangulation of vertices i to j: the third vertex of the triangle at i-j.
     std::array<std::array<std::int8_t, kLongest + 1>, kLongest + 1> middle{};

@@ -13,11 +13,11 @@ bool FaceRemoval::run(TetId t, int i) {
   const std::array<TetId, 2> removed = {t, u};
   const Quality least =
       state_.counts(t) ? state_.to_be_better(state_.worst_of(removed)) : kNotCounted;
-  const bool inside = mesh.inside(t);
+  const RegionId region = mesh.region(t);
   std::array<CreatedTet, 3> created;
   const VertexId corner[3] = {a, b, c};
   for (int k = 0; k < 3; ++k) {
-    created[k] = {{corner[k], corner[(k + 1) % 3], d, e}, inside};
+    created[k] = {{corner[k], corner[(k + 1) % 3], d, e}, region};
     const Quality q = state_.quality_of(created[k].vertices, least);
     if (!(q.dihedral > 0) || !State::reaches(q, least)) return false;
   }

@@ -203,30 +203,34 @@ WorkMesh work_mesh(ImproveMesh mesh, std::span<const VertexId> point, std::size_
   }
   for (std::size_t v = 0; v < point.size(); ++v) begin[v + 1] += begin[v];
   std::vector<Tet> tetrahedra(mesh.tetrahedra.size());
-  std::vector<std::uint8_t> inside(tetrahedra.size());
+  std::vector<RegionId> region(tetrahedra.size());
   for (std::size_t n = 0; n < tetrahedra.size(); ++n) {
     const Tet& t = mesh.tetrahedra[n];
     const std::uint32_t slot = begin[*std::min_element(t.begin(), t.end())]++;
     tetrahedra[slot] = t;
-    inside[slot] = mesh.inside[n];
+    region[slot] = mesh.region[n];
   }
   for (SurfaceFace& face : mesh.boundary) {
     for (VertexId& v : face.vertices) v = number[v];
   }
-  return {std::move(tetrahedra), inside, mesh.boundary, point.size()};
+  return {std::move(tetrahedra), region, mesh.boundary, point.size()};
 }
 
 ImproveMesh result_of(const State& state) {
   const WorkMesh& mesh = state.mesh;
+  // A face of the surface has one side that is inside, or else any one side tells of it.
+  const auto is_told_from = [&](TetId t, TetId u) {
+    return u == kNone || std::pair(mesh.region(u), u) < std::pair(mesh.region(t), t);
+  };
   ImproveMesh result;
   for (TetId t = 0; t < mesh.slots(); ++t) {
     if (!mesh.alive(t)) continue;
     Tet v;
     for (int i = 0; i < 4; ++i) v[i] = state.point(mesh.tet(t)[i]);
     result.tetrahedra.push_back(v);
-    result.inside.push_back(mesh.inside(t) ? 1 : 0);
+    result.region.push_back(mesh.region(t));
     for (int i = 0; i < 4; ++i) {
-      if (!mesh.inside(t) || mesh.facet(t, i) == kNone) continue;
+      if (mesh.facet(t, i) == kNone || !is_told_from(t, mesh.neighbor(t, i))) continue;
       result.boundary.push_back(
           {{v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]}, mesh.facet(t, i)});
     }

@@ -9,6 +9,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher/run.h"
+#include "mesher/improve/work_mesh.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/surface_face.h"
 #include "mesher/surface/topology.h"
@@ -24,11 +25,11 @@ struct ImproveOptions {
   Region region = Region::interior;  // which tetrahedra are to be good
 };
 
-// A conforming mesh: tetrahedra of positive orientation on points of a store, and the faces that
-// tile the surface.
+// A conforming mesh: tetrahedra on points of a store, positive but for flat ones, and the faces
+// that tile the surface, each once. Regions change at those alone.
 struct ImproveMesh {
   std::vector<std::array<VertexId, 4>> tetrahedra;
-  std::vector<std::uint8_t> inside;
+  std::vector<RegionId> region;  // of each tetrahedron
   std::vector<SurfaceFace> boundary;
 };
 

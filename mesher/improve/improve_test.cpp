@@ -28,11 +28,12 @@ struct Case {
   }
 
   void run(const ImproveOptions& options = {}, bool on_topology = true) {
-    ImproveMesh given{before.tetrahedra, before.inside, before.boundary};
+    ImproveMesh given{
+        before.tetrahedra, {before.inside.begin(), before.inside.end()}, before.boundary};
     result = improve(std::move(given), on_topology ? &model.topology : nullptr, {}, options,
                      model.points, model.predicates, model.control);
     after.tetrahedra = result.mesh.tetrahedra;
-    after.inside = result.mesh.inside;
+    after.inside.assign(result.mesh.region.begin(), result.mesh.region.end());
     after.boundary = result.mesh.boundary;
     after.repeated_faces.clear();
     for (auto* vertices : {&after.steiner}) follow(*vertices);
@@ -231,7 +232,8 @@ TEST(Improve, EndsWhenItIsCancelled) {
   Case c(box(0, 1), 8, 1);
   Control control(limits);
   control.enter(Phase::improve);
-  ImproveMesh given{c.before.tetrahedra, c.before.inside, c.before.boundary};
+  ImproveMesh given{
+      c.before.tetrahedra, {c.before.inside.begin(), c.before.inside.end()}, c.before.boundary};
   EXPECT_THROW(improve(std::move(given), &c.model.topology, {}, {}, c.model.points,
                        c.model.predicates, control),
                Stopped);

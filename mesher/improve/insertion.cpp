@@ -51,7 +51,7 @@ bool Insertion::try_from(TetId t, Vec3 x) {
     const auto& [tet, face, quality] = faces_[n];
     ok = State::reaches(quality, least) &&
          state_.is_positive_with(state_.mesh.tet(tet), face, place);
-    created_.push_back({state_.mesh.tet(tet), state_.mesh.inside(t)});
+    created_.push_back({state_.mesh.tet(tet), state_.mesh.region(t)});
     created_.back().vertices[face] = kNone;
     for (const int k : kFace[face]) {
       ok = ok && !state_.too_long(place.position, state_.position(state_.mesh.tet(tet)[k]));

@@ -63,8 +63,8 @@ class State {
   const Vec3& position(VertexId v) const { return position_[v]; }
   Mobility mobility(VertexId v) const { return mobility_[v]; }
 
-  bool counts(bool inside) const { return inside || goals_.everywhere; }
-  bool counts(TetId t) const { return counts(mesh.inside(t)); }
+  bool counts_in(RegionId region) const { return region != kOutside || goals_.everywhere; }
+  bool counts(TetId t) const { return counts_in(mesh.region(t)); }
   // Of a tetrahedron of the mesh; kNotCounted where nobody asks.
   const Quality& quality(TetId t) const { return quality_[t]; }
   // Of any four vertices, or of t with its i-th vertex at x; incomplete if below `least`.

@@ -7,12 +7,12 @@
 
 namespace delmesher::improve {
 
-WorkMesh::WorkMesh(std::vector<Tet> tetrahedra, std::span<const std::uint8_t> inside,
+WorkMesh::WorkMesh(std::vector<Tet> tetrahedra, std::span<const RegionId> region,
                    std::span<const SurfaceFace> boundary, std::size_t vertices)
     : tet_(std::move(tetrahedra)),
       neighbor_(tet_.size(), {kNone, kNone, kNone, kNone}),
       facet_(tet_.size(), {kNone, kNone, kNone, kNone}),
-      inside_(inside.begin(), inside.end()),
+      region_(region.begin(), region.end()),
       incident_(vertices, kNone),
       mark_(tet_.size(), 0) {
   for (TetId t = 0; t < tet_.size(); ++t) {
@@ -130,7 +130,7 @@ TetId WorkMesh::take_slot() {
   tet_.push_back({});
   neighbor_.push_back({});
   facet_.push_back({});
-  inside_.push_back(0);
+  region_.push_back(kOutside);
   mark_.push_back(0);
   return t;
 }
@@ -169,7 +169,7 @@ void WorkMesh::replace(std::span<const TetId> removed, std::span<const CreatedTe
     tet_[t] = tet.vertices;
     neighbor_[t] = {kNone, kNone, kNone, kNone};
     facet_[t] = {kNone, kNone, kNone, kNone};
-    inside_[t] = tet.inside ? 1 : 0;
+    region_[t] = tet.region;
     for (const VertexId v : tet.vertices) incident_[v] = t;
     for (int i = 0; i < 4; ++i) {
       const Tet& v = tet.vertices;
@@ -217,8 +217,8 @@ void WorkMesh::validate() const {
                           undirected_face(w[kFace[j][0]], w[kFace[j][1]], w[kFace[j][2]]),
                       "neighbours share another face");
       DELMESHER_CHECK(facet_[t][i] == facet_[u][j], "the two sides of a face name two facets");
-      DELMESHER_CHECK((inside_[t] != inside_[u]) == (facet_[t][i] != kNone),
-                      "inside and outside change beside the surface");
+      DELMESHER_CHECK(facet_[t][i] != kNone || region_[t] == region_[u],
+                      "the region changes beside the surface");
     }
   }
   for (VertexId v = 0; v < incident_.size(); ++v) {

@@ -4,7 +4,8 @@
 // Invariants (validate()):
 //  - a face has one tetrahedron, or two that name each other as neighbours across it;
 //  - the two tetrahedra at a face of the surface agree on its facet; where there is none, both are
-//    inside or both outside;
+//  of
+//    one region;
 //  - incident(v) is alive and has v as a vertex, for every vertex of the mesh.
 #pragma once
 
@@ -21,21 +22,26 @@ namespace delmesher::improve {
 
 using Tet = std::array<VertexId, 4>;
 
-// The new tetrahedra of a local operation, all inside or all outside.
+// Numbers of regions: kOutside, or a part of the inside.
+using RegionId = std::uint32_t;
+inline constexpr RegionId kOutside = 0;
+
+// A new tetrahedron of a local operation.
 struct CreatedTet {
   Tet vertices;
-  bool inside;
+  RegionId region;
 };
 
 class WorkMesh {
  public:
-  WorkMesh(std::vector<Tet> tetrahedra, std::span<const std::uint8_t> inside,
+  WorkMesh(std::vector<Tet> tetrahedra, std::span<const RegionId> region,
            std::span<const SurfaceFace> boundary, std::size_t vertices);
 
   std::size_t slots() const { return tet_.size(); }
   bool alive(TetId t) const { return tet_[t][0] != kNone; }
   const Tet& tet(TetId t) const { return tet_[t]; }
-  bool inside(TetId t) const { return inside_[t] != 0; }
+  RegionId region(TetId t) const { return region_[t]; }
+  bool inside(TetId t) const { return region_[t] != kOutside; }
   // kNone beyond the hull.
   TetId neighbor(TetId t, int i) const {
     return neighbor_[t][i] == kNone ? kNone : neighbor_[t][i] >> 2U;
@@ -85,7 +91,7 @@ class WorkMesh {
   std::vector<Tet> tet_;
   std::vector<std::array<std::uint32_t, 4>> neighbor_;  // 4 * tet + face
   std::vector<std::array<FacetId, 4>> facet_;
-  std::vector<std::uint8_t> inside_;
+  std::vector<RegionId> region_;
   std::vector<TetId> incident_;  // per vertex
   std::vector<TetId> free_;
   mutable std::vector<std::uint32_t> mark_;  // of star()

@@ -13,22 +13,22 @@ namespace {
 // Two tetrahedra on both sides of the face 0 1 2, the second one outside.
 struct Pair {
   std::vector<Tet> tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 4}};
-  std::vector<std::uint8_t> inside = {1, 0};
+  std::vector<RegionId> region = {1, 0};
   std::vector<SurfaceFace> boundary = {{{0, 1, 2}, 7}};
 
-  WorkMesh mesh() const { return {tetrahedra, inside, boundary, 5}; }
+  WorkMesh mesh() const { return {tetrahedra, region, boundary, 5}; }
 };
 
 // Three tetrahedra around the edge 3 4, inside a wall of six faces.
 WorkMesh three_around_an_edge() {
   const std::vector<Tet> tetrahedra = {{0, 1, 3, 4}, {1, 2, 3, 4}, {2, 0, 3, 4}};
-  const std::vector<std::uint8_t> inside = {1, 1, 1};
+  const std::vector<RegionId> region = {1, 1, 1};
   std::vector<SurfaceFace> boundary;
   for (std::uint32_t i = 0; i < 3; ++i) {
     boundary.push_back({{i, (i + 1) % 3, 3}, i});
     boundary.push_back({{(i + 1) % 3, i, 4}, 3 + i});
   }
-  return {tetrahedra, inside, boundary, 5};
+  return {tetrahedra, region, boundary, 5};
 }
 
 std::vector<TetId> star(const WorkMesh& mesh, VertexId v) {
@@ -54,24 +54,28 @@ TEST(WorkMesh, KnowsNeighboursAndFacets) {
 TEST(WorkMesh, RefusesAFaceOfThree) {
   Pair pair;
   pair.tetrahedra.push_back({0, 1, 2, 4});
-  pair.inside.push_back(0);
+  pair.region.push_back(0);
   EXPECT_THROW(pair.mesh(), InternalError);
 }
 
-TEST(WorkMesh, SidesChangeAtTheSurfaceAlone) {
+TEST(WorkMesh, RegionsChangeAtTheSurfaceAlone) {
   Pair same_side;
-  same_side.inside = {1, 1};
-  EXPECT_THROW(same_side.mesh().validate(), InternalError);
+  same_side.region = {1, 1};
+  EXPECT_NO_THROW(same_side.mesh().validate());
   Pair no_surface;
   no_surface.boundary.clear();
   EXPECT_THROW(no_surface.mesh().validate(), InternalError);
+  no_surface.region = {2, 1};
+  EXPECT_THROW(no_surface.mesh().validate(), InternalError);
+  no_surface.region = {2, 2};
+  EXPECT_NO_THROW(no_surface.mesh().validate());
 }
 
 TEST(WorkMesh, ReplacesAndKeepsTheOuterFaces) {
   WorkMesh mesh = three_around_an_edge();
   mesh.validate();
   const std::vector<TetId> all = {0, 1, 2};
-  const std::vector<CreatedTet> two = {{{0, 1, 2, 4}, true}, {{1, 0, 2, 3}, true}};
+  const std::vector<CreatedTet> two = {{{0, 1, 2, 4}, 1}, {{1, 0, 2, 3}, 1}};
   mesh.replace(all, two, {});
   mesh.validate();
   EXPECT_EQ(mesh.created().size(), 2U);
@@ -87,13 +91,13 @@ TEST(WorkMesh, ReplacesAndKeepsTheOuterFaces) {
 TEST(WorkMesh, ForgetsAVertexThatIsSwallowed) {
   // Four tetrahedra around 4 become one.
   const std::vector<Tet> tetrahedra = {{0, 1, 2, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}, {0, 2, 3, 4}};
-  const std::vector<std::uint8_t> inside = {1, 1, 1, 1};
+  const std::vector<RegionId> region = {1, 1, 1, 1};
   std::vector<SurfaceFace> boundary = {
       {{0, 1, 2}, 0}, {{0, 3, 1}, 1}, {{1, 3, 2}, 2}, {{0, 2, 3}, 3}};
-  WorkMesh mesh(tetrahedra, inside, boundary, 5);
+  WorkMesh mesh(tetrahedra, region, boundary, 5);
   mesh.validate();
   const std::vector<TetId> all = {0, 1, 2, 3};
-  const std::vector<CreatedTet> one = {{{0, 1, 2, 3}, true}};
+  const std::vector<CreatedTet> one = {{{0, 1, 2, 3}, 1}};
   mesh.replace(all, one, {});
   mesh.validate();
   EXPECT_EQ(mesh.incident(4), kNone);
@@ -102,10 +106,10 @@ TEST(WorkMesh, ForgetsAVertexThatIsSwallowed) {
 
 TEST(WorkMesh, ContractsAnEdge) {
   const std::vector<Tet> tetrahedra = {{0, 1, 2, 4}, {0, 3, 1, 4}, {1, 3, 2, 4}, {0, 2, 3, 4}};
-  const std::vector<std::uint8_t> inside = {1, 1, 1, 1};
+  const std::vector<RegionId> region = {1, 1, 1, 1};
   std::vector<SurfaceFace> boundary = {
       {{0, 1, 2}, 0}, {{0, 3, 1}, 1}, {{1, 3, 2}, 2}, {{0, 2, 3}, 3}};
-  WorkMesh mesh(tetrahedra, inside, boundary, 5);
+  WorkMesh mesh(tetrahedra, region, boundary, 5);
   std::vector<TetId> around;
   mesh.star(4, around);
   mesh.contract(4, 0, around);

@@ -44,22 +44,24 @@ void scale(ExactRecord& record, int exponent) {
 }
 
 // 0 for models of ordinary size, and where scaling would not be exact.
-int unit_exponent(const Surface& surface) {
+int unit_exponent(const std::vector<Point>& vertices) {
   double largest = 0;
-  for (const Point& p : surface.vertices) {
+  for (const Point& p : vertices) {
     for (const double x : p) largest = std::max(largest, std::fabs(x));
   }
   if (!(largest > 0) || !std::isfinite(largest)) return 0;
   int exponent = 0;
   std::frexp(largest, &exponent);
   if (std::abs(exponent) <= kOrdinary || exponent < kSmallest) return 0;
-  return is_exact(surface.vertices, -exponent) ? exponent : 0;
+  return is_exact(vertices, -exponent) ? exponent : 0;
 }
 
-Result scaled_and_back(const Surface& surface, const Options& options, Task& task) {
-  const int exponent = unit_exponent(surface);
-  if (exponent == 0) return task(surface, options);
-  Surface scaled = surface;
+template <class Model>
+Result scaled_and_back(const Model& model, const Options& options,
+                       Result (&task)(const Model&, const Options&)) {
+  const int exponent = unit_exponent(model.vertices);
+  if (exponent == 0) return task(model, options);
+  Model scaled = model;
   for (Point& p : scaled.vertices) scale(p, -exponent);
   Options units = options;
   units.max_edge = std::ldexp(options.max_edge, -exponent);
@@ -67,8 +69,8 @@ Result scaled_and_back(const Surface& surface, const Options& options, Task& tas
   Result result = task(scaled, units);
   // Messages about what is wrong name coordinates; points that become subnormal are not exact.
   if (result.status.code == StatusCode::invalid_surface ||
-      !is_exact(result.mesh.vertices, exponent)) {
-    return task(surface, options);
+      result.status.code == StatusCode::invalid_mesh || !is_exact(result.mesh.vertices, exponent)) {
+    return task(model, options);
   }
   for (Point& p : result.mesh.vertices) scale(p, exponent);
   for (Point& p : result.chamfered.vertices) scale(p, exponent);
@@ -81,17 +83,27 @@ Result scaled_and_back(const Surface& surface, const Options& options, Task& tas
   return result;
 }
 
-}  // namespace
-
-// The copies, of surface and options, are no part of a task: their memory is guarded here.
-Result in_ordinary_units(const Surface& surface, const Options& options, Task& task) {
+// The copies, of model and options, are no part of a task: their memory is guarded here.
+template <class Model>
+Result guarded_task(const Model& model, const Options& options,
+                    Result (&task)(const Model&, const Options&)) {
   try {
-    return scaled_and_back(surface, options, task);
+    return scaled_and_back(model, options, task);
   } catch (const std::bad_alloc&) {
     Result result;
     result.status = {StatusCode::limit_reached, "out of memory", Limit::memory};
     return result;
   }
+}
+
+}  // namespace
+
+Result in_ordinary_units(const Surface& surface, const Options& options, Task& task) {
+  return guarded_task(surface, options, task);
+}
+
+Result in_ordinary_units(const TetMesh& mesh, const Options& options, MeshTask& task) {
+  return guarded_task(mesh, options, task);
 }
 
 }  // namespace delmesher::results

@@ -8,9 +8,11 @@
 namespace delmesher::results {
 
 using Task = Result(const Surface&, const Options&);
+using MeshTask = Result(const TetMesh&, const Options&);
 
-// Calls `task` with surface and options, in other units if the model's size calls for it and if
-// that is exact for every coordinate.
+// Calls `task` with surface, or mesh, and options, in other units if the model's size calls for it
+// and if that is exact for every coordinate.
 Result in_ordinary_units(const Surface& surface, const Options& options, Task& task);
+Result in_ordinary_units(const TetMesh& mesh, const Options& options, MeshTask& task);
 
 }  // namespace delmesher::results

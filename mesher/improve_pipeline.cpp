@@ -1,0 +1,196 @@
+// The improvement of meshes from elsewhere: the order of its steps, and what is told of them.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "mesher/base/control.h"
+#include "mesher/base/guarded.h"
+#include "mesher/delmesher.h"
+#include "mesher/improve/given_mesh.h"
+#include "mesher/improve/improve.h"
+#include "mesher/output/statistics.h"
+#include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/predicates/vector.h"
+#include "mesher/results/recorder.h"
+#include "mesher/results/units.h"
+#include "mesher/run/options.h"
+#include "mesher/run/session.h"
+
+namespace delmesher {
+namespace {
+
+// The pipeline sees what the results see, so these names need no prefix. Names of stages keep
+// theirs.
+using namespace results;  // NOLINT(google-build-using-namespace)
+
+using Part = std::pair<std::uint8_t, std::int32_t>;  // inside, and number of the region
+
+std::string sizes_defect(const TetMesh& mesh) {
+  const auto differ = [](const auto& list, const char* name, const auto& cells,
+                         const char* cell_name) -> std::string {
+    if (list.empty() || list.size() == cells.size()) return {};
+    return std::to_string(list.size()) + " " + name + " for " + std::to_string(cells.size()) + " " +
+           cell_name;
+  };
+  for (std::string text :
+       {differ(mesh.inside, "flags of sides", mesh.tetrahedra, "tetrahedra"),
+        differ(mesh.regions, "regions", mesh.tetrahedra, "tetrahedra"),
+        differ(mesh.boundary_labels, "labels", mesh.boundary, "boundary triangles"),
+        differ(mesh.boundary_facets, "facets", mesh.boundary, "boundary triangles")}) {
+    if (!text.empty()) return text;
+  }
+  return {};
+}
+
+// The regions of a mesh, numbered by their first tetrahedra. Each is a part of the inside for the
+// improvement, since every tetrahedron counts.
+struct Regions {
+  explicit Regions(const TetMesh& mesh) {
+    std::map<Part, improve::RegionId> ids;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+      const Part region = {mesh.inside.empty() ? std::uint8_t{1} : mesh.inside[t],
+                           mesh.regions.empty() ? 0 : mesh.regions[t]};
+      const auto [entry, is_new] =
+          ids.try_emplace(region, static_cast<improve::RegionId>(of_id.size()));
+      if (is_new) of_id.push_back(region);
+      of_tetrahedron.push_back(entry->second);
+    }
+  }
+
+  std::vector<Part> of_id = {{0, 0}};  // improve::kOutside is none of them
+  std::vector<improve::RegionId> of_tetrahedron;
+};
+
+double diagonal(const std::vector<Vec3>& vertices) {
+  Vec3 low = vertices[0], high = vertices[0];
+  for (const Vec3& p : vertices) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  return norm(subtract(high, low));
+}
+
+MeshStatistics statistics_of(const TetMesh& mesh, Session& s) {
+  const auto interior = static_cast<std::uint64_t>(
+      std::count_if(mesh.inside.begin(), mesh.inside.end(), [](auto flag) { return flag != 0; }));
+  return output::mesh_statistics(mesh.vertices, mesh.tetrahedra, {}, mesh.vertices.size(), interior,
+                                 s.control);
+}
+
+// The vertices in use in the order in which they were given, then new ones, and tetrahedra of them.
+// `became`: of each vertex given, its point now.
+void take_tetrahedra(const improve::ImproveMesh& improved, const std::vector<VertexId>& became,
+                     const Regions& regions, const PointStore& points, TetMesh& mesh,
+                     std::vector<std::uint32_t>& number) {
+  std::vector<std::uint8_t> used(points.size(), 0);
+  for (const auto& t : improved.tetrahedra) {
+    for (const VertexId v : t) used[v] = 1;
+  }
+  number.assign(points.size(), kNone);
+  const auto take = [&](VertexId p) {
+    if (used[p] == 0 || number[p] != kNone) return;
+    number[p] = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.push_back(points.nearest(p));
+  };
+  for (const VertexId p : became) {
+    if (p != kNone) take(p);
+  }
+  for (VertexId p = 0; p < points.size(); ++p) take(p);
+  mesh.tetrahedra = improved.tetrahedra;
+  for (auto& t : mesh.tetrahedra) {
+    for (VertexId& v : t) v = number[v];
+  }
+  for (const improve::RegionId id : improved.region) {
+    mesh.inside.push_back(regions.of_id[id].first);
+    mesh.regions.push_back(regions.of_id[id].second);
+  }
+}
+
+std::string counted(std::uint64_t n, const char* one, const char* many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+Status improve_given(const TetMesh& given, Session& s, Result& result) {
+  s.control.enter(Phase::check);
+  if (std::string defect = sizes_defect(given); !defect.empty()) {
+    return {StatusCode::invalid_mesh, std::move(defect)};
+  }
+  const Regions regions(given);
+  improve::CheckedMesh checked = improve::check_given(
+      {given.vertices, given.tetrahedra, regions.of_tetrahedron, given.boundary}, s.control);
+  if (!checked.defect.empty()) return {StatusCode::invalid_mesh, std::move(checked.defect)};
+  if (checked.turned) {
+    result.warnings.emplace_back("all tetrahedra were negative and have been turned");
+  }
+  if (checked.flat > 0) {
+    result.warnings.push_back("the mesh given has " +
+                              counted(checked.flat, "flat tetrahedron", "flat tetrahedra"));
+  }
+  Statistics& statistics = result.statistics;
+  s.diagonal = statistics.bbox_diagonal = diagonal(given.vertices);
+  for (const Vec3& p : given.vertices) s.points.add_explicit(p[0], p[1], p[2]);
+  TetMesh& mesh = result.mesh;
+  const improve::ImproveMesh before = {checked.mesh.tetrahedra, checked.mesh.region, {}};
+  std::vector<VertexId> same(given.vertices.size());
+  for (VertexId v = 0; v < same.size(); ++v) same[v] = v;
+  std::vector<std::uint32_t> number;
+  take_tetrahedra(before, same, regions, s.points, mesh, number);
+  if (const std::uint64_t unused = given.vertices.size() - mesh.vertices.size(); unused > 0) {
+    result.warnings.push_back(
+        counted(unused, "vertex of no tetrahedron is", "vertices of no tetrahedron are") +
+        " dropped");
+  }
+  statistics.refined = statistics_of(mesh, s);
+  mesh = {};
+
+  s.control.enter(Phase::improve);
+  const improve::ImproveOptions options{
+      .delta = s.options.delta, .max_edge = s.options.max_edge, .region = Region::hull};
+  const improve::ImproveResult improved = improve::improve(
+      std::move(checked.mesh), nullptr, {}, options, s.points, s.predicates, s.control);
+  s.control.enter(Phase::round);
+  take_tetrahedra(improved.mesh, improved.became, regions, s.points, mesh, number);
+  mesh.boundary = given.boundary;
+  for (auto& triangle : mesh.boundary) {
+    for (std::uint32_t& v : triangle) v = number[improved.became[v]];
+  }
+  if (given.regions.empty()) mesh.regions.clear();
+  mesh.boundary_labels = given.boundary_labels;
+  mesh.boundary_labels.resize(mesh.boundary.size());
+  mesh.boundary_facets = given.boundary_facets;
+  mesh.boundary_facets.resize(mesh.boundary.size());
+  for (const auto& t : mesh.tetrahedra) {
+    const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[t[i]]; };
+    const int sign = orient3d_sign(at(0), at(1), at(2), at(3));
+    statistics.rounding_flat += sign == 0 ? 1 : 0;
+    statistics.rounding_inverted += sign < 0 ? 1 : 0;
+  }
+  statistics.final = statistics_of(mesh, s);
+  return {};
+}
+
+Result run_improvement(const TetMesh& mesh, const Options& options) {
+  Result result;
+  Control control(options);
+  Session session(options, control);
+  Recorder recorder(session, result);
+  result.status = guarded(control, [&]() -> Status {
+    if (std::string defect = options_defect(options, kBounds); !defect.empty()) {
+      return {StatusCode::invalid_options, std::move(defect)};
+    }
+    return improve_given(mesh, session, result);
+  });
+  recorder.finish();
+  return result;
+}
+
+}  // namespace
+
+Result improve_mesh(const TetMesh& mesh, const Options& options) {
+  return in_ordinary_units(mesh, options, run_improvement);
+}
+
+}  // namespace delmesher
