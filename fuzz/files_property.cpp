@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "corpus/generate/generate.h"
@@ -13,6 +14,7 @@
 #include "mesher/cli/run.h"
 #include "mesher/io/output.h"
 #include "mesher/io/parse_surface.h"
+#include "mesher/io/read_mesh.h"
 #include "mesher/io/write_mesh.h"
 #include "oracles/mesh_file.h"
 #include "oracles/text_reader.h"
@@ -27,6 +29,8 @@ namespace fs = std::filesystem;
 // counts them, so the others are the accepted ones.
 Leniency refused("refused-in-one-line", 0.999);
 Leniency no_triangles("read-without-triangles", 0.5);
+Leniency mesh_refused("mesh-refused-in-one-line", 0.999);
+Leniency not_conforming("read-and-not-conforming", 0.999);
 Leniency no_boundary("boundary-not-in-format", 0.5);
 Leniency no_labels("labels-not-in-format", 0.5);
 Leniency not_run("ends-with-its-parsing", 0.999);
@@ -192,6 +196,56 @@ Finding reader_holds(const std::string& text, const std::string& name) {
   const auto again = delmesher::io::parse_surface(to_off(unlabelled), "again.off");
   if (!again.ok()) return "reader round trip: " + again.error;
   return same_bits(unlabelled, again.surface) ? "" : "reader round trip: differs";
+}
+
+Finding mesh_reader_holds(const std::string& text, const std::string& name) {
+  judging({&mesh_refused, &not_conforming});
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == '\f') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  const auto beside = [&](const char* extension) -> std::optional<std::string> {
+    const std::size_t part = std::string_view(extension) == ".ele" ? 1 : 2;
+    return part < parts.size() ? std::optional(parts[part]) : std::nullopt;
+  };
+  const auto first = delmesher::io::parse_mesh(parts[0], name, beside);
+  if (!first.ok()) {
+    mesh_refused.take();
+    return is_one_line(first.error) ? "" : "mesh reader error: not one line";
+  }
+  const delmesher::TetMesh& mesh = first.mesh;
+  for (const auto& t : mesh.tetrahedra) {
+    for (const std::uint32_t v : t) {
+      if (v >= mesh.vertices.size()) return "mesh reader index: out of range";
+    }
+  }
+  const std::string path = (scratch() / name).string();
+  if (const auto status = delmesher::io::write_mesh(path, mesh); !status.ok()) {
+    return "mesh reader round trip: " + status.error;
+  }
+  const auto again = delmesher::io::read_mesh(path);
+  if (!again.ok()) return "mesh reader round trip: " + again.error;
+  if (again.mesh.vertices != mesh.vertices ||
+      sorted_cells(again.mesh.tetrahedra) != sorted_cells(mesh.tetrahedra) ||
+      labelled(again.mesh.boundary, again.mesh.boundary_labels) !=
+          labelled(mesh.boundary, mesh.boundary_labels)) {
+    return "mesh reader round trip: differs";
+  }
+  delmesher::Options options;
+  options.max_vertices = 3000;
+  const delmesher::Result result = delmesher::improve_mesh(mesh, options);
+  if (result.status.code == delmesher::StatusCode::invalid_mesh) {
+    not_conforming.take();
+    return is_one_line(result.status.message) ? "" : "improve message: not one line";
+  }
+  if (result.status.code == delmesher::StatusCode::internal_error) {
+    return "improve: " + result.status.message;
+  }
+  return result.statistics.rounding_inverted == 0 ? "" : "improve: inverted tetrahedra";
 }
 
 Finding writers_hold(Bytes bytes) {

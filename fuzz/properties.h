@@ -20,6 +20,10 @@ Finding predicates_on_planes_agree(Bytes bytes);
 // `name` gives the format by its extension.
 Finding reader_holds(const std::string& text, const std::string& name);
 
+// The same of a reader of meshes of tetrahedra; what is read is improved or refused. The files of
+// TetGen's are parts of one text, separated by form feeds: .node, .ele, .face.
+Finding mesh_reader_holds(const std::string& text, const std::string& name);
+
 // Our check of a surface and CGAL's agree on what is valid; defects are named.
 Finding check_agrees(const delmesher::Surface& surface);
 

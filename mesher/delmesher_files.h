@@ -60,6 +60,20 @@ struct PlaneReadResult {
 // `go_on`: ReadOptions::go_on.
 PlaneReadResult read_plane(const std::string& path, const std::function<bool()>& go_on = {});
 
+struct MeshReadResult {
+  ReadCode code = ReadCode::ok;
+  std::string error;  // "file:line: reason" or "file: reason"
+  TetMesh mesh;
+  std::string format;  // "MEDIT", "Gmsh", "VTU", "TetGen", "tet"
+  bool ok() const { return code == ReadCode::ok; }
+};
+
+// A tetrahedral mesh, by the extension: .mesh (MEDIT), .msh (Gmsh 4.1 or 2.2), .vtu, .node or .ele
+// (TetGen, which stand together, and a .face if there is one), .tet; as text. Vertices of cells are
+// in range and coordinates are finite; whether the mesh is conforming is for improve_mesh() to say.
+// `go_on`: ReadOptions::go_on.
+MeshReadResult read_mesh(const std::string& path, const std::function<bool()>& go_on = {});
+
 struct ExactResult {
   std::string error;  // "file:line: reason"; empty if read
   ExactRecord record;

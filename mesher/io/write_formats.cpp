@@ -4,11 +4,12 @@
 #include <algorithm>
 
 namespace delmesher::io {
-namespace {
-
-int region(const TetMesh& mesh, std::size_t tet) {
+std::int32_t region(const TetMesh& mesh, std::size_t tet) {
+  if (!mesh.regions.empty()) return mesh.regions[tet];
   return mesh.inside[tet] != 0 ? kRegionInside : kRegionOutside;
 }
+
+namespace {
 
 void begin_array(TextSink& out, const char* type, const char* name) {
   out.text("<DataArray type=\"");
@@ -108,6 +109,11 @@ void write_vtu(TextSink& out, const TetMesh& mesh) {
   cell_array(
       out, mesh, "Int8", "inside", [&](std::size_t i) { return mesh.inside[i] != 0 ? 1 : 0; },
       [](std::size_t) { return -1; });
+  if (!mesh.regions.empty()) {
+    cell_array(
+        out, mesh, "Int32", "region", [&](std::size_t i) { return mesh.regions[i]; },
+        [](std::size_t) { return 0; });
+  }
   cell_array(
       out, mesh, "Int32", "label", [](std::size_t) { return 0; },
       [&](std::size_t i) { return mesh.boundary_labels[i]; });

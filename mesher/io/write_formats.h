@@ -8,6 +8,7 @@ namespace delmesher::io {
 
 // Region number of a tetrahedron in the formats that have one.
 inline constexpr int kRegionInside = 1, kRegionOutside = 2;
+std::int32_t region(const TetMesh& mesh, std::size_t tet);
 
 void write_medit(TextSink& out, const TetMesh& mesh);
 void write_gmsh(TextSink& out, const TetMesh& mesh);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct Box {
 class GmshWriter {
  public:
   GmshWriter(TextSink& out, const TetMesh& mesh) : out_(out), mesh_(mesh) {
-    number_labels();
+    physical_ = tags_of({mesh.boundary_labels.begin(), mesh.boundary_labels.end()});
+    number_regions();
     order_triangles();
   }
 
@@ -42,11 +44,12 @@ class GmshWriter {
   }
 
  private:
-  void number_labels();
+  static std::map<std::int32_t, std::int64_t> tags_of(const std::set<std::int32_t>& numbers);
+  void number_regions();
   void order_triangles();
   void write_physical_names();
   void write_entities();
-  void write_volume(int tag);
+  void write_volume(std::int64_t tag);
   void write_nodes();
   void write_elements();
   void box(const Box& b) {
@@ -69,19 +72,30 @@ class GmshWriter {
 
   TextSink& out_;
   const TetMesh& mesh_;
-  std::map<std::int32_t, std::int64_t> physical_;  // of a label
-  std::vector<std::size_t> order_;                 // boundary triangles by facet
+  std::map<std::int32_t, std::int64_t> physical_;                // of a label
+  std::map<std::int32_t, std::int64_t> volume_;                  // of a region, entity and group
+  std::map<std::int32_t, std::vector<std::size_t>> tetrahedra_;  // of a region
+  std::vector<std::size_t> order_;                               // boundary triangles by facet
   std::size_t facets_ = 0;
 };
 
-// A physical tag has to be positive: positive labels are their own tag, the others (0, the default,
-// among them) get the tags after the largest. The names tell the labels in every case.
-void GmshWriter::number_labels() {
-  for (std::int32_t label : mesh_.boundary_labels) physical_[label] = label;
-  std::int64_t next = physical_.empty() ? 1 : std::max(physical_.rbegin()->first, 0) + 1LL;
-  for (auto it = physical_.rbegin(); it != physical_.rend(); ++it) {
-    if (it->first <= 0) it->second = next++;
+// A tag has to be positive: positive labels and regions are their own tag, the others (0, the
+// default, among them) get the tags after the largest. The names tell the numbers in every case.
+std::map<std::int32_t, std::int64_t> GmshWriter::tags_of(const std::set<std::int32_t>& numbers) {
+  std::map<std::int32_t, std::int64_t> tags;
+  std::int64_t next = numbers.empty() ? 1 : std::max(*numbers.rbegin(), 0) + 1LL;
+  for (auto n = numbers.rbegin(); n != numbers.rend(); ++n) tags[*n] = *n > 0 ? *n : next++;
+  return tags;
+}
+
+void GmshWriter::number_regions() {
+  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
+    tetrahedra_[region(mesh_, t)].push_back(t);
   }
+  std::set<std::int32_t> regions;
+  if (mesh_.regions.empty()) regions = {kRegionInside, kRegionOutside};
+  for (const auto& [number, tetrahedra] : tetrahedra_) regions.insert(number);
+  volume_ = tags_of(regions);
 }
 
 void GmshWriter::order_triangles() {
@@ -95,7 +109,7 @@ void GmshWriter::order_triangles() {
 
 void GmshWriter::write_physical_names() {
   out_.text("$PhysicalNames\n");
-  out_.integer(physical_.size() + 2);
+  out_.integer(physical_.size() + volume_.size());
   out_.text("\n");
   for (const auto& [label, tag] : physical_) {
     out_.text("2 ");
@@ -104,10 +118,21 @@ void GmshWriter::write_physical_names() {
     out_.integer(label);
     out_.text("\"\n");
   }
-  out_.text("3 1 \"inside\"\n3 2 \"outside\"\n$EndPhysicalNames\n");
+  for (const auto& [number, tag] : volume_) {
+    out_.text("3 ");
+    out_.integers(tag);
+    if (mesh_.regions.empty()) {
+      out_.text(number == kRegionInside ? "\"inside\"\n" : "\"outside\"\n");
+    } else {
+      out_.text("\"region ");
+      out_.integer(number);
+      out_.text("\"\n");
+    }
+  }
+  out_.text("$EndPhysicalNames\n");
 }
 
-void GmshWriter::write_volume(int tag) {
+void GmshWriter::write_volume(std::int64_t tag) {
   Box volume;
   for (const auto& v : mesh_.vertices) volume.add(v);
   if (mesh_.vertices.empty()) volume.add({0, 0, 0});
@@ -120,7 +145,8 @@ void GmshWriter::write_volume(int tag) {
 void GmshWriter::write_entities() {
   out_.text("$Entities\n0 0 ");
   out_.integers(facets_);
-  out_.text("2\n");
+  out_.integer(volume_.size());
+  out_.text("\n");
   each_facet([&](std::size_t begin, std::size_t end) {
     Box facet;
     for (std::size_t i = begin; i < end; ++i) {
@@ -131,8 +157,7 @@ void GmshWriter::write_entities() {
     out_.integers(1, physical_.at(mesh_.boundary_labels[order_[begin]]));
     out_.text("0\n");
   });
-  write_volume(kRegionInside);
-  write_volume(kRegionOutside);
+  for (const auto& [number, tag] : volume_) write_volume(tag);
   out_.text("$EndEntities\n");
 }
 
@@ -159,12 +184,9 @@ void GmshWriter::write_nodes() {
 }
 
 void GmshWriter::write_elements() {
-  std::array<std::size_t, 3> count = {0, 0, 0};  // by region
-  for (auto flag : mesh_.inside) ++count[flag != 0 ? kRegionInside : kRegionOutside];
-  const std::size_t volumes = (count[kRegionInside] > 0 ? 1U : 0U) + (count[kRegionOutside] > 0);
   const std::size_t total = mesh_.boundary.size() + mesh_.tetrahedra.size();
   out_.text("$Elements\n");
-  out_.integers(facets_ + volumes, total, total == 0 ? 0 : 1);
+  out_.integers(facets_ + tetrahedra_.size(), total, total == 0 ? 0 : 1);
   out_.integer(total);
   out_.text("\n");
   std::size_t tag = 1;
@@ -181,15 +203,13 @@ void GmshWriter::write_elements() {
       out_.text("\n");
     }
   });
-  for (const int region : {kRegionInside, kRegionOutside}) {
-    if (count[static_cast<std::size_t>(region)] == 0) continue;
+  for (const auto& [number, tetrahedra] : tetrahedra_) {
     out_.text("3 ");
-    out_.integers(region);
+    out_.integers(volume_.at(number));
     out_.text("4 ");
-    out_.integer(count[static_cast<std::size_t>(region)]);
+    out_.integer(tetrahedra.size());
     out_.text("\n");
-    for (std::size_t i = 0; i < mesh_.tetrahedra.size(); ++i) {
-      if ((mesh_.inside[i] != 0 ? kRegionInside : kRegionOutside) != region) continue;
+    for (const std::size_t i : tetrahedra) {
       const auto& [a, b, c, d] = mesh_.tetrahedra[i];
       out_.integers(tag++, a + 1, b + 1, c + 1);
       out_.integer(d + 1);

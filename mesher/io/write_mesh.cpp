@@ -17,6 +17,9 @@ const char* inconsistency(const TetMesh& mesh) {
     });
   };
   if (mesh.inside.size() != mesh.tetrahedra.size()) return "inside flags do not match";
+  if (!mesh.regions.empty() && mesh.regions.size() != mesh.tetrahedra.size()) {
+    return "regions do not match";
+  }
   if (mesh.boundary_labels.size() != mesh.boundary.size()) return "labels do not match";
   if (mesh.boundary_facets.size() != mesh.boundary.size()) return "facets do not match";
   if (!in_range(mesh.tetrahedra) || !in_range(mesh.boundary)) return "a vertex is out of range";

@@ -1,0 +1,9 @@
+// A reader of meshes refuses in one line, or what it delivers is read back as written, and improved
+// or refused. Compiled once per format.
+#include "fuzz/properties.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return tetproof::fuzz::on_text(data, size, [](const std::string& text) {
+    return tetproof::fuzz::mesh_reader_holds(text, "input." TETPROOF_FORMAT);
+  });
+}

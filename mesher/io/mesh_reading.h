@@ -1,0 +1,128 @@
+// What the readers of tetrahedral meshes share: tokens that are numbers, and the mesh that is made
+// of them. The readers throw MeshError; parse_mesh chooses among them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesher/delmesher.h"
+#include "mesher/io/polling.h"
+#include "mesher/io/text.h"
+
+namespace delmesher::io {
+
+// The whole line: "file:line: reason" or "file: reason".
+struct MeshError {
+  std::string text;
+};
+
+// A file's text, token by token, on any lines.
+class MeshText {
+ public:
+  // `file` is its name in messages, `first_line` the number of the text's first line in it.
+  MeshText(std::string_view text, std::string file, Comments comments, Polling& polling,
+           std::uint64_t first_line = 1)
+      : lines_(text, comments, ','),
+        file_(std::move(file)),
+        polling_(polling),
+        skipped_(first_line - 1) {}
+
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  // The next token on this line or a later one; empty at the end.
+  std::string_view word();
+  // The same; `what` is missing at the end.
+  std::string_view need(const char* what);
+  // The next token of this line; empty if there is none.
+  std::string_view word_in_line();
+  // To the next line that holds something; false at the end.
+  bool next_line() { return lines_.next_line(); }
+  // What is left of this line, which is done with then.
+  std::string_view take_rest_of_line();
+  std::size_t next_offset() const { return lines_.next_offset(); }
+  std::uint64_t line() const { return lines_.line() + skipped_; }
+
+  template <class T>
+  T integer(const char* what) {
+    return parsed<T>(need(what), what);
+  }
+  template <class T>
+  T parsed(std::string_view token, const char* what) const {
+    T value{};
+    if (!parse_integer(token, value)) fail("bad " + std::string(what) + " " + quoted(token));
+    return value;
+  }
+  double coordinate() { return finite(need("a coordinate")); }
+  double finite(std::string_view token) const;
+  std::array<double, 3> point();
+  // How many items follow, of at least `bytes` bytes each; no more than `most`.
+  std::uint64_t count(const char* what, std::uint64_t most, std::uint64_t bytes);
+  // Of a vertex, numbered from `first`, as a number from 0.
+  std::uint32_t vertex(std::string_view token, std::uint64_t first, std::uint64_t vertices) const;
+  template <std::size_t N>
+  std::array<std::uint32_t, N> cell(std::uint64_t first, std::uint64_t vertices) {
+    std::array<std::uint32_t, N> corners;
+    for (std::uint32_t& corner : corners) corner = vertex(need("a vertex"), first, vertices);
+    return corners;
+  }
+  // Numbers, and other things that nobody wants.
+  void skip(std::uint64_t tokens);
+
+ private:
+  TextLines lines_;
+  std::string file_;
+  Polling& polling_;
+  std::uint64_t skipped_;
+};
+
+inline constexpr std::uint64_t kMostVertices = 0xfffffff0ULL;
+inline constexpr std::uint64_t kMostCells = (std::uint64_t{1} << 30U) - 16;
+
+// The mesh that a reader finds. Facets are kept if every triangle has one; if not, or if triangles
+// of a facet have several labels, those of a label are one facet.
+class MeshBuilder {
+ public:
+  std::uint64_t vertices() const { return mesh_.vertices.size(); }
+  void add_vertex(const std::array<double, 3>& p) { mesh_.vertices.push_back(p); }
+  void add_tetrahedron(const std::array<std::uint32_t, 4>& t, std::optional<std::int32_t> region,
+                       bool inside = true);
+  void add_triangle(const std::array<std::uint32_t, 3>& t, std::int32_t label,
+                    std::optional<std::uint32_t> facet);
+  // For the formats that tell them at the end of a file; of the number of triangles.
+  void set_facets(std::vector<std::uint32_t> facets);
+  std::size_t triangles() const { return mesh_.boundary.size(); }
+  std::size_t tetrahedra() const { return mesh_.tetrahedra.size(); }
+  void warn(std::string text) { warnings_.push_back(std::move(text)); }
+
+  TetMesh finish();
+  std::vector<std::string>& warnings() { return warnings_; }
+
+ private:
+  TetMesh mesh_;
+  std::vector<std::string> warnings_;
+  bool all_facets_ = true;
+};
+
+// The text of the file beside, with this extension; nullopt if there is none.
+using FileBeside = std::function<std::optional<std::string>(const char* extension)>;
+// Its name.
+std::string name_beside(const std::string& path, const char* extension);
+
+void read_medit(std::string_view text, const std::string& path, Polling& polling,
+                MeshBuilder& builder);
+void read_gmsh(std::string_view text, const std::string& path, Polling& polling,
+               MeshBuilder& builder);
+void read_vtu(std::string_view text, const std::string& path, Polling& polling,
+              MeshBuilder& builder);
+void read_tet(std::string_view text, const std::string& path, Polling& polling,
+              MeshBuilder& builder);
+// `node` is the text of the .node file; .ele and .face are beside it.
+void read_tetgen_mesh(std::string_view node, const std::string& path, const FileBeside& beside,
+                      Polling& polling, MeshBuilder& builder);
+
+}  // namespace delmesher::io
