@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "mesher/io/read_mesh.h"
 #include "mesher/io/text.h"
 #include "mesher/io/write_mesh.h"
 #include "mesher/io/write_plane.h"
@@ -75,13 +76,23 @@ void add_threads(CLI::App& app, Given& given) {
              kBounds.threads);
 }
 
-void add_run(CLI::App& app, Command& command, Given& given,
-             const std::string& extensions = io::mesh_extensions()) {
+// What every job has that writes a mesh.
+void add_outputs(CLI::App& app, Command& command, Given& given, const std::string& extensions) {
   app.add_option("-o,--output", command.outputs,
                  "mesh to write: " + extensions + "; may be repeated")
       ->required()
       ->expected(1)
       ->take_all();
+  add_number(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
+             at_least_one(kBounds.max_vertices));
+  add_number(app, given, "time-limit", "stop after this many seconds (exit 5)",
+             positive(kBounds.seconds));
+  app.add_option("--stats", command.stats_file, "write statistics as JSON");
+}
+
+void add_run(CLI::App& app, Command& command, Given& given,
+             const std::string& extensions = io::mesh_extensions()) {
+  add_outputs(app, command, given, extensions);
   app.add_option_function<std::string>(
          "--region",
          [&given](const std::string& text) {
@@ -89,11 +100,6 @@ void add_run(CLI::App& app, Command& command, Given& given,
          },
          "what is written: interior or hull")
       ->check(CLI::IsMember({"interior", "hull"}));
-  add_number(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
-             at_least_one(kBounds.max_vertices));
-  add_number(app, given, "time-limit", "stop after this many seconds (exit 5)",
-             positive(kBounds.seconds));
-  app.add_option("--stats", command.stats_file, "write statistics as JSON");
   app.add_option("--exact", command.exact_file, "write the exact form of everything");
 }
 
@@ -131,6 +137,15 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
          "hull; other options override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
+  add_threads(app, given);
+}
+
+void add_improve(CLI::App& app, Command& command, Given& given) {
+  const std::string input = "mesh of tetrahedra: " + io::read_mesh_extensions();
+  add_common(app, command, input.c_str());
+  add_outputs(app, command, given, io::mesh_extensions());
+  add_number(app, given, "delta", "no smaller face angle is made, degrees (14.47)", kBounds.delta);
+  add_number(app, given, "max-edge", "no longer edge is made", positive(kBounds.length));
   add_threads(app, given);
 }
 
@@ -197,7 +212,9 @@ void apply(const Given& given, Command& command) {
 
 // Files that would overwrite each other or the input; unknown formats.
 std::string output_error(const Command& command) {
+  // An .ele stands for several files; those beside are read, too.
   std::vector<std::string> files = {command.input};
+  if (command.job == Job::improve) files = io::mesh_files_read(command.input);
   const bool plane = command.job == Job::plane;
   for (const std::string& output : command.outputs) {
     const std::vector<std::string> made =
@@ -234,8 +251,8 @@ Parsed usage_error(const std::string& text) {
 }
 
 void default_to_mesh(std::vector<std::string>& arguments) {
-  static constexpr std::array<std::string_view, 7> kFirst = {"mesh",   "cdt", "plane",    "check",
-                                                             "--help", "-h",  "--version"};
+  static constexpr std::array<std::string_view, 8> kFirst = {
+      "mesh", "cdt", "plane", "check", "improve", "--help", "-h", "--version"};
   if (arguments.empty() || std::find(kFirst.begin(), kFirst.end(), arguments[0]) == kFirst.end()) {
     arguments.insert(arguments.begin(), "mesh");
   }
@@ -254,11 +271,14 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
       "cdt", "constrained Delaunay tetrahedrization of the convex hull, no quality");
   CLI::App* plane = app.add_subcommand("plane", "mesh a planar graph with triangles");
   CLI::App* check = app.add_subcommand("check", "is this a valid surface? if not, what is wrong?");
+  CLI::App* improve = app.add_subcommand(
+      "improve", "fewer and better tetrahedra of a mesh, its boundary kept exactly");
   add_mesh(*mesh, command, given);
   add_common(*cdt, command);
   add_run(*cdt, command, given);
   add_threads(*cdt, given);
   add_plane(*plane, command, given);
+  add_improve(*improve, command, given);
   add_common(*check, command);
   add_planar(*check, given);
   check->add_flag("--json", command.json, "report as JSON");
@@ -283,10 +303,11 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
     std::replace(line.begin(), line.end(), '\n', ' ');
     return usage_error(line);
   }
-  command.job = plane->parsed()   ? Job::plane
-                : cdt->parsed()   ? Job::cdt
-                : check->parsed() ? Job::check
-                                  : Job::mesh;
+  command.job = plane->parsed()     ? Job::plane
+                : cdt->parsed()     ? Job::cdt
+                : check->parsed()   ? Job::check
+                : improve->parsed() ? Job::improve
+                                    : Job::mesh;
   apply(given, command);
   const std::string error = output_error(command);
   if (!error.empty()) return usage_error(error);

@@ -8,7 +8,7 @@
 
 namespace delmesher::cli {
 
-enum class Job : std::uint8_t { mesh, cdt, plane, check };
+enum class Job : std::uint8_t { mesh, cdt, plane, check, improve };
 
 // Exit codes of all programs of the project.
 inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kInvalid = 4, kLimit = 5,

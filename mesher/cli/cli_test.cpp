@@ -144,6 +144,26 @@ TEST(Arguments, OtherJobs) {
   expect_usage_error({"plane"}, "required");
 }
 
+TEST(Arguments, OfImprove) {
+  const Parsed parsed = parse({"improve", "in.msh", "-o", "a.mesh", "-o", "b.vtu", "--delta", "10",
+                               "--max-edge", "2", "--max-vertices", "9", "--time-limit", "3"});
+  ASSERT_TRUE(parsed.run) << parsed.error;
+  EXPECT_EQ(parsed.command.job, Job::improve);
+  EXPECT_EQ(parsed.command.outputs, std::vector<std::string>({"a.mesh", "b.vtu"}));
+  EXPECT_EQ(parsed.command.options.delta, 10);
+  EXPECT_EQ(parsed.command.options.max_edge, 2);
+  EXPECT_EQ(parsed.command.options.max_vertices, 9U);
+  EXPECT_TRUE(parse({"improve", "in.node", "-o", "a.node"}).run);
+  expect_usage_error({"improve", "in.mesh"}, "--output");
+  expect_usage_error({"improve", "in.mesh", "-o", "in.mesh"}, "same as the input");
+  for (const char* input : {"in.node", "in.ele"}) {
+    expect_usage_error({"improve", input, "-o", "in.node"}, "same as the input");
+  }
+  for (const char* other : {"--tau=1", "--exact=e", "--region=hull", "--acute=60"}) {
+    expect_usage_error({"improve", "in.mesh", "-o", "a.mesh", other}, other);
+  }
+}
+
 TEST(Arguments, HelpAndVersion) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--help"}, {"-h"}, {"mesh", "--help"}, {"--version"}}) {
@@ -350,6 +370,50 @@ TEST_F(Run, WarnsOfSmallAnglesAndSaysWhetherTheInputForcesThem) {
   answer_.mesh.boundary_facets = {1, 2, 3, 4, 5, 6};
   EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
   EXPECT_NE(error_.find("and no edge of the input forces it there\n"), std::string::npos);
+}
+
+TEST_F(Run, ImproveSaysWhatThereWasBefore) {
+  std::ofstream(path("in.tet")) << "4 vertices\n1 tets\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 0 1 2 3\n";
+  TetMesh given;
+  library_.improve_mesh = [&](const TetMesh& mesh, const Options&) {
+    given = mesh;
+    return answer_;
+  };
+  MeshStatistics &before = answer_.statistics.refined, &after = answer_.statistics.final;
+  after.tetrahedra = 1;
+  after.min_dihedral = 54.736;
+  after.max_dihedral = 90;
+  before.tetrahedra = 7;
+  before.min_dihedral = 1.5;
+  before.max_dihedral = 175;
+  before.min_face_angle = 2;
+  before.below_5 = 3;
+  EXPECT_EQ(go({"improve", path("in.tet"), "-o", path("a.mesh"), "--stats", path("s.json")}),
+            kDone);
+  EXPECT_EQ(given.tetrahedra, answer_.mesh.tetrahedra);
+  EXPECT_TRUE(error_.starts_with(path("a.mesh") + ": 1 tetrahedra, dihedral angles 54.74 to 90.00"))
+      << error_;
+  EXPECT_TRUE(
+      error_.ends_with("; before: 7 tetrahedra, dihedral angles 1.50 to 175.00 degrees, "
+                       "smallest face angle 2.00, 3 below 5 degrees\n"))
+      << error_;
+  EXPECT_EQ(std::count(error_.begin(), error_.end(), '\n'), 1);
+  std::ifstream stats(path("s.json"));
+  const auto json = nlohmann::json::parse(stats);
+  EXPECT_EQ(json["parameters"]["job"], "improve");
+  EXPECT_EQ(json["parameters"].size(), 6U);
+  EXPECT_EQ(json["input"]["tetrahedra"], 1);
+  EXPECT_EQ(json["given"]["tetrahedra"], 7);
+  EXPECT_EQ(json["final"]["tetrahedra"], 1);
+  EXPECT_EQ(json["flat"], 0);
+  EXPECT_EQ(go({"improve", path("in.tet"), "-o", path("a.mesh"), "-q"}), kDone);
+  EXPECT_EQ(error_, "");
+  answer_.status = {StatusCode::invalid_mesh, "tetrahedron 0 is wrong"};
+  EXPECT_EQ(go({"improve", path("in.tet"), "-o", path("b.mesh")}), kInvalid);
+  EXPECT_EQ(error_, "delmesher: " + path("in.tet") + ": tetrahedron 0 is wrong\n");
+  EXPECT_FALSE(fs::exists(path("b.mesh")));
+  EXPECT_EQ(go({"improve", path("in.off"), "-o", path("b.mesh")}), kUnreadable);
+  EXPECT_TRUE(one_error_line()) << error_;
 }
 
 TEST_F(Run, StatusesBecomeExitCodesAndLeaveNoOutput) {

@@ -181,6 +181,39 @@ TEST_F(Program, AnglesThatTheInputForcesAreSaid) {
   EXPECT_EQ(std::count(cdt.begin(), cdt.end(), '\n'), 1) << cdt;
 }
 
+TEST_F(Program, AnyMeshIsImproved) {
+  write("in.off", cube());
+  EXPECT_EQ(run("in.off -o given.msh --improve off --max-edge 0.3 -q"), 0);
+  EXPECT_EQ(run("improve given.msh -o better.mesh -o better.node"), 0);
+  const std::string said = text("err.txt");
+  EXPECT_TRUE(said.starts_with("better.mesh: ")) << said;
+  EXPECT_NE(said.find("; before: "), std::string::npos) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  // What is read, and written unchanged elsewhere, ends with the same bytes.
+  EXPECT_EQ(run("improve better.ele -o again.mesh -q"), 0);
+  EXPECT_EQ(run("improve better.mesh -o twice.mesh -q"), 0);
+  EXPECT_EQ(text("again.mesh"), text("twice.mesh"));
+  EXPECT_EQ(text("out.txt") + text("err.txt"), "");
+}
+
+TEST_F(Program, MeshesThatCannotBeImprovedEndWithTheirCodeAndOneLine) {
+  const std::string tet = "5 vertices\n2 tets\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n4 0 1 2 3\n";
+  write("in.tet", tet + "4 1 2 3 4\n");
+  EXPECT_EQ(run("improve in.tet -o mesh.vtu"), 0);
+  fs::remove(path("mesh.vtu"));
+  write("in.tet", tet + "4 2 1 3 4\n");
+  EXPECT_EQ(run("improve in.tet -o mesh.vtu --stats stats.json"), 4);
+  expect_error("in.tet", "tetrahedra 0 and 1 are of opposite orientation");
+  write("in.tet", tet + "4 1 2 3 9\n");
+  EXPECT_EQ(run("improve in.tet -o mesh.vtu"), 3);
+  expect_error("in.tet", "in.tet:9: vertex index out of range");
+  EXPECT_EQ(run("improve no.tet -o mesh.vtu"), 3);
+  write("in.off", cube());
+  EXPECT_EQ(run("in.off -o given.tet -q --max-edge 0.1 --improve off"), 0);
+  EXPECT_EQ(run("improve given.tet -o mesh.vtu --max-vertices 10"), 5);
+  EXPECT_EQ(text("mesh.vtu"), "");
+}
+
 TEST_F(Program, InThePlaneTheLineTellsOfTriangles) {
   write("in.txt", "0 0\n1 0\n1 1\n0 1\n");
   EXPECT_EQ(run("plane in.txt -o mesh.off"), 0);

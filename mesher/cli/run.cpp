@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "mesher/cli/improve_run.h"
 #include "mesher/cli/plane_run.h"
 #include "mesher/cli/quality.h"
 #include "mesher/cli/run_steps.h"
@@ -95,6 +96,7 @@ int Runner::mesh() {
 int Runner::run() {
   try {
     if (command_.job == Job::plane) return run_plane(command_, library_, streams_);
+    if (command_.job == Job::improve) return run_improve(command_, library_, streams_);
     int code = check_outputs(io::mesh_files_of);
     if (code == kDone) code = read();
     if (code != kDone) return code;

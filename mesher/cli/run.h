@@ -15,6 +15,7 @@ struct Library {
   std::function<Result(const Surface&, const Options&)> constrained_delaunay;
   std::function<SurfaceReport(const Surface&, const Options&)> check_surface;
   std::function<PlaneResult(const PlanarGraph&, const Options&)> triangulate_polygon = nullptr;
+  std::function<Result(const TetMesh&, const Options&)> improve_mesh = nullptr;
 };
 
 struct Streams {
