@@ -7,8 +7,6 @@ namespace delmesher::improve {
 namespace {
 
 constexpr std::size_t kLargestCavity = 24, kSmallCavity = 8;
-// Fineness of the grid of new points, in the shortest edge.
-constexpr double kGrid = 1.0 / 1024;
 // A point has to be worth it: its star is not bad, or much better than what was.
 constexpr float kLeastScore = 0.4F;
 constexpr float kLeastGain = 4;
@@ -21,10 +19,8 @@ bool Insertion::run(TetId t) {
     return false;
   if (try_from(t, middle(t))) return true;
   // Below each of its faces, where their tetrahedra would be the best.
-  for (const auto& f : kFace) {
-    const Tet& tet = state_.mesh.tet(t);
-    const auto at = [&](int k) { return state_.position(tet[f[k]]); };
-    if (try_from(t, best_apex(at(0), at(1), at(2)))) return true;
+  for (int i = 0; i < 4; ++i) {
+    if (try_from(t, state_.best_apex_below(t, i))) return true;
   }
   return false;
 }
@@ -40,7 +36,7 @@ bool Insertion::try_from(TetId t, Vec3 x) {
     settle(x);
   }
   if (!(state_.score(worst()->quality) > 0)) return false;
-  const Place place = state_.new_place(x, shortest_edge(t) * kGrid);
+  const Place place = state_.new_place(x, shortest_edge(t) * State::kGrid);
   measure(place.position);
   const Quality before = state_.worst_of(cavity_);
   const Quality least = state_.to_be_better(before);
@@ -139,11 +135,7 @@ void Insertion::settle(Vec3& x) {
   for (int round = 0; round < kRounds; ++round) {
     const Face& worst_face = *worst();
     const float before = state_.score(worst_face.quality);
-    const Tet& tet = state_.mesh.tet(worst_face.tet);
-    const int* f = kFace[worst_face.face];
-    const Vec3 towards = subtract(best_apex(state_.position(tet[f[0]]), state_.position(tet[f[1]]),
-                                            state_.position(tet[f[2]])),
-                                  x);
+    const Vec3 towards = subtract(state_.best_apex_below(worst_face.tet, worst_face.face), x);
     const Quality least = state_.to_reach(before);
     const auto better = [&](const Vec3& moved) {
       return std::all_of(faces_.begin(), faces_.end(), [&](const Face& face) {

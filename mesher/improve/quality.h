@@ -12,11 +12,11 @@
 
 namespace delmesher::improve {
 
-// 0 for what is flat, inverted or beyond the range of doubles.
+// All squared. 0 for what is flat, inverted or beyond the range of doubles.
 struct Quality {
   float dihedral = 0;  // the smallest of the six dihedral angles' sines
   float face = 0;      // the smallest of the twelve face angles' sines
-  float gamma = 0;     // 3 x inradius / circumradius, squared: 1 if it is regular
+  float gamma = 0;     // 3 x inradius / circumradius: 1 if it is regular
 };
 
 // Better than every tetrahedron: of one that does not count.

@@ -4,12 +4,6 @@
 #include <cmath>
 
 namespace delmesher::improve {
-namespace {
-
-// Fineness of the grid of new points, in the shortest edge at the vertex.
-constexpr double kGrid = 1.0 / 1024;
-
-}  // namespace
 
 // Collects the star; false if v cannot move.
 bool Smoothing::begin(VertexId v) {
@@ -88,11 +82,7 @@ Vec3 Smoothing::allowed(const Vec3& offset) const {
 
 // From x to the apex that would make a tetrahedron of the star nearly regular.
 Vec3 Smoothing::towards_best_apex(TetId t, const Vec3& x) const {
-  const Tet& tet = state_.mesh.tet(t);
-  const int* f = kFace[state_.mesh.index_of(t, v_)];
-  return subtract(
-      best_apex(state_.position(tet[f[0]]), state_.position(tet[f[1]]), state_.position(tet[f[2]])),
-      x);
+  return subtract(state_.best_apex_below(t, state_.mesh.index_of(t, v_)), x);
 }
 
 // The same on average, of those that count.
@@ -209,13 +199,13 @@ bool Smoothing::round_off(VertexId v) {
     }
   }
   if (!any) return false;
-  const Place place = state_.moved(v, best_offset, shortest_ * kGrid);
+  const Place place = state_.moved(v, best_offset, shortest_ * State::kGrid);
   return settle(v, place, roundness_at(place.position, least) > before);
 }
 
 // Puts v there if that is what it has to be; there may be a little beside.
 bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least) {
-  const Place place = state_.moved(v, offset, shortest_ * kGrid);
+  const Place place = state_.moved(v, offset, shortest_ * State::kGrid);
   return settle(v, place, worst_at(place.position, least).dihedral > 0);
 }
 

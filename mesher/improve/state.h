@@ -83,6 +83,8 @@ class State {
     return std::min({q.dihedral * per_target_.dihedral, q.face * per_target_.face,
                      q.gamma * per_target_.gamma});
   }
+  // Fineness of the grid of new points, in the shortest edge where they go.
+  static constexpr double kGrid = 1.0 / 1024;
   // Below this score it is worth trying hard.
   static constexpr float kBad = 0.4F;
   bool good(const Quality& q) const { return score(q) >= 1; }
@@ -108,6 +110,12 @@ class State {
     return q.dihedral >= least.dihedral && q.face >= least.face && q.gamma >= least.gamma;
   }
 
+  // Below face i of t, seen from outside: where a vertex makes a nearly regular tetrahedron of it.
+  Vec3 best_apex_below(TetId t, int i) const {
+    const Tet& v = mesh.tet(t);
+    return best_apex(position_[v[kFace[i][0]]], position_[v[kFace[i][1]]],
+                     position_[v[kFace[i][2]]]);
+  }
   // Exactly positive, and as doubles; of any four vertices, or of t with its i-th vertex elsewhere.
   bool is_positive(const Tet& t);
   bool is_positive_with(const Tet& t, int i, const Place& place);
