@@ -46,8 +46,9 @@ struct Options : Limits {
   bool gabriel = false;
   // Fewer and better tetrahedra on the same surface, by local operations (section 8.3).
   bool improve = true;
-  // Treat slivers in the refinement (section 5.7). Where meshes are improved it does more harm than
-  // good: about twice the tetrahedra, for the same worst ones.
+  // Treat slivers in the refinement (section 5.7). Where meshes are improved it brings rounder
+  // tetrahedra on average, a fifth more of them, and hardly better worst ones
+  // (improve/README.md).
   bool slivers = false;
   bool approximate = false;      // stop before the enriched CDT (section 6)
   bool simplify_bridges = true;  // section 4.4
