@@ -34,7 +34,7 @@ bool GroupPlanes::fit() {
   for (std::uint32_t g = 0; g < planes_.size(); ++g) {
     if (!growth_.is_group(g)) continue;
     if (planes_[g].fitted_to != growth_.groups()[g].triangles.size()) fit(g);
-    any = any || (growth_.is_group(g) && moving(g));
+    any = any || (growth_.is_group(g) && planes_[g].state == State::moving);
   }
   return any;
 }
@@ -135,6 +135,24 @@ void GroupPlanes::share() {
     p.plane = p.fitted;
     p.pins.clear();
   }
+  find_lent_states();
+}
+
+// A plane that groups share has one state: what is flat in a plane of its own is not on the one
+// that it was lent.
+void GroupPlanes::find_lent_states() {
+  for (std::uint32_t g = 0; g < planes_.size(); ++g) {
+    if (growth_.is_group(g)) planes_[g].lent_state = planes_[g].state;
+  }
+  for (std::uint32_t g = 0; g < planes_.size(); ++g) {
+    if (!growth_.is_group(g) || plane_of_[g] == g) continue;
+    Plane& lent = planes_[plane_of_[g]];
+    const bool on = lent.state == State::on_plane && all_on(lent.plane, growth_.vertices_of(g));
+    const State needed = on                                  ? State::on_plane
+                         : planes_[g].state == State::moving ? State::moving
+                                                             : State::planar;
+    lent.lent_state = std::max(lent.lent_state, needed);
+  }
 }
 
 bool GroupPlanes::one_plane(std::uint32_t g, std::uint32_t h) const {
@@ -150,18 +168,20 @@ bool GroupPlanes::one_plane(std::uint32_t g, std::uint32_t h) const {
   return on(a, h) && on(b, g);
 }
 
-void GroupPlanes::spread_moves() {
+bool GroupPlanes::spread_moves() {
+  bool any = false;
   for (bool again = true; again;) {
     again = false;
     for (VertexId v = 0; v < planes_at_.size(); ++v) {
       if (!must_move(v)) continue;
       for (const std::uint32_t g : planes_at_[v]) {
-        if (planes_[g].state != State::planar) continue;
-        planes_[g].state = State::moving;
-        again = true;
+        if (planes_[g].lent_state != State::planar) continue;
+        planes_[g].lent_state = State::moving;
+        any = again = true;
       }
     }
   }
+  return any;
 }
 
 bool GroupPlanes::relieve_vertices() {
@@ -171,7 +191,8 @@ bool GroupPlanes::relieve_vertices() {
   }
   std::vector<VertexId> stuck;
   std::vector<std::uint8_t> is_stuck(planes_at_.size(), 0);
-  // A plane that is moved for one vertex may leave another behind.
+  // A plane that is moved for one vertex may leave another behind, which then moves, and planar
+  // groups with it.
   for (bool again = true; again;) {
     again = false;
     for (VertexId v = 0; v < planes_at_.size(); ++v) {
@@ -183,6 +204,7 @@ bool GroupPlanes::relieve_vertices() {
         is_stuck[v] = 1;
       }
     }
+    again = spread_moves() || again;
   }
   make_room(stuck);
   return !stuck.empty();
@@ -290,7 +312,7 @@ PlaneEquation GroupPlanes::pinned_plane(const Plane& lent) const {
 
 bool GroupPlanes::must_move(VertexId v) const {
   return std::ranges::any_of(planes_at_[v], [&](std::uint32_t g) {
-    return planes_[g].state == State::moving &&
+    return planes_[g].lent_state == State::moving &&
            !exactly_on(planes_[g].plane, surface_.vertices()[v]);
   });
 }

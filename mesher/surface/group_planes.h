@@ -29,8 +29,8 @@ class GroupPlanes {
   // Groups that meet at a vertex in planes that are the same within the noise share one of them,
   // the larger group's.
   void share();
-  // A planar group one of whose vertices moves has to move with it.
-  void spread_moves();
+  // A planar group one of whose vertices moves has to move with it. True if there was one.
+  bool spread_moves();
   // A vertex can be the meeting point of three planes. One of more stays where it is, and the
   // planes are moved so that they contain it, which each can for up to three vertices; where not
   // all can, groups give up their triangles at the vertex until it has three planes. True if some
@@ -48,14 +48,17 @@ class GroupPlanes {
   std::uint32_t plane_of(std::uint32_t group) const { return plane_of_[group]; }
   const std::vector<std::uint32_t>& planes_at(VertexId v) const { return planes_at_[v]; }
   const PlaneEquation& plane(std::uint32_t group) const { return planes_[group].plane; }
-  bool moving(std::uint32_t group) const { return planes_[group].state == State::moving; }
+  // Do vertices move to the plane that the group shares?
+  bool moving(std::uint32_t group) const {
+    return planes_[plane_of_[group]].lent_state == State::moving;
+  }
   // Is the vertex off the plane of one of its groups that move?
   bool must_move(VertexId v) const;
 
  private:
   // on_plane: all vertices are on the plane exactly. planar: they are in one plane exactly, whose
   // equation doubles cannot hold; the group becomes moving if one of its vertices moves for
-  // another.
+  // another. In the order of how much moves.
   enum class State : std::uint8_t { on_plane, planar, moving };
   struct Plane {
     PlaneEquation fitted{};      // of the group's triangles alone
@@ -63,7 +66,8 @@ class GroupPlanes {
     std::vector<VertexId> pins;  // if the group lends its plane: vertices that stay and are on it
     double area = 0;             // twice that of the triangles
     std::size_t fitted_to = 0;   // so many triangles: groups only lose them
-    State state = State::on_plane;
+    State state = State::on_plane;       // of the group in its own plane
+    State lent_state = State::on_plane;  // if the group lends its plane: of all that share it
   };
 
   void fit(std::uint32_t group);
@@ -72,6 +76,7 @@ class GroupPlanes {
   bool all_on(const PlaneEquation& plane, const std::vector<VertexId>& list) const;
   bool in_one_plane(std::uint32_t group, const std::vector<VertexId>& list) const;
   std::uint32_t largest_triangle(std::uint32_t group) const;
+  void find_lent_states();
   bool one_plane(std::uint32_t g, std::uint32_t h) const;
   bool pin_all(VertexId v, const std::vector<std::vector<std::uint32_t>>& sharing);
   void make_room(const std::vector<VertexId>& stuck);

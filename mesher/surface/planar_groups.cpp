@@ -120,7 +120,8 @@ class StandInBuilder {
     }
     if (!good) return false;
     Predicates predicates(points);
-    return keeps_orientations(predicates) && meets_nothing_new(predicates);
+    return keeps_orientations(predicates) && groups_are_planar(predicates) &&
+           meets_nothing_new(predicates);
   }
   bool parallel(const std::array<std::uint32_t, 3>& p) const {
     const auto n = [&](std::size_t i) { return stand_in_.planes[p[i]].normal; };
@@ -218,6 +219,25 @@ class StandInBuilder {
     }
     return found;
   }
+  // Facets keep their outlines where this is so, because edges are flipped within groups alone. A
+  // group that is not in one plane gives up its triangles at the vertices off it.
+  bool groups_are_planar(Predicates& predicates) {
+    bool good = true;
+    for (std::uint32_t g = 0; g < growth_.groups().size(); ++g) {
+      if (!growth_.is_group(g)) continue;
+      const auto [a, b, c] = flat_[growth_.groups()[g].triangles.front()];
+      std::vector<std::uint32_t> off;
+      for (const std::uint32_t t : growth_.groups()[g].triangles) {
+        const bool on = std::ranges::all_of(flat_[t], [&, a = a, b = b, c = c](VertexId v) {
+          return predicates.orient3d(a, b, c, v) == 0;
+        });
+        if (!on) off.push_back(t);
+      }
+      for (const std::uint32_t t : off) growth_.detach(t);
+      good = good && off.empty();
+    }
+    return good;
+  }
   // The groups of all neighbours give up their triangles at this one.
   bool release_around(std::uint32_t t) {
     bool any = false;
@@ -274,9 +294,14 @@ class StandInBuilder {
     if (!flipped_.empty()) stand_in_.triangles = std::move(flat_);
     for (std::uint32_t g = 0; g < growth_.groups().size(); ++g) {
       if (!growth_.is_group(g) || !planes_.moving(g)) continue;
+      const PlaneEquation& plane = planes_.plane(planes_.plane_of(g));
+      const std::vector<VertexId> list = growth_.vertices_of(g);
+      if (std::ranges::all_of(list, [&](VertexId v) { return exactly_on(plane, vertices_[v]); })) {
+        continue;
+      }
       ++stand_in_.groups;
-      const Fit fit = rough(planes_.plane(planes_.plane_of(g)));
-      for (const VertexId v : growth_.vertices_of(g)) {
+      const Fit fit = rough(plane);
+      for (const VertexId v : list) {
         stand_in_.deviation = std::max(stand_in_.deviation, std::fabs(fit.height(vertices_[v])));
       }
     }

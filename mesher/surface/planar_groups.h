@@ -7,8 +7,8 @@
 // plane, some in another triangulation. A vertex on the planes of three groups is their meeting
 // point (PointKind::on_planes); a vertex on fewer is moved along an axis or two. A vertex on more
 // stays, and planes are moved to contain it, or triangles at it leave their groups. The stand-in is
-// certified: exactly planar groups of positive triangles, and no two triangles of the surface meet
-// anew.
+// certified: exactly planar groups of positive triangles, which have the corners and the outline
+// that they have as given, and no two triangles of the surface meet anew.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct StandIn {
   std::vector<std::array<std::uint32_t, 3>> planes_of;
   // Those of the surface, in another triangulation of some groups; empty: the same.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::uint64_t groups = 0;        // of more than one triangle, not exactly planar before
+  std::uint64_t groups = 0;        // of more than one triangle, some not on the plane as given
   std::uint64_t given_facets = 0;  // of the surface as given
   double deviation = 0;            // largest distance of a vertex from the plane of a group of it
   double displacement = 0;         // largest distance of a vertex from its stand-in

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <set>
+#include <utility>
 
 #include "mesher/base/control.h"
 #include "mesher/predicates/vector.h"
@@ -47,8 +49,26 @@ std::vector<std::array<double, 2>> circle(int n) {
   return points;
 }
 
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+// The corners of some triangles, and the directed edges that no two of them share.
+std::pair<std::set<VertexId>, std::set<std::pair<VertexId, VertexId>>> outline(
+    const Triangles& triangles, const std::vector<std::uint32_t>& members) {
+  std::set<VertexId> corners;
+  std::set<std::pair<VertexId, VertexId>> sides;
+  for (const std::uint32_t t : members) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      corners.insert(a);
+      if (sides.erase({b, a}) == 0) sides.emplace(a, b);
+    }
+  }
+  return {corners, sides};
+}
+
 // The stand-in's topology, checked: every facet exactly planar by its own triangles' predicates,
-// every vertex where it was up to the noise, the rest untouched.
+// with the corners and the outline that its triangles have as given, every vertex where it was up
+// to the noise, the rest untouched.
 struct Grouped {
   Limits limits;
   Control control{limits};
@@ -70,6 +90,7 @@ struct Grouped {
       }
     }
     for (const auto& triangles : topology.facet_triangles) {
+      EXPECT_EQ(outline(topology.triangles, triangles), outline(s.triangles, triangles));
       const auto& [a, b, c] = topology.triangles[triangles.front()];
       for (const std::uint32_t t : triangles) {
         for (const VertexId v : topology.triangles[t]) {
@@ -180,6 +201,124 @@ TEST(PlanarGroups, LabelsSeparate) {
   s.labels.assign(s.triangles.size(), 1);
   s.labels[0] = 2;
   EXPECT_EQ(grouped(s).facets(), 7U);
+}
+
+// A box whose lid is flat exactly up to x = 0.75, with a label of its own, and flat but for noise
+// beyond. The two share a plane: that of the flat part does not move, yet vertices of the other
+// have to go there.
+Surface lid_in_two_parts() {
+  Surface s = box({0, 0, 0}, {1, 1, 1}, 4);
+  for (const auto& corners : s.triangles) {
+    s.labels.push_back(std::ranges::all_of(
+        corners, [&](VertexId v) { return s.vertices[v][2] == 1 && s.vertices[v][0] <= 0.75; }));
+  }
+  for (std::size_t v = 0; v < s.vertices.size(); ++v) {
+    Point& p = s.vertices[v];
+    if (p[2] == 1 && p[0] == 1) p[2] += 1e-9 * static_cast<double>(v % 3);
+  }
+  return s;
+}
+
+TEST(PlanarGroups, AFlatFacetLendsItsPlaneToANoisyOne) {
+  const Grouped g = grouped(lid_in_two_parts());
+  EXPECT_EQ(g.facets(), 7U);
+  EXPECT_EQ(g.stand_in.groups, 1U);
+}
+
+// The same with needles in the wall at x = 1 along its edge with the lid: they become part of the
+// lid, and leave no trace of themselves there by flips. What is flipped has to be planar.
+TEST(PlanarGroups, NeedlesBesideALentPlaneKeepTheOutlines) {
+  Surface s = lid_in_two_parts();
+  for (std::size_t t = 0, n = s.triangles.size(); t < n; ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = s.triangles[t][k], b = s.triangles[t][(k + 1) % 3],
+                     c = s.triangles[t][(k + 2) % 3];
+      const Point &p = s.vertices[a], &q = s.vertices[b];
+      const bool on_the_edge = p[0] == 1 && q[0] == 1 && p[2] >= 1 && q[2] >= 1;
+      if (!on_the_edge || s.vertices[c][2] > 0.9 || s.vertices[c][0] != 1) continue;
+      const auto m = static_cast<VertexId>(s.vertices.size());
+      s.vertices.push_back({1, (p[1] + q[1]) / 2, std::min(p[2], q[2]) - 5e-10});
+      s.triangles[t] = {a, b, m};
+      s.triangles.push_back({b, c, m});
+      s.triangles.push_back({c, a, m});
+      s.labels.resize(s.triangles.size(), 0);
+      break;
+    }
+  }
+  const Grouped g = grouped(s);
+  EXPECT_EQ(g.facets(), 7U);
+  EXPECT_FALSE(g.stand_in.triangles.empty());
+}
+
+// A lid in columns of given places and heights; two at one place are a riser. The floor's columns
+// are at other places, so that no side is degenerate.
+Surface terraces(const std::vector<double>& places, const std::vector<double>& heights,
+                 std::uint32_t rows) {
+  const auto n = static_cast<std::uint32_t>(places.size()), m = rows + 1;
+  Surface s;
+  for (const bool up : {false, true}) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      for (std::uint32_t j = 0; j < m; ++j) {
+        const double y = static_cast<double>(j) / rows;
+        s.vertices.push_back(up ? Point{places[i], y, heights[i]}
+                                : Point{places.back() * i / (n - 1), y, 0});
+      }
+    }
+  }
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    s.triangles.push_back({a, b, c});
+    s.triangles.push_back({a, c, d});
+  };
+  const std::uint32_t top = n * m;
+  for (std::uint32_t i = 0; i + 1 < n; ++i) {
+    for (std::uint32_t j = 0; j + 1 < m; ++j) {
+      const std::uint32_t a = i * m + j, b = a + m;
+      quad(a, a + 1, b + 1, b);
+      quad(top + a, top + b, top + b + 1, top + a + 1);
+    }
+    const std::uint32_t a = i * m, b = a + m, c = a + m - 1, d = b + m - 1;
+    quad(a, b, top + b, top + a);
+    quad(d, c, top + c, top + d);
+  }
+  for (std::uint32_t j = 0; j + 1 < m; ++j) {
+    const std::uint32_t a = j, b = (n - 1) * m + j;
+    quad(a + 1, a, top + a, top + a + 1);
+    quad(b, b + 1, top + b + 1, top + b);
+  }
+  return s;
+}
+
+// Layers closer than the bound with upright risers, thin plates and thin columns, of one to three
+// labels, as given and rotated: whatever is made of them, facets keep their outlines.
+TEST(PlanarGroups, LayersWithinTheBoundKeepTheirOutlines) {
+  std::mt19937 random(20);
+  const auto any = [&] { return static_cast<std::uint32_t>(random()); };
+  const auto unit = [&] { return any() * 0x1p-32; };
+  std::uint64_t groups = 0;
+  for (int round = 0; round < 300; ++round) {
+    const double bound = std::exp2(-12 - 12 * unit());
+    std::vector<double> places = {0}, heights = {unit() < 0.2 ? 4 * bound : 1};
+    for (int i = 0; i < 7; ++i) {
+      const double kind = unit();
+      const bool riser = kind < 0.3 && places[places.size() - 1] > 0;
+      places.push_back(places.back() + (riser ? 0 : kind < 0.5 ? bound * 8 * unit() : unit()));
+      const bool again = !riser && kind < 0.8;
+      heights.push_back(again ? heights.back() : heights[0] + bound * (2 * unit() - 1));
+    }
+    Surface s = terraces(places, heights, 1 + any() % 3);
+    // Triangles come column by column.
+    const std::size_t labels = 1 + any() % 3, n = s.triangles.size();
+    for (std::size_t t = 0; t < n; ++t) {
+      s.labels.push_back(static_cast<std::int32_t>(t * labels / n));
+    }
+    if (any() % 2 == 0) s = rotated(s);
+    Limits limits;
+    Control control{limits};
+    if (!check_validity(s, false, control).report.status.ok()) continue;
+    groups += Grouped(s, bound).stand_in.groups;
+    if (HasFailure()) FAIL() << "round " << round;
+  }
+  EXPECT_GT(groups, 300U);
 }
 
 // Four planes at each vertex: not all quadrangles can be planar, and what is left is valid.
