@@ -210,6 +210,49 @@ TEST(Plane, SplittingASegmentByHandKeepsTheArea) {
   EXPECT_NEAR(before, area(expect_verified(graph).mesh), 1e-12);
 }
 
+// Every segment in so many pieces, collinear but for the rounding of their ends.
+PlanarGraph in_pieces(const PlanarGraph& graph, int count) {
+  PlanarGraph result;
+  result.vertices = graph.vertices;
+  for (const auto& [a, b] : graph.segments) {
+    std::uint32_t last = a;
+    for (int i = 1; i < count; ++i) {
+      const auto next = static_cast<std::uint32_t>(result.vertices.size());
+      const double t = static_cast<double>(i) / count;
+      const auto &p = graph.vertices[a], &q = graph.vertices[b];
+      result.vertices.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+      result.segments.push_back({last, next});
+      last = next;
+    }
+    result.segments.push_back({last, b});
+  }
+  return result;
+}
+
+// In the plane noise costs nothing, because the ends of a piece are vertices in any case, and the
+// angle between two is near 180 degrees.
+TEST(Plane, RotatedAndRoundedAGraphCostsNoMore) {
+  const auto single = [](double x) {
+    const double large = std::ldexp(x < 0 ? -1.5 : 1.5, std::ilogb(x) + 29);
+    return (x + large) - large;
+  };
+  const auto six_digits = [](double x) { return std::round(x * 1e6) / 1e6; };
+  for (const PlanarGraph& part :
+       {shapes::star(7, 0.2), shapes::comb(6, 0.1), shapes::figure(), shapes::nested_squares(5)}) {
+    const PlanarGraph given = in_pieces(part, 7);
+    const auto straight = static_cast<double>(expect_verified(given).mesh.triangles.size());
+    for (int rounding = 0; rounding < 3; ++rounding) {
+      PlanarGraph turned = shapes::moved(given, 0.3, 1, 0, 0);
+      for (auto& p : turned.vertices) {
+        for (double& x : p) x = rounding == 0 ? x : rounding == 1 ? single(x) : six_digits(x);
+      }
+      const PlaneResult result = expect_verified(turned);
+      EXPECT_NEAR(static_cast<double>(result.mesh.triangles.size()), straight, 0.1 * straight);
+      EXPECT_GE(result.statistics.refined.min_angle, plane_options().delta);
+    }
+  }
+}
+
 // --- what is inside
 
 TEST(Plane, HolesAndRegions) {
