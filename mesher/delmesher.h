@@ -23,6 +23,17 @@ namespace delmesher {
 inline constexpr double kPlanarAuto = -1;
 
 // Angles are degrees, lengths are in the units of the input. kBounds says which values make sense.
+// Where the default departs from what the paper says: true takes the paper's way. Each is a choice
+// of its own (docs/paper.md), and none of them changes what is guaranteed.
+struct AsPaper {
+  // Section 5.4: the bad tetrahedron with the largest radius-edge ratio is split first. Otherwise
+  // the last one found within a fourth of a doubling of the squared ratio.
+  bool order = false;
+  // Section 5.6: bad tetrahedra are split at their circumcentre. Otherwise at an off-centre, nearer
+  // to the shortest edge, where that is inside the circumball.
+  bool steiner_point = false;
+};
+
 struct Options : Limits {
   // Every face angle of the refined mesh is at least this (degrees, section 5.4). 14.47 is a
   // radius-edge ratio of 2; above it the bound is best effort and insertions are capped.
@@ -59,6 +70,7 @@ struct Options : Limits {
   // than 2^-20 of the diagonal, at most 2^-18.
   double planar = kPlanarAuto;
   double max_edge = 0;  // largest edge wanted inside, in input units; 0: no bound
+  AsPaper as_paper;
   Region region = Region::interior;
   bool want_exact = false;      // fill Result::exact
   bool want_chamfered = false;  // fill Result::chamfered

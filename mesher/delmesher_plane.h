@@ -20,7 +20,8 @@ struct PlaneResult {
 
 // Options with the defaults of the plane: delta is 20.7, which is guaranteed. In the plane, tau is
 // the narrowest channel between two segments, as a fraction of its length, that is refined;
-// slivers and simplify_bridges mean nothing; max_vertices 0 is 1e7 and 64 more per input vertex.
+// slivers, simplify_bridges and as_paper mean nothing; max_vertices 0 is 1e7 and 64 more per input
+// vertex.
 Options plane_options();
 
 // The paper's parameters in the plane: chamfers up to 90 degrees, no filter, everything down to the

@@ -84,6 +84,8 @@ refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double ta
   options.delta = s.options.delta;
   options.slivers = s.options.slivers;
   options.max_edge = s.options.max_edge;
+  options.largest_ratio_first = s.options.as_paper.order;
+  options.circumcentres = s.options.as_paper.steiner_point;
   options.region = s.options.region;
   options.runaway_length = fallback.runaway_length(s, tau);
   options.want_balls = s.options.want_exact;

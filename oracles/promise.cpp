@@ -74,6 +74,18 @@ void set_defaults(Task task, bool paper, Promise& p) {
   if (task == Task::plane) p.tau = 0;
 }
 
+// Ways to the same promises: the names only have to be known.
+std::string as_paper_defect(const std::string& list) {
+  if (list == "none") return {};
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t end = std::min(list.find(',', at), list.size());
+    const std::string name = list.substr(at, end - at);
+    if (name != "order" && name != "steiner-point") return "nothing is called \"" + name + "\"";
+    at = end + 1;
+  }
+  return {};
+}
+
 class PromiseReader {
  public:
   explicit PromiseReader(std::string_view text) : words_(words_of(text)) {}
@@ -123,6 +135,7 @@ class PromiseReader {
     if (!value_) return option + ": unknown, or without a value";
     if (among(kWithValue, option)) return {};
     if (option == "--preset") return *value_ == "paper" ? "" : "no preset \"" + *value_ + "\"";
+    if (option == "--as-paper") return as_paper_defect(*value_);
     if (option == "--region") {
       if (*value_ != "interior" && *value_ != "hull") return "no region \"" + *value_ + "\"";
       p.region = *value_ == "hull" ? Region::hull : Region::interior;

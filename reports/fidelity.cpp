@@ -40,7 +40,7 @@ constexpr const char* kWhatIsHere =
     "\"Here\" are the runs of this campaign that bear the names of the paper's experiments. They "
     "are our "
     "independent implementation with --preset paper, not the authors' program, and depart from the "
-    "paper in details.";
+    "paper where docs/paper.md says so.";
 
 // The published figures stand only beside runs of this campaign.
 bool any_success(const Selection& selection, std::initializer_list<const char*> meshers) {

@@ -23,6 +23,7 @@ struct Given {
   std::map<std::string, std::string> numbers;
   std::optional<bool> slivers, improve;
   std::optional<Region> region;
+  std::optional<AsPaper> as_paper;
   bool approximate = false, gabriel = false, no_bridges = false, paper = false;
 };
 
@@ -103,6 +104,35 @@ void add_run(CLI::App& app, Command& command, Given& given,
   app.add_option("--exact", command.exact_file, "write the exact form of everything");
 }
 
+// Names with commas between them, or none. Empty if there is another name.
+std::optional<AsPaper> as_paper_of(const std::string& text) {
+  AsPaper choices;
+  if (text == "none") return choices;
+  std::istringstream names(text + ",");
+  for (std::string name; std::getline(names, name, ',');) {
+    if (name == "order") {
+      choices.order = true;
+    } else if (name == "steiner-point") {
+      choices.steiner_point = true;
+    } else {
+      return {};
+    }
+  }
+  return choices;
+}
+
+void add_as_paper(CLI::App& app, Given& given) {
+  app.add_option_function<std::string>(
+         "--as-paper", [&given](const std::string& text) { given.as_paper = as_paper_of(text); },
+         "what is done as the paper says: order, steiner-point, with commas, or none (none)")
+      ->check(CLI::Validator(
+          [](std::string& text) -> std::string {
+            return as_paper_of(text) ? "" : "none of order, steiner-point, none: " + text;
+          },
+          "LIST"))
+      ->type_name("LIST");
+}
+
 void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_common(app, command);
   add_run(app, command, given);
@@ -129,12 +159,12 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
                "stop before restoring the input: a mesh of the chamfered surface");
   add_number(app, given, "chamfer-radius", "largest chamfer distance", positive(kBounds.length));
   add_number(app, given, "max-edge", "largest edge", positive(kBounds.length));
+  add_as_paper(app, given);
   app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
          "paper: delta 14.47, tau 1e-4, planar 0, acute 90, corner 90, gabriel, improve off, "
-         "region "
-         "hull; other options override it")
+         "as-paper order,steiner-point, region hull; other options override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
   add_threads(app, given);
@@ -203,6 +233,7 @@ void apply(const Given& given, Command& command) {
   options.max_vertices = static_cast<std::uint64_t>(vertices);
   options.improve = given.improve.value_or(options.improve);
   options.slivers = given.slivers.value_or(options.slivers || !options.improve);
+  options.as_paper = given.as_paper.value_or(options.as_paper);
   options.region = given.region.value_or(options.region);
   options.approximate = given.approximate;
   options.simplify_bridges = !given.no_bridges;

@@ -119,6 +119,23 @@ TEST(Arguments, ExplicitOptionsOverrideThePresetInAnyOrder) {
   EXPECT_EQ(mixed.region, Region::interior);
 }
 
+TEST(Arguments, WhatIsDoneAsThePaperSays) {
+  const auto choices = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"i.off", "-o", "o.mesh"});
+    const AsPaper c = parse(more).command.options.as_paper;
+    return std::pair{c.order, c.steiner_point};
+  };
+  EXPECT_EQ(choices({}), std::pair(false, false));
+  EXPECT_EQ(choices({"--as-paper", "order"}), std::pair(true, false));
+  EXPECT_EQ(choices({"--as-paper", "steiner-point,order"}), std::pair(true, true));
+  EXPECT_EQ(choices({"--preset", "paper"}), std::pair(true, true));
+  EXPECT_EQ(choices({"--as-paper", "steiner-point", "--preset", "paper"}), std::pair(false, true));
+  EXPECT_EQ(choices({"--preset", "paper", "--as-paper", "none"}), std::pair(false, false));
+  for (const char* wrong : {"", "all", "order,", "none,order", "Order"}) {
+    expect_usage_error({"i.off", "-o", "o.mesh", std::string("--as-paper=") + wrong});
+  }
+}
+
 TEST(Arguments, OtherJobs) {
   const Parsed cdt = parse({"cdt", "in.off", "-o", "out.tet"});
   EXPECT_TRUE(cdt.run);

@@ -51,6 +51,13 @@ Json mesh_json(const PlaneMeshStatistics& s) {
           {"angle_histogram", s.angle_histogram}};
 }
 
+Json as_paper_json(const AsPaper& choices) {
+  Json names = Json::array();
+  if (choices.order) names.push_back("order");
+  if (choices.steiner_point) names.push_back("steiner-point");
+  return names;
+}
+
 Json parameters_json(const Command& command) {
   static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check", "improve"};
   const Options& o = command.options;
@@ -64,6 +71,7 @@ Json parameters_json(const Command& command) {
           {"gabriel", o.gabriel},
           {"improve", o.improve},
           {"slivers", o.slivers},
+          {"as_paper", as_paper_json(o.as_paper)},
           {"approximate", o.approximate},
           {"bridge_simplification", o.simplify_bridges},
           {"chamfer_radius", o.chamfer_radius},
@@ -185,7 +193,7 @@ std::string improve_stats_json(const Command& command, const Result& result,
   const Statistics& s = result.statistics;
   Json json = run_json(command, result, facts, "tetrahedra");
   for (const char* key :
-       {"tau", "planar", "budget", "acute", "corner", "gabriel", "improve", "slivers",
+       {"tau", "planar", "budget", "acute", "corner", "gabriel", "improve", "slivers", "as_paper",
         "approximate", "bridge_simplification", "chamfer_radius", "region"}) {
     json["parameters"].erase(key);
   }
@@ -199,7 +207,7 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts) {
   const PlaneStatistics& s = result.statistics;
   Json json = run_json(command, result, facts, "segments");
-  for (const char* key : {"planar", "budget", "corner", "gabriel", "improve", "slivers",
+  for (const char* key : {"planar", "budget", "corner", "gabriel", "improve", "slivers", "as_paper",
                           "bridge_simplification", "threads"}) {
     json["parameters"].erase(key);
   }

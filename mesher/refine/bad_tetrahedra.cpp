@@ -1,9 +1,11 @@
 #include "mesher/refine/bad_tetrahedra.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mesher/base/check.h"
 #include "mesher/base/spatial_sort.h"
+#include "mesher/refine/tetrahedron_shape.h"
 
 namespace delmesher::refine {
 
@@ -16,16 +18,41 @@ void BadTetrahedra::start() {
 void BadTetrahedra::release() {
   for (std::vector<TetId>& level : level_) level = {};
   fresh_ = {};
+  heap_ = {};
   worst_ = 0;
 }
 
 void BadTetrahedra::add(TetId t, std::uint8_t level) {
   note(dt_, t, Note::waiting) = level;
+  if (largest_ratio_first_) {
+    heap_.push_back({ratio2_of(t), t});
+    std::push_heap(heap_.begin(), heap_.end());
+    return;
+  }
   level_[level].push_back(t);
   worst_ = std::max(worst_, std::size_t{level});
 }
 
+double BadTetrahedra::ratio2_of(TetId t) const {
+  TetrahedronShape s = shape_of(points_, dt_.vertices(t));
+  add_circumsphere(s);
+  const double ratio2 = s.radius2 / s.shortest2();
+  return std::isnan(ratio2) ? HUGE_VAL : ratio2;
+}
+
+// An entry with another ratio than its tetrahedron has is of a dead one with the same id.
+TetId BadTetrahedra::next_by_ratio() {
+  while (!heap_.empty()) {
+    const auto [ratio2, t] = heap_.front();
+    if (dt_.alive(t) && note(dt_, t, Note::waiting) != 0 && ratio2_of(t) == ratio2) return t;
+    std::pop_heap(heap_.begin(), heap_.end());
+    heap_.pop_back();
+  }
+  return kNone;
+}
+
 TetId BadTetrahedra::next() {
+  if (largest_ratio_first_) return next_by_ratio();
   constexpr std::size_t kAhead = 8;  // entries, of which nine in ten are dead
   for (; worst_ > 0; --worst_) {
     if (worst_ < sorted_) {
@@ -83,6 +110,12 @@ void BadTetrahedra::validate() const {
       DELMESHER_CHECK(t < found.size(), "there is no such bad tetrahedron");
       if (note(dt_, t, Note::waiting) == n) found[t] = 1;
     }
+  }
+  DELMESHER_CHECK(!largest_ratio_first_ || worst_ == 0, "a level has entries beside the heap");
+  DELMESHER_CHECK(std::is_heap(heap_.begin(), heap_.end()), "the largest ratio is not in front");
+  for (const Ranked& ranked : heap_) {
+    DELMESHER_CHECK(ranked.t < found.size(), "there is no such bad tetrahedron");
+    if (dt_.alive(ranked.t) && ratio2_of(ranked.t) == ranked.ratio2) found[ranked.t] = 1;
   }
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     const std::uint8_t waiting = note(dt_, t, Note::waiting);

@@ -7,6 +7,7 @@
 // Invariants:
 //  - a live tetrahedron that waits at a level has an entry there;
 //  - no level above the worst one has entries;
+//  - with the largest ratio first, the levels have no entries, and the entries are a heap;
 //  - a tetrahedron, dead or alive, is noted as fresh if and only if it is in the list of fresh
 //    ones, where it is once.
 #pragma once
@@ -22,14 +23,19 @@ namespace delmesher::refine {
 
 class BadTetrahedra {
  public:
-  BadTetrahedra(Tetrahedrization& dt, const PointStore& points) : dt_(dt), points_(points) {}
+  // `largest_ratio_first`: next() goes by the radius-edge ratio itself (section 5.4), not by
+  // levels.
+  BadTetrahedra(Tetrahedrization& dt, const PointStore& points, bool largest_ratio_first = false)
+      : dt_(dt), points_(points), largest_ratio_first_(largest_ratio_first) {}
 
   // Forgets everything. What is added until the first next() is brought into a spatial order, level
   // by level.
   void start();
   // `level`: 1 to Goal::kWorst.
   void add(TetId t, std::uint8_t level);
-  // The last added of the worst ones, or kNone. It waits on until it dies or is dismissed.
+  // The last added of the worst ones, or kNone. With the largest ratio first, the one with the
+  // largest ratio, and of equal ones that with the largest id. It waits on until it dies or is
+  // dismissed.
   TetId next();
   // It will not be split after all.
   void dismiss(TetId t) { note(dt_, t, Note::waiting) = 0; }
@@ -60,7 +66,16 @@ class BadTetrahedra {
 
   static constexpr std::uint8_t kFresh = Goal::kWorst + 1;
 
+  // A bad tetrahedron by its squared radius-edge ratio; infinite if that cannot be computed.
+  struct Ranked {
+    double ratio2;
+    TetId t;
+    auto operator<=>(const Ranked&) const = default;
+  };
+
   void sort_level(std::size_t level);
+  double ratio2_of(TetId t) const;
+  TetId next_by_ratio();
 
   Tetrahedrization& dt_;
   const PointStore& points_;
@@ -68,6 +83,8 @@ class BadTetrahedra {
   std::size_t worst_ = 0;                                   // no level above has entries
   std::size_t sorted_ = 0;  // the lowest level that has been brought into spatial order
   std::vector<TetId> fresh_;
+  bool largest_ratio_first_;
+  std::vector<Ranked> heap_;  // the largest ratio in front
 };
 
 }  // namespace delmesher::refine

@@ -7,6 +7,7 @@
 
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/test_complexes.h"
+#include "mesher/refine/tetrahedron_shape.h"
 
 namespace delmesher::refine {
 
@@ -31,10 +32,10 @@ struct Cube {
   Limits limits;
   Control control{limits};
   Tetrahedrization dt{predicates};
-  BadTetrahedra bad{dt, points};
+  BadTetrahedra bad;
   std::vector<TetId> finite;
 
-  Cube() {
+  explicit Cube(bool largest_ratio_first = false) : bad(dt, points, largest_ratio_first) {
     std::vector<VertexId> vertices;
     for (int n = 0; n < 64; ++n) {
       vertices.push_back(points.add_explicit(n / 16, n / 4 % 4, n % 4));
@@ -67,6 +68,46 @@ TEST(BadTetrahedra, WorstFirst) {
   }
   std::sort(seen.begin(), seen.end());
   EXPECT_EQ(seen, cube.finite);
+}
+
+// The squared radius-edge ratio, of a circumcentre that solves its three equations.
+double squared_ratio(const Cube& cube, TetId t) {
+  TetrahedronShape s = shape_of(cube.points, cube.dt.vertices(t));
+  add_circumsphere(s);
+  for (const Vec3& p : s.p) {
+    const Vec3 d = subtract(p, s.center);
+    EXPECT_NEAR(dot(d, d), s.radius2, 1e-9 * s.radius2);
+  }
+  return s.radius2 / s.shortest2();
+}
+
+TEST(BadTetrahedra, LargestRatioFirstWhateverTheLevel) {
+  Cube cube(true);
+  // New vertices at irregular places give tetrahedra of many ratios, and leave dead ones.
+  for (const TetId t : cube.finite) cube.bad.add(t, 5);
+  for (const Vec3& at : {Vec3{1.25, 1.375, 1.4375}, Vec3{0.3125, 2.75, 1.0625}}) {
+    const VertexId p = cube.points.add_explicit(at[0], at[1], at[2]);
+    TetId start = 0;
+    while (!cube.dt.alive(start) || cube.dt.is_ghost(start)) ++start;
+    ASSERT_TRUE(cube.dt.insert(p, start));
+    cube.bad.add_fresh(cube.dt.created());
+  }
+  cube.bad.judge_fresh([&](TetId t) { return std::uint8_t(cube.dt.is_ghost(t) ? 0 : 1 + t % 9); });
+  EXPECT_NO_THROW(cube.bad.validate());
+  std::vector<double> ratios;
+  std::vector<TetId> seen, expected;
+  for (TetId t = cube.bad.next(); t != kNone; t = cube.bad.next()) {
+    ratios.push_back(squared_ratio(cube, t));
+    seen.push_back(t);
+    cube.bad.dismiss(t);
+  }
+  EXPECT_TRUE(std::is_sorted(ratios.rbegin(), ratios.rend()));
+  EXPECT_GT(ratios.front(), 2 * ratios.back());
+  for (TetId t = 0; t < cube.dt.capacity(); ++t) {
+    if (cube.dt.alive(t) && !cube.dt.is_ghost(t)) expected.push_back(t);
+  }
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(seen, expected);
 }
 
 // A level that is asked for the first time is in an order in which neighbours are near each other;

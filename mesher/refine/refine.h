@@ -35,7 +35,12 @@ enum class RefineStep : std::uint8_t {
 struct RefineOptions {
   double delta = 14.47;  // degrees
   bool slivers = true;
-  double max_edge = 0;               // 0: no bound
+  double max_edge = 0;  // 0: no bound
+  // Split the bad tetrahedron with the largest radius-edge ratio first (section 5.4); otherwise by
+  // levels of badness.
+  bool largest_ratio_first = false;
+  // Split at the circumcentre (section 5.6); otherwise at an off-centre where there is one.
+  bool circumcentres = false;
   Region region = Region::interior;  // where bad tetrahedra are split
   // Guard, a length in units of the input; 0: none. The features of the complex are a few hundred
   // times as long. A subsegment or volume edge below it means that acute corners split each other

@@ -352,6 +352,38 @@ TEST(Refine, SliverTreatmentRaisesTheSmallestDistanceOfOppositeEdges) {
 }
 
 // Segments are split at equal distances from an apex or at halves of them, whatever their lengths.
+// Section 5.6: each volume point is the circumcentre of the tetrahedron that it splits, but for the
+// grid, which is finer than a thousandth of the shortest edge. By default some are off-centres.
+TEST(Refine, CircumcentresIfAskedFor) {
+  const auto farthest = [](bool circumcentres) {
+    RefineOptions options;
+    options.circumcentres = circumcentres;
+    options.largest_ratio_first = circumcentres;
+    options.region = Region::hull;
+    options.want_balls = true;
+    options.validate = true;
+    Refinement r(prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0.0625), options);
+    EXPECT_GT(r.result.in_volume.size(), 5U);
+    double spread = 0;
+    for (std::size_t n = 0; n < r.result.in_volume.size(); ++n) {
+      const auto& ball = r.result.ball[n];
+      double smallest = HUGE_VAL, largest = 0, edge = HUGE_VAL;
+      for (const VertexId v : ball) {
+        const double d = distance(r.points.nearest(r.result.in_volume[n]), r.points.nearest(v));
+        smallest = std::min(smallest, d);
+        largest = std::max(largest, d);
+      }
+      for (const auto& e : kEdge) {
+        edge = std::min(edge, distance(r.points.nearest(ball[e[0]]), r.points.nearest(ball[e[1]])));
+      }
+      spread = std::max(spread, (largest - smallest) / edge);
+    }
+    return spread;
+  };
+  EXPECT_LT(farthest(true), 1.0 / 256);
+  EXPECT_GT(farthest(false), 1.0 / 16);
+}
+
 TEST(Refine, SegmentsAtAnApexAreSplitOnConcentricShells) {
   Surface surface = tent();
   surface.vertices[20] = {0.05, 0.03, 1.25};  // spokes of different lengths

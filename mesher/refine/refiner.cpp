@@ -23,7 +23,7 @@ Refiner::Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& po
       subfacets_(plc, points, dt_, subsegments_, options.gabriel),
       constraints_(dt_, subsegments_, subfacets_),
       sides_(plc, topology, points, dt_, subfacets_, options.removed),
-      bad_(dt_, points),
+      bad_(dt_, points, options.largest_ratio_first),
       goal_(options.delta, options.slivers, options.max_edge) {}
 
 void Refiner::drain() {

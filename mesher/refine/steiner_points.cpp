@@ -51,7 +51,8 @@ SteinerPoints::SteinerPoints(const Plc& plc, const SegmentFacets& segment_facets
       predicates_(predicates),
       shells_(plc, points, options.apex),
       locator_(topology, points),
-      runaway_length_(options.runaway_length) {}
+      runaway_length_(options.runaway_length),
+      circumcentres_(options.circumcentres) {}
 
 void SteinerPoints::guard(double squared_length, const Vec3& place) const {
   if (squared_length < runaway_length_ * runaway_length_) throw Runaway{place};
@@ -154,7 +155,7 @@ VolumeTargets SteinerPoints::in_tetrahedron(const VertexId* v, const Goal& goal)
     const Vec3 d = subtract(s.center, middle);
     const double far2 = dot(d, d);
     const double reach2 = kOffcentreFactor * kOffcentreFactor * goal.offcentre2() * s.shortest2();
-    if (reach2 < far2) add(add_scaled(middle, std::sqrt(reach2 / far2), d));
+    if (!circumcentres_ && reach2 < far2) add(add_scaled(middle, std::sqrt(reach2 / far2), d));
     add(s.center);
   }
   // The circumcentre of one too flat cannot be computed, but its centroid is inside the circumball.

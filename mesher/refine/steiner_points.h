@@ -73,6 +73,7 @@ class SteinerPoints {
   Shells shells_;
   FacetLocator locator_;
   double runaway_length_;
+  bool circumcentres_;
 };
 
 }  // namespace delmesher::refine

@@ -58,6 +58,7 @@ Options paper_options() {
   options.improve = false;
   options.slivers = true;
   options.planar = 0;
+  options.as_paper = {.order = true, .steiner_point = true};
   options.region = Region::hull;
   return options;
 }
@@ -70,6 +71,7 @@ Options plane_options() {
 
 Options paper_plane_options() {
   Options options = paper_options();
+  options.as_paper = {};
   options.delta = plane_options().delta;
   options.tau = 0;
   return options;

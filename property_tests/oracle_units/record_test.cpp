@@ -90,8 +90,15 @@ TEST(Promises, AreReadFromCommandLines) {
     EXPECT_EQ(p.acute, 90) << text;
     EXPECT_TRUE(p.gabriel) << text;
   }
-  for (const char* text : {"paper", "--preset", "mesh --preset", "--preset=", "--preset paperback",
-                           "--delta", "--delta=", "--delta=3x", "--nothing=3"}) {
+  for (const char* text :
+       {"--as-paper none", "--as-paper=order", "--as-paper steiner-point,order"}) {
+    EXPECT_EQ(parse_promise(text, p), "") << text;
+    EXPECT_EQ(p.acute, 60) << text;
+  }
+  for (const char* text :
+       {"paper", "--preset", "mesh --preset", "--preset=", "--preset paperback", "--delta",
+        "--delta=", "--delta=3x", "--nothing=3", "--as-paper", "--as-paper=", "--as-paper order,",
+        "--as-paper none,order", "--as-paper orders"}) {
     EXPECT_NE(parse_promise(text, p), "") << text;
   }
 }
