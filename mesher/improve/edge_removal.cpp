@@ -16,8 +16,10 @@ std::array<int, 2> opposite_edge(int i, int j) {
 
 }  // namespace
 
-bool EdgeRemoval::run(TetId t, int i, int j) {
-  if (!find_ring(t, state_.mesh.tet(t)[i], state_.mesh.tet(t)[j]) || !split_ring()) return false;
+bool EdgeRemoval::run(TetId t, int i, int j, std::span<const std::uint32_t> failed) {
+  a_ = state_.mesh.tet(t)[i];
+  b_ = state_.mesh.tet(t)[j];
+  if (!find_ring(t, failed) || !split_ring()) return false;
   least_ = state_.to_be_better(state_.worst_of(ring_));
   created_.clear();
   for (Polygon& polygon : polygons_) {
@@ -31,36 +33,35 @@ bool EdgeRemoval::run(TetId t, int i, int j) {
   return true;
 }
 
-// Collects what is around the edge from a to b, so that (a, b, vertex[n], vertex[n + 1]) is the
-// n-th tetrahedron. False if there is too much.
-bool EdgeRemoval::find_ring(TetId t, VertexId a, VertexId b) {
+// Finds what is around the edge. False if there is too much, or if the edge may not go or has been
+// tried.
+bool EdgeRemoval::find_ring(TetId t, std::span<const std::uint32_t> failed) {
+  if (!collect_ring(t, failed)) return false;
+  const bool closed = vertex_.size() == ring_.size();
+  if (closed) return ring_.size() >= 3;
+  const TetId first = beginning(t);
+  return first == t || (first != kNone && collect_ring(first, failed));
+}
+
+// From `first` on, so that (a, b, vertex[n], vertex[n + 1]) is the n-th tetrahedron.
+bool EdgeRemoval::collect_ring(TetId first, std::span<const std::uint32_t> failed) {
   const WorkMesh& mesh = state_.mesh;
-  a_ = a;
-  b_ = b;
-  // Back to the beginning of an open ring, if it is one.
-  TetId first = t;
-  for (int steps = 0;; ++steps) {
-    if (steps > kLongest) return false;
-    const auto [x, y] = opposite_edge(mesh.index_of(first, a), mesh.index_of(first, b));
-    const TetId previous = mesh.neighbor(first, y);
-    if (previous == t) {
-      first = t;
-      break;
-    }
-    if (previous == kNone) break;
-    first = previous;
-  }
+  const std::uint32_t unchanged = std::min(state_.changed_at(a_), state_.changed_at(b_));
   ring_.clear();
   vertex_.clear();
   facet_.clear();
-  for (TetId u = first;;) {
-    if (ring_.size() == kLongest) return false;
-    const auto [x, y] = opposite_edge(mesh.index_of(u, a), mesh.index_of(u, b));
+  FacetId only = kNone;
+  for (TetId u = first; u != first || ring_.empty();) {
+    if (ring_.size() == kLongest || (u < failed.size() && failed[u] > unchanged)) return false;
+    const auto [x, y] = opposite_edge(mesh.index_of(u, a_), mesh.index_of(u, b_));
+    const FacetId facet = mesh.facet(u, y);
+    // An edge between two facets stays.
+    if (facet != kNone && only != kNone && facet != only) return false;
+    if (facet != kNone) only = facet;
     ring_.push_back(u);
     vertex_.push_back(mesh.tet(u)[x]);
-    facet_.push_back(mesh.facet(u, y));
+    facet_.push_back(facet);
     const TetId next = mesh.neighbor(u, x);
-    if (next == first) return ring_.size() >= 3;
     if (next == kNone) {
       vertex_.push_back(mesh.tet(u)[y]);
       facet_.push_back(mesh.facet(u, x));
@@ -68,6 +69,19 @@ bool EdgeRemoval::find_ring(TetId t, VertexId a, VertexId b) {
     }
     u = next;
   }
+  return true;
+}
+
+// The first tetrahedron of an open ring; kNone if it is too far away.
+TetId EdgeRemoval::beginning(TetId t) const {
+  const WorkMesh& mesh = state_.mesh;
+  for (int steps = 0; steps <= kLongest; ++steps) {
+    const auto [x, y] = opposite_edge(mesh.index_of(t, a_), mesh.index_of(t, b_));
+    const TetId previous = mesh.neighbor(t, y);
+    if (previous == kNone) return t;
+    t = previous;
+  }
+  return kNone;
 }
 
 // Into the polygons between faces of the surface. False if the edge may not go.

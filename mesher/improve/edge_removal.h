@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesher/improve/state.h"
@@ -15,8 +16,11 @@ class EdgeRemoval {
  public:
   explicit EdgeRemoval(State& state) : state_(state) {}
 
-  // Removes edge i-j of t if that makes the worst tetrahedron of the ring better.
-  bool run(TetId t, int i, int j);
+  // Removes edge i-j of t if that makes the worst tetrahedron of the ring better. `failed`: per
+  // slot, the clock plus 1 when the edges of its tetrahedron had been tried; whatever tetrahedron
+  // of the ring they were tried from, there is no use in trying again before one of their ends
+  // changes.
+  bool run(TetId t, int i, int j, std::span<const std::uint32_t> failed);
 
  private:
   // The longest ring that is considered.
@@ -32,7 +36,9 @@ class EdgeRemoval {
     std::array<std::array<std::int8_t, kLongest + 1>, kLongest + 1> middle{};
   };
 
-  bool find_ring(TetId t, VertexId a, VertexId b);
+  bool find_ring(TetId t, std::span<const std::uint32_t> failed);
+  bool collect_ring(TetId first, std::span<const std::uint32_t> failed);
+  TetId beginning(TetId t) const;
   bool split_ring();
   bool triangulate(Polygon& polygon);
   void collect(const Polygon& polygon);

@@ -123,13 +123,12 @@ class Improvement {
 
   bool attempt(TetId t) {
     const Tet tet = state_.mesh.tet(t);
+    // The ring of an edge has changed only if there was a change at both of its ends.
     for (const auto& [i, j] : kEdge) {
-      // The ring of an edge has changed only if there was a change at both of its ends.
-      if (state_.changed_at(tet[i]) < tried_[t] || state_.changed_at(tet[j]) < tried_[t]) continue;
-      if (edges_.run(t, i, j)) return true;
+      if (edges_.run(t, i, j, tried_)) return true;
     }
     for (int i = 0; i < 4; ++i) {
-      if (faces_.run(t, i)) return true;
+      if (!face_failed(t, i) && faces_.run(t, i)) return true;
     }
     for (const VertexId v : tet) {
       if (smooth(v)) return true;
@@ -138,6 +137,12 @@ class Improvement {
       if (collapse(v)) return true;
     }
     return insert_ && insertion_.run(t);
+  }
+
+  // From the other side, and neither side has changed since.
+  bool face_failed(TetId t, int i) const {
+    const TetId u = state_.mesh.neighbor(t, i);
+    return u != kNone && u < tried_.size() && !changed_since(u, tried_[u]);
   }
 
   bool smooth(VertexId v) {
