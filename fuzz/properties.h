@@ -40,6 +40,10 @@ Finding recovery_holds(const delmesher::Surface& surface);
 // The plain constrained tetrahedrization passes the oracles.
 Finding cdt_holds(const delmesher::Surface& surface);
 
+// Improving the tetrahedrization of a surface and random points leaves positive tetrahedra that fit
+// together, all vertices of the surface, and no worse angles than its laws allow.
+Finding improvement_holds(const delmesher::Surface& surface);
+
 // No acute angle is left by chamfering, and chamfer distances obey their bound.
 Finding chamfer_holds(const delmesher::Surface& surface);
 

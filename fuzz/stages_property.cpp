@@ -11,6 +11,8 @@
 #include "mesher/chamfer/filter.h"
 #include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/enrich/enrichment.h"
+#include "mesher/improve/improve.h"
+#include "mesher/improve/quality.h"
 #include "mesher/predicates/box_tree.h"
 #include "property_tests/leniency.h"
 
@@ -119,16 +121,89 @@ void add_volume_points(const Surface& surface, Random& random, Stages& s,
   }
 }
 
+// The surface and random points in the volume.
+delmesher::cdt::CdtInput with_volume_points(const Surface& surface, Stages& s) {
+  delmesher::cdt::CdtInput input = delmesher::enrich::plain_input(s.topology);
+  Random random(surface.vertices.size() ^ std::bit_cast<std::uint64_t>(surface.vertices.back()[0]));
+  add_volume_points(surface, random, s, input);
+  return input;
+}
+
+std::vector<std::uint8_t> used_points(const delmesher::improve::ImproveMesh& mesh,
+                                      const Stages& s) {
+  std::vector<std::uint8_t> used(s.points.size(), 0);
+  for (const auto& t : mesh.tetrahedra) {
+    for (const auto v : t) used[v] = 1;
+  }
+  return used;
+}
+
+// Of the tetrahedra inside, as they will be written.
+delmesher::improve::Quality worst_inside(const delmesher::improve::ImproveMesh& mesh,
+                                         const Stages& s) {
+  delmesher::improve::Quality worst = delmesher::improve::kNotCounted;
+  for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
+    if (mesh.region[n] == delmesher::improve::kOutside) continue;
+    const auto& t = mesh.tetrahedra[n];
+    const auto at = [&](int i) { return s.points.nearest(t[i]); };
+    worst = worse(worst, delmesher::improve::quality(at(0), at(1), at(2), at(3)));
+  }
+  return worst;
+}
+
+// The faces fit, the tetrahedra are positive on exact coordinates, and no vertex of the surface is
+// lost.
+Finding is_sound(const delmesher::improve::ImproveMesh& mesh, Stages& s) {
+  for (const auto& t : mesh.tetrahedra) {
+    if (s.predicates.orient3d(t[0], t[1], t[2], t[3]) <= 0)
+      return "improve orientation: not positive";
+  }
+  const std::vector<std::uint8_t> used = used_points(mesh, s);
+  for (std::size_t v = 0; v < s.topology.vertex_half_edge.size(); ++v) {
+    if (used[v] == 0) return "improve vertices: one of the surface is in no tetrahedron";
+  }
+  delmesher::improve::WorkMesh(mesh.tetrahedra, mesh.region, mesh.boundary, s.points.size())
+      .validate();
+  return {};
+}
+
+float squared_sine(double degrees) {
+  return static_cast<float>(1 - delmesher::predicates::cosine_squared(degrees));
+}
+
 }  // namespace
+
+Finding improvement_holds(const Surface& surface) {
+  judging({&too_precise});
+  return guarded("improve", surface, [&]() -> Finding {
+    Stages s(surface);
+    const delmesher::cdt::CdtInput input = with_volume_points(surface, s);
+    const delmesher::cdt::CdtResult cdt =
+        constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
+    delmesher::improve::ImproveMesh given{
+        cdt.tetrahedra, {cdt.inside.begin(), cdt.inside.end()}, cdt.boundary};
+    const auto before = worst_inside(given, s);
+    const delmesher::improve::ImproveOptions options;
+    const auto result =
+        improve(std::move(given), &s.topology, {}, options, s.points, s.predicates, s.control);
+    if (Finding f = is_sound(result.mesh, s); !f.empty()) return f;
+    const auto after = worst_inside(result.mesh, s);
+    const float flattest = squared_sine(delmesher::improve::kFlattestDihedral);
+    if (after.dihedral < std::min(before.dihedral, flattest)) {
+      return "improve dihedral: flatter than before";
+    }
+    if (after.face < std::min(before.face, squared_sine(options.delta))) {
+      return "improve face angle: smaller than before";
+    }
+    return {};
+  });
+}
 
 Finding recovery_holds(const Surface& surface) {
   judging({&too_precise});
   return guarded("recovery", surface, [&]() -> Finding {
     Stages s(surface);
-    delmesher::cdt::CdtInput input = delmesher::enrich::plain_input(s.topology);
-    Random random(surface.vertices.size() ^
-                  std::bit_cast<std::uint64_t>(surface.vertices.back()[0]));
-    add_volume_points(surface, random, s, input);
+    delmesher::cdt::CdtInput input = with_volume_points(surface, s);
     input.validate = true;
     const delmesher::cdt::CdtResult result =
         constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
