@@ -22,7 +22,6 @@ namespace delmesher {
 
 inline constexpr double kPlanarAuto = -1;
 
-// Angles are degrees, lengths are in the units of the input. kBounds says which values make sense.
 // Where the default departs from what the paper says: true takes the paper's way. Each is a choice
 // of its own (docs/paper.md), and none of them changes what is guaranteed.
 struct AsPaper {
@@ -34,6 +33,7 @@ struct AsPaper {
   bool steiner_point = false;
 };
 
+// Angles are degrees, lengths are in the units of the input. kBounds says which values make sense.
 struct Options : Limits {
   // Every face angle of the refined mesh is at least this (degrees, section 5.4). 14.47 is a
   // radius-edge ratio of 2; above it the bound is best effort and insertions are capped.
