@@ -284,6 +284,10 @@ class Distribution {
   const ExactPoints& points_;
 };
 
+// The edges of a tetrahedron, each with the one opposite.
+constexpr int kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
+                              {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
+
 struct Mean {
   double sum = 0;
   std::uint64_t count = 0;
@@ -347,8 +351,6 @@ class AngleMeasure {
 
   // Returns the smallest one.
   double add_dihedrals(const RoughTet& rough, const Tet& t) {
-    static constexpr int kEdges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
-                                         {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
     double low = 180, high = 0;
     for (const auto& [a, b, c, d] : kEdges) {
       const double angle =
@@ -401,6 +403,37 @@ int angle_bin(const ExactNumber& dot_product, const ExactNumber& norms) {
   }
   while (k < 5 && beyond[k] < 0) ++k;  // 180 - a > 15 (k + 1)
   return kBins - 1 - k;
+}
+
+WorstAngles worst_angles(const ExactPoints& points, const Tet& t) {
+  RoughTet rough(points, t);
+  rough.find_normals();
+  // Of the certain ones only the largest cotangents have to become angles.
+  double face_cotangent = -HUGE_VAL, dihedral_cotangent = -HUGE_VAL;
+  WorstAngles worst;
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (const RoughTet::Angle angle = rough.face_angle(i, k); angle.certain()) {
+        face_cotangent = std::max(face_cotangent, angle.cosine / angle.sine);
+        continue;
+      }
+      const Face f = face_of(t, i);
+      const auto parts = FaceAngle{f[k], f[(k + 1) % 3], f[(k + 2) % 3]}.exactly(points);
+      worst.face = std::min(worst.face, exact_angle(parts.sine_squared, parts.cosine));
+    }
+  }
+  for (const auto& [a, b, c, d] : kEdges) {
+    if (const RoughTet::Angle angle = rough.dihedral_angle(a, b, c, d); angle.certain()) {
+      dihedral_cotangent = std::max(dihedral_cotangent, std::fabs(angle.cosine) / angle.sine);
+      continue;
+    }
+    const auto parts = DihedralAngle{t[a], t[b], t[c], t[d]}.exactly(points);
+    worst.dihedral = std::min(worst.dihedral, exact_angle(parts.sine_squared, abs(parts.cosine)));
+  }
+  const auto angle_of = [](double cotangent) { return std::atan2(1.0, cotangent) * kDegrees; };
+  worst.face = std::min(worst.face, angle_of(face_cotangent));
+  worst.dihedral = std::min(worst.dihedral, angle_of(dihedral_cotangent));
+  return worst;
 }
 
 void measure_angles(const TetComplex& complex, const Neighbours& neighbours,

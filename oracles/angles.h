@@ -27,6 +27,13 @@ OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbour
 void measure_angles(const TetComplex& complex, const Neighbours& neighbours,
                     const std::vector<std::uint8_t>& selected, OracleReport& report);
 
+// The smallest face angle of a tetrahedron that is not flat, and the smallest of its dihedral
+// angles and of what these lack of 180 degrees; in degrees, to a relative 1e-9.
+struct WorstAngles {
+  double face = 180, dihedral = 180;
+};
+WorstAngles worst_angles(const ExactPoints& points, const Tet& tet);
+
 // The angle in degrees, correct to a few roundings. Sine and cosine may have a common positive
 // factor; the sine is given squared, and so is its factor.
 double exact_angle(const ExactNumber& sine_squared, const ExactNumber& cosine);

@@ -14,14 +14,6 @@ namespace {
 using delmesher::ExactPoint;
 using delmesher::ExactRecord;
 
-std::vector<std::uint8_t> used_in(const std::vector<ExactRecord::Tet>& tets, std::size_t points) {
-  std::vector<std::uint8_t> used(points);
-  for (const ExactRecord::Tet& tet : tets) {
-    for (const Index v : tet.vertices) used[v] = 1;
-  }
-  return used;
-}
-
 bool lies_on_surface(const ExactPoints& points, const InputSurface& surface, Index v) {
   std::vector<Index> found;
   surface.triangles_near(box_around(points, std::array{v}), found);
@@ -248,188 +240,14 @@ class Enrichment {
   OracleReport report_{"enrichment", "vertices of both meshes"};
 };
 
-// --- repairs
-
-// The nearest doubles of a point without denominators, as all written points are.
-Position rounded(const ExactPoints& points, Index v) {
-  Position result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const mpz_class& x = points.exact(v)[axis].numerator();
-    const std::size_t bits = x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2);
-    if (bits <= 53) {
-      result[axis] = to_double(x, points.exponent());
-      continue;
-    }
-    // Adding half of the last place before truncation rounds to nearest.
-    mpz_class half;
-    mpz_ui_pow_ui(half.get_mpz_t(), 2, bits - 54);
-    result[axis] = to_double(x > 0 ? mpz_class(x + half) : mpz_class(x - half), points.exponent());
-  }
-  return result;
-}
-
-ExactPoints all_rounded(const ExactPoints& points) {
-  std::vector<Position> nearest(points.size());
-  for (Index v = 0; v < points.size(); ++v) nearest[v] = rounded(points, v);
-  ExactPoints doubles;
-  doubles.assign(nearest);
-  return doubles;
-}
-
-class Repairs {
- public:
-  Repairs(const ExactRecord& record, const ExactPoints& points, const Promise& promise)
-      : record_(record), points_(points), all_(promise.region == delmesher::Region::hull) {}
-
-  OracleReport run() {
-    // Repairs take out points up to three edges away, and in turn repair the tetrahedra which that
-    // disturbs.
-    constexpr int kReach = 8;
-    check_vertices();
-    find_defects();
-    const std::vector<Tet> before = sorted(record_.unrepaired), after = sorted(record_.final);
-    std::vector<Tet> changed;
-    std::set_difference(before.begin(), before.end(), after.begin(), after.end(),
-                        std::back_inserter(changed));
-    report_.checked += before.size();
-    report_.figures.emplace_back("tetrahedra changed", static_cast<double>(changed.size()));
-    report_.figures.emplace_back("not positive on doubles", static_cast<double>(defects_));
-    spread(kReach);
-    int farthest = 0;
-    for (const Tet& tet : changed) {
-      int nearest = kReach + 1;
-      for (const Index v : tet) nearest = std::min<int>(nearest, ring_[v]);
-      farthest = std::max(farthest, nearest);
-      if (nearest > kReach) {
-        report_.fail("tetrahedron (" + std::to_string(tet[0]) + " " + std::to_string(tet[1]) + " " +
-                     std::to_string(tet[2]) + " " + std::to_string(tet[3]) +
-                     ") was changed far from all that doubles are too coarse for");
-      }
-    }
-    report_.figures.emplace_back("edges from there", farthest);
-    return std::move(report_);
-  }
-
- private:
-  static std::vector<Tet> sorted(const std::vector<ExactRecord::Tet>& tets) {
-    std::vector<Tet> list;
-    list.reserve(tets.size());
-    for (const ExactRecord::Tet& tet : tets) {
-      list.push_back(tet.vertices);
-      std::sort(list.back().begin(), list.back().end());
-    }
-    std::sort(list.begin(), list.end());
-    return list;
-  }
-
-  void check_vertices() {
-    const std::vector<std::uint8_t> before = used_in(record_.unrepaired, points_.size()),
-                                    after = used_in(record_.final, points_.size());
-    for (Index v = 0; v < points_.size(); ++v) {
-      report_.checked += after[v];
-      if (after[v] != 0 && before[v] == 0) {
-        report_.fail("vertex " + std::to_string(v) + " came with the repairs");
-      }
-    }
-  }
-
-  void find_defects() {
-    const ExactPoints doubles = all_rounded(points_);
-    ring_.assign(points_.size(), kFar);
-    for (const ExactRecord::Tet& tet : record_.unrepaired) {
-      if (!all_ && !tet.inside) continue;
-      const auto& [a, b, c, d] = tet.vertices;
-      if (exact::orient3d(doubles, a, b, c, d) > 0) continue;
-      ++defects_;
-      for (const Index v : tet.vertices) ring_[v] = 0;
-    }
-  }
-
-  // Finds how many edges every vertex is from the nearest defect.
-  void spread(int reach) {
-    for (std::uint8_t ring = 1; ring <= reach; ++ring) {
-      for (const ExactRecord::Tet& tet : record_.unrepaired) {
-        const bool touched = std::any_of(tet.vertices.begin(), tet.vertices.end(),
-                                         [&](Index v) { return ring_[v] == ring - 1; });
-        if (!touched) continue;
-        for (const Index v : tet.vertices) ring_[v] = std::min(ring_[v], ring);
-      }
-    }
-  }
-
-  static constexpr std::uint8_t kFar = 255;
-  const ExactRecord& record_;
-  const ExactPoints& points_;
-  bool all_;
-  std::vector<std::uint8_t> ring_;
-  std::uint64_t defects_ = 0;
-  OracleReport report_{"repairs", "vertices and tetrahedra"};
-};
-
-// --- improvement
-
-// The smallest face angle of a part of a mesh, and the smallest of its dihedral angles and of what
-// these lack of 180 degrees.
-struct WorstAngles {
-  double face = 180, dihedral = 180;
-};
-
-WorstAngles worst_angles(const std::vector<ExactRecord::Tet>& tets, const ExactPoints& points,
-                         bool all) {
-  TetComplex complex;
-  complex.points = &points;
-  for (const ExactRecord::Tet& tet : tets) {
-    if (all || tet.inside) complex.tetrahedra.push_back(tet.vertices);
-  }
-  const Neighbours nobody{std::vector<Index>(4 * complex.tetrahedra.size(), kNone)};
-  const std::vector<std::uint8_t> selected(complex.tetrahedra.size(), 1);
-  OracleReport measured("angles");
-  measure_angles(complex, nobody, selected, measured);
-  WorstAngles worst;
-  for (const auto& [name, value] : measured.figures) {
-    if (name == "smallest face angle") worst.face = value;
-    if (name == "smallest dihedral angle") worst.dihedral = std::min(worst.dihedral, value);
-    if (name == "largest dihedral angle") worst.dihedral = std::min(worst.dihedral, 180 - value);
-  }
-  return worst;
-}
-
 }  // namespace
 
-OracleReport check_improvement(const ExactRecord& record, const ExactPoints& points,
-                               const Promise& promise) {
-  constexpr double kSlack = 1 - 1e-6;
-  OracleReport report("improvement", "tetrahedra");
-  const bool all = promise.region == delmesher::Region::hull;
-  const ExactPoints doubles = all_rounded(points);
-  std::uint64_t defects = 0;
-  for (const ExactRecord::Tet& tet : record.unrepaired) {
-    const auto& [a, b, c, d] = tet.vertices;
-    if ((all || tet.inside) && exact::orient3d(doubles, a, b, c, d) <= 0) ++defects;
+std::vector<std::uint8_t> used_in(const std::vector<ExactRecord::Tet>& tets, std::size_t points) {
+  std::vector<std::uint8_t> used(points);
+  for (const ExactRecord::Tet& tet : tets) {
+    for (const Index v : tet.vertices) used[v] = 1;
   }
-  const WorstAngles before = worst_angles(record.unrepaired, doubles, all),
-                    after = worst_angles(record.final, doubles, all);
-  report.checked = record.final.size();
-  report.promised = defects == 0;
-  report.figures = {{"smallest face angle before", before.face},
-                    {"after", after.face},
-                    {"flattest dihedral angle before", before.dihedral},
-                    {"after", after.dihedral},
-                    {"tetrahedra before", static_cast<double>(record.unrepaired.size())},
-                    {"not positive on doubles", static_cast<double>(defects)}};
-  if (defects > 0) return report;
-  const auto keeps = [](double now, double then, double promised) {
-    return now >= std::min(then, promised) * kSlack;
-  };
-  if (!keeps(after.face, before.face, promise.guaranteed_delta())) {
-    report.fail("the smallest face angle became " + std::to_string(after.face) + " degrees, from " +
-                std::to_string(before.face));
-  }
-  if (!keeps(after.dihedral, before.dihedral, kImprovedDihedral)) {
-    report.fail("the flattest dihedral angle became " + std::to_string(after.dihedral) +
-                " degrees, from " + std::to_string(before.dihedral));
-  }
-  return report;
+  return used;
 }
 
 OracleReport check_enrichment(const RefinedMesh& mesh) {
@@ -451,11 +269,6 @@ OracleReport check_origins(const ExactRecord& record, const ExactPoints& points,
   }
   report.figures.emplace_back("new on the surface", static_cast<double>(fresh));
   return report;
-}
-
-OracleReport check_repairs(const ExactRecord& record, const ExactPoints& points,
-                           const Promise& promise) {
-  return Repairs(record, points, promise).run();
 }
 
 }  // namespace tetproof::oracles

@@ -1,6 +1,9 @@
 // The refined mesh and the final one belong together (section 6).
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "oracles/refinement.h"
 
 namespace tetproof::oracles {
@@ -16,22 +19,9 @@ namespace tetproof::oracles {
 //   bound all the same.
 OracleReport check_enrichment(const RefinedMesh& mesh);
 
-// Of the final mesh after repairs of rounding: no vertex is new, and each changed tetrahedron is at
-// most 8 edges away from one that is not positive on the nearest doubles. A record without a
-// refined mesh can be asked as well.
-OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoints& points,
-                           const Promise& promise);
-
-// Of an improved mesh (--improve): in the region, neither the smallest face angle nor the flattest
-// dihedral angle, the one whose sine is the smallest, is worse than in the constrained Delaunay
-// mesh that it was made from, as far as they are below what is promised: the bound on face angles,
-// and kImprovedDihedral degrees. Measured on the nearest doubles, where the improvement weighs its
-// steps, by doubles with a relative slack of 1e-6. Not decided, only counted, if the mesh before
-// has tetrahedra that are not positive there: repairs of rounding may then have changed it once
-// more.
-inline constexpr double kImprovedDihedral = 17;
-OracleReport check_improvement(const delmesher::ExactRecord& record, const ExactPoints& points,
-                               const Promise& promise);
+// Per point: is it a corner of some of these tetrahedra?
+std::vector<std::uint8_t> used_in(const std::vector<delmesher::ExactRecord::Tet>& tets,
+                                  std::size_t points);
 
 // Of a plain constrained Delaunay tetrahedrization: every vertex is an input vertex or exactly on
 // the surface. No other step gives it points, and none may widen the hull.

@@ -12,6 +12,7 @@
 #include "oracles/enrichment.h"
 #include "oracles/filter.h"
 #include "oracles/hull.h"
+#include "oracles/local_operations.h"
 #include "oracles/parallel.h"
 #include "oracles/places.h"
 #include "oracles/refinement.h"

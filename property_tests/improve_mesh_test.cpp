@@ -12,7 +12,7 @@
 #include <set>
 
 #include "mesher/delmesher.h"
-#include "oracles/enrichment.h"
+#include "oracles/local_operations.h"
 #include "oracles/mesh_file.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"

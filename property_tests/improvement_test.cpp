@@ -7,7 +7,7 @@
 #include <map>
 
 #include "mesher/delmesher.h"
-#include "oracles/enrichment.h"
+#include "oracles/local_operations.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
@@ -138,10 +138,9 @@ std::vector<std::size_t> inner(const ExactRecord& record) {
 }
 
 // A point close to a face of an inner tetrahedron splits it in file and record: all stay positive.
-void add_flat_split(Told& run) {
+void flatten(Told& run, std::size_t n) {
   ExactPoints points;
   points.assign(run.record.points);
-  const std::size_t n = inner(run.record).front();
   const ExactRecord::Tet tet = run.record.final[n];
   Position x{};
   const double weight[4] = {0.334, 0.333, 0.3329, 0.0001};
@@ -186,6 +185,10 @@ void add_flat_split(Told& run) {
       run.sample.mesh.regions.push_back(region);
     }
   }
+}
+
+void add_flat_split(Told& run) {
+  flatten(run, inner(run.record).front());
 }
 
 const Lie kLies[] = {
@@ -250,18 +253,120 @@ TEST(Improvement, LiesAboutItAreCaught) {
   }
 }
 
-// Tetrahedra before that are not positive on doubles: nobody can tell what repairs did after that.
-TEST(Improvement, IsOnlyCountedWhereRoundingMayHaveInterfered) {
-  Told told = honest();
-  auto& before = told.record.unrepaired;
-  const auto flipped = std::find_if(before.begin(), before.end(), [](auto& t) { return t.inside; });
-  std::swap(flipped->vertices[0], flipped->vertices[1]);
-  add_flat_split(told);
+// A bar of many cubes in a row.
+delmesher::Surface bar(int length) {
+  delmesher::Surface s;
+  for (int x = 0; x <= length; ++x) {
+    for (const auto& [y, z] :
+         {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
+      s.vertices.push_back(
+          {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+    }
+  }
+  const auto quad = [&s](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    s.triangles.insert(s.triangles.end(), {{a, b, c}, {a, c, d}});
+  };
+  quad(0, 3, 2, 1);
+  for (int x = 0; x < length; ++x) {
+    const auto here = static_cast<std::uint32_t>(4 * x);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t j = (i + 1) % 4;
+      quad(here + i, here + j, here + 4 + j, here + 4 + i);
+    }
+  }
+  const auto last = static_cast<std::uint32_t>(4 * length);
+  quad(last, last + 1, last + 2, last + 3);
+  return s;
+}
+
+double along_bar(const ExactRecord& record, const ExactRecord::Tet& tet) {
+  double x = 0;
+  for (const Index v : tet.vertices) {
+    if (v < record.points.size()) x += record.points[v].x / 4;
+  }
+  return x;
+}
+
+// Whoever makes doubles too coarse at one place is allowed nothing at another.
+TEST(Improvement, IsNotExcusedByRoundingElsewhere) {
+  Options options;
+  options.improve = false;  // the mesh before and after is the same
+  const Told plain = run_of(bar(40), options);
+  ASSERT_TRUE(plain.record.unrepaired.empty());
+  const auto judged = [&plain](double defect_at, double flat_at) {
+    Told told = plain;
+    told.promise.improve = true;
+    ExactRecord& r = told.record;
+    r.unrepaired = r.final;
+    r.unrepaired_facets = r.final_facets;
+    const auto at = [&r](std::vector<ExactRecord::Tet>& tets, double x) {
+      return std::find_if(tets.begin(), tets.end(), [&r, x](const auto& tet) {
+        return tet.inside && std::fabs(along_bar(r, tet) - x) < 1;
+      });
+    };
+    const auto defect = at(r.unrepaired, defect_at);
+    EXPECT_NE(defect, r.unrepaired.end());
+    std::swap(defect->vertices[0], defect->vertices[1]);
+    const auto flat = at(r.final, flat_at);
+    EXPECT_NE(flat, r.final.end());
+    flatten(told, static_cast<std::size_t>(flat - r.final.begin()));
+    ExactPoints points;
+    points.assign(r.points);
+    return check_improvement(r, points, told.promise);
+  };
+  const OracleReport near = judged(2, 3), far = judged(2, 36);
+  EXPECT_TRUE(near.promised && near.passed()) << near.findings.at(0);
+  EXPECT_FALSE(far.passed());
+}
+
+// A worst tetrahedron that was there before allows no other one as bad at another place.
+TEST(Improvement, IsNotExcusedByWhatIsAsBadElsewhere) {
+  Options options;
+  options.improve = false;
+  Told told = run_of(bar(40), options);
+  told.promise.improve = true;
+  ExactRecord& r = told.record;
+  const auto at = [&r](double x) {
+    const auto found = std::find_if(r.final.begin(), r.final.end(), [&r, x](const auto& tet) {
+      return tet.inside && std::fabs(along_bar(r, tet) - x) < 1;
+    });
+    return static_cast<std::size_t>(found - r.final.begin());
+  };
+  ExactPoints points;
+  flatten(told, at(2));
+  r.unrepaired = r.final;
+  r.unrepaired_facets = r.final_facets;
+  points.assign(r.points);
+  EXPECT_TRUE(check_improvement(r, points, told.promise).passed());
+  flatten(told, at(36));
+  points.assign(r.points);
+  EXPECT_FALSE(check_improvement(r, points, told.promise).passed());
+}
+
+// The refined mesh keeps the promise, the improvement has made longer edges.
+TEST(Improvement, MakesNoEdgeLongerThanPromised) {
+  Told told = run_of(ball(3));
+  ASSERT_FALSE(told.record.unrepaired.empty());
   ExactPoints points;
   points.assign(told.record.points);
-  const OracleReport report = check_improvement(told.record, points, told.promise);
-  EXPECT_FALSE(report.promised);
-  EXPECT_TRUE(report.passed());
+  const auto longest = [&points](const std::vector<ExactRecord::Tet>& tets) {
+    double result = 0;
+    for (const ExactRecord::Tet& tet : tets) {
+      if (!tet.inside) continue;
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < i; ++j) {
+          result = std::max(result, exact::distance(points, tet.vertices[i], tet.vertices[j]));
+        }
+      }
+    }
+    return result;
+  };
+  const double before = longest(told.record.unrepaired), after = longest(told.record.final);
+  ASSERT_GT(after, 1.001 * before);
+  told.promise.max_edge = 1.001 * before;
+  EXPECT_FALSE(check_improvement(told.record, points, told.promise).passed());
+  told.promise.max_edge = 1.001 * after;
+  EXPECT_TRUE(check_improvement(told.record, points, told.promise).passed());
 }
 
 }  // namespace

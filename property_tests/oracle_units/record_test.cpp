@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "oracles/enrichment.h"
+#include "oracles/local_operations.h"
 #include "oracles/promise.h"
 #include "oracles/same_mesh.h"
 #include "oracles/sidecar.h"

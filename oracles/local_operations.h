@@ -1,0 +1,34 @@
+// What local operations made of the constrained Delaunay mesh: the improvement, and repairs of
+// rounding.
+#pragma once
+
+#include "oracles/enrichment.h"
+
+namespace tetproof::oracles {
+
+// How many edges away from a cause its effects may be: repairs take out points up to three edges
+// away, and in turn repair the tetrahedra which that disturbs; operations of the improvement follow
+// one on another.
+inline constexpr int kOperationsReach = 8;
+
+// Of a mesh that was not improved (--improve off), after repairs of rounding: no vertex is new, and
+// each changed tetrahedron is at most kOperationsReach edges away from one that is not positive on
+// the nearest doubles. A record without a refined mesh can be asked as well.
+OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoints& points,
+                           const Promise& promise);
+
+// Of an improved mesh (--improve), in the region: where a face angle is below the promised bound,
+// or a dihedral angle flatter than kImprovedDihedral degrees (of the angle and what it lacks of 180
+// degrees, the smaller), a tetrahedron at least as bad was there before, at most kOperationsReach
+// edges away along edges of either mesh; so neither the smallest nor the flattest one becomes
+// worse, and nothing bad is made where all was good. One that was not positive on the nearest
+// doubles counts as flat, as repairs of rounding may follow there. No edge longer than --max-edge
+// is new.
+//
+// Measured on the nearest doubles, where the improvement weighs its steps, by doubles with a
+// relative slack of 1e-6.
+inline constexpr double kImprovedDihedral = 17;
+OracleReport check_improvement(const delmesher::ExactRecord& record, const ExactPoints& points,
+                               const Promise& promise);
+
+}  // namespace tetproof::oracles
