@@ -45,6 +45,7 @@ void GroupPlanes::fit(std::uint32_t group) {
   PlaneFit sum(surface_.vertices());
   p.area = 0;
   for (const std::uint32_t t : grown.triangles) {
+    control_.poll();
     sum.add(surface_.triangles()[t]);
     p.area += surface_.size(t);
   }
@@ -66,8 +67,10 @@ void GroupPlanes::fit(std::uint32_t group) {
 }
 
 bool GroupPlanes::all_on(const PlaneEquation& plane, const std::vector<VertexId>& list) const {
-  return std::ranges::all_of(list,
-                             [&](VertexId v) { return exactly_on(plane, surface_.vertices()[v]); });
+  return std::ranges::all_of(list, [&](VertexId v) {
+    control_.poll();
+    return exactly_on(plane, surface_.vertices()[v]);
+  });
 }
 
 std::uint32_t GroupPlanes::largest_triangle(std::uint32_t group) const {
@@ -108,6 +111,7 @@ void GroupPlanes::share() {
   }
   DisjointSets same(planes_.size());
   for (const std::vector<std::uint32_t>& at : planes_at_) {
+    control_.poll();
     for (std::size_t i = 0; i < at.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         if (same.find(at[i]) != same.find(at[j]) && one_plane(at[i], at[j])) {
@@ -162,8 +166,10 @@ bool GroupPlanes::one_plane(std::uint32_t g, std::uint32_t h) const {
   if (!(std::fabs(side) > 0.5)) return false;
   const double noise = std::min(growth_.groups()[g].noise, growth_.groups()[h].noise);
   const auto on = [&](const Fit& fit, std::uint32_t other) {
-    return std::ranges::all_of(growth_.groups()[other].triangles,
-                               [&](std::uint32_t t) { return growth_.within(t, fit, noise); });
+    return std::ranges::all_of(growth_.groups()[other].triangles, [&](std::uint32_t t) {
+      control_.poll();
+      return growth_.within(t, fit, noise);
+    });
   };
   return on(a, h) && on(b, g);
 }
@@ -173,6 +179,7 @@ bool GroupPlanes::spread_moves() {
   for (bool again = true; again;) {
     again = false;
     for (VertexId v = 0; v < planes_at_.size(); ++v) {
+      control_.poll();
       if (!must_move(v)) continue;
       for (const std::uint32_t g : planes_at_[v]) {
         if (planes_[g].lent_state != State::planar) continue;
@@ -196,6 +203,7 @@ bool GroupPlanes::relieve_vertices() {
   for (bool again = true; again;) {
     again = false;
     for (VertexId v = 0; v < planes_at_.size(); ++v) {
+      control_.poll();
       if (planes_at_[v].size() <= 3 || is_stuck[v] != 0 || !must_move(v)) continue;
       if (pin_all(v, sharing)) {
         again = true;
@@ -237,6 +245,7 @@ void GroupPlanes::make_room(const std::vector<VertexId>& stuck) {
   };
   std::map<std::uint32_t, Candidate> candidates;
   for (const VertexId v : stuck) {
+    control_.poll();
     for (const std::uint32_t g : planes_at_[v]) {
       Candidate& candidate = candidates[g];
       candidate.at.push_back(v);
@@ -256,6 +265,7 @@ void GroupPlanes::make_room(const std::vector<VertexId>& stuck) {
   };
   for (const auto& [g, candidate] : candidates) push(g);
   while (!best.empty()) {
+    control_.poll();
     const auto [gain, g] = best.top();
     best.pop();
     // Gains only become smaller: what is still the best is so.
@@ -281,6 +291,7 @@ bool GroupPlanes::pin(VertexId v, std::uint32_t g, const std::vector<std::uint32
   const Fit fit = rough(lent.plane);
   const bool near = std::ranges::all_of(sharing, [&](std::uint32_t other) {
     return std::ranges::all_of(growth_.groups()[other].triangles, [&](std::uint32_t t) {
+      control_.poll();
       return growth_.within(t, fit, 2 * growth_.groups()[other].noise);
     });
   });

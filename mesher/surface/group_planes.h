@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesher/base/control.h"
 #include "mesher/predicates/points.h"
 #include "mesher/surface/planar_growth.h"
 
@@ -20,8 +21,8 @@ Fit rough(const PlaneEquation& plane);
 // PlanarGrowth::detach().
 class GroupPlanes {
  public:
-  GroupPlanes(MeasuredSurface& surface, PlanarGrowth& growth)
-      : surface_(surface), growth_(growth) {}
+  GroupPlanes(MeasuredSurface& surface, PlanarGrowth& growth, Control& control)
+      : surface_(surface), growth_(growth), control_(control) {}
 
   // The plane that fits the triangles of each group, which loses those that are too far from it.
   // False if no vertex has to move for any of them.
@@ -88,6 +89,7 @@ class GroupPlanes {
 
   MeasuredSurface& surface_;
   PlanarGrowth& growth_;
+  Control& control_;
   std::vector<Plane> planes_;                          // per group
   std::vector<std::uint32_t> plane_of_;                // group -> the one whose plane it shares
   std::vector<std::vector<std::uint32_t>> planes_at_;  // vertex -> planes, as such groups

@@ -32,7 +32,7 @@ class StandInBuilder {
         control_(control),
         surface_(surface),
         growth_(surface_, noise, roundings(surface), control),
-        planes_(surface_, growth_) {}
+        planes_(surface_, growth_, control) {}
 
   StandIn build() {
     if (!growth_.any_nearly_flat()) return {};
@@ -72,6 +72,7 @@ class StandInBuilder {
       return number[g];
     };
     for (VertexId v = 0; v < vertices_.size(); ++v) {
+      control_.poll();
       if (planes_.planes_at(v).empty() || !planes_.must_move(v)) continue;
       std::array<std::uint32_t, 3>& planes = stand_in_.planes_of[v];
       std::vector<Vec3> normals;
@@ -113,6 +114,7 @@ class StandInBuilder {
     PointStore points;
     add_vertices(given_, stand_in_, points);
     for (VertexId v = 0; v < vertices_.size(); ++v) {
+      control_.poll();
       if (points.is_explicit(v)) continue;
       const double moved = distance(points.nearest(v), vertices_[v]);
       if (!(moved <= kShareOfEdge * shortest_edge(v))) good = !planes_.release(v) && good;
@@ -144,6 +146,7 @@ class StandInBuilder {
     std::vector<std::uint32_t> turned, flat;
     projections_.assign(triangles_.size(), {});
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      control_.poll();
       if (!in_group(t)) {
         projections_[t] = find_projection(predicates, triangles_[t]);
         if (projections_[t].sign == 0) flat.push_back(t);
@@ -228,6 +231,7 @@ class StandInBuilder {
       const auto [a, b, c] = flat_[growth_.groups()[g].triangles.front()];
       std::vector<std::uint32_t> off;
       for (const std::uint32_t t : growth_.groups()[g].triangles) {
+        control_.poll();
         const bool on = std::ranges::all_of(flat_[t], [&, a = a, b = b, c = c](VertexId v) {
           return predicates.orient3d(a, b, c, v) == 0;
         });

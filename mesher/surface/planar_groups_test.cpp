@@ -12,6 +12,7 @@
 #include "mesher/base/control.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/surface/flatness.h"
+#include "mesher/surface/group_planes.h"
 #include "mesher/surface/planar_growth.h"
 #include "mesher/surface/test_surfaces.h"
 #include "mesher/surface/topology.h"
@@ -491,6 +492,28 @@ TEST(PlanarGroups, AnEdgeShorterThanTheNoiseCostsItsOwnTrianglesAlone) {
       }));
   EXPECT_GT(g.facets(), 6U);
   EXPECT_LE(g.facets(), 6U + at_its_ends);
+}
+
+// Every step goes over all vertices, so each consults the caller many times on a surface of many.
+TEST(PlanarGroups, EveryStepOfThePlanesCanBeStopped) {
+  const Surface s = in_single_precision(rotated(box({0, 0, 0}, {1, 2, 3}, 8)));
+  bool go_on = true;
+  Limits limits;
+  limits.progress = [&](const Progress&) { return go_on; };
+  Control control{limits};
+  MeasuredSurface surface(s);
+  PlanarGrowth growth(surface, 1e-6, 1e-16, control);
+  growth.grow_all();
+  GroupPlanes planes(surface, growth, control);
+  const std::vector<std::function<void()>> steps = {[&] { planes.fit(); }, [&] { planes.share(); },
+                                                    [&] { planes.spread_moves(); },
+                                                    [&] { planes.relieve_vertices(); }};
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    go_on = false;
+    EXPECT_THROW(steps[i](), Stopped) << "step " << i;
+    go_on = true;
+    steps[i]();
+  }
 }
 
 }  // namespace
