@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,11 +25,16 @@ enum class ReadCode : std::uint8_t {
   stopped  // ReadOptions::go_on said no
 };
 
+// What labels are called in files; the mesher knows their numbers alone. A label need not have a
+// name.
+using LabelNames = std::map<std::int32_t, std::string>;
+
 struct ReadResult {
   ReadCode code = ReadCode::ok;
   std::string error;  // "file:line: reason", "file: byte N: reason" or "file: reason"
   Surface surface;
-  std::string format;                               // "OFF", "OBJ", "STL", "PLY", "smesh", "poly"
+  LabelNames names;    // solids of an STL, materials, groups or objects of an OBJ, if several
+  std::string format;  // "OFF", "OBJ", "STL", "PLY", "smesh", "poly"
   std::vector<std::string> warnings;                // what the user should know
   std::vector<std::string> notes;                   // what a log may tell
   std::vector<std::array<std::uint32_t, 2>> lines;  // ReadOptions::planar: edges of polylines
@@ -64,6 +70,7 @@ struct MeshReadResult {
   ReadCode code = ReadCode::ok;
   std::string error;  // "file:line: reason" or "file: reason"
   TetMesh mesh;
+  LabelNames names;    // of physical groups, in .msh
   std::string format;  // "MEDIT", "Gmsh", "VTU", "TetGen", "tet"
   bool ok() const { return code == ReadCode::ok; }
 };
@@ -73,6 +80,16 @@ struct MeshReadResult {
 // in range and coordinates are finite; whether the mesh is conforming is for improve_mesh() to say.
 // `go_on`: ReadOptions::go_on.
 MeshReadResult read_mesh(const std::string& path, const std::function<bool()>& go_on = {});
+
+struct NamesResult {
+  std::string error;  // "file:line: reason" or "file: reason"; empty if read
+  LabelNames names;
+  bool ok() const { return error.empty(); }
+};
+
+// Lines "LABEL NAME", the name being the rest of the line; blank lines and '#' comments are
+// skipped.
+NamesResult read_label_names(const std::string& path);
 
 struct ExactResult {
   std::string error;  // "file:line: reason"; empty if read
@@ -91,8 +108,9 @@ struct WriteStatus {
 
 // Each file, or set of files, is complete or what it was before. The format is that of the
 // extension: .mesh (MEDIT), .msh (Gmsh 4.1), .vtu, .node (TetGen, with .ele and .face beside it),
-// .tet.
-WriteStatus write_mesh(const std::string& path, const TetMesh& mesh);
+// .tet, .inp (Abaqus), .bdf (Nastran), .vtk (legacy), .xdmf, and of the boundary alone .stl, .ply
+// and .off. Names arrive where formats.md says.
+WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const LabelNames& names = {});
 // OFF; labels are not kept, as the format has none.
 WriteStatus write_off(const std::string& path, const Surface& surface);
 // .node (Triangle, with .ele and .poly), .vtu, .off, .msh, .svg. The holes and regions of `graph`,

@@ -46,7 +46,8 @@ constexpr Number kNumbers[] = {{"--delta", &Promise::delta, 0, 60},
 
 // These options say where and how, not what; --slivers guarantees nothing.
 constexpr std::array kWithValue = {"-o",        "--output",     "--stats",          "--exact",
-                                   "--threads", "--time-limit", "--save-chamfered", "--slivers"};
+                                   "--threads", "--time-limit", "--save-chamfered", "--slivers",
+                                   "--names"};
 constexpr std::array kWithout = {"-q", "--quiet", "-v", "--verbose", "--no-bridge-simplification"};
 
 template <std::size_t N>

@@ -38,13 +38,13 @@ Polyhedron read_off(const std::string& path, std::string_view text) {
   return surface;
 }
 
-// Labels numbered by the first use of a name.
+// Labels numbered from 1 by the first use of a name.
 struct NamedLabels {
   std::string name;
   std::map<std::string, std::int32_t> numbers;
   std::vector<std::int32_t> labels;
   void use(std::size_t triangles) {
-    const auto next = static_cast<std::int32_t>(numbers.size());
+    const auto next = static_cast<std::int32_t>(numbers.size() + 1);
     labels.resize(triangles, numbers.emplace(name, next).first->second);
   }
 };
@@ -130,13 +130,14 @@ Polyhedron read_text_stl(const std::string& path, std::string_view text) {
     } else if (keyword == "endfacet") {
       if (corner != 3) reader.fail("a facet without three corners");
       welder.triangle(corners);
-      surface.labels.push_back(std::max(solids - 1, 0));
+      surface.labels.push_back(solids);
       corner = 0;
     } else if (keyword == "solid") {
       ++solids;
       reader.skip_line();
     }
   }
+  if (solids < 2) surface.labels.assign(surface.triangles.size(), 0);
   return surface;
 }
 

@@ -133,9 +133,14 @@ void add_as_paper(CLI::App& app, Given& given) {
       ->type_name("LIST");
 }
 
+void add_names(CLI::App& app, Command& command) {
+  app.add_option("--names", command.names_file, "file of lines LABEL NAME: what labels are called");
+}
+
 void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_common(app, command);
   add_run(app, command, given);
+  add_names(app, command);
   add_number(app, given, "delta", "smallest face angle, degrees (14.47)", kBounds.delta);
   add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
              kBounds.tau);
@@ -174,6 +179,7 @@ void add_improve(CLI::App& app, Command& command, Given& given) {
   const std::string input = "mesh of tetrahedra: " + io::read_mesh_extensions();
   add_common(app, command, input.c_str());
   add_outputs(app, command, given, io::mesh_extensions());
+  add_names(app, command);
   add_number(app, given, "delta", "no smaller face angle is made, degrees (14.47)", kBounds.delta);
   add_number(app, given, "max-edge", "no longer edge is made", positive(kBounds.length));
   add_threads(app, given);
@@ -257,7 +263,7 @@ std::string output_error(const Command& command) {
     files.insert(files.end(), made.begin(), made.end());
   }
   for (const std::string* file :
-       {&command.stats_file, &command.chamfered_file, &command.exact_file}) {
+       {&command.stats_file, &command.chamfered_file, &command.exact_file, &command.names_file}) {
     if (!file->empty()) files.push_back(*file);
   }
   std::vector<std::filesystem::path> seen;
@@ -307,6 +313,7 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   add_mesh(*mesh, command, given);
   add_common(*cdt, command);
   add_run(*cdt, command, given);
+  add_names(*cdt, command);
   add_threads(*cdt, given);
   add_plane(*plane, command, given);
   add_improve(*improve, command, given);

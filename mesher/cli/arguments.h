@@ -20,6 +20,7 @@ struct Command {
   std::vector<std::string> outputs;
   Options options;
   std::string stats_file, chamfered_file, exact_file;  // empty: not wanted
+  std::string names_file;                              // empty: names of the input
   bool json = false, quiet = false, verbose = false;
 };
 

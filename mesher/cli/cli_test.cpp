@@ -199,7 +199,9 @@ TEST(Arguments, MistakesAreTwo) {
   expect_usage_error({"in.off"}, "--output");
   expect_usage_error({"-o", "out.mesh"}, "input");
   expect_usage_error({"in.off", "-o", "out.xyz"},
-                     "out.xyz: unknown mesh format (.mesh, .msh, .vtu, .node or .tet)");
+                     "out.xyz: unknown mesh format (.mesh, .msh, .vtu, .vtk, .xdmf");
+  EXPECT_EQ(parse({"in.off", "-o", "a.inp", "--names", "n.txt"}).command.names_file, "n.txt");
+  expect_usage_error({"in.off", "-o", "a.stl", "--names", "a.stl"}, "named twice");
   for (const char* none : {"--max-vertices", "--budget", "--time-limit", "--max-edge"}) {
     expect_usage_error({"in.off", "-o", "a.mesh", none, "0"}, "out of range: 0");
   }

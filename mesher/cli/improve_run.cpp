@@ -26,14 +26,16 @@ class ImproveRunner : RunSteps {
   int improve();
 
   TetMesh mesh_;
+  io::LabelNames names_;
 };
 
 int ImproveRunner::read() {
   io::MeshReadResult input = io::read_mesh(command_.input, goes_on());
   if (!input.ok()) return fail_reading(input.code, input.error);
   mesh_ = std::move(input.mesh);
+  names_ = std::move(input.names);
   note_input(input.format, mesh_.vertices.size(), mesh_.tetrahedra.size(), "tetrahedra");
-  return kDone;
+  return read_names(names_);
 }
 
 // The line of quality, and what there was before.
@@ -60,7 +62,7 @@ int ImproveRunner::improve() {
                  [&](io::OutputSet& outputs) {
                    io::WriteStatus status;
                    for (const std::string& output : command_.outputs) {
-                     status = io::write_mesh(outputs, output, result.mesh);
+                     status = io::write_mesh(outputs, output, result.mesh, names_);
                      if (!status.ok()) break;
                    }
                    return status;

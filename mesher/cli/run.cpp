@@ -27,6 +27,7 @@ class Runner : RunSteps {
   io::WriteStatus write_all(io::OutputSet& outputs, const Result& result) const;
 
   Surface surface_;
+  io::LabelNames names_;
 };
 
 int Runner::read() {
@@ -36,9 +37,10 @@ int Runner::read() {
   if (!input.ok()) return fail_reading(input.code, input.error);
   for (const std::string& warning : input.warnings) warn(warning);
   surface_ = std::move(input.surface);
+  names_ = std::move(input.names);
   note_input(input.format, surface_.vertices.size(), surface_.triangles.size(), "triangles");
   for (const std::string& note : input.notes) tell(command_.input + ": " + note);
-  return kDone;
+  return read_names(names_);
 }
 
 int Runner::check() {
@@ -56,7 +58,7 @@ int Runner::check() {
 io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) const {
   io::WriteStatus status;
   for (const std::string& output : command_.outputs) {
-    status = io::write_mesh(outputs, output, result.mesh);
+    status = io::write_mesh(outputs, output, result.mesh, names_);
     if (!status.ok()) return status;
   }
   if (!command_.chamfered_file.empty()) {

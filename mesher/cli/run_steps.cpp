@@ -70,6 +70,15 @@ std::function<bool()> RunSteps::goes_on() const {
   };
 }
 
+int RunSteps::read_names(io::LabelNames& names) const {
+  if (command_.names_file.empty()) return kDone;
+  io::NamesResult given = io::read_label_names(command_.names_file);
+  if (!given.ok()) return fail(kUnreadable, given.error);
+  given.names.merge(names);
+  names = std::move(given.names);
+  return kDone;
+}
+
 int RunSteps::fail_reading(io::ReadCode code, const std::string& error) const {
   switch (code) {
     case io::ReadCode::stopped:

@@ -34,6 +34,8 @@ class RunSteps {
 
   // What a reader asks (ReadOptions::go_on): --time-limit counts from the start of the run.
   std::function<bool()> goes_on() const;
+  // Adds the names of --names to those of the input.
+  int read_names(io::LabelNames& names) const;
   // Prints why nothing was read and returns the code.
   int fail_reading(io::ReadCode code, const std::string& error) const;
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_files.h"
 #include "mesher/io/polling.h"
 #include "mesher/io/text.h"
 
@@ -97,6 +97,10 @@ class MeshBuilder {
   void set_facets(std::vector<std::uint32_t> facets);
   std::size_t triangles() const { return mesh_.boundary.size(); }
   std::size_t tetrahedra() const { return mesh_.tetrahedra.size(); }
+  void name_label(std::int32_t label, std::string_view name) {
+    if (!name.empty()) names_[label] = name;
+  }
+  const LabelNames& names() const { return names_; }
   void warn(std::string text) { warnings_.push_back(std::move(text)); }
 
   TetMesh finish();
@@ -105,6 +109,7 @@ class MeshBuilder {
  private:
   TetMesh mesh_;
   std::vector<std::string> warnings_;
+  LabelNames names_;
   bool all_facets_ = true;
 };
 

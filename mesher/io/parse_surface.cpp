@@ -9,14 +9,15 @@
 #include <new>
 #include <stdexcept>
 
+#include "mesher/io/foreign_content.h"
 #include "mesher/io/readers.h"
 
 namespace delmesher::io {
 namespace {
 
-enum class Format : std::uint8_t { off, obj, stl, ply, smesh, poly, unknown };
+enum class Format : std::uint8_t { off, obj, stl, ply, smesh, poly, unknown, foreign };
 
-constexpr const char* kNames[] = {"OFF", "OBJ", "STL", "PLY", "smesh", "poly", ""};
+constexpr const char* kNames[] = {"OFF", "OBJ", "STL", "PLY", "smesh", "poly", "", ""};
 
 std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -30,6 +31,7 @@ Format detect(std::string_view bytes, const std::string& path) {
   if (looks_like_off(bytes)) return Format::off;
   const std::string extension = lower_extension(path);
   if (looks_like_stl(bytes)) return Format::stl;
+  if (!foreign_content(bytes).empty()) return Format::foreign;
   if (extension == ".off") return Format::off;
   if (extension == ".obj") return Format::obj;
   if (extension == ".stl") return Format::stl;
@@ -66,6 +68,8 @@ void read(std::string_view bytes, Format format, const NodeFile& node_file,
       return read_tetgen(bytes, TetgenKind::smesh, node_file, builder);
     case Format::poly:
       return read_tetgen(bytes, TetgenKind::poly, node_file, builder);
+    case Format::foreign:
+      fail({}, std::string(foreign_content(bytes)));
     case Format::unknown:
       break;
   }
@@ -84,6 +88,7 @@ ReadResult parse(std::string_view bytes, const std::string& path, const NodeFile
     result.lines = builder.lines();
     result.warnings = builder.warnings();
     result.notes = builder.notes();
+    result.names = builder.names();
   } catch (const ParseError& error) {
     result.code = ReadCode::unreadable;
     result.error = located(path, error);

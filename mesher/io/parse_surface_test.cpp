@@ -10,6 +10,7 @@
 #include <limits>
 #include <set>
 
+#include "mesher/io/read_mesh.h"
 #include "mesher/io/samples_for_test.h"
 
 namespace delmesher::io {
@@ -72,8 +73,12 @@ TEST(ReadSurface, Labels) {
   };
   using Labels = std::vector<std::int32_t>;
   EXPECT_EQ(labels("a.off", tet_off()), Labels());
-  EXPECT_EQ(labels("a.obj", tet_obj()), Labels({0, 0, 1, 1}));
-  EXPECT_EQ(labels("a.stl", tet_ascii_stl(2)), Labels({0, 0, 1, 1}));
+  EXPECT_EQ(labels("a.obj", tet_obj()), Labels({1, 1, 2, 2}));
+  EXPECT_EQ(labels("a.stl", tet_ascii_stl(2)), Labels({1, 1, 2, 2}));
+  EXPECT_EQ(labels("a.stl", tet_ascii_stl(1)), Labels());
+  EXPECT_EQ(parse_surface(tet_ascii_stl(2), "a.stl").names,
+            (LabelNames{{1, "part 0"}, {2, "part 1"}}));
+  EXPECT_TRUE(parse_surface(tet_ascii_stl(1), "a.stl").names.empty());
   EXPECT_EQ(labels("a.stl", tet_binary_stl()), Labels());
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     EXPECT_EQ(labels("a.ply", tet_ply(format)), Labels({-1, 0, 1, 2}));
@@ -188,8 +193,9 @@ TEST(ReadObj, IndicesGroupsAndForwardReferences) {
       parse_surface("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "x.obj", {.planar = true, .go_on = {}}).ok());
   const std::string groups = "g a\nf 1 2 3\ng b\nf 3 2 1\n";
   const ReadResult by_group = read(points + "usemtl one\no two\n" + groups, "x.obj");
-  EXPECT_EQ(by_group.surface.labels, std::vector<std::int32_t>({0, 1}));
-  EXPECT_EQ(by_group.notes.at(0), "labels by group: 0 = 'a', 1 = 'b'");
+  EXPECT_EQ(by_group.surface.labels, std::vector<std::int32_t>({1, 2}));
+  EXPECT_EQ(by_group.names, (LabelNames{{1, "a"}, {2, "b"}}));
+  EXPECT_EQ(by_group.notes.at(0), "labels by group: 1 = 'a', 2 = 'b'");
   EXPECT_TRUE(read(points + "g a\nusemtl b\nf 1 2 3\nf 3 2 1\n", "x.obj").surface.labels.empty());
 }
 
@@ -322,6 +328,29 @@ TEST(Hostile, EveryFormatUnderEveryName) {
     expect_sane(std::string(1000, '9'), name);
     expect_sane(std::string(1000, ' '), name);
   }
+}
+
+// Whatever their name says; a binary STL of the right size is one in any case.
+TEST(ParseSurface, OtherFilesAreKnownByTheirFirstBytes) {
+  const std::string text = tet_off();
+  std::string utf16 = "\xff\xfe";
+  for (const char c : text) utf16 += {c, '\0'};
+  const std::pair<std::string, std::string> files[] = {
+      {std::string("\x1f\x8b\x08\0", 4) + text, "gunzip"},
+      {"PK\x03\x04" + text, "zip archive"},
+      {"ISO-10303-21;\nHEADER;\n", "STEP"},
+      {utf16, "UTF-16"},
+      {"\n<!DOCTYPE HTML>\n<html>", "web page"},
+      {"<html lang=\"en\">", "web page"}};
+  for (const auto& [bytes, said] : files) {
+    for (const char* name : {"a.stl", "a.off", "a.obj", "a.xyz"}) {
+      const ReadResult result = parse_surface(bytes, name);
+      EXPECT_EQ(result.code, ReadCode::unreadable);
+      EXPECT_NE(result.error.find(said), std::string::npos) << result.error;
+    }
+    EXPECT_NE(parse_mesh(bytes, "a.msh", nullptr).error.find(said), std::string::npos);
+  }
+  EXPECT_EQ(parse_surface(tet_binary_stl("PK\x03\x04"), "a.stl").format, "STL");
 }
 
 }  // namespace

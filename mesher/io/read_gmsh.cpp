@@ -97,11 +97,16 @@ class GmshReader {
       name = name.substr(1, name.size() - 2);
       const std::string_view prefix = dimension == kSurface ? "label " : "region ";
       Group group;
-      if (!name.starts_with(prefix) || !parse_integer(name.substr(prefix.size()), group.number)) {
+      const std::string_view own = name.starts_with(prefix) ? name.substr(prefix.size()) : "";
+      const std::string_view number = own.substr(0, own.find(' '));
+      if (parse_integer(number, group.number)) {
+        name = own.substr(std::min(number.size() + 1, own.size()));
+      } else {
         group.number = in_.parsed<std::int32_t>(std::to_string(tag), "physical tag");
         group.inside = dimension != kVolume || name != "outside";
       }
       groups_[{dimension, tag}] = group;
+      if (dimension == kSurface) builder_.name_label(group.number, name);
     }
   }
 

@@ -4,6 +4,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "mesher/io/foreign_content.h"
 #include "mesher/io/parse_surface.h"
 
 namespace delmesher::io {
@@ -64,12 +65,16 @@ void parse_into(MeshReadResult& result, std::string_view bytes, const std::strin
   if (format == nullptr) {
     throw MeshError{path + ": not a known mesh format (" + read_mesh_extensions() + ")"};
   }
+  if (const std::string_view foreign = foreign_content(bytes); !foreign.empty()) {
+    throw MeshError{path + ": " + std::string(foreign)};
+  }
   result.format = format->name;
   MeshBuilder builder;
   Polling polling(go_on);
   read(bytes, path, format->name, beside, polling, builder);
   if (builder.tetrahedra() == 0) throw MeshError{path + ": no tetrahedra"};
   result.mesh = builder.finish();
+  result.names = builder.names();
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace delmesher::io {
 namespace {
 
-// Numbers names in the order of their first use by a face.
+// Numbers names from 1 in the order of their first use by a face.
 class Names {
  public:
   void set(std::string_view name) {
@@ -19,21 +19,26 @@ class Names {
   }
   std::int32_t use() {
     if (!known_) {
-      number_ =
-          numbers_.try_emplace(current_, static_cast<std::int32_t>(numbers_.size())).first->second;
+      number_ = numbers_.try_emplace(current_, static_cast<std::int32_t>(numbers_.size()) + 1)
+                    .first->second;
       known_ = true;
     }
     return number_;
   }
   std::size_t count() const { return numbers_.size(); }
   std::string listing() const {
-    std::vector<std::string_view> names(numbers_.size());
-    for (const auto& [name, number] : numbers_) names[static_cast<std::size_t>(number)] = name;
+    const LabelNames names = by_number();
     std::string out;
-    for (std::size_t i = 0; i < names.size() && i < 20; ++i) {
-      out += (i == 0 ? "" : ", ") + std::to_string(i) + " = " + quoted(names[i]);
+    for (const auto& [number, name] : names) {
+      if (number > 20) return out + ", ...";
+      out += (number == 1 ? "" : ", ") + std::to_string(number) + " = " + quoted(name);
     }
-    return out + (names.size() > 20 ? ", ..." : "");
+    return out;
+  }
+  LabelNames by_number() const {
+    LabelNames names;
+    for (const auto& [name, number] : numbers_) names[number] = name;
+    return names;
   }
 
  private:
@@ -195,6 +200,9 @@ void ObjReader::add_faces() {
   while (chosen < 3 && sources[chosen]->count() < 2) ++chosen;
   if (chosen < 3) {
     builder_.note(std::string("labels by ") + kinds[chosen] + ": " + sources[chosen]->listing());
+    for (const auto& [number, name] : sources[chosen]->by_number()) {
+      builder_.name_label(number, name);
+    }
   }
   std::size_t begin = 0;
   for (const Face& face : faces_) {

@@ -82,15 +82,17 @@ class AsciiStlReader {
   void expect_word(std::string_view word);
   double read_number();
   void read_facet();
-  void skip_name() {
+  std::string_view read_name() {
+    const std::string_view name = in_.rest_of_line();
     std::string_view token;
     while (in_.next_token(token)) {
     }
+    return name;
   }
 
   TextLines in_;
   SurfaceBuilder& builder_;
-  std::int32_t solid_ = -1;
+  std::int32_t solid_ = 0;
 };
 
 std::string_view AsciiStlReader::need(const char* what) {
@@ -146,19 +148,19 @@ void AsciiStlReader::read() {
   while (in_.next_token_anywhere(token)) {
     if (!open && equal_ignoring_case(token, "solid")) {
       open = true;
-      ++solid_;
-      skip_name();
+      builder_.name_label(++solid_, read_name());
     } else if (open && equal_ignoring_case(token, "facet")) {
       read_facet();
     } else if (open && equal_ignoring_case(token, "endsolid")) {
       open = false;
-      skip_name();
+      read_name();
     } else {
       fail(here(), "unexpected " + quoted(token));
     }
   }
   if (open) fail(here(), "the file ends without 'endsolid'");
-  if (solid_ > 0) builder_.note(std::to_string(solid_ + 1) + " solids, labelled in their order");
+  if (solid_ < 2) return builder_.forget_labels();
+  builder_.note(std::to_string(solid_) + " solids, labelled in their order from 1");
 }
 
 }  // namespace

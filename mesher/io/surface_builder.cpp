@@ -70,6 +70,11 @@ void SurfaceBuilder::warn(const std::string& text) {
   }
 }
 
+void SurfaceBuilder::forget_labels() {
+  names_.clear();
+  for (Polygon& polygon : polygons_) polygon.label = 0;
+}
+
 void SurfaceBuilder::weld() {
   auto& vertices = surface_.vertices;
   for (auto& v : vertices) {

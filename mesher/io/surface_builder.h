@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "mesher/delmesher.h"
+#include "mesher/delmesher_files.h"
 #include "mesher/io/polling.h"
 
 namespace delmesher::io {
@@ -66,6 +67,14 @@ class SurfaceBuilder {
   // Something worth telling in a log.
   void note(const std::string& text) { notes_.push_back(text); }
 
+  // What a label is called; an empty name is none.
+  void name_label(std::int32_t label, std::string_view name) {
+    if (!name.empty()) names_[label] = name;
+  }
+  const LabelNames& names() const { return names_; }
+  // Makes one label of all, without a name: the file has told only one apart.
+  void forget_labels();
+
   // Replaces vertices of equal coordinates by the first of them (-0 = +0, written as +0).
   void weld();
 
@@ -95,6 +104,7 @@ class SurfaceBuilder {
   std::vector<Polygon> polygons_;
   std::vector<std::array<std::uint32_t, 2>> lines_;
   std::vector<std::string> warnings_, notes_;
+  LabelNames names_;
 
   std::uint64_t triangulated_ = 0, non_planar_ = 0, non_simple_ = 0;
   double deviation_ = 0;

@@ -4,11 +4,6 @@
 #include <algorithm>
 
 namespace delmesher::io {
-std::int32_t region(const TetMesh& mesh, std::size_t tet) {
-  if (!mesh.regions.empty()) return mesh.regions[tet];
-  return mesh.inside[tet] != 0 ? kRegionInside : kRegionOutside;
-}
-
 namespace {
 
 void begin_array(TextSink& out, const char* type, const char* name) {
@@ -24,15 +19,21 @@ template <typename TetValue, typename TriangleValue>
 void cell_array(TextSink& out, const TetMesh& mesh, const char* type, const char* name,
                 TetValue tet_value, TriangleValue triangle_value) {
   begin_array(out, type, name);
-  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-    out.integer(tet_value(i));
-    out.text("\n");
-  }
-  for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
-    out.integer(triangle_value(i));
-    out.text("\n");
-  }
+  cell_lines(out, mesh, tet_value, triangle_value);
   out.text("</DataArray>\n");
+}
+
+// An array of the name, with the label and 2, the dimension of what bears it: as meshio has it of
+// Gmsh's groups.
+void write_field_data(TextSink& out, const NamedMesh& named) {
+  std::string arrays;
+  for (const auto& [label, triangles] : triangles_of_labels(named.mesh)) {
+    if (!named.names.contains(label)) continue;
+    arrays += "<DataArray type=\"Int64\" Name=\"" + xml_escaped(label_name(named.names, label)) +
+              "\" NumberOfTuples=\"2\" format=\"ascii\">\n" + std::to_string(label) +
+              " 2\n</DataArray>\n";
+  }
+  if (!arrays.empty()) out.text("<FieldData>\n" + arrays + "</FieldData>\n");
 }
 
 }  // namespace
@@ -73,12 +74,15 @@ void write_medit(TextSink& out, const TetMesh& mesh) {
   }
 }
 
-void write_vtu(TextSink& out, const TetMesh& mesh) {
+void write_vtu(TextSink& out, const NamedMesh& named) {
+  const TetMesh& mesh = named.mesh;
   const std::size_t tets = mesh.tetrahedra.size(), triangles = mesh.boundary.size();
   out.text(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
+      "<UnstructuredGrid>\n");
+  write_field_data(out, named);
+  out.text("<Piece NumberOfPoints=\"");
   out.integer(mesh.vertices.size());
   out.text("\" NumberOfCells=\"");
   out.integer(tets + triangles);

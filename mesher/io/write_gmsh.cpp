@@ -29,8 +29,9 @@ struct Box {
 
 class GmshWriter {
  public:
-  GmshWriter(TextSink& out, const TetMesh& mesh) : out_(out), mesh_(mesh) {
-    physical_ = tags_of({mesh.boundary_labels.begin(), mesh.boundary_labels.end()});
+  GmshWriter(TextSink& out, const NamedMesh& named)
+      : out_(out), mesh_(named.mesh), names_(named.names) {
+    physical_ = tags_of({mesh_.boundary_labels.begin(), mesh_.boundary_labels.end()});
     number_regions();
     order_triangles();
   }
@@ -47,9 +48,11 @@ class GmshWriter {
   static std::map<std::int32_t, std::int64_t> tags_of(const std::set<std::int32_t>& numbers);
   void number_regions();
   void order_triangles();
+  std::string group_name(std::int32_t label) const;
   void write_physical_names();
   void write_entities();
-  void write_volume(std::int64_t tag);
+  void write_volume(std::int32_t number, const std::set<std::int64_t>& surfaces);
+  std::map<std::int32_t, std::set<std::int64_t>> surfaces_of_regions() const;
   void write_nodes();
   void write_elements();
   void box(const Box& b) {
@@ -72,10 +75,11 @@ class GmshWriter {
 
   TextSink& out_;
   const TetMesh& mesh_;
-  std::map<std::int32_t, std::int64_t> physical_;                // of a label
-  std::map<std::int32_t, std::int64_t> volume_;                  // of a region, entity and group
-  std::map<std::int32_t, std::vector<std::size_t>> tetrahedra_;  // of a region
-  std::vector<std::size_t> order_;                               // boundary triangles by facet
+  const LabelNames& names_;
+  std::map<std::int32_t, std::int64_t> physical_;  // of a label
+  std::map<std::int32_t, std::int64_t> volume_;    // of a region, entity and group
+  Members tetrahedra_;                             // of a region
+  std::vector<std::size_t> order_;                 // boundary triangles by facet
   std::size_t facets_ = 0;
 };
 
@@ -89,11 +93,8 @@ std::map<std::int32_t, std::int64_t> GmshWriter::tags_of(const std::set<std::int
 }
 
 void GmshWriter::number_regions() {
-  for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
-    tetrahedra_[region(mesh_, t)].push_back(t);
-  }
+  tetrahedra_ = tetrahedra_of_regions(mesh_);
   std::set<std::int32_t> regions;
-  if (mesh_.regions.empty()) regions = {kRegionInside, kRegionOutside};
   for (const auto& [number, tetrahedra] : tetrahedra_) regions.insert(number);
   volume_ = tags_of(regions);
 }
@@ -107,39 +108,62 @@ void GmshWriter::order_triangles() {
   each_facet([&](std::size_t, std::size_t) { ++facets_; });
 }
 
+// A label that is not positive cannot be the tag, so its name tells it.
+std::string GmshWriter::group_name(std::int32_t label) const {
+  std::string name = label_name(names_, label);
+  std::replace(name.begin(), name.end(), '"', '\'');
+  const bool told = label > 0 || !names_.contains(label);
+  return told ? name : "label " + std::to_string(label) + " " + name;
+}
+
 void GmshWriter::write_physical_names() {
   out_.text("$PhysicalNames\n");
   out_.integer(physical_.size() + volume_.size());
   out_.text("\n");
   for (const auto& [label, tag] : physical_) {
     out_.text("2 ");
-    out_.integer(tag);
-    out_.text(" \"label ");
-    out_.integer(label);
-    out_.text("\"\n");
+    out_.integers(tag);
+    out_.text("\"" + group_name(label) + "\"\n");
   }
   for (const auto& [number, tag] : volume_) {
     out_.text("3 ");
     out_.integers(tag);
-    if (mesh_.regions.empty()) {
-      out_.text(number == kRegionInside ? "\"inside\"\n" : "\"outside\"\n");
-    } else {
-      out_.text("\"region ");
-      out_.integer(number);
-      out_.text("\"\n");
-    }
+    out_.text("\"" + region_name(mesh_, number) + "\"\n");
   }
   out_.text("$EndPhysicalNames\n");
 }
 
-void GmshWriter::write_volume(std::int64_t tag) {
+// The surfaces where each region ends: positive where the triangles look out of it, negative where
+// they look into it.
+std::map<std::int32_t, std::set<std::int64_t>> GmshWriter::surfaces_of_regions() const {
+  std::map<std::int32_t, std::set<std::int64_t>> surfaces;
+  const std::vector<TriangleSides> sides = sides_of_boundary(mesh_);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto tag = static_cast<std::int64_t>(facet_tag(i));
+    for (const bool behind : {true, false}) {
+      const TriangleSides::Side& side = sides[i].sides[behind ? 0 : 1];
+      if (side.apex == TriangleSides::kNone) continue;
+      std::set<std::int64_t>& bounding = surfaces[region(mesh_, side.tetrahedron)];
+      if (!bounding.contains(behind ? -tag : tag)) bounding.insert(behind ? tag : -tag);
+    }
+  }
+  return surfaces;
+}
+
+void GmshWriter::write_volume(std::int32_t number, const std::set<std::int64_t>& surfaces) {
   Box volume;
-  for (const auto& v : mesh_.vertices) volume.add(v);
-  if (mesh_.vertices.empty()) volume.add({0, 0, 0});
-  out_.integers(tag);
+  for (const std::size_t t : tetrahedra_.at(number)) {
+    for (const std::uint32_t v : mesh_.tetrahedra[t]) volume.add(mesh_.vertices[v]);
+  }
+  out_.integers(volume_.at(number));
   box(volume);
-  out_.integers(1, tag);
-  out_.text("0\n");
+  out_.integers(1, volume_.at(number));
+  out_.integer(surfaces.size());
+  for (const std::int64_t tag : surfaces) {
+    out_.text(" ");
+    out_.integer(tag);
+  }
+  out_.text("\n");
 }
 
 void GmshWriter::write_entities() {
@@ -157,7 +181,8 @@ void GmshWriter::write_entities() {
     out_.integers(1, physical_.at(mesh_.boundary_labels[order_[begin]]));
     out_.text("0\n");
   });
-  for (const auto& [number, tag] : volume_) write_volume(tag);
+  auto surfaces = surfaces_of_regions();
+  for (const auto& [number, tag] : volume_) write_volume(number, surfaces[number]);
   out_.text("$EndEntities\n");
 }
 
@@ -167,8 +192,10 @@ void GmshWriter::write_nodes() {
   out_.integers(n == 0 ? 0 : 1, n, n == 0 ? 0 : 1);
   out_.integer(n);
   out_.text("\n");
-  if (n != 0) {
-    out_.text("3 1 0 ");
+  if (n != 0) {  // all of them in the first volume
+    out_.text("3 ");
+    out_.integer(volume_.empty() ? 1 : volume_.begin()->second);
+    out_.text(" 0 ");
     out_.integer(n);
     out_.text("\n");
   }
@@ -221,8 +248,8 @@ void GmshWriter::write_elements() {
 
 }  // namespace
 
-void write_gmsh(TextSink& out, const TetMesh& mesh) {
-  GmshWriter(out, mesh).write();
+void write_gmsh(TextSink& out, const NamedMesh& named) {
+  GmshWriter(out, named).write();
 }
 
 }  // namespace delmesher::io

@@ -27,13 +27,20 @@ const char* inconsistency(const TetMesh& mesh) {
 }
 
 // The extension of the path first, then the extensions of the files beside it.
-constexpr std::array<FileFormat<TetMesh>, 5> kFormats = {
-    {{{".mesh"}, [](Sinks f, const TetMesh& mesh) { write_medit(*f[0], mesh); }},
-     {{".msh"}, [](Sinks f, const TetMesh& mesh) { write_gmsh(*f[0], mesh); }},
-     {{".vtu"}, [](Sinks f, const TetMesh& mesh) { write_vtu(*f[0], mesh); }},
+constexpr std::array<FileFormat<NamedMesh>, 12> kFormats = {
+    {{{".mesh"}, [](Sinks f, const NamedMesh& m) { write_medit(*f[0], m.mesh); }},
+     {{".msh"}, [](Sinks f, const NamedMesh& m) { write_gmsh(*f[0], m); }},
+     {{".vtu"}, [](Sinks f, const NamedMesh& m) { write_vtu(*f[0], m); }},
+     {{".vtk"}, [](Sinks f, const NamedMesh& m) { write_vtk(*f[0], m.mesh); }},
+     {{".xdmf"}, [](Sinks f, const NamedMesh& m) { write_xdmf(*f[0], m); }},
+     {{".inp"}, [](Sinks f, const NamedMesh& m) { write_abaqus(*f[0], m); }},
+     {{".bdf"}, [](Sinks f, const NamedMesh& m) { write_nastran(*f[0], m); }},
      {{".node", ".ele", ".face"},
-      [](Sinks f, const TetMesh& mesh) { write_tetgen(*f[0], *f[1], *f[2], mesh); }},
-     {{".tet"}, [](Sinks f, const TetMesh& mesh) { write_tet(*f[0], mesh); }}}};
+      [](Sinks f, const NamedMesh& m) { write_tetgen(*f[0], *f[1], *f[2], m.mesh); }},
+     {{".tet"}, [](Sinks f, const NamedMesh& m) { write_tet(*f[0], m.mesh); }},
+     {{".stl"}, [](Sinks f, const NamedMesh& m) { write_boundary_stl(*f[0], m); }},
+     {{".ply"}, [](Sinks f, const NamedMesh& m) { write_boundary_ply(*f[0], m); }},
+     {{".off"}, [](Sinks f, const NamedMesh& m) { write_boundary_off(*f[0], m); }}}};
 
 }  // namespace
 
@@ -45,10 +52,11 @@ std::vector<std::string> mesh_files_of(const std::string& path) {
   return files_made(kFormats, path);
 }
 
-WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh) {
+WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh,
+                       const LabelNames& names) {
   const char* reason = mesh_files_of(path).empty() ? nullptr : inconsistency(mesh);
   if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
-  return write_by_extension(kFormats, outputs, path, mesh);
+  return write_by_extension(kFormats, outputs, path, NamedMesh{mesh, names});
 }
 
 WriteStatus write_off(OutputSet& outputs, const std::string& path, const Surface& surface) {

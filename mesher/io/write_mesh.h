@@ -16,7 +16,8 @@ std::string mesh_extensions();
 std::vector<std::string> mesh_files_of(const std::string& path);
 
 // Adds the mesh to a set of outputs; nothing is in place before its commit().
-WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh);
+WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh,
+                       const LabelNames& names = {});
 
 // OFF; labels are not kept, as the format has none.
 WriteStatus write_off(OutputSet& outputs, const std::string& path, const Surface& surface);

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "mesher/io/named_sets.h"
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/text.h"
 
@@ -105,6 +107,89 @@ TEST_F(WriteMesh, Gmsh) {
                       "3 1 4 1\n4 1 2 3 4\n3 2 4 1\n5 1 2 3 5\n$EndElements\n"),
             std::string::npos)
       << text;
+}
+
+// Volumes know what bounds them: facet 5 is behind the inner tetrahedron alone, facet 10 between
+// both.
+TEST_F(WriteMesh, GmshVolumesKnowTheirSurfaces) {
+  OutputSet outputs;
+  TetMesh mesh = sample();
+  mesh.tetrahedra[0] = {0, 2, 1, 4};  // positive, as in any mesh but that of a writer's test
+  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), mesh).ok());
+  TetMesh inside = sample();
+  inside.tetrahedra.erase(inside.tetrahedra.begin());
+  inside.inside.erase(inside.inside.begin());
+  ASSERT_TRUE(write_mesh(outputs, path("b.msh"), inside).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  const std::string both = content(path("a.msh")), one = content(path("b.msh"));
+  EXPECT_NE(both.find(" 1 1 3 5 6 10\n"), std::string::npos) << both;
+  EXPECT_NE(both.find(" 1 2 1 -10\n"), std::string::npos) << both;
+  EXPECT_NE(one.find("3 1 \"inside\"\n$End"), std::string::npos) << one;
+  EXPECT_NE(one.find("$Entities\n0 0 3 1\n"), std::string::npos) << one;
+}
+
+// A label that is not positive cannot be a tag: it stands before its name, and both come back.
+TEST_F(WriteMesh, NamesComeBackFromGmsh) {
+  OutputSet outputs;
+  const LabelNames names = {{7, "hot \"wall\""}, {0, "a b"}};
+  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), sample(), names).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  const MeshReadResult back = read_mesh(path("a.msh"));
+  ASSERT_TRUE(back.ok()) << back.error;
+  EXPECT_EQ(back.names, (LabelNames{{7, "hot 'wall'"}, {0, "a b"}}));
+  std::vector<std::int32_t> labels = back.mesh.boundary_labels;
+  std::sort(labels.begin(), labels.end());
+  EXPECT_EQ(labels, (std::vector<std::int32_t>{-2, 0, 7}));
+}
+
+// Fields of sixteen characters: the nearest decimal that fits, with a point.
+TEST_F(WriteMesh, NastranNumbersFitTheirFields) {
+  TetMesh mesh;
+  mesh.vertices = {{1, -1.0 / 3, 1e22},
+                   {0.1, -1.2345678901234567e-100, 123456789.0123456},
+                   {-0.0, 5e-324, -0.001234567890123456}};
+  mesh.boundary = {{0, 1, 2}};
+  mesh.boundary_labels = {-1};
+  mesh.boundary_facets = {0};
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("a.bdf"), mesh).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  const auto grid = [](const char* id, std::string x, std::string y, std::string z) {
+    for (std::string* text : {&x, &y, &z}) text->resize(16, ' ');
+    return std::string("GRID*   ") + id + "       " + std::string(24, ' ') + x + y + "\n*       " +
+           z + "\n";
+  };
+  EXPECT_EQ(content(path("a.bdf")),
+            "$ delmesher\n$HMNAME COMP                   1\"label -1\"\nBEGIN BULK\n" +
+                grid("1", "1.", "-0.3333333333333", "1.E22") +
+                grid("2", "0.1", "-1.23456789E-100", "123456789.012346") +
+                grid("3", "-0.", "5.E-324", "-0.0012345678901") +
+                "CTRIA3  1       1       1       2       3       \nENDDATA\n");
+}
+
+TEST_F(WriteMesh, LabelNamesAreRead) {
+  const auto read = [&](const std::string& text) {
+    std::ofstream(path("names.txt")) << text;
+    return read_label_names(path("names.txt"));
+  };
+  const NamesResult good = read("# what is what\n\n1 inlet\n -3  the outer wall \r\n0 x#1\n");
+  EXPECT_EQ(good.error, "");
+  EXPECT_EQ(good.names, (LabelNames{{1, "inlet"}, {-3, "the outer wall"}, {0, "x#1"}}));
+  EXPECT_EQ(read("1 a\n2\n").error, path("names.txt") + ":2: label 2 has no name");
+  EXPECT_EQ(read("one a\n").error, path("names.txt") + ":1: no label: 'one'");
+  EXPECT_EQ(read("1 a\n1 b\n").error, path("names.txt") + ":2: label 1 is named twice");
+  EXPECT_FALSE(read_label_names(path("none.txt")).ok());
+}
+
+TEST(Identifiers, AreDifferentAndPlain) {
+  Identifiers identifiers;
+  EXPECT_EQ(identifiers.make("hot wall"), "hot_wall");
+  EXPECT_EQ(identifiers.make("HOT-wall"), "HOT_wall_2");
+  EXPECT_EQ(identifiers.make("hot_wall_2"), "hot_wall_2_2");
+  EXPECT_EQ(identifiers.make("hot wall"), "hot_wall_3");
+  EXPECT_EQ(identifiers.make("3\xc3\xa4"), "set_3__");
+  EXPECT_EQ(identifiers.make(""), "set_");
+  EXPECT_EQ(identifiers.make(std::string(500, 'x')).size(), 60U);
 }
 
 TEST_F(WriteMesh, VtuAndTetgen) {
@@ -224,18 +309,19 @@ TEST_F(WriteMesh, LinksAreFollowed) {
 
 TEST(MeshFilesOf, Extensions) {
   using Files = std::vector<std::string>;
-  for (const char* path : {"a.mesh", "a/b.MSH", "a.vtu", "a.b.tet"}) {
+  for (const char* path : {"a.mesh", "a/b.MSH", "a.vtu", "a.b.tet", "a.off", "a.inp", "a.BDF"}) {
     EXPECT_EQ(mesh_files_of(path), Files({path}));
   }
   EXPECT_EQ(mesh_files_of("x/a.node"), Files({"x/a.node", "x/a.ele", "x/a.face"}));
-  for (const char* path : {"a.off", "mesh", "a.ele"}) EXPECT_EQ(mesh_files_of(path), Files());
-  EXPECT_EQ(mesh_extensions(), ".mesh, .msh, .vtu, .node or .tet");
+  for (const char* path : {"a.obj", "mesh", "a.ele"}) EXPECT_EQ(mesh_files_of(path), Files());
+  EXPECT_EQ(mesh_extensions(),
+            ".mesh, .msh, .vtu, .vtk, .xdmf, .inp, .bdf, .node, .tet, .stl, .ply or .off");
 }
 
 TEST_F(WriteMesh, UnknownExtensionsAreRefused) {
   OutputSet outputs;
-  EXPECT_EQ(write_mesh(outputs, "a.off", sample()).error,
-            "a.off: unknown mesh format (.mesh, .msh, .vtu, .node or .tet)");
+  EXPECT_EQ(write_mesh(outputs, "a.obj", sample()).error,
+            "a.obj: unknown mesh format (" + mesh_extensions() + ")");
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ TEST(TextReader, ErrorsNameFileAndLine) {
   }
 }
 
-// Each solid of a text file is a label of its own, from 0; equal corners are one vertex.
+// Each solid of a text file is a label of its own, from 1; equal corners are one vertex.
 TEST(Stl, SolidsAreLabelsAndCornersAreWelded) {
   const std::string first =
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
@@ -156,7 +156,7 @@ TEST(Stl, SolidsAreLabelsAndCornersAreWelded) {
       "0\nendloop\nendfacet\n";
   const Polyhedron surface = read_surface(written(
       "two_solids.stl", "solid a\n" + first + "endsolid a\nsolid b\n" + second + "endsolid b\n"));
-  EXPECT_EQ(surface.labels, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(surface.labels, (std::vector<std::int32_t>{1, 2}));
   EXPECT_EQ(surface.triangles, (std::vector<std::array<Index, 3>>{{0, 1, 2}, {1, 3, 2}}));
   ASSERT_EQ(surface.vertices.size(), 4U);
   EXPECT_EQ(surface.vertices[3], (Position{1, 1, 0.5}));

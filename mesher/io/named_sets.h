@@ -1,0 +1,56 @@
+// The sets of a mesh that formats have names for: the tetrahedra of a region, the boundary
+// triangles of a label.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesher/delmesher_files.h"
+
+namespace delmesher::io {
+
+// What is written: a mesh, and what its labels are called.
+struct NamedMesh {
+  const TetMesh& mesh;
+  const LabelNames& names;
+};
+
+// Region number of a tetrahedron in the formats that have one.
+inline constexpr int kRegionInside = 1, kRegionOutside = 2;
+std::int32_t region(const TetMesh& mesh, std::size_t tet);
+
+using Members = std::map<std::int32_t, std::vector<std::size_t>>;  // by number, never empty ones
+Members tetrahedra_of_regions(const TetMesh& mesh);
+Members triangles_of_labels(const TetMesh& mesh);
+
+// "inside" and "outside", or "region R" of a mesh from elsewhere.
+std::string region_name(const TetMesh& mesh, std::int32_t region);
+// The name given, in one line, or "label L".
+std::string label_name(const LabelNames& names, std::int32_t label);
+
+// Names for formats that take letters, digits and '_' alone: other characters become '_', the first
+// is a letter, and of names that are equal but for case all but one end in a number.
+class Identifiers {
+ public:
+  std::string make(const std::string& name);
+
+ private:
+  std::map<std::string, int> used_;  // in lower case
+};
+
+// The tetrahedra at both sides of a boundary triangle, and which of their faces it is.
+struct TriangleSides {
+  struct Side {
+    std::size_t tetrahedron;
+    int apex;  // the corner of the tetrahedron that is not of the triangle
+  };
+  static constexpr int kNone = -1;
+  // First the one from which the triangle is seen clockwise: behind it, in the solid.
+  std::array<Side, 2> sides = {Side{0, kNone}, Side{0, kNone}};
+};
+std::vector<TriangleSides> sides_of_boundary(const TetMesh& mesh);
+
+}  // namespace delmesher::io

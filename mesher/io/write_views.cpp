@@ -1,0 +1,145 @@
+// For viewers and converters: VTK's old format, and XDMF with the numbers in the file.
+#include <string>
+
+#include "mesher/io/named_sets.h"
+#include "mesher/io/write_formats.h"
+
+namespace delmesher::io {
+namespace {
+
+// Calls begin(name), writes the numbers and calls end() for the arrays that all of these formats
+// have.
+template <class Begin, class End>
+void cell_arrays(TextSink& out, const TetMesh& mesh, Begin begin, End end) {
+  begin("region");
+  cell_lines(
+      out, mesh, [&](std::size_t t) { return region(mesh, t); }, [](std::size_t) { return 0; });
+  end();
+  begin("label");
+  cell_lines(
+      out, mesh, [](std::size_t) { return 0; },
+      [&](std::size_t i) { return mesh.boundary_labels[i]; });
+  end();
+  begin("facet");
+  cell_lines(
+      out, mesh, [](std::size_t) { return std::int64_t{-1}; },
+      [&](std::size_t i) { return std::int64_t{mesh.boundary_facets[i]}; });
+  end();
+}
+
+// One line a cell: the number that the format puts before, and the corners.
+template <class Cells>
+void cells(TextSink& out, int before, const Cells& all) {
+  for (const auto& cell : all) {
+    out.integer(before);
+    for (const std::uint32_t v : cell) {
+      out.text(" ");
+      out.integer(v);
+    }
+    out.text("\n");
+  }
+}
+
+void points(TextSink& out, const TetMesh& mesh) {
+  for (const auto& v : mesh.vertices) {
+    out.point(v);
+    out.text("\n");
+  }
+}
+
+}  // namespace
+
+std::string xml_escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+void write_vtk(TextSink& out, const TetMesh& mesh) {
+  const std::size_t tets = mesh.tetrahedra.size(), triangles = mesh.boundary.size();
+  out.text("# vtk DataFile Version 3.0\ndelmesher\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
+  out.integer(mesh.vertices.size());
+  out.text(" double\n");
+  points(out, mesh);
+  out.text("CELLS ");
+  out.integers(tets + triangles);
+  out.integer(5 * tets + 4 * triangles);
+  out.text("\n");
+  cells(out, 4, mesh.tetrahedra);
+  cells(out, 3, mesh.boundary);
+  out.text("CELL_TYPES ");
+  out.integer(tets + triangles);
+  out.text("\n");
+  cell_lines(
+      out, mesh, [](std::size_t) { return 10; }, [](std::size_t) { return 5; });
+  out.text("CELL_DATA ");
+  out.integer(tets + triangles);
+  out.text("\n");
+  cell_arrays(
+      out, mesh,
+      [&](const char* name) {
+        out.text(std::string("SCALARS ") + name + " int 1\nLOOKUP_TABLE default\n");
+      },
+      [] {});
+}
+
+void write_xdmf(TextSink& out, const NamedMesh& named) {
+  const TetMesh& mesh = named.mesh;
+  const std::size_t tets = mesh.tetrahedra.size(), triangles = mesh.boundary.size();
+  const auto item = [&](const char* type, const char* precision, std::size_t rows, int columns) {
+    out.text(std::string("<DataItem DataType=\"") + type + "\" Precision=\"" + precision +
+             "\" Format=\"XML\" Dimensions=\"" + std::to_string(rows));
+    if (columns > 1) out.text(" " + std::to_string(columns));
+    out.text("\">\n");
+  };
+  out.text(
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
+      "<Grid Name=\"delmesher\" GridType=\"Uniform\">\n<Geometry GeometryType=\"XYZ\">\n");
+  item("Float", "8", mesh.vertices.size(), 3);
+  points(out, mesh);
+  out.text("</DataItem>\n</Geometry>\n<Topology TopologyType=\"Mixed\" NumberOfElements=\"");
+  out.integer(tets + triangles);
+  out.text("\">\n");
+  item("Int", "8", 5 * tets + 4 * triangles, 1);
+  cells(out, 6, mesh.tetrahedra);  // XDMF's numbers of a tetrahedron and a triangle
+  cells(out, 4, mesh.boundary);
+  out.text("</DataItem>\n</Topology>\n");
+  cell_arrays(
+      out, mesh,
+      [&](const char* name) {
+        out.text(std::string("<Attribute Name=\"") + name +
+                 "\" AttributeType=\"Scalar\" Center=\"Cell\">\n");
+        item("Int", "8", tets + triangles, 1);
+      },
+      [&] { out.text("</DataItem>\n</Attribute>\n"); });
+  const Members labels = triangles_of_labels(mesh);
+  std::string maps;  // as meshio writes and reads them
+  for (const auto& [label, unused] : labels) {
+    if (!named.names.contains(label)) continue;
+    maps += "<map key=\"" + xml_escaped(label_name(named.names, label)) + "\" dim=\"2\">" +
+            std::to_string(label) + "</map>";
+  }
+  if (!maps.empty()) {
+    out.text("<Information Name=\"names\"><![CDATA[<main>" + maps + "</main>]]></Information>\n");
+  }
+  out.text("</Grid>\n</Domain>\n</Xdmf>\n");
+}
+
+}  // namespace delmesher::io

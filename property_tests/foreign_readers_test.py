@@ -1,0 +1,203 @@
+#!/usr/bin/python3
+"""Every format that delmesher writes, read back by Gmsh and by meshio: counts, coordinates, orientation, volume, labels and their names.
+
+Usage: foreign_readers_test.py DELMESHER SCRATCH-FOLDER. Debian's Python, because its packages hold meshio.
+"""
+import collections
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+import meshio
+import numpy
+
+DELMESHER, SCRATCH = sys.argv[1], sys.argv[2]
+# A box whose sides have three names; a third is no decimal that is short.
+HEIGHT = 1 / 3
+BOX = """v 0 0 0
+v 1 0 0
+v 1 2 0
+v 0 2 0
+v 0 0 {0}
+v 1 0 {0}
+v 1 2 {0}
+v 0 2 {0}
+usemtl bottom wall
+f 1 4 3 2
+usemtl "top" & <lid>
+f 5 6 7 8
+usemtl side
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+""".format(HEIGHT)
+AREAS = {1: 2, 2: 2, 3: 6 * HEIGHT}
+VOLUME = 2 * HEIGHT
+NAMES = {1: "bottom wall", 2: '"top" & <lid>', 3: "side"}
+FORMATS = ("mesh", "msh", "vtu", "vtk", "xdmf", "inp", "bdf", "node", "tet", "stl", "ply", "off")
+
+
+def path(name):
+    return os.path.join(SCRATCH, name)
+
+
+def mesh_of(extension):
+    return meshio.read(path("box." + extension))
+
+
+def cells(mesh, kind):
+    found = [block.data for block in mesh.cells if block.type == kind]
+    return numpy.concatenate(found) if found else numpy.zeros((0, 3), int)
+
+
+def of_cells(mesh, name, kind):
+    return numpy.concatenate([data for block, data in zip(mesh.cells, mesh.cell_data[name]) if block.type == kind])
+
+
+def volumes(points, tetrahedra):
+    a, b, c, d = (points[tetrahedra[:, k]] for k in range(4))
+    return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6
+
+
+def areas(points, triangles, labels):
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    sums = collections.defaultdict(float)
+    for area, label in zip(numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2, labels):
+        sums[int(label)] += area
+    return dict(sums)
+
+
+class Read(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(SCRATCH, ignore_errors=True)
+        os.makedirs(SCRATCH)
+        with open(path("box.obj"), "w") as file:
+            file.write(BOX)
+        outputs = [word for e in FORMATS for word in ("-o", path("box." + e))]
+        subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", *outputs], check=True)
+        cls.expected = mesh_of("mesh")  # which the tests of the writer hold to the bytes
+        cls.points = cls.expected.points
+        cls.tetrahedra = cells(cls.expected, "tetra")
+        cls.triangles = cells(cls.expected, "triangle")
+        cls.labels = of_cells(cls.expected, "medit:ref", "triangle")
+
+    def same_areas(self, points, triangles, labels):
+        found = areas(points, triangles, labels)
+        self.assertEqual(set(found), set(AREAS))
+        for label, area in AREAS.items():
+            self.assertAlmostEqual(found[label], area, places=12)
+
+    def same_solid(self, mesh, exactly=True):
+        """All points and tetrahedra, in the order written, all of them positive."""
+        if exactly:
+            self.assertTrue(numpy.array_equal(mesh.points, self.points))
+        else:
+            self.assertLess(numpy.abs(mesh.points - self.points).max(), 1e-13)
+        found = cells(mesh, "tetra")
+        self.assertTrue(numpy.array_equal(found, self.tetrahedra))
+        each = volumes(mesh.points, found)
+        self.assertGreater(each.min(), 0)
+        self.assertAlmostEqual(each.sum(), VOLUME, places=12)
+
+    def same_triangles(self, mesh, labels):
+        by_label = lambda triangles, of: sorted((int(l), *map(int, t)) for t, l in zip(triangles, of))
+        self.assertEqual(by_label(cells(mesh, "triangle"), labels), by_label(self.triangles, self.labels))
+
+    def test_the_expected_mesh_is_the_box(self):
+        self.assertGreater(len(self.tetrahedra), 50)
+        self.same_solid(self.expected)
+        self.same_areas(self.points, self.triangles, self.labels)
+
+    def test_gmsh_format(self):
+        mesh = mesh_of("msh")
+        self.same_solid(mesh)
+        self.same_triangles(mesh, of_cells(mesh, "gmsh:physical", "triangle"))
+        names = {tuple(tag): name for name, tag in mesh.field_data.items()}
+        self.assertEqual(names, {(1, 2): "bottom wall", (2, 2): "'top' & <lid>", (3, 2): "side", (1, 3): "inside"})
+
+    def test_vtu_and_xdmf(self):
+        for extension in ("vtu", "xdmf"):
+            mesh = mesh_of(extension)
+            self.same_solid(mesh)
+            self.same_triangles(mesh, of_cells(mesh, "label", "triangle"))
+            names = {int(tag[0]): name for name, tag in mesh.field_data.items()}
+            self.assertEqual(names, NAMES)
+
+    def test_legacy_vtk(self):
+        mesh = mesh_of("vtk")
+        self.same_solid(mesh)
+        self.same_triangles(mesh, of_cells(mesh, "label", "triangle"))
+
+    def test_nastran(self):
+        mesh = mesh_of("bdf")
+        self.same_solid(mesh, exactly=False)
+        self.same_triangles(mesh, of_cells(mesh, "nastran:ref", "triangle"))
+        self.assertEqual(set(of_cells(mesh, "nastran:ref", "tetra")), {4})
+        with open(path("box.bdf")) as file:
+            names = [line.split('"', 1) for line in file if line.startswith("$HMNAME COMP")]
+        self.assertEqual([(int(n[0].split()[-1]), n[1].rstrip('\n')[:-1]) for n in names], [*NAMES.items(), (4, "inside")])
+
+    def test_abaqus(self):
+        mesh = mesh_of("inp")
+        self.same_solid(mesh)
+        sets = {1: "bottom_wall", 2: "_top_____lid_", 3: "side"}
+        sets[2] = "set_" + sets[2]
+        self.assertEqual(set(mesh.cell_sets), {"inside"})
+        self.assertEqual(set(mesh.point_sets), set(sets.values()))
+        for label, name in sets.items():
+            self.assertEqual(set(mesh.point_sets[name]), set(self.triangles[self.labels == label].flat))
+        # Surfaces, which meshio leaves out: the faces of C3D4 as Abaqus numbers them.
+        faces = {"S1": (0, 1, 2), "S2": (0, 3, 1), "S3": (1, 3, 2), "S4": (2, 3, 0)}
+        surfaces, current = collections.defaultdict(set), None
+        with open(path("box.inp")) as file:
+            for line in file:
+                if line.startswith("*"):
+                    current = line.strip().rsplit("NAME=")[-1] if line.startswith("*SURFACE") else None
+                elif current:
+                    element, face = line.split(", ")
+                    corners = self.tetrahedra[int(element) - 1][list(faces[face.strip()])]
+                    surfaces[current].add(tuple(sorted(map(int, corners))))
+        for label, name in sets.items():
+            self.assertEqual(surfaces[name], {tuple(sorted(map(int, t))) for t in self.triangles[self.labels == label]})
+
+    def test_boundaries(self):
+        ply = mesh_of("ply")
+        triangles = cells(ply, "triangle")
+        self.same_areas(ply.points, triangles, of_cells(ply, "label", "triangle"))
+        for extension in ("ply", "stl", "off"):
+            mesh = mesh_of(extension)
+            found = cells(mesh, "triangle")
+            self.assertEqual(len(found), len(self.triangles))
+            a, b, c = (mesh.points[found[:, k]] for k in range(3))
+            outwards = numpy.einsum("ij,ij->i", numpy.cross(a, b), c).sum() / 6  # the volume inside, if they look outwards
+            self.assertAlmostEqual(outwards, VOLUME, places=6)  # meshio keeps single precision of an STL
+        with open(path("box.stl")) as file:
+            self.assertEqual([l[6:].strip() for l in file if l.startswith("solid")], list(NAMES.values()))
+
+    def test_gmsh_opens_them(self):
+        for extension, solid in (("mesh", 1), ("msh", 1), ("vtk", 1), ("bdf", 1), ("stl", 0), ("ply", 0)):
+            out = path("from_%s.msh" % extension)
+            done = subprocess.run(["gmsh", "-0", path("box." + extension), "-o", out, "-save_all", "-v", "2"],
+                                  capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""), extension)
+            mesh = meshio.read(out)
+            self.assertEqual(len(cells(mesh, "triangle")), len(self.triangles), extension)
+            self.assertEqual(len(cells(mesh, "tetra")), len(self.tetrahedra) if solid else 0, extension)
+            if solid:
+                self.assertAlmostEqual(volumes(mesh.points, cells(mesh, "tetra")).sum(), VOLUME, places=12)
+
+    def test_gmsh_knows_what_bounds_the_volume(self):
+        geo = path("boundary.geo")
+        with open(geo, "w") as file:
+            file.write('Merge "box.msh";\ns() = Boundary { Volume{1}; };\nPrintf("bounded by %g", #s());\n'
+                       'p() = Physical Surface{:};\nPrintf("groups %g", #p());\n')
+        done = subprocess.run(["gmsh", "-0", geo, "-o", path("unused.msh")], capture_output=True, text=True)
+        self.assertIn("bounded by 6", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
