@@ -5,9 +5,8 @@
 
 #include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/surface/facet_laws.h"
 #include "mesher/surface/group_planes.h"
-#include "mesher/surface/half_edges.h"
 #include "mesher/surface/planar_growth.h"
 #include "mesher/surface/triangle_contact.h"
 
@@ -25,13 +24,15 @@ double roundings(const Surface& surface) {
 
 class StandInBuilder {
  public:
-  StandInBuilder(const Surface& surface, double noise, Control& control)
+  // Groups grow by half the bound: their planes may yet be moved by the other half.
+  StandInBuilder(const Surface& surface, double bound, Control& control)
       : given_(surface),
+        bound_(bound),
         vertices_(surface.vertices),
         triangles_(surface.triangles),
         control_(control),
         surface_(surface),
-        growth_(surface_, noise, roundings(surface), control),
+        growth_(surface_, bound / 2 * (1 - 0x1p-20), roundings(surface), control),
         planes_(surface_, growth_, control) {}
 
   StandIn build() {
@@ -93,6 +94,7 @@ class StandInBuilder {
     stand_in_.planes.push_back(plane);
     return static_cast<std::uint32_t>(stand_in_.planes.size() - 1);
   }
+  bool moves(VertexId v) const { return stand_in_.planes_of[v][0] != kNone; }
   static std::vector<int> axes_left(const std::vector<Vec3>& normals) {
     if (normals.size() >= 3) return {};
     if (normals.size() == 2) return {largest_axis(cross(normals[0], normals[1]))};
@@ -117,13 +119,15 @@ class StandInBuilder {
       control_.poll();
       if (points.is_explicit(v)) continue;
       const double moved = distance(points.nearest(v), vertices_[v]);
-      if (!(moved <= kShareOfEdge * shortest_edge(v))) good = !planes_.release(v) && good;
+      const double error = 2 * points.approximation(v).error;
+      const double most = kShareOfEdge * (1 - 0x1p-40) * shortest_edge(v);
+      if (!(moved + error <= most)) good = !planes_.release(v) && good;
       stand_in_.displacement = std::max(stand_in_.displacement, moved);
     }
     if (!good) return false;
     Predicates predicates(points);
     return keeps_orientations(predicates) && groups_are_planar(predicates) &&
-           meets_nothing_new(predicates);
+           meets_nothing_new(predicates) && facets_keep_laws(points, predicates);
   }
   bool parallel(const std::array<std::uint32_t, 3>& p) const {
     const auto n = [&](std::size_t i) { return stand_in_.planes[p[i]].normal; };
@@ -222,8 +226,7 @@ class StandInBuilder {
     }
     return found;
   }
-  // Facets keep their outlines where this is so, because edges are flipped within groups alone. A
-  // group that is not in one plane gives up its triangles at the vertices off it.
+  // A group that is not in one plane gives up its triangles at the vertices off it.
   bool groups_are_planar(Predicates& predicates) {
     bool good = true;
     for (std::uint32_t g = 0; g < growth_.groups().size(); ++g) {
@@ -246,7 +249,7 @@ class StandInBuilder {
   bool release_around(std::uint32_t t) {
     bool any = false;
     for (const VertexId v : triangles_[t]) {
-      if (stand_in_.planes_of[v][0] != kNone) any |= planes_.release_all(v);
+      if (moves(v)) any |= planes_.release_all(v);
     }
     return any;
   }
@@ -275,22 +278,38 @@ class StandInBuilder {
     return meeting.empty();
   }
 
-  // Sets of triangles of one label that are connected by edges that are flat exactly.
-  std::uint64_t given_facets() const {
-    DisjointSets sets(triangles_.size());
-    std::uint64_t facets = triangles_.size();
-    for (std::uint32_t h = 0; h < 3 * triangles_.size(); ++h) {
-      const std::uint32_t g = surface_.opposite()[h], t = h / 3, u = g / 3;
-      if (h > g || surface_.label(t) != surface_.label(u) || sets.find(t) == sets.find(u)) continue;
-      const auto& [a, b, c] = triangles_[t];
-      if (orient3d_sign(vertices_[a], vertices_[b], vertices_[c], vertices_[surface_.across(g)]) !=
-          0) {
+  // The facets that the stand-in will have are groups, groups that share a plane, and whatever lies
+  // in the same one. All that is promised of them is asked once more, exactly.
+  bool facets_keep_laws(PointStore& points, Predicates& predicates) {
+    const ChangedSurface changed{given_, surface_.opposite(), flat_, twin_};
+    std::vector<std::uint32_t> against;
+    for (const std::vector<std::uint32_t>& facet : facets_of(changed, predicates)) {
+      control_.poll();
+      if (facet.size() == 1 || std::ranges::none_of(facet, [&](std::uint32_t t) {
+            return std::ranges::any_of(flat_[t], [&](VertexId v) { return moves(v); });
+          })) {
         continue;
       }
-      sets.unite(t, u);
-      --facets;
+      const std::vector<std::uint32_t> wrong =
+          keeps_outline(changed, facet) ? far_from_plane(changed, facet, bound_, points) : facet;
+      against.insert(against.end(), wrong.begin(), wrong.end());
     }
-    return facets;
+    for (const std::uint32_t t : against) {
+      if (in_group(t)) {
+        growth_.detach(t);
+      } else {
+        release_around(t);
+      }
+    }
+    return against.empty();
+  }
+
+  std::uint64_t given_facets() const {
+    PointStore points;
+    add_vertices(given_, {}, points);
+    Predicates predicates(points);
+    const std::vector<std::uint32_t>& opposite = surface_.opposite();
+    return facets_of({given_, opposite, triangles_, opposite}, predicates).size();
   }
 
   StandIn result() {
@@ -313,6 +332,7 @@ class StandInBuilder {
   }
 
   const Surface& given_;
+  const double bound_;
   const std::vector<Vec3>& vertices_;
   const std::vector<std::array<std::uint32_t, 3>>& triangles_;
   Control& control_;
@@ -330,11 +350,9 @@ class StandInBuilder {
 
 }  // namespace
 
-// Groups grow by half the bound: their planes may yet be moved by the other half.
 StandIn find_stand_in(const Surface& surface, double bound, Control& control) {
-  const double noise = bound / 2 * (1 - 0x1p-20);
-  if (!(noise > 0)) return {};
-  return StandInBuilder(surface, noise, control).build();
+  if (!(bound > 0)) return {};
+  return StandInBuilder(surface, bound, control).build();
 }
 
 void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points) {

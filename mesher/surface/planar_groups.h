@@ -7,8 +7,9 @@
 // plane, some in another triangulation. A vertex on the planes of three groups is their meeting
 // point (PointKind::on_planes); a vertex on fewer is moved along an axis or two. A vertex on more
 // stays, and planes are moved to contain it, or triangles at it leave their groups. The stand-in is
-// certified: exactly planar groups of positive triangles, which have the corners and the outline
-// that they have as given, and no two triangles of the surface meet anew.
+// certified: exactly planar groups of positive triangles, no two triangles of the surface meet
+// anew, and whatever facets it has in the end keep their corners, their outlines and the bound
+// (facet_laws.h).
 #pragma once
 
 #include <cstdint>
