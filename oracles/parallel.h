@@ -1,8 +1,11 @@
 // Independent tasks, shared among threads.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
+#include <mutex>
 
 namespace tetproof::oracles {
 
@@ -10,5 +13,31 @@ namespace tetproof::oracles {
 // caller's (0: as many as the machine has cores). Once a task has thrown, no further one begins.
 // When all have ended, the exception of the first task in order that threw is thrown on.
 void run_tasks(unsigned threads, std::size_t count, const std::function<void(std::size_t)>& task);
+
+// What the first thread that asks does, while the others wait for it. What it throws is thrown to
+// all of them; it is not done again. std::call_once lets exceptions pass through functions in C,
+// for which the C library needs memory: lack of memory would end the program.
+class Once {
+ public:
+  template <class Work>
+  void operator()(Work&& work) {
+    if (done_.load(std::memory_order_acquire)) return;
+    const std::lock_guard lock(mutex_);
+    if (thrown_) std::rethrow_exception(thrown_);
+    if (done_.load(std::memory_order_relaxed)) return;
+    try {
+      work();
+    } catch (...) {
+      thrown_ = std::current_exception();
+      throw;
+    }
+    done_.store(true, std::memory_order_release);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::atomic<bool> done_ = false;
+  std::exception_ptr thrown_;
+};
 
 }  // namespace tetproof::oracles

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <vector>
 
 #include "oracles/cover.h"
 #include "oracles/input_surface.h"
+#include "oracles/parallel.h"
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -35,7 +35,7 @@ class Places {
         cover_([mesh] { return cover_of(mesh); }) {}
 
   Place of(std::size_t t) const {
-    std::call_once(once_, [this] { find(); });
+    once_([this] { find(); });
     return places_[t];
   }
 
@@ -46,7 +46,7 @@ class Places {
   const Neighbours& neighbours_;
   const InputSurface& surface_;
   std::function<Cover()> cover_;  // or none
-  mutable std::once_flag once_;
+  mutable Once once_;
   mutable std::vector<Place> places_;
 };
 

@@ -6,17 +6,30 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 namespace tetproof::oracles {
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 18;
+
+}  // namespace
 
 std::string read_whole_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw ReadError(path + ": cannot be opened");
-  std::ostringstream contents;
-  contents << stream.rdbuf();
-  if (!stream.good()) throw ReadError(path + ": cannot be read, or is empty");
-  return std::move(contents).str();
+  std::error_code unknown;  // set if it is no regular file
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  std::string contents;
+  if (!unknown) contents.reserve(size + kPiece);
+  // Not into a stream of strings, which would take lack of memory for the end of the file.
+  while (stream) {
+    const std::size_t before = contents.size();
+    contents.resize(before + kPiece);
+    stream.read(contents.data() + before, kPiece);
+    contents.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad() || contents.empty()) throw ReadError(path + ": cannot be read, or is empty");
+  return contents;
 }
 
 struct TextReader::Source {
@@ -44,7 +57,6 @@ TextReader TextReader::of_file(const std::string& path, char comment) {
 }
 
 bool TextReader::refill() {
-  constexpr std::size_t kPiece = std::size_t{1} << 18;
   if (source_ == nullptr) return false;
   std::vector<char>& piece = source_->piece;
   const std::size_t left = text_.size() - kept_;

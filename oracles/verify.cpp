@@ -135,7 +135,7 @@ class Shared {
       : input_(input), exact_(exact), promise_(promise) {}
 
   const Sidecar& sidecar() {
-    std::call_once(sidecar_once_, [this] { read_sidecar(); });
+    sidecar_once_([this] { read_sidecar(); });
     return sidecar_;
   }
   // The arguments of the oracles of the refined mesh, once there is one.
@@ -150,7 +150,7 @@ class Shared {
   }
   // Only for a usable sidecar.
   const Refined& refined() {
-    std::call_once(refined_once_, [this] {
+    refined_once_([this] {
       refined_.complex = complex_of(exact_->refined, sidecar().points);
       refined_.shape = check_complex(refined_.complex, refined_.neighbours);
       refined_.places = std::make_unique<const Places>(refined_mesh());
@@ -165,7 +165,7 @@ class Shared {
   const Polyhedron& input_;
   const ExactRecord* exact_;
   const Promise& promise_;
-  std::once_flag sidecar_once_, refined_once_;
+  Once sidecar_once_, refined_once_;
   Sidecar sidecar_;
   Refined refined_;
 };

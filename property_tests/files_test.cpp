@@ -23,6 +23,7 @@
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
 #include "oracles/verify_command.h"
+#include "property_tests/little_memory.h"
 #include "property_tests/samples.h"
 
 namespace tetproof {
@@ -496,6 +497,30 @@ TEST_F(Files, GraphsAreReadAlikeByBothReaders) {
       EXPECT_EQ(one, other) << name << " " << i;
     }
   }
+}
+
+// Wherever memory ends.
+TEST_F(Files, VerifyingWithoutEnoughMemoryIsFive) {
+  const std::string said = path("said");
+  if (!can_be_limited(said)) GTEST_SKIP() << "address space cannot be limited here";
+  write_off("in.off", samples::skewed(samples::l_shape()).input);
+  ASSERT_EQ(run("mesh -q --max-edge 0.1 " + path("in.off") + " -o " + path("out.mesh") +
+                " --exact " + path("out.exact")),
+            0);
+  int ended = 0;
+  for (const std::size_t kibibytes : {64, 128, 256, 512, 1024, 65536}) {
+    fs::remove(said);
+    const int code = with_more_memory(kibibytes << 10, said, [&] {
+      survive_lack_of_memory();
+      return verify({path("in.off"), path("out.mesh"), "--exact", path("out.exact")});
+    });
+    std::ostringstream text;
+    text << std::ifstream(said).rdbuf();
+    EXPECT_TRUE(code == 0 || (code == 5 && text.str().ends_with("out.mesh: not enough memory\n")))
+        << code << " with " << kibibytes << " KiB: " << text.str();
+    if (code == 5) ++ended;
+  }
+  EXPECT_GE(ended, 2);
 }
 
 }  // namespace

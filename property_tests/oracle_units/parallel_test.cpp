@@ -6,9 +6,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <new>
 #include <stdexcept>
 
 #include "oracles/parallel.h"
+#include "property_tests/little_memory.h"
 
 namespace tetproof {
 namespace {
@@ -41,6 +43,46 @@ TEST(Parallel, AsManyTasksRunAtOnceAsThereAreThreads) {
     met += all_here.wait_for(lock, std::chrono::seconds(20), [&] { return here == 3; }) ? 1 : 0;
   });
   EXPECT_EQ(met, 3);
+}
+
+TEST(Once, IsDoneOnceForAllThatAsk) {
+  Once once;
+  int done = 0;
+  run_tasks(3, 6, [&](std::size_t) { once([&] { ++done; }); });
+  EXPECT_EQ(done, 1);
+}
+
+TEST(Once, WhatItThrowsIsThrownToAllThatAsk) {
+  Once once;
+  int tried = 0;
+  const auto work = [&] {
+    ++tried;
+    throw std::runtime_error("once");
+  };
+  EXPECT_THROW(once(work), std::runtime_error);
+  EXPECT_THROW(once(work), std::runtime_error);
+  EXPECT_EQ(tried, 1);
+}
+
+// Not a byte is left where the exception is on its way.
+TEST(Once, LackOfMemoryIsThrownLikeAnythingElse) {
+  if (!can_be_limited("/dev/null")) GTEST_SKIP() << "address space cannot be limited here";
+  const int code = with_more_memory(16 << 20, "/dev/null", [] {
+    Once once;
+    try {
+      once([] {
+        for (std::size_t size = 1 << 20; size >= 16; size /= 2) {
+          while (::operator new(size, std::nothrow) != nullptr) {
+          }
+        }
+        throw std::bad_alloc();
+      });
+    } catch (const std::bad_alloc&) {
+      return 5;
+    }
+    return 0;
+  });
+  EXPECT_EQ(code, 5);
 }
 
 }  // namespace

@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
+#include "property_tests/little_memory.h"
 #include "property_tests/oracle_units/helpers.h"
 
 namespace tetproof {
@@ -50,6 +53,27 @@ TEST(TextReader, NumbersBelowDoublesAreZeroThoseAboveAreRefused) {
   }
   EXPECT_EQ(TextReader("file", "0x1p-1074").number(), 0x1p-1074);
   EXPECT_EQ(TextReader("file", "4e-324").number(), 0x1p-1074);
+}
+
+TEST(TextReader, AFileThatDoesNotFitInMemoryIsNotReadInPart) {
+  const std::string said = "/dev/null";
+  if (!can_be_limited(said)) GTEST_SKIP() << "address space cannot be limited here";
+  // Larger than what the C library keeps for a thread.
+  constexpr std::size_t kSize = 80 << 20;
+  const std::string file = testing::TempDir() + "larger_than_memory";
+  std::ofstream(file) << std::string(kSize, 'x');
+  const auto read = [&] {
+    try {
+      return oracles::read_whole_file(file).size() == kSize ? 0 : 1;
+    } catch (const std::bad_alloc&) {
+      return 5;
+    }
+  };
+  EXPECT_EQ(with_more_memory(2 * kSize, said, read), 0);
+  for (const std::size_t mebibytes : {2, 30, 70}) {
+    EXPECT_EQ(with_more_memory(mebibytes << 20, said, read), 5) << mebibytes;
+  }
+  std::remove(file.c_str());
 }
 
 TEST(TextReader, ReadsAFilePieceByPieceAsItReadsTheWhole) {

@@ -1,0 +1,48 @@
+// Processes that run out of memory.
+#pragma once
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tetproof {
+
+// Of a process that may use so much more address space than it has: its exit code, or -1 if it was
+// ended, after two minutes at the latest. What it says is appended to `said`.
+inline int with_more_memory(std::size_t bytes, const std::string& said,
+                            const std::function<int()>& work) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t limit = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) + bytes;
+    const rlimit both = {limit, limit};
+    const bool ready = std::freopen(said.c_str(), "a", stderr) != nullptr &&
+                       std::freopen("/dev/null", "w", stdout) != nullptr &&
+                       setrlimit(RLIMIT_AS, &both) == 0;
+    alarm(120);
+    const int code = ready ? work() : 99;
+    std::fflush(nullptr);
+    _exit(code);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// Sanitizers take address space for themselves.
+inline bool can_be_limited(const std::string& said) {
+  return with_more_memory(64 << 20, said, [] {
+           const std::vector<char> some(1 << 20, 'x');
+           return some.back() == 'x' ? 0 : 1;
+         }) == 0;
+}
+
+}  // namespace tetproof
