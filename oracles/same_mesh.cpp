@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "oracles/distances.h"
@@ -37,6 +38,60 @@ bool sort_face(Face& face) {
     even = !even;
   }
   return even;
+}
+
+// A tetrahedron of the file or of the record that the other one does not have, by its points.
+struct Difference {
+  Tet tet;
+  std::size_t index;
+  bool written;  // in the file
+};
+
+// Differences that hang together over common faces, and what they amount to.
+struct Change {
+  std::vector<Difference> differences;
+  bool same_surface = true;  // the faces that bound those of the file bound those of the record
+};
+
+std::vector<Change> changes_of(const std::vector<Difference>& differences) {
+  struct Side {
+    Face face;
+    std::size_t difference;
+    int sign;  // of the face seen from outside the tetrahedron; the other way in the record
+  };
+  std::vector<Side> sides;
+  for (std::size_t d = 0; d < differences.size(); ++d) {
+    for (int i = 0; i < 4; ++i) {
+      Face face = face_of(differences[d].tet, i);
+      const bool even = sort_face(face);
+      sides.push_back({face, d, even == differences[d].written ? 1 : -1});
+    }
+  }
+  std::ranges::sort(sides, {}, &Side::face);
+  std::vector<std::size_t> change_of(differences.size());
+  std::iota(change_of.begin(), change_of.end(), std::size_t{0});
+  const auto find = [&](std::size_t d) {
+    while (change_of[d] != d) d = change_of[d] = change_of[change_of[d]];
+    return d;
+  };
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i].face != sides[i - 1].face) continue;
+    const auto [first, second] =
+        std::minmax(find(sides[i].difference), find(sides[i - 1].difference));
+    change_of[second] = first;
+  }
+  std::map<std::size_t, Change> changes;
+  for (std::size_t d = 0; d < differences.size(); ++d) {
+    changes[find(d)].differences.push_back(differences[d]);
+  }
+  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+    int sum = 0;
+    for (; end < sides.size() && sides[end].face == sides[i].face; ++end) sum += sides[end].sign;
+    if (sum != 0) changes[find(sides[i].difference)].same_surface = false;
+  }
+  std::vector<Change> result;
+  for (auto& [first, change] : changes) result.push_back(std::move(change));
+  return result;
 }
 
 class SameMesh {
@@ -76,9 +131,7 @@ class SameMesh {
     std::vector<Written> written, recorded;
     written.reserve(mesh_.tetrahedra.size());
     for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
-      Tet tet = mesh_.tetrahedra[t];
-      for (Index& v : tet) v = v < record_.mesh_vertices.size() ? record_.mesh_vertices[v] : kNone;
-      written.push_back({sorted(tet), t});
+      written.push_back({sorted(points_of(mesh_.tetrahedra[t])), t});
     }
     for (std::size_t t = 0; t < tets_.size(); ++t) {
       if (all_ || tets_[t].inside) recorded.push_back({sorted(tets_[t].vertices), t});
@@ -86,16 +139,93 @@ class SameMesh {
     std::sort(written.begin(), written.end());
     std::sort(recorded.begin(), recorded.end());
     report_.checked = written.size();
+    std::vector<Difference> differences;
     std::size_t w = 0, r = 0;
     while (w < written.size() || r < recorded.size()) {
       if (r == recorded.size() || (w < written.size() && written[w] < recorded[r])) {
-        report_.fail("tetrahedron " + std::to_string(written[w++].index) +
-                     " of the file is none of the record");
+        const std::size_t t = written[w++].index;
+        differences.push_back({points_of(mesh_.tetrahedra[t]), t, true});
       } else if (w == written.size() || recorded[r] < written[w]) {
-        report_.fail("tetrahedron " + std::to_string(recorded[r++].index) +
-                     " of the record is not in the file");
+        const std::size_t t = recorded[r++].index;
+        differences.push_back({tets_[t].vertices, t, false});
       } else {
         compare_regions(written[w++].index, recorded[r++].index);
+      }
+    }
+    if (differences.empty()) return;
+    for (Index v = 0; v < record_.mesh_vertices.size(); ++v) {
+      written_as_.emplace(record_.mesh_vertices[v], v);
+    }
+    std::size_t repaired = 0;
+    for (const Change& change : changes_of(differences)) {
+      if (is_repair(change)) {
+        compare_regions(change);
+        repaired += change.differences.size();
+        continue;
+      }
+      for (const Difference& d : change.differences) {
+        report_.fail("tetrahedron " + std::to_string(d.index) +
+                     (d.written ? " of the file is none of the record"
+                                : " of the record is not in the file"));
+      }
+    }
+    if (repaired > 0) {
+      report_.figures.emplace_back("changed to repair rounding", static_cast<double>(repaired));
+    }
+  }
+
+  Tet points_of(Tet tet) const {
+    for (Index& v : tet) v = v < record_.mesh_vertices.size() ? record_.mesh_vertices[v] : kNone;
+    return tet;
+  }
+
+  // The record of a refined mesh holds it as it was before it was rounded. Where rounding made a
+  // tetrahedron flat or inverted, other tetrahedra of the same points may fill the same place, a
+  // few for each; that they are positive and fit together is for the oracles of the file.
+  bool is_repair(const Change& change) const {
+    constexpr std::size_t kMostForOne = 32;
+    if (!record_.final.empty() || !change.same_surface) return false;
+    std::size_t spoilt = 0, written = 0;
+    for (const Difference& d : change.differences) {
+      if (d.written) {
+        ++written;
+      } else if (sign_as_written(d.tet) <= 0) {
+        ++spoilt;
+      }
+    }
+    return written > 0 && change.differences.size() <= kMostForOne * spoilt;
+  }
+
+  // 1 also if not all of its corners are written.
+  int sign_as_written(const Tet& tet) const {
+    std::array<std::array<mpq_class, 3>, 4> p;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto at = written_as_.find(tet[i]);
+      if (at == written_as_.end()) return 1;
+      const Position& x = mesh_.vertices[at->second];
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!std::isfinite(x[k])) return 1;
+        p[i][k] = x[k];
+      }
+    }
+    for (std::size_t i = 1; i < 4; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) p[i][k] -= p[0][k];
+    }
+    const mpq_class volume = p[1][0] * (p[2][1] * p[3][2] - p[2][2] * p[3][1]) -
+                             p[1][1] * (p[2][0] * p[3][2] - p[2][2] * p[3][0]) +
+                             p[1][2] * (p[2][0] * p[3][1] - p[2][1] * p[3][0]);
+    return sgn(volume);
+  }
+
+  // All of a change is on one side of the surface.
+  void compare_regions(const Change& change) {
+    const auto recorded = std::ranges::find(change.differences, false, &Difference::written);
+    for (const Difference& d : change.differences) {
+      if (d.written) {
+        compare_regions(d.index, recorded->index);
+      } else if (tets_[d.index].inside != tets_[recorded->index].inside) {
+        report_.fail("a repair of rounding reaches through the surface at tetrahedron " +
+                     std::to_string(d.index) + " of the record");
       }
     }
   }
@@ -205,6 +335,7 @@ class SameMesh {
   const std::vector<ExactRecord::Tet>& tets_;
   const std::vector<std::array<std::uint32_t, 4>>& faces_;
   std::optional<std::int64_t> outside_;
+  std::map<Index, Index> written_as_;  // point -> vertex of the file; if there are differences
   OracleReport report_{"same-mesh", "tetrahedra of the file"};
 };
 

@@ -14,7 +14,9 @@ struct SameMeshOptions {
 
 // The tetrahedra of the file are, through mesh_vertices and one to one, those of the last mesh of
 // the record: of the solid, or all if the hull was promised. Region numbers tell inside from
-// outside as the record does. Listed boundary triangles are the record's faces on facets, one to
+// outside as the record does. A refined mesh is recorded as it was before it was rounded: where
+// rounding made a tetrahedron of it flat or inverted, others that fill the same place are accepted.
+// Listed boundary triangles are the record's faces on facets, one to
 // one, with their labels and facets, and seen from outside.
 OracleReport check_same_mesh(const MeshFile& mesh, const delmesher::ExactRecord& record,
                              const Promise& promise, bool labelled);

@@ -1,5 +1,7 @@
 // Lies: records and files of other runs.
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -11,6 +13,53 @@ namespace {
 
 using namespace oracles;  // NOLINT
 using delmesher::Options;
+
+double volume_of(const MeshFile& mesh, const Tet& t) {
+  std::array<std::array<double, 3>, 3> e;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      e[i][k] = mesh.vertices[t[i + 1]][k] - mesh.vertices[t[0]][k];
+    }
+  }
+  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+         e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+}
+
+// The first two tetrahedra whose union has an edge through their common face are made three around
+// that edge, which fill the same place.
+void make_three_of_two(MeshFile& mesh) {
+  std::map<Face, std::pair<std::size_t, int>> seen;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    for (int i = 0; i < 4; ++i) {
+      const Face face = face_of(mesh.tetrahedra[t], i);
+      Face sorted = face;
+      std::ranges::sort(sorted);
+      const auto [other, first] = seen.try_emplace(sorted, t, i);
+      if (first) continue;
+      const auto [u, j] = other->second;
+      const double whole =
+          volume_of(mesh, mesh.tetrahedra[t]) + volume_of(mesh, mesh.tetrahedra[u]);
+      const Index apex = mesh.tetrahedra[t][static_cast<std::size_t>(i)],
+                  below = mesh.tetrahedra[u][static_cast<std::size_t>(j)];
+      std::array<Tet, 3> three;
+      // All three turn the same way, as the corners of the face do.
+      const bool turned = volume_of(mesh, {face[0], face[1], apex, below}) < 0;
+      bool positive = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        three[k] = {face[k], face[(k + 1) % 3], apex, below};
+        if (turned) std::swap(three[k][0], three[k][1]);
+        positive = positive && volume_of(mesh, three[k]) > 1e-3 * whole;
+      }
+      if (!positive || mesh.regions[t] != mesh.regions[u]) continue;
+      mesh.tetrahedra[t] = three[0];
+      mesh.tetrahedra[u] = three[1];
+      mesh.tetrahedra.push_back(three[2]);
+      mesh.regions.push_back(mesh.regions[t]);
+      return;
+    }
+  }
+}
 
 const Lie kForeign[] = {
     {"file of another run, every written vertex point 0", "same-mesh",
@@ -129,6 +178,13 @@ const Lie kForeign[] = {
      [](Told& t) {
        run_hull(t);
        *std::find(t.sample.mesh.regions.begin(), t.sample.mesh.regions.end(), 0) = 2;
+     }},
+    {"two tetrahedra of --approximate made three, none of which was flat", "same-mesh",
+     [](Told& t) {
+       Options options = honest_options();
+       options.approximate = true;
+       t = run_of(options);
+       make_three_of_two(t.sample.mesh);
      }},
     {"a final mesh where --approximate was promised", "promise",
      [](Told& t) { t.promise.approximate = true; }},
