@@ -271,6 +271,8 @@ Finding command_line_holds(const std::string& text) {
       words.back() += c;
     }
   }
+  // Standard input may be somebody's terminal.
+  if (std::any_of(words.begin(), words.end(), delmesher::io::is_standard_stream)) return {};
   const delmesher::cli::Parsed parsed = delmesher::cli::parse_arguments(words);
   if (!parsed.run) {
     not_run.take();
@@ -294,7 +296,7 @@ Finding command_line_holds(const std::string& text) {
   if (code < 0 || (code > 6 && code != 130)) {
     return "command line: exit code " + std::to_string(code);
   }
-  if (code != 0 && said.rfind("delmesher: ", 0) != 0)
+  if (code != 0 && ("\n" + said).find("\ndelmesher: ") == std::string::npos)
     return "command line: says nothing of " + said;
   return {};
 }

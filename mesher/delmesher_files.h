@@ -53,6 +53,25 @@ struct ReadOptions {
 // check_surface() and tetrahedralize() to say.
 ReadResult read_surface(const std::string& path, const ReadOptions& options = {});
 
+struct RepairOptions {
+  // Vertices no farther apart than this become one, the first of them (input units). Equal ones do
+  // in any case.
+  double weld = 0;
+  // Fill the holes that are planar within 1e-6 of the diagonal, or no wider than a twentieth of it.
+  bool fill = false;
+};
+
+struct RepairResult {
+  Surface surface;
+  std::vector<std::string> done;  // what was done, a line each: "12 vertices welded ..."
+};
+
+// Mends what can be mended without guessing: welds vertices, removes triangles without area
+// (exactly) and duplicates, turns triangles round so that neighbours agree, fills holes if asked,
+// and drops vertices of no triangle. Nothing else is moved or added. Whether the result is valid is
+// for check_surface() to say.
+RepairResult repair_surface(const Surface& surface, const RepairOptions& options = {});
+
 struct PlaneReadResult {
   ReadCode code = ReadCode::ok;
   std::string error;  // "file:line: reason" or "file: reason"

@@ -8,7 +8,11 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <system_error>
+#include <thread>
 
+#include "mesher/cli/nearest.h"
+#include "mesher/io/output.h"
 #include "mesher/io/read_mesh.h"
 #include "mesher/io/text.h"
 #include "mesher/io/write_mesh.h"
@@ -25,6 +29,7 @@ struct Given {
   std::optional<Region> region;
   std::optional<AsPaper> as_paper;
   bool approximate = false, gabriel = false, no_bridges = false, paper = false;
+  std::vector<std::string> inputs;
 };
 
 // The option is to be left out where the library says 0 for none.
@@ -37,12 +42,23 @@ Bounds at_least_one(Bounds bounds) {
   return bounds;
 }
 
+// "above 0 and at most 30"
+std::string range_text(const Bounds& bounds) {
+  const auto number = [](double x) {
+    std::string text;
+    io::append_double(text, x);
+    return text;
+  };
+  const std::string low = (bounds.above_low ? "above " : "at least ") + number(bounds.low);
+  return bounds.high == kNoBound ? low : low + ", at most " + number(bounds.high);
+}
+
 CLI::Validator number_within(Bounds bounds) {
   return CLI::Validator(
       [bounds](std::string& text) -> std::string {
         double value = 0;
         if (io::parse_double(text, value) != io::NumberStatus::ok) return "not a number: " + text;
-        return bounds.allow(value) ? "" : "out of range: " + text;
+        return bounds.allow(value) ? "" : "out of range: " + text + " (" + range_text(bounds) + ")";
       },
       "NUMBER");
 }
@@ -65,9 +81,12 @@ void add_planar(CLI::App& app, Given& given) {
       ->type_name("X");
 }
 
-constexpr const char* kSurfaces = "surface: OFF, OBJ, STL, PLY, .smesh or .poly";
-void add_common(CLI::App& app, Command& command, const char* input = kSurfaces) {
-  app.add_option("input", command.input, input)->required();
+constexpr const char* kSurfaces =
+    "surface: OFF, OBJ, STL, PLY, .smesh or .poly, - is standard input";
+void add_common(CLI::App& app, Command& command, Given& given, const char* input = kSurfaces) {
+  app.add_option("input", given.inputs, std::string(input) + "; may be several")->required();
+  add_number(app, given, "jobs", "how many of several inputs at a time, 0: one per core (1)",
+             kBounds.threads);
   auto* quiet = app.add_flag("-q,--quiet", command.quiet, "say nothing but errors");
   app.add_flag("-v,--verbose", command.verbose, "say what each phase did")->excludes(quiet);
 }
@@ -80,7 +99,9 @@ void add_threads(CLI::App& app, Given& given) {
 // What every job has that writes a mesh.
 void add_outputs(CLI::App& app, Command& command, Given& given, const std::string& extensions) {
   app.add_option("-o,--output", command.outputs,
-                 "mesh to write: " + extensions + "; may be repeated")
+                 "mesh to write: " + extensions +
+                     "; may be repeated; {name} is the input's name without folder and extension, "
+                     "-.EXT is standard output")
       ->required()
       ->expected(1)
       ->take_all();
@@ -138,7 +159,7 @@ void add_names(CLI::App& app, Command& command) {
 }
 
 void add_mesh(CLI::App& app, Command& command, Given& given) {
-  add_common(app, command);
+  add_common(app, command, given);
   add_run(app, command, given);
   add_names(app, command);
   add_number(app, given, "delta", "smallest face angle, degrees (14.47)", kBounds.delta);
@@ -177,7 +198,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
 
 void add_improve(CLI::App& app, Command& command, Given& given) {
   const std::string input = "mesh of tetrahedra: " + io::read_mesh_extensions();
-  add_common(app, command, input.c_str());
+  add_common(app, command, given, input.c_str());
   add_outputs(app, command, given, io::mesh_extensions());
   add_names(app, command);
   add_number(app, given, "delta", "no smaller face angle is made, degrees (14.47)", kBounds.delta);
@@ -186,7 +207,8 @@ void add_improve(CLI::App& app, Command& command, Given& given) {
 }
 
 void add_plane(CLI::App& app, Command& command, Given& given) {
-  add_common(app, command, "planar graph: .poly, OFF or OBJ with z = 0, or rings of x y lines");
+  add_common(app, command, given,
+             "planar graph: .poly, OFF or OBJ with z = 0, or rings of x y lines");
   add_run(app, command, given, io::plane_extensions());
   add_number(app, given, "delta", "smallest angle, degrees (20.7)", kPlaneBounds.delta);
   add_number(app, given, "tau", "narrowest channel refined, width over length, 0 is off (1e-4)",
@@ -203,6 +225,21 @@ void add_plane(CLI::App& app, Command& command, Given& given) {
          "paper: delta 20.7, tau 0, acute 90, region hull; other options override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered graph, .poly");
+}
+
+void add_repair(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command, given);
+  app.add_option("-o,--output", command.outputs,
+                 "surface to write: " + io::boundary_extensions() + "; may be repeated")
+      ->required()
+      ->expected(1)
+      ->take_all();
+  add_number(app, given, "weld", "join vertices no farther apart than this, in units of the input",
+             positive(kBounds.length));
+  app.add_flag("--fill", command.repair.fill,
+               "fill holes that are planar, or narrower than a twentieth of the diagonal");
+  add_names(app, command);
+  add_threads(app, given);
 }
 
 void apply(const Given& given, Command& command) {
@@ -229,6 +266,7 @@ void apply(const Given& given, Command& command) {
   options.gabriel |= given.gabriel;
   number("chamfer-radius", options.chamfer_radius);
   number("max-edge", options.max_edge);
+  number("weld", command.repair.weld);
   number("time-limit", options.time_limit_seconds);
   double vertices = 0, budget = 0, threads = 1;
   number("max-vertices", vertices);
@@ -247,37 +285,73 @@ void apply(const Given& given, Command& command) {
   options.want_chamfered = !command.chamfered_file.empty();
 }
 
-// Files that would overwrite each other or the input; unknown formats.
-std::string output_error(const Command& command) {
+unsigned jobs_of(const Given& given) {
+  double jobs = 1;
+  if (const auto found = given.numbers.find("jobs"); found != given.numbers.end()) {
+    io::parse_double(found->second, jobs);
+  }
+  return jobs > 0 ? static_cast<unsigned>(jobs) : std::max(1U, std::thread::hardware_concurrency());
+}
+
+// Files that would overwrite each other or the input; unknown formats. `seen`: those of other runs.
+std::string output_error(const Command& command, std::vector<std::filesystem::path>& seen) {
   // An .ele stands for several files; those beside are read, too.
   std::vector<std::string> files = {command.input};
   if (command.job == Job::improve) files = io::mesh_files_read(command.input);
   const bool plane = command.job == Job::plane;
   for (const std::string& output : command.outputs) {
-    const std::vector<std::string> made =
-        plane ? io::plane_files_of(output) : io::mesh_files_of(output);
+    const bool surface = command.job == Job::repair;
+    const std::vector<std::string> made = plane     ? io::plane_files_of(output)
+                                          : surface ? io::boundary_files_of(output)
+                                                    : io::mesh_files_of(output);
     if (made.empty()) {
-      return output + ": unknown mesh format (" +
-             (plane ? io::plane_extensions() : io::mesh_extensions()) + ")";
+      return output + ": unknown " + (surface ? "surface" : "mesh") + " format (" +
+             (plane     ? io::plane_extensions()
+              : surface ? io::boundary_extensions()
+                        : io::mesh_extensions()) +
+             ")";
     }
     files.insert(files.end(), made.begin(), made.end());
   }
   for (const std::string* file :
-       {&command.stats_file, &command.chamfered_file, &command.exact_file, &command.names_file}) {
+       {&command.stats_file, &command.chamfered_file, &command.exact_file, &command.defects_file}) {
     if (!file->empty()) files.push_back(*file);
   }
-  std::vector<std::filesystem::path> seen;
-  for (const std::string& file : files) {
+  if (std::count_if(files.begin() + 1, files.end(), io::is_standard_stream) > 1) {
+    return "standard output can take one file";
+  }
+  const auto where = [](const std::string& file) {
     std::error_code error;
     std::filesystem::path path =
         std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
-    if (error) path = file;
-    if (std::find(seen.begin(), seen.end(), path) != seen.end()) {
-      return file + ": named twice, or the same as the input";
-    }
-    if (!std::filesystem::is_character_file(path, error)) seen.push_back(path);
+    return error ? std::filesystem::path(file) : path;
+  };
+  const auto clash = [&](const std::string& file) {
+    return !io::is_standard_stream(file) &&
+           std::find(seen.begin(), seen.end(), where(file)) != seen.end();
+  };
+  constexpr const char* kClash = ": named twice, or the same as the input";
+  for (const std::string& file : files) {
+    if (clash(file)) return file + kClash;
+    std::error_code error;
+    if (!std::filesystem::is_character_file(where(file), error)) seen.push_back(where(file));
   }
+  // Only read, and by every run.
+  if (!command.names_file.empty() && clash(command.names_file)) return command.names_file + kClash;
   return {};
+}
+
+// Several runs would mix what they write.
+bool shares_standard_output(const std::vector<Command>& batch) {
+  return batch.size() > 1 && std::any_of(batch.begin(), batch.end(), [](const Command& command) {
+           const std::string* files[] = {&command.stats_file, &command.chamfered_file,
+                                         &command.exact_file, &command.defects_file};
+           return std::any_of(command.outputs.begin(), command.outputs.end(),
+                              io::is_standard_stream) ||
+                  std::any_of(std::begin(files), std::end(files), [](const std::string* file) {
+                    return io::is_standard_stream(*file);
+                  });
+         });
 }
 
 Parsed usage_error(const std::string& text) {
@@ -287,13 +361,86 @@ Parsed usage_error(const std::string& text) {
   return parsed;
 }
 
+const std::vector<std::string> kCommands = {"mesh", "cdt", "plane", "check", "improve", "repair"};
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 void default_to_mesh(std::vector<std::string>& arguments) {
-  static constexpr std::array<std::string_view, 8> kFirst = {
-      "mesh", "cdt", "plane", "check", "improve", "--help", "-h", "--version"};
-  if (arguments.empty() || std::find(kFirst.begin(), kFirst.end(), arguments[0]) == kFirst.end()) {
+  static const std::vector<std::string> kOthers = {"--help", "-h", "--version"};
+  if (arguments.empty() ||
+      !(contains(kCommands, arguments[0]) || contains(kOthers, arguments[0]))) {
     arguments.insert(arguments.begin(), "mesh");
   }
 }
+
+// A first word that is no file and nearly a command.
+std::string mistyped_command(const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments[0].find_first_of("./-") != std::string::npos) return {};
+  std::error_code ignored;
+  if (contains(kCommands, arguments[0]) || std::filesystem::exists(arguments[0], ignored))
+    return {};
+  const std::string meant = suggestion(arguments[0], kCommands);
+  return meant.empty() ? "" : "no command or file " + io::quoted(arguments[0]) + meant;
+}
+
+// The first option of the command line that the command has not; CLI11 would name something else
+// first.
+std::string unknown_option(const CLI::App& app, const std::vector<std::string>& arguments) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
+    const std::string& word = arguments[i];
+    if (word.size() < 2 || word[0] != '-' || word[1] == '.') continue;
+    const bool is_long = word[1] == '-';
+    const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+    if (!contains(names, name)) {
+      return io::quoted(word) + ": no such option of " + app.get_name() + suggestion(name, names);
+    }
+    const CLI::Option* option = app.get_option(name);
+    const bool has_value = is_long ? name.size() < word.size() : word.size() > 2;
+    if (option->get_expected_max() > 0 && !has_value) ++i;  // whatever its value looks like
+  }
+  return {};
+}
+
+std::string with_name(std::string text, const std::string& input) {
+  constexpr std::string_view kName = "{name}";
+  const std::string name = std::filesystem::path(input).stem().string();
+  for (std::size_t at = text.find(kName); at != std::string::npos;
+       at = text.find(kName, at + name.size())) {
+    text.replace(at, kName.size(), name);
+  }
+  return text;
+}
+
+Command for_input(Command command, const std::string& input) {
+  command.input = input;
+  for (std::string& output : command.outputs) output = with_name(output, input);
+  for (std::string* file :
+       {&command.stats_file, &command.chamfered_file, &command.exact_file, &command.defects_file}) {
+    *file = with_name(*file, input);
+  }
+  return command;
+}
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 inverted or flat tetrahedra left, or a file of several failed; 2 "
+    "usage;\n"
+    "  3 file; 4 not valid; 5 limit; 6 a bug; 130 interrupted.";
+
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  delmesher part.stl -o part.msh                        mesh a part\n"
+    "  delmesher part.obj -o part.inp --max-edge 2           no edge longer than 2, for Abaqus\n"
+    "  delmesher mesh *.stl -o out/{name}.vtu --jobs 4       a whole folder\n"
+    "  delmesher check part.stl                              what is wrong with it?\n"
+    "  delmesher repair part.stl -o mended.stl --fill        mend what is safe to mend\n"
+    "`delmesher COMMAND --help` tells the options.";
 
 }  // namespace
 
@@ -302,6 +449,7 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   Given given;
   CLI::App app("Tetrahedral meshes of closed surfaces, exactly conforming.", "delmesher");
   app.require_subcommand(1);
+  app.footer(std::string(kExamples) + "\n" + kExitCodes);
   app.set_version_flag("--version", std::string("delmesher ") + version());
   CLI::App* mesh = app.add_subcommand("mesh", "tetrahedralize a closed surface (the default)");
   CLI::App* cdt = app.add_subcommand(
@@ -311,22 +459,35 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   CLI::App* improve = app.add_subcommand(
       "improve", "fewer and better tetrahedra of a mesh, its boundary kept exactly");
   add_mesh(*mesh, command, given);
-  add_common(*cdt, command);
+  add_common(*cdt, command, given);
   add_run(*cdt, command, given);
   add_names(*cdt, command);
   add_threads(*cdt, given);
   add_plane(*plane, command, given);
   add_improve(*improve, command, given);
-  add_common(*check, command);
+  add_common(*check, command, given);
   add_planar(*check, given);
+  CLI::App* repair = app.add_subcommand("repair", "mend a surface where that is safe");
+  add_repair(*repair, command, given);
   check->add_flag("--json", command.json, "report as JSON");
+  check->add_option("--defects", command.defects_file,
+                    "write the surface as .ply, its triangles coloured by what is wrong at them");
   add_number(*check, given, "acute", "corners below this angle are acute, degrees (60)",
              kBounds.acute);
   add_number(*check, given, "corner", "the same for the angle of two edges, degrees (20)",
              kBounds.corner);
   add_threads(*check, given);
 
+  if (const std::string error = mistyped_command(arguments); !error.empty()) {
+    return usage_error(error);
+  }
   default_to_mesh(arguments);
+  for (CLI::App* subcommand : {mesh, cdt, plane, check, improve, repair}) {
+    subcommand->footer(kExitCodes);
+    if (subcommand->get_name() != arguments[0]) continue;
+    const std::string error = unknown_option(*subcommand, arguments);
+    if (!error.empty()) return usage_error(error);
+  }
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   Parsed parsed;
   try {
@@ -345,12 +506,22 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
                 : cdt->parsed()     ? Job::cdt
                 : check->parsed()   ? Job::check
                 : improve->parsed() ? Job::improve
+                : repair->parsed()  ? Job::repair
                                     : Job::mesh;
   apply(given, command);
-  const std::string error = output_error(command);
-  if (!error.empty()) return usage_error(error);
+  std::vector<std::filesystem::path> seen;
+  for (const std::string& input : given.inputs) {
+    parsed.batch.push_back(for_input(command, input));
+    const std::string error = output_error(parsed.batch.back(), seen);
+    if (!error.empty()) return usage_error(error);
+  }
+  if (shares_standard_output(parsed.batch)) {
+    return usage_error("standard output can take the file of one input");
+  }
   parsed.run = true;
-  parsed.command = std::move(command);
+  parsed.jobs = jobs_of(given);
+  parsed.command = parsed.batch.front();
+  if (parsed.batch.size() == 1) parsed.batch.clear();
   return parsed;
 }
 

@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "mesher/delmesher_files.h"
 #include "mesher/delmesher_plane.h"
 
 namespace delmesher::cli {
 
-enum class Job : std::uint8_t { mesh, cdt, plane, check, improve };
+enum class Job : std::uint8_t { mesh, cdt, plane, check, improve, repair };
 
 // Exit codes of all programs of the project.
 inline constexpr int kDone = 0, kFailed = 1, kUsage = 2, kUnreadable = 3, kInvalid = 4, kLimit = 5,
@@ -21,13 +22,17 @@ struct Command {
   Options options;
   std::string stats_file, chamfered_file, exact_file;  // empty: not wanted
   std::string names_file;                              // empty: names of the input
+  std::string defects_file;                            // of check
+  io::RepairOptions repair;
   bool json = false, quiet = false, verbose = false;
 };
 
 // Either a command to run, or a text to print and an exit code.
 struct Parsed {
   bool run = false;
-  Command command;
+  Command command;             // the first of the batch, if there is one
+  std::vector<Command> batch;  // one for each input, if there are several
+  unsigned jobs = 1;           // how many of them at a time
   int exit_code = kDone;
   std::string out, error;  // for stdout and stderr
 };

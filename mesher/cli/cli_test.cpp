@@ -194,6 +194,65 @@ TEST(Arguments, HelpAndVersion) {
   EXPECT_EQ(parse({"--version"}).out, std::string("delmesher ") + version() + "\n");
 }
 
+TEST(Arguments, WhatIsMistypedIsNamedWithWhatMayBeMeant) {
+  expect_usage_error({"--frobnicate", "cube.off"}, "'--frobnicate': no such option of mesh\n");
+  expect_usage_error({"--detla", "3", "cube.off"},
+                     "'--detla': no such option of mesh: did you mean --delta?");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--max-egde=2"}, "did you mean --max-edge?");
+  expect_usage_error({"in.off", "-o", "a.mesh", "-x"}, "'-x': no such option of mesh");
+  expect_usage_error({"improve", "a.msh", "--tau", "1"}, "'--tau': no such option of improve");
+  expect_usage_error({"meshh", "cube.off"}, "no command or file 'meshh': did you mean mesh?");
+  expect_usage_error({"chekc", "cube.off"}, "did you mean check?");
+  // What stands where a value is expected is no option, and a file may be called like a command.
+  expect_usage_error({"in.off", "-o", "a.mesh", "--delta", "-1"}, "out of range: -1");
+  EXPECT_EQ(parse({"mesh", "meshes", "-o", "a.mesh"}).command.input, "meshes");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--tau", "2"},
+                     "out of range: 2 (at least 0, at most 1)");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--max-edge", "0"}, "out of range: 0 (above 0)");
+}
+
+TEST(Arguments, HelpFitsAScreen) {
+  const std::string help = parse({"--help"}).out;
+  EXPECT_LE(std::count(help.begin(), help.end(), '\n'), 24) << help;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  EXPECT_NE(help.find("delmesher part.stl -o part.msh"), std::string::npos);
+  for (const char* command : {"", "mesh", "cdt", "plane", "check", "improve"}) {
+    std::vector<std::string> arguments = {"--help"};
+    if (*command != '\0') arguments.insert(arguments.begin(), command);
+    EXPECT_NE(parse(arguments).out.find("Exit codes: 0 done;"), std::string::npos) << command;
+  }
+}
+
+TEST(Arguments, SeveralInputs) {
+  const Parsed parsed =
+      parse({"mesh", "in/a.stl", "in/b.c.stl", "-o", "out/{name}.msh", "-o", "{name}.vtu",
+             "--stats", "{name}.json", "--names", "n.txt", "--jobs", "3"});
+  ASSERT_TRUE(parsed.run) << parsed.error;
+  EXPECT_EQ(parsed.jobs, 3U);
+  ASSERT_EQ(parsed.batch.size(), 2U);
+  EXPECT_EQ(parsed.batch[0].input, "in/a.stl");
+  EXPECT_EQ(parsed.batch[0].outputs, (std::vector<std::string>{"out/a.msh", "a.vtu"}));
+  EXPECT_EQ(parsed.batch[1].outputs, (std::vector<std::string>{"out/b.c.msh", "b.c.vtu"}));
+  EXPECT_EQ(parsed.batch[1].stats_file, "b.c.json");
+  EXPECT_TRUE(parse({"a.stl", "-o", "{name}.msh"}).batch.empty());
+  EXPECT_EQ(parse({"a.stl", "-o", "{name}.msh"}).command.outputs[0], "a.msh");
+  EXPECT_EQ(parse({"check", "a.stl", "b.stl"}).batch.size(), 2U);
+  expect_usage_error({"a.stl", "b.stl", "-o", "one.msh"}, "one.msh: named twice");
+  expect_usage_error({"a.stl", "x/a.obj", "-o", "{name}.msh"}, "a.msh: named twice");
+  expect_usage_error({"a.stl", "b.stl", "-o", "-.msh"}, "standard output");
+}
+
+TEST(Arguments, StandardStreams) {
+  const Parsed parsed = parse({"-", "-o", "-.vtu", "--stats", "s.json"});
+  ASSERT_TRUE(parsed.run) << parsed.error;
+  EXPECT_EQ(parsed.command.input, "-");
+  EXPECT_EQ(parsed.command.outputs[0], "-.vtu");
+  expect_usage_error({"a.off", "-o", "-"}, "unknown mesh format");
+  expect_usage_error({"a.off", "-o", "-.vtu", "--stats", "-"}, "standard output can take one file");
+  expect_usage_error({"a.off", "-o", "-.node"}, "standard output can take one file");
+}
+
 TEST(Arguments, MistakesAreTwo) {
   expect_usage_error({});
   expect_usage_error({"in.off"}, "--output");
@@ -211,7 +270,7 @@ TEST(Arguments, MistakesAreTwo) {
   expect_usage_error({"in.off", "-o", "a.node", "--stats", "a.ele"}, "named twice");
   expect_usage_error({"in.off", "-o", "a.mesh", "--save-chamfered", "in.off"}, "named twice");
   expect_usage_error({"in.off", "-o", "a.mesh", "--bogus"}, "--bogus");
-  expect_usage_error({"in.off", "other.off", "-o", "a.mesh"});
+  expect_usage_error({"in.off", "other.off", "-o", "a.mesh"}, "named twice");
   expect_usage_error({"check"});
   expect_usage_error({"check", "in.off", "-o", "a.mesh"});
   for (const char* bad : {"nan", "inf", "-1", "x", "1e400", "", "61", "0"}) {

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "mesher/cli/arguments.h"
+#include "mesher/cli/batch.h"
 #include "mesher/cli/progress.h"
 #include "mesher/cli/run.h"
 #include "mesher/cli/signals.h"
@@ -25,7 +26,9 @@ int parse_and_run(int argc, char** argv) {
   streams.error = [](const std::string& text) { std::fputs(text.c_str(), stderr); };
   streams.terminal = cli::stderr_is_terminal();
   streams.escapes = cli::stderr_takes_escapes();
-  const int code = cli::run(parsed.command, library, streams);
+  const int code = parsed.batch.empty()
+                       ? cli::run(parsed.command, library, streams)
+                       : cli::run_batch(parsed.batch, parsed.jobs, library, streams);
   if (std::fflush(stdout) != 0 && code == cli::kDone) {
     std::fputs("delmesher: cannot write to standard output\n", stderr);
     return cli::kUnreadable;

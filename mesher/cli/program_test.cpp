@@ -375,6 +375,74 @@ TEST_F(Program, AnyNumberOfThreadsWritesTheSameBytes) {
   }
 }
 
+// A cube with a corner torn into three and a triangle missing: refused with what is wrong, shown,
+// mended, meshed.
+TEST_F(Program, ATornSurfaceIsShownAndMended) {
+  std::string torn = replaced(cube(), "8 12", "10 11");
+  torn = replaced(torn, "1 1 1\n", "1 1 1\n1.000001 1 1\n1 1.000001 1\n");
+  torn = replaced(torn, "3 4 7 6", "3 4 8 6");
+  torn = replaced(torn, "3 2 6 7", "3 2 6 9");
+  write("in.off", replaced(torn, "3 1 7 5\n", ""));
+  EXPECT_EQ(run("in.off -o mesh.vtu"), 4);
+  expect_error("in.off", "9 open edges, 1 non-manifold vertex, 3 self-intersections");
+  expect_error("in.off", "see delmesher check");
+  EXPECT_EQ(run("check in.off --defects in.ply"), 4);
+  EXPECT_NE(text("out.txt").find("repair --weld 2e-06 would close 6 of 9 open edges"),
+            std::string::npos)
+      << text("out.txt");
+  const std::string ply = text("in.ply");
+  EXPECT_NE(ply.find("element face 11\n"), std::string::npos);
+  EXPECT_NE(ply.find("3 4 8 6 220 40 40\n"), std::string::npos) << ply;
+  EXPECT_NE(ply.find("3 0 2 3 190 190 190\n"), std::string::npos) << ply;
+  EXPECT_EQ(run("repair in.off -o in.welded.off --weld 2e-6"), 1);
+  EXPECT_NE(text("err.txt").find("3 open edges left, see --fill"), std::string::npos)
+      << text("err.txt");
+  EXPECT_EQ(run("repair in.off -o in.mended.stl --weld 2e-6 --fill"), 0);
+  EXPECT_EQ(text("err.txt"),
+            "in.off: 2 vertices welded to others near them\nin.off: 1 hole filled\n"
+            "in.off: 1 triangle added for them\nin.mended.stl: a valid surface\n");
+  EXPECT_EQ(run("in.mended.stl -o mesh.vtu -q"), 0) << text("err.txt");
+  EXPECT_EQ(run("repair in.off -o mesh.msh"), 2);
+}
+
+// A file from a pipe to a pipe is the same as from a file to a file.
+TEST_F(Program, StandardInputAndOutput) {
+  write("in.off", cube());
+  ASSERT_EQ(run("in.off -o mesh.vtu -q"), 0) << text("err.txt");
+  ASSERT_EQ(run("- -o -.vtu -q < in.off"), 0) << text("err.txt");
+  EXPECT_EQ(text("out.txt"), text("mesh.vtu"));
+  EXPECT_EQ(run("- -o -.vtu -q", "cat in.off |"), 0) << text("err.txt");
+  EXPECT_EQ(text("out.txt"), text("mesh.vtu"));
+  EXPECT_EQ(run("check - --json < in.off"), 0) << text("err.txt");
+  EXPECT_EQ(run("check -", "echo nothing |"), 3);
+  expect_error("-", "not a known format");
+  EXPECT_FALSE(fs::exists(path("-.vtu")));
+}
+
+TEST_F(Program, AWholeFolder) {
+  write("in.a.off", cube());
+  write("in.b.off", replaced(replaced(cube(), "8 12", "8 11"), "3 1 7 5\n", ""));
+  write("in.c.off", cube());
+  write("in.d.off", "OFF\nnothing\n");
+  EXPECT_EQ(run("mesh in.a.off in.b.off in.c.off in.d.off -o {name}.tet --jobs 2"), 1);
+  const std::string said = text("err.txt");
+  for (const char* line :
+       {"in.a.off: done, ", "in.b.off: not valid (exit 4), ", "in.c.off: done, ",
+        "in.d.off: not readable or writable (exit 3), ",
+        "2 of 4 files done, 1 not readable or writable (exit 3), 1 not valid (exit 4)\n"}) {
+    EXPECT_NE(said.find(line), std::string::npos) << said;
+  }
+  EXPECT_TRUE(fs::exists(path("in.a.tet")));
+  EXPECT_FALSE(fs::exists(path("in.b.tet")));
+  EXPECT_EQ(text("in.a.tet"), text("in.c.tet"));
+  EXPECT_EQ(run("mesh in.a.off in.c.off -o {name}.tet -q"), 0);
+  EXPECT_EQ(text("err.txt"), "");
+  EXPECT_EQ(run("check in.a.off in.c.off -q"), 0);
+  const std::string reports = text("out.txt");
+  EXPECT_NE(reports.find("in.a.off: a valid surface"), std::string::npos);
+  EXPECT_NE(reports.find("in.c.off: a valid surface"), std::string::npos);
+}
+
 // Late enough for the handlers to be there on a busy machine; --foreground, because a signal to the
 // process group too may arrive as a second one, which ends the program at once.
 TEST_F(Program, SignalsEndIt) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "mesher/cli/defects.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::cli {
@@ -59,7 +60,7 @@ Json as_paper_json(const AsPaper& choices) {
 }
 
 Json parameters_json(const Command& command) {
-  static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check", "improve"};
+  static constexpr const char* kJobs[] = {"mesh", "cdt", "plane", "check", "improve", "repair"};
   const Options& o = command.options;
   return {{"job", kJobs[static_cast<std::size_t>(command.job)]},
           {"delta", o.delta},
@@ -231,7 +232,8 @@ std::string planar_text(const std::string& file, const Statistics& s) {
          " from their planes (--planar 0 keeps all facets)";
 }
 
-std::string check_text(const std::string& file, const SurfaceReport& report) {
+std::string check_text(const std::string& file, const Surface& surface,
+                       const SurfaceReport& report) {
   std::string out = file + ": ";
   out += report.status.ok() ? "a valid surface\n" : "not a valid surface\n";
   const auto line = [&](const std::string& name, const std::string& value) {
@@ -269,14 +271,23 @@ std::string check_text(const std::string& file, const SurfaceReport& report) {
       out += "    and " + std::to_string(report.defect_counts[kind] - listed) + " more\n";
     }
   }
+  if (!report.status.ok()) {
+    for (const std::string& hint : advice(surface, report)) out += "  hint: " + hint + "\n";
+  }
   return out;
 }
 
-std::string check_json(const std::string& file, const SurfaceReport& report) {
+std::string check_json(const std::string& file, const Surface& surface,
+                       const SurfaceReport& report) {
   Json defects = Json::array(), counts = Json::object();
   for (const Defect& defect : report.defects) {
+    Json points = Json::array();
+    for (const std::uint32_t v : defect.vertices) {
+      if (v < surface.vertices.size()) points.push_back(surface.vertices[v]);
+    }
     defects.push_back({{"kind", defect_name(defect.kind)},
                        {"vertices", defect.vertices},
+                       {"points", points},
                        {"triangles", defect.triangles},
                        {"message", defect.message}});
   }
@@ -308,6 +319,7 @@ std::string check_json(const std::string& file, const SurfaceReport& report) {
   json["defect_count"] = total_defects(report);
   json["defect_counts"] = counts;
   json["defects"] = defects;
+  json["hints"] = report.status.ok() ? std::vector<std::string>() : advice(surface, report);
   return dump(json);
 }
 

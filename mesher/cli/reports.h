@@ -33,8 +33,10 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
 std::string planar_text(const std::string& file, const Statistics& statistics);
 
 // The report of `check`.
-std::string check_text(const std::string& file, const SurfaceReport& report);
-std::string check_json(const std::string& file, const SurfaceReport& report);
+std::string check_text(const std::string& file, const Surface& surface,
+                       const SurfaceReport& report);
+std::string check_json(const std::string& file, const Surface& surface,
+                       const SurfaceReport& report);
 
 // CPU seconds and peak memory of this process so far.
 void measure_process(RunFacts& facts);

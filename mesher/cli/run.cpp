@@ -2,9 +2,11 @@
 
 #include <new>
 
+#include "mesher/cli/defects.h"
 #include "mesher/cli/improve_run.h"
 #include "mesher/cli/plane_run.h"
 #include "mesher/cli/quality.h"
+#include "mesher/cli/repair_run.h"
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/exact_file.h"
 #include "mesher/io/parse_surface.h"
@@ -24,6 +26,8 @@ class Runner : RunSteps {
   int read();
   int check();
   int mesh();
+  int write_defects(const SurfaceReport& report) const;
+  void count_defects(Status& status) const;
   io::WriteStatus write_all(io::OutputSet& outputs, const Result& result) const;
 
   Surface surface_;
@@ -48,11 +52,37 @@ int Runner::check() {
       call([&](const Options& options) { return library_.check_surface(surface_, options); });
   const StatusCode code = report.status.code;
   if (code == StatusCode::ok || code == StatusCode::invalid_surface) {
-    streams_.out(command_.json ? check_json(command_.input, report)
-                               : check_text(command_.input, report));
+    streams_.out(command_.json ? check_json(command_.input, surface_, report)
+                               : check_text(command_.input, surface_, report));
+  }
+  if (!command_.defects_file.empty() &&
+      (code == StatusCode::ok || code == StatusCode::invalid_surface)) {
+    const int written = write_defects(report);
+    if (written != kDone) return written;
   }
   if (code == StatusCode::ok) return kDone;
   return fail_input(exit_code_of(code), report.status.message);
+}
+
+int Runner::write_defects(const SurfaceReport& report) const {
+  io::OutputSet outputs(set_temporaries);
+  io::WriteStatus status;
+  io::TextSink* sink = outputs.open(command_.defects_file, status);
+  if (sink == nullptr) return fail(kUnreadable, status.error);
+  sink->text(coloured_ply(surface_, report));
+  const Deferring deferring;
+  status = outputs.commit();
+  return status.ok() ? kDone : fail(kUnreadable, status.error);
+}
+
+// How many defects there are of which kind: the library stops at the first.
+void Runner::count_defects(Status& status) const {
+  if (status.code != StatusCode::invalid_surface || !library_.check_surface) return;
+  const SurfaceReport report =
+      call([&](const Options& options) { return library_.check_surface(surface_, options); });
+  const std::string line = defects_line(report);
+  if (report.status.code != StatusCode::invalid_surface || line.empty()) return;
+  status.message += " (in all " + line + "; see delmesher check)";
 }
 
 io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) const {
@@ -76,6 +106,7 @@ int Runner::mesh() {
                                     : library_.tetrahedralize(surface_, options);
   });
   note_interruption(result.status);
+  count_defects(result.status);
   const Statistics& s = result.statistics;
   if (s.planar_groups > 0) remark(planar_text(command_.input, s));
   // The constrained Delaunay tetrahedrization promises no angles.
@@ -98,6 +129,7 @@ int Runner::mesh() {
 int Runner::run() {
   try {
     if (command_.job == Job::plane) return run_plane(command_, library_, streams_);
+    if (command_.job == Job::repair) return run_repair(command_, library_, streams_);
     if (command_.job == Job::improve) return run_improve(command_, library_, streams_);
     int code = check_outputs(io::mesh_files_of);
     if (code == kDone) code = read();

@@ -52,8 +52,8 @@ int RunSteps::check_outputs(std::vector<std::string> (*files_of)(const std::stri
   for (const std::string& output : command_.outputs) {
     for (const std::string& file : files_of(output)) files.push_back(file);
   }
-  for (const std::string* file :
-       {&command_.stats_file, &command_.chamfered_file, &command_.exact_file}) {
+  for (const std::string* file : {&command_.stats_file, &command_.chamfered_file,
+                                  &command_.exact_file, &command_.defects_file}) {
     if (!file->empty()) files.push_back(*file);
   }
   for (const std::string& file : files) {

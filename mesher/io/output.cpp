@@ -113,6 +113,10 @@ void OutputSet::discard() {
   tell_watcher();
 }
 
+bool is_standard_stream(const std::string& path) {
+  return path == "-" || (path.starts_with("-.") && path.find('/') == std::string::npos);
+}
+
 TextSink* OutputSet::open(const std::string& path, WriteStatus& status) {
   const fs::path target = resolve(path);
   std::error_code error;
@@ -121,7 +125,9 @@ TextSink* OutputSet::open(const std::string& path, WriteStatus& status) {
   file.path = path;
   file.target = target.string();
   errno = 0;
-  if (fs::is_directory(target, error)) {
+  if (is_standard_stream(path)) {
+    file.file = ::fdopen(::dup(STDOUT_FILENO), "wb");
+  } else if (fs::is_directory(target, error)) {
     errno = EISDIR;
   } else if (is_special(target)) {
     file.file = std::fopen(file.target.c_str(), "wb");

@@ -93,6 +93,10 @@ class OutputSet {
   std::vector<File> files_;
 };
 
+// "-", or "-.EXT", which names a format as well: standard input where it is read, standard output
+// where it is written. ("./-" is a file of that name.)
+bool is_standard_stream(const std::string& path);
+
 // Whether a file could be created at `path` now; leaves nothing behind.
 WriteStatus check_writable(const std::string& path);
 

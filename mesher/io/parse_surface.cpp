@@ -1,5 +1,7 @@
 #include "mesher/io/parse_surface.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include <stdexcept>
 
 #include "mesher/io/foreign_content.h"
+#include "mesher/io/output.h"
 #include "mesher/io/readers.h"
 
 namespace delmesher::io {
@@ -118,7 +121,9 @@ std::optional<std::string> read_file(const std::string& path, std::string& error
     error = "is a directory";
     return std::nullopt;
   }
-  const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
+  const std::unique_ptr<std::FILE, Closer> file(is_standard_stream(path)
+                                                    ? ::fdopen(::dup(STDIN_FILENO), "rb")
+                                                    : std::fopen(path.c_str(), "rb"));
   if (!file) {
     error = "cannot open: " + std::string(std::strerror(errno));
     return std::nullopt;

@@ -26,6 +26,11 @@ const char* inconsistency(const TetMesh& mesh) {
   return nullptr;
 }
 
+constexpr std::array<FileFormat<NamedMesh>, 3> kBoundaryFormats = {
+    {{{".stl"}, [](Sinks f, const NamedMesh& m) { write_boundary_stl(*f[0], m); }},
+     {{".ply"}, [](Sinks f, const NamedMesh& m) { write_boundary_ply(*f[0], m); }},
+     {{".off"}, [](Sinks f, const NamedMesh& m) { write_boundary_off(*f[0], m); }}}};
+
 // The extension of the path first, then the extensions of the files beside it.
 constexpr std::array<FileFormat<NamedMesh>, 12> kFormats = {
     {{{".mesh"}, [](Sinks f, const NamedMesh& m) { write_medit(*f[0], m.mesh); }},
@@ -38,14 +43,22 @@ constexpr std::array<FileFormat<NamedMesh>, 12> kFormats = {
      {{".node", ".ele", ".face"},
       [](Sinks f, const NamedMesh& m) { write_tetgen(*f[0], *f[1], *f[2], m.mesh); }},
      {{".tet"}, [](Sinks f, const NamedMesh& m) { write_tet(*f[0], m.mesh); }},
-     {{".stl"}, [](Sinks f, const NamedMesh& m) { write_boundary_stl(*f[0], m); }},
-     {{".ply"}, [](Sinks f, const NamedMesh& m) { write_boundary_ply(*f[0], m); }},
-     {{".off"}, [](Sinks f, const NamedMesh& m) { write_boundary_off(*f[0], m); }}}};
+     kBoundaryFormats[0],
+     kBoundaryFormats[1],
+     kBoundaryFormats[2]}};
 
 }  // namespace
 
 std::string mesh_extensions() {
   return extensions_of(kFormats);
+}
+
+std::string boundary_extensions() {
+  return extensions_of(kBoundaryFormats);
+}
+
+std::vector<std::string> boundary_files_of(const std::string& path) {
+  return files_made(kBoundaryFormats, path);
 }
 
 std::vector<std::string> mesh_files_of(const std::string& path) {
@@ -57,6 +70,18 @@ WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMes
   const char* reason = mesh_files_of(path).empty() ? nullptr : inconsistency(mesh);
   if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
   return write_by_extension(kFormats, outputs, path, NamedMesh{mesh, names});
+}
+
+WriteStatus write_surface(OutputSet& outputs, const std::string& path, const Surface& surface,
+                          const LabelNames& names) {
+  TetMesh boundary;
+  boundary.vertices = surface.vertices;
+  boundary.boundary = surface.triangles;
+  boundary.boundary_labels = surface.labels;
+  boundary.boundary_labels.resize(surface.triangles.size());
+  boundary.boundary_facets.resize(surface.triangles.size());
+  if (const char* reason = inconsistency(boundary)) return {path + ": " + reason};
+  return write_by_extension(kBoundaryFormats, outputs, path, NamedMesh{boundary, names});
 }
 
 WriteStatus write_off(OutputSet& outputs, const std::string& path, const Surface& surface) {

@@ -15,6 +15,13 @@ std::string mesh_extensions();
 // extension means no format.
 std::vector<std::string> mesh_files_of(const std::string& path);
 
+// The same of the formats that hold the boundary alone: those for a surface.
+std::string boundary_extensions();
+std::vector<std::string> boundary_files_of(const std::string& path);
+// A surface in one of them, with its labels.
+WriteStatus write_surface(OutputSet& outputs, const std::string& path, const Surface& surface,
+                          const LabelNames& names = {});
+
 // Adds the mesh to a set of outputs; nothing is in place before its commit().
 WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh,
                        const LabelNames& names = {});

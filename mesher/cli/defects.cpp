@@ -1,0 +1,179 @@
+#include "mesher/cli/defects.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "mesher/io/repair.h"
+#include "mesher/io/text.h"
+
+namespace delmesher::cli {
+namespace {
+
+using Kind = Defect::Kind;
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string point(const std::array<double, 3>& p) {
+  return "(" + number(p[0]) + ", " + number(p[1]) + ", " + number(p[2]) + ")";
+}
+
+std::string counted(std::uint64_t count, const std::string& name) {
+  if (count == 1) return "1 " + name;
+  if (name == "inconsistent orientation")
+    return std::to_string(count) + " inconsistent orientations";
+  return std::to_string(count) + " " +
+         (name.ends_with("x") ? name.substr(0, name.size() - 1) + "ces" : name + "s");
+}
+
+std::uint64_t count_of(const SurfaceReport& report, Kind kind) {
+  return report.defect_counts[static_cast<std::size_t>(kind)];
+}
+
+using Colour = std::array<int, 3>;
+constexpr Colour kGrey = {190, 190, 190}, kRed = {220, 40, 40}, kOrange = {250, 150, 30},
+                 kViolet = {150, 60, 190}, kBlue = {50, 90, 220}, kGreen = {40, 160, 70};
+
+Colour colour_of(Kind kind) {
+  switch (kind) {
+    case Kind::self_intersection:
+      return kRed;
+    case Kind::open_edge:
+      return kOrange;
+    case Kind::non_manifold_edge:
+    case Kind::non_manifold_vertex:
+      return kViolet;
+    case Kind::inconsistent_orientation:
+      return kBlue;
+    case Kind::degenerate_triangle:
+    case Kind::duplicate_triangle:
+      return kGreen;
+    default:
+      return kGrey;
+  }
+}
+
+// The worst last, so that it is what is seen.
+std::vector<Colour> colours(const Surface& surface, const SurfaceReport& report) {
+  std::vector<Colour> colour(surface.triangles.size(), kGrey);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges;
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& corners = surface.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
+      edges[{std::min(a, b), std::max(a, b)}].push_back(t);
+    }
+  }
+  for (const auto& [edge, triangles] : edges) {
+    if (triangles.size() == 2) continue;
+    for (const std::uint32_t t : triangles) {
+      colour[t] = triangles.size() == 1 ? kOrange : kViolet;
+    }
+  }
+  for (const Defect& defect : report.defects) {
+    for (const std::uint32_t t : defect.triangles) {
+      if (t < colour.size()) colour[t] = colour_of(defect.kind);
+    }
+  }
+  return colour;
+}
+
+}  // namespace
+
+std::string defects_line(const SurfaceReport& report) {
+  std::uint64_t total = 0;
+  std::string list;
+  int kinds = 0;
+  for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
+    const std::uint64_t count = report.defect_counts[kind];
+    if (count == 0) continue;
+    total += count;
+    list += (kinds++ > 0 ? ", " : "") + counted(count, defect_name(static_cast<Kind>(kind)));
+  }
+  if (kinds < 2) return list;
+  return std::to_string(total) + " defects of " + std::to_string(kinds) + " kinds (" + list + ")";
+}
+
+std::vector<std::string> advice(const Surface& surface, const SurfaceReport& report) {
+  std::vector<std::string> lines;
+  const bool indices = count_of(report, Kind::index_out_of_range) == 0;
+  const bool finite = count_of(report, Kind::non_finite) == 0;
+  if (indices && finite && count_of(report, Kind::open_edge) > 0) {
+    const io::WeldHint hint = io::weld_hint(surface);
+    if (hint.closed > 0) {
+      lines.push_back("vertices nearly coincide: repair --weld " + number(hint.distance) +
+                      " would close " + std::to_string(hint.closed) + " of " +
+                      std::to_string(count_of(report, Kind::open_edge)) + " open edges");
+    }
+    const io::Holes holes = io::holes_of(surface);
+    if (!holes.holes.empty()) {
+      std::vector<const io::Hole*> by_width;
+      for (const io::Hole& hole : holes.holes) by_width.push_back(&hole);
+      std::stable_sort(by_width.begin(), by_width.end(),
+                       [](const io::Hole* a, const io::Hole* b) { return a->width > b->width; });
+      std::string line = std::to_string(by_width.size()) +
+                         (by_width.size() == 1 ? " hole: " : " holes, the widest: ");
+      for (std::size_t i = 0; i < by_width.size() && i < 3; ++i) {
+        const io::Hole& hole = *by_width[i];
+        line += (i > 0 ? "; " : "") + std::to_string(hole.corners.size()) + " edges, " +
+                number(hole.width) + " wide, at " + point(surface.vertices[hole.corners[0]]);
+      }
+      lines.push_back(line + "; repair --fill closes planar and small ones");
+    }
+  }
+  for (const Kind kind :
+       {Kind::degenerate_triangle, Kind::duplicate_triangle, Kind::inconsistent_orientation}) {
+    if (count_of(report, kind) == 0) continue;
+    lines.push_back("delmesher repair mends triangles without area, duplicates and orientation");
+    break;
+  }
+  if (count_of(report, Kind::non_manifold_edge) > 0) {
+    lines.push_back(
+        "more than two triangles at an edge: an inner wall, or bodies that share an edge; only "
+        "surfaces "
+        "that bound one solid are meshed, so mesh the bodies one by one or leave the wall out");
+  } else if (count_of(report, Kind::self_intersection) > 0) {
+    lines.push_back(
+        report.components > 1
+            ? "triangles meet: if bodies touch or overlap, unite them first, or mesh them one by "
+              "one"
+            : "triangles meet: repair does not move them; the modeller that made them has to");
+  }
+  return lines;
+}
+
+std::string coloured_ply(const Surface& surface, const SurfaceReport& report) {
+  std::string out =
+      "ply\nformat ascii 1.0\ncomment delmesher: red self-intersections, orange open edges, violet "
+      "not "
+      "manifold, blue orientation, green without area or double\nelement vertex " +
+      std::to_string(surface.vertices.size()) +
+      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+      std::to_string(surface.triangles.size()) +
+      "\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nend_header\n";
+  for (const auto& p : surface.vertices) {
+    for (const double x : p) {
+      io::append_double(out, x);
+      out += ' ';
+    }
+    out.back() = '\n';
+  }
+  const std::vector<Colour> colour = colours(surface, report);
+  for (std::size_t t = 0; t < colour.size(); ++t) {
+    out += "3";
+    for (const std::uint32_t v : surface.triangles[t]) out += " " + std::to_string(v);
+    for (const int c : colour[t]) out += " " + std::to_string(c);
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace delmesher::cli

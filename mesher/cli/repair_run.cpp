@@ -1,0 +1,85 @@
+#include "mesher/cli/repair_run.h"
+
+#include <utility>
+
+#include "mesher/cli/defects.h"
+#include "mesher/cli/run_steps.h"
+#include "mesher/io/repair.h"
+#include "mesher/io/write_mesh.h"
+
+namespace delmesher::cli {
+namespace {
+
+class RepairRunner : RunSteps {
+ public:
+  RepairRunner(const Command& command, const Library& library, const Streams& streams)
+      : RunSteps(command, library, streams) {}
+
+  int run();
+
+ private:
+  int read();
+  int write();
+  int judge();
+
+  Surface surface_;
+  io::LabelNames names_;
+};
+
+int RepairRunner::read() {
+  io::ReadOptions options;
+  options.go_on = goes_on();
+  io::ReadResult input = io::read_surface(command_.input, options);
+  if (!input.ok()) return fail_reading(input.code, input.error);
+  names_ = std::move(input.names);
+  note_input(input.format, input.surface.vertices.size(), input.surface.triangles.size(),
+             "triangles");
+  io::RepairResult mended = io::repair_surface(input.surface, command_.repair);
+  for (const std::string& line : mended.done) say(command_.input + ": " + line);
+  if (mended.done.empty()) say(command_.input + ": nothing to mend");
+  surface_ = std::move(mended.surface);
+  return read_names(names_);
+}
+
+int RepairRunner::write() {
+  io::OutputSet outputs(set_temporaries);
+  io::WriteStatus status;
+  for (const std::string& output : command_.outputs) {
+    status = io::write_surface(outputs, output, surface_, names_);
+    if (!status.ok()) return fail(kUnreadable, status.error);
+  }
+  const Deferring deferring;
+  status = outputs.commit();
+  return status.ok() ? kDone : fail(kUnreadable, status.error);
+}
+
+int RepairRunner::judge() {
+  const SurfaceReport report =
+      call([&](const Options& options) { return library_.check_surface(surface_, options); });
+  if (report.status.code == StatusCode::ok) {
+    say(command_.outputs.front() + ": a valid surface");
+    return kDone;
+  }
+  if (report.status.code != StatusCode::invalid_surface) {
+    return fail_input(exit_code_of(report.status.code), report.status.message);
+  }
+  const std::uint64_t open = io::holes_of(surface_).open_edges;
+  const bool fills = open > 0 && !command_.repair.fill;
+  return fail(kFailed, command_.outputs.front() + ": " + defects_line(report) + " left" +
+                           (fills ? ", see --fill" : ""));
+}
+
+int RepairRunner::run() {
+  int code = check_outputs(io::boundary_files_of);
+  if (code == kDone) code = read();
+  if (code == kDone) code = write();
+  return code == kDone ? judge() : code;
+}
+
+}  // namespace
+
+int run_repair(const Command& command, const Library& library, const Streams& streams) {
+  return RepairRunner(command, library, streams).run();
+}
+
+}  // namespace delmesher::cli

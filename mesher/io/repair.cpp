@@ -1,0 +1,475 @@
+#include "mesher/io/repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "mesher/io/text.h"
+#include "mesher/io/triangulate.h"
+#include "mesher/predicates/signs_of_doubles.h"
+
+namespace delmesher::io {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the smaller vertex first
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+// Of the diagonal. A hole that deviates by less from a plane is planar; one that is less wide is
+// small.
+constexpr double kPlanar = 1e-6, kSmall = 0.05;
+
+Edge edge_of(std::uint32_t a, std::uint32_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+double distance(const Point3& a, const Point3& b) {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+// Of the box of these vertices.
+template <class Indices>
+double diagonal(const std::vector<Point3>& vertices, const Indices& which) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  Point3 low = {kInf, kInf, kInf}, high = {-kInf, -kInf, -kInf};
+  for (const std::uint32_t v : which) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], vertices[v][k]);
+      high[k] = std::max(high[k], vertices[v][k]);
+    }
+  }
+  return low[0] <= high[0] ? distance(low, high) : 0;
+}
+
+double diagonal(const Surface& surface) {
+  std::vector<std::uint32_t> all(surface.vertices.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return diagonal(surface.vertices, all);
+}
+
+bool repeats_a_vertex(const Triangle& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+bool collinear(const std::vector<Point3>& vertices, const Triangle& t) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (predicates::orient2d_sign(project(vertices[t[0]], axis), project(vertices[t[1]], axis),
+                                  project(vertices[t[2]], axis)) != 0) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// The corner of a collinear triangle between the other two; coordinates along a line are in its
+// order.
+std::size_t middle_corner(const std::vector<Point3>& vertices, const Triangle& t) {
+  std::array<std::size_t, 3> order = {0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return vertices[t[a]] < vertices[t[b]]; });
+  return order[1];
+}
+
+std::map<Edge, std::vector<std::uint32_t>> triangles_of_edges(
+    const std::vector<Triangle>& triangles) {
+  std::map<Edge, std::vector<std::uint32_t>> edges;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges[edge_of(triangles[t][k], triangles[t][(k + 1) % 3])].push_back(t);
+    }
+  }
+  return edges;
+}
+
+// Vertices that become one: the root is the smallest of them.
+class Groups {
+ public:
+  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  std::uint32_t root(std::uint32_t v) {
+    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+    return v;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// Joins those of `which` that are no farther apart than `weld`; equal ones, if that is 0.
+void join_near(const std::vector<Point3>& vertices, const std::vector<std::uint32_t>& which,
+               double weld, Groups& groups) {
+  std::map<Point3, std::vector<std::uint32_t>> cells;
+  const auto cell_of = [&](const Point3& p) {
+    Point3 cell;
+    for (std::size_t k = 0; k < 3; ++k) cell[k] = weld > 0 ? std::floor(p[k] / weld) : p[k] + 0.0;
+    return cell;
+  };
+  for (const std::uint32_t v : which) cells[cell_of(vertices[v])].push_back(v);
+  for (const auto& [cell, members] : cells) {
+    for (int neighbour = 0; neighbour < 27; ++neighbour) {
+      Point3 other = cell;
+      if (weld > 0) {
+        other[0] += neighbour % 3 - 1;
+        other[1] += neighbour / 3 % 3 - 1;
+        other[2] += neighbour / 9 - 1;
+      } else if (neighbour > 0) {
+        break;
+      }
+      const auto found = cells.find(other);
+      if (found == cells.end() || found->first < cell) continue;
+      for (const std::uint32_t a : members) {
+        for (const std::uint32_t b : found->second) {
+          if (weld == 0 || distance(vertices[a], vertices[b]) <= weld) groups.join(a, b);
+        }
+      }
+    }
+  }
+}
+
+class Repair {
+ public:
+  Repair(const Surface& surface, const RepairOptions& options)
+      : surface_(surface), options_(options) {
+    surface_.labels.resize(surface_.triangles.size());
+  }
+
+  RepairResult run();
+
+ private:
+  void drop_invalid();
+  void weld();
+  void drop_degenerate();
+  bool flip_collinear();
+  void drop_duplicates();
+  void orient();
+  void fill();
+  void drop_unused();
+  template <class Unwanted>
+  std::uint64_t drop_if(Unwanted unwanted);
+  void tell(std::uint64_t count, const char* one, const char* many) {
+    if (count == 0) return;
+    done_.push_back(std::to_string(count) + " " + (count == 1 ? one : many));
+  }
+
+  Surface surface_;
+  const RepairOptions& options_;
+  Polling polling_;
+  std::vector<std::string> done_;
+};
+
+template <class Unwanted>
+std::uint64_t Repair::drop_if(Unwanted unwanted) {
+  std::size_t kept = 0;
+  auto& triangles = surface_.triangles;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    polling_.poll();
+    if (unwanted(t)) continue;
+    triangles[kept] = triangles[t];
+    surface_.labels[kept++] = surface_.labels[t];
+  }
+  const std::uint64_t dropped = triangles.size() - kept;
+  triangles.resize(kept);
+  surface_.labels.resize(kept);
+  return dropped;
+}
+
+// What no later step can look at.
+void Repair::drop_invalid() {
+  const auto bad = [&](std::uint32_t v) {
+    if (v >= surface_.vertices.size()) return true;
+    const Point3& p = surface_.vertices[v];
+    return !std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]);
+  };
+  tell(drop_if([&](std::uint32_t t) {
+         const Triangle& corners = surface_.triangles[t];
+         return std::any_of(corners.begin(), corners.end(), bad);
+       }),
+       "triangle with a corner that is no point dropped",
+       "triangles with corners that are no points dropped");
+  for (std::uint32_t v = 0; v < surface_.vertices.size(); ++v) {
+    if (bad(v)) surface_.vertices[v] = {0, 0, 0};  // of no triangle; drop_unused takes it
+  }
+}
+
+void Repair::weld() {
+  std::vector<std::uint32_t> all(surface_.vertices.size());
+  std::iota(all.begin(), all.end(), 0U);
+  std::vector<bool> used(all.size());
+  for (const Triangle& t : surface_.triangles) {
+    for (const std::uint32_t v : t) used[v] = true;
+  }
+  std::erase_if(all, [&](std::uint32_t v) { return !used[v]; });
+  const auto weld_within = [&](double reach) {
+    Groups groups(surface_.vertices.size());
+    join_near(surface_.vertices, all, reach, groups);
+    std::uint64_t joined = 0;
+    for (const std::uint32_t v : all) joined += groups.root(v) != v ? 1 : 0;
+    for (Triangle& t : surface_.triangles) {
+      for (std::uint32_t& v : t) v = groups.root(v);
+    }
+    std::erase_if(all, [&](std::uint32_t v) { return groups.root(v) != v; });
+    return joined;
+  };
+  tell(weld_within(0), "vertex welded to another at the same place",
+       "vertices welded to others at the same place");
+  if (options_.weld > 0) {
+    tell(weld_within(options_.weld), "vertex welded to one near it",
+         "vertices welded to others near them");
+  }
+}
+
+// A triangle with one corner on its opposite edge leaves a slit when it is dropped. Where another
+// triangle has that edge, both become two others: the edge of the other one gets the corner. True
+// if there was one.
+bool Repair::flip_collinear() {
+  const auto edges = triangles_of_edges(surface_.triangles);
+  std::vector<bool> touched(surface_.triangles.size());
+  bool any = false;
+  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+    polling_.poll(20);
+    Triangle& flat = surface_.triangles[t];
+    if (touched[t] || repeats_a_vertex(flat) || !collinear(surface_.vertices, flat)) continue;
+    const std::size_t m = middle_corner(surface_.vertices, flat);
+    const std::uint32_t middle = flat[m], a = flat[(m + 1) % 3], b = flat[(m + 2) % 3];
+    const std::vector<std::uint32_t>& both = edges.at(edge_of(a, b));
+    if (both.size() != 2) continue;
+    const std::uint32_t other = both[0] == t ? both[1] : both[0];
+    if (touched[other]) continue;
+    Triangle& beside = surface_.triangles[other];
+    if (repeats_a_vertex(beside)) continue;
+    Triangle second = beside;
+    std::replace(beside.begin(), beside.end(), a, middle);
+    std::replace(second.begin(), second.end(), b, middle);
+    flat = second;
+    surface_.labels[t] = surface_.labels[other];
+    touched[t] = touched[other] = true;
+    any = true;
+  }
+  return any;
+}
+
+void Repair::drop_degenerate() {
+  const std::size_t before = surface_.triangles.size();
+  std::uint64_t flat = 0;
+  for (std::uint32_t t = 0; t < before; ++t) {
+    const Triangle& corners = surface_.triangles[t];
+    flat += repeats_a_vertex(corners) || collinear(surface_.vertices, corners) ? 1 : 0;
+  }
+  const auto repeats = [&](std::uint32_t t) { return repeats_a_vertex(surface_.triangles[t]); };
+  drop_if(repeats);
+  constexpr int kPasses = 64;  // one per collinear triangle beside the same edge, at most
+  for (int pass = 0; pass < kPasses && flip_collinear(); ++pass) drop_if(repeats);
+  drop_if([&](std::uint32_t t) { return collinear(surface_.vertices, surface_.triangles[t]); });
+  tell(flat, "triangle without area removed", "triangles without area removed");
+}
+
+// Of triangles with the same corners one stays where it closes more edges than it opens, else none.
+void Repair::drop_duplicates() {
+  std::map<Triangle, std::vector<std::uint32_t>> same;
+  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+    Triangle key = surface_.triangles[t];
+    std::sort(key.begin(), key.end());
+    same[key].push_back(t);
+  }
+  const auto edges = triangles_of_edges(surface_.triangles);
+  std::vector<bool> unwanted(surface_.triangles.size());
+  for (const auto& [key, members] : same) {
+    if (members.size() < 2) continue;
+    int closes = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t others =
+          edges.at(edge_of(key[k], key[(k + 1) % 3])).size() - members.size();
+      closes += others % 2 == 1 ? 1 : 0;
+    }
+    for (const std::uint32_t t : members) unwanted[t] = true;
+    if (closes >= 2) unwanted[members[0]] = false;
+  }
+  tell(drop_if([&](std::uint32_t t) { return unwanted[t]; }), "duplicate triangle dropped",
+       "duplicate triangles dropped");
+}
+
+// As most triangles of a component are.
+void Repair::orient() {
+  auto& triangles = surface_.triangles;
+  const auto edges = triangles_of_edges(triangles);
+  enum : std::uint8_t { unseen, as_given, turned };
+  std::vector<std::uint8_t> state(triangles.size(), unseen);
+  const auto has = [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (triangles[t][k] == a && triangles[t][(k + 1) % 3] == b) return true;
+    }
+    return false;
+  };
+  std::uint64_t count = 0;
+  for (std::uint32_t seed = 0; seed < triangles.size(); ++seed) {
+    if (state[seed] != unseen) continue;
+    std::vector<std::uint32_t> component = {seed};
+    state[seed] = as_given;
+    for (std::size_t i = 0; i < component.size(); ++i) {
+      polling_.poll(20);
+      const std::uint32_t t = component[i];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+        const std::vector<std::uint32_t>& both = edges.at(edge_of(a, b));
+        if (both.size() != 2) continue;
+        const std::uint32_t other = both[0] == t ? both[1] : both[0];
+        if (state[other] != unseen) continue;
+        const bool agrees = has(other, b, a);
+        state[other] = agrees == (state[t] == as_given) ? as_given : turned;
+        component.push_back(other);
+      }
+    }
+    const auto turned_ones = static_cast<std::size_t>(std::count_if(
+        component.begin(), component.end(), [&](std::uint32_t t) { return state[t] == turned; }));
+    const std::uint8_t minority = 2 * turned_ones > component.size() ? as_given : turned;
+    for (const std::uint32_t t : component) {
+      if (state[t] != minority) continue;
+      std::swap(triangles[t][1], triangles[t][2]);
+      ++count;
+    }
+  }
+  tell(count, "triangle turned round", "triangles turned round");
+}
+
+void Repair::fill() {
+  if (!options_.fill) return;
+  const double all = diagonal(surface_);
+  std::uint64_t holes = 0, added = 0;
+  for (const Hole& hole : holes_of(surface_).holes) {
+    if (hole.corners.size() < 3 || hole.corners.size() > kMaxPolygonCorners) continue;
+    const std::vector<Loop> loops = {hole.corners};
+    const FaceTriangulation face = triangulate_face(surface_.vertices, loops, polling_);
+    if (!face.simple || (face.deviation > kPlanar * all && hole.width > kSmall * all)) continue;
+    for (const Triangle& t : face.triangles) surface_.triangles.push_back(t);
+    surface_.labels.resize(surface_.triangles.size(), hole.label);
+    ++holes;
+    added += face.triangles.size();
+  }
+  tell(holes, "hole filled", "holes filled");
+  tell(added, "triangle added for them", "triangles added for them");
+}
+
+void Repair::drop_unused() {
+  std::vector<std::uint32_t> number(surface_.vertices.size(), kNone);
+  for (const Triangle& t : surface_.triangles) {
+    for (const std::uint32_t v : t) number[v] = 0;
+  }
+  std::uint32_t kept = 0;
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kNone) continue;
+    surface_.vertices[kept] = surface_.vertices[v];
+    number[v] = kept++;
+  }
+  surface_.vertices.resize(kept);
+  for (Triangle& t : surface_.triangles) {
+    for (std::uint32_t& v : t) v = number[v];
+  }
+}
+
+RepairResult Repair::run() {
+  drop_invalid();
+  weld();
+  drop_degenerate();
+  drop_duplicates();
+  orient();
+  fill();
+  drop_unused();
+  return {std::move(surface_), std::move(done_)};
+}
+
+}  // namespace
+
+Holes holes_of(const Surface& surface) {
+  Holes result;
+  std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> next;
+  std::map<std::uint32_t, int> ends;
+  for (const auto& [edge, triangles] : triangles_of_edges(surface.triangles)) {
+    if (triangles.size() != 1 || edge.first == edge.second) continue;
+    ++result.open_edges;
+    const Triangle& t = surface.triangles[triangles[0]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      if (edge_of(a, b) != edge) continue;
+      next[b].emplace_back(a, triangles[0]);  // the other way round than the triangle
+      ++ends[a];
+    }
+  }
+  std::map<std::uint32_t, bool> seen;
+  for (const auto& [start, unused] : next) {
+    if (seen[start]) continue;
+    Hole hole;
+    bool ring = true;
+    std::uint32_t at = start;
+    do {
+      const auto found = next.find(at);
+      ring = found != next.end() && found->second.size() == 1 && ends[at] == 1 && !seen[at];
+      if (!ring) break;
+      seen[at] = true;
+      hole.corners.push_back(at);
+      const auto [following, triangle] = found->second[0];
+      if (hole.corners.size() == 1 && !surface.labels.empty())
+        hole.label = surface.labels[triangle];
+      at = following;
+    } while (at != start);
+    if (!ring) continue;
+    hole.width = diagonal(surface.vertices, hole.corners);
+    result.holes.push_back(std::move(hole));
+  }
+  return result;
+}
+
+WeldHint weld_hint(const Surface& surface) {
+  std::vector<std::uint32_t> ends;
+  std::map<Edge, int> count;
+  for (const auto& [edge, triangles] : triangles_of_edges(surface.triangles)) {
+    if (triangles.size() == 1 && edge.first != edge.second) {
+      ends.push_back(edge.first);
+      ends.push_back(edge.second);
+      ++count[edge];
+    }
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  const double all = diagonal(surface);
+  const auto still_open = [&](double reach) {
+    Groups groups(surface.vertices.size());
+    join_near(surface.vertices, ends, reach, groups);
+    std::map<Edge, int> left;
+    for (const auto& [edge, once] : count) {
+      const std::uint32_t a = groups.root(edge.first), b = groups.root(edge.second);
+      if (a != b) ++left[edge_of(a, b)];
+    }
+    return static_cast<std::uint64_t>(
+        std::count_if(left.begin(), left.end(), [](const auto& e) { return e.second % 2 == 1; }));
+  };
+  WeldHint hint;
+  if (count.empty() || !(all > 0)) return hint;
+  std::uint64_t fewest = count.size();
+  for (const double part : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
+    char digits[32];  // of one digit, so that it can be told and given
+    std::snprintf(digits, sizeof digits, "%.0e", all * part);
+    double reach = 0;
+    parse_double(digits, reach);
+    const std::uint64_t left = still_open(reach);
+    if (left >= fewest) continue;
+    fewest = left;
+    hint = {reach, count.size() - left};
+  }
+  return hint;
+}
+
+RepairResult repair_surface(const Surface& surface, const RepairOptions& options) {
+  return Repair(surface, options).run();
+}
+
+}  // namespace delmesher::io

@@ -1,0 +1,33 @@
+// Mends what is safe to mend of a surface, and says what it did; describes the holes that are left.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesher/delmesher_files.h"
+
+namespace delmesher::io {
+
+// The edges of exactly one triangle, put together where they form a ring: the side of a hole. At
+// vertices where several rings meet, edges are left over.
+struct Hole {
+  std::vector<std::uint32_t> corners;  // in the order in which a triangle that fills it goes round
+  std::int32_t label = 0;              // of a triangle beside it
+  double width = 0;                    // diagonal of its box
+};
+struct Holes {
+  std::vector<Hole> holes;       // by their first corner
+  std::uint64_t open_edges = 0;  // all of them
+};
+Holes holes_of(const Surface& surface);
+
+// A distance within which vertices may be welded so that fewest edges stay open; of several the
+// smallest, of one digit.
+struct WeldHint {
+  double distance = 0;       // 0: welding closes nothing
+  std::uint64_t closed = 0;  // edges that would be open no more
+};
+WeldHint weld_hint(const Surface& surface);
+
+}  // namespace delmesher::io
