@@ -110,7 +110,7 @@ if(TETPROOF_HARNESS)
     need(MPFR "${why}" MPFR_LIBRARY)
     need(OpenMesh "${why}" OPENMESH_INCLUDE_DIR OPENMESH_CORE_LIBRARY)
     look_for(benchmark)
-    optional(benchmark "the target `benchmarks` is not there" benchmark_FOUND)
+    optional(benchmark "the benchmark `tetproof-kernels` is not there" benchmark_FOUND)
   elseif(TETPROOF_TESTS OR TETPROOF_FUZZ)
     message(FATAL_ERROR "tests and fuzz targets of the harness need second opinions: "
                         "set TETPROOF_SECOND_OPINIONS=ON, or TETPROOF_TESTS=OFF and TETPROOF_FUZZ=OFF")

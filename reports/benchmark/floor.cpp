@@ -41,13 +41,19 @@ void add(PointStore& points, const ExactPoint& p) {
     case ExactPoint::Kind::on_triangle:
       points.add_on_triangle(p.i, p.j, p.k, p.x, p.y);
       break;
+    case ExactPoint::Kind::on_planes:
+      points.add_on_planes(p.i, p.j, p.k);
+      break;
   }
 }
 
-PointStore store_of(const Points& all) {
+PointStore store_of(const FinalPoints& final) {
   PointStore points;
-  points.reserve(all.size());
-  for (const ExactPoint& p : all) add(points, p);
+  points.reserve(final.all.size());
+  for (const auto& plane : final.planes) {
+    points.add_plane({plane.normal, plane.through, plane.spanned});
+  }
+  for (const ExactPoint& p : final.all) add(points, p);
   return points;
 }
 
@@ -75,11 +81,12 @@ Timing own_delaunay(const std::vector<std::array<double, 3>>& points) {
   return timed_build(store, vertices);
 }
 
-FinalPoints::FinalPoints(const delmesher::ExactRecord& record) : all(record.points) {
+FinalPoints::FinalPoints(const delmesher::ExactRecord& record)
+    : planes(record.planes), all(record.points) {
   for (const auto& t : record.final) used.insert(used.end(), t.vertices.begin(), t.vertices.end());
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  const PointStore points = store_of(all);
+  const PointStore points = store_of(*this);
   for (const std::uint32_t v : used) nearest.push_back(points.nearest(v));
   // Rounding may have made neighbours of a sharp corner coincide.
   std::sort(nearest.begin(), nearest.end());
@@ -87,7 +94,7 @@ FinalPoints::FinalPoints(const delmesher::ExactRecord& record) : all(record.poin
 }
 
 Timing FinalPoints::own_delaunay() const {
-  PointStore points = store_of(all);
+  PointStore points = store_of(*this);
   return timed_build(points, used);
 }
 

@@ -15,9 +15,6 @@ struct Timing {
   double seconds = 0;          // processor time of this thread
 };
 
-// The points with their exact definitions, as a run of the mesher made them.
-using Points = std::vector<delmesher::ExactPoint>;
-
 // Delaunay_triangulation_3 (EPICK, in CGAL's spatial order) of the nearest doubles; coincident ones
 // once.
 Timing cgal_delaunay(const std::vector<std::array<double, 3>>& points);
@@ -25,12 +22,14 @@ Timing cgal_delaunay(const std::vector<std::array<double, 3>>& points);
 // The mesher's kernel on doubles, and on the points as they are defined.
 Timing own_delaunay(const std::vector<std::array<double, 3>>& points);
 
-// The points of a record that the final mesh uses, as points of one kind or mixed.
+// The points of a record that the final mesh uses: with their exact definitions, as a run of the
+// mesher made them, and as the nearest doubles.
 struct FinalPoints {
   explicit FinalPoints(const delmesher::ExactRecord& record);
   Timing own_delaunay() const;
 
-  Points all;                                  // with the corners that definitions refer to
+  std::vector<delmesher::ExactRecord::Plane> planes;
+  std::vector<delmesher::ExactPoint> all;      // with the corners that definitions refer to
   std::vector<std::uint32_t> used;             // ascending
   std::vector<std::array<double, 3>> nearest;  // of those used, each position once
 };
