@@ -11,8 +11,8 @@
 namespace delmesher::output {
 namespace {
 
-// What is done about tetrahedra that are not positive: only what lessens them, or moves that may
-// exchange them for others as well, after that or instead.
+// How to get rid of tetrahedra that are not positive. Descending takes only changes that leave
+// fewer of them; untangling also moves vertices where that makes others in their stead.
 enum class Strategy { descend, descend_and_untangle, untangle_first };
 
 // Repairs from mild to drastic; after each success, the mild ones get another chance.
