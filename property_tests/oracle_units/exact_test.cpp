@@ -1,4 +1,4 @@
-// Intervals, exact points, and the signs that they decide.
+// Intervals, exact numbers, sums and points, and the signs that they decide.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 
 #include "oracles/ball_side.h"
 #include "oracles/exact_points.h"
+#include "oracles/exact_sum.h"
 #include "oracles/interval.h"
 #include "property_tests/oracle_units/helpers.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 using namespace oracles;  // NOLINT
 using delmesher::ExactPoint;
+using delmesher::ExactRecord;
 
 TEST(Intervals, HaveTheSignOfAllTheyHold) {
   EXPECT_EQ(Interval(1, 2).sign(), 1);
@@ -306,6 +308,123 @@ TEST(BallSide, TellsInsideFromOutside) {
     EXPECT_EQ(ball.side(8), 1);
     EXPECT_EQ(ball.side(4), 0);  // on the sphere, which rounded numbers cannot tell
     EXPECT_EQ(ball.side(9), 0);
+  }
+}
+
+TEST(ExactNumber, IsAFieldWithoutDivision) {
+  std::mt19937 random(7);
+  const auto any = [&] {
+    mpq_class q(static_cast<long>(random() % 2001) - 1000, 2 * (random() % 50) + 1);
+    q.canonicalize();
+    return q;
+  };
+  for (int round = 0; round < 2000; ++round) {
+    const mpq_class p = any(), q = any();
+    const ExactNumber a(p), b(q);
+    EXPECT_EQ((a + b).rational(), p + q);
+    EXPECT_EQ((a - b).rational(), p - q);
+    EXPECT_EQ((a * b).rational(), p * q);
+    EXPECT_EQ((-a).rational(), -p);
+    ExactNumber sum = a;
+    sum += b;
+    EXPECT_EQ(sum.rational(), p + q);
+    sum -= a;
+    EXPECT_EQ(sum.rational(), q);
+    EXPECT_EQ(sgn(a), sgn(p));
+    EXPECT_EQ(cmp(a, b) > 0, p > q);
+    EXPECT_EQ(a == b, p == q);
+    EXPECT_EQ(a < b, p < q);
+    EXPECT_EQ(a.shifted(3).rational(), p * 8);
+    EXPECT_EQ((a * ExactNumber(8)).shifted(-3).rational(), p);
+    EXPECT_EQ(a.is_integer(), p.get_den() == 1);
+    if (q != 0) {
+      EXPECT_EQ(ratio(a, b), p / q);
+    }
+    EXPECT_NEAR(to_double(a, 0), p.get_d(), 1e-15 * std::fabs(p.get_d()));
+  }
+}
+
+TEST(ExactSum, IsEqualWhereTheNumbersAre) {
+  std::mt19937 random(8);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<mpq_class> terms;
+    mpq_class total = 0;
+    for (int i = 0; i < 30; ++i) {
+      const unsigned long denominator = i % 3 == 0 ? 1 : 2 * (random() % 5000) + 1;
+      mpq_class q(static_cast<long>(random() % 20001) - 10000, denominator);
+      q.canonicalize();
+      terms.push_back(q);
+      total += q;
+    }
+    ExactSum forwards, backwards, other;
+    for (const mpq_class& q : terms) forwards += ExactNumber(q);
+    std::reverse(terms.begin(), terms.end());
+    // In other pieces: two numbers are added as one.
+    for (std::size_t i = 0; i < terms.size(); i += 2) {
+      backwards += ExactNumber(mpq_class(terms[i] + terms[i + 1]));
+    }
+    EXPECT_TRUE(forwards == backwards);
+    for (const mpq_class& q : terms) other += ExactNumber(q);
+    other += ExactNumber(mpq_class(1, 1000003));
+    EXPECT_FALSE(forwards == other);
+    EXPECT_EQ(forwards.sign(), sgn(total));
+    EXPECT_NEAR(forwards.value(0), total.get_d(), 1e-12 * (1 + std::fabs(total.get_d())));
+    EXPECT_NEAR(difference(other, forwards, 0), 1e-6, 1e-9);
+  }
+}
+
+TEST(ExactPoints, OnPlanesAreWhereThesePlanesMeet) {
+  std::mt19937 random(9);
+  const auto unit = [&] { return static_cast<double>(random()) * 0x1p-31 - 1; };
+  for (int round = 0; round < 200; ++round) {
+    std::vector<ExactRecord::Plane> planes(3);
+    for (auto& plane : planes) {
+      plane.spanned = random() % 2 == 0;
+      plane.normal = {unit(), unit(), unit()};
+      for (auto& p : plane.through) p = {unit(), unit(), unit()};
+    }
+    std::vector<ExactPoint> list = explicit_points(std::vector<Position>{{1, 2, 3}, {0, 1, 0.5}});
+    ExactPoint meeting;
+    meeting.kind = ExactPoint::Kind::on_planes;
+    meeting.i = 0;
+    meeting.j = 1;
+    meeting.k = 2;
+    list.push_back(meeting);
+    ExactPoint middle;
+    middle.kind = ExactPoint::Kind::on_segment;
+    middle.i = 2;
+    middle.j = 0;
+    middle.x = 0.375;
+    list.push_back(middle);
+    ExactPoints points;
+    ASSERT_EQ(points.assign(list, planes), "");
+    const auto at = [&](Index v, int axis) { return coordinate(points, v, axis); };
+    for (const auto& plane : planes) {
+      mpq_class height = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        mpq_class n = plane.normal[axis];
+        if (plane.spanned) {
+          const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+          const auto side = [&](std::size_t i, int a) {
+            return mpq_class(mpq_class(plane.through[i][a]) - mpq_class(plane.through[0][a]));
+          };
+          n = side(1, j) * side(2, k) - side(1, k) * side(2, j);
+        }
+        height += n * (at(2, axis) - mpq_class(plane.through[0][axis]));
+      }
+      EXPECT_EQ(height, 0);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(at(3, axis), at(2, axis) * mpq_class(0.375) + at(0, axis) * mpq_class(0.625));
+      for (const Index v : {2U, 3U}) {
+        const Interval box = points.enclosure(v)[axis];
+        EXPECT_LE(mpq_class(box.low), at(v, axis));
+        EXPECT_GE(mpq_class(box.high), at(v, axis));
+        const Interval rough = points.rough_difference(1, v)[axis];
+        EXPECT_LE(mpq_class(rough.low), at(v, axis) - at(1, axis));
+        EXPECT_GE(mpq_class(rough.high), at(v, axis) - at(1, axis));
+      }
+    }
   }
 }
 

@@ -1,0 +1,84 @@
+// What is kept of a surface, with distances in it, and what is removed.
+#include "mesher/chamfer/kept_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mesher/chamfer/boundary_distance.h"
+#include "mesher/chamfer/removed_surface.h"
+#include "mesher/chamfer/test_model.h"
+#include "mesher/chamfer/test_polyhedra.h"
+
+namespace delmesher::chamfer {
+namespace {
+
+// Of the edges that touch an edge of a unit square, only the far ends count: the opposite edge is
+// nearest to the middle half of it, an edge beside it would be as near as a quarter.
+TEST(BoundaryDistance, EdgesAtEitherEndOfAPartCountByTheirFarEnds) {
+  Model model(test_polyhedra::prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1));
+  const KeptSurface surface(model.topology, model.points, {});
+  BoundaryDistance distance(surface);
+  for (const Corner& corner : surface.corners()) {
+    const std::uint32_t edge = model.topology.edge_of[corner.outgoing];
+    const auto [v, w] = model.topology.edge_vertices(edge);
+    const Vec3 from = surface.position(v), along = surface.edge_vector(v, w);
+    const std::array<Vec3, 2> part = {add_scaled(from, 0.25, along), add_scaled(from, 0.75, along)};
+    EXPECT_EQ(distance.from_edge_part(corner.facet, edge, part), surface.scale());
+  }
+}
+
+// The reciprocal of subnormal coordinates is no double.
+TEST(KeptSurface, IsScaledByNormalNumbers) {
+  for (const double factor : {0x1p-1060, 0x1p-500, 1.0, 0x1p1000}) {
+    const Surface given =
+        test_polyhedra::scaled(test_polyhedra::prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1), factor);
+    Model model(given);
+    const KeptSurface surface(model.topology, model.points, {});
+    EXPECT_TRUE(std::isnormal(surface.scale())) << factor;
+    EXPECT_TRUE(std::isnormal(1 / surface.scale())) << factor;
+    for (VertexId v = 0; v < surface.vertex_count(); ++v) {
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_LE(std::fabs(surface.position(v)[axis]), 1);
+        EXPECT_EQ(surface.position(v)[axis] / surface.scale(), given.vertices[v][axis]);
+      }
+    }
+  }
+}
+
+// One facet of a box was dropped: what is near the middle of one of its triangles is crowded, what
+// is near another facet is not.
+TEST(RemovedSurface, IsTheDroppedFacetsAndNothingElse) {
+  Surface box;
+  for (int v = 0; v < 8; ++v) {
+    box.vertices.push_back({1.0 * (v & 1), 1.0 * (v >> 1 & 1), 1.0 * (v >> 2)});
+  }
+  for (const auto& [a, b, c, d] : {std::array{0U, 2U, 3U, 1U},
+                                   {4U, 5U, 7U, 6U},
+                                   {0U, 1U, 5U, 4U},
+                                   {2U, 6U, 7U, 3U},
+                                   {0U, 4U, 6U, 2U},
+                                   {1U, 3U, 7U, 5U}}) {
+    box.triangles.push_back({a, b, c});
+    box.triangles.push_back({a, c, d});
+  }
+  Model model(box);
+  const ChamferResult result = model.run(untouched());
+  for (FacetId f = 0; f < 6; ++f) {
+    std::vector<std::uint8_t> kept(6, 1);
+    kept[f] = 0;
+    const RemovedSurface removed(result, kept, model.topology, model.points);
+    const RemovedSurface nothing(result, {}, model.topology, model.points);
+    for (std::uint32_t t = 0; t < model.topology.triangles.size(); ++t) {
+      Vec3 middle = {0, 0, 0};
+      for (const VertexId v : model.topology.triangles[t]) {
+        for (int k = 0; k < 3; ++k) middle[k] += model.points.nearest(v)[k] / 3;
+      }
+      EXPECT_EQ(removed.too_near(middle, 0.5), model.topology.facet_of[t] == f) << t;
+      EXPECT_FALSE(nothing.too_near(middle, 0.5));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace delmesher::chamfer
