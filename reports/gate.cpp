@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <random>
+#include <set>
 
-#include "reports/selection.h"
+#include "reports/gate_runs.h"
+#include "reports/resampling.h"
 #include "reports/statistics.h"
 
 namespace tetproof {
@@ -20,87 +20,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kDeviations = 4;     // robust standard deviations that count as noise
-constexpr std::size_t kFewPairs = 8;  // below, neither spread nor resampling says anything
-constexpr int kResamplings = 2000;
-constexpr double kTail = 0.01;             // share of the resamplings that may point elsewhere
+constexpr double kDeviations = 4;          // robust standard deviations that count as noise
 constexpr double kLongestSeconds = 1;      // a run's largest weight in the mean of all
 constexpr double kLargestBytes = 64e6;     // the same for memory
 constexpr double kMostTetrahedra = 10000;  // and for sizes
 constexpr double kLargestRatio = 4;        // an angle's largest part in the mean of all
 constexpr int kTurns = 3;                  // changes of side in base, new, base, new
-
-int verdict_rank(const std::string& verdict) {
-  static const std::map<std::string, int> kRanks = {
-      {"exact", 4}, {"rounded", 3}, {"deviating", 2}, {"broken", 1}};
-  const auto found = kRanks.find(verdict);
-  return found == kRanks.end() ? 0 : found->second;
-}
-
-// Is there a mesh that no oracle has objected to, verified or not?
-bool has_mesh(const RunRow& row) {
-  return row.disposition == Disposition::ok || row.disposition == Disposition::unverified;
-}
-
-// A run with its repetitions, and the parsed texts that are compared.
-struct Run {
-  RunRow row;
-  std::vector<std::string> started;
-  std::map<std::string, bool> passed;  // by oracle
-  Json verdict, stats;
-
-  std::optional<double> figure(const char* oracle, const char* name) const {
-    for (const Json& entry : verdict.value("oracles", Json::array())) {
-      if (entry.value("name", "") != oracle) continue;
-      const Json figures = entry.value("figures", Json::object());
-      if (figures.contains(name) && figures.at(name).is_number()) return figures.at(name);
-    }
-    return std::nullopt;
-  }
-};
-
-Json object_of(const std::string& text) {
-  Json json = Json::parse(text, nullptr, false);
-  return json.is_object() ? json : Json::object();
-}
-
-// The worst of the repetitions decides how the run ended; a run killed from outside tells nothing.
-int weight_of_ending(const RunRow& row) {
-  if (row.disposition == Disposition::killed) return 0;
-  if (!has_mesh(row)) return 3;
-  return is_verified(row) ? 2 : 1;
-}
-
-Run run_of(std::vector<const RunRow*> repetitions) {
-  const RunRow& decisive = **std::max_element(
-      repetitions.begin(), repetitions.end(),
-      [](const RunRow* a, const RunRow* b) { return weight_of_ending(*a) < weight_of_ending(*b); });
-  Run run{decisive, {}, {}, object_of(decisive.verdict_json), object_of(decisive.stats_json)};
-  for (const RunRow* row : repetitions) {
-    run.started.push_back(row->started);
-    if (!has_mesh(*row)) continue;
-    run.row.cpu_seconds = std::min(run.row.cpu_seconds, row->cpu_seconds);
-    run.row.peak_rss_bytes = std::min(run.row.peak_rss_bytes, row->peak_rss_bytes);
-  }
-  for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
-    run.passed[oracle.value("name", "")] = oracle.value("passed", false);
-  }
-  return run;
-}
-
-using Runs = std::map<std::string, std::map<std::string, Run>>;  // by mesher, then model
-
-Runs runs_of(const std::vector<RunRow>& rows) {
-  Runs runs;
-  std::map<RunKey, std::vector<const RunRow*>> by_key;
-  for (const RunRow& row : rows) by_key[row.key].push_back(&row);
-  for (const auto& [mesher, by_model] : select_runs(rows).runs) {
-    for (const auto& [model, row] : by_model) {
-      runs[mesher].emplace(model, run_of(by_key.at(row.key)));
-    }
-  }
-  return runs;
-}
 
 struct Pair {
   const Run* base;
@@ -131,47 +56,6 @@ Getter rest_of(double MeshColumns::*column) {
 std::optional<double> tetrahedra(const Run& run) {
   if (!run.row.mesh) return std::nullopt;
   return static_cast<double>(run.row.mesh->tetrahedra);
-}
-
-struct Weighted {
-  double value, weight;
-};
-
-double mean_of(const std::vector<Weighted>& sample) {
-  double sum = 0, weights = 0;
-  for (const auto& [value, weight] : sample) {
-    sum += value * weight;
-    weights += weight;
-  }
-  return weights > 0 ? sum / weights : 0;
-}
-
-// The quantile p of the weighted mean over resamplings of the sample, the same ones in every call.
-double resampled_quantile(const std::vector<Weighted>& sample, double p) {
-  std::mt19937_64 random(1);
-  std::vector<double> means;
-  std::vector<Weighted> drawn(sample.size());
-  for (int i = 0; i < kResamplings; ++i) {
-    for (Weighted& one : drawn) one = sample[random() % sample.size()];
-    means.push_back(mean_of(drawn));
-  }
-  return *quantile(std::move(means), p);
-}
-
-// Is the mean of many beyond a limit in the direction of `sign`, and not because of a few of them?
-bool all_beyond(const std::vector<Weighted>& sample, double limit, double neutral, int sign) {
-  if (sample.size() < kFewPairs) return false;
-  if (sign * (mean_of(sample) - limit) <= 0) return false;
-  return sign * (resampled_quantile(sample, sign > 0 ? kTail : 1 - kTail) - neutral) > 0;
-}
-
-// 1.4826 times the median distance from the median, a standard deviation if all is normal.
-double spread(const std::vector<double>& values) {
-  if (values.size() < kFewPairs) return 0;
-  const double middle = *median(values);
-  std::vector<double> distances;
-  for (const double value : values) distances.push_back(std::fabs(value - middle));
-  return 1.4826 * *median(distances);
 }
 
 // An angle, or its difference from 180 degrees, or gamma; more is better.
@@ -645,10 +529,6 @@ class Gate {
 };
 
 }  // namespace
-
-bool is_verified(const RunRow& row) {
-  return row.disposition == Disposition::ok && verdict_rank(verdict_of(row)) > 0;
-}
 
 GateReport compare_campaigns(const std::vector<RunRow>& base, const std::vector<RunRow>& fresh,
                              const GateOptions& options) {

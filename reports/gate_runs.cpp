@@ -1,0 +1,80 @@
+#include "reports/gate_runs.h"
+
+#include <algorithm>
+
+#include "reports/gate.h"
+#include "reports/selection.h"
+
+namespace tetproof {
+namespace {
+
+using Json = nlohmann::json;
+
+Json object_of(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  return json.is_object() ? json : Json::object();
+}
+
+// The worst of the repetitions decides how the run ended; a run killed from outside tells nothing.
+int weight_of_ending(const RunRow& row) {
+  if (row.disposition == Disposition::killed) return 0;
+  if (!has_mesh(row)) return 3;
+  return is_verified(row) ? 2 : 1;
+}
+
+Run run_of(std::vector<const RunRow*> repetitions) {
+  const RunRow& decisive = **std::max_element(
+      repetitions.begin(), repetitions.end(),
+      [](const RunRow* a, const RunRow* b) { return weight_of_ending(*a) < weight_of_ending(*b); });
+  Run run{decisive, {}, {}, object_of(decisive.verdict_json), object_of(decisive.stats_json)};
+  for (const RunRow* row : repetitions) {
+    run.started.push_back(row->started);
+    if (!has_mesh(*row)) continue;
+    run.row.cpu_seconds = std::min(run.row.cpu_seconds, row->cpu_seconds);
+    run.row.peak_rss_bytes = std::min(run.row.peak_rss_bytes, row->peak_rss_bytes);
+  }
+  for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
+    run.passed[oracle.value("name", "")] = oracle.value("passed", false);
+  }
+  return run;
+}
+
+}  // namespace
+
+int verdict_rank(const std::string& verdict) {
+  static const std::map<std::string, int> kRanks = {
+      {"exact", 4}, {"rounded", 3}, {"deviating", 2}, {"broken", 1}};
+  const auto found = kRanks.find(verdict);
+  return found == kRanks.end() ? 0 : found->second;
+}
+
+bool has_mesh(const RunRow& row) {
+  return row.disposition == Disposition::ok || row.disposition == Disposition::unverified;
+}
+
+bool is_verified(const RunRow& row) {
+  return row.disposition == Disposition::ok && verdict_rank(verdict_of(row)) > 0;
+}
+
+std::optional<double> Run::figure(const char* oracle, const char* name) const {
+  for (const Json& entry : verdict.value("oracles", Json::array())) {
+    if (entry.value("name", "") != oracle) continue;
+    const Json figures = entry.value("figures", Json::object());
+    if (figures.contains(name) && figures.at(name).is_number()) return figures.at(name);
+  }
+  return std::nullopt;
+}
+
+Runs runs_of(const std::vector<RunRow>& rows) {
+  Runs runs;
+  std::map<RunKey, std::vector<const RunRow*>> by_key;
+  for (const RunRow& row : rows) by_key[row.key].push_back(&row);
+  for (const auto& [mesher, by_model] : select_runs(rows).runs) {
+    for (const auto& [model, row] : by_model) {
+      runs[mesher].emplace(model, run_of(by_key.at(row.key)));
+    }
+  }
+  return runs;
+}
+
+}  // namespace tetproof
