@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <span>
 
+#include "mesher/base/sort_unique.h"
+
 namespace delmesher::cli {
 namespace {
 
@@ -82,8 +84,7 @@ class InputAngles {
     for (const auto& triangle : mesh_.boundary) {
       if (has(triangle, v)) ends.insert(ends.end(), triangle.begin(), triangle.end());
     }
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    base::sort_unique(ends);
     double smallest = 360;
     for (const std::uint32_t end : ends) {
       if (end == v) continue;

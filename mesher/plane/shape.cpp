@@ -4,23 +4,17 @@
 #include <bit>
 #include <cmath>
 
+#include "mesher/predicates/vector.h"
+
 namespace delmesher::plane {
 namespace {
 
-struct Vector {
-  double x, y;
-};
-
-double dot(const Vector& u, const Vector& v) {
-  return u.x * v.x + u.y * v.y;
-}
-
 // b - a. Where the points are known to few digits compared with their distance, with the digits
 // that the nearest doubles leave over.
-Vector difference(const PointStore& points, VertexId a, VertexId b) {
+Vec2 difference(const PointStore& points, VertexId a, VertexId b) {
   const Approximation& p = points.approximation(a);
   const Approximation& q = points.approximation(b);
-  Vector d = {q.x - p.x, q.y - p.y};
+  Vec2 d = {q.x - p.x, q.y - p.y};
   const double error = p.error > q.error ? p.error : q.error;
   if (error == 0 || error < 0x1p-40 * (std::fabs(d.x) + std::fabs(d.y))) return d;
   const Approximation r = points.remainder(a), s = points.remainder(b);
@@ -40,12 +34,12 @@ double to_grid(double x, double spacing) {
   return std::fabs(x) < spacing * 0x1p51 ? (x + bias) - bias : x;
 }
 
-double larger_coordinate(const Vector& v) {
+double larger_coordinate(const Vec2& v) {
   return std::max(std::fabs(v.x), std::fabs(v.y));
 }
 
 // The sides times `scale`.
-Shape measure(const Vector& ab, const Vector& bc, const Vector& ca, double scale) {
+Shape measure(const Vec2& ab, const Vec2& bc, const Vec2& ca, double scale) {
   // Squared lengths opposite the corners.
   const double squared[3] = {dot(bc, bc), dot(ca, ca), dot(ab, ab)};
   const double area = ab.y * ca.x - ab.x * ca.y;  // ab x ac, twice the area
@@ -68,8 +62,7 @@ Shape measure(const Vector& ab, const Vector& bc, const Vector& ca, double scale
 }  // namespace
 
 Shape shape_of(const PointStore& points, VertexId a, VertexId b, VertexId c) {
-  Vector ab = difference(points, a, b), bc = difference(points, b, c),
-         ca = difference(points, c, a);
+  Vec2 ab = difference(points, a, b), bc = difference(points, b, c), ca = difference(points, c, a);
   const Shape shape = measure(ab, bc, ca, 1);
   if (shape.shortest_squared > 0x1p-500) return shape;
   const double sizes[3] = {larger_coordinate(ab), larger_coordinate(bc), larger_coordinate(ca)};
@@ -80,7 +73,7 @@ Shape shape_of(const PointStore& points, VertexId a, VertexId b, VertexId c) {
   const double scale =
       std::min(0x1p900, std::min(1 / power_below(smallest), 0x1p200 / power_below(largest)));
   if (!(scale > 1)) return shape;
-  for (Vector* v : {&ab, &bc, &ca}) *v = {v->x * scale, v->y * scale};
+  for (Vec2* v : {&ab, &bc, &ca}) *v = {v->x * scale, v->y * scale};
   return measure(ab, bc, ca, scale);
 }
 
@@ -89,7 +82,7 @@ Vec3 Shape::place(const PointStore& points, const std::array<VertexId, 3>& corne
   const VertexId a = corner[static_cast<std::size_t>((sharpest + 1) % 3)];
   const VertexId b = corner[static_cast<std::size_t>((sharpest + 2) % 3)];
   const Approximation& p = points.approximation(a);
-  const Vector d = difference(points, a, b);
+  const Vec2 d = difference(points, a, b);
   const double x = p.x + (d.x / 2 - height * d.y);
   const double y = p.y + (d.y / 2 + height * d.x);
   const double spacing = power_below(std::sqrt(shortest_squared) / scale) * 0x1p-20;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mesher/base/sort_unique.h"
 #include "mesher/refine/refiner.h"
 
 namespace delmesher::refine {
@@ -33,8 +34,7 @@ void Refiner::triangulate_vertices() {
   for (const PlcFacet& facet : plc_.facets) {
     vertices.insert(vertices.end(), facet.isolated.begin(), facet.isolated.end());
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   dt_.build(vertices, control_);
 }
 

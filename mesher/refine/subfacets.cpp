@@ -5,6 +5,7 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/numbering.h"
+#include "mesher/base/sort_unique.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/facet_boundary.h"
 
@@ -65,8 +66,7 @@ void Subfacets::build_facet(std::uint32_t f) {
       vertices.push_back(b);
     }
   }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  sort_unique(vertices);
   const FacetBoundary boundary(std::move(sides));
   if (boundary.empty()) return;
   const PlanarTriangulation planar = triangulate_planar(dt_.predicates(), planes_[f], vertices);
