@@ -243,7 +243,7 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
       owner.set(face_key(face[4 * n + i]), 4 * n + i);
     }
   }
-  // partner[f]: a new face, or a face outside the cavity (kOuter set).
+  // Across new face f: partner[f], another new face, or outer[f], a face outside the cavity.
   constexpr std::uint32_t kUnmatched = kNone;
   std::vector<std::uint32_t> partner(face.size(), kUnmatched);
   std::vector<std::uint32_t> outer(face.size(), kUnmatched);

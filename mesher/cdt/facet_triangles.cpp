@@ -83,8 +83,9 @@ void FacetTriangulator::collect_boundary(FacetId facet) {
   std::sort(boundary_.begin(), boundary_.end());
 }
 
-// The facet of a convex solid has no vertex on its outer side: then its plane is described from
-// inside and the triangles are to be flipped.
+// The planar predicates need a point off the plane, whichever side it is on: the facet of a convex
+// solid has none on its outer side. With one on the inner side the plane is described from inside,
+// and the triangles are to be flipped.
 FacetPlane FacetTriangulator::plane_of(FacetId facet, bool& flipped) {
   FacetPlane plane{topology_.facet_axis[facet], topology_.facet_axis_sign[facet], kNone};
   const std::uint32_t first = topology_.facet_triangles[facet][0];

@@ -14,9 +14,9 @@ class ReferenceFinder {
   ReferenceFinder(Tetrahedrization& mesh, const PointStore& points, Control& control)
       : mesh_(mesh), predicates_(mesh.predicates()), points_(points), control_(control) {}
 
-  // Among the vertices of the tetrahedra that the segment ab crosses and that lie in its diametral
-  // ball, the one that sees it under the largest circumcircle; kNone without any. In doubles: it
-  // only guides. The star of a is visited: a should be the end of lower degree.
+  // Of the vertices of the tetrahedra that the segment ab crosses, and of these only the ones in
+  // its diametral ball, the vertex with the largest circle through it, a and b; kNone without any.
+  // In doubles: it only guides. The star of a is visited: a should be the end of lower degree.
   VertexId find(VertexId a, VertexId b);
 
  private:

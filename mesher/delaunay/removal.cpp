@@ -1,7 +1,7 @@
-// Removal of vertices. The tetrahedra that have only vertices that stay are Delaunay as before.
-// What is between them is filled with tetrahedra of the Delaunay tetrahedrization of the vertices
-// around it: those are Delaunay among all vertices too if they lie there, and the perturbation
-// makes the answer unique, so that the faces around fit.
+// Removal of vertices. The tetrahedra that have only vertices that stay are Delaunay as before. The
+// hole between them is filled from the Delaunay tetrahedrization of the vertices around it: its
+// tetrahedra inside the hole are Delaunay among all vertices, too, and the perturbation makes the
+// answer unique, so that their faces fit those around.
 
 #include "mesher/base/check.h"
 #include "mesher/base/sort_unique.h"

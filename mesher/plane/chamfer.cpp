@@ -177,7 +177,7 @@ class Chamferer {
     const auto size = [](const Point& x) { return std::max(std::fabs(x[0]), std::fabs(x[1])); };
     if (!(width > kFloor * size(s.at(best)))) return HUGE_VAL;
     const double length = s.length();
-    // What has ends far away is known to no more than this.
+    // A width between pieces with ends far away is known to no more than this.
     const double blur = kFloor * std::max({size(s.a), size(s.b), size(t.a), size(t.b)});
     if (!(width > blur)) return length * options_.tau > blur ? HUGE_VAL : 0;
     if (length * options_.tau <= width) return length / width;  // not narrow, whatever it is

@@ -85,7 +85,7 @@ class Repairer {
   }
 
   // Moves a corner to a double nearby with which fewer triangles around it fail, and t does not.
-  // Those that do then, perhaps others than before, are added to `failing`.
+  // The triangles that fail then, perhaps others than before, are added to `failing`.
   bool repair(std::uint32_t t, int reach, std::vector<std::uint32_t>& failing) {
     for (const std::uint32_t v : mesh_.triangles[t]) {
       if (movable_[v] == 0) continue;
