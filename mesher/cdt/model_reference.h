@@ -42,6 +42,23 @@ struct Model {
   bool valid = false;
 };
 
+inline std::set<VertexId> vertices(const CdtResult& mesh) {
+  std::set<VertexId> used;
+  for (const auto& t : mesh.tetrahedra) used.insert(t.begin(), t.end());
+  return used;
+}
+
+// Six times the volume of all tetrahedra, exactly.
+inline mpq_class volume(const PointStore& points, const CdtResult& mesh) {
+  mpq_class sum = 0;
+  for (const auto& t : mesh.tetrahedra) {
+    rational::Vector x[4];
+    for (int i = 0; i < 4; ++i) x[i] = rational::exact(points, t[i]);
+    sum += rational::volume(x[0], x[1], x[2], x[3]);
+  }
+  return sum;
+}
+
 // Adds points of all kinds: on edges, in facets, in the volume, and the corners of a box around.
 inline void enrich(Model& model, int density, std::uint32_t seed) {
   std::mt19937 random(seed);

@@ -334,4 +334,23 @@ inline Surface chazelle(int n, double gap) {
   return s;
 }
 
+// One of each kind, small: with labels that separate coplanar triangles, with a wall around a
+// cavity, with sharp corners.
+inline std::vector<Surface> one_of_each() {
+  Surface labelled =
+      voxels({{{0, 1, 2, 3}, {0, 1, 2}, {0, 0.5}}}, [](int, int, int) { return true; });
+  for (std::size_t t = 0; t < labelled.triangles.size(); ++t) {
+    labelled.labels.push_back(labelled.vertices[labelled.triangles[t][0]][0] < 2 ? 1 : 0);
+  }
+  Surface nested = box(0, 8);
+  append(nested, inside_out(box(1, 7)));
+  return {box(0, 1),
+          perforated_plate(5, 0.25, 2),
+          star(1, 0.1, 5),
+          chazelle(2, 0.5),
+          twisted_prism(5, 0.1, 1, true),
+          labelled,
+          nested};
+}
+
 }  // namespace delmesher::cdt::test_models

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
+#include <cmath>
+#include <random>
 #include <set>
 
 #include "mesher/cdt/model_reference.h"
@@ -49,17 +50,6 @@ struct Case {
     return rational::Checker(model.topology, model.points, after, false).run();
   }
 
-  // Six times the volume of all tetrahedra, exactly.
-  mpq_class volume(const cdt::CdtResult& mesh) const {
-    mpq_class sum = 0;
-    for (const auto& t : mesh.tetrahedra) {
-      rational::Vector x[4];
-      for (int i = 0; i < 4; ++i) x[i] = rational::exact(model.points, t[i]);
-      sum += rational::volume(x[0], x[1], x[2], x[3]);
-    }
-    return sum;
-  }
-
   Quality worst(const cdt::CdtResult& mesh, bool all = false) const {
     Quality q = kNotCounted;
     for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
@@ -76,30 +66,6 @@ struct Case {
   ImproveResult result;
 };
 
-std::set<VertexId> vertices(const cdt::CdtResult& mesh) {
-  std::set<VertexId> used;
-  for (const auto& t : mesh.tetrahedra) used.insert(t.begin(), t.end());
-  return used;
-}
-
-// With labels that separate coplanar triangles, with a wall around a cavity, with sharp corners.
-std::vector<Surface> surfaces() {
-  Surface labelled =
-      voxels({{{0, 1, 2, 3}, {0, 1, 2}, {0, 0.5}}}, [](int, int, int) { return true; });
-  for (std::size_t t = 0; t < labelled.triangles.size(); ++t) {
-    labelled.labels.push_back(labelled.vertices[labelled.triangles[t][0]][0] < 2 ? 1 : 0);
-  }
-  Surface nested = box(0, 8);
-  append(nested, inside_out(box(1, 7)));
-  return {box(0, 1),
-          perforated_plate(5, 0.25, 2),
-          star(1, 0.1, 5),
-          chazelle(2, 0.5),
-          twisted_prism(5, 0.1, 1, true),
-          labelled,
-          nested};
-}
-
 float squared_sine(double degrees) {
   return static_cast<float>(1 - cosine_squared(degrees));
 }
@@ -108,12 +74,12 @@ float squared_sine(double degrees) {
 // has become worse.
 TEST(Improve, KeepsTheSurfaceAndTheWorstAngles) {
   std::uint32_t seed = 1;
-  for (const Surface& s : surfaces()) {
+  for (const Surface& s : one_of_each()) {
     for (const int density : {1, 3}) {
       Case c(s, density, seed++);
       c.run();
       EXPECT_EQ(c.wrong(), "");
-      EXPECT_EQ(c.volume(c.after), c.volume(c.before));
+      EXPECT_EQ(volume(c.model.points, c.after), volume(c.model.points, c.before));
       const Quality before = c.worst(c.before), after = c.worst(c.after);
       EXPECT_GE(after.dihedral, std::min(before.dihedral, squared_sine(kFlattestDihedral)));
       EXPECT_GE(after.face, std::min(before.face, squared_sine(14.47)));
@@ -140,7 +106,7 @@ TEST(Improve, OutsideCountsForTheHull) {
   ImproveOptions options;
   options.region = Region::hull;
   std::uint32_t seed = 1;
-  for (const Surface& s : surfaces()) {
+  for (const Surface& s : one_of_each()) {
     Case c(s, 2, seed++);
     c.run(options);
     EXPECT_EQ(c.wrong(), "");
@@ -153,7 +119,7 @@ TEST(Improve, OutsideCountsForTheHull) {
 // Without the surface's topology its faces and vertices stay as they are.
 TEST(Improve, KeepsTheBoundaryOfAnyMesh) {
   std::uint32_t seed = 1;
-  for (const Surface& s : surfaces()) {
+  for (const Surface& s : one_of_each()) {
     Case c(s, 2, seed++);
     c.run({}, false);
     const auto faces = [](const cdt::CdtResult& mesh) {

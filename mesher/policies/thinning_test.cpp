@@ -24,50 +24,25 @@ std::size_t thin(Model& model, std::span<const VertexId> around, int rings, cdt:
                   model.control, mesh);
 }
 
-std::set<VertexId> vertices(const cdt::CdtResult& mesh) {
-  std::set<VertexId> used;
-  for (const auto& t : mesh.tetrahedra) used.insert(t.begin(), t.end());
-  return used;
-}
-
-// Six times the volume of all tetrahedra, exactly.
-mpq_class volume(const Model& model, const cdt::CdtResult& mesh) {
-  mpq_class sum = 0;
-  for (const auto& t : mesh.tetrahedra) {
-    rational::Vector x[4];
-    for (int i = 0; i < 4; ++i) x[i] = rational::exact(model.points, t[i]);
-    sum += rational::volume(x[0], x[1], x[2], x[3]);
-  }
-  return sum;
-}
-
 std::string wrong(const Model& model, const cdt::CdtResult& mesh) {
   return rational::Checker(model.topology, model.points, mesh, false).run();
 }
 
 // What is left conforms as before and fills the same hull, whatever has gone.
 TEST(Thinning, KeepsTheSurfaceAndTheHull) {
-  Surface labelled =
-      voxels({{{0, 1, 2, 3}, {0, 1, 2}, {0, 0.5}}}, [](int, int, int) { return true; });
-  for (std::size_t t = 0; t < labelled.triangles.size(); ++t) {
-    labelled.labels.push_back(labelled.vertices[labelled.triangles[t][0]][0] < 2 ? 1 : 0);
-  }
-  Surface nested = box(0, 8);
-  append(nested, inside_out(box(1, 7)));
   std::uint32_t seed = 1;
-  for (const Surface& s : {box(0, 1), perforated_plate(5, 0.25, 2), star(1, 0.1, 5),
-                           chazelle(2, 0.5), twisted_prism(5, 0.1, 1, true), labelled, nested}) {
+  for (const Surface& s : one_of_each()) {
     for (const int density : {1, 3}) {
       Model model(s);
       ASSERT_TRUE(model.valid);
       cdt::test_models::enrich(model, density, seed++);
       cdt::CdtResult mesh = model.run();
-      const mpq_class hull = volume(model, mesh);
+      const mpq_class hull = volume(model.points, mesh);
       const std::set<VertexId> before = vertices(mesh);
       const std::vector<VertexId> all(before.begin(), before.end());
       const std::size_t gone = thin(model, all, 0, mesh);
       EXPECT_EQ(wrong(model, mesh), "");
-      EXPECT_EQ(volume(model, mesh), hull);
+      EXPECT_EQ(volume(model.points, mesh), hull);
       const std::set<VertexId> after = vertices(mesh);
       EXPECT_EQ(after.size() + gone, before.size());
       // Most of what enriched the mesh can go; the input's vertices stay.
@@ -108,7 +83,7 @@ TEST(Thinning, KeepsAHullThatIsTheSurface) {
   const std::vector<VertexId> all(before.begin(), before.end());
   EXPECT_GT(thin(model, all, 0, mesh), 0U);
   EXPECT_EQ(wrong(model, mesh), "");
-  EXPECT_EQ(volume(model, mesh), 6);
+  EXPECT_EQ(volume(model.points, mesh), 6);
 }
 
 // How many tetrahedra are inverted or flat on nearest doubles.
