@@ -149,14 +149,15 @@ const BadFile kBadFiles[] = {
 INSTANTIATE_TEST_SUITE_P(Program, BadFiles, testing::ValuesIn(kBadFiles),
                          [](const auto& bad) { return std::string(bad.param.law); });
 
+// Kuhn's six tetrahedra along a diagonal of the cube: r = 1/2 / (1 + sqrt 2), R = sqrt 3 / 2.
 TEST_F(Program, AGoodFileIsMeshedInOneLineOrSilence) {
   write("in.off", cube());
   EXPECT_EQ(run("in.off -o mesh.mesh"), 0);
   EXPECT_EQ(text("out.txt"), "");
   EXPECT_EQ(text("err.txt"),
-            "mesh.mesh: 6 tetrahedra, dihedral angles 35.26 to 125.26 degrees, smallest face angle "
-            "35.26, gamma 0.623 / 0.691 / 0.623 (1 % / mean / smallest), 0 below 5 degrees, the "
-            "worst at (1, 0.5, 0.5)\n");
+            "mesh.mesh: 6 tetrahedra, dihedral angles 45.00 to 90.00 degrees, smallest face angle "
+            "35.26, gamma 0.717 / 0.717 / 0.717 (1 % / mean / smallest), 0 below 5 degrees, the "
+            "worst at (0, 0, 0.5)\n");
   EXPECT_GT(text("mesh.mesh").size(), 100U);
   EXPECT_EQ(run("in.off -o mesh.mesh -q"), 0);
   EXPECT_EQ(text("out.txt") + text("err.txt"), "");

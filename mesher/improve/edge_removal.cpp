@@ -1,6 +1,7 @@
 #include "mesher/improve/edge_removal.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace delmesher::improve {
 namespace {
@@ -20,12 +21,37 @@ bool EdgeRemoval::run(TetId t, int i, int j, std::span<const std::uint32_t> fail
   a_ = state_.mesh.tet(t)[i];
   b_ = state_.mesh.tet(t)[j];
   if (!find_ring(t, failed) || !split_ring()) return false;
+  aim_ = Aim::best_worst;
   least_ = state_.to_be_better(state_.worst_of(ring_));
+  return refill(-HUGE_VAL);
+}
+
+bool EdgeRemoval::round_off(TetId t, int i, int j, std::span<const std::uint32_t> failed) {
+  // Of a change, so that many that bring nothing do not follow each other.
+  constexpr double kLeastGain = 0.02;
+  a_ = state_.mesh.tet(t)[i];
+  b_ = state_.mesh.tet(t)[j];
+  if (!find_ring(t, failed) || !split_ring()) return false;
+  aim_ = Aim::roundest;
+  least_ = state_.to_be_acceptable(state_.worst_of(ring_));
+  double before = 0;
+  for (const TetId u : ring_) {
+    if (state_.counts(u)) before += roundness(state_.quality(u));
+  }
+  return refill(before + kLeastGain);
+}
+
+// Fills all polygons, if that is rounder than this.
+bool EdgeRemoval::refill(double least_roundness) {
   created_.clear();
+  double sum = 0;
   for (Polygon& polygon : polygons_) {
-    if (!triangulate(polygon)) return false;
+    const Filling filling = triangulate(polygon);
+    if (!(filling.worst.dihedral > 0)) return false;
+    sum += filling.roundness;
     collect(polygon);
   }
+  if (!(sum > least_roundness)) return false;
   for (const CreatedTet& tet : created_) {
     if (!state_.is_positive(tet.vertices)) return false;
   }
@@ -116,43 +142,59 @@ bool EdgeRemoval::split_ring() {
   return true;
 }
 
-// Two tetrahedra, towards a and b, for each triangle of the polygon, the worst of them as good as
-// can be (Klincsek's dynamic program). False if they are not better than before.
-bool EdgeRemoval::triangulate(Polygon& polygon) {
+// Tetrahedra that are rounder than this raise the mean, others are better fewer.
+double EdgeRemoval::roundness(const Quality& q) {
+  constexpr double kMean = 0.65;
+  return std::sqrt(q.gamma) - kMean;
+}
+
+bool EdgeRemoval::improves(const Filling& filling, const Filling& best) const {
+  return aim_ == Aim::best_worst ? state_.score(filling.worst) > state_.score(best.worst)
+                                 : !(best.worst.dihedral > 0) || filling.roundness > best.roundness;
+}
+
+// Two tetrahedra, towards a and b, for each triangle of the polygon: the best filling among those
+// that reach what they have to (Klincsek's dynamic program).
+EdgeRemoval::Filling EdgeRemoval::triangulate(Polygon& polygon) const {
   const int n = polygon.size;
   const bool counts = state_.counts_in(polygon.region);
+  const bool weighs_roundness = counts && aim_ == Aim::roundest;
   const bool is_diagonal = !faces_.empty();  // of a facet: the edge from first to last is new, too
-  std::array<std::array<Quality, kLongest + 1>, kLongest + 1> best;
-  for (int i = 0; i + 1 < n; ++i) best[i][i + 1] = kNotCounted;
+  const Quality least = counts ? least_ : Quality{};
+  std::array<std::array<Filling, kLongest + 1>, kLongest + 1> best;
+  for (int i = 0; i + 1 < n; ++i) best[i][i + 1].worst = kNotCounted;
   for (int width = 2; width < n; ++width) {
     for (int i = 0; i + width < n; ++i) {
       const int j = i + width;
-      best[i][j] = {};
       const bool is_new = width < n - 1 || is_diagonal;
       if (counts && is_new &&
           state_.too_long(state_.position(polygon.vertex[i]), state_.position(polygon.vertex[j]))) {
         continue;
       }
-      Quality least = counts ? least_ : Quality{};
       for (int k = i + 1; k < j; ++k) {
-        Quality q = worse(best[i][k], best[k][j]);
+        Filling filling = {worse(best[i][k].worst, best[k][j].worst),
+                           best[i][k].roundness + best[k][j].roundness};
         const auto fails = [&] {
+          const Quality& q = filling.worst;
           return !(q.dihedral > 0) || !State::reaches(q, least) ||
-                 state_.score(q) <= state_.score(best[i][j]);
+                 (aim_ == Aim::best_worst && !improves(filling, best[i][j]));
         };
-        if (fails()) continue;
         const auto& v = polygon.vertex;
-        q = worse(q, state_.quality_of({v[i], v[k], v[j], b_}, least));
-        if (fails()) continue;
-        q = worse(q, state_.quality_of({v[k], v[i], v[j], a_}, least));
-        if (fails()) continue;
-        best[i][j] = q;
+        const auto add = [&](const Tet& tet) {
+          const Quality q = state_.quality_of(tet, least);
+          filling.worst = worse(filling.worst, q);
+          if (weighs_roundness) filling.roundness += roundness(q);
+          return !fails();
+        };
+        if (fails() || !add({v[i], v[k], v[j], b_}) || !add({v[k], v[i], v[j], a_})) continue;
+        if (!improves(filling, best[i][j])) continue;
+        best[i][j] = filling;
         polygon.middle[i][j] = static_cast<std::int8_t>(k);
         if (!counts) break;
       }
     }
   }
-  return best[0][n - 1].dihedral > 0;
+  return best[0][n - 1];
 }
 
 void EdgeRemoval::collect(const Polygon& polygon) {

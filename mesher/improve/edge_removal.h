@@ -21,10 +21,23 @@ class EdgeRemoval {
   // of the ring they were tried from, there is no use in trying again before one of their ends
   // changes.
   bool run(TetId t, int i, int j, std::span<const std::uint32_t> failed);
+  // Removes it if the tetrahedra are rounder on average afterwards, and the worst of them stay good
+  // enough.
+  bool round_off(TetId t, int i, int j, std::span<const std::uint32_t> failed);
 
  private:
   // The longest ring that is considered.
   static constexpr int kLongest = 9;
+
+  // By what ways to fill a polygon are compared.
+  enum class Aim : std::uint8_t { best_worst, roundest };
+
+  // What a filling comes to; nothing has been found while its worst is flat. `roundness`: how much
+  // rounder than is asked for on average, summed over its tetrahedra, if that is the aim.
+  struct Filling {
+    Quality worst;
+    double roundness = 0;
+  };
 
   // A polygon of the ring's vertices, from the first to the last; between two triangles of a facet,
   // or all around.
@@ -40,14 +53,18 @@ class EdgeRemoval {
   bool collect_ring(TetId first, std::span<const std::uint32_t> failed);
   TetId beginning(TetId t) const;
   bool split_ring();
-  bool triangulate(Polygon& polygon);
+  bool refill(double least_roundness);
+  Filling triangulate(Polygon& polygon) const;
+  bool improves(const Filling& filling, const Filling& best) const;
+  static double roundness(const Quality& q);
   void collect(const Polygon& polygon);
 
   State& state_;
   VertexId a_ = 0, b_ = 0;
-  std::vector<TetId> ring_;         // tetrahedra a, b, vertex[n], vertex[n + 1]
-  std::vector<VertexId> vertex_;    // one more than tetrahedra if the ring is open
-  std::vector<FacetId> facet_;      // of the face a, b, vertex[n]
+  std::vector<TetId> ring_;       // tetrahedra a, b, vertex[n], vertex[n + 1]
+  std::vector<VertexId> vertex_;  // one more than tetrahedra if the ring is open
+  std::vector<FacetId> facet_;    // of the face a, b, vertex[n]
+  Aim aim_ = Aim::best_worst;
   Quality least_;                   // what the new tetrahedra have to reach
   std::vector<std::size_t> walls_;  // numbers of the faces of the surface
   std::vector<Polygon> polygons_;

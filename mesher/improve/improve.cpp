@@ -38,14 +38,23 @@ class Improvement {
   // What can go goes first; then less is left to repair. Points are put in when everything else has
   // been tried.
   void run() {
+    begin(0.12);
     coarsen();
+    begin(0.36);
     repair(kFirst);
     insert_ = true;
     tried_.clear();
+    begin(0.07);
     coarsen();
+    begin(0.1);
     repair(kAgain);
-    polish();
-    polish();
+    begin(0.12);
+    polish_vertices();
+    begin(0.1);
+    polish_edges();
+    begin(0.11);
+    polish_vertices();
+    begin(0.02);
     repair({});
   }
 
@@ -55,14 +64,23 @@ class Improvement {
   static constexpr float kFirst[] = {1, 0.8F, 0.6F, 0.5F}, kAgain[] = {0.7F, 0.5F};
   static constexpr int kPassesForBad = 10;
 
-  void poll() { control_.poll(static_cast<std::uint64_t>(vertices_ + state_.vertices_gained())); }
+  // Goes on to a step that takes this part of the time, as measured on scans and printed parts.
+  void begin(double part) {
+    step_begin_ = step_end_;
+    step_end_ += part;
+  }
+  // `done`: of the step, in [0, 1].
+  void poll(double done) {
+    control_.poll(static_cast<std::uint64_t>(vertices_ + state_.vertices_gained()),
+                  step_begin_ + done * (step_end_ - step_begin_));
+  }
 
   template <class Operation>
   void for_each_vertex(Operation&& operation) {
     const auto limit = static_cast<VertexId>(state_.mesh.vertices());
     for (VertexId v = 0; v < limit; ++v) {
       if (state_.mesh.incident(v) == kNone || state_.mobility(v) == Mobility::fixed) continue;
-      poll();
+      poll(static_cast<double>(v) / limit);
       operation(v);
     }
   }
@@ -74,10 +92,24 @@ class Improvement {
   }
 
   // Moves vertices to where tetrahedra are rounder on average.
-  void polish() {
+  void polish_vertices() {
     for_each_vertex([&](VertexId v) {
       unless_tried(v, polish_tried_, [&] { return smoothing_.round_off(v); });
     });
+    validate();
+  }
+
+  // Removes edges where that makes tetrahedra rounder on average.
+  void polish_edges() {
+    std::vector<std::uint32_t> tried(state_.mesh.slots(), 0);
+    for (TetId t = 0; t < tried.size(); ++t) {
+      if (!state_.mesh.alive(t) || !state_.counts(t)) continue;
+      poll(static_cast<double>(t) / static_cast<double>(tried.size()));
+      const bool any = std::any_of(std::begin(kEdge), std::end(kEdge), [&](const auto& edge) {
+        return edges_.round_off(t, edge[0], edge[1], tried);
+      });
+      if (!any) tried[t] = state_.clock() + 1;
+    }
     validate();
   }
 
@@ -85,6 +117,7 @@ class Improvement {
   // or hardly anything is left to gain.
   void repair(std::span<const float> limits) {
     std::vector<std::pair<float, TetId>> work;
+    double left = 1;  // each pass is taken for half of what is left
     for (std::size_t pass = 0; pass < limits.size() + kPassesForBad; ++pass) {
       const float limit = pass < limits.size() ? limits[pass] : State::kBad;
       tried_.resize(state_.mesh.slots(), 0);
@@ -95,16 +128,18 @@ class Improvement {
         work.emplace_back(state_.score(t), t);
       }
       std::sort(work.begin(), work.end());
-      std::size_t successes = 0;
+      std::size_t successes = 0, n = 0;
       for (const auto& [score, t] : work) {
+        const double done = static_cast<double>(n++) / static_cast<double>(work.size());
         if (!state_.mesh.alive(t) || state_.score(t) != score) continue;
-        poll();
+        poll(1 - left + done * left / 2);
         if (attempt(t)) {
           ++successes;
         } else {
           tried_[t] = state_.clock() + 1;
         }
       }
+      left /= 2;
       validate();
       // Where much is bad and stays bad, the surface leaves no room.
       if (successes == 0 || in_vain(work.size(), successes)) break;
@@ -174,7 +209,8 @@ class Improvement {
   Smoothing smoothing_;
   Insertion insertion_;
   bool insert_ = false;
-  std::int64_t vertices_ = 0;  // at the beginning
+  std::int64_t vertices_ = 0;             // at the beginning
+  double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]
   // The clock when attempts failed, plus 1: per slot, and per vertex.
   std::vector<std::uint32_t> tried_, smooth_tried_, collapse_tried_, polish_tried_;
 };

@@ -184,18 +184,16 @@ bool Smoothing::round_off(VertexId v) {
   Vec3 best_offset{};
   bool any = false;
   const Vec3 x = state_.position(v);
-  for (const Vec3& direction : {allowed(towards_best_apexes(x)), allowed(subtract(center_, x))}) {
-    bool success = false;
-    for (const double step : {1.0, 0.5, 0.25}) {
-      const Vec3 offset = {step * direction[0], step * direction[1], step * direction[2]};
-      const double sum = roundness_at(predicates::add(x, offset), least);
-      if (sum > best) {
-        best = sum;
-        best_offset = offset;
-        any = success = true;
-      } else if (success) {
-        break;
-      }
+  const Vec3 direction = allowed(towards_best_apexes(x));
+  for (const double step : {1.0, 0.5, 0.25}) {
+    const Vec3 offset = {step * direction[0], step * direction[1], step * direction[2]};
+    const double sum = roundness_at(predicates::add(x, offset), least);
+    if (sum > best) {
+      best = sum;
+      best_offset = offset;
+      any = true;
+    } else if (any) {
+      break;
     }
   }
   if (!any) return false;
