@@ -1,6 +1,7 @@
 #include "mesher/improve/improve.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesher/base/spatial_sort.h"
 #include "mesher/base/validating.h"
@@ -232,29 +233,43 @@ std::vector<VertexId> vertices_in_order(const ImproveMesh& mesh, const PointStor
   return order;
 }
 
-// The mesh in numbers of its own vertices, `point` in the store; its tetrahedra in the order of
-// their first vertices.
-WorkMesh work_mesh(ImproveMesh mesh, std::span<const VertexId> point, std::size_t points) {
+// The vertices in ascending order, but for the last two where that would turn it inside out.
+Tet in_order(Tet t) {
+  bool turned = false;
+  for (int last = 3; last > 0; --last) {
+    for (int i = 0; i < last; ++i) {
+      if (t[i] < t[i + 1]) continue;
+      std::swap(t[i], t[i + 1]);
+      turned = !turned;
+    }
+  }
+  if (turned) std::swap(t[2], t[3]);
+  return t;
+}
+
+// The mesh in numbers of its own vertices, `point` in the store. Tetrahedra and their vertices are
+// in the order of those numbers, so that it does not matter in which order they were given.
+WorkMesh work_mesh(const ImproveMesh& mesh, std::span<const VertexId> point, std::size_t points) {
   std::vector<VertexId> number(points, kNone);
   for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
-  std::vector<std::uint32_t> begin(point.size() + 1, 0);
-  for (Tet& t : mesh.tetrahedra) {
+  std::vector<std::pair<Tet, RegionId>> sorted;
+  for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
+    Tet t = mesh.tetrahedra[n];
     for (VertexId& v : t) v = number[v];
-    ++begin[*std::min_element(t.begin(), t.end()) + 1];
+    sorted.emplace_back(in_order(t), mesh.region[n]);
   }
-  for (std::size_t v = 0; v < point.size(); ++v) begin[v + 1] += begin[v];
-  std::vector<Tet> tetrahedra(mesh.tetrahedra.size());
-  std::vector<RegionId> region(tetrahedra.size());
-  for (std::size_t n = 0; n < tetrahedra.size(); ++n) {
-    const Tet& t = mesh.tetrahedra[n];
-    const std::uint32_t slot = begin[*std::min_element(t.begin(), t.end())]++;
-    tetrahedra[slot] = t;
-    region[slot] = mesh.region[n];
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Tet> tetrahedra;
+  std::vector<RegionId> region;
+  for (const auto& [tet, of_tet] : sorted) {
+    tetrahedra.push_back(tet);
+    region.push_back(of_tet);
   }
-  for (SurfaceFace& face : mesh.boundary) {
+  std::vector<SurfaceFace> boundary = mesh.boundary;
+  for (SurfaceFace& face : boundary) {
     for (VertexId& v : face.vertices) v = number[v];
   }
-  return {std::move(tetrahedra), region, mesh.boundary, point.size()};
+  return {std::move(tetrahedra), region, boundary, point.size()};
 }
 
 ImproveMesh result_of(const State& state) {
@@ -300,8 +315,8 @@ ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
   ImproveResult result;
   result.became.assign(points.size(), kNone);
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
-  State state(work_mesh(std::move(mesh), point, points.size()), point, topology, given, points,
-              predicates, goals);
+  State state(work_mesh(mesh, point, points.size()), point, topology, given, points, predicates,
+              goals);
   Improvement(state, control).run();
   for (VertexId v = 0; v < point.size(); ++v) {
     if (state.mesh.incident(v) != kNone) result.became[point[v]] = state.point(v);

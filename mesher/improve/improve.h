@@ -41,7 +41,8 @@ struct ImproveResult {
 
 // `topology`: of the surface that the mesh conforms to; null if all of its faces stay as they are.
 // `given`: its vertices as given, if it is a stand-in. New points are appended to the store.
-// Deterministic. Throws Stopped when the control says so.
+// Deterministic, and the same in whatever order tetrahedra and faces are given. Throws Stopped when
+// the control says so.
 ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
                       std::span<const Vec3> given, const ImproveOptions& options,
                       PointStore& points, Predicates& predicates, Control& control);

@@ -132,7 +132,7 @@ TEST(Improve, KeepsTheBoundaryOfAnyMesh) {
       return keys;
     };
     EXPECT_EQ(faces(c.after), faces(c.before));
-    EXPECT_EQ(c.volume(c.after), c.volume(c.before));
+    EXPECT_EQ(volume(c.model.points, c.after), volume(c.model.points, c.before));
     EXPECT_LT(c.after.tetrahedra.size(), c.before.tetrahedra.size());
   }
 }
@@ -189,6 +189,97 @@ TEST(Improve, ScalesAndRepeats) {
       for (int k = 0; k < 3; ++k) EXPECT_EQ(x[k] * scale, y[k]);
     }
   }
+}
+
+// Nothing that is given in another order makes another mesh.
+TEST(Improve, OrderDoesNotMatter) {
+  std::mt19937 random(1);
+  for (const bool on_topology : {true, false}) {
+    Case one(perforated_plate(5, 0.25, 2), 2, 1), other(perforated_plate(5, 0.25, 2), 2, 1);
+    one.run({}, on_topology);
+    ASSERT_TRUE(one.result.changed);
+    std::vector<std::size_t> order(other.before.tetrahedra.size());
+    for (std::size_t n = 0; n < order.size(); ++n) order[n] = n;
+    std::shuffle(order.begin(), order.end(), random);
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      auto t = one.before.tetrahedra[order[n]];
+      std::swap(t[0], t[random() % 3 + 1]);
+      std::swap(t[2], t[3]);
+      other.before.tetrahedra[n] = t;
+      other.before.inside[n] = one.before.inside[order[n]];
+    }
+    if (on_topology) {  // else faces are named by their order
+      std::shuffle(other.before.boundary.begin(), other.before.boundary.end(), random);
+    }
+    other.run({}, on_topology);
+    EXPECT_EQ(other.after.tetrahedra, one.after.tetrahedra);
+    EXPECT_EQ(other.after.inside, one.after.inside);
+    for (const VertexId v : vertices(one.after)) {
+      EXPECT_EQ(other.model.points.nearest(v), one.model.points.nearest(v));
+    }
+  }
+}
+
+// A stretched octahedron around its long diagonal, where nothing is bad: around a short one it is
+// rounder, and stays so.
+TEST(Improve, RoundsOffWhereNothingIsBad) {
+  PointStore points;
+  const Vec3 corners[] = {{0, 0, 1.25}, {0, 0, -1.25}, {1, 0, 0},
+                          {0, 1, 0},    {-1, 0, 0},    {0, -1, 0}};
+  for (const Vec3& x : corners) points.add_explicit(x[0], x[1], x[2]);
+  Predicates predicates(points);
+  Control control{Limits{}};
+  const auto around = [](VertexId a, VertexId b, const std::array<VertexId, 4>& ring) {
+    ImproveMesh mesh;
+    for (int k = 0; k < 4; ++k) {
+      mesh.tetrahedra.push_back({ring[k], ring[(k + 1) % 4], b, a});
+      mesh.region.push_back(1);
+    }
+    return mesh;
+  };
+  const auto mean = [&](const ImproveMesh& mesh) {
+    double sum = 0;
+    for (const auto& t : mesh.tetrahedra) {
+      sum += std::sqrt(quality(corners[t[0]], corners[t[1]], corners[t[2]], corners[t[3]]).gamma);
+    }
+    return sum / static_cast<double>(mesh.tetrahedra.size());
+  };
+  const ImproveMesh tall = around(0, 1, {2, 3, 4, 5});
+  const ImproveResult once = improve(tall, nullptr, {}, {}, points, predicates, control);
+  EXPECT_TRUE(once.changed);
+  EXPECT_EQ(once.mesh.tetrahedra.size(), 4U);
+  EXPECT_GT(mean(once.mesh), mean(tall));
+  for (const auto& t : once.mesh.tetrahedra) {
+    EXPECT_GT(predicates.orient3d(t[0], t[1], t[2], t[3]), 0);
+    EXPECT_FALSE(std::count(t.begin(), t.end(), 0U) == 1 &&
+                 std::count(t.begin(), t.end(), 1U) == 1);
+  }
+  EXPECT_FALSE(improve(once.mesh, nullptr, {}, {}, points, predicates, control).changed);
+}
+
+// From the beginning to nearly the end, in steps that are not large.
+TEST(Improve, TellsHowFarItIs) {
+  Limits limits;
+  std::vector<double> done;
+  limits.progress = [&done](const Progress& progress) {
+    done.push_back(progress.done);
+    return true;
+  };
+  Case c(box(0, 1), 8, 1);
+  Control control(limits);
+  control.enter(Phase::improve);
+  improve(
+      {c.before.tetrahedra, {c.before.inside.begin(), c.before.inside.end()}, c.before.boundary},
+      &c.model.topology, {}, {}, c.model.points, c.model.predicates, control);
+  ASSERT_GT(done.size(), 10U);
+  double before = 0;
+  for (const double now : done) {
+    EXPECT_GE(now, before);
+    EXPECT_LT(now, before + 0.25);
+    before = now;
+  }
+  EXPECT_GT(before, 0.75);
+  EXPECT_LE(before, 1);
 }
 
 TEST(Improve, EndsWhenItIsCancelled) {
