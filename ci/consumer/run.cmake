@@ -20,5 +20,13 @@ else()
   step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/prefix ${compiler}
        -DCMAKE_BUILD_TYPE=Release)
   step(${CMAKE_COMMAND} --build ${WORK}/build)
+  step(${WORK}/build/c_consumer)
+  # The same without CMake, as a Makefile would.
+  find_program(PKG_CONFIG pkg-config REQUIRED)
+  file(GLOB_RECURSE pc ${WORK}/prefix/delmesher.pc)
+  get_filename_component(pc_folder "${pc}" DIRECTORY)
+  set(ENV{PKG_CONFIG_PATH} ${pc_folder})
+  step(sh -c "cc ${CXXFLAGS} '${CMAKE_CURRENT_LIST_DIR}/c_consumer.c' -o from_pc $(pkg-config --cflags --libs delmesher)")
+  step(${WORK}/from_pc)
 endif()
 step(${WORK}/build/consumer)

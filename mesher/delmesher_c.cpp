@@ -1,0 +1,156 @@
+#include "mesher/delmesher_c.h"
+
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <string_view>
+
+#include "mesher/delmesher.h"
+#include "mesher/named_options.h"
+
+struct delmesher_options {
+  delmesher::Options values;
+};
+
+struct delmesher_result {
+  delmesher::Result value;
+};
+
+namespace {
+
+using delmesher::Options;
+using delmesher::Result;
+using delmesher::StatusCode;
+using delmesher::Surface;
+
+// The numbers of the C header are part of its promise.
+constexpr delmesher_status status_of(StatusCode code) {
+  switch (code) {
+    case StatusCode::ok:
+      return DELMESHER_OK;
+    case StatusCode::invalid_options:
+      return DELMESHER_INVALID_OPTIONS;
+    case StatusCode::invalid_surface:
+      return DELMESHER_INVALID_SURFACE;
+    case StatusCode::limit_reached:
+      return DELMESHER_LIMIT_REACHED;
+    case StatusCode::interrupted:
+      return DELMESHER_INTERRUPTED;
+    case StatusCode::invalid_mesh:
+      return DELMESHER_INVALID_MESH;
+    case StatusCode::internal_error:
+      break;
+  }
+  return DELMESHER_INTERNAL_ERROR;
+}
+
+Surface surface_of(const delmesher_surface& given) {
+  Surface surface;
+  surface.vertices.resize(given.n_vertices);
+  surface.triangles.resize(given.n_triangles);
+  const auto copy = [](auto& to, const auto* from) {
+    if (!to.empty()) std::memcpy(to.data(), from, to.size() * sizeof to[0]);
+  };
+  copy(surface.vertices, given.vertices);
+  copy(surface.triangles, given.triangles);
+  if (given.labels != nullptr) {
+    surface.labels.resize(given.n_triangles);
+    copy(surface.labels, given.labels);
+  }
+  return surface;
+}
+
+template <class Call>
+delmesher_result* result_of(const delmesher_surface* surface, const delmesher_options* options,
+                            Call call) {
+  auto* result = new (std::nothrow) delmesher_result;
+  if (result == nullptr || surface == nullptr) return result;
+  try {
+    result->value = call(surface_of(*surface), options != nullptr ? options->values : Options{});
+  } catch (const std::bad_alloc&) {
+    result->value.status = {StatusCode::limit_reached, "out of memory", delmesher::Limit::memory};
+  }
+  return result;
+}
+
+template <class T>
+void give(const T* data, const T** target) {
+  if (target != nullptr) *target = data;
+}
+
+}  // namespace
+
+const char* delmesher_version(void) {
+  return delmesher::version();
+}
+
+delmesher_options* delmesher_options_new(void) {
+  return new (std::nothrow) delmesher_options;
+}
+
+void delmesher_options_free(delmesher_options* options) {
+  delete options;
+}
+
+int delmesher_options_set(delmesher_options* options, const char* name, double value) {
+  if (options == nullptr || name == nullptr) return -1;
+  return delmesher::set_option(options->values, name, value) ? 0 : -1;
+}
+
+void delmesher_options_progress(delmesher_options* options, delmesher_progress progress,
+                                void* user) {
+  if (options == nullptr) return;
+  options->values.progress = nullptr;
+  if (progress == nullptr) return;
+  options->values.progress = [progress, user](const delmesher::Progress& p) {
+    return progress(user, delmesher::phase_name(p.phase), p.done, p.vertices) == 0;
+  };
+}
+
+delmesher_result* delmesher_tetrahedralize(const delmesher_surface* surface,
+                                           const delmesher_options* options) {
+  return result_of(surface, options, delmesher::tetrahedralize);
+}
+
+delmesher_result* delmesher_constrained_delaunay(const delmesher_surface* surface,
+                                                 const delmesher_options* options) {
+  return result_of(surface, options, delmesher::constrained_delaunay);
+}
+
+void delmesher_result_free(delmesher_result* result) {
+  delete result;
+}
+
+delmesher_status delmesher_result_status(const delmesher_result* result) {
+  return result == nullptr ? DELMESHER_LIMIT_REACHED : status_of(result->value.status.code);
+}
+
+const char* delmesher_result_message(const delmesher_result* result) {
+  return result == nullptr ? "out of memory" : result->value.status.message.c_str();
+}
+
+size_t delmesher_result_vertices(const delmesher_result* result, const double** xyz) {
+  if (result == nullptr) return 0;
+  const auto& vertices = result->value.mesh.vertices;
+  give(vertices.empty() ? nullptr : vertices[0].data(), xyz);
+  return vertices.size();
+}
+
+size_t delmesher_result_tetrahedra(const delmesher_result* result, const uint32_t** corners,
+                                   const uint8_t** inside) {
+  if (result == nullptr) return 0;
+  const auto& mesh = result->value.mesh;
+  give(mesh.tetrahedra.empty() ? nullptr : mesh.tetrahedra[0].data(), corners);
+  give(mesh.inside.data(), inside);
+  return mesh.tetrahedra.size();
+}
+
+size_t delmesher_result_boundary(const delmesher_result* result, const uint32_t** corners,
+                                 const int32_t** labels, const uint32_t** facets) {
+  if (result == nullptr) return 0;
+  const auto& mesh = result->value.mesh;
+  give(mesh.boundary.empty() ? nullptr : mesh.boundary[0].data(), corners);
+  give(mesh.boundary_labels.data(), labels);
+  give(mesh.boundary_facets.data(), facets);
+  return mesh.boundary.size();
+}

@@ -1,0 +1,85 @@
+/* delmesher in C: a surface in, a mesh out. A thin layer over delmesher.h, which says what
+ * everything means; stable within a minor version.
+ *
+ * Nothing is thrown and nothing is printed. Every function takes NULL where it takes a result or
+ * options, and then does nothing or answers 0. Objects of different threads are independent. */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* "MAJOR.MINOR.PATCH" */
+const char* delmesher_version(void);
+
+/* A triangulated surface, which stays the caller's: n_vertices times x y z, n_triangles times three
+ * numbers of vertices from 0, counter-clockwise seen from outside; a label for each triangle, or
+ * NULL. */
+typedef struct {
+  const double* vertices;
+  size_t n_vertices;
+  const uint32_t* triangles;
+  size_t n_triangles;
+  const int32_t* labels;
+} delmesher_surface;
+
+/* How a call ended. */
+typedef enum {
+  DELMESHER_OK = 0,
+  DELMESHER_INVALID_OPTIONS = 1,
+  DELMESHER_INVALID_SURFACE = 2,
+  DELMESHER_LIMIT_REACHED = 3,
+  DELMESHER_INTERRUPTED = 4,
+  DELMESHER_INTERNAL_ERROR = 5,
+  DELMESHER_INVALID_MESH = 6
+} delmesher_status;
+
+/* Options by the names of delmesher::Options: delta, tau, budget, acute, corner, gabriel, improve,
+ * slivers, approximate, simplify_bridges, chamfer_radius, planar (-1: automatic), max_edge, order,
+ * steiner_point, region (0 interior, 1 hull), max_vertices, time_limit, threads. Switches are 0
+ * or 1. Whether a value makes sense is said by the call that uses it. */
+struct delmesher_options;
+typedef struct delmesher_options delmesher_options;
+delmesher_options* delmesher_options_new(void); /* NULL if there is no memory */
+void delmesher_options_free(delmesher_options* options);
+/* 0, or -1 if there is no such option or the value is none of its type. */
+int delmesher_options_set(delmesher_options* options, const char* name, double value);
+
+/* Called several times a second by the thread that called the library. `done` is the fraction of
+ * the phase, negative if unknown. Any answer but 0 ends the run, with DELMESHER_INTERRUPTED. */
+typedef int (*delmesher_progress)(void* user, const char* phase, double done, uint64_t vertices);
+void delmesher_options_progress(delmesher_options* options, delmesher_progress progress,
+                                void* user);
+
+/* `options` may be NULL: the defaults. The result is NULL only if there is no memory even for that.
+ */
+struct delmesher_result;
+typedef struct delmesher_result delmesher_result;
+delmesher_result* delmesher_tetrahedralize(const delmesher_surface* surface,
+                                           const delmesher_options* options);
+delmesher_result* delmesher_constrained_delaunay(const delmesher_surface* surface,
+                                                 const delmesher_options* options);
+void delmesher_result_free(delmesher_result* result);
+
+delmesher_status delmesher_result_status(const delmesher_result* result);
+/* One line that says what went wrong; empty if nothing did. */
+const char* delmesher_result_message(const delmesher_result* result);
+
+/* The mesh; empty unless the status is DELMESHER_OK. The arrays are the result's, and last as long
+ * as it does. Each tetrahedron a b c d has det(b-a, c-a, d-a) > 0. */
+size_t delmesher_result_vertices(const delmesher_result* result, const double** xyz);
+/* Four numbers of vertices each; `inside` is 1 in the solid (all, unless the region is the hull).
+ */
+size_t delmesher_result_tetrahedra(const delmesher_result* result, const uint32_t** corners,
+                                   const uint8_t** inside);
+/* The triangles that tile the surface: three numbers of vertices each, the label of the input, and
+ * the facet. */
+size_t delmesher_result_boundary(const delmesher_result* result, const uint32_t** corners,
+                                 const int32_t** labels, const uint32_t** facets);
+
+#ifdef __cplusplus
+}
+#endif
