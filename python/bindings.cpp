@@ -1,0 +1,364 @@
+// The library for Python, without comfort: arrays in, tuples of arrays out.
+// python/tetproof/__init__.py makes it comfortable.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <cstring>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesher/delmesher.h"
+#include "mesher/delmesher_files.h"
+#include "mesher/delmesher_plane.h"
+#include "mesher/named_options.h"
+
+namespace py = pybind11;
+
+namespace {
+
+using namespace delmesher;
+
+template <class T>
+using Array = py::array_t<T, py::array::c_style>;
+
+// An array that owns what the vector owned.
+template <class T>
+py::array taken(std::vector<T>&& values) {
+  auto* owner = new std::vector<T>(std::move(values));
+  const py::capsule free(owner, [](void* p) { delete static_cast<std::vector<T>*>(p); });
+  return Array<T>({static_cast<py::ssize_t>(owner->size())}, owner->data(), free);
+}
+
+template <class T, std::size_t N>
+py::array taken(std::vector<std::array<T, N>>&& rows) {
+  auto* owner = new std::vector<std::array<T, N>>(std::move(rows));
+  const py::capsule free(owner,
+                         [](void* p) { delete static_cast<std::vector<std::array<T, N>>*>(p); });
+  return Array<T>({static_cast<py::ssize_t>(owner->size()), static_cast<py::ssize_t>(N)},
+                  owner->empty() ? nullptr : owner->front().data(), free);
+}
+
+template <class T, std::size_t N>
+std::vector<std::array<T, N>> rows_of(const Array<T>& array, const char* name) {
+  if (array.ndim() != 2 || array.shape(1) != static_cast<py::ssize_t>(N)) {
+    throw py::value_error(std::string(name) + " must have shape (n, " + std::to_string(N) + ")");
+  }
+  std::vector<std::array<T, N>> rows(static_cast<std::size_t>(array.shape(0)));
+  if (!rows.empty()) std::memcpy(rows.data(), array.data(), rows.size() * sizeof rows[0]);
+  return rows;
+}
+
+template <class T>
+std::vector<T> values_of(const Array<T>& array, const char* name) {
+  if (array.ndim() != 1) throw py::value_error(std::string(name) + " must have one dimension");
+  return {array.data(), array.data() + array.size()};
+}
+
+using Labels = std::optional<Array<std::int32_t>>;
+
+Surface surface_of(const Array<double>& points, const Array<std::uint32_t>& triangles,
+                   const Labels& labels) {
+  Surface surface;
+  surface.vertices = rows_of<double, 3>(points, "points");
+  surface.triangles = rows_of<std::uint32_t, 3>(triangles, "triangles");
+  if (labels) {
+    surface.labels = values_of(*labels, "labels");
+    if (surface.labels.size() != surface.triangles.size()) {
+      throw py::value_error(std::to_string(surface.labels.size()) + " labels for " +
+                            std::to_string(surface.triangles.size()) + " triangles");
+    }
+  }
+  return surface;
+}
+
+void set_options(Options& options, const py::dict& given) {
+  for (const auto& [key, value] : given) {
+    const auto name = py::cast<std::string>(key);
+    const auto number = py::cast<double>(value);
+    if (!set_option(options, name, number)) {
+      throw py::value_error("option " + name + " cannot be " +
+                            py::cast<std::string>(py::str(value)));
+    }
+  }
+}
+
+// Lets Ctrl-C and a callable end a run, a few times a second, while other threads of Python go on.
+class Watch {
+ public:
+  Watch(Options& options, py::object progress) : progress_(std::move(progress)) {
+    options.progress = [this](const Progress& p) { return go_on(p); };
+  }
+
+  template <class Call>
+  auto run(Call call) {
+    auto result = [&] {
+      const py::gil_scoped_release free;
+      return call();
+    }();
+    if (error_) std::rethrow_exception(error_);
+    return result;
+  }
+
+ private:
+  bool go_on(const Progress& p) {
+    const auto now = std::chrono::steady_clock::now();
+    if (p.phase == phase_ && now - last_ < std::chrono::milliseconds(100)) return true;
+    phase_ = p.phase;
+    last_ = now;
+    const py::gil_scoped_acquire held;
+    try {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      if (progress_.is_none()) return true;
+      const py::object answer = progress_(phase_name(p.phase), p.done, p.vertices);
+      if (answer.is_none() || py::cast<bool>(answer)) return true;
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    return false;
+  }
+
+  py::object progress_;
+  std::exception_ptr error_;
+  Phase phase_ = Phase::read;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+py::dict statistics_of(const MeshStatistics& s) {
+  py::dict d;
+  d["vertices"] = s.vertices;
+  d["tetrahedra"] = s.tetrahedra;
+  d["interior_tetrahedra"] = s.interior_tetrahedra;
+  d["min_face_angle"] = s.min_face_angle;
+  d["max_face_angle"] = s.max_face_angle;
+  d["min_dihedral"] = s.min_dihedral;
+  d["max_dihedral"] = s.max_dihedral;
+  d["dihedral_1_percent"] = s.dihedral_1_percent;
+  d["tetrahedra_below_5_degrees"] = s.below_5;
+  d["min_gamma"] = s.min_gamma;
+  d["mean_gamma"] = s.mean_gamma;
+  d["gamma_1_percent"] = s.gamma_1_percent;
+  d["min_sicn"] = s.min_sicn;
+  d["mean_sicn"] = s.mean_sicn;
+  return d;
+}
+
+py::dict seconds_of(const std::array<double, kPhaseCount>& seconds) {
+  py::dict d;
+  for (std::size_t i = 0; i < kPhaseCount; ++i) {
+    if (seconds[i] > 0) d[phase_name(static_cast<Phase>(i))] = seconds[i];
+  }
+  return d;
+}
+
+void put_status(py::dict& d, const Status& status, const std::vector<std::string>& warnings) {
+  static constexpr const char* kLimits[] = {"none", "size", "time", "memory", "precision"};
+  static constexpr const char* kCodes[] = {
+      "ok",          "invalid_options", "invalid_surface", "limit_reached",
+      "interrupted", "internal_error",  "invalid_mesh"};
+  d["status"] = kCodes[static_cast<std::size_t>(status.code)];
+  d["message"] = status.message;
+  d["limit"] = kLimits[static_cast<std::size_t>(status.limit)];
+  d["warnings"] = warnings;
+}
+
+void put_mesh(py::dict& d, TetMesh&& mesh) {
+  d["points"] = taken(std::move(mesh.vertices));
+  d["tetrahedra"] = taken(std::move(mesh.tetrahedra));
+  d["inside"] = taken(std::move(mesh.inside));
+  d["regions"] = taken(std::move(mesh.regions));
+  d["boundary"] = taken(std::move(mesh.boundary));
+  d["labels"] = taken(std::move(mesh.boundary_labels));
+  d["facets"] = taken(std::move(mesh.boundary_facets));
+}
+
+py::dict dict_of(Result&& result) {
+  py::dict d, stats;
+  put_status(d, result.status, result.warnings);
+  if (!result.status.ok()) return d;
+  const Statistics& s = result.statistics;
+  stats["refined"] = statistics_of(s.refined);
+  stats["final"] = statistics_of(s.final);
+  stats["seconds"] = seconds_of(s.phase_seconds);
+  stats["bbox_diagonal"] = s.bbox_diagonal;
+  stats["facets"] = s.facets;
+  stats["acute_vertices"] = s.acute_vertices;
+  stats["acute_edges"] = s.acute_edges;
+  stats["predicted_tetrahedra"] = s.predicted_tetrahedra;
+  stats["tau"] = s.tau;
+  stats["inverted"] = s.rounding_inverted;
+  stats["flat"] = s.rounding_flat;
+  stats["max_surface_deviation"] = s.max_surface_deviation;
+  d["stats"] = stats;
+  put_mesh(d, std::move(result.mesh));
+  return d;
+}
+
+py::dict mesh(const Array<double>& points, const Array<std::uint32_t>& triangles,
+              const Labels& labels, const py::dict& given, py::object progress, bool plain) {
+  const Surface surface = surface_of(points, triangles, labels);
+  Options options;
+  if (plain) options.region = Region::hull;
+  set_options(options, given);
+  Watch watch(options, std::move(progress));
+  return dict_of(watch.run([&] {
+    return plain ? constrained_delaunay(surface, options) : tetrahedralize(surface, options);
+  }));
+}
+
+TetMesh mesh_of(const py::dict& d) {
+  TetMesh mesh;
+  mesh.vertices = rows_of<double, 3>(py::cast<Array<double>>(d["points"]), "points");
+  mesh.tetrahedra =
+      rows_of<std::uint32_t, 4>(py::cast<Array<std::uint32_t>>(d["tetrahedra"]), "tetrahedra");
+  mesh.inside = values_of(py::cast<Array<std::uint8_t>>(d["inside"]), "inside");
+  mesh.regions = values_of(py::cast<Array<std::int32_t>>(d["regions"]), "regions");
+  mesh.boundary =
+      rows_of<std::uint32_t, 3>(py::cast<Array<std::uint32_t>>(d["boundary"]), "boundary");
+  mesh.boundary_labels = values_of(py::cast<Array<std::int32_t>>(d["labels"]), "labels");
+  mesh.boundary_facets = values_of(py::cast<Array<std::uint32_t>>(d["facets"]), "facets");
+  return mesh;
+}
+
+py::dict improve(const py::dict& given_mesh, const py::dict& given, py::object progress) {
+  const TetMesh before = mesh_of(given_mesh);
+  Options options;
+  set_options(options, given);
+  Watch watch(options, std::move(progress));
+  return dict_of(watch.run([&] { return improve_mesh(before, options); }));
+}
+
+py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangles,
+               const py::dict& given) {
+  const Surface surface = surface_of(points, triangles, std::nullopt);
+  Options options;
+  set_options(options, given);
+  Watch watch(options, py::none());
+  const SurfaceReport report = watch.run([&] { return check_surface(surface, options); });
+  py::dict d, counts;
+  put_status(d, report.status, report.warnings);
+  for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
+    if (report.defect_counts[kind] == 0) continue;
+    counts[defect_name(static_cast<Defect::Kind>(kind))] = report.defect_counts[kind];
+  }
+  py::list defects;
+  for (const Defect& defect : report.defects) {
+    defects.append(py::make_tuple(defect_name(defect.kind), defect.message,
+                                  taken(std::vector(defect.vertices)),
+                                  taken(std::vector(defect.triangles))));
+  }
+  d["counts"] = counts;
+  d["defects"] = defects;
+  d["flipped"] = report.flipped;
+  d["components"] = report.components;
+  d["volume"] = report.volume;
+  d["facets"] = report.facets;
+  d["acute_vertices"] = report.acute_vertices;
+  d["acute_edges"] = report.acute_edges;
+  d["bbox_diagonal"] = report.bbox_diagonal;
+  d["smallest_local_feature_size"] = report.smallest_local_feature_size;
+  return d;
+}
+
+py::dict repair(const Array<double>& points, const Array<std::uint32_t>& triangles,
+                const Labels& labels, double weld, bool fill) {
+  const Surface surface = surface_of(points, triangles, labels);
+  io::RepairResult result = [&] {
+    const py::gil_scoped_release free;
+    return io::repair_surface(surface, {.weld = weld, .fill = fill});
+  }();
+  py::dict d;
+  d["points"] = taken(std::move(result.surface.vertices));
+  d["triangles"] = taken(std::move(result.surface.triangles));
+  d["labels"] = taken(std::move(result.surface.labels));
+  d["done"] = result.done;
+  return d;
+}
+
+py::dict plane(const Array<double>& points, const Array<std::uint32_t>& segments,
+               const Labels& markers, const Array<double>& holes, const py::dict& given,
+               py::object progress) {
+  PlanarGraph graph;
+  graph.vertices = rows_of<double, 2>(points, "points");
+  graph.segments = rows_of<std::uint32_t, 2>(segments, "segments");
+  if (markers) {
+    graph.markers = values_of(*markers, "markers");
+    if (graph.markers.size() != graph.segments.size()) {
+      throw py::value_error("as many markers as segments are expected");
+    }
+  }
+  graph.holes = rows_of<double, 2>(holes, "holes");
+  Options options = plane_options();
+  set_options(options, given);
+  Watch watch(options, std::move(progress));
+  PlaneResult result = watch.run([&] { return triangulate_polygon(graph, options); });
+  py::dict d, stats;
+  put_status(d, result.status, result.warnings);
+  if (!result.status.ok()) return d;
+  const PlaneStatistics& s = result.statistics;
+  stats["triangles"] = s.final.triangles;
+  stats["min_angle"] = s.final.min_angle;
+  stats["max_angle"] = s.final.max_angle;
+  stats["guaranteed_delta"] = s.guaranteed_delta;
+  stats["seconds"] = seconds_of(s.phase_seconds);
+  d["stats"] = stats;
+  d["points"] = taken(std::move(result.mesh.vertices));
+  d["triangles"] = taken(std::move(result.mesh.triangles));
+  d["inside"] = taken(std::move(result.mesh.inside));
+  d["edges"] = taken(std::move(result.mesh.edges));
+  d["markers"] = taken(std::move(result.mesh.edge_markers));
+  d["segments"] = taken(std::move(result.mesh.edge_segments));
+  return d;
+}
+
+template <class Read>
+void ok_or_throw(const Read& read) {
+  if (!read.ok()) throw py::value_error(read.error);
+}
+
+py::dict read_surface_file(const std::string& path) {
+  io::ReadResult read = io::read_surface(path);
+  ok_or_throw(read);
+  py::dict d;
+  d["points"] = taken(std::move(read.surface.vertices));
+  d["triangles"] = taken(std::move(read.surface.triangles));
+  d["labels"] = taken(std::move(read.surface.labels));
+  d["names"] = read.names;
+  d["warnings"] = read.warnings;
+  return d;
+}
+
+py::dict read_mesh_file(const std::string& path) {
+  io::MeshReadResult read = io::read_mesh(path);
+  ok_or_throw(read);
+  py::dict d;
+  d["names"] = read.names;
+  put_mesh(d, std::move(read.mesh));
+  return d;
+}
+
+void write_mesh_file(const std::string& path, const py::dict& given, const io::LabelNames& names) {
+  const io::WriteStatus status = io::write_mesh(path, mesh_of(given), names);
+  ok_or_throw(status);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "What tetproof is made of; use tetproof instead.";
+  module.attr("version") = version();
+  module.def("option_names", &option_names);
+  module.def("mesh", &mesh);
+  module.def("improve", &improve);
+  module.def("check", &check);
+  module.def("repair", &repair);
+  module.def("plane", &plane);
+  module.def("read_surface", &read_surface_file);
+  module.def("read_mesh", &read_mesh_file);
+  module.def("write_mesh", &write_mesh_file);
+}

@@ -1,0 +1,181 @@
+"""The package as users see it. Run with pytest where tetproof is installed."""
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import tetproof
+
+POINTS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
+TRIANGLES = np.array([[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2],
+                      [1, 3, 7], [1, 7, 5]])
+LABELS = np.repeat([1, 2, 3, 4, 5, 6], 2)
+
+
+def areas(points, triangles):
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def test_a_labelled_cube():
+    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS, max_edge=0.4)
+    assert mesh.points.dtype == np.float64 and mesh.tetrahedra.dtype == np.uint32 and mesh.inside.dtype == bool
+    assert mesh.inside.all() and mesh.volumes().min() > 0
+    assert mesh.volumes().sum() == pytest.approx(1, abs=1e-12)
+    for label in range(1, 7):
+        assert areas(mesh.points, mesh.boundary[mesh.labels == label]).sum() == pytest.approx(1, abs=1e-12)
+    assert np.array_equal(mesh.points[:8], POINTS)
+    assert mesh.stats["final"]["tetrahedra"] == len(mesh.tetrahedra)
+    edges = mesh.points[mesh.tetrahedra[:, [0, 0, 0, 1, 1, 2]]] - mesh.points[mesh.tetrahedra[:, [1, 2, 3, 2, 3, 3]]]
+    assert np.linalg.norm(edges, axis=2).max() <= 0.4 + 1e-12
+
+
+def test_inputs_of_any_kind():
+    expected = tetproof.mesh(POINTS, TRIANGLES)
+    for points, triangles in ((POINTS.tolist(), TRIANGLES.tolist()), (np.asfortranarray(POINTS), TRIANGLES.astype(np.int16)),
+                              (POINTS.astype(np.float32), TRIANGLES.astype(np.uint64))):
+        assert np.array_equal(tetproof.mesh(points, triangles).tetrahedra, expected.tetrahedra)
+
+    class Trimesh:
+        vertices, faces = POINTS, TRIANGLES
+
+    class Pyvista:
+        points = POINTS
+        faces = np.hstack([np.full((12, 1), 3), TRIANGLES]).ravel()
+
+    class Meshio:
+        points, cells_dict = POINTS, {"triangle": TRIANGLES}
+
+    for given in (Trimesh(), Pyvista(), Meshio(), tetproof.Surface(POINTS, TRIANGLES, LABELS)):
+        assert np.array_equal(tetproof.mesh(given).tetrahedra, expected.tetrahedra)
+
+
+@pytest.mark.parametrize("wrong", [
+    dict(triangles=[[0, 1, -1]]), dict(triangles=[[0, 1, 2, 3]]), dict(points=[[0, 0]]), dict(labels=[1, 2]),
+    dict(delta=99), dict(max_edge=float("nan")), dict(threads=-1), dict(threads=1.5), dict(region="all"), dict(improve=2)])
+def test_what_makes_no_sense_is_a_value_error(wrong):
+    arguments = {"points": POINTS, "triangles": TRIANGLES, **wrong}
+    with pytest.raises(ValueError):
+        tetproof.mesh(**arguments)
+
+
+def test_unknown_options_and_types():
+    with pytest.raises(TypeError, match="no such option: detla"):
+        tetproof.mesh(POINTS, TRIANGLES, detla=3)
+    with pytest.raises(TypeError):
+        tetproof.mesh(POINTS, TRIANGLES + 0.5)
+    with pytest.raises(TypeError):
+        tetproof.mesh(POINTS)
+
+
+def test_an_invalid_surface_says_where():
+    with pytest.raises(tetproof.InvalidSurface) as caught:
+        tetproof.mesh(POINTS, TRIANGLES[:-1])
+    assert caught.value.counts == {"open edge": 3}
+    assert {tuple(sorted(d.vertices)) for d in caught.value.defects} == {(1, 7), (5, 7), (1, 5)}
+    assert not caught.value.report.valid
+    report = tetproof.check(POINTS, TRIANGLES)
+    assert report.valid and report.volume == 1 and report.facets == 6 and report.defects == []
+
+
+def test_repair():
+    soup = POINTS[TRIANGLES.ravel()], np.arange(36).reshape(12, 3)
+    assert tetproof.check(*soup).counts["open edge"] == 36
+    mended = tetproof.repair(*soup)
+    assert mended.done == ["28 vertices welded to others at the same place"]
+    assert tetproof.mesh(mended).volumes().sum() == pytest.approx(1)
+    assert tetproof.check(tetproof.repair(POINTS, TRIANGLES[:-1], fill=True)).valid
+
+
+def test_limits():
+    with pytest.raises(tetproof.LimitReached) as caught:
+        tetproof.mesh(POINTS, TRIANGLES, max_edge=0.02, max_vertices=500)
+    assert caught.value.limit == "size"
+
+
+def test_progress():
+    phases = []
+    tetproof.mesh(POINTS, TRIANGLES, max_edge=0.3, progress=lambda phase, done, vertices: phases.append(phase))
+    assert phases[0] == "check" and "refine" in phases
+    with pytest.raises(tetproof.Interrupted):
+        tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: False)
+    with pytest.raises(ZeroDivisionError):
+        tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: 1 / 0)
+
+
+def test_ctrl_c_ends_a_long_run():
+    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        tetproof.mesh(POINTS, TRIANGLES, max_edge=1e-4)
+
+
+def test_other_threads_run_meanwhile():
+    count, ended = [0], threading.Event()
+
+    def tick():
+        while not ended.is_set():
+            count[0] += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    tetproof.mesh(POINTS, TRIANGLES, max_edge=0.05)
+    ended.set()
+    thread.join()
+    assert count[0] > 10
+
+
+def test_the_same_for_any_number_of_threads():
+    one, two = (tetproof.mesh(POINTS, TRIANGLES, max_edge=0.2, threads=n) for n in (1, 2))
+    assert np.array_equal(one.points, two.points) and np.array_equal(one.tetrahedra, two.tetrahedra)
+
+
+def test_cdt_and_improve():
+    mesh = tetproof.cdt(POINTS, TRIANGLES)
+    assert len(mesh.tetrahedra) in (5, 6) and mesh.volumes().sum() == pytest.approx(1)
+    coarse = tetproof.mesh(POINTS, TRIANGLES, max_edge=0.3, improve=False)
+    better = tetproof.improve(coarse)
+    assert better.volumes().sum() == pytest.approx(1)
+    assert better.stats["final"]["min_dihedral"] >= coarse.stats["final"]["min_dihedral"]
+    twice = np.concatenate([coarse.tetrahedra, coarse.tetrahedra[:1]])
+    doubled = tetproof.Mesh(coarse.points, twice, True, coarse.boundary, coarse.labels, coarse.facets)
+    with pytest.raises(tetproof.InvalidMesh):
+        tetproof.improve(doubled)
+
+
+def test_plane():
+    square = [[0, 0], [4, 0], [4, 4], [0, 4], [1, 1], [2, 1], [2, 2], [1, 2]]
+    segments = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]]
+    mesh = tetproof.plane(square, segments, markers=[1] * 4 + [2] * 4, holes=[[1.5, 1.5]])
+    a, b, c = (mesh.points[mesh.triangles[:, k]] for k in range(3))
+    u, v = b - a, c - a
+    area = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
+    assert area.min() > 0 and area.sum() == pytest.approx(15)
+    assert set(mesh.markers) == {1, 2} and mesh.stats["min_angle"] >= 20.7
+
+
+def test_files(tmp_path):
+    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS)
+    mesh.names = {1: "inlet"}
+    mesh.write(tmp_path / "cube.msh")
+    back = tetproof.read_mesh(tmp_path / "cube.msh")
+    assert back.names == {1: "inlet"} and np.array_equal(back.points, mesh.points)
+    tetproof.write(tmp_path / "cube.stl", mesh)
+    surface = tetproof.read(tmp_path / "cube.stl")
+    assert surface.names[1] == "inlet" and set(surface.labels) == set(range(1, 7))
+    assert tetproof.mesh(surface).names[1] == "inlet"
+    with pytest.raises(ValueError, match="cannot open"):
+        tetproof.read(tmp_path / "none.stl")
+    with pytest.raises(ValueError, match="unknown mesh format"):
+        tetproof.write(tmp_path / "cube.doc", mesh)
+
+
+def test_results_outlive_each_other():
+    points = tetproof.mesh(POINTS, TRIANGLES, max_edge=0.3).points
+    copy = points.copy()
+    for _ in range(20):
+        tetproof.mesh(POINTS, TRIANGLES, max_edge=0.3)
+    assert np.array_equal(points, copy)

@@ -1,0 +1,458 @@
+"""Tetrahedral meshes of closed triangulated surfaces, exactly conforming.
+
+>>> import numpy as np, tetproof
+>>> points = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
+>>> triangles = [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
+...              [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]
+>>> mesh = tetproof.mesh(points, triangles, max_edge=0.5)
+>>> round(mesh.volumes().sum(), 12)
+1.0
+"""
+import dataclasses
+import os
+from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Union
+
+import numpy as np
+
+from . import _core
+
+__version__ = _core.version
+__all__ = ["Defect", "Error", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh",
+           "Repaired", "Report", "Surface", "cdt", "check", "improve", "mesh", "plane", "read", "read_mesh", "repair", "write"]
+
+#: Called several times a second with the phase, the fraction done (negative: unknown) and the vertices so far; False ends the run.
+Progress = Callable[[str, float, int], Optional[bool]]
+
+
+class Error(Exception):
+    """A run ended without a result; the message says why."""
+
+
+class LimitReached(Error):
+    """Vertices, time, memory or the precision of doubles.
+
+    Attributes
+    ----------
+    limit : str
+        "size", "time", "memory" or "precision".
+    """
+
+    def __init__(self, message: str, limit: str):
+        super().__init__(message)
+        self.limit = limit
+
+
+class Interrupted(Error):
+    """The progress callable returned False."""
+
+
+class InvalidMesh(Error, ValueError):
+    """The mesh given to `improve` is not conforming."""
+
+
+class Defect(NamedTuple):
+    """What is wrong at one place of a surface: its kind, a line that names it, and the numbers of the vertices and triangles."""
+    kind: str
+    message: str
+    vertices: np.ndarray
+    triangles: np.ndarray
+
+
+class InvalidSurface(Error, ValueError):
+    """The surface is not closed, manifold, oriented and free of self-intersections.
+
+    Attributes
+    ----------
+    report : Report
+        What `check` says of it.
+    defects : list of Defect
+        At most a few of each kind.
+    counts : dict of str to int
+        How many defects there are of each kind.
+    """
+
+    def __init__(self, message: str, report: "Optional[Report]" = None):
+        super().__init__(message)
+        self.report = report
+        self.defects = report.defects if report else []
+        self.counts = report.counts if report else {}
+
+
+@dataclasses.dataclass
+class Surface:
+    """A triangulated surface.
+
+    Attributes
+    ----------
+    points : (n, 3) float64
+    triangles : (m, 3) uint32
+        Counter-clockwise seen from outside.
+    labels : (m,) int32
+    names : dict of int to str
+        What labels are called, where a file says so.
+    """
+    points: np.ndarray
+    triangles: np.ndarray
+    labels: np.ndarray
+    names: Dict[int, str] = dataclasses.field(default_factory=dict)
+    warnings: List[str] = dataclasses.field(default_factory=list)
+
+
+@dataclasses.dataclass
+class Repaired(Surface):
+    """A mended surface; `done` says what was done to it, a line each."""
+    done: List[str] = dataclasses.field(default_factory=list)
+
+
+@dataclasses.dataclass
+class Mesh:
+    """A mesh of tetrahedra.
+
+    Attributes
+    ----------
+    points : (n, 3) float64
+    tetrahedra : (t, 4) uint32
+        Positively oriented: det(b - a, c - a, d - a) > 0.
+    inside : (t,) bool
+        In the solid: all of them, unless the region is the hull.
+    regions : (t,) int32 or empty
+        Of meshes from elsewhere.
+    boundary : (b, 3) uint32
+        The triangles that tile the surface, counter-clockwise seen from outside.
+    labels, facets : (b,) int32, (b,) uint32
+        The label of the input, and the facet that the triangle is a part of.
+    names : dict of int to str
+        What labels are called in files.
+    stats : dict
+        Sizes, angles in degrees, shapes and seconds.
+    warnings : list of str
+    """
+    points: np.ndarray
+    tetrahedra: np.ndarray
+    inside: np.ndarray
+    boundary: np.ndarray
+    labels: np.ndarray
+    facets: np.ndarray
+    regions: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0, np.int32))
+    names: Dict[int, str] = dataclasses.field(default_factory=dict)
+    stats: Dict[str, Any] = dataclasses.field(default_factory=dict)
+    warnings: List[str] = dataclasses.field(default_factory=list)
+
+    def volumes(self) -> np.ndarray:
+        """The volume of each tetrahedron, in doubles."""
+        a, b, c, d = (self.points[self.tetrahedra[:, k]] for k in range(4))
+        return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+
+    def write(self, path: "Union[str, os.PathLike[str]]") -> None:
+        """Write a file, see `write`."""
+        write(path, self)
+
+    def to_meshio(self) -> Any:
+        """A `meshio.Mesh` of the tetrahedra and the boundary, with cell data ``label`` and ``inside``."""
+        import meshio
+
+        return meshio.Mesh(self.points, [("tetra", self.tetrahedra.astype(np.int64)), ("triangle", self.boundary.astype(np.int64))],
+                           cell_data={"label": [np.zeros(len(self.tetrahedra), np.int32), self.labels],
+                                      "inside": [self.inside.astype(np.int8), np.full(len(self.labels), -1, np.int8)]})
+
+    def to_pyvista(self) -> Any:
+        """A `pyvista.UnstructuredGrid` of the tetrahedra."""
+        import pyvista
+
+        return pyvista.UnstructuredGrid({pyvista.CellType.TETRA: self.tetrahedra}, self.points)
+
+
+@dataclasses.dataclass
+class PlaneMesh:
+    """A mesh of triangles in the plane; `edges` tile the segments, with their `markers` and the numbers of the `segments`."""
+    points: np.ndarray
+    triangles: np.ndarray
+    inside: np.ndarray
+    edges: np.ndarray
+    markers: np.ndarray
+    segments: np.ndarray
+    stats: Dict[str, Any] = dataclasses.field(default_factory=dict)
+    warnings: List[str] = dataclasses.field(default_factory=list)
+
+
+@dataclasses.dataclass
+class Report:
+    """What `check` found.
+
+    Attributes
+    ----------
+    valid : bool
+    message : str
+        The first defect; empty if there is none.
+    counts : dict of str to int
+        Defects by kind: "open edge", "self-intersection", ...
+    defects : list of Defect
+        At most a few of each kind.
+    components, facets, acute_vertices, acute_edges : int
+    volume, bbox_diagonal, smallest_local_feature_size : float
+        Only of a valid surface, but for the diagonal.
+    flipped : bool
+        The surface was inside out, which is no defect.
+    """
+    valid: bool
+    message: str
+    counts: Dict[str, int]
+    defects: List[Defect]
+    warnings: List[str]
+    flipped: bool
+    components: int
+    facets: int
+    acute_vertices: int
+    acute_edges: int
+    volume: float
+    bbox_diagonal: float
+    smallest_local_feature_size: float
+
+
+def _indices(values: Any, name: str) -> np.ndarray:
+    array = np.asarray(values)
+    if array.size and not np.issubdtype(array.dtype, np.integer):
+        raise TypeError("%s must be whole numbers, not %s" % (name, array.dtype))
+    if array.size and (array.min() < 0 or array.max() > 0xffffffff):
+        raise ValueError("%s: numbers of points are from 0 to 2^32 - 1" % name)
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def _points(values: Any) -> np.ndarray:
+    return np.ascontiguousarray(values, dtype=np.float64)
+
+
+def _labels(values: Any) -> Optional[np.ndarray]:
+    return None if values is None else np.ascontiguousarray(values, dtype=np.int32)
+
+
+def _surface(points: Any, triangles: Any, labels: Any) -> tuple:
+    """Arrays, or an object that has them: of tetproof, trimesh (vertices, faces), meshio (points, cells_dict) or pyvista."""
+    if triangles is None:
+        given = points
+        if hasattr(given, "vertices") and hasattr(given, "faces"):
+            points, triangles = given.vertices, given.faces
+        elif hasattr(given, "cells_dict") and "triangle" in given.cells_dict:
+            points, triangles = given.points, given.cells_dict["triangle"]
+        elif hasattr(given, "triangles"):
+            points, triangles = given.points, given.triangles
+            labels = labels if labels is not None else getattr(given, "labels", None)
+        elif hasattr(given, "faces") and hasattr(given, "points"):
+            points, triangles = given.points, np.reshape(given.faces, (-1, 4))[:, 1:]
+        else:
+            raise TypeError("points and triangles are expected, or an object that has them")
+    return _points(points), _indices(triangles, "triangles"), _labels(labels)
+
+
+_REGIONS = {"interior": 0, "hull": 1}
+
+
+def _options(given: Mapping[str, Any], names: Mapping[str, Any]) -> Dict[str, float]:
+    options = {name: value for name, value in {**names, **given}.items() if value is not None}
+    unknown = set(options) - set(_core.option_names())
+    if unknown:
+        raise TypeError("no such option: %s (there are %s)" % (", ".join(sorted(unknown)), ", ".join(_core.option_names())))
+    if isinstance(options.get("region"), str):
+        if options["region"] not in _REGIONS:
+            raise ValueError("region must be 'interior' or 'hull'")
+        options["region"] = _REGIONS[options["region"]]
+    if options.get("planar") == "auto":
+        options["planar"] = -1
+    return {name: float(value) for name, value in options.items()}
+
+
+def _raise(result: Dict[str, Any], report: Callable[[], Optional[Report]] = lambda: None) -> None:
+    status, message = result["status"], result["message"]
+    if status == "ok":
+        return
+    if status == "invalid_options":
+        raise ValueError(message)
+    if status == "invalid_surface":
+        raise InvalidSurface(message, report())
+    if status == "invalid_mesh":
+        raise InvalidMesh(message)
+    if status == "limit_reached":
+        raise LimitReached(message, result["limit"])
+    if status == "interrupted":
+        raise Interrupted(message)
+    raise Error(message)
+
+
+def _mesh(result: Dict[str, Any], names: Optional[Mapping[int, str]] = None) -> Mesh:
+    fields = {f.name: result[f.name] for f in dataclasses.fields(Mesh) if f.name in result}
+    fields["inside"] = fields["inside"].view(np.bool_)
+    fields["names"] = dict(names if names is not None else result.get("names", {}))
+    return Mesh(**fields)
+
+
+def _bar(progress: Any) -> Any:
+    """True means a progress bar, of tqdm if it is there."""
+    if progress is not True:
+        return progress
+    try:
+        from tqdm.auto import tqdm
+    except ImportError:
+        import sys
+
+        return lambda phase, done, vertices: print("\r%-10s %9d points" % (phase, vertices), end="", file=sys.stderr)
+    bar = tqdm(unit=" points")
+
+    def show(phase: str, done: float, vertices: int) -> None:
+        bar.set_description(phase)
+        bar.n = vertices
+        bar.refresh()
+
+    return show
+
+
+def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Optional[float] = None, delta: Optional[float] = None,
+         threads: Optional[int] = None, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
+    """Mesh the inside of a closed surface.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float, or an object with points and triangles
+        A `Surface`, or what trimesh, meshio or pyvista have.
+    triangles : (m, 3) array_like of int
+        Counter-clockwise seen from outside; a surface that is inside out is turned round, with a warning.
+    labels : (m,) array_like of int, optional
+        Come back on the boundary.
+    max_edge : float, optional
+        Largest edge, in units of the input.
+    delta : float, default 14.47
+        Smallest face angle of the refined mesh, degrees; best effort above the default.
+    threads : int, default 1
+        0: one per core. The result is the same for every number.
+    progress : callable or True, optional
+        ``progress(phase, done, vertices)``, called several times a second; False ends the run with `Interrupted`, an
+        exception ends it with that. True shows a bar.
+    **options
+        As on the command line: tau, planar, budget, acute, corner, gabriel, improve, slivers, approximate, chamfer_radius, region,
+        max_vertices, time_limit, order, steiner_point, simplify_bridges.
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    InvalidSurface
+        With the defects. `repair` mends some.
+    LimitReached
+        With the limit: "size", "time", "memory" or "precision".
+    ValueError, TypeError
+        An option or an array makes no sense.
+    """
+    arrays = _surface(points, triangles, labels)
+    result = _core.mesh(*arrays, _options(options, {"max_edge": max_edge, "delta": delta, "threads": threads}), _bar(progress), False)
+    _raise(result, lambda: check(*arrays[:2]))
+    return _mesh(result, getattr(points, "names", None))
+
+
+def cdt(points: Any, triangles: Any = None, labels: Any = None, *, region: str = "hull", progress: Optional[Progress] = None,
+        **options: Any) -> Mesh:
+    """Constrained Delaunay tetrahedrization of the convex hull of a valid surface, without any promise of quality."""
+    arrays = _surface(points, triangles, labels)
+    result = _core.mesh(*arrays, _options(options, {"region": region}), progress, True)
+    _raise(result, lambda: check(*arrays[:2]))
+    return _mesh(result, getattr(points, "names", None))
+
+
+def improve(mesh: Mesh, *, max_edge: Optional[float] = None, delta: Optional[float] = None, progress: Optional[Progress] = None,
+            **options: Any) -> Mesh:
+    """Fewer and better tetrahedra of any conforming mesh; its boundary and its regions are kept exactly.
+
+    Raises
+    ------
+    InvalidMesh
+        The mesh is not conforming.
+    """
+    result = _core.improve(_fields(mesh), _options(options, {"max_edge": max_edge, "delta": delta}), progress)
+    _raise(result)
+    return _mesh(result, mesh.names)
+
+
+def check(points: Any, triangles: Any = None, **options: Any) -> Report:
+    """Is this a valid surface? If not, what is wrong, and where? Decided exactly.
+
+    >>> tetproof.check([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).counts
+    {'open edge': 3}
+    """
+    arrays = _surface(points, triangles, None)
+    result = _core.check(*arrays[:2], _options(options, {}))
+    if result["status"] not in ("ok", "invalid_surface"):
+        _raise(result)
+    fields = {f.name: result[f.name] for f in dataclasses.fields(Report) if f.name in result}
+    fields["valid"] = result["status"] == "ok"
+    fields["defects"] = [Defect(*defect) for defect in result["defects"]]
+    return Report(**fields)
+
+
+def repair(points: Any, triangles: Any = None, labels: Any = None, *, weld: float = 0, fill: bool = False) -> Repaired:
+    """Mend what can be mended without guessing.
+
+    Equal points are welded, triangles without area and duplicates are removed, and triangles are turned round so that neighbours
+    agree. Whether the result is valid is for `check` to say.
+
+    Parameters
+    ----------
+    weld : float
+        Points no farther apart than this become one, too.
+    fill : bool
+        Fill holes that are planar within 1e-6 of the diagonal, or no wider than a twentieth of it.
+    """
+    result = _core.repair(*_surface(points, triangles, labels), float(weld), bool(fill))
+    return Repaired(**result, names=dict(getattr(points, "names", {})))
+
+
+def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None, max_edge: Optional[float] = None,
+          delta: Optional[float] = None, progress: Optional[Progress] = None, **options: Any) -> PlaneMesh:
+    """Mesh a planar straight-line graph with triangles: what its segments enclose, but for the faces with a hole point.
+
+    Parameters
+    ----------
+    points : (n, 2) array_like of float
+    segments : (m, 2) array_like of int
+    markers : (m,) array_like of int, optional
+    holes : (h, 2) array_like of float, optional
+    delta : float, default 20.7
+        Smallest angle, degrees.
+    """
+    no_holes = np.zeros((0, 2)) if holes is None else holes
+    result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers), _points(no_holes),
+                         _options(options, {"max_edge": max_edge, "delta": delta}), progress)
+    _raise(result)
+    fields = {f.name: result[f.name] for f in dataclasses.fields(PlaneMesh)}
+    fields["inside"] = fields["inside"].view(np.bool_)
+    return PlaneMesh(**fields)
+
+
+def read(path: "Union[str, os.PathLike[str]]") -> Surface:
+    """Read a surface: OFF, OBJ, STL, PLY, .smesh or .poly. ValueError says what is wrong with the file, and in which line."""
+    result = _core.read_surface(os.fspath(path))
+    if not len(result["labels"]):
+        result["labels"] = np.zeros(len(result["triangles"]), np.int32)
+    return Surface(**result)
+
+
+def read_mesh(path: "Union[str, os.PathLike[str]]") -> Mesh:
+    """Read a mesh of tetrahedra: .mesh, .msh, .vtu, .node, .ele or .tet, as text."""
+    return _mesh(_core.read_mesh(os.fspath(path)))
+
+
+def _fields(mesh: Mesh) -> Dict[str, np.ndarray]:
+    count, triangles = len(mesh.tetrahedra), len(mesh.boundary)
+    return {"points": _points(mesh.points), "tetrahedra": _indices(mesh.tetrahedra, "tetrahedra"),
+            "inside": np.ascontiguousarray(np.broadcast_to(mesh.inside, (count,)), np.uint8),
+            "regions": np.ascontiguousarray(mesh.regions, np.int32),
+            "boundary": np.reshape(_indices(mesh.boundary, "boundary"), (triangles, 3)),
+            "labels": np.ascontiguousarray(mesh.labels, np.int32), "facets": _indices(mesh.facets, "facets")}
+
+
+def write(path: "Union[str, os.PathLike[str]]", mesh: Mesh, names: Optional[Mapping[int, str]] = None) -> None:
+    """Write a mesh in the format of the extension; labels are called by `names` (of the mesh).
+
+    .mesh, .msh, .vtu, .vtk, .xdmf, .inp, .bdf, .node, .tet; .stl, .ply and .off hold the boundary alone. ValueError says why a file
+    could not be written; it is complete or not there.
+    """
+    _core.write_mesh(os.fspath(path), _fields(mesh), dict(mesh.names if names is None else names))
