@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "mesher/io/parse_surface.h"
+#include "mesher/io/reading.h"
 
 namespace delmesher::io {
 namespace {
@@ -45,8 +45,7 @@ std::string written(const ExactRecord& record) {
   OutputSet outputs;
   EXPECT_TRUE(write_exact(outputs, path, record).ok());
   EXPECT_TRUE(outputs.commit().ok());
-  std::string error;
-  const std::string text = read_file(path, error).value_or("");
+  const std::string text = read_file(path);
   std::filesystem::remove(path);
   return text;
 }

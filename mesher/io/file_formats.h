@@ -1,4 +1,5 @@
-// Tables of formats: what the extension of a path to be written means.
+// Tables of formats: what the extension of a path means. A row of any table has `extensions`, of
+// which the first is the one that a path has.
 #pragma once
 
 #include <array>
@@ -24,11 +25,10 @@ struct FileFormat {
 };
 
 // The format that the path's extension means, in any case; null if it means none.
-template <class Written, std::size_t N>
-const FileFormat<Written>* format_of(const std::array<FileFormat<Written>, N>& table,
-                                     const std::string& path) {
+template <class Format, std::size_t N>
+const Format* format_of(const std::array<Format, N>& table, const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  for (const FileFormat<Written>& format : table) {
+  for (const Format& format : table) {
     if (equal_ignoring_case(extension, format.extensions[0])) return &format;
   }
   return nullptr;
@@ -50,8 +50,8 @@ std::vector<std::string> files_made(const std::array<FileFormat<Written>, N>& ta
 }
 
 // ".a, .b or .c"
-template <class Written, std::size_t N>
-std::string extensions_of(const std::array<FileFormat<Written>, N>& table) {
+template <class Format, std::size_t N>
+std::string extensions_of(const std::array<Format, N>& table) {
   std::string text;
   for (std::size_t i = 0; i < N; ++i) {
     if (i > 0) text += i + 1 < N ? ", " : " or ";

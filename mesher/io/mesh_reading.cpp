@@ -1,7 +1,6 @@
 #include "mesher/io/mesh_reading.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <utility>
 
@@ -10,7 +9,7 @@
 namespace delmesher::io {
 
 void MeshText::fail(const std::string& reason) const {
-  throw MeshError{file_ + ":" + std::to_string(line()) + ": " + reason};
+  throw FileError{file_ + ":" + std::to_string(line()) + ": " + reason};
 }
 
 std::string_view MeshText::word() {
@@ -118,9 +117,4 @@ TetMesh MeshBuilder::finish() {
   }
   return std::move(mesh_);
 }
-
-std::string name_beside(const std::string& path, const char* extension) {
-  return std::filesystem::path(path).replace_extension(extension).string();
-}
-
 }  // namespace delmesher::io

@@ -1,5 +1,5 @@
 // What the readers of tetrahedral meshes share: tokens that are numbers, and the mesh that is made
-// of them. The readers throw MeshError; parse_mesh chooses among them.
+// of them. The readers throw FileError; parse_mesh chooses among them.
 #pragma once
 
 #include <array>
@@ -12,14 +12,10 @@
 
 #include "mesher/delmesher_files.h"
 #include "mesher/io/polling.h"
+#include "mesher/io/reading.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::io {
-
-// The whole line: "file:line: reason" or "file: reason".
-struct MeshError {
-  std::string text;
-};
 
 // A file's text, token by token, on any lines.
 class MeshText {
@@ -101,22 +97,17 @@ class MeshBuilder {
     if (!name.empty()) names_[label] = name;
   }
   const LabelNames& names() const { return names_; }
-  void warn(std::string text) { warnings_.push_back(std::move(text)); }
 
   TetMesh finish();
-  std::vector<std::string>& warnings() { return warnings_; }
 
  private:
   TetMesh mesh_;
-  std::vector<std::string> warnings_;
   LabelNames names_;
   bool all_facets_ = true;
 };
 
 // The text of the file beside, with this extension; nullopt if there is none.
 using FileBeside = std::function<std::optional<std::string>(const char* extension)>;
-// Its name.
-std::string name_beside(const std::string& path, const char* extension);
 
 void read_medit(std::string_view text, const std::string& path, Polling& polling,
                 MeshBuilder& builder);

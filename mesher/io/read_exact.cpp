@@ -1,9 +1,7 @@
 #include <algorithm>
-#include <new>
 
 #include "mesher/io/exact_file.h"
-#include "mesher/io/parse_surface.h"
-#include "mesher/io/surface_builder.h"
+#include "mesher/io/reading.h"
 #include "mesher/io/text.h"
 
 namespace delmesher::io {
@@ -263,25 +261,18 @@ ExactRecord ExactReader::read() {
 }  // namespace
 
 ExactResult parse_exact(std::string_view text, const std::string& path) {
-  ExactResult result;
   try {
-    result.record = ExactReader(text).read();
-  } catch (const ParseError& error) {
-    result.error = path + ":" + std::to_string(error.position.number) + ": " + error.reason;
-  } catch (const std::bad_alloc&) {
-    result.error = path + ": out of memory while reading";
+    return {{}, ExactReader(text).read()};
+  } catch (...) {
+    return {end_of_reading(path).error, {}};
   }
-  return result;
 }
 
 ExactResult read_exact(const std::string& path) {
   try {
-    std::string error;
-    const auto text = read_file(path, error);
-    if (text) return parse_exact(*text, path);
-    return {path + ": " + error, {}};
-  } catch (const std::exception& error) {
-    return {path + ": " + error.what(), {}};
+    return parse_exact(read_file(path), path);
+  } catch (...) {
+    return {end_of_reading(path).error, {}};
   }
 }
 

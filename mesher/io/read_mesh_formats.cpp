@@ -231,7 +231,7 @@ void read_tetgen_mesh(std::string_view node, const std::string& path, const File
   const std::uint64_t first = read_nodes(node, path, polling, builder);
   const std::optional<std::string> ele = beside ? beside(".ele") : std::nullopt;
   const std::string ele_name = name_beside(path, ".ele");
-  if (!ele) throw MeshError{path + ": there is no " + ele_name + " beside it"};
+  if (!ele) throw FileError{path + ": there is no " + ele_name + " beside it"};
   read_elements(*ele, ele_name, first, polling, builder);
   if (const std::optional<std::string> face = beside(".face")) {
     read_faces(*face, name_beside(path, ".face"), first, polling, builder);

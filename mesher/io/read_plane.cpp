@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <new>
-#include <stdexcept>
 
+#include "mesher/io/numbered_lists.h"
 #include "mesher/io/text.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
@@ -32,16 +31,17 @@ double need_number(TextLines& in, const char* what) {
 class PolyReader {
  public:
   PolyReader(std::string_view text, Polling& polling, PlanarGraph& graph)
-      : in_(text, Comments::anywhere, ','), polling_(polling), graph_(graph) {}
+      : in_(text), polling_(polling), graph_(graph) {}
 
   bool read_header() {
     need_line("the number of vertices");
-    vertices_ = need_integer<std::uint64_t>("number of vertices");
-    const auto dimension = integer_or<std::int64_t>(2);
+    vertices_ = in_.need_integer<std::uint64_t>("number of vertices");
+    const auto dimension = in_.integer_or<std::int64_t>(2, "dimension");
     if (dimension != 2) {
-      fail(here(), "vertices of dimension " + std::to_string(dimension) + ", the plane has 2");
+      fail(in_.here(), "vertices of dimension " + std::to_string(dimension) + ", the plane has 2");
     }
-    integer_or<std::uint64_t>(0);  // attributes, and markers of vertices, are not used
+    // Attributes, and markers of vertices, are not used.
+    in_.integer_or<std::uint64_t>(0, "number of attributes");
     return vertices_ != 0;
   }
 
@@ -50,110 +50,79 @@ class PolyReader {
     graph_.vertices.reserve(vertices_);
     for (std::uint64_t i = 0; i < vertices_; ++i) {
       need_line("a vertex");
-      const auto number = need_integer<std::uint64_t>("vertex number");
-      if (i == 0) base_ = number;
-      if (base_ > 1) fail(here(), "vertices have to be numbered from 0 or 1");
-      if (number != base_ + i) {
-        fail(here(), "vertex number " + std::to_string(number) + " where " +
-                         std::to_string(base_ + i) + " is expected");
-      }
+      in_.need_number_of_item(i, "vertex", "vertices");
       graph_.vertices.push_back(need_point());
     }
   }
 
   void read_segments() {
     need_line("the number of segments");
-    const auto count = need_integer<std::uint64_t>("number of segments");
-    const bool marked = integer_or<std::int64_t>(0) != 0;
+    const auto count = in_.need_integer<std::uint64_t>("number of segments");
+    const bool marked = in_.integer_or<std::int64_t>(0, "marker flag") != 0;
     check_count(count, "segments");
     for (std::uint64_t i = 0; i < count; ++i) {
       need_line("a segment");
-      need_integer<std::int64_t>("segment number");
+      in_.need_integer<std::int64_t>("segment number");
       const std::uint32_t a = need_vertex(), b = need_vertex();
       graph_.segments.push_back({a, b});
-      if (marked) graph_.markers.push_back(integer_or<std::int32_t>(0));
+      if (marked) graph_.markers.push_back(in_.integer_or<std::int32_t>(0, "marker"));
     }
   }
 
   void read_holes_and_regions(std::vector<std::string>& warnings) {
-    if (!in_.next_line()) return;
-    const auto holes = need_integer<std::uint64_t>("number of holes");
+    if (!in_.lines().next_line()) return;
+    const auto holes = in_.need_integer<std::uint64_t>("number of holes");
     check_count(holes, "holes");
     for (std::uint64_t i = 0; i < holes; ++i) {
       need_line("a hole");
-      need_integer<std::int64_t>("hole number");
+      in_.need_integer<std::int64_t>("hole number");
       graph_.holes.push_back(need_point());
     }
-    if (!in_.next_line()) return;
-    const auto regions = need_integer<std::uint64_t>("number of regions");
+    if (!in_.lines().next_line()) return;
+    const auto regions = in_.need_integer<std::uint64_t>("number of regions");
     check_count(regions, "regions");
     bool areas = false;
     for (std::uint64_t i = 0; i < regions; ++i) {
       need_line("a region");
-      need_integer<std::int64_t>("region number");
+      in_.need_integer<std::int64_t>("region number");
       const Point2 point = need_point();
-      const double attribute = need_number(in_, "attribute");
+      const double attribute = need_number(in_.lines(), "attribute");
       std::string_view token;
       double area = 0;
-      if (in_.next_token(token) && parse_double(token, area) != NumberStatus::ok) {
-        fail(here(), "bad number " + quoted(token));
+      if (in_.lines().next_token(token) && parse_double(token, area) != NumberStatus::ok) {
+        fail(in_.here(), "bad number " + quoted(token));
       }
       areas = areas || area > 0;
       graph_.regions.push_back({point, attribute});
     }
     if (areas) warnings.push_back("largest areas of regions ignored, see --max-edge");
-    if (in_.next_line()) warnings.push_back("lines after the region list ignored");
+    if (in_.lines().next_line()) warnings.push_back("lines after the region list ignored");
   }
 
-  void take_base(const PolyReader& nodes) { base_ = nodes.base_; }
+  void take_base(const PolyReader& nodes) { in_.set_base(nodes.in_.base()); }
 
  private:
-  Position here() const { return at_line(in_.line()); }
   void need_line(const char* what) {
     polling_.poll(8);
-    if (!in_.next_line()) fail(here(), std::string("the file ends where ") + what + " is expected");
+    in_.need_line(what);
   }
-  template <typename T>
-  T need_integer(const char* what) {
-    std::string_view token;
-    if (!in_.next_token(token)) fail(here(), std::string(what) + " is missing");
-    T value{};
-    if (!parse_integer(token, value))
-      fail(here(), "bad " + std::string(what) + " " + quoted(token));
-    return value;
-  }
-  template <typename T>
-  T integer_or(T fallback) {
-    std::string_view token;
-    if (!in_.next_token(token)) return fallback;
-    T value{};
-    if (!parse_integer(token, value)) fail(here(), "bad number " + quoted(token));
-    return value;
+  void check_count(std::uint64_t count, const char* items) const {
+    in_.check_count(count, kMaxVertices - 1, items);
   }
   Point2 need_point() {
-    const double x = need_number(in_, "x");
-    return {x, need_number(in_, "y")};
+    const double x = need_number(in_.lines(), "x");
+    return {x, need_number(in_.lines(), "y")};
   }
   std::uint32_t need_vertex() {
-    const auto number = need_integer<std::uint64_t>("vertex of a segment");
-    if (number < base_ || number - base_ >= graph_.vertices.size()) {
-      fail(here(), "vertex index out of range: " + std::to_string(number) + " of " +
-                       std::to_string(graph_.vertices.size()) + " (numbered from " +
-                       std::to_string(base_) + ")");
-    }
-    return static_cast<std::uint32_t>(number - base_);
-  }
-  // Every item takes a line of at least two bytes.
-  void check_count(std::uint64_t count, const char* what) const {
-    if (count >= kMaxVertices || count > in_.remaining() / 2 + 1) {
-      fail(here(), "the file is too short for " + std::to_string(count) + " " + what);
-    }
+    std::string_view token;
+    if (!in_.lines().next_token(token)) fail(in_.here(), "vertex of a segment is missing");
+    return in_.vertex(token, graph_.vertices.size());
   }
 
-  TextLines in_;
+  NumberedLists in_;
   Polling& polling_;
   PlanarGraph& graph_;
-  std::uint64_t vertices_ = 0, base_ = 0;
+  std::uint64_t vertices_ = 0;
 };
 
 // Equal points become one vertex, in the order of their first appearance.
@@ -370,51 +339,17 @@ PlanarGraph outline(const Surface& surface,
 
 PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
                             const NodeFile& node_file, const std::function<bool()>& go_on) {
-  PlaneReadResult result;
-  try {
+  return caught<PlaneReadResult>(path, [&](PlaneReadResult& result) {
     read_by_format(bytes, path, node_file, go_on, result);
-  } catch (const ParseError& error) {
-    result.code = ReadCode::unreadable;
-    const bool at = error.position.unit == Position::Unit::line;
-    result.error =
-        path + (at ? ":" + std::to_string(error.position.number) : "") + ": " + error.reason;
-  } catch (const std::bad_alloc&) {
-    result.code = ReadCode::out_of_memory;
-    result.error = path + ": out of memory while reading";
-  } catch (const std::length_error&) {
-    result.code = ReadCode::out_of_memory;
-    result.error = path + ": out of memory while reading";
-  } catch (const ReadingStopped&) {
-    result.code = ReadCode::stopped;
-    result.error = path + ": stopped while reading";
-  }
-  return result;
+  });
 }
 
 PlaneReadResult read_plane(const std::string& path, const std::function<bool()>& go_on) {
-  PlaneReadResult result;
-  try {
-    std::string error;
-    const auto bytes = read_file(path, error, go_on);
-    if (!bytes) {
-      result.code = ReadCode::unreadable;
-      result.error = path + ": " + error;
-      return result;
-    }
-    const NodeFile node_file = [&]() -> std::optional<std::string> {
-      std::string ignored;
-      return read_file(std::filesystem::path(path).replace_extension(".node").string(), ignored,
-                       go_on);
-    };
-    return parse_plane(*bytes, path, node_file, go_on);
-  } catch (const std::bad_alloc&) {
-    result.code = ReadCode::out_of_memory;
-    result.error = path + ": out of memory while reading";
-  } catch (const ReadingStopped&) {
-    result.code = ReadCode::stopped;
-    result.error = path + ": stopped while reading";
-  }
-  return result;
+  return caught<PlaneReadResult>(path, [&](PlaneReadResult& result) {
+    const std::string bytes = read_file(path, go_on);
+    read_by_format(
+        bytes, path, [&] { return read_beside(path, ".node", go_on); }, go_on, result);
+  });
 }
 
 }  // namespace delmesher::io

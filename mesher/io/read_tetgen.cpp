@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "mesher/io/numbered_lists.h"
 #include "mesher/io/projected_face.h"
 #include "mesher/io/readers.h"
 #include "mesher/io/text.h"
@@ -16,52 +17,27 @@ namespace {
 
 class TetgenReader {
  public:
-  TetgenReader(std::string_view text, SurfaceBuilder& builder)
-      : in_(text, Comments::anywhere, ','), builder_(builder) {}
+  TetgenReader(std::string_view text, SurfaceBuilder& builder) : in_(text), builder_(builder) {}
 
   void read_nodes(bool own_file);
   // False if the file leaves the points to a .node file.
   bool read_point_header();
-  void set_base(std::uint64_t base) { base_ = base; }
-  std::uint64_t base() const { return base_; }
+  void set_base(std::uint64_t base) { in_.set_base(base); }
+  std::uint64_t base() const { return in_.base(); }
   void read_facets(TetgenKind kind);
   void read_holes_and_regions();
 
  private:
-  Position here() const { return at_line(in_.line()); }
-  void need_line(const char* what) {
-    if (!in_.next_line()) fail(here(), std::string("the file ends where ") + what + " is expected");
-  }
-  template <typename T>
-  T need_integer(const char* what) {
-    std::string_view token;
-    if (!in_.next_token(token)) fail(here(), std::string(what) + " is missing");
-    T value{};
-    if (!parse_integer(token, value))
-      fail(here(), "bad " + std::string(what) + " " + quoted(token));
-    return value;
-  }
-  template <typename T>
-  T integer_or(T fallback, const char* what) {
-    std::string_view token;
-    if (!in_.next_token(token)) return fallback;
-    T value{};
-    if (!parse_integer(token, value))
-      fail(here(), "bad " + std::string(what) + " " + quoted(token));
-    return value;
-  }
   Point3 need_point();
-  void check_count(std::uint64_t count, std::uint64_t limit, const char* what) const;
   void read_corners(std::uint64_t count, Loop& loop);
   void read_smesh_facet();
   void read_poly_facet();
   void add_loops(std::vector<Loop> loops, const std::vector<Point3>& holes, std::int32_t label,
                  Position position);
 
-  TextLines in_;
+  NumberedLists in_;
   SurfaceBuilder& builder_;
   std::uint64_t points_ = 0;
-  std::uint64_t base_ = 0;
   bool markers_ = false;
 };
 
@@ -69,106 +45,86 @@ Point3 TetgenReader::need_point() {
   Point3 point;
   for (double& x : point) {
     std::string_view token;
-    if (!in_.next_token(token)) fail(here(), "fewer than 3 coordinates");
+    if (!in_.lines().next_token(token)) fail(in_.here(), "fewer than 3 coordinates");
     const NumberStatus status = parse_double(token, x);
-    if (status == NumberStatus::malformed) fail(here(), "bad number " + quoted(token));
+    if (status == NumberStatus::malformed) fail(in_.here(), "bad number " + quoted(token));
     if (status == NumberStatus::not_finite) {
-      fail(here(), "non-finite coordinate " + quoted(token));
+      fail(in_.here(), "non-finite coordinate " + quoted(token));
     }
   }
   return point;
 }
 
-// Every item takes a line of at least two bytes.
-void TetgenReader::check_count(std::uint64_t count, std::uint64_t limit, const char* what) const {
-  if (count > limit || count > in_.remaining() / 2 + 1) {
-    fail(here(), "the file is too short for " + std::to_string(count) + " " + what);
-  }
-}
-
 bool TetgenReader::read_point_header() {
-  need_line("the number of points");
-  points_ = need_integer<std::uint64_t>("number of points");
-  const auto dimension = integer_or<std::int64_t>(3, "dimension");
+  in_.need_line("the number of points");
+  points_ = in_.need_integer<std::uint64_t>("number of points");
+  const auto dimension = in_.integer_or<std::int64_t>(3, "dimension");
   if (dimension != 3) {
-    fail(here(), "points of dimension " + std::to_string(dimension) + ", a surface needs 3");
+    fail(in_.here(), "points of dimension " + std::to_string(dimension) + ", a surface needs 3");
   }
   return points_ != 0;
 }
 
 void TetgenReader::read_nodes(bool own_file) {
-  check_count(points_, kMaxVertices, "points");
-  builder_.expect(points_, 0, in_.remaining());
+  in_.check_count(points_, kMaxVertices, "points");
+  builder_.expect(points_, 0, in_.lines().remaining());
   for (std::uint64_t i = 0; i < points_; ++i) {
-    need_line("a point");
-    const auto number = need_integer<std::uint64_t>("point number");
-    if (i == 0) base_ = number;
-    if (base_ > 1) fail(here(), "points have to be numbered from 0 or 1");
-    if (number != base_ + i) {
-      fail(here(), "point number " + std::to_string(number) + " where " +
-                       std::to_string(base_ + i) + " is expected");
-    }
+    in_.need_line("a point");
+    in_.need_number_of_item(i, "point", "points");
     const Point3 p = need_point();
-    builder_.add_vertex(p[0], p[1], p[2], here());
+    builder_.add_vertex(p[0], p[1], p[2], in_.here());
   }
-  if (own_file && in_.next_line()) builder_.warn("lines after the last point ignored");
+  if (own_file && in_.lines().next_line()) builder_.warn("lines after the last point ignored");
 }
 
 void TetgenReader::read_corners(std::uint64_t count, Loop& loop) {
   if (count > kMaxPolygonCorners) {
-    fail(here(), "a face with " + std::to_string(count) + " corners (the limit is " +
-                     std::to_string(kMaxPolygonCorners) + ")");
+    fail(in_.here(), "a face with " + std::to_string(count) + " corners (the limit is " +
+                         std::to_string(kMaxPolygonCorners) + ")");
   }
   loop.clear();
   for (std::uint64_t i = 0; i < count; ++i) {
     std::string_view token;
-    if (!in_.next_token_anywhere(token)) fail(here(), "the file ends in a face");
-    std::uint64_t corner = 0;
-    if (!parse_integer(token, corner)) fail(here(), "bad vertex index " + quoted(token));
-    if (corner < base_ || corner - base_ >= builder_.vertex_count()) {
-      fail(here(), "vertex index out of range: " + std::string(token) + " of " +
-                       std::to_string(builder_.vertex_count()) + " (numbered from " +
-                       std::to_string(base_) + ")");
-    }
-    loop.push_back(static_cast<std::uint32_t>(corner - base_));
+    if (!in_.lines().next_token_anywhere(token)) fail(in_.here(), "the file ends in a face");
+    loop.push_back(in_.vertex(token, builder_.vertex_count()));
   }
 }
 
 void TetgenReader::read_smesh_facet() {
-  need_line("a facet");
-  const Position position = here();
-  const auto count = need_integer<std::uint64_t>("number of corners");
+  in_.need_line("a facet");
+  const Position position = in_.here();
+  const auto count = in_.need_integer<std::uint64_t>("number of corners");
   Loop loop;
   read_corners(count, loop);
-  const auto marker = markers_ ? integer_or<std::int32_t>(0, "marker") : 0;
+  const auto marker = markers_ ? in_.integer_or<std::int32_t>(0, "marker") : 0;
   add_loops({loop}, {}, marker, position);
 }
 
 void TetgenReader::read_poly_facet() {
-  need_line("a facet");
-  const Position position = here();
-  const auto polygons = need_integer<std::uint64_t>("number of polygons");
-  const auto holes = integer_or<std::uint64_t>(0, "number of holes");
-  const auto marker = markers_ ? integer_or<std::int32_t>(0, "marker") : 0;
-  check_count(polygons, kMaxTriangles, "polygons");
+  in_.need_line("a facet");
+  const Position position = in_.here();
+  const auto polygons = in_.need_integer<std::uint64_t>("number of polygons");
+  const auto holes = in_.integer_or<std::uint64_t>(0, "number of holes");
+  const auto marker = markers_ ? in_.integer_or<std::int32_t>(0, "marker") : 0;
+  in_.check_count(polygons, kMaxTriangles, "polygons");
   std::vector<Loop> loops;
   std::size_t corners = 0;
   for (std::uint64_t i = 0; i < polygons; ++i) {
-    need_line("a polygon");
+    in_.need_line("a polygon");
     Loop loop;
-    read_corners(need_integer<std::uint64_t>("number of corners"), loop);
+    read_corners(in_.need_integer<std::uint64_t>("number of corners"), loop);
     corners += loop.size();
     if (holes > 0 && corners > kMaxPolygonCorners) {
-      fail(here(),
+      fail(in_.here(),
            "a facet with holes and more than " + std::to_string(kMaxPolygonCorners) + " corners");
     }
     loops.push_back(std::move(loop));
   }
-  check_count(holes, kMaxPolygonCorners, "holes");
+  in_.check_count(holes, kMaxPolygonCorners, "holes");
   std::vector<Point3> hole_points;
   for (std::uint64_t i = 0; i < holes; ++i) {
-    need_line("a hole of a facet");
-    need_integer<std::int64_t>("hole number");
+    in_.need_line("a hole of a facet");
+    in_.need_integer<std::int64_t>("hole number");
     hole_points.push_back(need_point());
   }
   add_loops(std::move(loops), hole_points, marker, position);
@@ -236,11 +192,11 @@ void TetgenReader::add_loops(std::vector<Loop> loops, const std::vector<Point3>&
 }
 
 void TetgenReader::read_facets(TetgenKind kind) {
-  need_line("the number of facets");
-  const auto facets = need_integer<std::uint64_t>("number of facets");
-  markers_ = integer_or<std::int64_t>(0, "marker flag") != 0;
-  check_count(facets, kMaxTriangles, "facets");
-  builder_.expect(0, facets, in_.remaining());
+  in_.need_line("the number of facets");
+  const auto facets = in_.need_integer<std::uint64_t>("number of facets");
+  markers_ = in_.integer_or<std::int64_t>(0, "marker flag") != 0;
+  in_.check_count(facets, kMaxTriangles, "facets");
+  builder_.expect(0, facets, in_.lines().remaining());
   for (std::uint64_t i = 0; i < facets; ++i) {
     if (kind == TetgenKind::smesh) {
       read_smesh_facet();
@@ -253,13 +209,12 @@ void TetgenReader::read_facets(TetgenKind kind) {
 // Volume holes and regions say nothing that parity does not, or ask for more than a surface.
 void TetgenReader::read_holes_and_regions() {
   for (const char* what : {"hole", "region"}) {
-    if (!in_.next_line()) return;
-    const auto count =
-        need_integer<std::uint64_t>((std::string("number of ") + what + "s").c_str());
-    check_count(count, std::numeric_limits<std::uint64_t>::max(), what);
+    if (!in_.lines().next_line()) return;
+    const auto count = in_.need_integer<std::uint64_t>(std::string("number of ") + what + "s");
+    in_.check_count(count, std::numeric_limits<std::uint64_t>::max(), what);
     for (std::uint64_t i = 0; i < count; ++i) {
-      need_line(what);
-      need_integer<std::int64_t>((std::string(what) + " number").c_str());
+      in_.need_line(what);
+      in_.need_integer<std::int64_t>(std::string(what) + " number");
       need_point();
     }
     if (count > 0) {
@@ -267,7 +222,7 @@ void TetgenReader::read_holes_and_regions() {
                     " points ignored: what is inside is decided by parity");
     }
   }
-  if (in_.next_line()) builder_.warn("lines after the region list ignored");
+  if (in_.lines().next_line()) builder_.warn("lines after the region list ignored");
 }
 
 }  // namespace

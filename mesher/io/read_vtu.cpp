@@ -25,7 +25,7 @@ class VtuReader {
   enum class Kind : std::uint8_t { vertex = 1, line = 3, triangle = 5, tetrahedron = 10 };
 
   [[noreturn]] void fail(std::size_t offset, const std::string& reason) const {
-    throw MeshError{path_ + ":" + std::to_string(line_at(offset)) + ": " + reason};
+    throw FileError{path_ + ":" + std::to_string(line_at(offset)) + ": " + reason};
   }
   std::uint64_t line_at(std::size_t offset) const {
     return 1 + static_cast<std::uint64_t>(std::count(

@@ -10,15 +10,6 @@
 
 namespace delmesher::io {
 
-void fail(Position position, std::string reason) {
-  throw ParseError{position, std::move(reason)};
-}
-
-std::string describe(Position position) {
-  const char* unit = position.unit == Position::Unit::byte ? "byte " : "line ";
-  return unit + std::to_string(position.number);
-}
-
 void SurfaceBuilder::expect(std::uint64_t vertices, std::uint64_t polygons, std::uint64_t bytes) {
   // Three coordinates with separators, or three corners and a count, take six bytes and more, so
   // an absurd count in a header reserves no more than a small multiple of the file's size.

@@ -10,30 +10,9 @@
 
 #include "mesher/delmesher_files.h"
 #include "mesher/io/polling.h"
+#include "mesher/io/reading.h"
 
 namespace delmesher::io {
-
-// A place in a file.
-struct Position {
-  enum class Unit : std::uint8_t { line, byte, none };
-  Unit unit = Unit::none;
-  std::uint64_t number = 0;
-};
-
-inline Position at_line(std::uint64_t line) {
-  return {Position::Unit::line, line};
-}
-inline Position at_byte(std::uint64_t byte) {
-  return {Position::Unit::byte, byte};
-}
-
-// Thrown by the readers, caught by parse_surface.
-struct ParseError {
-  Position position;
-  std::string reason;
-};
-
-[[noreturn]] void fail(Position position, std::string reason);
 
 // Counts beyond these are refused: indices are 32 bits and so are half-edges.
 inline constexpr std::uint64_t kMaxVertices = 0xfffffff0ULL;
@@ -110,8 +89,5 @@ class SurfaceBuilder {
   double deviation_ = 0;
   Position first_non_planar_, first_non_simple_;
 };
-
-// "line 12", "byte 84".
-std::string describe(Position position);
 
 }  // namespace delmesher::io
