@@ -40,6 +40,14 @@ class TextSink {
   // x y z, separated by spaces.
   void point(const std::array<double, 3>& p);
 
+  // The headline of a list, as records have it.
+  void section(const char* name, std::size_t count) {
+    text(name);
+    text(" ");
+    integer(count);
+    text("\n");
+  }
+
   bool flush();
   // errno of the first write that failed, or 0.
   int failure() const { return failure_; }

@@ -3,13 +3,6 @@
 namespace delmesher::io {
 namespace {
 
-void section(TextSink& out, const char* name, std::size_t count) {
-  out.text(name);
-  out.text(" ");
-  out.integer(count);
-  out.text("\n");
-}
-
 void write_point(TextSink& out, const ExactPoint& p) {
   switch (p.kind) {
     case ExactPoint::Kind::explicit_point:
@@ -68,7 +61,7 @@ void write_list(TextSink& out, const std::vector<std::uint32_t>& list) {
 }
 
 void write_tets(TextSink& out, const char* name, const std::vector<ExactRecord::Tet>& tets) {
-  section(out, name, tets.size());
+  out.section(name, tets.size());
   for (const auto& tet : tets) {
     for (std::uint32_t v : tet.vertices) out.integers(v);
     out.text(tet.inside ? "1\n" : "0\n");
@@ -77,7 +70,7 @@ void write_tets(TextSink& out, const char* name, const std::vector<ExactRecord::
 
 void write_triangles(TextSink& out, const char* name,
                      const std::vector<std::array<std::uint32_t, 4>>& triangles) {
-  section(out, name, triangles.size());
+  out.section(name, triangles.size());
   for (const auto& [a, b, c, facet] : triangles) {
     out.integers(a, b, c);
     out.integer(facet);
@@ -92,8 +85,8 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
   TextSink* opened = outputs.open(path, status);
   if (opened == nullptr) return status;
   TextSink& out = *opened;
-  section(out, "delmesher-exact", kExactVersion);
-  section(out, "parameters", 1);
+  out.section("delmesher-exact", kExactVersion);
+  out.section("parameters", 1);
   for (const double value : {record.parameters.delta, record.parameters.acute,
                              record.parameters.corner, record.parameters.tolerance}) {
     out.hex(value);
@@ -103,29 +96,29 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
   out.text(record.parameters.gabriel ? "1 " : "0 ");
   out.hex(record.parameters.planar);
   out.text("\n");
-  section(out, "planes", record.planes.size());
+  out.section("planes", record.planes.size());
   for (const ExactRecord::Plane& plane : record.planes) write_plane(out, plane);
-  section(out, "triangles", record.triangles.size());
+  out.section("triangles", record.triangles.size());
   for (const auto& [a, b, c] : record.triangles) {
     out.integers(a, b);
     out.integer(c);
     out.text("\n");
   }
-  section(out, "points", record.points.size());
+  out.section("points", record.points.size());
   for (const ExactPoint& p : record.points) write_point(out, p);
-  section(out, "facets", record.facets.size());
+  out.section("facets", record.facets.size());
   for (const auto& facet : record.facets) {
     out.integers(facet.id, facet.label, static_cast<int>(facet.filtered));
     write_list(out, facet.triangles);
   }
-  section(out, "segments", record.segments.size());
+  out.section("segments", record.segments.size());
   for (const auto& chain : record.segments) {
     // The facet of an input edge means nothing: "-".
     out.text(chain.artificial ? "A " : "I - ");
     if (chain.artificial) out.integers(chain.facet);
     write_list(out, chain.vertices);
   }
-  section(out, "corners", record.corners.size());
+  out.section("corners", record.corners.size());
   for (const auto& corner : record.corners) {
     out.integers(corner.vertex);
     out.hex(corner.threshold);
@@ -137,18 +130,18 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
   write_triangles(out, "refined_facets", record.refined_facets);
   write_tets(out, "final", record.final);
   write_triangles(out, "final_facets", record.final_facets);
-  section(out, "mesh_vertices", record.mesh_vertices.size());
+  out.section("mesh_vertices", record.mesh_vertices.size());
   for (std::uint32_t v : record.mesh_vertices) {
     out.integer(v);
     out.text("\n");
   }
-  section(out, "chamfer_points", record.chamfer_points.size());
+  out.section("chamfer_points", record.chamfer_points.size());
   for (const auto& [point, vertex] : record.chamfer_points) {
     out.integers(point);
     out.integer(vertex);
     out.text("\n");
   }
-  section(out, "balls", record.balls.size());
+  out.section("balls", record.balls.size());
   for (const auto& ball : record.balls) {
     out.integers(ball.vertex);
     for (std::uint32_t v : ball.tetrahedron) out.integers(v);
