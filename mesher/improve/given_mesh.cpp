@@ -152,6 +152,11 @@ class Checker {
         refuse("tetrahedra ", number(t), " and ", number(u), " are on the same side of the face ",
                numbers(faces_[n].key));
       }
+      // Flat both: they would have all faces in common.
+      if (end - n == 2 && result_.mesh.tetrahedra[t][faces_[n].side % 4] ==
+                              result_.mesh.tetrahedra[u][faces_[n + 1].side % 4]) {
+        refuse("tetrahedra ", number(t), " and ", number(u), " have the same four corners");
+      }
       const bool kept = end - n == 1 || result_.mesh.region[t] != result_.mesh.region[u];
       for (; n < end; ++n) faces_[n].kept = kept;
     }

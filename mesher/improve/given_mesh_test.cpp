@@ -128,6 +128,14 @@ const Wrong kWrong[] = {
        g.region.push_back(1);
      },
      "tetrahedra 0 and 4 are on the same side of the face 0-1-2"},
+    {"TheSameFourCorners",
+     [](Given& g) {
+       g.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+       g.tetrahedra = {{0, 1, 2, 3}, {0, 2, 1, 3}};
+       g.region = {1, 1};
+       g.triangles.clear();
+     },
+     "tetrahedra 0 and 1 have the same four corners"},
     {"ThreeAtAFace",
      [](Given& g) {
        g.vertices.push_back({3, 3, 3});
