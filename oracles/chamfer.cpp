@@ -6,6 +6,7 @@
 
 #include "oracles/angles.h"
 #include "oracles/corners.h"
+#include "oracles/enrichment.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -122,8 +123,10 @@ void ChamferedSurface::collect_segments() {
       s.input_edge = input_edges.of_chain(record_, chain.vertices);
       if (s.input_edge == kNone) continue;
       const InputSurface::Edge& edge = surface_.edges()[s.input_edge];
-      if (exact::dot(exact::difference(points_, edge.from, edge.to),
-                     exact::difference(points_, s.from, s.to)) < 0) {
+      // Whole edges are the most.
+      const bool along = s.from == edge.from && s.to == edge.to;
+      if (!along && exact::dot(exact::difference(points_, edge.from, edge.to),
+                               exact::difference(points_, s.from, s.to)) < 0) {
         std::swap(s.from, s.to);
       }
       s.left = facets_.kept(edge.left) ? edge.left : kNone;
@@ -172,8 +175,12 @@ void ChamferedSurface::collect_sectors() {
 // Each outgoing side begins the sector that the next incoming one, counter-clockwise, ends.
 void ChamferedSurface::pair_sides(std::size_t slot, Index facet, std::vector<Index>& outs,
                                   std::vector<Index>& ins) {
+  if (outs.size() == 1 && ins.size() == 1) {  // nothing to choose
+    if (ins[0] != outs[0]) sectors_[slot].push_back({facet, outs[0], ins[0]});
+    return;
+  }
   const Index v = vertices_[slot];
-  const ExactVector& normal = surface_.facets()[facet].normal;
+  const ExactVector normal = surface_.facets()[facet].normal(points_);
   const auto direction = [&](Index to) { return exact::difference(points_, v, to); };
   for (const Index out : outs) {
     const ExactVector o = direction(out);
@@ -267,7 +274,7 @@ void ChamferAngles::check_dihedral(const Segment& s) {
   const IntervalVector &p = left.rough_normal, &q = right.rough_normal;
   const Threshold threshold = chamfered_.at_edge(s.input_edge);
   if (threshold.surely_not_above(-exact::dot(p, q), exact::dot(p, p) * exact::dot(q, q))) return;
-  const ExactVector &m = left.normal, &n = right.normal;
+  const ExactVector m = left.normal(points_), n = right.normal(points_);
   const ExactNumber cosine = -exact::dot(m, n);
   if (cosine <= 0) return;
   judge(cosine, exact::squared(m) * exact::squared(n), exact::squared(exact::cross(m, n)),
@@ -319,7 +326,7 @@ void ChamferAngles::check_sector(Index v, const Segment& s, const Sector& sector
   const bool inside = left(o, i) > 0 ? left(o, end) > 0 && left(end, i) > 0
                                      : !(left(i, end) >= 0 && left(end, o) >= 0);
   if (!inside) return;
-  const ExactVector& n = facet.normal;
+  const ExactVector n = facet.normal(points_);
   const ExactVector d = exact::difference(points_, v, end);
   const ExactNumber height = exact::dot(n, d);
   const ExactNumber norms = exact::squared(n) * exact::squared(d), sine_squared = height * height;
@@ -343,9 +350,13 @@ class ChamferExtent {
   }
 
   OracleReport run() {
+    const std::vector<std::uint8_t> used = used_in(record_.refined, points_.size());
     std::vector<std::uint8_t> made(points_.size());
     for (const auto& [point, vertex] : record_.chamfer_points) {
       check_point(point, vertex);
+      if (used[point] == 0) {
+        report_.fail(complex_.vertex_name(point) + " was made by chamfering and is in no mesh");
+      }
       if (made[point]++ != 0) {
         report_.fail(complex_.vertex_name(point) + " was made by chamfering twice");
       }
@@ -435,7 +446,7 @@ void ChamferExtent::check_chain(const ExactRecord::Chain& chain) {
 
 // Is the midpoint in the closed facet, that is, in one of its closed triangles?
 bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) {
-  const ExactVector& normal = surface_.facets()[facet].normal;
+  const ExactVector normal = surface_.facets()[facet].normal(points_);
   return std::any_of(found_.begin(), found_.end(), [&](Index t) {
     if (surface_.facet_of_triangle()[t] != facet) return false;
     for (int i = 0; i < 3; ++i) {
@@ -451,7 +462,7 @@ bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) {
 
 // Does the edge cross the facet's border properly, through the inside of both?
 bool ChamferExtent::crosses_border(Index facet, Index a, Index b) {
-  const ExactVector& normal = surface_.facets()[facet].normal;
+  const ExactVector normal = surface_.facets()[facet].normal(points_);
   const auto side = [&](Index p, Index q, Index r) {
     return sgn(exact::dot(normal, exact::area2(points_, p, q, r)));
   };
@@ -474,14 +485,16 @@ void ChamferExtent::check_areas() {
     const ExactVector n = exact::area2(points_, a, b, c);
     for (int axis = 0; axis < 3; ++axis) area[f][axis] += n[axis];
   }
-  const std::vector<std::array<ExactSum, 3>> whole = surface_.facet_areas2(points_);
+  const InputSurface::Members members = surface_.members();
   for (Index f = 0; f < area.size(); ++f) {
     const InputSurface::Facet& facet = surface_.facets()[f];
+    const std::array<ExactSum, 3> whole = surface_.area2(points_, members.of(f));
+    const ExactVector normal = facet.normal(points_);
     // All areas are multiples of one vector, so one component of it that is not zero decides.
     std::size_t axis = 0;
-    while (axis < 2 && sgn(facet.normal[axis]) == 0) ++axis;
-    if (area[f][axis] == whole[f][axis]) continue;
-    if (difference(area[f][axis], whole[f][axis], 0) * sgn(facet.normal[axis]) > 0) {
+    while (axis < 2 && sgn(normal[axis]) == 0) ++axis;
+    if (area[f][axis] == whole[axis]) continue;
+    if (difference(area[f][axis], whole[axis], 0) * sgn(normal[axis]) > 0) {
       report_.fail("the faces on facet " + std::to_string(facet.id) + " cover more than the facet");
     }
   }

@@ -302,7 +302,7 @@ void ChamferCuts::add(const std::vector<Index>& chain, bool reversed) {
 
 void ChamferCuts::check_facet(Index f) {
   walked_ = {};
-  origin_ = surface_.facets()[f].vertex;
+  origin_ = surface_.facets()[f].span[0];
   bool followed = true;
   for (const std::size_t s : sides_of_[f]) {
     ++report_.checked;

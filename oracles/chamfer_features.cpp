@@ -104,8 +104,9 @@ double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) 
     if (!AcuteCorners::edge_present(edge, present)) continue;
     spokes.push_back(edge.from == v ? edge.to : edge.from);
     if (!corners_.edge_is_acute(e, present, thresholds_, Doubt::acute)) continue;
-    const double wedge = std::numbers::pi - angle_between(surface_.facets()[edge.left].normal,
-                                                          surface_.facets()[edge.right].normal);
+    const double wedge =
+        std::numbers::pi - angle_between(surface_.facets()[edge.left].normal(points_),
+                                         surface_.facets()[edge.right].normal(points_));
     for (const Index f : {edge.left, edge.right}) {
       const double height = strip(e, f, present);
       smallest = std::min({smallest, height, 2 * height * std::sin(wedge / 2)});
@@ -124,7 +125,7 @@ double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) 
       if (!present(f) || std::find(corner.begin(), corner.end(), spokes[i]) != corner.end())
         continue;
       const int k = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
-      const ExactVector& n = surface_.facets()[f].normal;
+      const ExactVector n = surface_.facets()[f].normal(points_);
       const auto left = [&](const ExactVector& x, const ExactVector& y) {
         return sgn(exact::dot(n, exact::cross(x, y)));
       };

@@ -25,6 +25,7 @@ struct ConformityOptions {
   double off_plane = 0;
   // The first failure ends the check, for a caller who only asks whether there is one.
   bool first_failure_ends = false;
+  bool want_chains = false;
   // With a tolerance: chains to try first, one per edge of the surface, from a record. Where edges
   // are less than the tolerance apart, positions alone do not tell to which of them a mesh edge
   // belongs. Given chains prove no less than found ones, because their structure is checked.
@@ -40,7 +41,7 @@ struct ConformityResult {
   std::vector<Face> faces;    // boundary faces of the solid, counter-clockwise from outside
   std::vector<Index> facets;  // per face: the input facet that it tiles, or kNone
   std::uint64_t chain_edges = 0;
-  std::vector<std::vector<Index>> chains;  // per edge of the surface; empty: not found
+  std::vector<std::vector<Index>> chains;  // per edge of the surface, if wanted; empty: not found
   // Where the check failed: at which edges of the surface, at which facets, and how often at
   // neither.
   std::vector<Index> failed_edges, failed_facets;

@@ -27,8 +27,8 @@ int left_turn(const ExactPoints& points, const InputSurface::Facet& facet, Index
   const IntervalVector x = points.rough_difference(v, p), y = points.rough_difference(v, q);
   const IntervalVector c = exact::cross(x, y);
   if (const int sign = exact::dot(facet.rough_normal, c).sign(); sign != 2) return sign;
-  return sgn(exact::dot(facet.normal, exact::cross(exact::difference(points, v, p),
-                                                   exact::difference(points, v, q))));
+  return sgn(exact::dot(facet.normal(points), exact::cross(exact::difference(points, v, p),
+                                                           exact::difference(points, v, q))));
 }
 
 AcuteCorners::AcuteCorners(const ExactPoints& points, const InputSurface& surface)
@@ -57,8 +57,8 @@ bool AcuteCorners::edge_is_acute(Index e, const Present& present,
   // The normals point away from each other where the facets enclose a sharp wedge, on either side.
   const IntervalVector &r = rough_normal(edge.left), &s = rough_normal(edge.right);
   if (bound.surely_not_above(-exact::dot(r, s), exact::dot(r, r) * exact::dot(s, s))) return false;
-  const ExactVector &m = surface_.facets()[edge.left].normal,
-                    &n = surface_.facets()[edge.right].normal;
+  const ExactVector m = surface_.facets()[edge.left].normal(points_),
+                    n = surface_.facets()[edge.right].normal(points_);
   const ExactNumber cosine = -exact::dot(m, n);
   if (cosine <= 0) return false;
   return bound.above(cosine, exact::squared(m) * exact::squared(n));
@@ -120,7 +120,7 @@ bool AcuteCorners::edge_meets_facet(Index v, Index to, const Present& present,
     if (before < 0 || (before == 0 && !is_flat(t, (i + 2) % 3))) continue;
     if (after <= 0 && before <= 0) continue;
     const ExactVector d = exact::difference(points_, v, to);
-    const ExactVector& n = surface_.facets()[f].normal;
+    const ExactVector n = surface_.facets()[f].normal(points_);
     const ExactNumber height = exact::dot(n, d), norms = exact::squared(n) * exact::squared(d);
     if (bound.beyond(norms - height * height, norms)) return true;
   }

@@ -31,9 +31,15 @@ Dyadic dyadic(double value) {
   return result;
 }
 
+void set_scaled(const Dyadic& value, long exponent, mpz_class& x) {
+  x = static_cast<long>(value.mantissa);
+  if (value.mantissa == 0) return;
+  mpz_mul_2exp(x.get_mpz_t(), x.get_mpz_t(), static_cast<unsigned long>(value.exponent - exponent));
+}
+
 mpz_class scaled(const Dyadic& value, long exponent) {
-  mpz_class result = static_cast<long>(value.mantissa);
-  if (result != 0) result <<= static_cast<unsigned long>(value.exponent - exponent);
+  mpz_class result;
+  set_scaled(value, exponent, result);
   return result;
 }
 
@@ -184,6 +190,18 @@ long parameter_exponent(std::span<const ExactPoint> points) {
 }
 
 // Adds parameter * (to - from); the product is an integer by the choice of the common exponent.
+void add_multiple(mpz_class& sum, double parameter, const mpz_class& from, const mpz_class& to) {
+  thread_local mpz_class step;
+  const Dyadic t = dyadic(parameter);
+  mpz_sub(step.get_mpz_t(), to.get_mpz_t(), from.get_mpz_t());
+  mpz_mul_si(step.get_mpz_t(), step.get_mpz_t(), static_cast<long>(t.mantissa));
+  if (t.exponent >= 0) {
+    mpz_mul_2exp(step.get_mpz_t(), step.get_mpz_t(), static_cast<unsigned long>(t.exponent));
+  } else {
+    mpz_tdiv_q_2exp(step.get_mpz_t(), step.get_mpz_t(), static_cast<unsigned long>(-t.exponent));
+  }
+  mpz_add(sum.get_mpz_t(), sum.get_mpz_t(), step.get_mpz_t());
+}
 void add_multiple(ExactNumber& sum, double parameter, const ExactNumber& from,
                   const ExactNumber& to) {
   const Dyadic t = dyadic(parameter);
@@ -258,61 +276,110 @@ std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Pla
       numerators[axis] = x[axis].get_num() * mpz_class(common / x[axis].get_den());
     }
     all_integers_ = all_integers_ && common == 1;
-    coordinates_[i] = ExactNumber::over(std::move(numerators), std::move(common));
+    implicit_[i] = static_cast<Index>(defined_.size());
+    defined_.emplace_back().placed = static_cast<Index>(placed_.size());
+    placed_.push_back(ExactNumber::over(std::move(numerators), std::move(common)));
   }
   return {};
 }
 
+void ExactPoints::define(Index i, const ExactPoint& p) {
+  Defined point{};
+  point.i = p.i;
+  point.j = p.j;
+  point.k = p.kind == Kind::on_triangle ? p.k : kNone;
+  point.u = p.x;
+  point.v = p.y;
+  const bool integers =
+      is_integer(p.i) && is_integer(p.j) && (point.k == kNone || is_integer(point.k));
+  if (!integers) {
+    point.placed = static_cast<Index>(placed_.size());
+    placed_.push_back(combined(point));
+  }
+  implicit_[i] = static_cast<Index>(defined_.size());
+  defined_.push_back(point);
+}
+
+void ExactPoints::combine_integers(const Defined& point, std::array<mpz_class, 3>& x) const {
+  thread_local std::array<mpz_class, 3> other, base;
+  integers(point.k == kNone ? point.j : point.k, base);
+  integers(point.i, other);
+  x = base;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    add_multiple(x[axis], point.u, base[axis], other[axis]);
+  }
+  if (point.k == kNone) return;
+  integers(point.j, other);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    add_multiple(x[axis], point.v, base[axis], other[axis]);
+  }
+}
+
+ExactVector ExactPoints::combined(const Defined& point) const {
+  const ExactVector base = exact(point.k == kNone ? point.j : point.k), first = exact(point.i);
+  ExactVector x = base;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    add_multiple(x[axis], point.u, base[axis], first[axis]);
+  }
+  if (point.k == kNone) return x;
+  const ExactVector second = exact(point.j);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    add_multiple(x[axis], point.v, base[axis], second[axis]);
+  }
+  return x;
+}
+
+void ExactPoints::integers(Index i, std::array<mpz_class, 3>& x) const {
+  if (implicit_[i] != kNone) {
+    const Defined& point = defined_[implicit_[i]];
+    if (point.placed == kNone) return combine_integers(point, x);
+    const ExactVector& placed = placed_[point.placed];
+    for (std::size_t axis = 0; axis < 3; ++axis) x[axis] = placed[axis].numerator();
+    return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    set_scaled(dyadic(nearest_[i][axis]), exponent_, x[axis]);
+  }
+}
+
+ExactVector ExactPoints::exact(Index i) const {
+  if (!is_integer(i)) return placed_[defined_[implicit_[i]].placed];
+  std::array<mpz_class, 3> x;
+  integers(i, x);
+  return {ExactNumber(std::move(x[0])), ExactNumber(std::move(x[1])), ExactNumber(std::move(x[2]))};
+}
+
 std::string ExactPoints::assign(std::span<const ExactPoint> points, Planes planes) {
-  coordinates_.clear();
-  nearest_.clear();
-  rest_.clear();
-  all_integers_ = true;
+  *this = {};
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::string why = check_point(points, planes.size(), i); !why.empty()) return why;
   }
-  coordinates_.resize(points.size());
+  implicit_.assign(points.size(), kNone);
   if (std::string why = place_on_planes(points, planes); !why.empty()) {
-    coordinates_.clear();
+    *this = {};
     return why;
   }
+  // Corners first: the others are given by them.
   nearest_.resize(points.size());
-  rest_.assign(points.size(), {0, 0, 0});
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const ExactPoint& p = points[i];
-    if (p.kind != Kind::explicit_point) continue;
-    const Position position = {p.x, p.y, p.z};
-    for (int axis = 0; axis < 3; ++axis) {
-      coordinates_[i][axis] = scaled(dyadic(position[axis]), exponent_);
-    }
-    nearest_[i] = position;
+    if (points[i].kind == Kind::explicit_point)
+      nearest_[i] = {points[i].x, points[i].y, points[i].z};
   }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const ExactPoint& p = points[i];
-    if (p.kind == Kind::explicit_point) continue;
-    const Index base = p.kind == Kind::on_triangle ? p.k : p.j;
-    for (int axis = 0; axis < 3; ++axis) {
-      ExactNumber& value = coordinates_[i][axis];
-      if (p.kind != Kind::on_planes) {
-        value = coordinates_[base][axis];
-        add_multiple(value, p.x, coordinates_[base][axis], coordinates_[p.i][axis]);
-        if (p.kind == Kind::on_triangle) {
-          add_multiple(value, p.y, coordinates_[base][axis], coordinates_[p.j][axis]);
-        }
-      }
-      nearest_[i][axis] = to_double(value, exponent_);
-      rest_[i][axis] = rest(value, exponent_, nearest_[i][axis]);
+  for (Index i = 0; i < points.size(); ++i) {
+    if (!is_corner(points[i])) define(i, points[i]);
+  }
+  for (Index i = 0; i < points.size(); ++i) {
+    if (implicit_[i] == kNone) continue;
+    const ExactVector x = exact(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      nearest_[i][axis] = to_double(x[axis], exponent_);
+      defined_[implicit_[i]].rest[axis] = oracles::rest(x[axis], exponent_, nearest_[i][axis]);
     }
   }
-  bool rounded = false;
-  largest_coordinate_ = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    rounded = rounded || points[i].kind != Kind::explicit_point;
-    for (const double x : nearest_[i]) {
-      largest_coordinate_ = std::max(largest_coordinate_, std::fabs(x));
-    }
+  for (const Position& p : nearest_) {
+    for (const double x : p) largest_coordinate_ = std::max(largest_coordinate_, std::fabs(x));
   }
-  difference_error_ = rounded ? largest_coordinate_ * 0x1p-50 : 0;
+  difference_error_ = defined_.empty() ? 0 : largest_coordinate_ * 0x1p-50;
   return {};
 }
 
@@ -372,7 +439,16 @@ Number insphere_determinant(const std::array<std::array<Number, 3>, 4>& r) {
 }  // namespace
 
 ExactVector difference(const ExactPoints& points, Index from, Index to) {
-  const ExactVector &p = points.exact(from), &q = points.exact(to);
+  if (points.is_integer(from) && points.is_integer(to)) {
+    thread_local std::array<mpz_class, 3> origin;
+    std::array<mpz_class, 3> x;
+    points.integers(from, origin);
+    points.integers(to, x);
+    for (std::size_t axis = 0; axis < 3; ++axis) x[axis] -= origin[axis];
+    return {ExactNumber(std::move(x[0])), ExactNumber(std::move(x[1])),
+            ExactNumber(std::move(x[2]))};
+  }
+  const ExactVector p = points.exact(from), q = points.exact(to);
   if (uniform(p, q)) return ExactNumber::difference(p, q);
   return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
 }
@@ -391,7 +467,12 @@ bool is_zero(const ExactVector& v) {
 }
 
 bool equal(const ExactPoints& points, Index a, Index b) {
-  return points.exact(a) == points.exact(b);
+  if (points.is_double(a) && points.is_double(b)) return points.nearest(a) == points.nearest(b);
+  const IntervalVector off = points.rough_difference(a, b);
+  for (const Interval& x : off) {
+    if (x.low > 0 || x.high < 0) return false;
+  }
+  return a == b || points.exact(a) == points.exact(b);
 }
 
 double distance(const ExactPoints& points, Index a, Index b) {
@@ -405,20 +486,17 @@ ExactNumber volume6(const ExactPoints& points, Index a, Index b, Index c, Index 
 
 const ExactNumber& Volume6::operator()(const ExactPoints& points,
                                        const std::array<Index, 4>& tetrahedron) {
-  const ExactVector& origin = points.exact(tetrahedron[0]);
   if (!points.all_integers()) {
     return value_ = dot(difference(points, tetrahedron[0], tetrahedron[1]),
                         cross(difference(points, tetrahedron[0], tetrahedron[2]),
                               difference(points, tetrahedron[0], tetrahedron[3])));
   }
-  std::array<const mpz_class*, 9> rows;
-  for (std::size_t i = 0; i < 9; ++i) {
-    const ExactVector& p = points.exact(tetrahedron[i / 3 + 1]);
-    mpz_sub(rows_[i].get_mpz_t(), p[i % 3].numerator().get_mpz_t(),
-            origin[i % 3].numerator().get_mpz_t());
-    rows[i] = &rows_[i];
+  points.integers(tetrahedron[0], origin_);
+  for (std::size_t i = 0; i < 3; ++i) {
+    points.integers(tetrahedron[i + 1], rows_[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) rows_[i][axis] -= origin_[axis];
   }
-  return determinant(rows);
+  return determinant();
 }
 
 const ExactNumber& Volume6::from_origin(const ExactPoints& points,
@@ -427,20 +505,18 @@ const ExactNumber& Volume6::from_origin(const ExactPoints& points,
     return value_ = dot(points.exact(triangle[0]),
                         cross(points.exact(triangle[1]), points.exact(triangle[2])));
   }
-  std::array<const mpz_class*, 9> rows;
-  for (std::size_t i = 0; i < 9; ++i) {
-    rows[i] = &points.exact(triangle[i / 3])[i % 3].numerator();
-  }
-  return determinant(rows);
+  for (std::size_t i = 0; i < 3; ++i) points.integers(triangle[i], rows_[i]);
+  return determinant();
 }
 
-const ExactNumber& Volume6::determinant(const std::array<const mpz_class*, 9>& rows) {
+const ExactNumber& Volume6::determinant() {
+  const auto& [p, q, r] = rows_;
   sum_ = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    mpz_mul(minor_.get_mpz_t(), rows[3 + j]->get_mpz_t(), rows[6 + k]->get_mpz_t());
-    mpz_submul(minor_.get_mpz_t(), rows[3 + k]->get_mpz_t(), rows[6 + j]->get_mpz_t());
-    mpz_addmul(sum_.get_mpz_t(), rows[i]->get_mpz_t(), minor_.get_mpz_t());
+    mpz_mul(minor_.get_mpz_t(), q[j].get_mpz_t(), r[k].get_mpz_t());
+    mpz_submul(minor_.get_mpz_t(), q[k].get_mpz_t(), r[j].get_mpz_t());
+    mpz_addmul(sum_.get_mpz_t(), p[i].get_mpz_t(), minor_.get_mpz_t());
   }
   value_.assign(sum_);
   return value_;

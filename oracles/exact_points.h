@@ -1,6 +1,8 @@
 // Points with exact coordinates: integers at one common power-of-two scale, over odd denominators
-// for points on planes. For the filter each coordinate is kept as two doubles as well: one within
-// an ulp, and the rest. Shares nothing with the mesher's arithmetic.
+// for points on planes. What is kept of each coordinate are two doubles, for the filter: one within
+// an ulp, and the rest. The integers are made anew from the definition whenever somebody asks,
+// because intervals nearly always suffice, and all of them take several times the memory of a mesh.
+// Shares nothing with the mesher's arithmetic.
 #pragma once
 
 #include <array>
@@ -34,20 +36,35 @@ class ExactPoints {
   // Plain doubles.
   std::string assign(std::span<const Position> positions);
 
-  std::size_t size() const { return coordinates_.size(); }
+  std::size_t size() const { return nearest_.size(); }
   // Coordinates times 2^-exponent().
-  const ExactVector& exact(Index i) const { return coordinates_[i]; }
+  ExactVector exact(Index i) const;
+  // Those of a point without denominators, in memory that is there already.
+  void integers(Index i, std::array<mpz_class, 3>& x) const;
+  // Is it exactly nearest(i)?
+  bool is_double(Index i) const { return implicit_[i] == kNone; }
+  bool is_integer(Index i) const { return is_double(i) || defined_[implicit_[i]].placed == kNone; }
   // Has no coordinate a denominator?
   bool all_integers() const { return all_integers_; }
+  // Is a point given on a segment or a triangle of no other corners than these? Then it is in their
+  // plane.
+  bool is_combination(Index v, const std::array<Index, 3>& corners) const {
+    if (is_double(v)) return false;
+    const Defined& p = defined_[implicit_[v]];
+    const auto among = [&corners](Index i) {
+      return i == corners[0] || i == corners[1] || i == corners[2];
+    };
+    return among(p.i) && among(p.j) && (p.k == kNone || among(p.k));
+  }
   long exponent() const { return exponent_; }
   // Encloses the coordinates (in true units); a single point if they are doubles.
   IntervalVector enclosure(Index i) const {
-    const Position &p = nearest_[i], &r = rest_[i];
+    const Position &p = nearest_[i], &r = rest(i);
     return {around(p[0], r[0]), around(p[1], r[1]), around(p[2], r[2])};
   }
   // Encloses the vector between two points, to about an ulp of itself.
   IntervalVector rough_difference(Index from, Index to) const {
-    const Position &p = nearest_[from], &q = nearest_[to], &r = rest_[from], &s = rest_[to];
+    const Position &p = nearest_[from], &q = nearest_[to], &r = rest(from), &s = rest(to);
     return {gap(p[0], r[0], q[0], s[0]), gap(p[1], r[1], q[1], s[1]), gap(p[2], r[2], q[2], s[2])};
   }
   // A double within an ulp of the coordinates, in true units.
@@ -73,11 +90,31 @@ class ExactPoints {
     return {x - slack, x + slack};
   }
 
-  std::string place_on_planes(std::span<const delmesher::ExactPoint> points, Planes planes);
+  // A point that is not explicit.
+  struct Defined {
+    Position rest;
+    // On a segment or a triangle of these, by these shares; k is kNone on a segment.
+    Index i = kNone, j = kNone, k = kNone;
+    // Coordinates with denominators: where in placed_ they are.
+    Index placed = kNone;
+    double u = 0, v = 0;
+  };
 
-  std::vector<ExactVector> coordinates_;
+  const Position& rest(Index i) const {
+    static constexpr Position kExact = {0, 0, 0};
+    return is_double(i) ? kExact : defined_[implicit_[i]].rest;
+  }
+  std::string place_on_planes(std::span<const delmesher::ExactPoint> points, Planes planes);
+  void define(Index i, const delmesher::ExactPoint& p);
+  // From their corners, which are defined.
+  void combine_integers(const Defined& point, std::array<mpz_class, 3>& x) const;
+  ExactVector combined(const Defined& point) const;
+
+  std::vector<Position> nearest_;
+  std::vector<Index> implicit_;  // per point: where in defined_ it is, kNone if it is explicit
+  std::vector<Defined> defined_;
+  std::vector<ExactVector> placed_;
   bool all_integers_ = true;
-  std::vector<Position> nearest_, rest_;
   long exponent_ = 0;
   double largest_coordinate_ = 0, difference_error_ = 0;
 };
@@ -110,9 +147,10 @@ class Volume6 {
   const ExactNumber& from_origin(const ExactPoints& points, const std::array<Index, 3>& triangle);
 
  private:
-  const ExactNumber& determinant(const std::array<const mpz_class*, 9>& rows);
+  const ExactNumber& determinant();
 
-  std::array<mpz_class, 9> rows_;
+  std::array<std::array<mpz_class, 3>, 3> rows_;
+  std::array<mpz_class, 3> origin_;
   mpz_class minor_, sum_;
   ExactNumber value_;
 };

@@ -41,7 +41,52 @@ std::string edge_name(Index a, Index b) {
   return "edge " + std::to_string(a) + "-" + std::to_string(b);
 }
 
+double middle(const Interval& x) {
+  return x.low / 2 + x.high / 2;
+}
+
+// By intervals where these are narrow, as they are unless the largest triangle is a needle.
+IntervalVector rough_normal_of(const InputSurface::Facet& facet, const ExactPoints& points) {
+  if (!facet.sum) {
+    IntervalVector area = exact::rough_area2(points, facet.span[0], facet.span[1], facet.span[2]);
+    double size = 0, width = 0;
+    for (const Interval& x : area) {
+      size = std::max(size, std::fabs(middle(x)));
+      width = std::max(width, x.high - x.low);
+    }
+    if (width <= 0x1p-48 * size) return area;
+  }
+  const ExactVector normal = facet.normal(points);
+  IntervalVector result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = to_double(normal[axis], 2 * points.exponent());
+    result[axis] = Interval::around(x, x);
+  }
+  return result;
+}
+
 }  // namespace
+
+ExactVector InputSurface::Facet::normal(const ExactPoints& points) const {
+  return sum ? *sum : exact::area2(points, span[0], span[1], span[2]);
+}
+
+int InputSurface::Facet::side(const ExactPoints& points, Index v) const {
+  if (v == span[0]) return 0;
+  const int rough = exact::dot(rough_normal, points.rough_difference(span[0], v)).sign();
+  if (rough != 2) return rough;
+  if (sum) return sgn(exact::dot(*sum, exact::difference(points, span[0], v)));
+  if (v == span[1] || v == span[2] || points.is_combination(v, span)) return 0;
+  return exact::orient3d(points, span[0], span[1], span[2], v);
+}
+
+int InputSurface::Facet::facing(const ExactPoints& points,
+                                const std::array<Index, 3>& triangle) const {
+  const auto& [a, b, c] = triangle;
+  const int rough = exact::dot(rough_normal, exact::rough_area2(points, a, b, c)).sign();
+  if (rough != 2) return rough;
+  return sgn(exact::dot(normal(points), exact::area2(points, a, b, c)));
+}
 
 std::string InputSurface::assign(const Polyhedron& polyhedron, const ExactPoints& points) {
   triangles_ = polyhedron.triangles;
@@ -167,11 +212,11 @@ void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints&
       if (flat && exact::dot(area2(points, t), area2(points, n)) > 0) groups.unite(t, n);
     }
   }
-  number_facets([&](Index t) { return groups.find(t); }, label, points);
+  number_facets([&](Index t) { return groups.find(t); }, label, true, points);
 }
 
 void InputSurface::number_facets(const std::function<Index(Index)>& representative,
-                                 const std::function<std::int32_t(Index)>& label,
+                                 const std::function<std::int32_t(Index)>& label, bool planar,
                                  const ExactPoints& points) {
   facets_.clear();
   facet_of_triangle_.assign(triangles_.size(), kNone);
@@ -179,37 +224,70 @@ void InputSurface::number_facets(const std::function<Index(Index)>& representati
     const Index root = representative(t);
     if (root == t) {
       facet_of_triangle_[t] = static_cast<Index>(facets_.size());
-      facets_.push_back({t, label(t), {}, triangles_[t][0], 0, {}});
+      facets_.push_back({.id = t, .label = label(t)});
     }
     facet_of_triangle_[t] = facet_of_triangle_[root];
-    Facet& facet = facets_[facet_of_triangle_[t]];
-    ExactVector area = area2(points, t);
-    // The denominator of a sum of many areas would outgrow all memory, so the normal of one
-    // triangle that is not flat serves.
-    if (points.all_integers()) {
-      for (int axis = 0; axis < 3; ++axis) facet.normal[axis] += area[axis];
-    } else if (exact::is_zero(facet.normal)) {
-      facet.normal = std::move(area);
-    }
   }
-  for (Facet& facet : facets_) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const double x = to_double(facet.normal[axis], 2 * points.exponent());
-      facet.rough_normal[axis] = Interval::around(x, x);
-    }
-  }
+  find_normals(planar, points);
   count_euler();
 }
 
-std::vector<std::array<ExactSum, 3>> InputSurface::facet_areas2(const ExactPoints& points) const {
-  std::vector<std::array<ExactSum, 3>> areas(facets_.size());
-  for (Index t = 0; t < triangles_.size(); ++t) {
-    const ExactVector area = area2(points, t);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      areas[facet_of_triangle_[t]][axis] += area[axis];
+// A planar facet has the normal of any of its triangles that is not flat; the largest one's is
+// known best. Of another one it is the sum of the area vectors, or, as the denominator of a sum of
+// many would outgrow all memory, that of its largest triangle.
+void InputSurface::find_normals(bool planar, const ExactPoints& points) {
+  const Members all = members();
+  for (Index f = 0; f < facets_.size(); ++f) {
+    Facet& facet = facets_[f];
+    double largest = -1;
+    for (const Index t : all.of(f)) {
+      const auto& [a, b, c] = triangles_[t];
+      const IntervalVector area = exact::rough_area2(points, a, b, c);
+      double size = 0;
+      for (const Interval& x : area) size = std::max(size, std::fabs(middle(x)));
+      if (!(size > largest)) continue;
+      largest = size;
+      facet.span = triangles_[t];
     }
+    if (largest <= 0) {  // flat as far as doubles tell
+      for (const Index t : all.of(f)) {
+        facet.span = triangles_[t];
+        if (!exact::is_zero(area2(points, t))) break;
+      }
+    }
+    if (!planar && all.of(f).size() > 1 && points.all_integers()) {
+      ExactVector sum;
+      for (const Index t : all.of(f)) {
+        const ExactVector area = area2(points, t);
+        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += area[axis];
+      }
+      facet.sum = std::make_shared<const ExactVector>(std::move(sum));
+    }
+    facet.rough_normal = rough_normal_of(facet, points);
   }
-  return areas;
+}
+
+InputSurface::Members InputSurface::members() const {
+  Members result;
+  result.first.assign(facets_.size() + 1, 0);
+  for (const Index f : facet_of_triangle_) ++result.first[f + 1];
+  std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
+  result.triangles.resize(triangles_.size());
+  std::vector<Index> next(result.first.begin(), result.first.end() - 1);
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    result.triangles[next[facet_of_triangle_[t]]++] = t;
+  }
+  return result;
+}
+
+std::array<ExactSum, 3> InputSurface::area2(const ExactPoints& points,
+                                            std::span<const Index> triangles) const {
+  std::array<ExactSum, 3> sum;
+  for (const Index t : triangles) {
+    const ExactVector area = area2(points, t);
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += area[axis];
+  }
+  return sum;
 }
 
 ExactVector InputSurface::area2(const ExactPoints& points, Index t) const {
@@ -225,6 +303,10 @@ void InputSurface::unite_polygons(const Polyhedron& polyhedron, const ExactPoint
   for (std::size_t first = 0; first < polygon.size();) {
     std::size_t last = first + 1;
     while (last < polygon.size() && polygon[last] == polygon[first]) ++last;
+    if (last == first + 1) {  // a triangle
+      first = last;
+      continue;
+    }
     ExactVector normal;
     for (std::size_t t = first; t < last; ++t) {
       const ExactVector area = area2(points, static_cast<Index>(t));
@@ -279,7 +361,7 @@ double InputSurface::unite_facets(const std::vector<Index>& across, double thin,
     groups.unite(left.id, right.id);
     united.push_back(left.id);
   }
-  number_facets([&](Index t) { return groups.find(t); }, [&](Index t) { return labels[t]; },
+  number_facets([&](Index t) { return groups.find(t); }, [&](Index t) { return labels[t]; }, false,
                 points);
   build_edges();
   std::vector<std::uint8_t> asked(facets_.size(), 0);
@@ -299,39 +381,47 @@ double InputSurface::group_facets(const std::vector<Index>& group, double thin,
       if (group[t] == group[n] && labels[t] == labels[n]) groups.unite(t, n);
     }
   }
-  number_facets([&](Index t) { return groups.find(t); }, [&](Index t) { return labels[t]; },
+  number_facets([&](Index t) { return groups.find(t); }, [&](Index t) { return labels[t]; }, false,
                 points);
   build_edges();
   return widest_slab(std::vector<std::uint8_t>(facets_.size(), 1), thin, points);
 }
 
+bool InputSurface::is_thin(Index t, double thin, const ExactPoints& points) const {
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    longest =
+        std::max(longest, exact::distance(points, triangles_[t][i], triangles_[t][(i + 1) % 3]));
+  }
+  return length(area2(points, t), 2 * points.exponent()) <= thin * longest;
+}
+
 double InputSurface::widest_slab(const std::vector<std::uint8_t>& asked, double thin,
                                  const ExactPoints& points) const {
   double widest = 0;
-  std::vector<std::array<double, 2>> slab(facets_.size(), {0, 0});
-  for (Index t = 0; t < triangles_.size(); ++t) {
-    const Index f = facet_of_triangle_[t];
+  const Members all = members();
+  for (Index f = 0; f < facets_.size(); ++f) {
     if (asked[f] == 0) continue;
-    const double unit = length(facets_[f].normal, 2 * points.exponent());
+    const Facet& facet = facets_[f];
+    const ExactVector normal = facet.normal(points);
+    const double unit = length(normal, 2 * points.exponent());
     if (unit == 0) return HUGE_VAL;
-    const ExactVector area = area2(points, t);
-    if (exact::dot(area, facets_[f].normal) < 0) {
-      double longest = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        longest = std::max(longest,
-                           exact::distance(points, triangles_[t][i], triangles_[t][(i + 1) % 3]));
+    if (all.of(f).size() == 1) continue;  // in one plane
+    double low = 0, high = 0;
+    for (const Index t : all.of(f)) {
+      if (facet.facing(points, triangles_[t]) < 0 && !is_thin(t, thin, points)) return HUGE_VAL;
+      for (const Index v : triangles_[t]) {
+        if (facet.side(points, v) == 0) continue;
+        const double height =
+            to_double(exact::dot(normal, exact::difference(points, facet.span[0], v)),
+                      3 * points.exponent()) /
+            unit;
+        low = std::min(low, height);
+        high = std::max(high, height);
       }
-      if (!(length(area, 2 * points.exponent()) <= thin * longest)) return HUGE_VAL;
     }
-    for (const Index v : triangles_[t]) {
-      const double height =
-          to_double(exact::dot(facets_[f].normal, exact::difference(points, facets_[f].vertex, v)),
-                    3 * points.exponent()) /
-          unit;
-      slab[f] = {std::min(slab[f][0], height), std::max(slab[f][1], height)};
-      // The few roundings of measuring stay below this factor.
-      widest = std::max(widest, (slab[f][1] - slab[f][0]) * (1 + 1e-12));
-    }
+    // The few roundings of measuring stay below this factor.
+    widest = std::max(widest, (high - low) * (1 + 1e-12));
   }
   return widest;
 }

@@ -67,10 +67,19 @@ class InputSurface {
   struct Facet {
     Index id;  // smallest triangle index
     std::int32_t label;
-    ExactVector normal;           // outwards; exact
-    Index vertex;                 // one of its corners
-    std::int64_t euler;           // of the union of its closed triangles, flat edges included
-    IntervalVector rough_normal;  // encloses the normal, in units of length
+    std::int64_t euler = 0;         // of the union of its closed triangles, flat edges included
+    std::array<Index, 3> span{};    // the corners of its largest triangle
+    IntervalVector rough_normal{};  // encloses the normal, in units of length
+    // If it was made of facets that are not in one plane: the sum of its area vectors. Exact
+    // numbers of all facets would take more memory than all the rest.
+    std::shared_ptr<const ExactVector> sum{};
+
+    // Outwards; exact.
+    ExactVector normal(const ExactPoints& points) const;
+    // The side of the plane through span[0] on which a vertex lies: 1 outside, 0 on it, -1 inside.
+    int side(const ExactPoints& points, Index v) const;
+    // The sign of the cosine of the angle between the normals of a triangle and of this facet.
+    int facing(const ExactPoints& points, const std::array<Index, 3>& triangle) const;
   };
 
   // Empty on success, else why the polyhedron bounds no solid (open, not orientable, no volume).
@@ -91,8 +100,17 @@ class InputSurface {
   const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
   const std::vector<Facet>& facets() const { return facets_; }
   const std::vector<Index>& facet_of_triangle() const { return facet_of_triangle_; }
-  // Twice the area vector of each facet. They would take more memory than all the rest.
-  std::vector<std::array<ExactSum, 3>> facet_areas2(const ExactPoints& points) const;
+  // The triangles of each facet, one facet after another, and where each facet's begin (and the
+  // last one's end).
+  struct Members {
+    std::vector<Index> triangles, first;
+    std::span<const Index> of(Index facet) const {
+      return std::span(triangles).subspan(first[facet], first[facet + 1] - first[facet]);
+    }
+  };
+  Members members() const;
+  // Twice the area vector of the union of some triangles.
+  std::array<ExactSum, 3> area2(const ExactPoints& points, std::span<const Index> triangles) const;
   // The triangle across the edge from corner i to corner i + 1.
   Index neighbour(Index triangle, int i) const { return neighbours_[triangle][i]; }
   const std::vector<Edge>& edges() const { return edges_; }
@@ -138,8 +156,12 @@ class InputSurface {
                       const std::function<void(Index, Index)>& unite) const;
   ExactVector area2(const ExactPoints& points, Index t) const;
   void number_facets(const std::function<Index(Index)>& representative,
-                     const std::function<std::int32_t(Index)>& label, const ExactPoints& points);
+                     const std::function<std::int32_t(Index)>& label, bool planar,
+                     const ExactPoints& points);
+  void find_normals(bool planar, const ExactPoints& points);
   void count_euler();
+  // Is the triangle's height over its longest edge at most this?
+  bool is_thin(Index t, double thin, const ExactPoints& points) const;
   double widest_slab(const std::vector<std::uint8_t>& asked, double thin,
                      const ExactPoints& points) const;
   void build_edges();

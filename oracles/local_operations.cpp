@@ -12,9 +12,11 @@ using delmesher::ExactRecord;
 
 // The nearest doubles of a point without denominators, as all written points are.
 Position rounded(const ExactPoints& points, Index v) {
+  if (points.is_double(v)) return points.nearest(v);
+  const ExactVector exact = points.exact(v);
   Position result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const mpz_class& x = points.exact(v)[axis].numerator();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const mpz_class& x = exact[axis].numerator();
     const std::size_t bits = x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2);
     if (bits <= 53) {
       result[axis] = to_double(x, points.exponent());

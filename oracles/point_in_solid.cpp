@@ -53,10 +53,12 @@ class Centroid {
   ExactVector from(Index vertex) const {
     ExactVector result;
     for (const Index v : corners_) {
-      for (int axis = 0; axis < 3; ++axis) result[axis] += points_.exact(v)[axis];
+      const ExactVector x = points_.exact(v);
+      for (std::size_t axis = 0; axis < 3; ++axis) result[axis] += x[axis];
     }
     const ExactNumber count(static_cast<long>(corners_.size()));
-    for (int axis = 0; axis < 3; ++axis) result[axis] -= points_.exact(vertex)[axis] * count;
+    const ExactVector x = points_.exact(vertex);
+    for (std::size_t axis = 0; axis < 3; ++axis) result[axis] -= x[axis] * count;
     return result;
   }
 
@@ -359,7 +361,7 @@ InputSurface::Contact InputSurface::contact(const ExactPoints& points,
     const auto [at, fresh] = known.try_emplace(key, 0);
     if (fresh) {  // the triangle itself may be flat, but its facet is not
       const Facet& facet = facets_[facet_of_triangle_[t]];
-      at->second = sgn(exact::dot(facet.normal, exact::difference(points, facet.vertex, v)));
+      at->second = facet.side(points, v);
     }
     return at->second;
   };

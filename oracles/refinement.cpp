@@ -121,7 +121,7 @@ void Segments::check_artificial(std::size_t n, const ExactRecord::Chain& chain) 
   const ExactNumber length2 = exact::squared(along);
   ExactNumber reached = 0;
   for (const Index v : chain.vertices) {
-    if (exact::dot(plane.normal, exact::difference(points_, plane.vertex, v)) != 0) {
+    if (plane.side(points_, v) != 0) {
       report_.fail(name + ": " + complex_.vertex_name(v) + " is off the plane of facet " +
                    std::to_string(chain.facet));
     }
@@ -179,8 +179,8 @@ void Segments::check_ends() {
     if (!facets_.kept(edge.left) && !facets_.kept(edge.right)) continue;
     if (first_[e] == kNone) {
       ++missing;
-      const ExactVector &n = surface_.facets()[edge.left].normal,
-                        &m = surface_.facets()[edge.right].normal;
+      const ExactVector n = surface_.facets()[edge.left].normal(points_),
+                        m = surface_.facets()[edge.right].normal(points_);
       // The dihedral angle is acute exactly if that of the outward normals is obtuse.
       const bool acute = facets_.kept(edge.left) && facets_.kept(edge.right) &&
                          exact::dot(n, m) < 0 && corner_.contains(edge.from) &&
@@ -270,12 +270,12 @@ void RefinedFacets::check_face(Face face, Index id) {
   }
   const InputSurface::Facet& facet = surface_.facets()[f];
   for (const Index v : face) {
-    if (exact::dot(facet.normal, exact::difference(points_, facet.vertex, v)) != 0) {
+    if (facet.side(points_, v) != 0) {
       report_.fail(complex_.vertex_name(v) + " is off the plane of facet " + std::to_string(id));
     }
   }
   if (!facets_.kept(f)) report_.fail(complex_.face_name(face) + " lies on a filtered facet");
-  if (exact::dot(exact::area2(points_, face[0], face[1], face[2]), facet.normal) <= 0) {
+  if (facet.facing(points_, face) <= 0) {
     report_.fail(complex_.face_name(face) + " is folded over on facet " + std::to_string(id));
   }
   for (int i = 0; i < 3; ++i) sides_.emplace_back(f, directed_key(face[i], face[(i + 1) % 3]));

@@ -341,10 +341,11 @@ class SameMesh {
 
 // The square of the exact distance of a written position from the point, in squares of input units.
 mpq_class exact_distance2(const Position& written, const ExactPoints& points, Index v) {
+  const ExactVector exact = points.exact(v);
   mpq_class sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const mpq_class off = mpq_class(written[axis]) -
-                          times_power_of_two(points.exact(v)[axis].rational(), points.exponent());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const mpq_class off =
+        mpq_class(written[axis]) - times_power_of_two(exact[axis].rational(), points.exponent());
     sum += off * off;
   }
   return sum;
@@ -383,6 +384,9 @@ OracleReport check_rounding(const MeshFile& mesh, const ExactRecord& record,
     const Position p = points.nearest(v), q = mesh.vertices[i];
     const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
     largest = std::max(largest, distance);
+    if (v < options.input_vertices && p != q && options.allowed == 0) {
+      report.fail("input vertex " + std::to_string(v) + " is not written where it was given");
+    }
     // The distance in doubles is off by less than two ulp.
     if (distance <= gate - 2 * options.ulp) continue;
     if (std::isfinite(distance) &&

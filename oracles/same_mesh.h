@@ -8,8 +8,9 @@
 namespace tetproof::oracles {
 
 struct SameMeshOptions {
-  double ulp = 0;      // of the largest coordinate of the surface, in input units
-  double allowed = 0;  // a declared deviation, in input units
+  double ulp = 0;            // of the largest coordinate of the surface, in input units
+  double allowed = 0;        // a declared deviation, in input units
+  Index input_vertices = 0;  // the first points
 };
 
 // The tetrahedra of the file are, through mesh_vertices and one to one, those of the last mesh of
@@ -22,7 +23,8 @@ OracleReport check_same_mesh(const MeshFile& mesh, const delmesher::ExactRecord&
                              const Promise& promise, bool labelled);
 
 // No two vertices of the file are the same point of the record, and every one is within 4 ulp of
-// its exact place in each coordinate, or within what was declared.
+// its exact place in each coordinate, or within what was declared. Without that, vertices of the
+// input are where they were given.
 OracleReport check_rounding(const MeshFile& mesh, const delmesher::ExactRecord& record,
                             const ExactPoints& points, const SameMeshOptions& options);
 

@@ -65,7 +65,7 @@ std::string endless(const ExactRecord& record) {
 }
 
 // Names a section with a number of no point, or of no triangle of the input, so that nothing can be
-// decided; empty if there is none. Tetrahedra and written vertices are for other oracles.
+// decided; empty if there is none. Written vertices are for other oracles.
 std::string out_of_range(const ExactRecord& record, std::size_t triangles) {
   const std::size_t points = record.points.size();
   const auto all_below = [](const auto& list, std::size_t count) {
@@ -85,6 +85,11 @@ std::string out_of_range(const ExactRecord& record, std::size_t triangles) {
   }
   for (const ExactRecord::Ball& ball : record.balls) {
     if (ball.vertex >= points || !all_below(ball.tetrahedron, points)) return "balls";
+  }
+  for (const auto* tets : {&record.refined, &record.final, &record.unrepaired}) {
+    for (const ExactRecord::Tet& tet : *tets) {
+      if (!all_below(tet.vertices, points)) return "tetrahedra";
+    }
   }
   for (const auto* faces :
        {&record.refined_facets, &record.final_facets, &record.unrepaired_facets}) {
@@ -124,6 +129,12 @@ class Shared {
 
     const ExactPoints& written() const { return given.size() > 0 ? given : points; }
   };
+  struct Final {
+    TetComplex complex;
+    Neighbours neighbours;
+    OracleReport shape{"complex"};
+    ConformityResult conformity;  // with chains; empty unless the shape passed
+  };
   struct Refined {
     TetComplex complex;
     Neighbours neighbours;
@@ -137,6 +148,13 @@ class Shared {
   const Sidecar& sidecar() {
     sidecar_once_([this] { read_sidecar(); });
     return sidecar_;
+  }
+  // The final mesh of the record. Only for a usable sidecar.
+  std::shared_ptr<const Final> final();
+  // Its memory, once its own oracles are done.
+  void forget_final() {
+    const std::lock_guard<std::mutex> lock(final_mutex_);
+    final_.reset();
   }
   // The arguments of the oracles of the refined mesh, once there is one.
   RefinedMesh refined_mesh() const {
@@ -166,9 +184,26 @@ class Shared {
   const ExactRecord* exact_;
   const Promise& promise_;
   Once sidecar_once_, refined_once_;
+  std::mutex final_mutex_;
+  std::shared_ptr<const Final> final_;
   Sidecar sidecar_;
   Refined refined_;
 };
+
+std::shared_ptr<const Shared::Final> Shared::final() {
+  const Sidecar& s = sidecar();
+  const std::lock_guard<std::mutex> lock(final_mutex_);
+  if (final_) return final_;
+  const auto made = std::make_shared<Final>();
+  made->complex = complex_of(exact_->final, s.points);
+  made->shape = check_complex(made->complex, made->neighbours);
+  if (made->shape.passed()) {
+    made->conformity = check_conformity(made->complex, made->neighbours, s.surface,
+                                        {.exact = true, .want_chains = true});
+  }
+  final_ = made;
+  return final_;
+}
 
 void Shared::read_sidecar() {
   Sidecar& s = sidecar_;
@@ -270,6 +305,7 @@ class Verification {
                                const std::vector<FaceOnFacet>& listed) const;
   void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                          const InputSurface& surface);
+  void check_unrepaired(const ExactPoints& points, const InputSurface& surface);
   void check_promises(const RefinedMesh& mesh);
   OracleReport check_contained(const TetComplex& complex, const Places& places) const;
   OracleReport check_edges(const TetComplex& complex) const;
@@ -422,16 +458,18 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   ConformityOptions rounded{.exact = false};
   // A solid may be so small that roundings are a larger share of its diagonal.
   rounded.largest_tolerance = std::max(rounded.largest_tolerance, rounding);
-  result = check(surface, rounded);
-  if (planar == 0 || (result.report.passed() && result.deviation <= kRoundedUlps * ulp_)) {
-    return result;
-  }
-  rounded.largest_tolerance = rounding;
+  const auto at_most_deviating = [&] { return check(surface, rounded); };
+  if (planar == 0) return at_most_deviating();
+  ConformityOptions as_rounded = rounded;
+  as_rounded.largest_tolerance = rounding;
+  result = check(surface, as_rounded);
+  if (result.report.passed() && result.deviation <= kRoundedUlps * ulp_) return result;
+  const std::vector<Index> failed_edges = std::move(result.failed_edges);
   const double bound = planar * diagonal_;
   const auto conforms_to = [&](InputSurface& flat, double width) {
     if (!(width <= bound)) return false;
-    rounded.off_plane = width + kRoundedUlps * ulp_;
-    ConformityResult of_flat = check(flat, rounded);
+    as_rounded.off_plane = width + kRoundedUlps * ulp_;
+    ConformityResult of_flat = check(flat, as_rounded);
     if (!of_flat.report.passed()) return false;
     of_flat.slab = width;
     of_flat.deviation = std::max(of_flat.deviation, width);
@@ -442,18 +480,17 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
     result = std::move(of_flat);
     return true;
   };
-  const std::vector<Index> failed_edges = check(surface, rounded).failed_edges;
   InputSurface flat = surface;
   const double width = flat.unite_facets(failed_edges, bound, *complex.points);
-  if (conforms_to(flat, width) || exact_ == nullptr) return result;
+  if (conforms_to(flat, width)) return result;
   // Triangles no wider than roundings may belong to one facet or to another. The record says to
   // which, and whether that is a facet is decided as before.
+  if (exact_ == nullptr) return at_most_deviating();
   const std::vector<Index> named = recorded_facets();
-  if (named.size() != surface.triangles().size()) return result;
+  if (named.size() != surface.triangles().size()) return at_most_deviating();
   flat = surface;
   const double named_width = flat.group_facets(named, bound, *complex.points);
-  conforms_to(flat, named_width);
-  return result;
+  return conforms_to(flat, named_width) ? result : at_most_deviating();
 }
 
 // Per triangle of the input the facet that has it, by the record; empty if a triangle is in none.
@@ -505,11 +542,9 @@ std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface
   std::vector<std::vector<Index>> chains(surface.edges().size());
   const Shared::Sidecar& sidecar = shared_.sidecar();
   if (!sidecar.usable) return chains;
-  const TetComplex complex = complex_of(exact_->final, sidecar.points);
-  Neighbours neighbours;
-  if (!check_complex(complex, neighbours).passed()) return chains;
-  const ConformityResult exact =
-      check_conformity(complex, neighbours, sidecar.surface, {.exact = true});
+  const std::shared_ptr<const Shared::Final> final = shared_.final();
+  if (!final->shape.passed()) return chains;
+  const ConformityResult& exact = final->conformity;
   std::vector<Index> written(sidecar.points.size(), kNone);
   for (std::size_t i = 0; i < exact_->mesh_vertices.size(); ++i) {
     const Index v = exact_->mesh_vertices[i];
@@ -578,7 +613,9 @@ std::string Verification::check_sidecar() {
   add(check_facet_list(sidecar.surface));
   add(check_same_mesh(mesh_, *exact_, options_.promised, !input_.labels.empty()));
   add(check_rounding(mesh_, *exact_, sidecar.written(),
-                     {.ulp = ulp_, .allowed = options_.declared_deviation * diagonal_}));
+                     {.ulp = ulp_,
+                      .allowed = options_.declared_deviation * diagonal_,
+                      .input_vertices = static_cast<Index>(input_.vertices.size())}));
   return {};
 }
 
@@ -599,6 +636,9 @@ std::string Verification::check_exact_final() {
   const InputSurface& surface = sidecar.surface;
   ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
   check_final_complex(points, surface);
+  const bool usable = shared_.final()->shape.passed();
+  shared_.forget_final();
+  if (usable && !exact_->unrepaired.empty()) check_unrepaired(points, surface);
 #ifdef TETPROOF_SECOND_OPINIONS
   add(check_second_kernel(input_, surface, *exact_, points, options_.sidecar), "exact-");
 #endif
@@ -606,17 +646,13 @@ std::string Verification::check_exact_final() {
 }
 
 void Verification::check_final_complex(const ExactPoints& points, const InputSurface& surface) {
-  const TetComplex complex = complex_of(exact_->final, points);
-  Neighbours neighbours;
-  OracleReport shape = check_complex(complex, neighbours);
-  const bool usable = shape.passed();
-  add(std::move(shape), "exact-");
-  if (!usable) return;
+  const std::shared_ptr<const Shared::Final> final = shared_.final();
+  const auto& [complex, neighbours, shape, conformity] = *final;
+  add(shape, "exact-");
+  if (!shape.passed()) return;
   add(check_orientation(complex), "exact-");
   add(check_interior(complex, neighbours, surface, walls_of(complex, exact_->final_facets)),
       "exact-");
-  const ConformityResult conformity =
-      check_conformity(complex, neighbours, surface, {.exact = true});
   add(conformity.report, "exact-");
   add(check_volume(complex, neighbours, surface, 0), "exact-");
   add(check_hull(complex, neighbours), "exact-");
@@ -670,28 +706,32 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
       check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = !repaired});
   // Where nothing is demanded, a mesh all of whose faces are on the surface has nothing to count.
   if (!repaired || delaunay.checked > 0) add(std::move(delaunay), "exact-");
-  if (!repaired) return;
+}
+
+void Verification::check_unrepaired(const ExactPoints& points, const InputSurface& surface) {
   add((options_.promised.improve ? check_improvement : check_repairs)(
       *exact_, shared_.sidecar().written(), options_.promised));
-  const TetComplex before = complex_of(exact_->unrepaired, *complex.points);
-  Neighbours neighbours_before;
-  OracleReport shape = check_complex(before, neighbours_before);
+  const TetComplex before = complex_of(exact_->unrepaired, points);
+  Neighbours neighbours;
+  OracleReport shape = check_complex(before, neighbours);
   const bool usable = shape.passed();
   add(std::move(shape), "unrepaired-");
   if (!usable) return;
   add(check_orientation(before), "unrepaired-");
   // Else the unrepaired mesh could leave out the part that is wrong in the final one.
-  add(check_hull(before, neighbours_before), "unrepaired-");
+  add(check_hull(before, neighbours), "unrepaired-");
   // The record lists none if repairs did not change them.
   const auto& listed =
       exact_->unrepaired_facets.empty() ? exact_->final_facets : exact_->unrepaired_facets;
-  const ConformityResult conformity =
-      check_conformity(before, neighbours_before, surface, {.exact = true});
-  add(conformity.report, "unrepaired-");
-  add(check_facet_ids(before, conformity, surface, listed), "unrepaired-");
-  constraints.clear();
+  {
+    const ConformityResult conformity =
+        check_conformity(before, neighbours, surface, {.exact = true});
+    add(conformity.report, "unrepaired-");
+    add(check_facet_ids(before, conformity, surface, listed), "unrepaired-");
+  }
+  std::vector<Face> constraints;
   for (const auto& [a, b, c, id] : listed) constraints.push_back({a, b, c});
-  add(check_constrained_delaunay(before, neighbours_before, surface, constraints), "unrepaired-");
+  add(check_constrained_delaunay(before, neighbours, surface, constraints), "unrepaired-");
 }
 
 std::string Verification::check_refined_complex() {

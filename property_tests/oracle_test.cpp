@@ -227,9 +227,7 @@ delmesher::ExactRecord refined_record(const Sample& sample) {
   surface.assign(sample.input, points);
   for (auto& [a, b, c, id] : record.refined_facets) {
     for (const InputSurface::Facet& facet : surface.facets()) {
-      const auto on = [&](Index v) {
-        return exact::dot(facet.normal, exact::difference(points, facet.vertex, v)) == 0;
-      };
+      const auto on = [&](Index v) { return facet.side(points, v) == 0; };
       if (on(a) && on(b) && on(c)) id = facet.id;
     }
   }

@@ -21,16 +21,18 @@ using Rough = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
 using Exact = CGAL::Simple_cartesian<CGAL::Gmpz>;
 
 Rough::Point_3 rough_point(const ExactPoints& points, Index i) {
-  const auto coordinate = [&](int axis) {
-    const Interval x = points.enclosure(i)[axis];
+  const IntervalVector enclosure = points.enclosure(i);
+  const auto coordinate = [&](std::size_t axis) {
+    const Interval& x = enclosure[axis];
     return CGAL::Interval_nt<false>(x.low, x.high);
   };
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
 Exact::Point_3 exact_point(const ExactPoints& points, Index i, const mpz_class& denominator) {
-  const auto coordinate = [&](int axis) {
-    const ExactNumber& x = points.exact(i)[axis];
+  const ExactVector exact = points.exact(i);
+  const auto coordinate = [&](std::size_t axis) {
+    const ExactNumber& x = exact[axis];
     if (x.is_integer() && denominator == 1) return CGAL::Gmpz(x.numerator().get_mpz_t());
     return CGAL::Gmpz(mpz_class(x.numerator() * (denominator / x.denominator())).get_mpz_t());
   };
@@ -42,6 +44,7 @@ mpz_class common_denominator(const ExactPoints& points, Indices... indices) {
   mpz_class result = 1;
   if (points.all_integers()) return result;
   for (const Index i : {indices...}) {
+    if (points.is_integer(i)) continue;
     for (const ExactNumber& x : points.exact(i)) result = lcm(result, x.denominator());
   }
   return result;
@@ -84,8 +87,9 @@ ExactNumber cgal_hull_volume6(const ExactPoints& points, std::span<const Index> 
   std::vector<Rational::Point_3> list;
   list.reserve(corners.size());
   for (const Index v : corners) {
-    const auto coordinate = [&](int axis) {
-      return CGAL::Gmpq(points.exact(v)[axis].rational().get_mpq_t());
+    const ExactVector exact = points.exact(v);
+    const auto coordinate = [&](std::size_t axis) {
+      return CGAL::Gmpq(exact[axis].rational().get_mpq_t());
     };
     list.emplace_back(coordinate(0), coordinate(1), coordinate(2));
   }

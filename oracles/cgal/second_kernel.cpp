@@ -386,7 +386,7 @@ class SecondKernel {
     for (std::size_t v = 0; v < definitions_.points.size();
          v += step(definitions_.points.size(), kMost), ++asked) {
       const Place p = expand(static_cast<Index>(v)).exact;
-      const ExactVector& other = points_.exact(static_cast<Index>(v));
+      const ExactVector other = points_.exact(static_cast<Index>(v));
       if (!is_number(p.hx(), p.hw(), other[0], unit) ||
           !is_number(p.hy(), p.hw(), other[1], unit) ||
           !is_number(p.hz(), p.hw(), other[2], unit)) {

@@ -240,7 +240,7 @@ TEST(AngleBound, TurnsOnAFacetAreThoseOfTheirProjections) {
     }
     const ExactPoints points = points_of(positions);
     InputSurface::Facet facet;
-    facet.normal = exact::area2(points, 0, 1, 2);
+    facet.span = {0, 1, 2};
     facet.rough_normal = exact::rough_area2(points, 0, 1, 2);
     const long turn =
         (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
