@@ -30,11 +30,18 @@ class StandInCheck {
       report_.fail(why);
       return std::move(report_);
     }
-    check_vertices();
     std::vector<std::vector<Index>> members(surface_.facets().size());
     for (Index t = 0; t < triangles_.size(); ++t) {
       members[surface_.facet_of_triangle()[t]].push_back(t);
     }
+    grouped_.assign(given_, 0);
+    for (const std::vector<Index>& facet : members) {
+      if (facet.size() < 2) continue;
+      for (const Index t : facet) {
+        for (const Index v : triangles_[t]) grouped_[v] = 1;
+      }
+    }
+    check_vertices();
     for (Index facet = 0; facet < members.size(); ++facet) check_facet(facet, members[facet]);
     report_.figures.emplace_back("facets", surface_.facets().size());
     report_.figures.emplace_back("vertices moved", moved_);
@@ -64,6 +71,9 @@ class StandInCheck {
       displacement_ = std::max(displacement_, distance);
       if (shortest[v] == HUGE_VAL) {
         report_.fail("vertex " + std::to_string(v) + " was moved, and is in no triangle");
+      } else if (grouped_[v] == 0) {
+        report_.fail("vertex " + std::to_string(v) +
+                     " was moved, and is in no facet of more than one triangle");
       } else if (!(16 * distance <= shortest[v] * (1 + 1e-9))) {
         report_.fail("vertex " + std::to_string(v) + " was moved by " + std::to_string(distance) +
                      ", its shortest edge is " + std::to_string(shortest[v]) + " long");
@@ -148,6 +158,7 @@ class StandInCheck {
   const Triangles& triangles_;
   const Index given_;
   ExactPoints points_;
+  std::vector<std::uint8_t> grouped_;  // per vertex: is it in a facet of several triangles?
   std::uint64_t moved_ = 0;
   double deviation_ = 0, displacement_ = 0;
   OracleReport report_{"stand-in", "moved vertices and facets"};

@@ -55,6 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Relaxed, Lies, testing::ValuesIn(relaxed()), lie_name);
 INSTANTIATE_TEST_SUITE_P(Sections, Lies, testing::ValuesIn(sections()), lie_name);
 INSTANTIATE_TEST_SUITE_P(Foreign, Lies, testing::ValuesIn(foreign()), lie_name);
 INSTANTIATE_TEST_SUITE_P(Consistent, Lies, testing::ValuesIn(consistent()), lie_name);
+INSTANTIATE_TEST_SUITE_P(Improved, Lies, testing::ValuesIn(improved()), lie_name);
 
 VerifyReport verdict_on(const Told& told) {
   VerifyReport report;

@@ -338,6 +338,24 @@ const Lie kLies[] = {
        insert_point(t.record, v, moved);
      },
      "passed"},
+    {"a vertex moved none of whose facets has two triangles", "stand-in",
+     [](Told& t) {
+       delmesher::Surface s;
+       s.vertices = {{1, 1, 1}, {3, 1, 1}, {1, 3, 1}, {1, 1, 3}};
+       s.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+       t = run_of(s);
+       ExactRecord& r = t.record;
+       const auto first = static_cast<Index>(r.planes.size());
+       for (std::size_t axis = 0; axis < 3; ++axis) {
+         ExactRecord::Plane plane;
+         plane.normal[axis] = 1;
+         plane.through[0] = {1 - 0x1p-12, 1 - 0x1p-12, 1 - 0x1p-12};
+         r.planes.push_back(plane);
+       }
+       r.points[0] = {ExactPoint::Kind::on_planes, first, first + 1, first + 2, 0, 0, 0};
+       r.parameters.planar = 0x1p-19;
+     },
+     "passed"},
     {"moved triangles that bound nothing", "sidecar",
      [](Told& t) {
        t.record.triangles = t.sample.input.triangles;

@@ -93,6 +93,17 @@ const Lie kForeign[] = {
          return;
        }
      }},
+    {"an input vertex an ulp off in the file", "rounding",
+     [](Told& t) {
+       for (std::size_t i = 0; i < t.record.mesh_vertices.size(); ++i) {
+         if (t.record.mesh_vertices[i] >= t.sample.input.vertices.size()) continue;
+         t.sample.mesh.vertices[i][0] += 0x1p-51;
+         return;
+       }
+     },
+     "passed"},
+    {"one written vertex more in the record than in the file", "rounding",
+     [](Told& t) { t.record.mesh_vertices.push_back(t.record.mesh_vertices.front()); }},
     {"a tetrahedron of the record turned to another of the same four points", "same-mesh",
      [](Told& t) {
        for (auto& tet : t.record.final) {

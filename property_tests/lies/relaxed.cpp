@@ -82,6 +82,13 @@ const Lie kRelaxed[] = {
        t = run_of(options);
        t.record.parameters.gabriel = true;
      }},
+    {"a bound of planar facets below nothing", "promise",
+     [](Told& t) { t.record.parameters.planar = -0x1p-30; }},
+    {"threshold of one corner raised to a right angle", "refined-chamfer-angles",
+     [](Told& t) { t.record.corners.front().threshold = 90; }},
+    {"a radius a ten-thousandth smaller", "refined-chamfer-extent",
+     [](Told& t) { t.record.corners.front().radius *= 0.9999; }},
+    {"delta denormal", "promise", [](Told& t) { t.record.parameters.delta = 0x1p-1070; }},
     {"an old version", "promise", [](Told& t) { t.version = 2; }},
     {"version 1, which lacks what could be asked", "promise",
      [](Told& t) {

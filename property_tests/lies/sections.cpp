@@ -265,9 +265,8 @@ const Lie kSections[] = {
      "caught by exact-second-kernel"},
     {"a refined mesh with a plain tetrahedrization", "promise",
      [](Told& t) {
-       const ExactRecord refined = t.record;
        run_cdt(t);
-       t.record.refined = refined.refined;
+       t.record.refined = t.record.final;
      },
      "passed"},
     {"planar facets in a plain tetrahedrization", "promise",
@@ -282,6 +281,111 @@ const Lie kSections[] = {
        t.record.triangles.back() = t.record.triangles.front();
      },
      "called an invalid input"},
+    {"a segment without vertices", "refined-segments",
+     [](Told& t) {
+       t.record.segments.push_back({false, kNone, {}});
+     }},
+    {"an artificial segment without vertices", "refined-segments",
+     [](Told& t) {
+       t.record.segments.push_back({true, t.record.facets[kept_facet(t.record)].id, {}});
+     }},
+    {"a segment of one vertex", "refined-segments",
+     [](Told& t) {
+       t.record.segments.push_back({false, kNone, {0}});
+     }},
+    {"an artificial segment from a vertex to itself", "refined-segments",
+     [](Told& t) {
+       for (auto& chain : t.record.segments) {
+         if (chain.artificial) return void(chain.vertices.back() = chain.vertices.front());
+       }
+     }},
+    {"an artificial segment said to be in another facet", "refined-segments",
+     [](Told& t) {
+       for (auto& chain : t.record.segments) {
+         if (!chain.artificial) continue;
+         for (const auto& facet : t.record.facets) {
+           if (facet.filtered != 0 || facet.id == chain.facet) continue;
+           chain.facet = facet.id;
+           return;
+         }
+       }
+     }},
+    {"a face of the refined mesh on another facet", "refined-facets",
+     [](Told& t) {
+       auto& faces = t.record.refined_facets;
+       for (auto& face : faces) {
+         if (face[3] != faces.front()[3]) return void(face[3] = faces.front()[3]);
+       }
+     }},
+    {"a face of the refined mesh turned over", "refined-facets",
+     [](Told& t) {
+       auto& face = t.record.refined_facets.front();
+       std::swap(face[0], face[1]);
+     }},
+    {"a face of the refined mesh twice", "refined-facets",
+     [](Told& t) { t.record.refined_facets.push_back(t.record.refined_facets.front()); }},
+    {"a kept facet called dropped, with all its faces", "refined-facets",
+     [](Told& t) { t.record.facets[kept_facet(t.record)].filtered = 1; }},
+    {"a dropped facet called kept, without faces", "refined-chamfer-cuts",
+     [](Told& t) {
+       for (auto& facet : t.record.facets) {
+         if (facet.filtered != 0) return void(facet.filtered = 0);
+       }
+     }},
+    {"a facet of the first step called one of the second", "refined-filter",
+     [](Told& t) {
+       for (auto& facet : t.record.facets) {
+         if (facet.filtered == 1) return void(facet.filtered = 2);
+       }
+     }},
+    {"a tetrahedron of the final mesh of a point that does not exist", "sidecar",
+     [](Told& t) { t.record.final.front().vertices[1] = 4294967295U; }},
+    {"a tetrahedron of the refined mesh of a point that does not exist", "sidecar",
+     [](Told& t) { t.record.refined.front().vertices[1] = 4294967295U; }},
+    {"a point on a segment given by its nearest doubles", "exact-conformity",
+     [](Told& t) {
+       ExactPoints points;
+       ASSERT_EQ(points.assign(t.record.points), "");
+       for (const auto& [a, b, c, id] : t.record.final_facets) {
+         for (const Index v : {a, b, c}) {
+           if (points.is_double(v)) continue;
+           const Position x = points.nearest(v);
+           ExactPoint p;
+           p.x = x[0];
+           p.y = x[1];
+           p.z = x[2];
+           t.record.points[v] = p;
+         }
+       }
+     }},
+    {"a vertex of the final mesh as two points at one place", "exact-hull",
+     [](Told& t) {
+       const Index v = t.record.mesh_vertices.back();
+       t.record.points.push_back(t.record.points[v]);
+       for (auto& tet : t.record.final) {
+         for (Index& w : tet.vertices) {
+           if (w == v) return void(w = static_cast<Index>(t.record.points.size()) - 1);
+         }
+       }
+     }},
+    {"a ball for a point of no mesh", "refined-steiner-balls",
+     [](Told& t) {
+       t.record.points.push_back(t.record.points[t.record.balls.front().vertex]);
+       t.record.balls.push_back(t.record.balls.front());
+       t.record.balls.back().vertex = static_cast<Index>(t.record.points.size()) - 1;
+     }},
+    {"a point made by chamfering that is in no mesh", "refined-chamfer-extent",
+     [](Told& t) {
+       t.record.points.push_back(t.record.points[t.record.chamfer_points.front()[0]]);
+       t.record.chamfer_points.push_back(t.record.chamfer_points.front());
+       t.record.chamfer_points.back()[0] = static_cast<Index>(t.record.points.size()) - 1;
+     },
+     "passed"},
+    {"a facet's label in the record alone", "facet-list",
+     [](Told& t) {
+       run_cdt(t);
+       t.record.facets.back().label = 5;
+     }},
     {"triangles turned inwards", "stand-in",
      [](Told& t) {
        t.record.triangles = t.sample.input.triangles;

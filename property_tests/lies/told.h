@@ -46,10 +46,11 @@ struct Lie {
 void PrintTo(const Lie& lie, std::ostream* stream);
 
 // Relaxed promises; sections emptied, cut short, out of date; records and files of other runs; mesh
-// and record changed together, so that both agree.
+// and record changed together, so that both agree; local operations.
 std::span<const Lie> relaxed();
 std::span<const Lie> sections();
 std::span<const Lie> foreign();
 std::span<const Lie> consistent();
+std::span<const Lie> improved();
 
 }  // namespace tetproof::lies

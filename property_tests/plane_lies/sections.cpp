@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -124,6 +125,28 @@ const Lie kSections[] = {
          p.x = 1.5;
          return;
        }
+     }},
+    {"a point on a segment of points that do not exist", "sidecar",
+     [](Told& t) {
+       for (auto& p : t.record.points) {
+         if (p.kind == ExactPoint::Kind::on_segment) return void(p.j = 0xfffffff0U);
+       }
+     }},
+    {"a point that is no number", "sidecar",
+     [](Told& t) { t.record.points.back() = {ExactPoint::Kind::explicit_point, 0, 0, 0, NAN, 0}; }},
+    {"an edge of the refined mesh between points that do not exist", "sidecar",
+     [](Told& t) { t.record.refined_edges.front().vertices[1] = 0xfffffff0U; }},
+    {"an edge of the final mesh on a segment that does not exist", "exact-conformity",
+     [](Told& t) { t.record.final_edges.front().segment = 7777; }},
+    {"a triangle of the final mesh called mixed", "exact-sides",
+     [](Told& t) { some(t.record.final, Side::inside).side = Side::mixed; }},
+    {"a written vertex twice, another not at all", "rounding",
+     [](Told& t) { t.record.mesh_vertices.back() = t.record.mesh_vertices.front(); }},
+    {"a vertex of the final mesh as two points at one place", "exact-complex",
+     [](Told& t) {
+       auto& vertices = t.record.final.back().vertices;
+       t.record.points.push_back(t.record.points[vertices[0]]);
+       vertices[0] = static_cast<Index>(t.record.points.size()) - 1;
      }},
     {"a triangle of no points", "sidecar",
      [](Told& t) { t.record.final.front().vertices[0] = 0xfffffff0U; }},
