@@ -27,6 +27,7 @@ typedef struct {
 } delmesher_surface;
 
 /* How a call ended. */
+/* NOLINTBEGIN(readability-identifier-naming): as names of C have no scope */
 typedef enum {
   DELMESHER_OK = 0,
   DELMESHER_INVALID_OPTIONS = 1,
@@ -36,6 +37,7 @@ typedef enum {
   DELMESHER_INTERNAL_ERROR = 5,
   DELMESHER_INVALID_MESH = 6
 } delmesher_status;
+/* NOLINTEND(readability-identifier-naming) */
 
 /* Options by the names of delmesher::Options: delta, tau, budget, acute, corner, gabriel, improve,
  * slivers, approximate, simplify_bridges, chamfer_radius, planar (-1: automatic), max_edge, order,
