@@ -233,18 +233,41 @@ class Improvement {
     }
   }
 
+  // A vertex that is moved becomes another point, so that an edge to it is new by name. Such an
+  // edge may be as long as the longest was; how many there are is told.
   void check_edges() {
     const std::vector<std::uint64_t> before = long_edges(record_.unrepaired),
                                      after = long_edges(record_.final);
     std::vector<std::uint64_t> fresh;
     std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
                         std::back_inserter(fresh));
+    std::vector<std::uint8_t> was_there(doubles_.size());
+    for (const ExactRecord::Tet& tet : record_.unrepaired) {
+      for (const Index v : tet.vertices) was_there[v] = 1;
+    }
+    double longest_before = 0;
+    for (const std::uint64_t edge : before) longest_before = std::max(longest_before, length(edge));
+    std::uint64_t moved = 0;
+    for (const std::uint64_t edge : fresh) {
+      const auto [v, w] = ends(edge);
+      if ((was_there[v] == 0 || was_there[w] == 0) && length(edge) <= longest_before) {
+        ++moved;
+        continue;
+      }
+      report_.fail("edge (" + std::to_string(v) + " " + std::to_string(w) +
+                   ") is new and above --max-edge");
+    }
     report_.figures.emplace_back("edges above --max-edge, as before",
                                  static_cast<double>(after.size() - fresh.size()));
-    for (const std::uint64_t edge : fresh) {
-      report_.fail("edge (" + std::to_string(edge >> 32) + " " +
-                   std::to_string(edge & 0xffffffffU) + ") is new and above --max-edge");
-    }
+    report_.figures.emplace_back("to vertices that moved", static_cast<double>(moved));
+  }
+
+  static std::pair<Index, Index> ends(std::uint64_t edge) {
+    return {static_cast<Index>(edge >> 32), static_cast<Index>(edge & 0xffffffffU)};
+  }
+  double length(std::uint64_t edge) const {
+    const auto [v, w] = ends(edge);
+    return exact::distance(doubles_, v, w);
   }
 
   // Once each, ascending.

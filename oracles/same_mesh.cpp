@@ -77,7 +77,7 @@ std::vector<Change> changes_of(const std::vector<Difference>& differences) {
   for (std::size_t i = 1; i < sides.size(); ++i) {
     if (sides[i].face != sides[i - 1].face) continue;
     const auto [first, second] =
-        std::minmax(find(sides[i].difference), find(sides[i - 1].difference));
+        std::minmax({find(sides[i].difference), find(sides[i - 1].difference)});
     change_of[second] = first;
   }
   std::map<std::size_t, Change> changes;

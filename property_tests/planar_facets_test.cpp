@@ -313,7 +313,7 @@ const Lie kLies[] = {
      }},
     {"a vertex on a plane that does not exist", "sidecar",
      [](Told& t) { t.record.points[moved_vertex(t.record)].k = 4294967295U; }},
-    {"a moved vertex told to be as given", "exact-conformity",
+    {"a moved vertex told to be as given", "facet-list",
      [](Told& t) {
        const std::size_t v = moved_vertex(t.record);
        const Position& x = t.sample.input.vertices[v];
@@ -362,7 +362,7 @@ const Lie kLies[] = {
        t.record.triangles.back()[0] = 4294967295U;
      },
      "called an invalid input"},
-    {"labels merged", "conformity",
+    {"labels merged", "boundary-list",
      [](Told& t) {
        t.sample.input.labels.assign(t.sample.input.triangles.size(), 1);
        t.sample.input.labels[0] = 2;
