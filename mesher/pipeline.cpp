@@ -64,8 +64,11 @@ Status check(const Surface& surface, bool refine, Session& s, Recorder& recorder
 // Sections 4 and 7, in turn until neither leaves anything to the other.
 chamfer::ChamferedSurface filter_and_chamfer(double tau, const chamfer::ChamferOptions& options,
                                              Session& s) {
-  chamfer::FilteredSurface surface(s.topology, s.points, s.predicates, options, tau * s.diagonal,
-                                   s.control);
+  chamfer::FilterOptions filter{.tolerance = tau * s.diagonal,
+                                .all_pairs = s.options.as_paper.filter_pairs,
+                                .both_sides = s.options.as_paper.filter_chamfered};
+  if (filter.both_sides) filter.chamfered_fraction = 1;
+  chamfer::FilteredSurface surface(s.topology, s.points, s.predicates, options, filter, s.control);
   s.control.enter(Phase::filter);
   surface.drop_close();
   do {
@@ -105,7 +108,7 @@ cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
   std::unique_ptr<Tetrahedrization> delaunay = std::move(refined.delaunay);
   cdt::CdtInput input =
       enrich::enriched_input(chamfered.chamfer, chamfered.filter.facet_kept, refined, s.topology,
-                             s.points, s.predicates, s.control);
+                             s.points, s.predicates, s.options.as_paper.kept_points, s.control);
   refined = {};
   input.on_step = [&s](cdt::CdtStep step) {
     s.control.enter(step == cdt::CdtStep::classify ? Phase::classify : Phase::enrich);

@@ -345,7 +345,8 @@ class ChamferExtent {
         surface_(*mesh.surface),
         complex_(*mesh.complex),
         facets_(surface_, record_),
-        limit_(mesh.promise->chamfer_radius) {
+        limit_(mesh.promise->chamfer_radius),
+        widest_(mesh.promise->bridges ? kStraight : kThird) {
     for (const auto& corner : record_.corners) corner_[corner.vertex] = &corner;
   }
 
@@ -382,7 +383,12 @@ class ChamferExtent {
   const InputSurface& surface_;
   const TetComplex& complex_;
   const FacetIndex facets_;
-  double limit_;  // --chamfer-radius, or 0
+  // |VP| / |VA| where A is the cut point of a sector and |AP| = |PQ| = |QB|. Sectors are at most
+  // 120 degrees wide, those of triangles less than 180.
+  static constexpr double kThird = 1.3228756555322954;      // sqrt(7) / 2
+  static constexpr double kStraight = 2.23606797749978969;  // sqrt(5)
+  double limit_;                                            // --chamfer-radius, or 0
+  double widest_;
   std::unordered_map<Index, const ExactRecord::Corner*> corner_;
   std::vector<Index> found_;
   std::uint64_t edges_ = 0;
@@ -391,8 +397,6 @@ class ChamferExtent {
 };
 
 void ChamferExtent::check_point(Index p, Index vertex) {
-  // |VP| / |VA| where A is the cut point of a sector of 120 degrees and |AP| = |PQ| = |QB|.
-  constexpr double kWidest = 1.3228756555322954;  // sqrt(7) / 2
   constexpr double kPlacement = 1 + 0x1p-16;
   ++report_.checked;
   const ExactPoint& point = record_.points[p];
@@ -418,7 +422,7 @@ void ChamferExtent::check_point(Index p, Index vertex) {
   const double distance = exact::distance(points_, p, vertex);
   const double radius = corner->second->radius;
   farthest_ = std::max(farthest_, distance / radius);
-  if (!(distance <= radius * (on_edge ? 1 : kWidest) * kPlacement)) {
+  if (!(distance <= radius * (on_edge ? 1 : widest_) * kPlacement)) {
     report_.fail(complex_.vertex_name(p) + " is farther than the radius from input vertex " +
                  std::to_string(vertex));
   }

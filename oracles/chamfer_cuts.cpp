@@ -33,7 +33,8 @@ class ChamferNeed {
         surface_(*mesh.surface),
         facets_(surface_, record_),
         acute_(*mesh.points, surface_),
-        limit_(mesh.promise->chamfer_radius) {
+        limit_(mesh.promise->chamfer_radius),
+        to_link_(mesh.promise->link || mesh.promise->bridges) {
     for (const ExactRecord::Corner& corner : record_.corners) corner_[corner.vertex] = &corner;
     const double acute = record_.parameters.acute, corner = record_.parameters.corner;
     thresholds_.at = [this, acute](Index v) {
@@ -79,14 +80,21 @@ class ChamferNeed {
     const Index v = corner.vertex;
     if (!(corner.radius > 0)) return report_.fail(corner_name(v) + " has no radius");
     const auto present = [this](Index f) { return facets_.kept(f); };
-    const std::string near = acute_.nearer_than(3 * corner.radius * (1 - 1e-9), v, present);
+    const double reach = 3 * corner.radius * (1 - 1e-9);
+    const double link = to_link_ ? acute_.distance_to_link(v, present) : HUGE_VAL;
+    if (link < reach) {
+      report_.fail(corner_name(v) + " has a radius above a third of its distance from its link");
+    }
+    // The link is nearer than what else bounds the facets here; that of another part of one may be
+    // nearer, on the far side of what is cut off.
+    const std::string near = to_link_ ? "" : acute_.nearer_than(reach, v, present);
     if (!near.empty()) {
       report_.fail(corner_name(v) + " has a radius above a third of its distance from " + near);
     }
     if (limit_ > 0 && corner.radius > limit_ * kPlacement) {
       report_.fail(corner_name(v) + " has a radius above --chamfer-radius");
     }
-    const double size = acute_.local_feature_size(v, present, 4 * corner.radius);
+    const double size = to_link_ ? link : acute_.local_feature_size(v, present, 4 * corner.radius);
     largest_share_ = std::max(largest_share_, corner.radius / size);
   }
 
@@ -117,6 +125,7 @@ class ChamferNeed {
   const FacetIndex facets_;
   const AcuteCorners acute_;
   double limit_;
+  bool to_link_;
   std::unordered_map<Index, const ExactRecord::Corner*> corner_;
   CornerThresholds thresholds_;
   double largest_share_ = 0;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "oracles/distances.h"
 #include "oracles/filter.h"
 
 namespace tetproof::oracles {
@@ -17,17 +18,17 @@ double angle_between(const ExactVector& a, const ExactVector& b) {
   return std::atan2(length(exact::cross(a, b), 0), to_double(exact::dot(a, b), 0));
 }
 
+}  // namespace
+
 // The height of a bridge point over its edge, as a share of the chamfer distance, by the formula
 // for three equal edges (Figure 4). Sectors above 120 degrees are cut into two, above 240 into
-// four.
-double step_of(double sector) {
+// four; those of triangles are not.
+double ChamferFeatures::step_of(double sector) const {
   constexpr double kThird = 2 * std::numbers::pi / 3 + 1e-9;
-  const double parts = sector <= kThird ? 1 : sector <= 2 * kThird ? 2 : 4;
+  const double parts = shape_.per_triangle || sector <= kThird ? 1 : sector <= 2 * kThird ? 2 : 4;
   const double half = sector / parts / 2;
   return std::sin(half) / (std::cos(half) + 0.5);
 }
-
-}  // namespace
 
 double ChamferFeatures::distance(Index v, const AcuteCorners::Present& present) const {
   double most = kInfinite;
@@ -37,12 +38,14 @@ double ChamferFeatures::distance(Index v, const AcuteCorners::Present& present) 
       most = std::min(most, exact::distance(points_, edge.from, edge.to));
     }
   }
-  const double third = corners_.local_feature_size(v, present, most) / 3;
-  return limit_ > 0 ? std::min(third, limit_) : third;
+  const double third = (shape_.to_link ? corners_.distance_to_link(v, present)
+                                       : corners_.local_feature_size(v, present, most)) /
+                       3;
+  return shape_.limit > 0 ? std::min(third, shape_.limit) : third;
 }
 
 // A sector begins at a side of a facet that leaves the vertex, and consists of the triangles up to
-// the next side.
+// the next side; or every triangle is one.
 std::vector<ChamferFeatures::Sector> ChamferFeatures::sectors(
     Index v, const AcuteCorners::Present& present) const {
   const auto& triangles = surface_.triangles();
@@ -54,14 +57,15 @@ std::vector<ChamferFeatures::Sector> ChamferFeatures::sectors(
   std::vector<Sector> list;
   for (Index t : corners_.triangles_at(v)) {
     const Index f = facet_of[t];
-    if (!present(f) || facet_of[surface_.neighbour(t, corner(t))] == f) continue;
+    if (!present(f)) continue;
+    if (!shape_.per_triangle && facet_of[surface_.neighbour(t, corner(t))] == f) continue;
     double angle = 0;
     for (;;) {
       const int i = corner(t);
       angle += angle_between(exact::difference(points_, v, triangles[t][(i + 1) % 3]),
                              exact::difference(points_, v, triangles[t][(i + 2) % 3]));
       const Index next = surface_.neighbour(t, (i + 2) % 3);
-      if (facet_of[next] != f) break;
+      if (shape_.per_triangle || facet_of[next] != f) break;
       t = next;
     }
     list.push_back({f, angle});
@@ -77,8 +81,39 @@ double ChamferFeatures::step(Index v, Index facet, const AcuteCorners::Present& 
   return smallest;
 }
 
+Index ChamferFeatures::triangle_beside(Index e, Index facet) const {
+  const InputSurface::Edge& edge = surface_.edges()[e];
+  for (const Index t : corners_.triangles_at(edge.from)) {
+    const auto& corner = surface_.triangles()[t];
+    if (surface_.facet_of_triangle()[t] == facet &&
+        std::find(corner.begin(), corner.end(), edge.to) != corner.end()) {
+      return t;
+    }
+  }
+  return kNone;
+}
+
+// All bridge points in a triangle with an acute edge are as high as the lowest.
+double ChamferFeatures::strip_in_triangle(Index t, const AcuteCorners::Present& present) const {
+  const auto& corner = surface_.triangles()[t];
+  double height = kInfinite;
+  for (int i = 0; i < 3; ++i) {
+    const Index v = corner[i];
+    if (corners_.why_acute(v, present, thresholds_, Doubt::acute).empty()) continue;
+    const double angle = angle_between(exact::difference(points_, v, corner[(i + 1) % 3]),
+                                       exact::difference(points_, v, corner[(i + 2) % 3]));
+    height = std::min(height, step_of(angle) * distance(v, present));
+  }
+  return height;
+}
+
 double ChamferFeatures::strip(Index e, Index facet, const AcuteCorners::Present& present) const {
   const InputSurface::Edge& edge = surface_.edges()[e];
+  const Index beside = shape_.to_link ? triangle_beside(e, facet) : kNone;
+  if (shape_.per_triangle) {
+    const double height = strip_in_triangle(beside, present);
+    return shape_.limit > 0 ? std::min(height, shape_.limit) : height;
+  }
   double height = kInfinite;
   for (const Index v : {edge.from, edge.to}) {
     height = std::min(height, step(v, facet, present) * distance(v, present));
@@ -88,7 +123,14 @@ double ChamferFeatures::strip(Index e, Index facet, const AcuteCorners::Present&
       height = std::min(height, corners_.local_feature_size(other, only, 3 * height) / 3);
     }
   }
-  return limit_ > 0 ? std::min(height, limit_) : height;
+  if (shape_.to_link) {
+    for (const Index v : surface_.triangles()[beside]) {
+      if (v == edge.from || v == edge.to) continue;
+      const mpq_class squared = squared_distance_to_segment(points_, v, edge.from, edge.to);
+      height = std::min(height, square_root(squared, points_.exponent()) / 3);
+    }
+  }
+  return shape_.limit > 0 ? std::min(height, shape_.limit) : height;
 }
 
 double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) const {

@@ -6,17 +6,25 @@
 
 namespace tetproof::oracles {
 
+// What was promised of the chamfers.
+struct ChamferShape {
+  double limit = 0;           // the largest chamfer distance; 0: none
+  bool to_link = false;       // a third of the way to the link, not to the facets' boundary
+  bool per_triangle = false;  // a bridge in every triangle, however wide
+};
+
 // The chamfers of the surface that the present facets form. Lengths are in input units, rounded.
 class ChamferFeatures {
  public:
-  // `limit`: the largest chamfer distance; 0: none. The arguments must outlive this.
+  // The arguments must outlive this.
   ChamferFeatures(const ExactPoints& points, const InputSurface& surface,
-                  const AcuteCorners& corners, const CornerThresholds& thresholds, double limit)
+                  const AcuteCorners& corners, const CornerThresholds& thresholds,
+                  const ChamferShape& shape)
       : points_(points),
         surface_(surface),
         corners_(corners),
         thresholds_(thresholds),
-        limit_(limit) {}
+        shape_(shape) {}
 
   // The smallest feature that chamfering makes at a vertex: the shortest distance between two
   // points, edges or facets that it separates. These are the sides of a bridge, cut points of two
@@ -30,15 +38,18 @@ class ChamferFeatures {
     double angle;
   };
   double distance(Index v, const AcuteCorners::Present& present) const;
+  double step_of(double sector) const;
   std::vector<Sector> sectors(Index v, const AcuteCorners::Present& present) const;
   double step(Index v, Index facet, const AcuteCorners::Present& present) const;
   double strip(Index edge, Index facet, const AcuteCorners::Present& present) const;
+  double strip_in_triangle(Index t, const AcuteCorners::Present& present) const;
+  Index triangle_beside(Index edge, Index facet) const;
 
   const ExactPoints& points_;
   const InputSurface& surface_;
   const AcuteCorners& corners_;
   const CornerThresholds& thresholds_;
-  double limit_;
+  ChamferShape shape_;
 };
 
 }  // namespace tetproof::oracles

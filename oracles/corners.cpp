@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "oracles/distances.h"
 
@@ -167,6 +168,19 @@ double AcuteCorners::local_feature_size(Index v, const Present& present, double 
   boundary_near(v, most, present, [&](Index, const mpq_class& squared) {
     smallest = std::min(smallest, square_root(squared, points_.exponent()));
   });
+  return smallest;
+}
+
+double AcuteCorners::distance_to_link(Index v, const Present& present) const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Index t : triangles_at_[v]) {
+    if (!present(surface_.facet_of_triangle()[t])) continue;
+    const auto& corner = surface_.triangles()[t];
+    const int i = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());
+    const mpq_class squared =
+        squared_distance_to_segment(points_, v, corner[(i + 1) % 3], corner[(i + 2) % 3]);
+    smallest = std::min(smallest, square_root(squared, points_.exponent()));
+  }
   return smallest;
 }
 

@@ -81,6 +81,9 @@ class AcuteCorners {
   std::string nearer_than(double distance, Index v, const Present& present) const;
   // The local feature size itself, at most `most`, in input units; rounded.
   double local_feature_size(Index v, const Present& present, double most) const;
+  // The distance to the link: to the opposite edges of the triangles at v of present facets, in
+  // input units; rounded. Infinite if there are none.
+  double distance_to_link(Index v, const Present& present) const;
 
  private:
   bool edge_meets_facet(Index v, Index edge, const Present& present, const AngleBound& bound) const;

@@ -38,7 +38,7 @@ class Enrichment {
 
   OracleReport run() {
     check_vertices();
-    if (!is_plain()) check_missing();
+    if (mesh_.promise->enrichment || !is_plain()) check_missing();
     report_.figures.emplace_back("left out in chamfers", in_chamfer_);
     report_.figures.emplace_back("left out on artificial segments", on_artificial_);
     report_.figures.emplace_back("left out beside dropped facets", crowded_);
@@ -110,7 +110,7 @@ class Enrichment {
     collect_artificial();
     collect_spacings(missing);
     for (const Index v : missing) {
-      if (artificial_[v] != 0) {
+      if (artificial_[v] != 0 && !mesh_.promise->kept_points) {
         ++on_artificial_;
       } else if (coincides(v)) {
         continue;
@@ -203,7 +203,8 @@ class Enrichment {
 
   bool crowded(Index v) {
     constexpr double kCrowding = 0.3;
-    const double reach = kCrowding * spacing_.at(v) * (1 + 1e-9);
+    const double share = mesh_.promise->kept_points ? 0x1p-20 : 1;
+    const double reach = share * kCrowding * spacing_.at(v) * (1 + 1e-9);
     found_.clear();
     surface_.triangles_near(enlarged(box_around(points_, std::array{v}), reach), found_);
     return std::any_of(found_.begin(), found_.end(), [&](Index t) {

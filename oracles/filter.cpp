@@ -239,7 +239,12 @@ class FilterCheck {
         features_(*mesh.points, surface_, facets_),
         exponent_(mesh.points->exponent()),
         corners_(*mesh.points, surface_),
-        chamfers_(*mesh.points, surface_, corners_, thresholds_, mesh.promise->chamfer_radius) {
+        chamfers_(*mesh.points, surface_, corners_, thresholds_,
+                  {.limit = mesh.promise->chamfer_radius,
+                   .to_link = mesh.promise->link || mesh.promise->bridges,
+                   .per_triangle = mesh.promise->bridges}),
+        pairs_(mesh.promise->filter_pairs),
+        both_sides_(mesh.promise->filter_chamfered) {
     double acute = record_.parameters.acute, of_edges = record_.parameters.corner;
     // Of the corners that the guard tightened, only the remaining ones are known, so the strictest
     // threshold counts everywhere.
@@ -258,7 +263,11 @@ class FilterCheck {
     count_returnable(first, high, bound(high));
     check_second_step(second, tolerance);
     for (const Index f : second) features_.set_present(f, true);
-    check_first_step(first, high, bound(high));
+    if (pairs_) {
+      check_all_pairs(first, low, high);
+    } else {
+      check_first_step(first, high, bound(high));
+    }
     report_.figures.emplace_back("dropped facets", first.size() + second.size());
     report_.figures.emplace_back("dropped for what chamfering made of them", second.size());
     report_.figures.emplace_back("tolerance", tolerance);
@@ -306,18 +315,36 @@ class FilterCheck {
     report_.figures.emplace_back("dropped that could return", could_return);
   }
 
+  // The first step of the paper: exactly the facets are dropped that something of the whole surface
+  // is too close to.
+  void check_all_pairs(const std::vector<Index>& dropped, double low, double high) {
+    for (const Index f : dropped) features_.set_present(f, true);
+    for (Index f = 0; f < surface_.facets().size(); ++f) {
+      ++report_.checked;
+      const bool gone = std::find(dropped.begin(), dropped.end(), f) != dropped.end();
+      const double reach = gone ? high : low;
+      std::string pair;
+      for (const Element& e : features_.elements_of(f)) {
+        if (pair.empty()) pair = features_.near(e, reach, bound(reach));
+      }
+      if (gone && pair.empty()) report_.fail(name(f) + " was dropped and was near nothing");
+      if (!gone && !pair.empty()) report_.fail(pair + " are too close, and one side was kept");
+    }
+  }
+
   // The second step, read backwards: the facet dropped last was dropped from the present surface,
   // so chamfering has to make too small a feature at that facet, and so on.
   void check_second_step(std::vector<Index> dropped, double tolerance) {
     // The mesher drops facets whose chamfers are smaller than a sixteenth of the tolerance.
     // Simplified bridges and the placement of points change a distance by less than a factor of 2.
-    constexpr double kFraction = 1.0 / 8;
+    // As the paper does it, they may be as small as the tolerance.
+    const double fraction = both_sides_ ? 2 : 1.0 / 8;
     const AcuteCorners::Present present = [this](Index f) { return features_.present(f); };
     const auto put_back = [&](Index f) {
       features_.set_present(f, true);
       for (const Index v : features_.vertices_around(f)) {
         const double smallest = chamfers_.smallest(v, present);
-        if (smallest < kFraction * tolerance) return true;
+        if (smallest < fraction * tolerance) return true;
       }
       features_.set_present(f, false);
       return false;
@@ -326,10 +353,25 @@ class FilterCheck {
     for (std::size_t before = dropped.size() + 1; dropped.size() < before;) {
       before = dropped.size();
       std::erase_if(dropped, put_back);
+      // Both sides of a feature go at once, so that neither may be small without the other.
+      if (both_sides_ && dropped.size() == before) put_back_together(dropped, put_back);
     }
     for (const Index f : dropped) {
       report_.fail(name(f) + " was dropped for its chamfers, and none of them is too small");
     }
+  }
+
+  // Puts back those of the facets that have a reason when all of them are there, and whose reasons
+  // are not only those without.
+  template <class PutBack>
+  void put_back_together(std::vector<Index>& dropped, PutBack put_back) {
+    for (const Index f : dropped) features_.set_present(f, true);
+    std::vector<Index> without;
+    for (const Index f : dropped) {
+      if (!put_back(f)) without.push_back(f);
+    }
+    for (const Index f : without) features_.set_present(f, false);
+    dropped = std::move(without);
   }
 
   // The first step, read backwards: the facet dropped last was close to a kept one, the facet
@@ -377,6 +419,7 @@ class FilterCheck {
   AcuteCorners corners_;
   CornerThresholds thresholds_;
   ChamferFeatures chamfers_;
+  bool pairs_, both_sides_;
   OracleReport report_{"filter", "vertices, edges and dropped facets"};
 };
 

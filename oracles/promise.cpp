@@ -61,6 +61,29 @@ bool parse_number(const std::string& text, double& value) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
+// What is done as the paper says. The way to the same promises of some choices differs; their names
+// only have to be known.
+struct Choice {
+  const char* name;
+  bool Promise::*target;  // null: promises nothing
+};
+constexpr Choice kChoices[] = {{"link", &Promise::link},
+                               {"bridges", &Promise::bridges},
+                               {"simplification", nullptr},
+                               {"order", nullptr},
+                               {"steiner-point", nullptr},
+                               {"kept-points", &Promise::kept_points},
+                               {"enrichment", &Promise::enrichment},
+                               {"filter-pairs", &Promise::filter_pairs},
+                               {"filter-chamfered", &Promise::filter_chamfered},
+                               {"no-guard", &Promise::no_guard}};
+
+void choose_all(bool all, Promise& p) {
+  for (const Choice& choice : kChoices) {
+    if (choice.target != nullptr) p.*choice.target = all;
+  }
+}
+
 void set_defaults(Task task, bool paper, Promise& p) {
   p = {};
   p.task = task;
@@ -69,19 +92,24 @@ void set_defaults(Task task, bool paper, Promise& p) {
   if (task != Task::mesh || paper) p.planar = 0;
   if (task == Task::plane) p.delta = 20.7;
   if (!paper) return;
+  choose_all(task == Task::mesh, p);
   p.acute = p.corner = 90;
   p.region = Region::hull;
   p.gabriel = true;
   if (task == Task::plane) p.tau = 0;
 }
 
-// Ways to the same promises: the names only have to be known.
-std::string as_paper_defect(const std::string& list) {
-  if (list == "none") return {};
+// Empty, or what is wrong with the list.
+std::string choose(const std::string& list, Promise& p) {
+  choose_all(list == "all", p);
+  if (list == "none" || list == "all") return {};
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t end = std::min(list.find(',', at), list.size());
     const std::string name = list.substr(at, end - at);
-    if (name != "order" && name != "steiner-point") return "nothing is called \"" + name + "\"";
+    const auto* choice = std::find_if(std::begin(kChoices), std::end(kChoices),
+                                      [&](const Choice& c) { return name == c.name; });
+    if (choice == std::end(kChoices)) return "nothing is called \"" + name + "\"";
+    if (choice->target != nullptr) p.*choice->target = true;
     at = end + 1;
   }
   return {};
@@ -136,7 +164,7 @@ class PromiseReader {
     if (!value_) return option + ": unknown, or without a value";
     if (among(kWithValue, option)) return {};
     if (option == "--preset") return *value_ == "paper" ? "" : "no preset \"" + *value_ + "\"";
-    if (option == "--as-paper") return as_paper_defect(*value_);
+    if (option == "--as-paper") return choose(*value_, p);
     if (option == "--region") {
       if (*value_ != "interior" && *value_ != "hull") return "no region \"" + *value_ + "\"";
       p.region = *value_ == "hull" ? Region::hull : Region::interior;
@@ -268,6 +296,11 @@ class PromiseCheck {
     }
     demand(p.acute <= promise_.acute || p.gabriel,
            "corners are tightened everywhere, which comes after empty balls");
+    if (promise_.no_guard) {
+      demand(p.gabriel == promise_.gabriel && tightened == 0 && p.acute == promise_.acute &&
+                 p.corner == promise_.corner_in_force(),
+             "the guard was not to act, and something is stricter than was asked for");
+    }
     if (tightened > 0) {
       report_.figures.emplace_back("corners tightened", static_cast<double>(tightened));
     }
@@ -336,6 +369,15 @@ Promise promise_of(const delmesher::Options& options, Task task) {
   p.gabriel = options.gabriel;
   p.approximate = options.approximate;
   p.improve = task == Task::mesh && options.improve;
+  if (task == Task::mesh) {
+    p.link = options.as_paper.link;
+    p.bridges = options.as_paper.bridges;
+    p.kept_points = options.as_paper.kept_points;
+    p.enrichment = options.as_paper.enrichment;
+    p.filter_pairs = options.as_paper.filter_pairs;
+    p.filter_chamfered = options.as_paper.filter_chamfered;
+    p.no_guard = options.as_paper.no_guard;
+  }
   p.region = options.region;
   p.chamfer_radius = options.chamfer_radius;
   p.max_edge = options.max_edge;

@@ -27,6 +27,14 @@ struct Promise {
   bool gabriel = false;
   bool approximate = false;
   bool improve = true;
+  // What is asked to be done as the paper says, as far as an oracle can tell (--as-paper).
+  bool link = false;              // chamfers reach a third of the way to the link
+  bool bridges = false;           // a bridge per triangle
+  bool kept_points = false;       // enriched with the points on artificial segments, too
+  bool enrichment = false;        // always enriched
+  bool filter_pairs = false;      // both sides of close pairs dropped
+  bool filter_chamfered = false;  // both sides of chamfered features below tau dropped
+  bool no_guard = false;          // nothing stricter than was asked for
   delmesher::Region region = delmesher::Region::interior;
   double chamfer_radius = 0;  // input units; 0: no bound
   double max_edge = 0;        // input units; 0: no bound

@@ -35,6 +35,13 @@ Options paper_options() {
   return options;
 }
 
+// The same with everything else as the paper says.
+Options all_as_paper() {
+  Options options = delmesher::paper_options();
+  options.want_exact = true;
+  return options;
+}
+
 Options default_options() {
   Options options;
   options.want_exact = true;
@@ -125,6 +132,31 @@ TEST_P(Models, HaveTheQualityThatTheMesherTells) {
 
 TEST_P(Models, AreMeshedExactlyWithThePapersSettings) {
   expect_right(GetParam(), paper_options());
+}
+
+TEST_P(Models, AreMeshedExactlyAsThePaperSays) {
+  expect_right(GetParam(), all_as_paper());
+}
+
+// Every choice alone, with a filter that has something to drop.
+TEST(AsPaper, EveryChoiceKeepsItsPromises) {
+  const std::vector<NamedSurface> models = samples::surfaces(kSeed);
+  for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
+    SCOPED_TRACE(choice.name);
+    for (std::size_t n = 0; n < models.size(); n += 7) {
+      Options options = default_options();
+      options.improve = false;
+      options.tau = 0x1p-6;
+      options.gabriel = true;  // what the guard does is tried elsewhere
+      options.acute = options.corner = 90;
+      options.as_paper.*choice.member = true;
+      expect_right(models[n], options);
+    }
+    Options options = default_options();
+    options.as_paper.*choice.member = true;
+    if (choice.member == &delmesher::AsPaper::no_guard) continue;  // might run for ever
+    expect_right({"wedge and slab", samples::wedge_and_slab()}, options);
+  }
 }
 
 TEST_P(Models, HaveAConstrainedDelaunayTetrahedrization) {

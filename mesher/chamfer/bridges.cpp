@@ -104,16 +104,16 @@ class BridgeBuilder {
     const Corner& corner = surface_.corners()[index];
     const SplitCorner& split = cuts_.split[index];
     const double distance = cuts_.distance[corner.vertex];
-    const double step = split.step * distance;
-    const double accuracy = bridge_accuracy(split) * distance;
     std::vector<VertexId>& chain = bridges_.chain[index];
 
     const std::uint32_t back = topology_.opposite[corner.incoming];  // incoming, away from here
     const VertexId first = bridges_.edge_end_at_tail(topology_, corner.outgoing);
     if (first != kNone) chain.push_back(first);
-    for (int part = 0; part < split.parts; ++part) {
-      const bool at_outgoing = part == 0, at_incoming = part + 1 == split.parts;
-      const Vec2 a = split.direction[part], b = split.direction[part + 1];
+    for (const CornerPart& part : split) {
+      const bool at_outgoing = &part == &split.front(), at_incoming = &part == &split.back();
+      const Vec2 a = part.from, b = part.to;
+      const double step = part.step * distance;
+      const double accuracy = bridge_accuracy(part) * distance;
       const Vec2 p = at_outgoing ? beside_edge(corner, corner.outgoing, a, step)
                                  : distance * a + step * turned(a);
       const Vec2 q =

@@ -70,12 +70,15 @@ ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
                               const std::vector<std::uint8_t>& active, Control& control) {
   const Thresholds thresholds(options);
   const Acuteness acute = find_acute(surface, predicates, thresholds, active, control);
-  const Cuts cuts =
-      find_cuts(surface, acute, predicates, options.max_radius * surface.scale(), control);
+  const CutOptions cut_options{.max_radius = options.max_radius * surface.scale(),
+                               .to_link = options.link_distances,
+                               .per_triangle = options.bridge_per_triangle};
+  const Cuts cuts = find_cuts(surface, acute, predicates, cut_options, control);
   NewPoints new_points(surface.topology(), points);
   Bridges bridges = build_bridges(surface, acute, cuts, thresholds, new_points, control);
   if (options.simplify_bridges) {
-    simplify_bridges(surface, acute, cuts, thresholds, predicates, bridges, control);
+    simplify_bridges(surface, acute, cuts, thresholds, options.simplify_to_angles, predicates,
+                     bridges, control);
   }
   drop_unused_points(bridges, points, new_points);
 

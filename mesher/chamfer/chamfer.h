@@ -22,6 +22,11 @@ struct ChamferOptions {
   std::vector<double> vertex_cosine_squared;
   double max_radius = 0;  // largest chamfer distance; 0: no bound
   bool simplify_bridges = true;
+  // How the paper does it, where the default differs: distances to the link (section 4.1), a bridge
+  // per triangle (4.2, with distances to the link), simplified as far as angles allow (4.4).
+  bool link_distances = false;
+  bool bridge_per_triangle = false;
+  bool simplify_to_angles = false;
   // Per facet: 1 if kept, 0 if dropped by the filter; empty: all kept. Edges between two dropped
   // facets disappear; an edge of one kept facet stays as its boundary.
   std::vector<std::uint8_t> facet_kept;

@@ -13,6 +13,7 @@
 #include "mesher/chamfer/test_model.h"
 #include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
+#include "mesher/surface/feature_size.h"
 #include "mesher/surface/validity.h"
 
 namespace delmesher::chamfer {
@@ -272,7 +273,7 @@ TEST(Chamfer, NaiveChamferingOfALowSpikeFails) {
     const Thresholds thresholds(options);
     const Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
     EXPECT_TRUE(acute.vertex[3]);
-    const Cuts cuts = find_cuts(surface, acute, model.predicates, 0, model.control);
+    const Cuts cuts = find_cuts(surface, acute, model.predicates, {}, model.control);
     NewPoints new_points(model.topology, model.points);
     Bridges bridges = build_bridges(surface, acute, cuts, thresholds, new_points, model.control);
     for (auto& chain : bridges.chain) {
@@ -311,7 +312,7 @@ TEST(Chamfer, BridgesHaveTheAnglesOfStatement1) {
     // As if no edge were acute, so that no strip is cut.
     Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
     acute.edge.assign(acute.edge.size(), 0);
-    const Cuts cuts = find_cuts(surface, acute, model.predicates, 0, model.control);
+    const Cuts cuts = find_cuts(surface, acute, model.predicates, {}, model.control);
     NewPoints new_points(model.topology, model.points);
     const Bridges bridges =
         build_bridges(surface, acute, cuts, thresholds, new_points, model.control);
@@ -321,10 +322,10 @@ TEST(Chamfer, BridgesHaveTheAnglesOfStatement1) {
       if (chain.empty()) continue;
       ++bridges_seen;
       const Corner& corner = surface.corners()[c];
-      const int parts = cuts.split[c].parts;
-      ASSERT_EQ(chain.size(), 2 + 2 * static_cast<std::size_t>(parts));
+      const std::size_t parts = cuts.split[c].size();
+      ASSERT_EQ(chain.size(), 2 + 2 * parts);
       wide_seen += parts > 1;
-      const double part = 2 * std::asin(cuts.split[c].half_sine) * 180 / M_PI;
+      const double part = 2 * std::asin(cuts.split[c].front().half_sine) * 180 / M_PI;
       EXPECT_LE(part, 120 + 1e-6);
       const VertexId v = corner.vertex, a = chain.front(), b = chain.back();
       EXPECT_NEAR(length(p, v, a) / cuts.distance[v] * surface.scale(), 1, 1e-5);
@@ -360,7 +361,7 @@ TEST(Chamfer, StripsHaveTheAnglesOfStatement2) {
     const KeptSurface surface(model.topology, model.points, {});
     const Thresholds thresholds(options);
     const Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
-    const Cuts cuts = find_cuts(surface, acute, model.predicates, 0, model.control);
+    const Cuts cuts = find_cuts(surface, acute, model.predicates, {}, model.control);
     NewPoints new_points(model.topology, model.points);
     const Bridges bridges =
         build_bridges(surface, acute, cuts, thresholds, new_points, model.control);
@@ -374,20 +375,129 @@ TEST(Chamfer, StripsHaveTheAnglesOfStatement2) {
       const VertexId p1 = here.front(), p2 = there.back();
       const double height = cuts.height[corner.outgoing];
       EXPECT_GT(height, 0);
-      EXPECT_LE(height, cuts.split[c].step * cuts.distance[v] * (1 + 1e-9));
+      EXPECT_LE(height, cuts.split[c].front().step * cuts.distance[v] * (1 + 1e-9));
       EXPECT_LT(degrees(away(p, v, w), away(p, p1, p2)), kRounding);
       const double tail = length(p, v, w) * cuts.fraction_at_tail(model.topology, corner.outgoing);
       const double slope = degrees(away(p, v, w), away(p, v, p1));
       EXPECT_NEAR(slope, std::atan2(height / surface.scale(), tail) * 180 / M_PI, kRounding);
       const double angle = degrees(away(p, p1, p2), away(p, p1, here[1]));
       EXPECT_GE(angle, 90 - kRounding);
-      const double part = 2 * std::asin(cuts.split[c].half_sine) * 180 / M_PI;
-      if (height == cuts.split[c].step * cuts.distance[v] && cuts.split[c].parts > 1) {
+      const double part = 2 * std::asin(cuts.split[c].front().half_sine) * 180 / M_PI;
+      if (height == cuts.split[c].front().step * cuts.distance[v] && cuts.split[c].size() > 1) {
         EXPECT_NEAR(angle, 90 + part / 2, 10 * kRounding);
       }
     }
   }
   EXPECT_GT(strips, 100);
+}
+
+ChamferOptions as_paper(bool link, bool bridges, bool angles) {
+  ChamferOptions options = below(90);
+  options.link_distances = link || bridges;
+  options.bridge_per_triangle = bridges;
+  options.simplify_to_angles = angles;
+  return options;
+}
+
+// Section 4.1: the link of a vertex are the edges of its triangles that it is not on.
+TEST(AsPaper, ChamfersReachAThirdOfTheWayToTheLink) {
+  int nearer = 0;
+  for (const Sample& sample : test_polyhedra::samples()) {
+    SCOPED_TRACE(sample.name);
+    Model model(sample.surface), other(sample.surface);
+    const ChamferResult result = model.run(as_paper(true, false, false));
+    const ChamferResult by_facets = other.run(below(90));
+    EXPECT_EQ(result.vertex_is_acute, by_facets.vertex_is_acute);
+    std::vector<double> link(result.vertex_distance.size(), HUGE_VAL);
+    for (const auto& t : model.topology.triangles) {
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 p = model.points.nearest(t[(k + 1) % 3]),
+                   q = model.points.nearest(t[(k + 2) % 3]);
+        link[t[k]] = std::min(link[t[k]], point_segment_distance(model.points.nearest(t[k]), p, q));
+      }
+    }
+    for (VertexId v = 0; v < link.size(); ++v) {
+      if (!result.vertex_is_acute[v]) continue;
+      EXPECT_NEAR(result.vertex_distance[v] / link[v], 1.0 / 3, 1e-9);
+      nearer += link[v] < 2.99 * by_facets.vertex_distance[v];
+    }
+  }
+  EXPECT_GT(nearer, 20);
+}
+
+// Section 4.2: around a vertex every triangle has two points of its own, inside it.
+TEST(AsPaper, EveryTriangleHasABridge) {
+  int flat = 0, wide = 0;
+  for (const Sample& sample : test_polyhedra::samples()) {
+    SCOPED_TRACE(sample.name);
+    Model model(sample.surface);
+    const ChamferOptions options = as_paper(true, true, false);
+    const KeptSurface surface(model.topology, model.points, {});
+    const Thresholds thresholds(options);
+    const Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
+    const Cuts cuts = find_cuts(surface, acute, model.predicates,
+                                {.to_link = true, .per_triangle = true}, model.control);
+    NewPoints new_points(model.topology, model.points);
+    const Bridges bridges =
+        build_bridges(surface, acute, cuts, thresholds, new_points, model.control);
+    const PointStore& p = model.points;
+    for (std::uint32_t c = 0; c < bridges.chain.size(); ++c) {
+      const std::vector<VertexId>& chain = bridges.chain[c];
+      if (chain.empty()) continue;
+      const Corner& corner = surface.corners()[c];
+      const std::vector<std::uint32_t> fan = surface.fan(corner);
+      const std::size_t first = acute.edge[model.topology.edge_of[corner.outgoing]] ? 0 : 1;
+      ASSERT_GE(chain.size(), first + 2 * fan.size());
+      flat += fan.size() > 1;
+      for (std::size_t n = 0; n < fan.size(); ++n) {
+        const std::uint32_t h = fan[fan.size() - 1 - n];
+        const VertexId v = corner.vertex, b = model.topology.to(h),
+                       d = model.topology.from(SurfaceTopology::previous(h));
+        wide += degrees(away(p, v, b), away(p, v, d)) > 120;
+        const int axis = model.topology.facet_axis[corner.facet];
+        const int sign = model.topology.facet_axis_sign[corner.facet];
+        for (const VertexId x : {chain[first + 2 * n], chain[first + 2 * n + 1]}) {
+          EXPECT_GT(sign * model.predicates.orient2d(axis, v, b, x), 0);
+          EXPECT_GT(sign * model.predicates.orient2d(axis, b, d, x), 0);
+          EXPECT_GT(sign * model.predicates.orient2d(axis, d, v, x), 0);
+        }
+      }
+    }
+  }
+  EXPECT_GT(flat, 100);
+  EXPECT_GT(wide, 10);
+}
+
+// Section 4.4, and that each choice leaves no acute angle and simple outlines, as the default.
+TEST(AsPaper, SimplificationStopsAtAnglesAlone) {
+  std::size_t points = 0, fewer = 0;
+  for (const Sample& sample : test_polyhedra::samples()) {
+    SCOPED_TRACE(sample.name);
+    Model model(sample.surface), other(sample.surface);
+    model.run(as_paper(false, false, true));
+    other.run(below(90));
+    points += other.points.size();
+    fewer += model.points.size();
+  }
+  EXPECT_LT(fewer, points);
+}
+
+TEST(AsPaper, NoAngleIsLeftBelowTheThreshold) {
+  for (const Sample& sample : test_polyhedra::samples()) {
+    SCOPED_TRACE(sample.name);
+    for (const ChamferOptions& options :
+         {as_paper(true, false, false), as_paper(true, true, false), as_paper(true, true, true),
+          as_paper(false, false, true)}) {
+      Model model(sample.surface);
+      const ChamferResult result = model.run(options);
+      const Report report = measure(result.plc, model.points);
+      EXPECT_EQ(report.defect, "");
+      EXPECT_GE(report.smallest(), 90 - kRounding);
+      for (const PlcFacet& facet : result.plc.facets) {
+        EXPECT_EQ(outline(result.plc, facet, model.points).crossings, 0);
+      }
+    }
+  }
 }
 
 // What the filter's local rounds rely on.

@@ -2,7 +2,6 @@
 // (sections 4.1 and 4.2). All lengths in the scaled coordinates of KeptSurface.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "mesher/chamfer/acuteness.h"
@@ -10,18 +9,31 @@
 
 namespace delmesher::chamfer {
 
-// The directions that divide a corner of an acute vertex into equal parts of at most 120 degrees,
-// each of which gets one bridge: from the cut point A on one side over P and Q to the cut point B
-// on the other, with |AP| = |PQ| = |QB| = step * distance.
-struct SplitCorner {
-  int parts = 0;  // 1, 2 or 4; 0: the vertex is not acute
-  std::array<Vec2, 5> direction;
-  double half_sine = 0;  // of half the angle of one part
+// A part of a corner of an acute vertex, which gets one bridge: from the cut point A on one side
+// over P and Q to the cut point B on the other, with |AP| = |PQ| = |QB| = step * distance. (With a
+// bridge per triangle |AP| = |QB| may be less, beside acute edges of the triangle.)
+struct CornerPart {
+  Vec2 from, to;         // unit vectors along the sides, counter-clockwise
+  double half_sine = 0;  // of half the angle between them
   double step = 0;
 };
 
-// From exact facts (the sign of the corner's sine) where doubles could err.
+// The parts of a corner, counter-clockwise from its outgoing edge. Empty: the vertex is not acute.
+using SplitCorner = std::vector<CornerPart>;
+
+// 1, 2 or 4 equal parts of at most 120 degrees, from exact facts (the sign of the corner's sine)
+// where doubles could err.
 SplitCorner split_corner(const KeptSurface& surface, const Corner& corner, Predicates& predicates);
+
+// One part for each triangle.
+SplitCorner split_by_triangles(const KeptSurface& surface, const Corner& corner);
+
+struct CutOptions {
+  double max_radius = 0;  // in scaled coordinates; 0: no bound
+  // Reach a third of the way to the link, not to the boundary of facets.
+  bool to_link = false;
+  bool per_triangle = false;  // split_by_triangles; needs to_link
+};
 
 struct Cuts {
   std::vector<SplitCorner> split;  // per corner of the surface
@@ -38,11 +50,10 @@ struct Cuts {
   }
 };
 
-// max_radius in scaled coordinates; 0: no bound.
 Cuts find_cuts(const KeptSurface& surface, const Acuteness& acute, Predicates& predicates,
-               double max_radius, Control& control);
+               const CutOptions& options, Control& control);
 
 // Positional accuracy wanted for the points of a bridge, in units of the chamfer distance.
-double bridge_accuracy(const SplitCorner& split);
+double bridge_accuracy(const CornerPart& part);
 
 }  // namespace delmesher::chamfer

@@ -1,6 +1,7 @@
 #include "mesher/chamfer/filter.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <tuple>
@@ -56,7 +57,37 @@ class InputFilter {
     return result;
   }
 
+  FilterResult run_all_pairs(Control& control) {
+    std::vector<std::uint8_t> responsible(facets_.kept().size());
+    const auto mark = [&](Element::Kind kind, std::size_t count) {
+      const auto ask = [&](Worker&, std::size_t n, std::vector<FacetId>& found) {
+        for_each_close({kind, static_cast<std::uint32_t>(n)}, [&](const ClosePair& pair) {
+          for (const Element& side : {pair.first, pair.second}) {
+            const std::vector<FacetId> facets = facets_.facets(side);
+            found.insert(found.end(), facets.begin(), facets.end());
+          }
+        });
+      };
+      for (const FacetId f : gather<FacetId>(control, count, kChunk, ask)) responsible[f] = 1;
+    };
+    mark(Element::Kind::vertex, surface_.vertex_count());
+    mark(Element::Kind::edge, topology_.edge_count());
+    FilterResult result;
+    for (FacetId f = 0; f < responsible.size(); ++f) {
+      if (responsible[f] == 0) continue;
+      result.dropped_triangles += topology_.facet_triangles[f].size();
+      result.rounds = 1;
+    }
+    result.facet_kept.resize(responsible.size());
+    std::transform(responsible.begin(), responsible.end(), result.facet_kept.begin(),
+                   [](std::uint8_t r) { return static_cast<std::uint8_t>(r == 0); });
+    result.kept_at_first = result.facet_kept;
+    return result;
+  }
+
  private:
+  static constexpr std::size_t kChunk = 256;
+
   struct Later {
     static auto key(const ClosePair& p) {
       return std::tuple(p.squared_distance, p.first.kind, p.first.id);
@@ -68,6 +99,10 @@ class InputFilter {
     const auto& corner = topology_.triangles[t];
     return {surface_.position(corner[0]), surface_.position(corner[1]),
             surface_.position(corner[2])};
+  }
+  Box vertex_box(VertexId v) const {
+    const std::array<Vec3, 1> query = {surface_.position(v)};
+    return Box::around(query);
   }
   Box edge_box(std::uint32_t e) const {
     const auto [v, w] = topology_.edge_vertices(e);
@@ -97,7 +132,6 @@ class InputFilter {
 
   // Queues every element of a kind together with the element closest to it.
   void ask_all(Element::Kind kind, std::size_t count, Control& control) {
-    constexpr std::size_t kChunk = 256;
     const auto ask = [&](Worker&, std::size_t n, std::vector<ClosePair>& found) {
       if (const auto pair = closest_to({kind, static_cast<std::uint32_t>(n)})) {
         found.push_back(*pair);
@@ -110,54 +144,76 @@ class InputFilter {
   std::optional<ClosePair> closest_to(const Element& element) const {
     if (!facets_.alive(element)) return {};
     ClosePair closest{bound_, element, {}};
+    const auto keep_closer = [&closest](const ClosePair& pair) {
+      if (pair.squared_distance < closest.squared_distance) closest = pair;
+      return closest.squared_distance;
+    };
     if (element.kind == Element::Kind::vertex) {
-      find_edge_near_vertex(closest);
-      find_facet_near_vertex(closest);
+      const VertexId x = element.id;
+      const Box query = vertex_box(x);
+      edge_tree_.nearest(query, closest.squared_distance,
+                         [&](std::uint32_t e) { return keep_closer(vertex_and_edge(x, e)); });
+      const std::vector<FacetId> incident = facets_.facets_at(x);
+      triangle_tree_.nearest(query, closest.squared_distance, [&](std::uint32_t t) {
+        return keep_closer(vertex_and_triangle(x, t, incident));
+      });
     } else {
-      find_edge_near_edge(closest);
+      edge_tree_.nearest(edge_box(element.id), closest.squared_distance, [&](std::uint32_t e) {
+        return keep_closer(edge_and_edge(element.id, e));
+      });
     }
     if (closest.second.id == kNone) return {};
     return closest;
   }
 
-  void find_edge_near_vertex(ClosePair& closest) const {
-    const VertexId x = closest.first.id;
-    const Vec3& p = surface_.position(x);
-    const std::array<Vec3, 1> query = {p};
-    edge_tree_.nearest(Box::around(query), closest.squared_distance, [&](std::uint32_t e) {
-      const auto [v, w] = topology_.edge_vertices(e);
-      ClosestOnSegment there = closest_on_segment(p, surface_.position(v), surface_.position(w));
-      // An edge at the vertex counts with its other end: it may be too short.
-      if (v == x || w == x) {
-        there.s = v == x ? 1 : 0;
-        there.squared_distance = squared_norm(subtract(surface_.position(v), surface_.position(w)));
-      }
-      if (there.squared_distance < closest.squared_distance) {
-        closest.squared_distance = there.squared_distance;
-        closest.second = {Element::Kind::edge, e};
-        if (there.s == 0) closest.second = {Element::Kind::vertex, v};
-        if (there.s == 1) closest.second = {Element::Kind::vertex, w};
-      }
-      return closest.squared_distance;
-    });
+  // visit(pair) for the element and each one that is closer to it than the bound.
+  template <class Visit>
+  void for_each_close(const Element& element, Visit visit) const {
+    if (!facets_.alive(element)) return;
+    const auto judge = [&](const ClosePair& pair) {
+      if (pair.squared_distance < bound_) visit(pair);
+    };
+    if (element.kind == Element::Kind::edge) {
+      edge_tree_.for_each_within(edge_box(element.id), bound_,
+                                 [&](std::uint32_t e) { judge(edge_and_edge(element.id, e)); });
+      return;
+    }
+    const VertexId x = element.id;
+    const Box query = vertex_box(x);
+    edge_tree_.for_each_within(query, bound_,
+                               [&](std::uint32_t e) { judge(vertex_and_edge(x, e)); });
+    const std::vector<FacetId> incident = facets_.facets_at(x);
+    triangle_tree_.for_each_within(
+        query, bound_, [&](std::uint32_t t) { judge(vertex_and_triangle(x, t, incident)); });
   }
 
-  // Only where the closest point is inside a facet: else it is on an edge.
-  void find_facet_near_vertex(ClosePair& closest) const {
-    const VertexId x = closest.first.id;
-    const Vec3& p = surface_.position(x);
-    const std::vector<FacetId> incident = facets_.facets_at(x);
-    const std::array<Vec3, 1> query = {p};
-    triangle_tree_.nearest(Box::around(query), closest.squared_distance, [&](std::uint32_t t) {
-      const FacetId f = topology_.facet_of[t];
-      if (std::binary_search(incident.begin(), incident.end(), f)) return closest.squared_distance;
-      const ClosestOnTriangle there = closest_on_triangle(p, triangle(t));
-      if (there.squared_distance < closest.squared_distance && inside_facet(t, there.feature)) {
-        closest.squared_distance = there.squared_distance;
-        closest.second = {Element::Kind::facet, f};
-      }
-      return closest.squared_distance;
-    });
+  // Two elements with their distance, which is infinite where another pair tells it.
+  static ClosePair no_pair() { return {std::numeric_limits<double>::infinity(), {}, {}}; }
+
+  ClosePair vertex_and_edge(VertexId x, std::uint32_t e) const {
+    const auto [v, w] = topology_.edge_vertices(e);
+    ClosestOnSegment there =
+        closest_on_segment(surface_.position(x), surface_.position(v), surface_.position(w));
+    // An edge at the vertex counts with its other end: it may be too short.
+    if (v == x || w == x) {
+      there.s = v == x ? 1 : 0;
+      there.squared_distance = squared_norm(subtract(surface_.position(v), surface_.position(w)));
+    }
+    ClosePair pair{there.squared_distance, {Element::Kind::vertex, x}, {Element::Kind::edge, e}};
+    if (there.s == 0) pair.second = {Element::Kind::vertex, v};
+    if (there.s == 1) pair.second = {Element::Kind::vertex, w};
+    return pair;
+  }
+
+  // Only where the closest point is inside a facet that the vertex is not on: else it is on an
+  // edge.
+  ClosePair vertex_and_triangle(VertexId x, std::uint32_t t,
+                                const std::vector<FacetId>& incident) const {
+    const FacetId f = topology_.facet_of[t];
+    if (std::binary_search(incident.begin(), incident.end(), f)) return no_pair();
+    const ClosestOnTriangle there = closest_on_triangle(surface_.position(x), triangle(t));
+    if (!inside_facet(t, there.feature)) return no_pair();
+    return {there.squared_distance, {Element::Kind::vertex, x}, {Element::Kind::facet, f}};
   }
 
   bool inside_facet(std::uint32_t t, int feature) const {
@@ -167,23 +223,15 @@ class InputFilter {
   }
 
   // Only where both closest points are inside the edges: else a vertex is involved.
-  void find_edge_near_edge(ClosePair& closest) const {
-    const auto ends = topology_.edge_vertices(closest.first.id);
-    const VertexId a = ends[0], b = ends[1];
-    const Vec3 &p = surface_.position(a), &q = surface_.position(b);
-    const Box query = edge_box(closest.first.id);
-    edge_tree_.nearest(query, closest.squared_distance, [&](std::uint32_t e) {
-      const auto [c, d] = topology_.edge_vertices(e);
-      if (a == c || a == d || b == c || b == d) return closest.squared_distance;
-      const ClosestOfSegments there =
-          closest_of_segments(p, q, surface_.position(c), surface_.position(d));
-      const bool inside = there.s > 0 && there.s < 1 && there.t > 0 && there.t < 1;
-      if (inside && there.squared_distance < closest.squared_distance) {
-        closest.squared_distance = there.squared_distance;
-        closest.second = {Element::Kind::edge, e};
-      }
-      return closest.squared_distance;
-    });
+  ClosePair edge_and_edge(std::uint32_t first, std::uint32_t second) const {
+    const auto [a, b] = topology_.edge_vertices(first);
+    const auto [c, d] = topology_.edge_vertices(second);
+    if (a == c || a == d || b == c || b == d) return no_pair();
+    const ClosestOfSegments there = closest_of_segments(surface_.position(a), surface_.position(b),
+                                                        surface_.position(c), surface_.position(d));
+    const bool inside = there.s > 0 && there.s < 1 && there.t > 0 && there.t < 1;
+    if (!inside) return no_pair();
+    return {there.squared_distance, {Element::Kind::edge, first}, {Element::Kind::edge, second}};
   }
 
   // Drops all facets of one of the two elements: the element whose facets cost less. Returns the
@@ -211,14 +259,27 @@ class InputFilter {
 
 }  // namespace
 
+namespace {
+
+FilterResult nothing_dropped(const SurfaceTopology& topology) {
+  const std::vector<std::uint8_t> all(topology.facet_triangles.size(), 1);
+  return {all, all, 0, 0};
+}
+
+}  // namespace
+
 FilterResult filter_input(const SurfaceTopology& topology, const PointStore& points,
                           double tolerance, Control& control) {
+  if (!(tolerance > 0)) return nothing_dropped(topology);
   const KeptSurface surface(topology, points, {});
-  if (!(tolerance > 0)) {
-    const std::vector<std::uint8_t> all(topology.facet_triangles.size(), 1);
-    return {all, all, 0, 0};
-  }
   return InputFilter(surface, tolerance * surface.scale(), control).run(control);
+}
+
+FilterResult filter_all_pairs(const SurfaceTopology& topology, const PointStore& points,
+                              double tolerance, Control& control) {
+  if (!(tolerance > 0)) return nothing_dropped(topology);
+  const KeptSurface surface(topology, points, {});
+  return InputFilter(surface, tolerance * surface.scale(), control).run_all_pairs(control);
 }
 
 namespace {
@@ -235,22 +296,23 @@ void mark_neighbours(const SurfaceTopology& topology, std::vector<std::uint8_t>&
 }  // namespace
 
 FilteredSurface::FilteredSurface(const SurfaceTopology& topology, PointStore& points,
-                                 Predicates& predicates, ChamferOptions options, double tolerance,
-                                 Control& control, double chamfered_fraction)
+                                 Predicates& predicates, ChamferOptions options,
+                                 const FilterOptions& filter, Control& control)
     : topology_(topology),
       points_(points),
       predicates_(predicates),
       control_(control),
       options_(std::move(options)),
-      tolerance_(tolerance),
-      chamfered_fraction_(chamfered_fraction),
+      filter_(filter),
       first_point_(points.size()),
       changed_(topology.vertex_half_edge.size(), 1) {
-  options_.isolated_clearance = std::max(options_.isolated_clearance, tolerance);
+  options_.isolated_clearance = std::max(options_.isolated_clearance, filter.tolerance);
 }
 
 void FilteredSurface::drop_close() {
-  result_.filter = filter_input(topology_, points_, tolerance_, control_);
+  result_.filter = filter_.all_pairs
+                       ? filter_all_pairs(topology_, points_, filter_.tolerance, control_)
+                       : filter_input(topology_, points_, filter_.tolerance, control_);
   options_.facet_kept = result_.filter.facet_kept;
 }
 
@@ -264,12 +326,12 @@ void FilteredSurface::chamfer() {
 }
 
 bool FilteredSurface::drop_small() {
-  if (!(tolerance_ > 0)) return false;
+  if (!(filter_.tolerance > 0)) return false;
   if (!kept_) kept_.emplace(topology_, points_, options_.facet_kept);
   FacetSet facets(*kept_);
-  const double smallest = chamfered_fraction_ * tolerance_ * kept_->scale();
+  const double smallest = filter_.chamfered_fraction * filter_.tolerance * kept_->scale();
   const std::vector<FacetId> dropped = drop_for_chamfered_features(
-      *kept_, points_, result_.chamfer, smallest, changed_, facets, control_);
+      *kept_, points_, result_.chamfer, smallest, changed_, filter_.both_sides, facets, control_);
   if (dropped.empty()) return false;
   mark_changed(dropped);
   FilterResult& filter = result_.filter;

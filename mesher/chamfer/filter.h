@@ -22,12 +22,24 @@ struct FilterResult {
 FilterResult filter_input(const SurfaceTopology& topology, const PointStore& points,
                           double tolerance, Control& control);
 
+// First step as the paper has it: exactly those facets go that have a vertex, an edge or their
+// inside closer than the tolerance to something of the whole surface that does not touch it.
+FilterResult filter_all_pairs(const SurfaceTopology& topology, const PointStore& points,
+                              double tolerance, Control& control);
+
 // Features made by chamfering may be smaller than the input's by this factor: a chamfer is a third
 // of the local feature size, and a bridge across a corner of angle a that times 2 sin(a / 2).
 // With 1 the second step drops as much again as the first did (of 131 models that the first step
 // touches at tau = 1e-4, 71 % of the triangles stay on average), with 1/16 next to nothing (79 %;
 // 80 % without a second step).
 inline constexpr double kChamferedFraction = 1.0 / 16;
+
+struct FilterOptions {
+  double tolerance = 0;     // an absolute distance; 0: nothing is dropped
+  bool all_pairs = false;   // first step: filter_all_pairs()
+  bool both_sides = false;  // second step: both sides of a feature that is too small
+  double chamfered_fraction = kChamferedFraction;
+};
 
 // The input of the refinement: the kept facets, chamfered.
 struct ChamferedSurface {
@@ -40,18 +52,16 @@ struct ChamferedSurface {
 // Appends the points of the last chamfering to the store; those of earlier ones are taken back.
 class FilteredSurface {
  public:
-  // `tolerance` is an absolute distance, 0: nothing is dropped. options.facet_kept is not looked
-  // at.
+  // options.facet_kept is not looked at.
   FilteredSurface(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
-                  ChamferOptions options, double tolerance, Control& control,
-                  double chamfered_fraction = kChamferedFraction);
+                  ChamferOptions options, const FilterOptions& filter, Control& control);
 
-  // The first step, as filter_input().
+  // The first step.
   void drop_close();
   // Chamfers the kept facets: at first all, later only the places that drop_small() has changed.
   void chamfer();
   // The second step: drops facets responsible for chamfered edges shorter than chamfered_fraction *
-  // tolerance, or for elements closer than that. False if there are none.
+  // tolerance, or for elements closer than that, one side of each or both. False if there are none.
   bool drop_small();
   // Chamfers all that is kept, unless chamfer() just did. The object is empty then.
   ChamferedSurface result();
@@ -65,7 +75,7 @@ class FilteredSurface {
   Predicates& predicates_;
   Control& control_;
   ChamferOptions options_;
-  const double tolerance_, chamfered_fraction_;
+  const FilterOptions filter_;
   const std::size_t first_point_;
   // Per vertex: did the last drop change what is made for it; and its neighbours too, which is what
   // has to be chamfered again. `active_` is empty as long as nothing was dropped.

@@ -208,7 +208,8 @@ std::vector<FacetId> drop_for_chamfered_features(const KeptSurface& surface,
                                                  const PointStore& points,
                                                  const ChamferResult& chamfered, double tolerance,
                                                  const std::vector<std::uint8_t>& changed,
-                                                 FacetSet& facets, Control& control) {
+                                                 bool both_sides, FacetSet& facets,
+                                                 Control& control) {
   const SurfaceTopology& topology = surface.topology();
   const std::vector<Violation> found =
       FeatureFinder(surface, points, chamfered, tolerance, facets, changed).run(control);
@@ -218,12 +219,8 @@ std::vector<FacetId> drop_for_chamfered_features(const KeptSurface& surface,
     return std::any_of(culprit.made_for.begin(), culprit.made_for.end(),
                        [&](VertexId v) { return touched[v] != 0; });
   };
-  for (const Violation& violation : found) {
-    const Culprit &first = violation.first, &second = violation.second;
-    if (is_touched(first) || is_touched(second)) continue;
-    const bool drop_first =
-        second.facets.empty() || facets.cost(first.facets) < facets.cost(second.facets);
-    for (FacetId f : drop_first ? first.facets : second.facets) {
+  const auto drop = [&](const Culprit& culprit) {
+    for (const FacetId f : culprit.facets) {
       if (!facets.kept()[f]) continue;
       facets.drop(f, [](std::uint32_t) {});
       dropped.push_back(f);
@@ -231,6 +228,18 @@ std::vector<FacetId> drop_for_chamfered_features(const KeptSurface& surface,
         for (VertexId v : topology.triangles[t]) touched[v] = 1;
       }
     }
+  };
+  for (const Violation& violation : found) {
+    const Culprit &first = violation.first, &second = violation.second;
+    if (both_sides) {
+      drop(first);
+      drop(second);
+      continue;
+    }
+    if (is_touched(first) || is_touched(second)) continue;
+    const bool drop_first =
+        second.facets.empty() || facets.cost(first.facets) < facets.cost(second.facets);
+    drop(drop_first ? first : second);
   }
   return dropped;
 }

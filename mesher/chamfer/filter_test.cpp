@@ -177,25 +177,13 @@ TEST(Filter, SmallestPartGoes) {
 
 ChamferedSurface filter_and_chamfer(Model& model, double tolerance,
                                     double fraction = kChamferedFraction) {
-  FilteredSurface surface(model.topology, model.points, model.predicates, {}, tolerance,
-                          model.control, fraction);
+  const FilterOptions filter{.tolerance = tolerance, .chamfered_fraction = fraction};
+  FilteredSurface surface(model.topology, model.points, model.predicates, {}, filter,
+                          model.control);
   surface.drop_close();
   do surface.chamfer();
   while (surface.drop_small());
   return surface.result();
-}
-
-TEST(Filter, ScalesByPowersOfTwo) {
-  for (const Sample& sample : cases()) {
-    for (int exponent : {-10, 20, -300, -1015, 1000}) {
-      Model model(sample.surface);
-      Model other(test_polyhedra::scaled(sample.surface, std::ldexp(1.0, exponent)));
-      const FilterResult result = filter_and_chamfer(model, 20).filter;
-      const FilterResult same = filter_and_chamfer(other, std::ldexp(20.0, exponent)).filter;
-      EXPECT_EQ(result.facet_kept, same.facet_kept) << sample.name;
-      EXPECT_EQ(model.points.size(), other.points.size());
-    }
-  }
 }
 
 // Distances between the segments of a complex, in doubles.
@@ -212,6 +200,72 @@ double smallest_segment_feature(const Plc& plc, const PointStore& points) {
     }
   }
   return best;
+}
+
+// Both sides of the gap, and the sides of both blocks around it.
+TEST(FilterAsPaper, AllSidesOfAClosePairGo) {
+  Model slab(block(1000, 1000, 3));
+  EXPECT_EQ(filter_all_pairs(slab.topology, slab.points, 5, slab.control).dropped_triangles, 12U);
+  Model two(joined(block(500, 500, 500), block(20, 20, 20), {502, 100, 50}));
+  const FilterResult result = filter_all_pairs(two.topology, two.points, 5, two.control);
+  // The large block's side, and all of the small one's but the one that looks away.
+  EXPECT_EQ(result.dropped_triangles, 2U + 10U);
+}
+
+TEST(FilterAsPaper, DropsNothingElse) {
+  int dropping = 0;
+  for (const Sample& sample : cases()) {
+    for (double tolerance : {0.5, 5.0, 60.0}) {
+      SCOPED_TRACE(sample.name + " " + std::to_string(tolerance));
+      Model model(sample.surface);
+      const std::vector<std::uint8_t> all(model.topology.facet_triangles.size(), 1);
+      const double before = smallest_feature(model.topology, model.points, all);
+      const FilterResult result =
+          filter_all_pairs(model.topology, model.points, tolerance, model.control);
+      const FilterResult one_side =
+          filter_input(model.topology, model.points, tolerance, model.control);
+      EXPECT_GE(smallest_feature(model.topology, model.points, result.facet_kept), tolerance);
+      EXPECT_EQ(result.dropped_triangles > 0, before < tolerance);
+      EXPECT_GE(result.dropped_triangles, one_side.dropped_triangles);
+      dropping += result.dropped_triangles > one_side.dropped_triangles;
+    }
+  }
+  EXPECT_GT(dropping, 20);
+}
+
+// A feature that is too small costs both of its sides, so nothing below the tolerance is left.
+TEST(FilterAsPaper, ChamferingLeavesNothingBelowTheTolerance) {
+  int dropping = 0;
+  for (const Sample& sample : cases()) {
+    SCOPED_TRACE(sample.name);
+    constexpr double kTolerance = 20;
+    Model model(sample.surface), other(sample.surface);
+    FilteredSurface surface(
+        model.topology, model.points, model.predicates, {},
+        {.tolerance = kTolerance, .all_pairs = true, .both_sides = true, .chamfered_fraction = 1},
+        model.control);
+    surface.drop_close();
+    do surface.chamfer();
+    while (surface.drop_small());
+    const ChamferedSurface result = surface.result();
+    EXPECT_GE(smallest_segment_feature(result.chamfer.plc, model.points), kTolerance * (1 - 1e-9));
+    dropping += result.filter.dropped_triangles >
+                filter_and_chamfer(other, kTolerance).filter.dropped_triangles;
+  }
+  EXPECT_GT(dropping, 5);
+}
+
+TEST(Filter, ScalesByPowersOfTwo) {
+  for (const Sample& sample : cases()) {
+    for (int exponent : {-10, 20, -300, -1015, 1000}) {
+      Model model(sample.surface);
+      Model other(test_polyhedra::scaled(sample.surface, std::ldexp(1.0, exponent)));
+      const FilterResult result = filter_and_chamfer(model, 20).filter;
+      const FilterResult same = filter_and_chamfer(other, std::ldexp(20.0, exponent)).filter;
+      EXPECT_EQ(result.facet_kept, same.facet_kept) << sample.name;
+      EXPECT_EQ(model.points.size(), other.points.size());
+    }
+  }
 }
 
 // Distances of the complex's points to facets they are not on, where they project into them.

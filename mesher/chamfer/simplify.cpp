@@ -9,18 +9,25 @@ namespace {
 
 // Smallest distance of a simplified bridge from the vertex it cuts off, relative to the chamfer
 // distance.
-constexpr double kLeastDistance = 0.5;
-constexpr double kLeastDistanceOfWhole = 0.25;
+struct LeastDistance {
+  double edge, whole;
+};
+constexpr LeastDistance kRoomy{0.5, 0.25};
+// As far as only angles count. An edge is met only by corners of more than 179.1 degrees, and there
+// by few: points that split it are rounded by a millionth of its length, and the edges of the facet
+// are as far from it as the vertex, in proportion.
+constexpr LeastDistance kAnglesAlone{0x1p-7, 0x1p-7};
 
 class Simplifier {
  public:
   Simplifier(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
-             const Thresholds& thresholds, Predicates& predicates, Bridges& bridges)
+             const Thresholds& thresholds, bool to_angles, Predicates& predicates, Bridges& bridges)
       : surface_(surface),
         topology_(surface.topology()),
         acute_(acute),
         cuts_(cuts),
         thresholds_(thresholds),
+        least_(to_angles ? kAnglesAlone : kRoomy),
         predicates_(predicates),
         bridges_(bridges),
         original_(bridges.chain) {}
@@ -86,7 +93,7 @@ class Simplifier {
     // Around a wide corner every edge keeps its distance. So does a single edge, if less: split
     // points of artificial edges are rounded, and must not leave the facet where its boundary is
     // straight or nearly so.
-    const double least = whole ? kLeastDistanceOfWhole : kLeastDistance;
+    const double least = whole ? least_.whole : least_.edge;
     if (edge_distance(corner, x, y) < least * cuts_.distance[corner.vertex]) return false;
     return allows(index, x, y, from, true) && allows(index, y, x, to, false);
   }
@@ -176,6 +183,7 @@ class Simplifier {
   const Acuteness& acute_;
   const Cuts& cuts_;
   const Thresholds& thresholds_;
+  LeastDistance least_;
   Predicates& predicates_;
   Bridges& bridges_;
   std::vector<std::vector<VertexId>> original_;  // the chains before any simplification
@@ -184,9 +192,9 @@ class Simplifier {
 }  // namespace
 
 void simplify_bridges(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
-                      const Thresholds& thresholds, Predicates& predicates, Bridges& bridges,
-                      Control& control) {
-  Simplifier(surface, acute, cuts, thresholds, predicates, bridges).run(control);
+                      const Thresholds& thresholds, bool to_angles, Predicates& predicates,
+                      Bridges& bridges, Control& control) {
+  Simplifier(surface, acute, cuts, thresholds, to_angles, predicates, bridges).run(control);
 }
 
 }  // namespace delmesher::chamfer

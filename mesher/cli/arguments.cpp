@@ -125,30 +125,37 @@ void add_run(CLI::App& app, Command& command, Given& given,
   app.add_option("--exact", command.exact_file, "write the exact form of everything");
 }
 
-// Names with commas between them, or none. Empty if there is another name.
+// Names with commas between them, all, or none. Empty if there is another name.
 std::optional<AsPaper> as_paper_of(const std::string& text) {
   AsPaper choices;
   if (text == "none") return choices;
+  if (text == "all") return paper_options().as_paper;
   std::istringstream names(text + ",");
   for (std::string name; std::getline(names, name, ',');) {
-    if (name == "order") {
-      choices.order = true;
-    } else if (name == "steiner-point") {
-      choices.steiner_point = true;
-    } else {
-      return {};
-    }
+    const auto* choice = std::find_if(std::begin(kPaperChoices), std::end(kPaperChoices),
+                                      [&](const NamedChoice& c) { return c.name == name; });
+    if (choice == std::end(kPaperChoices)) return {};
+    choices.*choice->member = true;
   }
   return choices;
+}
+
+std::string paper_choices() {
+  std::string names;
+  for (const NamedChoice& choice : kPaperChoices) {
+    names += (names.empty() ? "" : ", ") + std::string(choice.name);
+  }
+  return names;
 }
 
 void add_as_paper(CLI::App& app, Given& given) {
   app.add_option_function<std::string>(
          "--as-paper", [&given](const std::string& text) { given.as_paper = as_paper_of(text); },
-         "what is done as the paper says: order, steiner-point, with commas, or none (none)")
+         "what is done as the paper says: " + paper_choices() +
+             ", with commas, all, or none (none)")
       ->check(CLI::Validator(
           [](std::string& text) -> std::string {
-            return as_paper_of(text) ? "" : "none of order, steiner-point, none: " + text;
+            return as_paper_of(text) ? "" : "none of " + paper_choices() + ", all, none: " + text;
           },
           "LIST"))
       ->type_name("LIST");
@@ -190,7 +197,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
          "paper: delta 14.47, tau 1e-4, planar 0, acute 90, corner 90, gabriel, improve off, "
-         "as-paper order,steiner-point, region hull; other options override it")
+         "as-paper all, region hull; other options override it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
   add_threads(app, given);

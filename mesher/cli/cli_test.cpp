@@ -122,16 +122,23 @@ TEST(Arguments, ExplicitOptionsOverrideThePresetInAnyOrder) {
 TEST(Arguments, WhatIsDoneAsThePaperSays) {
   const auto choices = [](std::vector<std::string> more) {
     more.insert(more.begin(), {"i.off", "-o", "o.mesh"});
-    const AsPaper c = parse(more).command.options.as_paper;
-    return std::pair{c.order, c.steiner_point};
+    return parse(more).command.options.as_paper;
   };
-  EXPECT_EQ(choices({}), std::pair(false, false));
-  EXPECT_EQ(choices({"--as-paper", "order"}), std::pair(true, false));
-  EXPECT_EQ(choices({"--as-paper", "steiner-point,order"}), std::pair(true, true));
-  EXPECT_EQ(choices({"--preset", "paper"}), std::pair(true, true));
-  EXPECT_EQ(choices({"--as-paper", "steiner-point", "--preset", "paper"}), std::pair(false, true));
-  EXPECT_EQ(choices({"--preset", "paper", "--as-paper", "none"}), std::pair(false, false));
-  for (const char* wrong : {"", "all", "order,", "none,order", "Order"}) {
+  AsPaper all;
+  for (const NamedChoice& choice : kPaperChoices) {
+    AsPaper alone;
+    alone.*choice.member = all.*choice.member = true;
+    EXPECT_EQ(choices({"--as-paper", choice.name}), alone) << choice.name;
+  }
+  EXPECT_EQ(choices({}), AsPaper{});
+  EXPECT_EQ(choices({"--as-paper", "steiner-point,order"}),
+            (AsPaper{.order = true, .steiner_point = true}));
+  EXPECT_EQ(choices({"--as-paper", "all"}), all);
+  EXPECT_EQ(choices({"--preset", "paper"}), all);
+  EXPECT_EQ(choices({"--as-paper", "steiner-point", "--preset", "paper"}),
+            AsPaper{.steiner_point = true});
+  EXPECT_EQ(choices({"--preset", "paper", "--as-paper", "none"}), AsPaper{});
+  for (const char* wrong : {"", "order,", "none,order", "all,order", "Order"}) {
     expect_usage_error({"i.off", "-o", "o.mesh", std::string("--as-paper=") + wrong});
   }
 }

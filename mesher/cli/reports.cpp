@@ -54,8 +54,9 @@ Json mesh_json(const PlaneMeshStatistics& s) {
 
 Json as_paper_json(const AsPaper& choices) {
   Json names = Json::array();
-  if (choices.order) names.push_back("order");
-  if (choices.steiner_point) names.push_back("steiner-point");
+  for (const NamedChoice& choice : kPaperChoices) {
+    if (choices.*choice.member) names.push_back(choice.name);
+  }
   return names;
 }
 

@@ -24,10 +24,32 @@ std::vector<double> spacings(const refine::RefineResult& refined, const PointSto
   return spacing;
 }
 
+// Points on artificial segments, but not on input edges. Beside the edges of the corner that was
+// cut off, inside their diametral balls, they have these edges split once more, next to the corner,
+// and three of four small angles come from there.
+void add_artificial_points(const chamfer::ChamferResult& chamfered,
+                           const refine::RefineResult& refined, const PointStore& points,
+                           cdt::CdtInput& input) {
+  const Plc& plc = chamfered.plc;
+  std::vector<std::uint8_t> on_edge(points.size());
+  for (std::size_t n = 0; n < plc.segments.size(); ++n) {
+    if (plc.segments[n].input_edge == kNone) continue;
+    for (const VertexId v : refined.chain[n]) on_edge[v] = 1;
+  }
+  for (const PlcFacet& facet : plc.facets) {
+    if (facet.input_facet == kNone) continue;
+    std::vector<VertexId>& inside = input.on_facet[facet.input_facet];
+    for (const PlcFacet::Side& side : facet.boundary) {
+      if (plc.segments[side.segment].input_edge != kNone) continue;
+      for (const VertexId v : refined.chain[side.segment]) {
+        if (on_edge[v] == 0 && !points.is_corner(v)) inside.push_back(v);
+      }
+    }
+  }
+}
+
 // Points of the refined complex on input edges and inside input facets; everything else on the
-// complex (the box) goes to `vertices`. Not those on artificial segments: beside the edges of the
-// corner that was cut off, inside their diametral balls, they would have these edges split once
-// more, next to the corner, and three of four small angles came from there.
+// complex (the box) goes to `vertices`.
 void add_complex_points(const chamfer::ChamferResult& chamfered,
                         const refine::RefineResult& refined, const SurfaceTopology& topology,
                         const PointStore& points, Predicates& predicates, cdt::CdtInput& input) {
@@ -111,14 +133,19 @@ cdt::CdtInput plain_input(const SurfaceTopology& topology) {
 cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
                              const std::vector<std::uint8_t>& facet_kept,
                              const refine::RefineResult& refined, const SurfaceTopology& topology,
-                             const PointStore& points, Predicates& predicates, Control& control) {
+                             const PointStore& points, Predicates& predicates, bool keep_all,
+                             Control& control) {
   cdt::CdtInput input = plain_input(topology);
+  if (keep_all) add_artificial_points(chamfered, refined, points, input);
   add_complex_points(chamfered, refined, topology, points, predicates, input);
   const chamfer::RemovedSurface removed(chamfered, facet_kept, topology, points);
   const std::vector<double> spacing = spacings(refined, points);
+  // A vertex in the plane of a dropped facet would have to be one of the facet's, so even what the
+  // paper keeps is a hair away from it.
+  const double share = keep_all ? 0x1p-20 : 1;
   for (const VertexId v : refined.in_volume) {
     control.poll(points.size());
-    if (!removed.too_near(points.nearest(v), spacing[v])) input.vertices.push_back(v);
+    if (!removed.too_near(points.nearest(v), share * spacing[v])) input.vertices.push_back(v);
   }
   drop_coincident(points, predicates, input);
   return input;

@@ -13,10 +13,12 @@ cdt::CdtInput plain_input(const SurfaceTopology& topology);
 
 // The input surface with the vertices of the refined mesh, without those on artificial segments,
 // volume vertices too near to what was removed (RemovedSurface), and points that coincide with
-// input vertices.
+// input vertices. `keep_all`: only without volume vertices in chamfers, those
+// within 2^-20 of that distance of what was removed, and those that coincide.
 cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
                              const std::vector<std::uint8_t>& facet_kept,
                              const refine::RefineResult& refined, const SurfaceTopology& topology,
-                             const PointStore& points, Predicates& predicates, Control& control);
+                             const PointStore& points, Predicates& predicates, bool keep_all,
+                             Control& control);
 
 }  // namespace delmesher::enrich

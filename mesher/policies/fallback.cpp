@@ -48,6 +48,9 @@ chamfer::ChamferOptions chamfer_options(const Options& options) {
   result.corner_cosine_squared = cosine_squared(corner_threshold(options));
   result.max_radius = options.chamfer_radius;
   result.simplify_bridges = options.simplify_bridges;
+  result.bridge_per_triangle = options.as_paper.bridges;
+  result.link_distances = options.as_paper.link || options.as_paper.bridges;
+  result.simplify_to_angles = options.as_paper.simplification;
   return result;
 }
 
@@ -63,7 +66,7 @@ InForce Fallback::in_force(double tau) const {
 
 double Fallback::runaway_length(const Session& session, double tau) {
   constexpr double kRunawayFraction = 1.0 / 4096;
-  if (gabriel_ && everywhere()) return 0;
+  if (options_.as_paper.no_guard || (gabriel_ && everywhere())) return 0;
   // The filter leaves tau between features, and chamfering a 16th of it: this is a 256th of that.
   if (tau > 0) return tau * session.diagonal * kRunawayFraction;
   if (feature_length_ < 0) {

@@ -8,7 +8,7 @@ namespace delmesher::policies {
 std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Session& session) {
   constexpr std::size_t kMostTriangles = 1000;
   const Options& options = session.options;
-  if (options.region != Region::interior || options.max_edge > 0 ||
+  if (options.as_paper.enrichment || options.region != Region::interior || options.max_edge > 0 ||
       session.topology.triangles.size() > kMostTriangles) {
     return std::nullopt;
   }

@@ -58,7 +58,7 @@ Options paper_options() {
   options.improve = false;
   options.slivers = true;
   options.planar = 0;
-  options.as_paper = {.order = true, .steiner_point = true};
+  for (const NamedChoice& choice : kPaperChoices) options.as_paper.*choice.member = true;
   options.region = Region::hull;
   return options;
 }

@@ -89,6 +89,40 @@ const Lie kRelaxed[] = {
     {"a radius a ten-thousandth smaller", "refined-chamfer-extent",
      [](Told& t) { t.record.corners.front().radius *= 0.9999; }},
     {"delta denormal", "promise", [](Told& t) { t.record.parameters.delta = 0x1p-1070; }},
+    // Done in the mesher's own way, and told to be as the paper says.
+    {"chamfers beyond a third of the way to the link", "refined-chamfer-need",
+     [](Told& t) { t.promise.link = true; }},
+    {"chamfers that no triangle bounds", "refined-chamfer-need",
+     [](Told& t) { t.promise.bridges = true; }},
+    {"points on artificial segments left out", "enrichment",
+     [](Told& t) { t.promise.kept_points = true; }},
+    {"one side of a close pair kept", "refined-filter",
+     [](Told& t) { t.promise.filter_pairs = true; }},
+    {"dropped for a close pair, told to be the only side", "refined-filter",
+     [](Told& t) {
+       Options options = honest_options();
+       options.as_paper.filter_pairs = true;
+       t = run_of(options);
+       t.promise.filter_pairs = false;
+     }},
+    {"left as it was, though it was to be enriched", "enrichment",
+     [](Told& t) {
+       t = run_of(honest_options(), oracles::Task::mesh,
+                  {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                   {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}},
+                   {}});
+       t.promise.enrichment = true;
+     }},
+    {"a corner tightened without a guard", "promise",
+     [](Told& t) {
+       t.promise.no_guard = true;
+       t.record.corners.front().threshold = 90;
+     }},
+    {"empty balls without a guard, not asked for", "promise",
+     [](Told& t) {
+       t.promise.no_guard = true;
+       t.promise.gabriel = false;
+     }},
     {"an old version", "promise", [](Told& t) { t.version = 2; }},
     {"version 1, which lacks what could be asked", "promise",
      [](Told& t) {

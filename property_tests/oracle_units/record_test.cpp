@@ -94,11 +94,28 @@ TEST(Promises, AreReadFromCommandLines) {
        {"--as-paper none", "--as-paper=order", "--as-paper steiner-point,order"}) {
     EXPECT_EQ(parse_promise(text, p), "") << text;
     EXPECT_EQ(p.acute, 60) << text;
+    EXPECT_FALSE(p.link) << text;
+  }
+  // What is promised by a text is what is promised by the same options.
+  for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
+    delmesher::Options options;
+    options.as_paper.*choice.member = true;
+    const Promise q = promise_of(options);
+    EXPECT_EQ(parse_promise(std::string("--as-paper=") + choice.name, p), "") << choice.name;
+    const auto choices = [](const Promise& x) {
+      return std::tuple(x.link, x.bridges, x.kept_points, x.enrichment, x.filter_pairs,
+                        x.filter_chamfered, x.no_guard);
+    };
+    EXPECT_EQ(choices(p), choices(q)) << choice.name;
+    EXPECT_EQ(parse_promise("--preset paper", p), "");
+    EXPECT_EQ(choices(p), choices(promise_of(delmesher::paper_options())));
+    EXPECT_EQ(parse_promise("--preset paper --as-paper none", p), "");
+    EXPECT_EQ(choices(p), choices(Promise{}));
   }
   for (const char* text :
        {"paper", "--preset", "mesh --preset", "--preset=", "--preset paperback", "--delta",
         "--delta=", "--delta=3x", "--nothing=3", "--as-paper", "--as-paper=", "--as-paper order,",
-        "--as-paper none,order", "--as-paper orders"}) {
+        "--as-paper none,order", "--as-paper all,order", "--as-paper orders"}) {
     EXPECT_NE(parse_promise(text, p), "") << text;
   }
 }
