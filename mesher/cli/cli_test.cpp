@@ -143,6 +143,24 @@ TEST(Arguments, WhatIsDoneAsThePaperSays) {
   }
 }
 
+TEST(Reports, LimitsThatStruckHaveALineEach) {
+  EXPECT_TRUE(limits_texts({}).empty());
+  Statistics s;
+  s.guard_stops = 2;
+  s.fallback_corners = 5;
+  s.guaranteed_acute = 60;
+  s.refinement_capped = true;
+  s.cdt_restarts = 1;
+  s.rounding_thinned = 7;
+  const std::vector<std::string> texts = limits_texts(s);
+  ASSERT_EQ(texts.size(), 4U);
+  EXPECT_NE(texts[0].find("2 times"), std::string::npos);
+  EXPECT_NE(texts[0].find("5 corners"), std::string::npos);
+  EXPECT_NE(texts[3].find("7 points"), std::string::npos);
+  s.guaranteed_acute = 90;
+  EXPECT_NE(limits_texts(s)[0].find("all corners"), std::string::npos);
+}
+
 TEST(Arguments, OtherJobs) {
   const Parsed cdt = parse({"cdt", "in.off", "-o", "out.tet"});
   EXPECT_TRUE(cdt.run);
@@ -593,6 +611,7 @@ TEST_F(Run, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");
   EXPECT_EQ(keys(json["guarantee"]), "acute corner gabriel fallback_corners ");
+  EXPECT_EQ(keys(json["limits"]), "guard_stops refinement_capped cdt_restarts thinned ");
   EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume in_final_mesh ");
   EXPECT_EQ(keys(json["rounding"]), "inverted flat repaired thinned max_surface_deviation ");
   EXPECT_EQ(json["status"], "ok");

@@ -175,6 +175,10 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                        {"corner", s.guaranteed_corner},
                        {"gabriel", s.gabriel},
                        {"fallback_corners", s.fallback_corners}};
+  json["limits"] = {{"guard_stops", s.guard_stops},
+                    {"refinement_capped", s.refinement_capped},
+                    {"cdt_restarts", s.cdt_restarts},
+                    {"thinned", s.rounding_thinned}};
   json["steiner"] = {{"on_segments", s.steiner_on_segments},
                      {"on_facets", s.steiner_on_facets},
                      {"in_volume", s.steiner_in_volume},
@@ -231,6 +235,29 @@ std::string planar_text(const std::string& file, const Statistics& s) {
          " if planar within " + number_short(s.planar_bound / diagonal) +
          " of the diagonal; vertices are up to " + number_short(s.planar_deviation / diagonal) +
          " from their planes (--planar 0 keeps all facets)";
+}
+
+std::vector<std::string> limits_texts(const Statistics& s) {
+  std::vector<std::string> texts;
+  if (s.guard_stops > 0) {
+    const std::string corners =
+        s.guaranteed_acute >= 90 ? "all corners" : std::to_string(s.fallback_corners) + " corners";
+    texts.push_back("the refinement would not end: begun anew " + std::to_string(s.guard_stops) +
+                    " times, at last with empty balls and chamfers up to 90 degrees at " + corners);
+  }
+  if (s.refinement_capped) {
+    texts.emplace_back(
+        "slivers, or angles above the guaranteed ones, were given up at four times the points");
+  }
+  if (s.cdt_restarts > 0) {
+    texts.push_back("the constrained tetrahedrization was begun anew " +
+                    std::to_string(s.cdt_restarts) + " times");
+  }
+  if (s.rounding_thinned > 0) {
+    texts.push_back(std::to_string(s.rounding_thinned) +
+                    " points were taken out where doubles are too coarse for them");
+  }
+  return texts;
 }
 
 std::string check_text(const std::string& file, const Surface& surface,

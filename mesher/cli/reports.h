@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "mesher/cli/arguments.h"
 #include "mesher/delmesher_plane.h"
@@ -31,6 +32,8 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
 
 // What was merged because it is planar within the bound; one line.
 std::string planar_text(const std::string& file, const Statistics& statistics);
+// One line for each limit that the mesher set itself and that struck, for -v.
+std::vector<std::string> limits_texts(const Statistics& statistics);
 
 // The report of `check`.
 std::string check_text(const std::string& file, const Surface& surface,

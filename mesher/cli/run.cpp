@@ -109,6 +109,7 @@ int Runner::mesh() {
   count_defects(result.status);
   const Statistics& s = result.statistics;
   if (s.planar_groups > 0) remark(planar_text(command_.input, s));
+  for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles.
   if (result.status.ok() && command_.job == Job::mesh) {
     for (std::string& warning : quality_warnings(result, command_.options.delta)) {

@@ -49,6 +49,12 @@ struct Statistics {
   double guaranteed_corner = 0;        // the same for the angle of two edges
   bool gabriel = false;                // the constraints of the refined mesh have empty balls
   std::uint64_t fallback_corners = 0;  // corners where the guard fell back to 90 degrees
+  // Limits that the mesher set itself: refinements that the guard stopped, each followed by another
+  // one; whether the treatment of slivers, or of angles above the guaranteed bound, was ended by
+  // its cap on insertions; and how often the constrained tetrahedrization began anew.
+  std::uint64_t guard_stops = 0;
+  bool refinement_capped = false;
+  std::uint64_t cdt_restarts = 0;
   std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;
   // Does the final mesh have the points of the refined one? Not where the input alone is better.
   bool enriched = true;

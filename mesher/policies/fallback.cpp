@@ -14,13 +14,14 @@ double corner_threshold(const Options& o) {
   return std::min(o.acute, std::max(o.corner, o.delta + kMargin));
 }
 
-void tighten_corners(const Vec3& place, double otherwise, const SurfaceTopology& topology,
-                     const PointStore& points, std::vector<double>& vertex_cosine_squared) {
+// Tightens the nearest vertex that is not tight yet, and all that are at most so many edges away
+// from it: where the refinement runs away, at least one corner between the two thresholds is left.
+void tighten_corners(const Vec3& place, int edges_away, double otherwise,
+                     const SurfaceTopology& topology, const PointStore& points,
+                     std::vector<double>& vertex_cosine_squared) {
   if (vertex_cosine_squared.empty()) {
     vertex_cosine_squared.assign(topology.vertex_half_edge.size(), otherwise);
   }
-  // The nearest vertex that is not tight yet, and those that share an edge with it: where the
-  // refinement runs away, at least one corner between the two thresholds is left.
   VertexId nearest = kNone;
   double smallest = 0;
   for (VertexId v = 0; v < topology.vertex_half_edge.size(); ++v) {
@@ -32,11 +33,17 @@ void tighten_corners(const Vec3& place, double otherwise, const SurfaceTopology&
     }
   }
   if (nearest == kNone) return;
-  vertex_cosine_squared[nearest] = 0;
-  for (std::uint32_t e = 0; e < topology.edge_count(); ++e) {
-    const auto ends = topology.edge_vertices(e);
-    if (ends[0] == nearest) vertex_cosine_squared[ends[1]] = 0;
-    if (ends[1] == nearest) vertex_cosine_squared[ends[0]] = 0;
+  std::vector<std::uint8_t> here(vertex_cosine_squared.size());
+  here[nearest] = 1;
+  for (int step = 0; step < edges_away; ++step) {
+    const std::vector<std::uint8_t> before = here;
+    for (std::uint32_t e = 0; e < topology.edge_count(); ++e) {
+      const auto [v, w] = topology.edge_vertices(e);
+      if (before[v] != 0 || before[w] != 0) here[v] = here[w] = 1;
+    }
+  }
+  for (VertexId v = 0; v < here.size(); ++v) {
+    if (here[v] != 0) vertex_cosine_squared[v] = 0;
   }
 }
 
@@ -59,9 +66,12 @@ Fallback::Fallback(const Options& options)
 
 InForce Fallback::in_force(double tau) const {
   constexpr double kRight = 90;
-  return {tau, everywhere() ? kRight : options_.acute,
-          everywhere() ? kRight : corner_threshold(options_), gabriel_,
-          &chamfering_.vertex_cosine_squared};
+  return {tau,
+          everywhere() ? kRight : options_.acute,
+          everywhere() ? kRight : corner_threshold(options_),
+          gabriel_,
+          &chamfering_.vertex_cosine_squared,
+          stops_};
 }
 
 double Fallback::runaway_length(const Session& session, double tau) {
@@ -76,18 +86,21 @@ double Fallback::runaway_length(const Session& session, double tau) {
   return feature_length_ * kRunawayFraction;
 }
 
+// Every local step tightens at least one more corner, so they would end by themselves; but each
+// costs a refinement up to the place where it runs away. So they reach farther with time, and after
+// kLocalSteps of them everything is tightened.
 void Fallback::tighten(const Vec3& place, const Session& session) {
-  constexpr int kLocalSteps = 6;  // then everywhere
+  ++stops_;
   if (!gabriel_) {
     gabriel_ = true;
-  } else if (steps_ < kLocalSteps) {
-    tighten_corners(place, chamfering_.cosine_squared, session.topology, session.points,
-                    chamfering_.vertex_cosine_squared);
+  } else if (local_steps_ < kLocalSteps) {
+    tighten_corners(place, 1 + local_steps_ / kSameReach, chamfering_.cosine_squared,
+                    session.topology, session.points, chamfering_.vertex_cosine_squared);
+    ++local_steps_;
   } else {
     chamfering_.cosine_squared = chamfering_.corner_cosine_squared = 0;
     chamfering_.vertex_cosine_squared.clear();
   }
-  ++steps_;
 }
 
 }  // namespace delmesher::policies

@@ -19,6 +19,10 @@ chamfer::ChamferOptions chamfer_options(const Options& options);
 // away, at last with them everywhere. Deterministic: the guard looks at lengths, never at time.
 class Fallback {
  public:
+  // How often only corners near the place are tightened: the nearest that is not yet and its
+  // neighbours, one edge farther after each kSameReach times.
+  static constexpr int kLocalSteps = 32, kSameReach = 8;
+
   explicit Fallback(const Options& options);
 
   const chamfer::ChamferOptions& chamfering() const { return chamfering_; }
@@ -38,7 +42,8 @@ class Fallback {
   const Options& options_;
   chamfer::ChamferOptions chamfering_;
   bool gabriel_;
-  int steps_ = 0;
+  int local_steps_ = 0;
+  std::uint64_t stops_ = 0;
   double feature_length_ = -1;  // without a filter; unknown yet
 };
 

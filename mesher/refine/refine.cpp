@@ -69,7 +69,8 @@ void Refiner::refine_tetrahedra() {
   const Goal wanted(options_.delta, options_.slivers, options_.max_edge);
   reach(guaranteed, kUnlimited);
   if (!options_.slivers && options_.delta <= kGuaranteedDelta) return;
-  if (!reach(wanted, kCapFactor * points_.size())) reach(guaranteed, kUnlimited);
+  result_.capped = !reach(wanted, kCapFactor * points_.size());
+  if (result_.capped) reach(guaranteed, kUnlimited);
 }
 
 bool Refiner::reach(const Goal& goal, std::size_t cap) {

@@ -81,6 +81,7 @@ struct RefineResult {
   // unless asked for.
   std::vector<std::array<VertexId, 4>> ball;
   std::uint64_t on_segments = 0, on_facets = 0;
+  bool capped = false;  // slivers, or angles above kGuaranteedDelta, were given up at the cap
 };
 
 // Appends the outer box (section 5.1) to the complex: six rectangles around all input points.

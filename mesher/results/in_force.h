@@ -1,6 +1,7 @@
 // The parameters in force when the refinement ended: as asked for, or stricter.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "mesher/base/ids.h"
@@ -14,6 +15,7 @@ struct InForce {
   bool gabriel = false;          // empty diametral balls
   // Per input vertex, 0 where corners are chamfered up to 90 degrees; empty: nowhere.
   const std::vector<double>* vertex_cosine_squared = nullptr;
+  std::uint64_t guard_stops = 0;  // how often the guard made something stricter
 
   bool tightened(VertexId v) const {
     return !vertex_cosine_squared->empty() && (*vertex_cosine_squared)[v] == 0;

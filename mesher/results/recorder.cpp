@@ -67,6 +67,7 @@ void Recorder::chamfered(const chamfer::ChamferResult& chamfered,
   s.guaranteed_acute = force.acute;
   s.guaranteed_corner = force.corner;
   s.gabriel = force.gabriel;
+  s.guard_stops = force.guard_stops;
   const std::vector<double>& tightened = *force.vertex_cosine_squared;
   s.fallback_corners =
       static_cast<std::uint64_t>(std::count(tightened.begin(), tightened.end(), 0.0));
@@ -83,6 +84,7 @@ void Recorder::refined(const chamfer::ChamferResult& chamfered,
   Statistics& s = result_.statistics;
   s.steiner_on_segments = refined.on_segments;
   s.steiner_on_facets = refined.on_facets;
+  s.refinement_capped = refined.capped;
   s.steiner_in_volume = refined.in_volume.size();
   s.refined =
       refined_statistics(refined, session_.points, session_.options.region, session_.control);
@@ -94,6 +96,7 @@ void Recorder::refined(const chamfer::ChamferResult& chamfered,
 
 void Recorder::tetrahedrized(const cdt::CdtResult& cdt) {
   result_.statistics.steiner_on_segments += cdt.steiner.size();
+  result_.statistics.cdt_restarts = cdt.counters.facet_restarts;
   if (!exact()) return;
   if (result_.exact.facets.empty()) record_facets(session_.topology, nullptr, result_.exact);
   record_final(cdt, session_.topology, result_.exact);
