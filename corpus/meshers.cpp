@@ -6,10 +6,12 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "corpus/process.h"
 #include "corpus/sha256.h"
 #include "corpus/shell.h"
+#include "mesher/delmesher.h"
 
 namespace tetproof {
 namespace {
@@ -31,6 +33,12 @@ constexpr OwnVariant kOwn[] = {
     {"delmesher-nofilter", "mesh --preset paper --tau 0"},
     {"delmesher-nobridges", "mesh --preset paper --no-bridge-simplification"},
     {"cdt", "cdt --region hull"}};
+// One deviation from the default at a time, towards the paper: of the parameters and of
+// section 8.3. Each of the choices of --as-paper is another one.
+constexpr OwnVariant kDeviations[] = {
+    {"gabriel", "mesh --gabriel"},    {"acute-90", "mesh --acute 90 --corner 90"},
+    {"planar-0", "mesh --planar 0"},  {"improve-off", "mesh --improve off --slivers off"},
+    {"slivers", "mesh --slivers on"}, {"hull", "mesh --region hull"}};
 constexpr OwnVariant kTetgen[] = {{"tetgen", "zpcq"}, {"tetgen-T0", "zpcqT0"}};
 
 std::vector<std::string> words_of(const std::string& text) {
@@ -90,6 +98,17 @@ Mesher own_mesher(const std::string& name, const std::string& arguments,
     return argv;
   };
   return mesher;
+}
+
+// The options of `delmesher+NAME`; empty if nothing is called NAME.
+std::string deviation(const std::string& name) {
+  for (const OwnVariant& variant : kDeviations) {
+    if (name == variant.name) return variant.arguments;
+  }
+  for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
+    if (name == choice.name) return "mesh --as-paper " + name;
+  }
+  return {};
 }
 
 Mesher tetgen_mesher(const std::string& name, const std::string& switches,
@@ -196,6 +215,11 @@ Mesher make_mesher(const std::string& text, const MesherPrograms& programs) {
   for (const OwnVariant& own : kOwn) {
     if (text == own.name) return own_mesher(own.name, own.arguments, programs);
   }
+  constexpr std::string_view kPlus = "delmesher+";
+  if (text.starts_with(kPlus)) {
+    const std::string arguments = deviation(text.substr(kPlus.size()));
+    if (!arguments.empty()) return own_mesher(text, arguments, programs);
+  }
   for (const OwnVariant& tetgen : kTetgen) {
     if (text == tetgen.name) return tetgen_mesher(tetgen.name, tetgen.arguments, programs);
   }
@@ -213,6 +237,18 @@ std::vector<std::string> mesher_names() {
   std::vector<std::string> names;
   for (const OwnVariant& own : kOwn) names.emplace_back(own.name);
   for (const OwnVariant& tetgen : kTetgen) names.emplace_back(tetgen.name);
+  return names;
+}
+
+std::vector<std::string> ablation_names() {
+  std::vector<std::string> names = {"delmesher"};
+  for (const OwnVariant& variant : kDeviations) {
+    names.push_back(std::string("delmesher+") + variant.name);
+  }
+  for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
+    names.push_back(std::string("delmesher+") + choice.name);
+  }
+  names.emplace_back("delmesher-e4");
   return names;
 }
 

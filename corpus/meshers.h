@@ -46,13 +46,19 @@ struct Mesher {
 // Understands
 //   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges cdt
 //   tetgen tetgen-T0
+//   delmesher+NAME                     one departure of its default from the paper undone: gabriel,
+//                                      acute-90, planar-0, improve-off, slivers, hull, or a name
+//                                      of --as-paper
 //   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options
 //   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it, and
 //   NAME=cmd,region=hull,deviation=1e-8:'...'   to say what it meshes and by how much it may miss
 // \throw std::runtime_error for an unknown name or a program that is missing.
 Mesher make_mesher(const std::string& name, const MesherPrograms& programs);
 
-// The names above, for help texts.
+// The names above, for help texts, without delmesher+NAME.
 std::vector<std::string> mesher_names();
+
+// The default, every delmesher+NAME, and the paper's preset.
+std::vector<std::string> ablation_names();
 
 }  // namespace tetproof

@@ -1,4 +1,5 @@
 #include "corpus/meshers.h"
+#include "mesher/delmesher.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -51,6 +52,19 @@ TEST_F(Meshers, ThePapersExperiments) {
   const std::string tetgen = programs_.tetgen.string();
   EXPECT_EQ(command("tetgen"), tetgen + " zpcq in.off out.mesh stats.json");
   EXPECT_EQ(command("tetgen-T0"), tetgen + " zpcqT0 in.off out.mesh stats.json");
+}
+
+TEST_F(Meshers, EveryDeviationAlone) {
+  const std::string own = programs_.delmesher.string();
+  const std::string files = " in.off -o out.mesh --stats stats.json -q";
+  EXPECT_EQ(command("delmesher+order"), own + " mesh --as-paper order" + files);
+  EXPECT_EQ(command("delmesher+acute-90"), own + " mesh --acute 90 --corner 90" + files);
+  EXPECT_THROW(make_mesher("delmesher+nothing", programs_), std::runtime_error);
+  const std::vector<std::string> names = ablation_names();
+  EXPECT_EQ(names.front(), "delmesher");
+  EXPECT_EQ(names.back(), "delmesher-e4");
+  EXPECT_EQ(names.size(), 2 + 6 + std::size(delmesher::kPaperChoices));
+  for (const std::string& name : names) EXPECT_EQ(make_mesher(name, programs_).name, name);
 }
 
 TEST_F(Meshers, WhatEachCovers) {

@@ -36,4 +36,7 @@ Chart size_cactus_chart(const Selection& selection);
 // Figure 8: tetrahedra over the thickness of the wall, and the estimate.
 Chart figure_8_chart(const Selection& selection);
 
+// The medians of deviation_table(): tetrahedra and time.
+Chart deviation_chart(const Selection& selection);
+
 }  // namespace tetproof

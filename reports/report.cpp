@@ -91,7 +91,8 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
              joined(angle_charts(selection, ""), gamma_charts(selection))));
   add("success", "Success",
       "What became of the runs, and what the oracles say of the files that were delivered.",
-      {disposition_table(selection), oracle_table(selection), failure_group_table(selection)},
+      {disposition_table(selection), oracle_table(selection), failure_group_table(selection),
+       limit_table(selection)},
       {disposition_chart(selection), cactus_chart(selection), size_cactus_chart(selection)});
   add("speed", "Time and memory", "",
       {speed_table(selection), time_table(selection), phase_table(selection)},
@@ -104,6 +105,9 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
   add("chamfering", "Bridges and thin walls",
       "Our own measurements on what the paper's section 4.4 and Figure 8 are about.",
       {ablation_table(selection), figure_8_table(selection)}, {figure_8_chart(selection)});
+  add("deviations", "What the departures from the paper are worth",
+      "The default, each of its departures undone alone, and the paper's preset (docs/paper.md).",
+      {deviation_table(selection)}, {deviation_chart(selection)});
   add("rotated", "Rotated models",
       "Of a part in another position, its corners rounded, the mesh should be about the same.",
       {rotated_table(selection)}, {});

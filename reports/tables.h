@@ -40,6 +40,14 @@ Table figure_8_table(const Selection& selection);
 // sizes and angles relative to those of the model as given. No rows if there are none.
 Table rotated_table(const Selection& selection);
 
+// Our mesher's default, delmesher+NAME for each departure from the paper undone alone, and the
+// paper's preset (tetproof run --ablation). No rows without the default or without such departures.
+Table deviation_table(const Selection& selection);
+
+// How often the limits that our mesher sets itself struck: the guard, the cap on slivers, restarts
+// of the constrained tetrahedrization, points taken out again. No rows without statistics of them.
+Table limit_table(const Selection& selection);
+
 // How long runs took, in the paper's classes and shorter ones.
 Table time_table(const Selection& selection);
 

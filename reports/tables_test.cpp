@@ -10,6 +10,7 @@
 #include <map>
 
 #include "reports/compare.h"
+#include "reports/figures.h"
 #include "reports/made_up_runs.h"
 #include "reports/measures.h"
 #include "reports/report.h"
@@ -261,6 +262,61 @@ TEST(Tables, Speed) {
   EXPECT_EQ(t["tetgen-T0"]["Ratio to tetgen, median (pairs)"], "1.00 (1)");
   EXPECT_EQ(t["cdt"]["Peak bytes/tet, median"], "100");
   EXPECT_EQ(t["safe-delmesher-e4"]["Peak bytes/tet, large, median (models)"], "100 (1)");
+}
+
+// Sizes and times relative to the default, over the models on which both are ok.
+TEST(Tables, DeviationsStandBesideTheDefault) {
+  std::vector<RunRow> rows;
+  for (const Made& made :
+       std::initializer_list<Made>{{"a", "delmesher", kOk, 1000, 4, 1, 0, 0},
+                                   {"b", "delmesher", kOk, 3000, 6, 1, 0, 0},
+                                   {"c", "delmesher", Disposition::crash, 0, 0, 1, 0, 0},
+                                   {"a", "delmesher+order", kOk, 2000, 3, 1, 0, 0},
+                                   {"b", "delmesher+order", Disposition::timeout, 0, 0, 1, 0, 0},
+                                   {"c", "delmesher+order", kOk, 77, 3, 1, 0, 0},
+                                   {"a", "delmesher-e4", kOk, 9000, 3, 1, 0, 1500},
+                                   {"b", "delmesher-e4", kOk, 9000, 2, 1, 0, 1500},
+                                   {"a", "tetgen", kOk, 1000, 4, 1, 0, 0}}) {
+    rows.push_back(row_of(made));
+    rows.back().cpu_seconds = made.tets / 1000.0;
+  }
+  const Selection selection = select_runs(rows);
+  const Table table = deviation_table(selection);
+  ASSERT_EQ(table.rows.size(), 3U);
+  auto t = cells(table);
+  EXPECT_EQ(t["delmesher"]["ok of runs"], "2/3");
+  EXPECT_EQ(t["delmesher"]["All tetrahedra"], "1.000");
+  EXPECT_EQ(t["delmesher+order"]["ok of runs"], "2/3");
+  EXPECT_EQ(t["delmesher+order"]["Models with both"], "1");
+  EXPECT_EQ(t["delmesher+order"]["All tetrahedra"], "2.000");
+  EXPECT_EQ(t["delmesher+order"]["Time"], "2.000");
+  EXPECT_EQ(t["delmesher-e4"]["All tetrahedra"], "0.750");  // 3000 inside of 4000
+  EXPECT_EQ(t["delmesher-e4"]["per model"], "1.000");       // median of 1.5 and 0.5
+  EXPECT_EQ(t["delmesher-e4"]["Min face angle"], "5.000");  // inside: twice 3 and 2
+  EXPECT_EQ(t["delmesher-e4"]["Time"], "6.000");            // median of 9 and 3
+  const Chart chart = deviation_chart(selection);
+  EXPECT_EQ(chart.categories, (std::vector<std::string>{"delmesher-e4", "delmesher+order"}));
+  EXPECT_FALSE(has_data(deviation_table(campaign())));
+  EXPECT_TRUE(deviation_chart(campaign()).empty());
+}
+
+TEST(Tables, LimitsThatStruckAreCounted) {
+  Selection selection = campaign();
+  EXPECT_FALSE(has_data(limit_table(selection)));
+  const auto stats = [](int stops, int corners, double acute, const char* capped) {
+    return R"({"parameters": {"acute": 60}, "guarantee": {"acute": )" + std::to_string(acute) +
+           R"(, "fallback_corners": )" + std::to_string(corners) +
+           R"(}, "limits": {"guard_stops": )" + std::to_string(stops) +
+           R"(, "refinement_capped": )" + capped + R"(, "cdt_restarts": 2, "thinned": 5}})";
+  };
+  auto& runs = selection.runs.at("safe-delmesher-e4");
+  runs.at("hash-a").stats_json = stats(3, 7, 60, "false");
+  runs.at("hash-b").stats_json = stats(33, 0, 90, "true");
+  runs.at("hash-c").stats_json = stats(0, 0, 60, "false");
+  const Table table = limit_table(selection);
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.rows[0], (std::vector<std::string>{"safe-delmesher-e4", "3", "2", "36", "7", "1",
+                                                     "1", "6", "15"}));
 }
 
 // Copies of a model have their ratios to it. A copy that is not ok has none, but is counted.

@@ -25,6 +25,7 @@ struct RunArguments {
   std::uint64_t keep_tetrahedra = 0;
   unsigned jobs = 1;
   bool verify = true, sidecars = false;
+  bool ablation = false;  // ablation_names() as well
 };
 
 struct ExportArguments {
@@ -72,6 +73,7 @@ struct SlurmArguments {
   RunArguments run;
   unsigned shards = 0, retries = 3;
   double task_minutes = 0;          // of a task; 0: the partition's limit
+  bool plan = false;                // tell what it will cost, and submit nothing
   std::vector<std::string> sbatch;  // further options of sbatch
 };
 
@@ -99,6 +101,9 @@ void demand_folder_of(const std::string& database);
 
 // From now on Ctrl-C and other signals to end the program end campaigns cleanly.
 void handle_interrupts();
+
+// The meshers that are asked for, one by one. \throw UsageError if there are none.
+std::vector<std::string> asked_meshers(const RunArguments& arguments);
 
 int run_command(const RunArguments& arguments);
 int report_command(const ReportArguments& arguments);

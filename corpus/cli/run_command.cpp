@@ -2,6 +2,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "corpus/campaign.h"
@@ -33,6 +34,21 @@ std::vector<Model> chosen_models(const RunArguments& arguments) {
   return shard_of(models, index, count);
 }
 
+}  // namespace
+
+std::vector<std::string> asked_meshers(const RunArguments& arguments) {
+  std::vector<std::string> names = arguments.meshers;
+  if (arguments.ablation) {
+    for (const std::string& name : ablation_names()) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  if (names.empty()) throw UsageError("-m or --ablation is required");
+  return names;
+}
+
+namespace {
+
 std::vector<Mesher> chosen_meshers(const RunArguments& arguments) {
   MesherPrograms programs;
   programs.supervisor = beside_this_program("tetproof-supervise");
@@ -42,7 +58,7 @@ std::vector<Mesher> chosen_meshers(const RunArguments& arguments) {
                                                      : arguments.delmesher);
   std::vector<Mesher> meshers;
   try {
-    for (const std::string& name : arguments.meshers)
+    for (const std::string& name : asked_meshers(arguments))
       meshers.push_back(make_mesher(name, programs));
   } catch (const std::runtime_error& error) {
     throw UsageError(std::string("-m: ") + error.what());

@@ -1,9 +1,11 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <set>
 
 #include "corpus/cli/commands.h"
 #include "corpus/models.h"
+#include "corpus/plan.h"
 #include "corpus/sha256.h"
 #include "corpus/slurm.h"
 #include "reports/results.h"
@@ -24,7 +26,7 @@ std::vector<std::string> task_of(const RunArguments& run) {
     words.emplace_back(name);
     words.push_back(value);
   };
-  for (const std::string& mesher : run.meshers) option("--mesher", mesher);
+  for (const std::string& mesher : asked_meshers(run)) option("--mesher", mesher);
   // A cluster that ends a task may end a mesher first, and its runner lives on to store the row.
   std::set<std::string> retry(run.retry.begin(), run.retry.end());
   retry.insert("killed");
@@ -61,10 +63,23 @@ int merge(const SlurmCampaign& campaign, const std::string& database) {
   return 0;
 }
 
+int tell_plan(const SlurmArguments& arguments) {
+  const RunArguments& run = arguments.run;
+  std::vector<Model> models = collect_models({run.paths.begin(), run.paths.end()}).models;
+  if (!run.tier.empty()) models = tier_of(models, tier_from_name(run.tier));
+  ResultsDatabase measured(run.database, ResultsDatabase::Mode::read);
+  const Plan plan =
+      plan_of(models, asked_meshers(run), measured.rows(), arguments.shards, run.timeout);
+  fmt::print("{} models\n{}", models.size(),
+             to_text(plan, arguments.shards, std::max(1u, run.jobs)));
+  return 0;
+}
+
 }  // namespace
 
 int slurm_command(const SlurmArguments& arguments) {
   const RunArguments& run = arguments.run;
+  if (arguments.plan) return tell_plan(arguments);
   if (!run.shard.empty() || run.stop_after > 0) {
     throw UsageError("--shard and --stop-after make no sense here");
   }

@@ -27,8 +27,10 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
   app->add_option("-m,--mesher", a.meshers,
                   names +
                       "cmd:'PROG {in} {out.mesh}', NAME=cmd:'...' or "
-                      "NAME=delmesher:'mesh OPTIONS'; may be repeated")
-      ->required();
+                      "NAME=delmesher:'mesh OPTIONS'; may be repeated");
+  app->add_flag("--ablation", a.ablation,
+                "Also our mesher with its default, with each departure from the paper undone "
+                "alone (delmesher+NAME), and as the paper says (delmesher-e4)");
   app->add_option("--db", a.database, "SQLite file of the results")->required();
   app->add_option("-j,--jobs", a.jobs, "Runs at a time")->capture_default_str();
   app->add_option("--timeout", a.timeout, "Wall seconds per run")->capture_default_str();
@@ -200,6 +202,9 @@ CLI::App* declare_slurm(CLI::App& tetproof, SlurmArguments& a) {
   app->add_option("--retries", a.retries, "How often lost tasks are submitted again")
       ->capture_default_str();
   app->add_option("--task-minutes", a.task_minutes, "Time limit of a task");
+  app->add_flag("--plan", a.plan,
+                "Submit nothing: tell hours, memory and the cost of a lost task, from the runs in "
+                "--db");
   app->add_option("--sbatch", a.sbatch,
                   "Further options of sbatch, such as --sbatch=--partition=x");
   return app;

@@ -1,0 +1,44 @@
+// What a campaign will cost, from the runs that have been measured.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "corpus/models.h"
+#include "reports/results.h"
+
+namespace tetproof {
+
+// Processor seconds with the oracles' time, and memory of the mesher.
+struct PlannedCost {
+  double seconds = 0;
+  std::uint64_t peak_bytes = 0;
+};
+
+struct PlannedMesher {
+  std::string name;
+  std::size_t runs = 0, measured = 0;
+  double seconds = 0, longest_run = 0;
+  std::uint64_t peak_bytes = 0;
+};
+
+struct Plan {
+  std::vector<PlannedMesher> meshers;
+  double seconds = 0;                         // of all runs
+  double longest_shard = 0, longest_run = 0;  // seconds
+  std::size_t runs = 0;
+  std::uint64_t peak_bytes = 0;
+};
+
+// A run that is among the rows costs what it did. Of another one the seconds and the memory per
+// byte of its file are the median and the 90 % quantile of the 9 measured models of that mesher
+// whose files are nearest in size, its seconds at most `timeout` and the longest time of the
+// oracles. \throw std::runtime_error if nothing was measured of a mesher.
+Plan plan_of(const std::vector<Model>& models, const std::vector<std::string>& meshers,
+             const std::vector<RunRow>& rows, unsigned shards, double timeout);
+
+// The plan in words, for a task that does `jobs` runs at a time.
+std::string to_text(const Plan& plan, unsigned shards, unsigned jobs);
+
+}  // namespace tetproof

@@ -1,0 +1,83 @@
+#include "corpus/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace tetproof {
+namespace {
+
+Model model(const std::string& name, std::uint64_t bytes) {
+  return {"/" + name, name, name, bytes};
+}
+
+RunRow row(const std::string& name, const std::string& mesher, std::uint64_t bytes, double cpu,
+           double oracles, std::uint64_t memory) {
+  RunRow r;
+  r.key = {name, mesher, "1", "f", "l"};
+  r.model_name = name;
+  r.model_bytes = bytes;
+  r.disposition = Disposition::ok;
+  r.cpu_seconds = cpu;
+  r.verify_seconds = oracles;
+  r.peak_rss_bytes = memory;
+  return r;
+}
+
+TEST(Plan, WhatWasMeasuredCostsWhatItDid) {
+  const Plan plan = plan_of({model("a", 100), model("b", 1000)}, {"m"},
+                            {row("a", "m", 100, 2, 1, 500), row("b", "m", 1000, 50, 10, 9000),
+                             row("a", "other", 100, 1e6, 0, 1)},
+                            1, 60);
+  ASSERT_EQ(plan.meshers.size(), 1U);
+  EXPECT_EQ(plan.meshers[0].measured, 2U);
+  EXPECT_DOUBLE_EQ(plan.seconds, 63);
+  EXPECT_DOUBLE_EQ(plan.longest_run, 60);
+  EXPECT_DOUBLE_EQ(plan.longest_shard, 63);
+  EXPECT_EQ(plan.peak_bytes, 9000U);
+}
+
+// Three small models at 0.03 s and 5 bytes for each byte, and large ones at ten times that, which
+// are too far away to count for a small one.
+TEST(Plan, TheRestIsLikeTheNearestInSize) {
+  std::vector<RunRow> rows;
+  for (int n = 0; n < 9; ++n) {
+    rows.push_back(row("s" + std::to_string(n), "m", 100, 2, 1, 500));
+    rows.push_back(row("l" + std::to_string(n), "m", 10000, 2000, 1000, 500000));
+  }
+  const Plan plan = plan_of({model("new", 110)}, {"m"}, rows, 1, 1e9);
+  EXPECT_EQ(plan.meshers[0].measured, 0U);
+  EXPECT_NEAR(plan.seconds, 3.3, 1e-9);
+  EXPECT_EQ(plan.peak_bytes, 550U);
+  EXPECT_NEAR(plan_of({model("new", 20000)}, {"m"}, rows, 1, 1e9).seconds, 6000, 1e-6);
+  // A run ends at its limit, and then the oracles have their time.
+  EXPECT_NEAR(plan_of({model("new", 20000)}, {"m"}, rows, 1, 100).seconds, 1100, 1e-6);
+}
+
+TEST(Plan, ShardsAreThoseOfTheCampaign) {
+  std::vector<Model> models;
+  std::vector<RunRow> rows;
+  for (int n = 0; n < 40; ++n) {
+    const std::string hash = std::string(1, "0123456789abcdef"[n % 16]) + std::to_string(n);
+    models.push_back(model(hash, 100));
+    rows.push_back(row(hash, "m", 100, 1, 0, 1));
+  }
+  const Plan plan = plan_of(models, {"m"}, rows, 4, 60);
+  std::size_t largest = 0;
+  for (unsigned s = 1; s <= 4; ++s) largest = std::max(largest, shard_of(models, s, 4).size());
+  EXPECT_DOUBLE_EQ(plan.longest_shard, static_cast<double>(largest));
+  const std::string text = to_text(plan, 4, 2);
+  EXPECT_NE(text.find("40 runs"), std::string::npos) << text;
+  EXPECT_NE(text.find("lost task"), std::string::npos) << text;
+}
+
+TEST(Plan, NeedsSomethingMeasuredOfEveryMesher) {
+  EXPECT_THROW(plan_of({model("a", 100)}, {"m"}, {row("a", "n", 100, 1, 0, 1)}, 1, 60),
+               std::runtime_error);
+  RunRow killed = row("a", "m", 100, 1, 0, 1);
+  killed.disposition = Disposition::killed;
+  EXPECT_THROW(plan_of({model("a", 100)}, {"m"}, {killed}, 1, 60), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace tetproof
