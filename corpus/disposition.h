@@ -12,7 +12,7 @@ namespace tetproof {
 
 enum class ExitCodes : std::uint8_t {
   ours,    // delmesher's: 1 mesh with inverted tetrahedra, 3 and 4 bad input, 5 limit, 6 bug
-  unknown  // 0 is success, anything else a refusal
+  unknown  // 0 is success, 128 and a signal that crashes make a crash, anything else is a refusal
 };
 
 struct Judgement {

@@ -47,6 +47,15 @@ TEST(Disposition, OtherProgramsRefuseByAnyCode) {
   EXPECT_EQ(judge(exited(3, "a\nbad facet\n\n"), ExitCodes::unknown).reason, "exit 3: bad facet");
 }
 
+// Scripts pass on the signal that ended a program as an exit code.
+TEST(Disposition, ScriptsTellOfCrashes) {
+  EXPECT_EQ(kind(exited(128 + SIGSEGV), ExitCodes::unknown), Disposition::crash);
+  EXPECT_EQ(judge(exited(128 + SIGABRT, "assertion"), ExitCodes::unknown).reason,
+            "SIGABRT: assertion");
+  EXPECT_EQ(kind(exited(128 + SIGTERM), ExitCodes::unknown), Disposition::rejected);
+  EXPECT_EQ(kind(exited(200), ExitCodes::unknown), Disposition::rejected);
+}
+
 // An abort is a crash, not a refusal, unless it was memory that ran out.
 TEST(Disposition, Signals) {
   EXPECT_EQ(kind(signalled(SIGSEGV)), Disposition::crash);
