@@ -105,6 +105,14 @@ const Lie kRelaxed[] = {
        t = run_of(options);
        t.promise.filter_pairs = false;
      }},
+    {"dropped for chamfers below tau, told to be below a 16th of it", "refined-filter",
+     [](Told& t) {
+       Options options = honest_options();
+       options.tau = 0x1p-5;
+       options.as_paper.filter_chamfered = true;
+       t = run_of(options);
+       t.promise.filter_chamfered = false;
+     }},
     {"left as it was, though it was to be enriched", "enrichment",
      [](Told& t) {
        t = run_of(honest_options(), oracles::Task::mesh,
