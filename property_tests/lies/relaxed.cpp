@@ -98,13 +98,6 @@ const Lie kRelaxed[] = {
      [](Told& t) { t.promise.kept_points = true; }},
     {"one side of a close pair kept", "refined-filter",
      [](Told& t) { t.promise.filter_pairs = true; }},
-    {"dropped for a close pair, told to be the only side", "refined-filter",
-     [](Told& t) {
-       Options options = honest_options();
-       options.as_paper.filter_pairs = true;
-       t = run_of(options);
-       t.promise.filter_pairs = false;
-     }},
     {"dropped for chamfers below tau, told to be below a 16th of it", "refined-filter",
      [](Told& t) {
        Options options = honest_options();
