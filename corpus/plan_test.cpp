@@ -45,13 +45,13 @@ TEST(Plan, TheRestIsLikeTheNearestInSize) {
     rows.push_back(row("s" + std::to_string(n), "m", 100, 2, 1, 500));
     rows.push_back(row("l" + std::to_string(n), "m", 10000, 2000, 1000, 500000));
   }
-  const Plan plan = plan_of({model("new", 110)}, {"m"}, rows, 1, 1e9);
+  const Plan plan = plan_of({model("0e30", 110)}, {"m"}, rows, 1, 1e9);
   EXPECT_EQ(plan.meshers[0].measured, 0U);
   EXPECT_NEAR(plan.seconds, 3.3, 1e-9);
   EXPECT_EQ(plan.peak_bytes, 550U);
-  EXPECT_NEAR(plan_of({model("new", 20000)}, {"m"}, rows, 1, 1e9).seconds, 6000, 1e-6);
+  EXPECT_NEAR(plan_of({model("0e30", 20000)}, {"m"}, rows, 1, 1e9).seconds, 6000, 1e-6);
   // A run ends at its limit, and then the oracles have their time.
-  EXPECT_NEAR(plan_of({model("new", 20000)}, {"m"}, rows, 1, 100).seconds, 1100, 1e-6);
+  EXPECT_NEAR(plan_of({model("0e30", 20000)}, {"m"}, rows, 1, 100).seconds, 1100, 1e-6);
 }
 
 TEST(Plan, ShardsAreThoseOfTheCampaign) {

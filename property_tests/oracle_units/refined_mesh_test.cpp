@@ -41,13 +41,15 @@ TEST(ChamferFeatures, OfASharpPrism) {
   const auto all = [](Index) { return true; };
   const double side = 1 / (4 + std::sqrt(17.0) / 2);
   for (const Index v : {0U, 3U}) {
-    EXPECT_NEAR(ChamferFeatures(points, surface, corners, thresholds, 0).smallest(v, all), 4 * side,
-                1e-12);
-    EXPECT_NEAR(ChamferFeatures(points, surface, corners, thresholds, 1).smallest(v, all), side,
-                1e-12);
+    EXPECT_NEAR(ChamferFeatures(points, surface, corners, thresholds, {}).smallest(v, all),
+                4 * side, 1e-12);
+    EXPECT_NEAR(
+        ChamferFeatures(points, surface, corners, thresholds, {.limit = 1}).smallest(v, all), side,
+        1e-12);
   }
   for (const Index v : {1U, 2U, 4U, 5U}) {  // no angle below 60 degrees
-    EXPECT_EQ(ChamferFeatures(points, surface, corners, thresholds, 0).smallest(v, all), kInfinity);
+    EXPECT_EQ(ChamferFeatures(points, surface, corners, thresholds, {}).smallest(v, all),
+              kInfinity);
   }
 }
 
