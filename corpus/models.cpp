@@ -86,7 +86,12 @@ ModelList collect_models(const std::vector<fs::path>& paths) {
   };
   for (const fs::path& path : paths) {
     if (fs::is_directory(path)) {
-      for (const fs::path& file : Walk().files_in(path)) {
+      const std::vector<fs::path> files = Walk().files_in(path);
+      if (files.empty()) {
+        throw std::runtime_error(path.string() +
+                                 ": no .off, .obj, .stl or .ply file in this folder");
+      }
+      for (const fs::path& file : files) {
         add(make_model(file, file.lexically_relative(path).string()));
       }
     } else if (fs::exists(path)) {

@@ -22,7 +22,8 @@ struct ModelList {
 
 // Files are taken as they are, folders with all their .off, .obj, .stl and .ply files at any depth.
 // Links to folders are followed, but a folder that several paths lead to is entered once. \throw
-// std::runtime_error if a path does not exist or cannot be read.
+// std::runtime_error if a path does not exist or cannot be read, or a folder has no such file: it
+// is most likely another folder than was meant.
 ModelList collect_models(const std::vector<std::filesystem::path>& paths);
 
 // Part `index` of `count` (1-based) in a division by hash. A model's part does not depend on the

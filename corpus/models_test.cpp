@@ -55,6 +55,14 @@ TEST_F(Models, FilesOfAnyNameAreTaken) {
   EXPECT_THROW(collect_models({folder_ / "missing.off"}), std::runtime_error);
 }
 
+// A campaign of no models would end as if all were well.
+TEST_F(Models, AFolderWithoutSurfacesIsRefused) {
+  write("notes.txt", "x");
+  EXPECT_THROW(collect_models({folder_}), std::runtime_error);
+  write("sub/c.ply", "c");
+  EXPECT_EQ(collect_models({folder_}).models.size(), 1u);
+}
+
 // Also in a cycle, and two links to one folder.
 TEST_F(Models, LinksToFoldersAreFollowedAndEveryFolderEnteredOnce) {
   const fs::path other = folder_.string() + ".other";
