@@ -2,8 +2,8 @@
 // them: library delmesher::io, which needs the standard library alone. mesher/io/formats.md and
 // mesher/io/exact_format.md describe the formats.
 //
-// Nothing is thrown but std::bad_alloc. What cannot be read or written is said in one line that
-// names the file, and the line or byte where there is one.
+// Nothing is thrown but std::bad_alloc. An error is one line that names the file, and the line or
+// byte where there is one.
 #pragma once
 
 #include <array>
@@ -25,8 +25,7 @@ enum class ReadCode : std::uint8_t {
   stopped  // ReadOptions::go_on said no
 };
 
-// What labels are called in files; the mesher knows their numbers alone. A label need not have a
-// name.
+// The names of labels in files; the mesher knows their numbers alone. A label need not have a name.
 using LabelNames = std::map<std::int32_t, std::string>;
 
 struct ReadResult {
@@ -49,8 +48,8 @@ struct ReadOptions {
 };
 
 // A surface from OFF, OBJ, STL, PLY, or TetGen's .smesh and .poly, by content and extension. Faces
-// of more than three corners are cut by the rule of formats.md; whether the surface is valid is for
-// check_surface() and tetrahedralize() to say.
+// of more than three corners are cut by the rule of formats.md; check_surface() and
+// tetrahedralize() decide whether the surface is valid.
 ReadResult read_surface(const std::string& path, const ReadOptions& options = {});
 
 struct RepairOptions {
@@ -63,13 +62,13 @@ struct RepairOptions {
 
 struct RepairResult {
   Surface surface;
-  std::vector<std::string> done;  // what was done, a line each: "12 vertices welded ..."
+  std::vector<std::string> done;  // the changes, a line each: "12 vertices welded ..."
 };
 
-// Mends what can be mended without guessing: welds vertices, removes triangles without area
-// (exactly) and duplicates, turns triangles round so that neighbours agree, fills holes if asked,
-// and drops vertices of no triangle. Nothing else is moved or added. Whether the result is valid is
-// for check_surface() to say.
+// Makes the repairs that need no guess: welds vertices, removes triangles without area (exactly)
+// and duplicates, turns triangles round so that neighbours agree, fills holes if asked, and drops
+// vertices of no triangle. Nothing else is moved or added. check_surface() decides whether the
+// result is valid.
 RepairResult repair_surface(const Surface& surface, const RepairOptions& options = {});
 
 struct PlaneReadResult {
@@ -96,7 +95,7 @@ struct MeshReadResult {
 
 // A tetrahedral mesh, by the extension: .mesh (MEDIT), .msh (Gmsh 4.1 or 2.2), .vtu, .node or .ele
 // (TetGen, which stand together, and a .face if there is one), .tet; as text. Vertices of cells are
-// in range and coordinates are finite; whether the mesh is conforming is for improve_mesh() to say.
+// in range and coordinates are finite; improve_mesh() decides whether the mesh is conforming.
 // `go_on`: ReadOptions::go_on.
 MeshReadResult read_mesh(const std::string& path, const std::function<bool()>& go_on = {});
 
@@ -119,7 +118,7 @@ struct ExactResult {
 // Reads a file written by write_exact().
 ExactResult read_exact(const std::string& path);
 
-// Why something could not be written: "file: reason"; empty if all is well.
+// The reason why a file could not be written, "file: reason"; empty if all is well.
 struct WriteStatus {
   std::string error;
   bool ok() const { return error.empty(); }
@@ -128,7 +127,7 @@ struct WriteStatus {
 // Each file, or set of files, is complete or what it was before. The format is that of the
 // extension: .mesh (MEDIT), .msh (Gmsh 4.1), .vtu, .node (TetGen, with .ele and .face beside it),
 // .tet, .inp (Abaqus), .bdf (Nastran), .vtk (legacy), .xdmf, and of the boundary alone .stl, .ply
-// and .off. Names arrive where formats.md says.
+// and .off. formats.md says where names are written.
 WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const LabelNames& names = {});
 // OFF; labels are not kept, as the format has none.
 WriteStatus write_off(const std::string& path, const Surface& surface);

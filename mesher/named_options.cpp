@@ -13,7 +13,7 @@ bool set(bool& target, double value) {
 
 bool set(double& target, double value) {
   target = value;
-  return true;  // the call that uses it refuses what is no number
+  return true;  // the call that uses it refuses a NaN
 }
 
 template <class Count>

@@ -9,8 +9,8 @@
 namespace delmesher {
 
 // Names as in Options; `order` and `steiner_point` of AsPaper, `time_limit` in seconds, `region` 0
-// or 1 (hull). Switches are 0 or 1, counts are whole. False if there is no such option, or the
-// value is none of its type; what else makes sense is for the call that uses it to say.
+// or 1 (hull). Switches are 0 or 1, counts are whole. False if there is no such option, or if the
+// value is not of its type. The call that is given the options checks their ranges.
 bool set_option(Options& options, std::string_view name, double value);
 
 // All names.

@@ -9,8 +9,8 @@
 
 namespace delmesher::base {
 
-// Throws Stopped, as a limit of size: there are more of `what` ("tetrahedra") than `most`, which is
-// what indices can number.
+// Throws Stopped, as a limit of size: there are more of `what` ("tetrahedra") than `most`, the
+// largest number that indices can express.
 [[noreturn]] inline void stop_at_size(std::uint64_t most, const std::string& what) {
   throw Stopped{
       {StatusCode::limit_reached,

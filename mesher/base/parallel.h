@@ -1,7 +1,7 @@
 // Long loops over independent items, shared among the threads of one run (Options::threads).
 //
 // The result is that of one thread, whatever their number: the chunks of a loop depend on its items
-// alone, each is worked on by one thread, and what they give is put together in their order.
+// alone, each is worked on by one thread, and their results are put together in their order.
 #pragma once
 
 #include <algorithm>
@@ -43,10 +43,10 @@ class Worker {
 };
 
 // Calls work(worker, chunk) for every chunk of `size` items of `count`, by up to control.threads()
-// threads: those that write shared data write different objects. Chunks are begun in their order.
-// When work returns false, later chunks are not wanted: some may be worked on all the same, but
-// every earlier one is completed. What work throws ends the loop in the same way and is thrown on
-// (of several, that of the first chunk), and so are the limits of the control. With one thread, no
+// threads. Calls that write shared data have to write different objects. Chunks are begun in their
+// order. When work returns false, later chunks are not wanted: some may be worked on all the same,
+// but every earlier one is completed. An exception from work ends the loop in the same way and is
+// thrown on (of several, the first chunk's); so do the limits of the control. With one thread, no
 // thread is created.
 void for_chunks(Control& control, std::size_t count, std::size_t size,
                 const std::function<bool(Worker&, const Chunk&)>& work);

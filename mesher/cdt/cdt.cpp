@@ -30,10 +30,11 @@ class CdtBuilder {
     // generic by perturbation, hence strongly Delaunay, and then a constrained Delaunay
     // tetrahedrization exists (Shewchuk, General-dimensional constrained Delaunay and constrained
     // regular triangulations, I, 2008), in which gift wrapping finds a vertex for every open face.
-    // What runs out on the way (memory, time, numbers for the vertices of a cavity, room between
-    // doubles) is thrown as a limit and does not come here. So already a first failure is a bug,
-    // of which counters.facet_restarts tells; a few more points on the facet's boundary give it
-    // another configuration to work on, and when these do not help either it is an internal error.
+    // A resource that runs out on the way (memory, time, numbers for the vertices of a cavity, room
+    // between doubles) is thrown as a limit and does not come here. So already a first failure is a
+    // bug, of which counters.facet_restarts tells; a few more points on the facet's boundary give
+    // it another configuration to work on, and when these do not help either it is an internal
+    // error.
     constexpr int kAttempts = 8;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       if (!delaunay_) delaunay_ = std::make_unique<Tetrahedrization>(predicates_);

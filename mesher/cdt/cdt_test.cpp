@@ -21,7 +21,8 @@ CdtResult expect_good(const Surface& surface) {
   EXPECT_EQ(model.wrong(result), "");
   const CdtCounters& n = result.counters;
   EXPECT_EQ(n.facet_restarts, 0U);
-  // A patch is missing triangles, and its cavity is one of those that are counted.
+  // A patch has at least one missing triangle, and the largest cavity is one of the cavities
+  // counted.
   EXPECT_GE(n.missing_triangles, n.patches);
   EXPECT_GE(n.cavity_tetrahedra, n.largest_cavity);
   EXPECT_LE(n.cavity_tetrahedra, n.patches * n.largest_cavity);
@@ -46,7 +47,7 @@ TEST(Cdt, AFacetsPlaneIsDescribedFromAnyVertexOffIt) {
   expect_good(s);
 }
 
-// The checker itself must notice what it is there for.
+// The checker itself must notice the defects that it is there for.
 TEST(Cdt, CheckerNoticesDefects) {
   Model model(twisted_prism(3, 0.5, 1, true));
   ASSERT_TRUE(model.valid);
@@ -127,7 +128,7 @@ TEST(Cdt, StepsAreToldInTheirOrder) {
                                          CdtStep::classify}));
 }
 
-// What the first tetrahedron claims is looked at like what the others claim, and looking does not
+// The claims of the first tetrahedron are checked like those of the others, and checking does not
 // count as work.
 TEST(Cdt, ValidateLooksAtAllAndCountsNothing) {
   Model model(box(0, 8));
@@ -372,7 +373,7 @@ TEST(Cdt, NeedlesDownTo1e12) {
   }
 }
 
-// Twice the precision of a double is what two parameters can give.
+// Two parameters give at most twice the precision of a double.
 TEST(Cdt, NeedlesDownTo1e32) {
   for (const double angle : {1e-3, 1e-15, 1e-17, 1e-20, 1e-25, 1e-30, 1e-32}) {
     const CdtResult result = expect_good(needle_among_obstacles(angle, 3));
@@ -499,7 +500,7 @@ TEST(Cdt, Enriched) {
 }
 
 // All tetrahedra of the vertex just above the middle of the upper facet reach through that to the
-// ring below: cut by it, they leave the vertex on no face of what is to be filled.
+// ring below: cut by it, they leave the vertex on no face of the polyhedra to be filled.
 TEST(Cdt, VertexOnNoFaceOfACavityStays) {
   Model model(box(0, 64));
   ASSERT_TRUE(model.valid);
@@ -519,9 +520,9 @@ TEST(Cdt, VertexOnNoFaceOfACavityStays) {
   EXPECT_EQ(used_vertices(result), model.input.vertices.size() + result.steiner.size());
 }
 
-// No more vertices are told of, and held against a limit, than there are.
+// Progress and the limit of vertices count no more vertices than there are.
 TEST(Cdt, ALimitOfAllVerticesIsEnough) {
-  // One of 64 polls tells: begun differently, each is that one.
+  // Only every 64th poll looks at the limit: with 64 different beginnings, each poll does once.
   std::size_t asked = 0;
   for (int begun = 0; begun < 64; ++begun) {
     Model model(plate_between_crumbs(4, 0x1p-6, 1));

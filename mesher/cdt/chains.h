@@ -7,8 +7,8 @@
 //  - at an end the fractions are 0 and 1; from end 0 to end 1 no fraction from end 0 falls and no
 //    fraction from end 1 grows by more than the rounding of 1;
 //  - a vertex strictly inside an edge is found by node_of(), and no other vertex is;
-//  - the valence of a vertex is the number of the subsegments that end there.
-// Whether a subsegment is an edge of the tetrahedrization is for validate_segments() to say.
+//  - the valence of a vertex is the number of the subsegments that end there. validate_segments()
+// checks whether subsegments are edges of the tetrahedrization.
 #pragma once
 
 #include <array>

@@ -57,7 +57,7 @@ bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles,
 }
 
 // The missing triangles connected to `start` through missing edges, and the border between them and
-// what is present.
+// the triangles that are present.
 void FacetRecovery::collect_patch(const FacetTriangles& all, std::uint32_t start) {
   patch_.clear();
   patch_border_.clear();

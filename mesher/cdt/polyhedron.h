@@ -2,8 +2,8 @@
 // Delaunay: one side of the cavity that a missing part of a facet leaves.
 //
 // By Shewchuk's theorem (2000; 2008 for the perturbed, that is weighted, case) it exists, needs no
-// further vertices and is unique; so whatever tetrahedra are found to be constrained Delaunay, in
-// any order, fit together.
+// further vertices and is unique; so tetrahedra that are found to be constrained Delaunay fit
+// together, in whatever order they are found.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ class PolyhedronFiller {
 
   // Appends the tetrahedra that fill the polyhedron bounded by `faces`, counter-clockwise seen from
   // outside it. A face may occur in both orientations: a dangling wall. `isolated` are the vertices
-  // that are on no face. Returns false if these are not what is required, which is a bug of the
-  // caller.
+  // that are on no face. Returns false if faces or vertices are not as required, which is a bug of
+  // the caller.
   bool fill(std::vector<Triangle> faces, std::vector<VertexId> isolated,
             std::vector<Tetrahedron>& tetrahedra);
 

@@ -40,7 +40,8 @@ std::vector<std::uint8_t> find_vertices_below_90_degrees(const SurfaceTopology& 
 
 // The queue of subsegments. Invariant between two steps: every subsegment that is not in the queue
 // is an edge of the tetrahedrization (validate_segments checks it when the queue is empty), and
-// subsegments_ finds every subsegment by its ends; what it finds besides has been split.
+// subsegments_ finds every subsegment by its ends; any other subsegment that it finds has been
+// split.
 class SegmentRecovery {
  public:
   SegmentRecovery(Tetrahedrization& mesh, Chains& chains, PointStore& points, Control& control)

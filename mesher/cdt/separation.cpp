@@ -19,8 +19,8 @@ class Pair {
 
   int shared() const { return 7 - size_; }
 
-  // Is there a plane through three vertices that weakly separates the two? If `strict`, one that
-  // moreover meets them in nothing but what their common vertices span.
+  // Is there a plane through three vertices that weakly separates the two? If `strict`, a plane
+  // that moreover meets them in nothing but the simplex of their common vertices.
   bool separable(bool strict) {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {

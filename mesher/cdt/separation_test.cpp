@@ -86,7 +86,7 @@ TEST_F(SeparationTest, AgreesWithRationalClipping) {
     }
     ASSERT_EQ(interior_meets(*predicates_, tet, triangle), inside) << round;
     // Improper: the common part has a point that is not spanned by the common vertices. With at
-    // most two of those that is: a corner of it that is none of them.
+    // most two common vertices this means: it has a corner that is none of them.
     bool improper = false;
     for (const Vector& p : common) {
       bool known = false;
@@ -143,7 +143,7 @@ TEST_F(SeparationTest, IsExactInGeneralPosition) {
   EXPECT_GT(counts[1], 100);
 }
 
-// Three common vertices: what the two meet in is the simplex that these span.
+// With three common vertices the two meet in the triangle that these span.
 TEST_F(SeparationTest, AFaceMeetsItsTetrahedronProperly) {
   int faces = 0;
   for (int round = 0; round < 200; ++round) {

@@ -166,7 +166,7 @@ class InputFilter {
     return closest;
   }
 
-  // visit(pair) for the element and each one that is closer to it than the bound.
+  // Calls visit(pair) for the element and each other one that is closer to it than the bound.
   template <class Visit>
   void for_each_close(const Element& element, Visit visit) const {
     if (!facets_.alive(element)) return;

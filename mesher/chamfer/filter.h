@@ -18,12 +18,13 @@ struct FilterResult {
 };
 
 // First step: no two non-incident kept facets, edges or vertices closer than `tolerance` (absolute
-// distance). Worst pairs first, as a worklist: dropping a facet re-examines only what it touched.
+// distance). The closest pairs come first. After a facet is dropped, only the elements that it
+// touched are examined again.
 FilterResult filter_input(const SurfaceTopology& topology, const PointStore& points,
                           double tolerance, Control& control);
 
-// First step as the paper has it: exactly those facets go that have a vertex, an edge or their
-// inside closer than the tolerance to something of the whole surface that does not touch it.
+// First step as the paper has it: a facet goes exactly if one of its vertices or edges, or its
+// inside, is closer than the tolerance to an element of the whole surface that does not touch it.
 FilterResult filter_all_pairs(const SurfaceTopology& topology, const PointStore& points,
                               double tolerance, Control& control);
 
@@ -77,8 +78,9 @@ class FilteredSurface {
   ChamferOptions options_;
   const FilterOptions filter_;
   const std::size_t first_point_;
-  // Per vertex: did the last drop change what is made for it; and its neighbours too, which is what
-  // has to be chamfered again. `active_` is empty as long as nothing was dropped.
+  // Per vertex, of the last drop. `changed_`: were the points made for it changed? `active_`: or
+  // those of a neighbour, so that it has to be chamfered again? Empty as long as nothing was
+  // dropped.
   std::vector<std::uint8_t> changed_, active_;
   std::optional<KeptSurface> kept_;  // by options_.facet_kept; empty until needed
   ChamferedSurface result_;

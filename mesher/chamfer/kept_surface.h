@@ -50,7 +50,8 @@ class KeptSurface {
     return {dot(vector, frame_[f].x_axis), dot(vector, frame_[f].y_axis)};
   }
 
-  // All corners; those of one boundary loop are consecutive, in its order, those of one facet too.
+  // All corners. The corners of one boundary loop are consecutive, in its order; so are the corners
+  // of one facet.
   const std::vector<Corner>& corners() const { return corners_; }
   // The corners of facet f are first_corner(f) .. first_corner(f + 1) - 1.
   std::uint32_t first_corner(FacetId f) const { return first_corner_[f]; }

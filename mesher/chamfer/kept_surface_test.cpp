@@ -1,4 +1,4 @@
-// What is kept of a surface, with distances in it, and what is removed.
+// The kept part of a surface, with distances in it, and the removed part.
 #include "mesher/chamfer/kept_surface.h"
 
 #include <gtest/gtest.h>
@@ -46,8 +46,8 @@ TEST(KeptSurface, IsScaledByNormalNumbers) {
   }
 }
 
-// One facet of a box was dropped: what is near the middle of one of its triangles is crowded, what
-// is near another facet is not.
+// One facet of a box was dropped: points near the middle of one of its triangles are too near,
+// points near another facet are not.
 TEST(RemovedSurface, IsTheDroppedFacetsAndNothingElse) {
   Surface box;
   for (int v = 0; v < 8; ++v) {

@@ -10,14 +10,15 @@
 
 namespace delmesher::chamfer {
 
-// Boxes that cover it.
+// Boxes that cover the removed parts.
 std::vector<Box> removed_boxes(const ChamferResult& chamfered,
                                const std::vector<std::uint8_t>& facet_kept,
                                const SurfaceTopology& topology, const PointStore& points);
 
-// Tells which points of the refined mesh are too near it for the last step (section 6): a volume
-// vertex inside a chamfer, or one within 0.3 of its spacing of a dropped facet, would make needless
-// bad tetrahedra when the surface returns. `facet_kept`: per facet; empty: all.
+// Tells which points of the refined mesh are too near to the removed parts for the last step
+// (section 6): a volume vertex inside a chamfer, or one within 0.3 of its spacing of a dropped
+// facet, would make needless bad tetrahedra when the surface returns. `facet_kept`: per facet;
+// empty: all.
 class RemovedSurface {
  public:
   RemovedSurface(const ChamferResult& chamfered, const std::vector<std::uint8_t>& facet_kept,

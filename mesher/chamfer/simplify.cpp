@@ -63,7 +63,7 @@ class Simplifier {
       chain = {chain.front(), chain.back()};
       return;
     }
-    // Single points, those with the shortest edges first, until none can go.
+    // Drops single points, the ones with the shortest edges first, until none can go.
     for (bool changed = true; changed && chain.size() > 2;) {
       changed = false;
       std::vector<std::pair<double, std::size_t>> candidates;

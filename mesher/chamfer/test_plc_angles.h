@@ -77,8 +77,8 @@ struct Angle {
 
 struct Report {
   Angle edge_edge, edge_facet, dihedral;
-  // The smallest of all angles, to each of which is added what half an ulp of the complex's size at
-  // the ends of its shortest segment turns it by.
+  // The smallest of all angles, each enlarged by as much as half an ulp of the complex's size, at
+  // the ends of its shortest segment, can turn it.
   double smallest_if_turned = 180;
   std::string defect;  // boundary loops that are not closed, and the like
   double smallest() const {

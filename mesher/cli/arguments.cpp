@@ -96,7 +96,7 @@ void add_threads(CLI::App& app, Given& given) {
              kBounds.threads);
 }
 
-// What every job has that writes a mesh.
+// The options of every job that writes a mesh.
 void add_outputs(CLI::App& app, Command& command, Given& given, const std::string& extensions) {
   app.add_option("-o,--output", command.outputs,
                  "mesh to write: " + extensions +
@@ -300,9 +300,10 @@ unsigned jobs_of(const Given& given) {
   return jobs > 0 ? static_cast<unsigned>(jobs) : std::max(1U, std::thread::hardware_concurrency());
 }
 
-// Files that would overwrite each other or the input; unknown formats. `seen`: those of other runs.
+// Files that would overwrite each other or the input; unknown formats. `seen`: the files of other
+// runs.
 std::string output_error(const Command& command, std::vector<std::filesystem::path>& seen) {
-  // An .ele stands for several files; those beside are read, too.
+  // An .ele stands for several files; the files beside it are read, too.
   std::vector<std::string> files = {command.input};
   if (command.job == Job::improve) files = io::mesh_files_read(command.input);
   const bool plane = command.job == Job::plane;
@@ -343,12 +344,12 @@ std::string output_error(const Command& command, std::vector<std::filesystem::pa
     std::error_code error;
     if (!std::filesystem::is_character_file(where(file), error)) seen.push_back(where(file));
   }
-  // Only read, and by every run.
+  // This file is only read, by every run.
   if (!command.names_file.empty() && clash(command.names_file)) return command.names_file + kClash;
   return {};
 }
 
-// Several runs would mix what they write.
+// Several runs would mix their output.
 bool shares_standard_output(const std::vector<Command>& batch) {
   return batch.size() > 1 && std::any_of(batch.begin(), batch.end(), [](const Command& command) {
            const std::string* files[] = {&command.stats_file, &command.chamfered_file,

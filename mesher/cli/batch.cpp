@@ -88,7 +88,7 @@ bool Batch::start(std::size_t command) {
     const int code = cli::run(commands_[command], library_, streams);
     std::fflush(child.out);
     std::fflush(child.error);
-    ::_exit(code);  // what the parent has buffered is for the parent to write
+    ::_exit(code);  // the parent writes its own buffers
   }
   running_.emplace(pid, child);
   return true;

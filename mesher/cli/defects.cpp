@@ -60,7 +60,7 @@ Colour colour_of(Kind kind) {
   }
 }
 
-// The worst last, so that it is what is seen.
+// The worst comes last, so that its colour is the one that is seen.
 std::vector<Colour> colours(const Surface& surface, const SurfaceReport& report) {
   std::vector<Colour> colour(surface.triangles.size(), kGrey);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges;

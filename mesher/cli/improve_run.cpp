@@ -38,7 +38,7 @@ int ImproveRunner::read() {
   return read_names(names_);
 }
 
-// The line of quality, and what there was before.
+// The line of quality, with the quality before.
 std::string result_text(const Result& result) {
   const std::string now = quality_text(result);
   if (now.empty()) return now;

@@ -1,4 +1,4 @@
-// What a mistyped word may have meant.
+// Suggestions for mistyped words.
 #pragma once
 
 #include <string>

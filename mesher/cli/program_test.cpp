@@ -1,5 +1,5 @@
-// The program itself, as users run it: what is wrong with a file is said in one line with the
-// documented exit code, nothing is left half-written, and signals and limits end a run.
+// The program itself, as users run it: an error in a file is told in one line with the documented
+// exit code, nothing is left half-written, and signals and limits end a run.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -54,7 +54,8 @@ class Program : public testing::Test {
     EXPECT_NE(said.find(part), std::string::npos) << said;
   }
 
-  // Nothing but the input, what was said, and the statistics, which tell the status of any run.
+  // There are no files but the input, the messages, and the statistics, which tell the status of
+  // any run.
   void expect_no_output() const {
     for (const auto& entry : fs::directory_iterator(folder_)) {
       const std::string name = entry.path().filename().string();

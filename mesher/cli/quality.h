@@ -1,4 +1,4 @@
-// What a run says at its end about the quality of the mesh that it wrote.
+// The messages at the end of a run about the quality of the mesh that it wrote.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ std::string quality_text(const Result& result);
 std::string quality_text(const PlaneResult& result);
 
 // Warnings where angles are smaller than asked for, or dihedral angles below 5 degrees: where, and
-// whether an edge or a corner of the input forces it. `delta` is that of the options.
+// whether an edge or a corner of the input forces it. `delta`: Options::delta.
 std::vector<std::string> quality_warnings(const Result& result, double delta);
 
 }  // namespace delmesher::cli

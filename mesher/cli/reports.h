@@ -20,7 +20,8 @@ struct RunFacts {
   std::uint64_t peak_rss_bytes = 0;
 };
 
-// What a phase took: the library does not read or write.
+// Seconds of a phase. The library does not know the phases of reading and writing; `facts` has
+// them.
 double seconds_of(Phase phase, const std::array<double, kPhaseCount>& phase_seconds,
                   const RunFacts& facts);
 
@@ -30,7 +31,7 @@ std::string improve_stats_json(const Command& command, const Result& result, con
 std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts);
 
-// What was merged because it is planar within the bound; one line.
+// One line on the triangles that were merged because they are planar within the bound.
 std::string planar_text(const std::string& file, const Statistics& statistics);
 // One line for each limit that the mesher set itself and that struck, for -v.
 std::vector<std::string> limits_texts(const Statistics& statistics);

@@ -75,7 +75,7 @@ int Runner::write_defects(const SurfaceReport& report) const {
   return status.ok() ? kDone : fail(kUnreadable, status.error);
 }
 
-// How many defects there are of which kind: the library stops at the first.
+// Counts the defects by kind; the library stops at the first.
 void Runner::count_defects(Status& status) const {
   if (status.code != StatusCode::invalid_surface || !library_.check_surface) return;
   const SurfaceReport report =

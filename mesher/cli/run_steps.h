@@ -32,7 +32,8 @@ class RunSteps {
   // Can all files be written? `files_of` names the files that an output consists of.
   int check_outputs(std::vector<std::string> (*files_of)(const std::string&)) const;
 
-  // What a reader asks (ReadOptions::go_on): --time-limit counts from the start of the run.
+  // For ReadOptions::go_on: false when the time of --time-limit, from the start of the run, is
+  // over.
   std::function<bool()> goes_on() const;
   // Adds the names of --names to those of the input.
   int read_names(io::LabelNames& names) const;
@@ -52,8 +53,8 @@ class RunSteps {
   }
 
   // From a result to the exit code: warnings, files (by `write`, whose outputs are then put in
-  // place all at once), statistics (`json`, written whatever became of the run: campaigns want to
-  // know how the others ended), `conclude`.
+  // place all at once), statistics (`json`, written however the run ended, because campaigns want
+  // to know), `conclude`.
   struct Outcome {
     Status status;
     const std::vector<std::string>& warnings;
@@ -66,7 +67,7 @@ class RunSteps {
     if (status.ok() && interrupted()) status = {StatusCode::interrupted, "interrupted"};
   }
 
-  // The common end of every `conclude`: the line on quality is the last, but for what failed.
+  // The common end of every `conclude`: the line on quality is the last, unless something failed.
   struct Written {
     std::uint64_t vertices, cells, inverted, flat;
     const char* cell_name;  // "tetrahedra"

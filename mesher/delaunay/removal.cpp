@@ -1,5 +1,5 @@
-// Removal of vertices. The tetrahedra that have only vertices that stay are Delaunay as before. The
-// hole between them is filled from the Delaunay tetrahedrization of the vertices around it: its
+// Removal of vertices. Tetrahedra all of whose vertices stay are Delaunay as before. The hole
+// between them is filled from the Delaunay tetrahedrization of the vertices around it: its
 // tetrahedra inside the hole are Delaunay among all vertices, too, and the perturbation makes the
 // answer unique, so that their faces fit those around.
 

@@ -34,7 +34,7 @@ class Tetrahedrization {
   };
 
   // Four bytes per tetrahedron for the caller's own purposes, where they cost no extra access to
-  // memory. Zero in a slot that is used for the first time, else what was there.
+  // memory. Zero in a slot that is used for the first time, else as its last user left them.
   using Notes = std::array<std::uint8_t, 4>;
 
   // Faces are numbered in 32 bits, as 4 * tet + face, and kNone is no face.
@@ -52,8 +52,9 @@ class Tetrahedrization {
   // others.
   void remove(std::span<const VertexId> vertices, Control& control);
 
-  // From the Delaunay tetrahedrization of some vertices, all of its hull among these, to that of
-  // these: the same as build(), faster if they are nearly the same vertices.
+  // Turns the Delaunay tetrahedrization of other vertices into that of `vertices`, which must
+  // include all vertices of its hull. Gives the same as build(), faster if they are nearly the same
+  // vertices.
   void change_to(std::span<const VertexId> vertices, Control& control);
 
   // --- queries
@@ -73,8 +74,8 @@ class Tetrahedrization {
   // Neighbour across face i, and the same face's index over there.
   TetId neighbor(TetId t, int i) const { return cell_[t].neighbor[i] >> 2; }
   int mirror(TetId t, int i) const { return cell_[t].neighbor[i] & 3; }
-  // Of the faces of t, those that a finite tetrahedron with a smaller id has too: bit i for face i,
-  // and bit 4 + i if that tetrahedron is also alike.
+  // The faces of t that a finite tetrahedron with a smaller id has, too: bit i for face i, and bit
+  // 4 + i if that tetrahedron is also alike.
   template <class Alike>
   std::uint8_t repeated_faces(TetId t, Alike&& alike) const {
     unsigned bits = 0;

@@ -113,8 +113,8 @@ TEST(Tetrahedrization, GridFillsItsCube) {
   EXPECT_EQ(volume6, 6.0 * 8 * 8 * 8);  // small integers: exact in doubles
 }
 
-// Few vertices go and come, alone and in clusters: what is left is what build() makes of them. On a
-// grid every choice is a tie.
+// Few vertices go and come, alone and in clusters: the result is that of build(). On a grid every
+// choice is a tie.
 TEST(Tetrahedrization, ChangedToOtherVerticesIsThatOfThese) {
   int changed = 0;
   for (const bool grid : {false, true}) {
@@ -305,7 +305,7 @@ TEST(Tetrahedrization, TooManyTetrahedraAreALimit) {
     EXPECT_EQ(stopped.status.limit, Limit::size);
     EXPECT_NE(stopped.status.message.find("300 tetrahedra"), std::string::npos);
   }
-  // No number of a face is that of none.
+  // No face has the number kNone.
   EXPECT_LT(std::uint64_t{4} * (Tetrahedrization::kMostTetrahedra - 1) + 3, kNone);
 }
 

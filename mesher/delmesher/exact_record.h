@@ -10,8 +10,8 @@
 
 namespace delmesher {
 
-// How a point is given exactly; i, j, k are indices of points of the same list, explicit or on
-// planes; of a point on planes, numbers of ExactRecord::planes.
+// The exact definition of a point. i, j and k are indices of points of the same list, which are
+// explicit or on planes; for a point on planes they are indices of ExactRecord::planes.
 struct ExactPoint {
   enum class Kind : std::uint8_t {
     explicit_point,  // (x, y, z)
@@ -50,13 +50,13 @@ struct ExactRecord {
   // oriented as in the input.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   // The input vertices first, in input order: explicit as given, or on planes where they were moved
-  // so that facets are planar. Of the latter the mesh has the vertices as given.
+  // so that facets are planar. In place of moved vertices the mesh has the vertices as given.
   std::vector<ExactPoint> points;
   struct Facet {
     std::uint32_t id;  // smallest input triangle index
     std::int32_t label;
-    // 0: kept. Dropped by the filter: 1 for what is too close in the input, 2 for what chamfering
-    // made of that, after all of 1.
+    // 0: kept. Dropped by the filter: 1 for elements that are too close in the input, 2 for
+    // features that chamfering made too small, after all facets of 1.
     std::uint8_t filtered;
     std::vector<std::uint32_t> triangles;  // input triangles
   };

@@ -11,7 +11,7 @@
 
 namespace delmesher {
 
-// What is inside of a planar straight-line graph. Its segments cut the plane into faces.
+// The segments of a planar straight-line graph cut the plane into faces. Which of them are inside?
 enum class Insideness : std::uint8_t {
   enclosed,  // every face but the unbounded one and those with a hole point (Shewchuk's Triangle)
   nested     // faces separated from the unbounded one by at least an odd number of segments
@@ -61,7 +61,7 @@ struct PlaneRecord {
   enum class Side : std::uint8_t { outside, inside, mixed };
   struct Triangle {
     std::array<std::uint32_t, 3> vertices;
-    Side side;  // mixed: what chamfering and filtering cut out of the segments runs through it
+    Side side;  // mixed: a part of a segment that chamfering or filtering cut out runs through it
   };
   struct Edge {
     std::array<std::uint32_t, 2> vertices;

@@ -8,9 +8,9 @@
 
 namespace delmesher {
 
-// Which tetrahedra are guaranteed good and written.
+// The tetrahedra that are guaranteed to be good, and that are written.
 enum class Region : std::uint8_t {
-  interior,  // those contained in the solid; a bad tetrahedron disjoint from it is left alone
+  interior,  // tetrahedra in the solid; a bad tetrahedron disjoint from it is left alone
   hull       // everything down to the outer box
 };
 
@@ -46,8 +46,8 @@ struct Progress {
 struct Limits {
   std::uint64_t max_vertices = 0;  // 0: no limit
   double time_limit_seconds = 0;   // 0: no limit
-  // Threads that share what can be shared: checks, filter, classification of the refined mesh and
-  // statistics; the result is the same for every number. 0: as many as the machine has cores.
+  // Threads that share the work of checks, filter, classification of the refined mesh and
+  // statistics. The result is the same for every number. 0: as many as the machine has cores.
   unsigned threads = 1;
   // Called several times a second from the calling thread; false, or any exception, cancels it.
   std::function<bool(const Progress&)> progress;
@@ -65,10 +65,10 @@ enum class StatusCode : std::uint8_t {
 
 enum class Limit : std::uint8_t {
   none,
-  size,      // Limits::max_vertices, a budget, or what indices can number
+  size,      // Limits::max_vertices, a budget, or the range of indices
   time,      // Limits::time_limit_seconds
   memory,    // an allocation failed
-  precision  // features are too close to each other for what doubles can express
+  precision  // features are too close to each other for doubles to express
 };
 
 struct Status {

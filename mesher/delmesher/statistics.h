@@ -56,7 +56,8 @@ struct Statistics {
   bool refinement_capped = false;
   std::uint64_t cdt_restarts = 0;
   std::uint64_t steiner_on_segments = 0, steiner_on_facets = 0, steiner_in_volume = 0;
-  // Does the final mesh have the points of the refined one? Not where the input alone is better.
+  // Does the final mesh have points of the refined one? No if the mesh of the input alone is
+  // better.
   bool enriched = true;
   std::uint64_t rounding_inverted = 0, rounding_flat = 0, rounding_repaired = 0;
   // Points of the last step taken out again where doubles are too coarse for them.

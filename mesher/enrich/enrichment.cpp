@@ -140,8 +140,8 @@ cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
   add_complex_points(chamfered, refined, topology, points, predicates, input);
   const chamfer::RemovedSurface removed(chamfered, facet_kept, topology, points);
   const std::vector<double> spacing = spacings(refined, points);
-  // A vertex in the plane of a dropped facet would have to be one of the facet's, so even what the
-  // paper keeps is a hair away from it.
+  // A vertex in the plane of a dropped facet would have to be one of the facet's, so even the
+  // vertices that the paper keeps are a hair away from it.
   const double share = keep_all ? 0x1p-20 : 1;
   for (const VertexId v : refined.in_volume) {
     control.poll(points.size());

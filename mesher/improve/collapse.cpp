@@ -25,7 +25,7 @@ bool Collapse::run(VertexId v) {
   return true;
 }
 
-// The neighbours, without those off what v lies on.
+// The neighbours of v that are on the same edge or facet of the surface, if v is on one.
 void Collapse::find_targets(VertexId v) {
   targets_.clear();
   mark_.resize(state_.mesh.vertices(), 0);
@@ -71,7 +71,7 @@ bool Collapse::stays_on_surface(VertexId v, VertexId w) const {
   return false;
 }
 
-// Of the worst of what v's star becomes; 0 if it must not become that.
+// The score of the worst tetrahedron of v's star after the collapse; 0 if that is not allowed.
 float Collapse::score_after(VertexId v, VertexId w, const Quality& least) const {
   float score = HUGE_VALF;
   for (const TetId t : star_) {

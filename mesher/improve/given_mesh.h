@@ -1,4 +1,4 @@
-// Meshes of others, before they are improved: are they conforming? Decided exactly.
+// Decides exactly whether a mesh from elsewhere is conforming, before it is improved.
 #pragma once
 
 #include <cstdint>

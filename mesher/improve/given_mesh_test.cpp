@@ -73,7 +73,7 @@ TEST(GivenMesh, AcceptsFlatTetrahedra) {
   EXPECT_EQ(checked.flat, 1U);
 }
 
-// What is wrong, and what is said of it.
+// A mesh with one defect, and the message about it.
 struct Wrong {
   const char* name;
   void (*spoil)(Given& given);

@@ -1,5 +1,5 @@
-// Improvement of a conforming tetrahedral mesh by local operations (section 8.3 names it as what is
-// left to do): fewer and better tetrahedra on exactly the same surface.
+// Improvement of a conforming tetrahedral mesh by local operations (future work in section 8.3):
+// fewer and better tetrahedra on exactly the same surface.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct ImproveOptions {
 };
 
 // A conforming mesh: tetrahedra on points of a store, positive but for flat ones, and the faces
-// that tile the surface, each once. Regions change at those alone.
+// that tile the surface, each once. Different regions meet at these faces alone.
 struct ImproveMesh {
   std::vector<std::array<VertexId, 4>> tetrahedra;
   std::vector<RegionId> region;  // of each tetrahedron

@@ -7,7 +7,7 @@ namespace delmesher::improve {
 namespace {
 
 constexpr std::size_t kLargestCavity = 24, kSmallCavity = 8;
-// A point has to be worth it: its star is not bad, or much better than what was.
+// A point has to be worth it: its star is not bad, or much better than the tetrahedra before.
 constexpr float kLeastScore = 0.4F;
 constexpr float kLeastGain = 4;
 

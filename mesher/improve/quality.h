@@ -12,7 +12,7 @@
 
 namespace delmesher::improve {
 
-// All squared. 0 for what is flat, inverted or beyond the range of doubles.
+// Squares. All are 0 for a tetrahedron that is flat, inverted or beyond the range of doubles.
 struct Quality {
   float dihedral = 0;  // the smallest of the six dihedral angles' sines
   float face = 0;      // the smallest of the twelve face angles' sines
@@ -34,14 +34,14 @@ inline double smallest_angle(double normal, double x, double y, double z) {
   return normal / std::max({x * y, y * z, z * x});
 }
 
-// Also false for what is not a number.
+// 0 also for a NaN.
 inline float positive_or_zero(double x) {
   return x > 0 ? static_cast<float>(x) : 0;
 }
 
 }  // namespace detail
 
-// Incomplete, with zeros, as soon as something is below `least`.
+// As soon as one value is below `least`, the values after it stay 0.
 inline Quality quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                        const Quality& least = {}) {
   const Vec3 u = subtract(b, a), v = subtract(c, a), w = subtract(d, a);

@@ -85,7 +85,7 @@ Vec3 Smoothing::towards_best_apex(TetId t, const Vec3& x) const {
   return subtract(state_.best_apex_below(t, state_.mesh.index_of(t, v_)), x);
 }
 
-// The same on average, of those that count.
+// The average of that over the tetrahedra that count.
 Vec3 Smoothing::towards_best_apexes(const Vec3& x) const {
   Vec3 sum{};
   double count = 0;
@@ -122,7 +122,7 @@ bool Smoothing::improve_worst(VertexId v) {
   Vec3 x = state_.position(v);
   bool any = false;
   worst_ = 0;
-  // Small steps and many are for what is bad.
+  // Many small steps are for bad tetrahedra alone.
   const bool bad = state_.score(best) < State::kBad;
   const std::size_t steps = bad ? std::size(kSteps) : 3;
   const int rounds = bad ? 4 : 3;
@@ -201,7 +201,7 @@ bool Smoothing::round_off(VertexId v) {
   return settle(v, place, roundness_at(place.position, least) > before);
 }
 
-// Puts v there if that is what it has to be; there may be a little beside.
+// Moves v by the offset, or to a place a little beside, if its star then reaches `least`.
 bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least) {
   const Place place = state_.moved(v, offset, shortest_ * State::kGrid);
   return settle(v, place, worst_at(place.position, least).dihedral > 0);

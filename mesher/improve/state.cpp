@@ -32,7 +32,7 @@ State::State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopol
   for (TetId t = 0; t < mesh.slots(); ++t) measure(t);
 }
 
-// A Steiner point of the surface is on a segment or on a triangle; what is explicit there is of the
+// A Steiner point of the surface is on a segment or on a triangle; explicit points there are of the
 // input.
 void State::find_mobility() {
   for (TetId t = 0; t < mesh.slots(); ++t) {

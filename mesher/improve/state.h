@@ -1,5 +1,5 @@
-// What all operations of the improvement share: the mesh, where its vertices are and how they may
-// move, how good its tetrahedra are, and the rule by which a change is accepted.
+// The state that all operations of the improvement share: the mesh, the places and the mobility of
+// its vertices, the quality of its tetrahedra, and the rule by which a change is accepted.
 #pragma once
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct Goals {
   // made, unless one as bad was there.
   float promised = 0, floor = 0;
   double max_edge = 0;      // no edge longer than this is made; 0: any
-  bool everywhere = false;  // what is outside counts as well
+  bool everywhere = false;  // tetrahedra outside count as well
 };
 
 // Where a vertex is or could be: a point of the store, and as it will be written, before repairs of
@@ -42,14 +42,14 @@ struct Place {
 };
 
 // Laws:
-//  - Of the tetrahedra that count, what a change makes has no dihedral angle flatter than the floor
-//    and no face angle below the promise, unless those that it replaces had one as bad; so neither
-//    the flattest dihedral nor the smallest face angle of a mesh that misses them becomes worse.
+//  - Tetrahedra that count, made by a change, have no dihedral angle flatter than the floor and no
+//    face angle below the promise, unless the replaced ones had one as bad. So neither the flattest
+//    dihedral nor the smallest face angle of a mesh that misses them becomes worse.
 //  - All tetrahedra that a change makes are positive, on exact coordinates and as doubles.
 class State {
  public:
   // `point`: of each vertex, in the store. `topology`: of the surface; null if no vertex of it may
-  // move. `given`: its vertices as given, where it is a stand-in; else empty. What is passed by
+  // move. `given`: its vertices as given, where it is a stand-in; else empty. Arguments passed by
   // reference or pointer must outlive the state.
   State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopology* topology,
         std::span<const Vec3> given, PointStore& points, Predicates& predicates,
@@ -65,7 +65,7 @@ class State {
 
   bool counts_in(RegionId region) const { return region != kOutside || goals_.everywhere; }
   bool counts(TetId t) const { return counts_in(mesh.region(t)); }
-  // Of a tetrahedron of the mesh; kNotCounted where nobody asks.
+  // The quality of a tetrahedron of the mesh; kNotCounted if it does not count.
   const Quality& quality(TetId t) const { return quality_[t]; }
   // Of any four vertices, or of t with its i-th vertex at x; incomplete if below `least`.
   Quality quality_of(const Tet& t, const Quality& least = {}) const {
@@ -92,8 +92,8 @@ class State {
   // By its face angles alone.
   float face_score(TetId t) const { return quality_[t].face * per_target_.face; }
 
-  // What a change that replaces tetrahedra as bad as `before` has to reach: to be better than they
-  // are; or, where something else is gained, nearly good or as good as they are.
+  // The quality that a change has to reach if it replaces tetrahedra as bad as `before`: better
+  // than they are; or, where something else is gained, nearly good or as good as they are.
   Quality to_be_better(const Quality& before) const {
     const float now = score(before);
     return at_least((now < kBad ? kLeastGain : kGain) * now, before);
@@ -101,7 +101,7 @@ class State {
   Quality to_be_acceptable(const Quality& before) const {
     return at_least(std::min(kNearlyGood, score(before)), before);
   }
-  // What has this score at least.
+  // The least quality with this score.
   Quality to_reach(float score) const {
     return {score * goals_.target.dihedral, score * goals_.target.face,
             score * goals_.target.gamma};
@@ -120,7 +120,7 @@ class State {
   bool is_positive(const Tet& t);
   bool is_positive_with(const Tet& t, int i, const Place& place);
 
-  // Is an edge between these longer than what is wanted? Those that there are may stay.
+  // Is an edge between these longer than wanted? Edges that exist may stay.
   bool too_long(const Vec3& x, const Vec3& y) const {
     return goals_.max_edge > 0 && squared_norm(subtract(y, x)) > goals_.max_edge * goals_.max_edge;
   }
@@ -148,8 +148,8 @@ class State {
   std::int64_t vertices_gained() const { return gained_; }
 
  private:
-  // A change has to be worth it: many small steps cost time and bring little. What is bad may
-  // become better by small steps alone.
+  // A change has to be worth it: many small steps cost time and bring little. Only bad tetrahedra
+  // may become better by small steps.
   static constexpr float kNearlyGood = 0.6F;
   static constexpr float kGain = 1.1F, kLeastGain = 1.01F;
 

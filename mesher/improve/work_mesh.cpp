@@ -177,7 +177,7 @@ void WorkMesh::replace(std::span<const TetId> removed, std::span<const CreatedTe
                         4 * t + static_cast<std::uint32_t>(i), kNone});
     }
   }
-  // What was inside the cavity is no vertex any more.
+  // Vertices inside the cavity have no tetrahedra any more.
   for (const VertexId v : vertices_) {
     const TetId t = incident_[v];
     if (t != kNone && (!alive(t) || index_of(t, v) < 0)) incident_[v] = kNone;

@@ -3,9 +3,8 @@
 //
 // Invariants (validate()):
 //  - a face has one tetrahedron, or two that name each other as neighbours across it;
-//  - the two tetrahedra at a face of the surface agree on its facet; where there is none, both are
-//  of
-//    one region;
+//  - the two tetrahedra at a face of the surface agree on its facet; where there is no facet, both
+//    are of one region;
 //  - incident(v) is alive and has v as a vertex, for every vertex of the mesh.
 #pragma once
 

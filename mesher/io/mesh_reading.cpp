@@ -54,7 +54,7 @@ std::array<double, 3> MeshText::point() {
 std::uint64_t MeshText::count(const char* what, std::uint64_t most, std::uint64_t bytes) {
   const auto n = integer<std::uint64_t>(what);
   if (n > most) fail(std::to_string(n) + " is too large a " + what);
-  // The last item need have no line end; what is left of this line counts, too.
+  // The last item need have no line end; the rest of this line counts, too.
   if (n > (lines_.remaining() + lines_.rest_of_line().size() + 1) / bytes) {
     fail("the file is too short for the " + std::string(what) + " " + std::to_string(n));
   }

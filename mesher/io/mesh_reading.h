@@ -1,5 +1,5 @@
-// What the readers of tetrahedral meshes share: tokens that are numbers, and the mesh that is made
-// of them. The readers throw FileError; parse_mesh chooses among them.
+// The common parts of the readers of tetrahedral meshes: numbers as tokens, and the builder of a
+// mesh. The readers throw FileError; parse_mesh chooses among them.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ class MeshText {
   std::string_view word_in_line();
   // To the next line that holds something; false at the end.
   bool next_line() { return lines_.next_line(); }
-  // What is left of this line, which is done with then.
+  // Takes the rest of this line.
   std::string_view take_rest_of_line();
   std::size_t next_offset() const { return lines_.next_offset(); }
   std::uint64_t line() const { return lines_.line() + skipped_; }
@@ -58,7 +58,7 @@ class MeshText {
   std::array<double, 3> point();
   // How many items follow, of at least `bytes` bytes each; no more than `most`.
   std::uint64_t count(const char* what, std::uint64_t most, std::uint64_t bytes);
-  // Of a vertex, numbered from `first`, as a number from 0.
+  // The number, from 0, of a vertex that the file counts from `first`.
   std::uint32_t vertex(std::string_view token, std::uint64_t first, std::uint64_t vertices) const;
   template <std::size_t N>
   std::array<std::uint32_t, N> cell(std::uint64_t first, std::uint64_t vertices) {
@@ -66,7 +66,7 @@ class MeshText {
     for (std::uint32_t& corner : corners) corner = vertex(need("a vertex"), first, vertices);
     return corners;
   }
-  // Numbers, and other things that nobody wants.
+  // Passes over tokens that are not used.
   void skip(std::uint64_t tokens);
 
  private:
@@ -80,7 +80,7 @@ inline constexpr std::uint64_t kMostVertices = 0xfffffff0ULL;
 inline constexpr std::uint64_t kMostCells = (std::uint64_t{1} << 30U) - 16;
 
 // The mesh that a reader finds. Facets are kept if every triangle has one; if not, or if triangles
-// of a facet have several labels, those of a label are one facet.
+// of a facet have several labels, all triangles of a label are one facet.
 class MeshBuilder {
  public:
   std::uint64_t vertices() const { return mesh_.vertices.size(); }

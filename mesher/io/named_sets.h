@@ -12,7 +12,7 @@
 
 namespace delmesher::io {
 
-// What is written: a mesh, and what its labels are called.
+// A mesh, with the names of its labels.
 struct NamedMesh {
   const TetMesh& mesh;
   const LabelNames& names;

@@ -1,4 +1,4 @@
-// Lists of numbered lines, as in the files of TetGen and of Triangle. What is missing or malformed
+// Lists of numbered lines, as in the files of TetGen and of Triangle. A missing or malformed item
 // is a ParseError at its line.
 #pragma once
 
@@ -25,7 +25,7 @@ class NumberedLists {
   void need_number_of_item(std::uint64_t i, const std::string& item, const std::string& items);
   std::uint64_t base() const { return base_; }
   void set_base(std::uint64_t base) { base_ = base; }
-  // Of an item of such a list of `size`, as a number from 0.
+  // The index, from 0, of an item of such a list of `size`.
   std::uint32_t vertex(std::string_view token, std::uint64_t size) const;
   // Every item takes a line of at least two bytes.
   void check_count(std::uint64_t count, std::uint64_t limit, const char* items) const;

@@ -150,7 +150,7 @@ WriteStatus OutputSet::commit() {
   for (File& file : files_) {
     errno = 0;
     bool flushed = file.sink->flush();
-    // On the disk before it takes its name: what a power cut leaves under the name is complete.
+    // On the disk before it takes its name: a file that has the name after a power cut is complete.
     if (flushed && !file.temporary.empty()) {
       flushed = std::fflush(file.file) == 0 && ::fsync(::fileno(file.file)) == 0;
     }
@@ -166,8 +166,8 @@ WriteStatus OutputSet::commit() {
   return status;
 }
 
-// Renames all or, where one cannot be renamed, none: what was there before is kept under another
-// name until all are in place.
+// Renames all or, where one cannot be renamed, none: the former files are kept under other names
+// until all are in place.
 WriteStatus OutputSet::put_in_place() {
   WriteStatus status;
   try {

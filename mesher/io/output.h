@@ -79,9 +79,9 @@ class OutputSet {
   TextSink* open(const std::string& path, WriteStatus& status);
 
   // Completes all files, brings them to the disk, then renames them to their targets. Where one
-  // cannot be written or renamed, every target is what it was before. A power cut between the
-  // renamings can leave some targets new and some old, each of them complete, and the former ones
-  // under hidden names that end in .oldN.
+  // cannot be written or renamed, every target stays as it was. A power cut between the renamings
+  // can leave some targets new and some old, each of them complete, and the former ones under
+  // hidden names that end in .oldN.
   WriteStatus commit();
 
  private:

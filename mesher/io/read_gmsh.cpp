@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSurface = 2, kVolume = 3;  // dimensions of entities
 
-// Number of nodes of an element of first order; 0 for what is of another kind.
+// Number of nodes of an element of first order; 0 for elements of other kinds.
 int nodes_of(int type) {
   switch (type) {
     case 1:  // line
@@ -186,7 +186,7 @@ class GmshReader {
     std::int32_t number = 0;
     bool inside = true;
   };
-  // Of the elements of an entity: its physical group if it has one, else the entity itself.
+  // The group of an entity's elements: its physical group if it has one, else the entity itself.
   Group group_of(int dimension, std::int64_t entity, std::int64_t physical) const {
     const std::int64_t tag = physical != 0 ? physical : entity;
     if (physical != 0) {

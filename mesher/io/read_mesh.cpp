@@ -6,7 +6,7 @@
 namespace delmesher::io {
 namespace {
 
-// What the extension of a path means.
+// A format, which the extension of a path tells.
 struct MeshFormat {
   std::array<std::string_view, 1> extensions;
   const char* name;
@@ -15,7 +15,7 @@ struct MeshFormat {
                Polling& polling, MeshBuilder& builder);
 };
 
-// Of a format in one file.
+// The reader of a format that has one file.
 template <void (*read)(std::string_view, const std::string&, Polling&, MeshBuilder&)>
 void alone(std::string_view bytes, const std::string& path, const FileBeside& /*beside*/,
            Polling& polling, MeshBuilder& builder) {

@@ -16,7 +16,7 @@ std::string read_mesh_extensions();
 std::vector<std::string> mesh_files_read(const std::string& path);
 
 // read_mesh() of a file's bytes; `path` gives the format, by its extension, and the name for
-// messages. `beside`: the files of TetGen's that are not at `path`.
+// messages. `beside`: gives TetGen's other files.
 MeshReadResult parse_mesh(std::string_view bytes, const std::string& path,
                           const FileBeside& beside = nullptr,
                           const std::function<bool()>& go_on = {});

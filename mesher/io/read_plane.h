@@ -23,10 +23,10 @@ PlaneReadResult parse_plane(std::string_view bytes, const std::string& path,
 void read_triangle_poly(std::string_view text, const NodeFile& node_file, Polling& polling,
                         PlaneReadResult& result);
 // Rings of "x y" lines, separated by blank lines or lines that begin with '>' (GMT). Equal points
-// are one vertex. An edge that occurs an even number of times divides what is inside (a border).
+// are one vertex. An edge that occurs an even number of times divides the inside (a border).
 void read_polygons(std::string_view text, Polling& polling, PlaneReadResult& result);
-// The outline of a flat surface, and the edges where its labels change. Lines divide what is
-// inside; if there are no faces, they bound it.
+// The outline of a flat surface, and the edges where its labels change. Lines divide the inside; if
+// there are no faces, they bound it.
 PlanarGraph outline(const Surface& surface,
                     const std::vector<std::array<std::uint32_t, 2>>& lines = {});
 

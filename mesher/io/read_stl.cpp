@@ -125,7 +125,7 @@ double AsciiStlReader::read_number() {
 void AsciiStlReader::read_facet() {
   const Position facet = here();
   expect_word("normal");
-  // Whatever is given as the normal ("-nan(ind)" occurs) is not needed.
+  // The normal is not needed, and may be any text ("-nan(ind)" occurs).
   while (!equal_ignoring_case(need("'outer'"), "outer")) {
     if (in_.line() > facet.number + 1) fail(here(), "'outer loop' missing after 'facet normal'");
   }

@@ -1,5 +1,5 @@
-// VTK's XML for unstructured grids, as text ("ascii"): points, tetrahedra, triangles, and of the
-// cell data what write_vtu writes.
+// VTK's XML for unstructured grids, as text ("ascii"): points, tetrahedra, triangles, and the cell
+// data that write_vtu writes.
 #include <algorithm>
 #include <map>
 #include <vector>

@@ -1,4 +1,4 @@
-// What all readers share: files as bytes, and how errors become results.
+// The common parts of all readers: files as bytes, and errors as results.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct ParseError {
 
 [[noreturn]] void fail(Position position, std::string reason);
 
-// Thrown by those that read several files. The whole line: "file:line: reason" or "file: reason".
+// Thrown by readers of several files, with the whole line: "file:line: reason" or "file: reason".
 struct FileError {
   std::string text;
 };
@@ -58,8 +58,8 @@ struct ReadingEnd {
   std::string error;
 };
 
-// To be called in a handler: what the exception at hand means for the caller who asked for `path`.
-// Throws it once more if no reader throws it.
+// To be called in a handler: the meaning of the exception at hand for the caller who asked for
+// `path`. Throws an exception once more if it is none of a reader's.
 ReadingEnd end_of_reading(const std::string& path);
 
 // The result that `body` fills. Where it throws, the result is empty but for code and error.

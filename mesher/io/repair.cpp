@@ -105,7 +105,7 @@ class Groups {
   std::vector<std::uint32_t> parent_;
 };
 
-// Joins those of `which` that are no farther apart than `weld`; equal ones, if that is 0.
+// Joins the vertices of `which` that are no farther apart than `weld`; equal ones, if that is 0.
 void join_near(const std::vector<Point3>& vertices, const std::vector<std::uint32_t>& which,
                double weld, Groups& groups) {
   std::map<Point3, std::vector<std::uint32_t>> cells;
@@ -298,7 +298,7 @@ void Repair::drop_duplicates() {
        "duplicate triangles dropped");
 }
 
-// As most triangles of a component are.
+// Orients the triangles of a component as most of them are.
 void Repair::orient() {
   auto& triangles = surface_.triangles;
   const auto edges = triangles_of_edges(triangles);

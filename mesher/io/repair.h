@@ -1,4 +1,4 @@
-// Mends what is safe to mend of a surface, and says what it did; describes the holes that are left.
+// Makes the repairs of a surface that are safe, and lists them; describes the holes that are left.
 #pragma once
 
 #include <array>

@@ -243,7 +243,7 @@ TEST(Repair, MendsWhatWasMadeDirtyInFifteenWays) {
       if (!harmless) {
         EXPECT_FALSE(result.done.empty());
       }
-      // It is done when it is done.
+      // A second repair finds nothing to do.
       const RepairResult again = repair_surface(result.surface, dirt.options);
       EXPECT_EQ(again.done, std::vector<std::string>());
       EXPECT_EQ(again.surface.triangles, result.surface.triangles);

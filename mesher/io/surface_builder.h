@@ -46,7 +46,7 @@ class SurfaceBuilder {
   // Something worth telling in a log.
   void note(const std::string& text) { notes_.push_back(text); }
 
-  // What a label is called; an empty name is none.
+  // The name of a label; an empty one is none.
   void name_label(std::int32_t label, std::string_view name) {
     if (!name.empty()) names_[label] = name;
   }

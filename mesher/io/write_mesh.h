@@ -15,7 +15,7 @@ std::string mesh_extensions();
 // extension means no format.
 std::vector<std::string> mesh_files_of(const std::string& path);
 
-// The same of the formats that hold the boundary alone: those for a surface.
+// The extensions of the formats that hold the boundary alone, and so can hold a surface.
 std::string boundary_extensions();
 std::vector<std::string> boundary_files_of(const std::string& path);
 // A surface in one of them, with its labels.

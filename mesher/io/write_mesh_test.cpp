@@ -109,7 +109,7 @@ TEST_F(WriteMesh, Gmsh) {
       << text;
 }
 
-// Volumes know what bounds them: facet 5 is behind the inner tetrahedron alone, facet 10 between
+// Volumes know their boundaries: facet 5 is behind the inner tetrahedron alone, facet 10 between
 // both.
 TEST_F(WriteMesh, GmshVolumesKnowTheirSurfaces) {
   OutputSet outputs;
@@ -270,7 +270,7 @@ TEST_F(WriteMesh, AFullDiskIsReported) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-// A target that cannot be replaced: those already in their places get back what was there.
+// A target that cannot be replaced: the targets that were replaced get back their former files.
 TEST_F(WriteMesh, RenamingIsUndoneWhereOneFails) {
   std::ofstream(path("a.mesh")) << "old a";
   std::ofstream(path("c.mesh")) << "old c";

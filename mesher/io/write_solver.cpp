@@ -95,7 +95,7 @@ void AbaqusWriter::write_elements() {
   }
 }
 
-// Each label as a set of nodes, for what is prescribed there, and as a surface of faces of
+// Each label is written as a set of nodes, for prescribed values, and as a surface of faces of
 // elements, for loads. A triangle between two tetrahedra belongs to the one behind it.
 void AbaqusWriter::write_surfaces() {
   // Abaqus numbers the faces S1 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1; by the corner that is not

@@ -103,8 +103,8 @@ TEST(VertexMoves, TakesTheShortestMove) {
   EXPECT_LE(moved, 0x1p-53);
 }
 
-// A vertex on the base of a tetrahedron that is next to nothing high: what the doubles of its large
-// coordinates are apart is far too much, what those of its smallest are apart is enough.
+// A vertex on the base of a tetrahedron that is next to nothing high: the distance of doubles at
+// its large coordinates is far too much, that at its smallest one is enough.
 TEST(VertexMoves, EachCoordinateHasStepsOfItsOwn) {
   Scene s;
   constexpr double kBase = 0x1p-70;
@@ -123,7 +123,7 @@ TEST(VertexMoves, EachCoordinateHasStepsOfItsOwn) {
 }
 
 // The only double above a flat tetrahedron's vertex is taken by another vertex, which has to go
-// first. What cannot be mended is left as it was.
+// first. A mesh that cannot be mended is left as it was.
 TEST(VertexMoves, ChainsMakeRoom) {
   constexpr double kBase = 0x1p-70;
   const double above = std::nextafter(kBase, 1);
@@ -323,7 +323,7 @@ TEST(LocalOperations, MakesNothingFlat) {
   }
 }
 
-// A sum says how many are not positive, and what is left how many of these are inverted.
+// A sum says how many tetrahedra are not positive, and how many of these are inverted.
 TEST(Badness, CountsWhatIsNotPositiveAndOfThatWhatIsInverted) {
   Badness sum = 0;
   for (const int sign : {1, 0, -1, 1, -1, 0, 0}) sum += badness(sign);

@@ -14,7 +14,7 @@ namespace delmesher::output {
 
 using Tet = std::array<std::uint32_t, 4>;
 
-// What is wrong with some tetrahedra: first how many are not positive, then how many of these are
+// How bad some tetrahedra are: first how many are not positive, then how many of these are
 // inverted. Every repair decreases it, so repairing ends, and never makes more of them.
 using Badness = std::int64_t;
 inline constexpr Badness kOneBad = Badness{1} << 32;

@@ -170,7 +170,7 @@ void check(const Scene& scene, const RoundingResult& r) {
     const mpq_class limit = 4 * mpq_class(ulp), claimed(r.max_surface_deviation);
     EXPECT_TRUE(squared <= limit * limit) << v;
     EXPECT_TRUE(squared <= claimed * claimed) << v;
-    // What is claimed adds twice what nearest doubles are off in three coordinates: sqrt(3) ulp.
+    // The claim adds twice the error of nearest doubles in three coordinates: sqrt(3) ulp.
     EXPECT_TRUE(claimed <= limit + 2 * mpq_class(ulp));
   }
   const std::set<Vec3> distinct(r.coordinates.begin(), r.coordinates.end());

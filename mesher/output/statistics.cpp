@@ -152,7 +152,7 @@ class Sharpest {
   std::size_t by_cosine_ = 0, tetrahedron_ = 0;
 };
 
-// What all chunks of tetrahedra add up to, besides the statistics themselves.
+// The sums over all chunks of tetrahedra, besides the statistics themselves.
 struct Collected {
   explicit Collected(std::size_t tetrahedra) : dihedrals(tetrahedra), gammas(tetrahedra) {}
 
@@ -164,7 +164,7 @@ struct Collected {
 // The angles and shapes of consecutive tetrahedra, which need no others.
 class Angles {
  public:
-  // Of `count` of all of them from `first` on, in batches.
+  // Measures `count` of all tetrahedra from `first` on, in batches.
   void measure(std::span<const Vec3> coordinates, std::span<const Tet> tetrahedra,
                std::size_t first, std::size_t count, std::span<const std::uint8_t> repeated,
                const CosineBins& bins) {
@@ -184,8 +184,8 @@ class Angles {
     }
   }
 
-  // Adds up, one by one, those of the robust formulas first. Chunks do not depend on the number of
-  // threads, so neither do the sums. Then empty.
+  // Adds the angles up, one by one, those of the robust formulas first. Chunks do not depend on the
+  // number of threads, so neither do the sums. Then empty.
   void move_to(MeshStatistics& s, Collected& all) {
     append_degrees(face_cosines_, face_);
     append_degrees(dihedral_cosines_, dihedral_);
@@ -265,7 +265,7 @@ class Angles {
     quality_.push_back(quality(shape));
   }
 
-  // Of the smallest and the largest angle in turn. Then empty.
+  // Appends the smallest and the largest angles, which come in turn, and empties `cosines`.
   static void append_degrees(std::vector<double>& cosines, std::vector<Extremes>& angles) {
     degrees_of_cosines(cosines);
     for (std::size_t n = 0; n < cosines.size(); n += 2) {

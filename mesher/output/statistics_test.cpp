@@ -92,7 +92,8 @@ TEST(Statistics, OrderOfCornersDoesNotCostDigits) {
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
-// Each lane has its own tetrahedron, and all lanes are used; what is degenerate is left to others.
+// Each lane has its own tetrahedron, and all lanes are used; degenerate tetrahedra are left to the
+// robust formulas.
 TEST(CosineBatch, EveryLaneHasItsTetrahedron) {
   constexpr std::size_t n = CosineBatch::kLanes;
   Points points;

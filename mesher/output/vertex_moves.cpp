@@ -370,9 +370,9 @@ bool VertexMoves::lighten(std::uint32_t t) {
   return true;
 }
 
-// The breakout method of constraint satisfaction (Morris, AAAI 1993): what stays bad although
-// nothing around it can be moved without harm becomes heavier, until exchanging it for something
-// else bad pays.
+// The breakout method of constraint satisfaction (Morris, AAAI 1993): a tetrahedron that stays bad,
+// although nothing around it can be moved without harm, becomes heavier, until it pays to exchange
+// it for another bad one.
 bool VertexMoves::untangle(Control& control) {
   weight_.clear();
   untangle_budget_ = kUntangleBudget;

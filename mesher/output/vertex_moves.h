@@ -12,7 +12,7 @@ namespace delmesher::output {
 // Surface vertices stay within kSurfaceUlps units in the last place of the largest coordinate of
 // the surface from their exact position; fixed vertices stay; others move as far as needed, but the
 // shortest moves are tried first. Where vertices have places other than their exact ones, which may
-// be far away, the others stay near, too: what it takes there is a mesh with other places.
+// be far away, the others stay near, too: such a mesh needs other places.
 inline constexpr double kSurfaceUlps = 4;
 
 class VertexMoves {
@@ -25,9 +25,9 @@ class VertexMoves {
   bool fix_by_chain(std::uint32_t t);
   // Moves v away from a vertex with the same coordinates, doing no harm.
   bool separate(std::uint32_t v);
-  // Moves many vertices, on the way also to where more is bad, until nothing is bad: where one move
-  // can only exchange one bad tetrahedron for another. False, in any state, when
-  // the budget ends.
+  // Moves many vertices, on the way also to where more is bad, until nothing is bad: for places
+  // where one move can only exchange one bad tetrahedron for another. False, in any state, when the
+  // budget ends.
   bool untangle(Control& control);
 
  private:

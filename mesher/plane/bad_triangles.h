@@ -3,7 +3,7 @@
 // memory with every point.
 //
 // Invariants:
-//  - what waits is in a bucket, behind its head, or on the stack of what is for later;
+//  - a waiting entry is in a bucket, behind its head, or on the stack of entries for later;
 //  - no bucket below the lowest one has entries, and there are count_ in the buckets.
 #pragma once
 
@@ -66,7 +66,7 @@ class BadTriangles {
     later_.clear();
   }
 
-  // visit(entry) for all that wait.
+  // Calls visit(entry) for all entries that wait.
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (const Queue& q : queue_) {
@@ -95,8 +95,8 @@ class BadTriangles {
   friend struct BadTrianglesBreaker;  // of the tests of validate()
 
   static constexpr std::size_t kBuckets = 256;
-  // Entries of a neighbourhood at its start, and with which it is divided: what they touch stays
-  // in a cache of a megabyte.
+  // The entries of a neighbourhood at its start, and how many divide it: the memory that they touch
+  // stays in a cache of a megabyte.
   static constexpr std::size_t kBlock = 1024, kMost = 8 * kBlock;
 
   // In the order of arrival among equally bad ones.
@@ -140,7 +140,7 @@ class BadTriangles {
     count_ = 0;
   }
 
-  // All that waits, in its order in space, onto the stack of what is for later.
+  // Moves all waiting entries, in their order in space, onto the stack of entries for later.
   void spread() {
     const auto first = static_cast<std::ptrdiff_t>(later_.size());
     for (std::size_t b = 0; b < kBuckets; ++b) {

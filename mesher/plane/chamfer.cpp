@@ -105,7 +105,7 @@ class Chamferer {
     return spatial_.angle_below(u, v, w, options_.cosine_squared);
   }
 
-  // Distance from v to the nearest vertex or segment that it is not an end of. What is nearest can
+  // Distance from v to the nearest vertex or segment that it is not an end of. The nearest one can
   // be seen from v: a walk through the triangles around that does not pass segments.
   double feature_size(VertexId v) {
     const Point p = point(v);
@@ -138,7 +138,7 @@ class Chamferer {
     return best;
   }
 
-  // A piece without what is cut off.
+  // A piece without the parts that are cut off.
   Line middle(PieceId id) const {
     const Piece& piece = graph_.pieces[id];
     const Line whole{point(piece.a), point(piece.b)};

@@ -18,13 +18,14 @@ struct ChamferOptions {
   bool everywhere = false;  // also corners whose acute side is outside
 };
 
-// What the refinement shall not see, from the start or because it came to grief over it.
+// The pieces and vertices that the refinement is spared, from the start or after it failed at them.
 struct Spared {
   std::vector<std::uint8_t> piece, vertex;  // 1: left to the last step
   std::size_t count = 0;
 };
 
-// What is missing of a piece: all, or the part between an acute vertex a and its cut point b.
+// The missing part of a piece: all of it, or the part between an acute vertex a and its cut point
+// b.
 struct Gap {
   VertexId a, b;
   PieceId piece;

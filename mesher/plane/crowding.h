@@ -2,7 +2,7 @@
 // The input vertices and pieces there are to be spared at the next attempt.
 //
 // Invariants:
-//  - something was noted if and only if any(); what is noted may be nothing that can be spared;
+//  - something was noted if and only if any(); a note may be of nothing that can be spared;
 //  - no piece but those of the input was split, and none is hopeless before it was split as often
 //    as the options allow.
 #pragma once
@@ -30,11 +30,11 @@ class Crowding {
   const std::vector<PieceId>& pieces() const { return pieces_; }
   const std::vector<VertexId>& vertices() const { return vertices_; }
 
-  // No room at a vertex: of the input, or on a piece of it. (Of others nothing can be spared.)
+  // No room at a vertex: of the input, or on a piece of it. (At others nothing can be spared.)
   void at(VertexId v);
   // A piece is split once more.
   void count_split(PieceId piece);
-  // What was noted for a goal that need not be reached. Splits count on.
+  // Forgets the notes made for a goal that need not be reached. The counts of splits stay.
   void forget();
 
  private:

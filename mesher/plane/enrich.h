@@ -8,7 +8,7 @@
 
 namespace delmesher::plane {
 
-// Enters the chamfered vertices and what is missing of the segments into the refined mesh, which
+// Enters the chamfered vertices and the missing parts of the segments into the refined mesh, which
 // becomes the constrained Delaunay triangulation of the input segments and all its vertices. It
 // does not change elsewhere.
 void enrich(const InputGraph& graph, const Chamfered& chamfered, Triangulation& mesh,

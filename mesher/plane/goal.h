@@ -1,4 +1,4 @@
-// What makes a triangle bad, how bad it is, and how far from its shortest edge a new point goes.
+// Decides whether a triangle is bad, how bad, and how far from its shortest edge a new point goes.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +14,9 @@ class Goal {
   // Angles of at least so many degrees; no edge longer than `max_edge` unless that is 0.
   Goal(double degrees, double max_edge);
 
-  // Of a bad triangle; none of a good one. Below 1 it is the squared sine of the smallest angle,
-  // which is too small; 1 means that only an edge is too long. Judged in doubles; when in doubt a
-  // triangle is bad, which costs at most a point.
+  // The badness of a bad triangle; none for a good one. Below 1 it is the squared sine of the
+  // smallest angle, which is too small; 1 means that only an edge is too long. Judged in doubles;
+  // when in doubt a triangle is bad, which costs at most a point.
   std::optional<double> badness(const Shape& shape) const {
     if (angle_is_small(shape)) return shape.sine_squared;
     const double longest = max_edge_ * shape.scale;

@@ -72,7 +72,7 @@ int choose_scale(const PlanarGraph& g) {
   };
   for (const auto& p : g.vertices) {
     if (exact(p[0], scale) && exact(p[1], scale)) continue;
-    // Tiny coordinates besides large ones: only what would overflow is moved.
+    // Tiny coordinates besides large ones: only coordinates that would overflow are scaled.
     if (scale < 240) return 0;
     refuse("coordinates differ by too many orders of magnitude");
   }

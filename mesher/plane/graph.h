@@ -29,8 +29,8 @@ struct InputGraph {
   // it, or they could not be given back exactly.
   double unit = 0;
   VertexId vertices = 0;  // ids of the input vertices are below; the corners of the box follow
-  // Ids follow a curve that fills the plane, so that what is close together in the plane mostly is
-  // in memory: what each number in the input became, and the other way round.
+  // Ids follow a curve that fills the plane, so that vertices close together in the plane are
+  // mostly close together in memory. `id`: of each number in the input; `number`: of each id.
   std::vector<VertexId> id, number;
   std::vector<Piece> pieces;
   Triangulation base;  // constrained Delaunay triangulation of everything, with the box
@@ -53,7 +53,7 @@ struct Faces {
   std::vector<std::uint8_t> inside;
   std::vector<double> attributes;  // empty if the graph has no regions
 };
-// `notes`, if any, receives what is odd about the hole and region points.
+// `notes`, if any, receives remarks on odd hole and region points.
 Faces find_faces(const InputGraph& graph, Triangulation& mesh, PointStore& points,
                  std::vector<std::string>* notes);
 

@@ -1,4 +1,4 @@
-// What the exact record and the caller are told of a run in the plane.
+// The exact record of a run in the plane, and the graphs shown to the caller.
 #pragma once
 
 #include <vector>

@@ -81,7 +81,7 @@ void Refiner::split_segments() {
   drain();
 }
 
-// First what is proven to end, then what is asked for beyond.
+// First for the bound that is proven to end, then for the one asked for beyond it.
 void Refiner::refine_triangles() {
   result_.delta = std::min(options_.delta, kProvenDelta);
   refine_to(result_.delta, 0);
@@ -111,14 +111,14 @@ bool Refiner::refine_to(double degrees, std::uint64_t most) {
   return true;
 }
 
-// Beyond what is proven: within a multiple of what the proven bound took.
+// Beyond the proven bound: with at most a multiple of the points that the proven bound took.
 void Refiner::try_for(double degrees) {
   result_.delta = degrees;
   if (crowding_.any()) return;
   const std::uint64_t most = 8 * points_.size() + 1000;
   if (refine_to(degrees, most) && !crowding_.any()) return;
   bad_.clear();
-  crowding_.forget();  // not what was asked to be certain
+  crowding_.forget();  // notes on what need not be reached
   result_.delta = kProvenDelta;
   refine_to(kProvenDelta, 0);
 }

@@ -39,8 +39,8 @@ struct RefinedMesh {
   std::vector<PieceId> carrier;  // per vertex id: the piece of an on-segment point, or kNone
   std::uint64_t on_segments = 0, in_faces = 0;
   double delta = 0;  // that is kept: less than asked for if that did not end
-  // Where no room was left between doubles: what to spare the refinement, and try again. If they
-  // are empty, every triangle in the region keeps the bound.
+  // Pieces and vertices without room between doubles, to be spared in another attempt. If they are
+  // empty, every triangle in the region keeps the bound.
   std::vector<PieceId> crowded_pieces;
   std::vector<VertexId> crowded_vertices;
   bool crowded = false;

@@ -1,7 +1,7 @@
 // The refinement in the plane (section 3): points are inserted until no subsegment is encroached
 // and no triangle is bad. One object lives for one call of refine().
 //
-// What is known lies in parts, each with its own invariants; this class inserts points.
+// The state lies in parts, each with its own invariants; this class inserts points.
 //
 //   SteinerPoints  where new points go
 //   Subsegments    which subsegments are encroached, the queue of those to split
@@ -11,9 +11,10 @@
 //
 // Invariants between insertions, as long as nothing is crowded:
 //  - every encroached subsegment waits in the queue (Subsegments);
-//  - once triangles are judged, every bad one that counts waits among the bad ones.
-// Where there is no room for a point, what asked for it no longer waits: the attempt has failed,
-// and goes on for what else is crowded. Encroached subsegments are split before bad triangles are.
+//  - once triangles are judged, every bad one that counts waits among the bad ones. Where there is
+// no room for a point, the subsegment or triangle that asked for it no longer waits: the attempt
+// has failed, and goes on to find the other crowded places. Encroached subsegments are split before
+// bad triangles are.
 #pragma once
 
 #include <vector>
@@ -82,7 +83,7 @@ class Refiner {
   Goal goal_;
   bool judging_ = false;                // are triangles judged?
   std::vector<Subsegment> encroached_;  // by the point at hand
-  RefinedMesh result_;                  // what is known of it so far: counts and the bound
+  RefinedMesh result_;                  // as far as it is known: counts and the bound
 };
 
 }  // namespace delmesher::plane

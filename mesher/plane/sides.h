@@ -1,8 +1,8 @@
 // Which triangles of the refined mesh are inside, kept up to date during refinement.
 //
 // The segments of the chamfered graph leak at the cut points, so that triangles cannot be told by
-// flooding alone. What is missing of the segments, the gaps, is remembered by the triangles that it
-// runs through (mixed); every other triangle lies in one face of the graph.
+// flooding alone. The missing parts of the segments, the gaps, are remembered by the triangles that
+// they run through (mixed); every other triangle lies in one face of the graph.
 #pragma once
 
 #include <vector>

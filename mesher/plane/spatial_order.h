@@ -1,4 +1,4 @@
-// Orders in which what follows one another lies close together, in space and so in memory.
+// Orders in which consecutive points lie close together, in space and so in memory.
 #pragma once
 
 #include <array>

@@ -47,8 +47,8 @@ Angles angles_of(const std::array<Point, 3>& p) {
     const double x = p[j][0] - p[i][0], y = p[j][1] - p[i][1];
     return Side{x, y, x * x + y * y};
   };
-  // With the sides in the order of their lengths, the angle opposite the longest is what the two
-  // others leave: one arc tangent less.
+  // With the sides in the order of their lengths, the angle opposite the longest is 180 degrees
+  // less the two others, which saves an arc tangent.
   Side a = side(1, 2), b = side(2, 0), c = side(0, 1);
   double sense = 1;
   const auto order = [&](Side& s, Side& t) {

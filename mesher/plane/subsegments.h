@@ -1,10 +1,11 @@
 // The subsegments of the refinement, which are the edges with a piece, and the queue of those to
-// split. The triangulation knows the edges; here is only what waits.
+// split. The triangulation knows the edges; only the queue is here.
 //
 // Invariants between insertions:
 //  - a subsegment waits if it is encroached: if a triangle beside it that counts (Sides::counts)
 //    has its opposite corner in the open disc of which the subsegment is a diameter;
-//  - what waits may be gone, or encroached no more, and may wait twice: take() asks again.
+//  - a waiting subsegment may be gone, or encroached no more, and may wait twice: take() asks
+//    again.
 #pragma once
 
 #include <vector>
@@ -28,10 +29,10 @@ class Subsegments {
   // The edge of a subsegment, or kNone if it is no more.
   EdgeId find(const Subsegment& s) const;
 
-  // All that are encroached.
+  // Queues all subsegments that are encroached.
   void queue_all();
-  // Those that are encroached by the new triangles: the parts of a subsegment that was split as
-  // well, or only those around the cavity, for a point on no subsegment.
+  // Queues the subsegments that are encroached by the new triangles: the parts of a subsegment that
+  // was split as well, or only those around the cavity, for a point on no subsegment.
   void queue_at_created();
   void queue_around_created();
 

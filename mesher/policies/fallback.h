@@ -28,8 +28,8 @@ class Fallback {
   const chamfer::ChamferOptions& chamfering() const { return chamfering_; }
   bool gabriel() const { return gabriel_; }
   InForce in_force(double tau) const;
-  // An edge this short means that corners feed each other for ever; 0: what is in force cannot run
-  // away.
+  // An edge this short means that corners feed each other for ever; 0: with the thresholds in force
+  // it cannot run away.
   double runaway_length(const Session& session, double tau);
   // The next step, after a refinement that ran away near `place`.
   void tighten(const Vec3& place, const Session& session);

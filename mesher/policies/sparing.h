@@ -1,6 +1,5 @@
 // Policy: segments and vertices that are left out of the refinement because doubles leave no room
-// for new points beside them, or for their own written coordinates.
-// The last step restores it.
+// for new points beside them, or for their own written coordinates. The last step restores them.
 #pragma once
 
 #include "mesher/plane/chamfer.h"

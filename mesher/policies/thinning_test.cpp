@@ -28,7 +28,7 @@ std::string wrong(const Model& model, const cdt::CdtResult& mesh) {
   return rational::Checker(model.topology, model.points, mesh, false).run();
 }
 
-// What is left conforms as before and fills the same hull, whatever has gone.
+// The rest conforms as before and fills the same hull, whatever has gone.
 TEST(Thinning, KeepsTheSurfaceAndTheHull) {
   std::uint32_t seed = 1;
   for (const Surface& s : one_of_each()) {
@@ -45,7 +45,7 @@ TEST(Thinning, KeepsTheSurfaceAndTheHull) {
       EXPECT_EQ(volume(model.points, mesh), hull);
       const std::set<VertexId> after = vertices(mesh);
       EXPECT_EQ(after.size() + gone, before.size());
-      // Most of what enriched the mesh can go; the input's vertices stay.
+      // Most of the enriching points can go; the input's vertices stay.
       EXPECT_LT(2 * after.size(), before.size() + input_vertices(model));
       for (VertexId v = 0; v < input_vertices(model); ++v) EXPECT_TRUE(after.contains(v)) << v;
     }

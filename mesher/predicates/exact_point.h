@@ -18,10 +18,11 @@ struct RationalPoint {
   BigInteger denominator{1};
 };
 
-// Of a point of any kind.
+// The exact coordinates of a point of any kind.
 RationalPoint exact_point(const PointStore& points, VertexId v);
 
-// Of points of any kind, all times the same positive integer: for signs that do not depend on it.
+// The exact coordinates of points of any kind, all times the same positive integer: for signs that
+// do not depend on it.
 std::vector<DyadicPoint> scaled_exact_points(const PointStore& points,
                                              std::span<const VertexId> vertices);
 

@@ -1,5 +1,5 @@
-// How far the double filters reach: they decide what is above the bound that filter.h derives, and
-// nothing below it. An error on the safe side would only make everything slower, as exact stages
+// How far the double filters reach: they decide determinants above the bound that filter.h derives,
+// and none below it. An error on the safe side would only make everything slower, as exact stages
 // decide the rest.
 //
 // The inputs are such that all arithmetic of the filter is exact, so that the determinant is a
@@ -120,8 +120,8 @@ TEST(FilterBounds, InDiametralBall) {
 }
 
 // Points known to within E only, and no roundings that count: with D = 2.0625 E the largest change
-// of the determinant is what filter.h sums up. Just below it nothing is decided, just above it is.
-// Any one of the points may be the one that is not exact.
+// of the determinant is the one that filter.h sums up. Just below it nothing is decided, just above
+// it is. Any one of the points may be the one that is not exact.
 template <std::size_t N, class Filter>
 void expect_threshold(const std::array<Row, N>& points, double error, bool decided,
                       const Filter& filter) {

@@ -12,7 +12,7 @@ double shortest_dyadic(double lo, double hi);
 // A point of the line through the explicit points p and q within about `tolerance` of the
 // projection of `target` + `rest` onto it, with the shortest parameter, anchored at the end nearest
 // to the target (so the corners of the result may be q, p). If `inside` is true, the result is
-// strictly between p and q. `rest` is what the doubles of the target leave over: far from the
+// strictly between p and q. `rest` is the remainder of the target beyond its doubles: far from the
 // origin they are coarser than a tolerance that small distances ask for.
 PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId q,
                                  const Vec3& target, double tolerance, bool inside = true,

@@ -309,7 +309,7 @@ TEST(PlaceOnTriangle, TakesHalfTheToleranceForEitherParameter) {
 }
 
 // All corners agree in x, which is far larger than the triangle: products of its edges underflow
-// unless they are scaled by what the corners differ by.
+// unless they are scaled by the differences of the corners.
 TEST(PlaceOnTriangle, ScalesByTheDifferencesOfCorners) {
   constexpr double kEdge = 0x1p-600;
   PointStore store;

@@ -33,7 +33,7 @@ RationalPoint combination(const PointStore& points, const PointDefinition& d) {
     const Dyadic anchor = result.numerator[axis];
     const auto term = [&](std::size_t i, double parameter) {
       const Dyadic difference = given.corner[i].numerator[axis] - anchor;
-      // What all corners have in common, so does the point.
+      // A coordinate that all corners have in common is the point's, too.
       if (difference.sign() == 0) return;
       result.numerator[axis] = result.numerator[axis] + Dyadic::from_double(parameter) * difference;
     };
@@ -86,7 +86,7 @@ RationalPoint meeting_point(const std::array<PlaneEquation, 3>& planes) {
   return {sum, determinant.mantissa};
 }
 
-// The nearest double of x / y, and of what it leaves over.
+// The nearest double of x / y, and that of the remainder.
 struct RoundedQuotient {
   Rounded nearest, rest;
 };

@@ -125,17 +125,17 @@ class PointStore {
     return is_explicit(v) || definition(v).kind == PointKind::on_planes;
   }
 
-  // The nearest doubles of what approximation() leaves over, with the error that remains: the sum
-  // of both is a double-double approximation. Zero for explicit points.
+  // The nearest doubles of the remainder beyond approximation(), with the error that is left: the
+  // sum of both is a double-double approximation. Zero for explicit points.
   Approximation remainder(VertexId v) const;
   // b - a. Where the points are known to few digits compared with their distance, with the digits
-  // that the nearest doubles leave over.
+  // of their remainders.
   Vec3 difference(VertexId a, VertexId b) const;
   void exact(VertexId v, ExactPosition& out) const;
 
  private:
-  // What plain volume points do not have: a definition, exact coordinates, supports. Kept apart, so
-  // that a point in the volume costs 36 bytes.
+  // A definition, exact coordinates and supports, which plain volume points do not have. Kept
+  // apart, so that a point in the volume costs 36 bytes.
   struct Detail {
     PointDefinition definition{PointKind::explicit_point, {kNone, kNone, kNone}, 0, 0};
     Approximation remainder{0, 0, 0, 0};

@@ -297,7 +297,7 @@ TEST(PointStore, PopBackRestoresEverything) {
   }
 }
 
-// What is added again after points were removed is as it was.
+// Points that are added again after a removal are as they were.
 TEST(PointStore, TruncatesToWhatItWas) {
   PointStore store;
   for (const double x : {0.0, 1.0, 3.0}) store.add_explicit(x, x * x, 1 - x);

@@ -75,9 +75,9 @@ int Predicates::sign(const Polynomial& polynomial, const VertexId* ids) {
 }
 
 // Integers of few limbs take less time than double-doubles with error bounds (measured: insphere
-// 0.13 microseconds with one limb, 0.2 with two, 0.5 to 1.2 with three, against 0.7), and most of
-// what the filter leaves over are zeros, which only integers decide. So double-doubles are for long
-// numbers.
+// 0.13 microseconds with one limb, 0.2 with two, 0.5 to 1.2 with three, against 0.7), and most
+// signs that the filter does not decide are zeros, which only integers decide. So double-doubles
+// are for long numbers.
 template <class Polynomial>
 int Predicates::sign_unfiltered(const Polynomial& polynomial, const VertexId* ids) {
   const stages::ExactArguments arguments(points_, ids, Polynomial::kPoints);

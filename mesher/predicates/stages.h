@@ -74,7 +74,7 @@ struct ExactArguments {
   int count = 0;
   std::int32_t exponent = 0;  // every coordinate is a multiple of 2^exponent
   std::int32_t bits = 0;      // and below 2^(exponent + bits)
-  // For each point what its numerators are multiplied with, so that all have one denominator, which
+  // For each point the factor of its numerators with which all points have one denominator, which
   // changes no sign; empty if all denominators are 1.
   std::vector<BigInteger> factor;
 

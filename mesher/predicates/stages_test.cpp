@@ -103,8 +103,9 @@ TEST(Stages, SharedCoordinatesProveZeros) {
   }
 }
 
-// What the filter leaves over goes to integers where they are short, else to double-doubles: a
-// point that is off the plane of the others by 2^-52, and one of these at 2^-250 instead of zero.
+// Signs that the filter does not decide go to integers where these are short, else to
+// double-doubles: a point that is off the plane of the others by 2^-52, and one of these at 2^-250
+// instead of zero.
 TEST(Stages, ShortNumbersGoToIntegersLongOnesToDoubleDoubles) {
   for (const double x : {0.0, 0x1p-250}) {
     PointStore store;

@@ -28,8 +28,8 @@ class BadTetrahedra {
   BadTetrahedra(Tetrahedrization& dt, const PointStore& points, bool largest_ratio_first = false)
       : dt_(dt), points_(points), largest_ratio_first_(largest_ratio_first) {}
 
-  // Forgets everything. What is added until the first next() is brought into a spatial order, level
-  // by level.
+  // Forgets everything. Tetrahedra that are added until the first next() are brought into a spatial
+  // order, level by level.
   void start();
   // `level`: 1 to Goal::kWorst.
   void add(TetId t, std::uint8_t level);

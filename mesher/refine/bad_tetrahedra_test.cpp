@@ -111,7 +111,7 @@ TEST(BadTetrahedra, LargestRatioFirstWhateverTheLevel) {
 }
 
 // A level that is asked for the first time is in an order in which neighbours are near each other;
-// what comes later is taken first.
+// tetrahedra that are added later are taken first.
 TEST(BadTetrahedra, ALevelIsSortedInSpaceAndThenAStack) {
   Cube cube;
   std::vector<TetId> shuffled(cube.finite.size());

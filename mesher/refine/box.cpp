@@ -44,8 +44,8 @@ std::array<Interval, 3> box_of(const SurfaceTopology& topology, const PointStore
     const Interval inner = axis;
     axis.low = std::floor((inner.low - margin) / grid) * grid;
     axis.high = std::ceil((inner.high + margin) / grid) * grid;
-    // Where doubles are wider apart than the margin, the sums above may be what they were made of,
-    // and a side of the box on the solid would be refined for ever.
+    // Where doubles are wider apart than the margin, the sums above may be equal to their larger
+    // terms, and a side of the box on the solid would be refined for ever.
     while (inner.low - axis.low < margin / 2) axis.low = std::nextafter(axis.low, -HUGE_VAL);
     while (axis.high - inner.high < margin / 2) axis.high = std::nextafter(axis.high, HUGE_VAL);
   }

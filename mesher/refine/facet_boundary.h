@@ -21,7 +21,7 @@ class FacetBoundary {
 
   bool empty() const { return sides_.empty(); }
   // The subsegment that is side from-to or to-from; kNone if neither is a side. `inward`: is it
-  // from-to, so that what is on the left is in the facet?
+  // from-to, so that the facet is on its left?
   std::uint32_t find(VertexId from, VertexId to, bool* inward) const;
 
   // Per triangle of a triangulation of the facet's vertices: 1 if it is in the facet. Throws

@@ -26,7 +26,7 @@ struct Frame {
     planar = triangulate_planar(predicates, {2, 1, apex}, vertices);
   }
 
-  // Twice the area of what is inside.
+  // Twice the area of the triangles inside.
   double area(const FacetBoundary& boundary) const {
     const std::vector<std::uint8_t> inside = boundary.inside(planar);
     double sum = 0;

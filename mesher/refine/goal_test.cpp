@@ -1,4 +1,4 @@
-// What is bad, on tetrahedra whose angles and edges are known.
+// The badness of tetrahedra whose angles and edges are known.
 #include "mesher/refine/goal.h"
 
 #include <gtest/gtest.h>

@@ -37,7 +37,7 @@ struct Bottom : Parts {
       }
     }
     EXPECT_EQ(reached, in);
-    // The rim is what bounds it, without the edge that is split, and visible.
+    // The rim is the boundary of the cavity, without the edge that is split, and is visible.
     std::size_t bounding = 0;
     for (const std::uint32_t s : in) {
       for (std::uint32_t i = 0; i < 3; ++i) {

@@ -58,9 +58,9 @@ void Refiner::recover_facets() {
   drain();
 }
 
-// First what is guaranteed to end; then, with a cap on insertions, what is not: slivers and angles
-// above the bound. Where a cap strikes, the guaranteed goal is reached once more, so that it holds
-// in any case.
+// First the goal whose refinement is guaranteed to end; then, with a cap on insertions, the goals
+// that are not: slivers and angles above the bound. Where a cap strikes, the guaranteed goal is
+// reached once more, so that it holds in any case.
 void Refiner::refine_tetrahedra() {
   refining_ = true;
   constexpr std::size_t kUnlimited = ~std::size_t{0};

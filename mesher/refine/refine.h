@@ -46,7 +46,7 @@ struct RefineOptions {
   // times as long. A subsegment or volume edge below it means that acute corners split each other
   // for ever, and the refinement stops.
   double runaway_length = 0;
-  // Split subsegments and subfacets until their open diametral balls are empty. Otherwise those
+  // Split subsegments and subfacets until their open diametral balls are empty. Otherwise the ones
   // that the tetrahedrization has are split only when a volume point encroaches them.
   bool gabriel = true;
   // Per input vertex: 1 for an apex, where segments meet at an acute angle. They are split at equal

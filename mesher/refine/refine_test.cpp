@@ -19,8 +19,8 @@
 
 namespace delmesher::refine {
 
-// Breaks what links the parts of a refinement, and one invariant of each: its own tests break the
-// others.
+// Breaks the links between the parts of a refinement, and one invariant of each part: its own tests
+// break the others.
 struct RefinerBreaker {
   Refiner& r;
 
@@ -112,7 +112,7 @@ TEST(OuterBox, HasSixPlanesOfItsOwn) {
   EXPECT_GE(*all.begin(), static_cast<PlaneId>(complex.topology.plane_count));
 }
 
-// What is inside a triangle of a facet is found there, in facets of few triangles and of many.
+// A point inside a triangle of a facet is found there, in facets of few triangles and of many.
 TEST(FacetLocator, FindsTheTriangleAroundAPoint) {
   for (const int corners : {5, 7, 60}) {
     std::vector<std::array<double, 2>> outline;
@@ -136,7 +136,7 @@ TEST(FacetLocator, FindsTheTriangleAroundAPoint) {
   }
 }
 
-// No more vertices are told of, and held against a limit, than there are.
+// Progress and the limit of vertices count no more vertices than there are.
 TEST(Refinement, ALimitOfAllVerticesIsEnough) {
   std::vector<std::array<double, 2>> outline;
   for (int i = 0; i < 60; ++i) {
@@ -351,7 +351,6 @@ TEST(Refine, SliverTreatmentRaisesTheSmallestDistanceOfOppositeEdges) {
   EXPECT_GT(worst_ratio(false), 7.2);
 }
 
-// Segments are split at equal distances from an apex or at halves of them, whatever their lengths.
 // Section 5.6: each volume point is the circumcentre of the tetrahedron that it splits, but for the
 // grid, which is finer than a thousandth of the shortest edge. By default some are off-centres.
 TEST(Refine, CircumcentresIfAskedFor) {
@@ -384,6 +383,7 @@ TEST(Refine, CircumcentresIfAskedFor) {
   EXPECT_GT(farthest(false), 1.0 / 16);
 }
 
+// At equal distances from the apex, or halves of them, whatever the lengths of the segments.
 TEST(Refine, SegmentsAtAnApexAreSplitOnConcentricShells) {
   Surface surface = tent();
   surface.vertices[20] = {0.05, 0.03, 1.25};  // spokes of different lengths

@@ -79,7 +79,7 @@ void Refiner::commit(VertexId v) {
 }
 
 // When the subsegments and subfacets of the new point are there: finds the subfacets among the new
-// tetrahedra, requeues what was lost, has the new tetrahedra judged.
+// tetrahedra, requeues the ones that were lost, has the new tetrahedra judged.
 void Refiner::after_insertion() {
   subfacets_.settle_created();
   constraints_.requeue_lost();
@@ -158,8 +158,8 @@ void Refiner::split_tetrahedron(TetId t) {
   stop_at_precision(corner != v + 4 ? "vertex " + std::to_string(*corner) : "a tetrahedron inside");
 }
 
-// Inserts the point, the last of the store, unless it encroaches, in which case what it encroaches
-// upon is queued and t waits on. False if the point is not inside the circumball.
+// Inserts the point, the last of the store, unless it encroaches; then the encroached elements are
+// queued and t waits on. False if the point is not inside the circumball.
 bool Refiner::try_volume_point(TetId t, VertexId v) {
   const VertexId* w = dt_.vertices(t);
   if (predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], v) <= 0) {

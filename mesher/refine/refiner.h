@@ -1,8 +1,8 @@
 // Algorithm 1: a Delaunay tetrahedrization into which points are inserted until no subsegment and
 // no subfacet is encroached and no tetrahedron is bad. One object lives for one call of refine().
 //
-// What is known lies in parts, each with its own invariants; this class inserts points and carries
-// over from the cavity to what replaces it.
+// The state lies in parts, each with its own invariants; this class inserts points and hands the
+// state of a cavity on to the tetrahedra that replace it.
 //
 //   SteinerPoints      where new points go
 //   Subsegments        the parts of segments, with the queue of parts to split

@@ -36,7 +36,7 @@ struct Sided : Parts {
     std::erase_if(all, [&](TetId t) { return dt.is_ghost(t); });
     return all;
   }
-  // The box is convex: what has all corners in it is inside, all else outside.
+  // The box is convex: a tetrahedron with all corners in it is inside, any other one outside.
   Side expected(TetId t) const {
     const VertexId* v = dt.vertices(t);
     const bool in = std::all_of(v, v + 4, [&](VertexId w) {
@@ -70,7 +70,7 @@ TEST(Sides, FoundFromOneAndPassedOn) {
   EXPECT_EQ(complaint_of(*box.sides), "nothing");
 }
 
-// Near what may be missing of the surface each has to be tested by itself, and nobody's side is
+// Near the removed part of the surface each tetrahedron has to be tested by itself, and no side is
 // passed on to it.
 TEST(Sides, NearTheRemovedPartEachIsTested) {
   Sided everywhere(std::vector{kEverything});
@@ -103,7 +103,8 @@ TEST(Sides, SharedAmongThreadsOnlyWhereEachIsTested) {
   for (const TetId t : all) EXPECT_EQ(box.sides->of(t), box.expected(t));
 }
 
-// All that replace a cavity are what all of the cavity were; unknown if these differ.
+// The tetrahedra that replace a cavity have the side that all of the cavity had; unknown if those
+// differ.
 TEST(Sides, WhatACavityHasInCommonIsInherited) {
   Sided box;
   const std::vector<TetId> first = box.finite();
@@ -133,7 +134,7 @@ TEST(Sides, WhatACavityHasInCommonIsInherited) {
   }
 }
 
-// Parts of what the surface cuts need not be cut.
+// Parts of a tetrahedron that the surface cuts need not be cut.
 TEST(Sides, StraddlingIsNotInherited) {
   Sided box;
   for (const TetId t : box.finite()) SidesBreaker{*box.sides}.straddle(t);
@@ -152,11 +153,11 @@ TEST(Sides, ValidateReportsEveryBrokenInvariant) {
   };
   EXPECT_NE(complaint(&SidesBreaker::turn, {}).find("disagree"), std::string::npos);
   EXPECT_NE(complaint(&SidesBreaker::leave_asked, {}).find("asked"), std::string::npos);
-  // The surface between two may be part of what is removed.
+  // The surface between two may belong to the removed part.
   EXPECT_EQ(complaint(&SidesBreaker::turn, {kEverything}), "nothing");
 }
 
-// Those that a refinement ends with are what the exact test against the whole surface says.
+// The sides at the end of a refinement are those of the exact test against the whole surface.
 TEST(Sides, ThoseOfARefinementAreExact) {
   for (const Surface& surface : {box(), ell(), wedge(), tent()}) {
     for (const unsigned threads : {1U, 2U}) {

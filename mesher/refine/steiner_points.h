@@ -1,8 +1,8 @@
 // Where new points go (sections 5.2 to 5.4 and 5.6): on subsegments, in facets, in the volume.
 //
-// Points are added to the store, with their supports. What is kept besides are the complex and what
-// follows from it; nothing changes from point to point, except that the locator of facets fills its
-// grids when it is first asked.
+// Points are added to the store, with their supports. Besides, the complex and quantities derived
+// from it are kept; nothing changes from point to point, except that the locator of facets fills
+// its grids when it is first asked.
 //
 // Laws:
 //  - a point of a segment of the input or of the box is exactly on its line, and strictly inside

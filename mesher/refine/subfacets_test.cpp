@@ -66,7 +66,7 @@ struct SubfacetsBreaker {
 
 namespace {
 
-// Brute force: what lies in each facet is the Delaunay triangulation of its vertices.
+// Brute force: the subfacets of each facet are the Delaunay triangulation of its vertices.
 void expect_delaunay(const Parts& parts) {
   for (std::uint32_t f = 0; f < parts.plc().facets.size(); ++f) {
     std::vector<VertexId> vertices;

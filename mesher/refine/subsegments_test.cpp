@@ -80,7 +80,8 @@ TEST(Subsegments, SplittingKeepsTheirOrder) {
   EXPECT_EQ(complaint_of(parts.subsegments, parts.control), "nothing");
 }
 
-// Bits survive what other points do to tetrahedra, and those of edges that were split say nothing.
+// Bits survive changes of the tetrahedra by other points, and bits of edges that were split say
+// nothing.
 TEST(Subsegments, TetrahedraKnowThoseThatAreTheirEdges) {
   Parts parts;
   parts.insert_some();

@@ -91,7 +91,7 @@ struct Complex {
   }
 };
 
-// What validate() of a part says of a broken invariant; "nothing" if it sees none.
+// The message of a part's validate() about a broken invariant; "nothing" if it sees none.
 template <class Part, class... Arguments>
 std::string complaint_of(Part& part, Arguments&... arguments) {
   try {

@@ -1,4 +1,5 @@
-// Subsegments and subfacets of a small complex, for the tests of these and of what looks at them.
+// Subsegments and subfacets of a small complex, for the tests of these and of the parts that use
+// them.
 #pragma once
 
 #include <algorithm>
@@ -154,7 +155,7 @@ struct Parts : Complex {
   }
 };
 
-// What waits in the queue of a part, which is empty afterwards, by numbers.
+// The numbers in the queue of a part, which is empty afterwards.
 template <class Part>
 std::vector<std::uint32_t> taken_from(Part& part) {
   std::vector<std::uint32_t> taken;

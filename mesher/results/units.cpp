@@ -67,7 +67,7 @@ Result scaled_and_back(const Model& model, const Options& options,
   units.max_edge = std::ldexp(options.max_edge, -exponent);
   units.chamfer_radius = std::ldexp(options.chamfer_radius, -exponent);
   Result result = task(scaled, units);
-  // Messages about what is wrong name coordinates; points that become subnormal are not exact.
+  // Messages about defects name coordinates; points that become subnormal are not exact.
   if (result.status.code == StatusCode::invalid_surface ||
       result.status.code == StatusCode::invalid_mesh || !is_exact(result.mesh.vertices, exponent)) {
     return task(model, options);

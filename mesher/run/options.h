@@ -7,7 +7,7 @@
 
 namespace delmesher::run {
 
-// Names the option whose value makes no sense; empty if all do.
+// Names an option whose value is not accepted; empty if all are.
 std::string options_defect(const Options& options, const OptionBounds& bounds);
 
 }  // namespace delmesher::run

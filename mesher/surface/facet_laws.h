@@ -1,5 +1,5 @@
-// What the facets of a stand-in owe the surface as given (planar_groups.h), decided exactly on the
-// facets that it really has, whatever groups they were meant to be.
+// The laws that bind the facets of a stand-in to the surface as given (planar_groups.h). They are
+// decided exactly, on the facets that it really has, whatever groups were meant.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ std::vector<std::vector<std::uint32_t>> facets_of(const ChangedSurface& surface,
 // Has the facet the corners and the outline that its triangles have as given?
 bool keeps_outline(const ChangedSurface& surface, const std::vector<std::uint32_t>& facet);
 
-// Those triangles of the facet that have a corner, as given, farther than `bound` from the plane of
+// The triangles of the facet that have a corner, as given, farther than `bound` from the plane of
 // the facet. `points` holds the vertices of the surface, and is as before afterwards.
 std::vector<std::uint32_t> far_from_plane(const ChangedSurface& surface,
                                           const std::vector<std::uint32_t>& facet, double bound,

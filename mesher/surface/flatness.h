@@ -6,10 +6,10 @@
 namespace delmesher::surface {
 
 // The bend of an edge is the largest distance of the corners of its two triangles from the plane of
-// the sum of their area vectors. What is bent by less than 2^-20 of the diagonal of the bounding
-// box is called flat. Returns four times the largest such bend, since the corners of many triangles
-// are farther from their plane than those of two, at most 2^-20 of the diagonal and at least 64 ulp
-// of the largest coordinate; in the units of the surface, which is valid.
+// the sum of their area vectors. An edge that is bent by less than 2^-20 of the diagonal of the
+// bounding box is called flat. Returns four times the largest such bend, since the corners of many
+// triangles are farther from their plane than those of two, at most 2^-20 of the diagonal and at
+// least 64 ulp of the largest coordinate; in the units of the surface, which is valid.
 double flatness(const Surface& surface);
 
 }  // namespace delmesher::surface

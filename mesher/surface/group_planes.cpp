@@ -142,8 +142,8 @@ void GroupPlanes::share() {
   find_lent_states();
 }
 
-// A plane that groups share has one state: what is flat in a plane of its own is not on the one
-// that it was lent.
+// A plane that groups share has one state: a group that is flat in a plane of its own is not on the
+// one that it was lent.
 void GroupPlanes::find_lent_states() {
   for (std::uint32_t g = 0; g < planes_.size(); ++g) {
     if (growth_.is_group(g)) planes_[g].lent_state = planes_[g].state;
@@ -237,7 +237,8 @@ bool GroupPlanes::pin_all(VertexId v, const std::vector<std::vector<std::uint32_
 
 // A plane that is given up at one vertex mostly is at all vertices of its group, if that is one of
 // few triangles. So few planes are enough: the one first that makes room at most vertices for the
-// least harm. Harm is done by what is then a facet of its own, the more the narrower it is.
+// least harm. Harm is done by triangles that become facets of their own, the more the narrower they
+// are.
 void GroupPlanes::make_room(const std::vector<VertexId>& stuck) {
   struct Candidate {
     std::vector<VertexId> at;
@@ -268,7 +269,7 @@ void GroupPlanes::make_room(const std::vector<VertexId>& stuck) {
     control_.poll();
     const auto [gain, g] = best.top();
     best.pop();
-    // Gains only become smaller: what is still the best is so.
+    // Gains only become smaller, so a candidate that is still the best is the best of all.
     const Candidate& candidate = candidates[g];
     const auto count = static_cast<double>(std::ranges::count_if(candidate.at, has_no_room));
     if (count / candidate.harm < gain) {

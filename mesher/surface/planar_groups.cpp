@@ -38,8 +38,8 @@ class StandInBuilder {
   StandIn build() {
     if (!growth_.any_nearly_flat()) return {};
     growth_.grow_all();
-    // What cannot be certified is taken apart, and the rest tried again. Every round takes a
-    // triangle out of a group for good.
+    // Groups that cannot be certified are taken apart, and the rest is tried again. Every round
+    // takes a triangle out of a group for good.
     while (true) {
       control_.poll();
       if (!planes_.fit()) return {};
@@ -279,7 +279,7 @@ class StandInBuilder {
   }
 
   // The facets that the stand-in will have are groups, groups that share a plane, and whatever lies
-  // in the same one. All that is promised of them is asked once more, exactly.
+  // in the same one. All promises about them are checked once more, exactly.
   bool facets_keep_laws(PointStore& points, Predicates& predicates) {
     const ChangedSurface changed{given_, surface_.opposite(), flat_, twin_};
     std::vector<std::uint32_t> against;

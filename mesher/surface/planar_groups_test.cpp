@@ -227,7 +227,7 @@ TEST(PlanarGroups, AFlatFacetLendsItsPlaneToANoisyOne) {
 }
 
 // The same with needles in the wall at x = 1 along its edge with the lid: they become part of the
-// lid, and leave no trace of themselves there by flips. What is flipped has to be planar.
+// lid, and leave no trace of themselves there by flips. Flipped facets have to be planar.
 TEST(PlanarGroups, NeedlesBesideALentPlaneKeepTheOutlines) {
   Surface s = lid_in_two_parts();
   for (std::size_t t = 0, n = s.triangles.size(); t < n; ++t) {
@@ -322,7 +322,7 @@ TEST(PlanarGroups, LayersWithinTheBoundKeepTheirOutlines) {
   EXPECT_GT(groups, 300U);
 }
 
-// Four planes at each vertex: not all quadrangles can be planar, and what is left is valid.
+// Four planes at each vertex: not all quadrangles can be planar, and the rest is valid.
 TEST(PlanarGroups, VerticesOfFourPlanes) {
   const std::uint32_t rings = 9, around = 12;
   Surface s;
@@ -448,8 +448,8 @@ Surface with_split_edge(Surface s, VertexId v, VertexId u, double share) {
   return s;
 }
 
-// What is flat to doubles is so for a smaller bound as well; what single precision has bent by more
-// than that would fall apart.
+// A group that is flat to doubles is so for a smaller bound as well; a group that single precision
+// has bent by more than that would fall apart.
 TEST(PlanarGroups, ASmallerBoundLeavesWholeWhatIsFlatEnough) {
   const Surface doubles = rotated(box({0, 0, 0}, {1, 1, 1}, 4));
   for (const bool single : {false, true}) {

@@ -167,7 +167,7 @@ void PlanarGrowth::grow_from(std::vector<std::uint32_t> seeds, double noise) {
 // A group while it grows. The largest neighbours come first. A triangle joins if it is within the
 // bound of the plane that it helps to find: that of a small seed says nothing about places far
 // away. Whenever the group has doubled, all of it is asked; if it has become a bent one, it goes
-// back to what it was and takes only what is within the bound of that plane.
+// back to its former members and takes only triangles within the bound of that plane.
 class PlanarGrowth::Growing {
  public:
   Growing(PlanarGrowth& growth, std::uint32_t id, std::uint32_t seed)

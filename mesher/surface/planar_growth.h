@@ -25,7 +25,7 @@ struct Fit {
 };
 
 // The plane of a growing set of triangles. Its normal is the sum of area vectors, whose error does
-// not grow with the length of a narrow group: what the noise of a long edge adds to it is
+// not grow with the length of a narrow group: the noise of a long edge adds an error that is
 // perpendicular to that edge.
 class PlaneFit {
  public:

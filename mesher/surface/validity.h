@@ -14,9 +14,9 @@ struct ValidityResult {
 };
 
 // Everything check_surface() reports except facets, acute corners and local feature size. With
-// `stop_at_first`, ends at the first kind of defect found (what tetrahedralize() needs to refuse).
-// An inside-out surface is no defect but sets `report.flipped`. Components oriented otherwise than
-// parity asks for are reported in warnings.
+// `stop_at_first`, ends at the first kind of defect found (tetrahedralize() needs no more to refuse
+// a surface). An inside-out surface is no defect but sets `report.flipped`. Components oriented
+// otherwise than parity asks for are reported in warnings.
 ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control);
 
 // The surface with the triangles marked by check_validity reversed: outwards by parity.
