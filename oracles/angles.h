@@ -28,7 +28,7 @@ void measure_angles(const TetComplex& complex, const Neighbours& neighbours,
                     const std::vector<std::uint8_t>& selected, OracleReport& report);
 
 // The smallest face angle of a tetrahedron that is not flat, and the smallest of its dihedral
-// angles and of what these lack of 180 degrees; in degrees, to a relative 1e-9.
+// angles and of the rests of these to 180 degrees; in degrees, to a relative 1e-9.
 struct WorstAngles {
   double face = 180, dihedral = 180;
 };

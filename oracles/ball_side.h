@@ -1,5 +1,5 @@
-// Decides for many points on which side of one sphere they lie. All that does not depend on the
-// point is computed once.
+// Decides for many points on which side of one sphere they lie. Everything that does not depend on
+// the point is computed once.
 #pragma once
 
 #include "oracles/exact_points.h"

@@ -30,7 +30,7 @@ double centre(const BoxTree::Box& box, int axis) {
 }  // namespace
 
 // The height is that of the box's lowest corner. A sum of three products, each of which rounds
-// twice at most, is within 2^-50 of the sum of their sizes.
+// twice at most, is exact to within 2^-50 of the sum of their sizes.
 bool BoxTree::HalfSpace::contains(const Box& box) const {
   double height = 0, size = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -16,8 +16,8 @@ OracleReport check_chamfer_angles(const RefinedMesh& mesh);
 // Every point made by chamfering lies on the input, at a chamfered corner, within its radius (and
 // --chamfer-radius): cut points on edges no farther than the radius, bridge points no farther than
 // the radius times the factor that the widest sector (120 degrees; 180 where every triangle has a
-// bridge) needs. New edges stay inside the
-// facet that they were cut from, and the facet's faces cover no more than the facet.
+// bridge) needs. New edges stay inside the facet that they were cut from, and the facet's faces
+// cover no more than the facet.
 OracleReport check_chamfer_extent(const RefinedMesh& mesh);
 
 // On the surface that the filter kept, a corner was chamfered exactly if it is acute at the

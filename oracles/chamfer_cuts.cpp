@@ -85,8 +85,8 @@ class ChamferNeed {
     if (link < reach) {
       report_.fail(corner_name(v) + " has a radius above a third of its distance from its link");
     }
-    // The link is nearer than what else bounds the facets here; that of another part of one may be
-    // nearer, on the far side of what is cut off.
+    // The link is nearer than the rest of the boundary of the facets here; the boundary of another
+    // part of a facet may be nearer, beyond the part that is cut off.
     const std::string near = to_link_ ? "" : acute_.nearer_than(reach, v, present);
     if (!near.empty()) {
       report_.fail(corner_name(v) + " has a radius above a third of its distance from " + near);
@@ -212,7 +212,7 @@ class ChamferCuts {
   std::vector<Side> sides_;
   std::vector<std::vector<std::size_t>> sides_of_;  // per facet
   std::vector<std::uint8_t> passed_;
-  AreaSum walked_;  // twice the area inside what has been followed
+  AreaSum walked_;  // twice the area inside the boundary followed so far
   Index origin_ = 0;
   std::uint64_t detours_ = 0, strips_ = 0;
   OracleReport report_{"chamfer-cuts", "sides of kept facets"};

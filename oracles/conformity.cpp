@@ -101,7 +101,7 @@ class Conformity {
     return {first - edges_.begin(), last - edges_.begin()};
   }
   bool on_boundary(Index v) const { return first_edge_[v] < first_edge_[v + 1]; }
-  // What the chain through a directed edge has on its left, kNone if there is none.
+  // The facet on the left of the chain through a directed edge; kNone if there is none.
   Index left_of(std::size_t edge) const { return edges_[edge].chain_facet; }
   bool in_chain(Index a, Index b) const {
     const auto [first, last] = edges_at(a, b);

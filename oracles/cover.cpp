@@ -15,8 +15,8 @@ struct Side {
   auto operator<=>(const Side&) const = default;
 };
 
-// The sum of the faces on a facet, less the facet, is a chain of the plane, and so is what bounds
-// it: the sides that the two do not share. It vanishes outside the bounding boxes of the connected
+// The sum of the faces on a facet, less the facet, is a chain of the plane, and so is its boundary:
+// the sides that the two do not share. It vanishes outside the bounding boxes of the connected
 // parts of these sides.
 class Uncovered {
  public:
@@ -61,7 +61,7 @@ class Uncovered {
     }
   }
 
-  // Those of the input's edges, along their segments where there are any.
+  // The sides on the input's edges, along their segments where there are any.
   void collect_sides_of_facets() {
     std::vector<const ExactRecord::Chain*> chain(surface_.edges().size(), nullptr);
     for (const ExactRecord::Chain& segment : record_.segments) {

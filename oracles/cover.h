@@ -1,4 +1,4 @@
-// What the faces of a mesh on facets cover of the surface.
+// The part of the surface that a mesh's faces on facets cover.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@ std::vector<std::uint8_t> walls_of(const TetComplex& complex,
 
 struct Cover {
   std::vector<std::uint8_t> walls;  // see walls_of
-  // Boxes around what the faces leave of the surface, and for each the triangle that it is part of.
+  // Boxes around the parts of the surface that the faces do not cover, and for each the triangle
+  // that it is part of.
   std::unique_ptr<const BoxTree> rest;
   std::vector<Index> triangles;
 };

@@ -1,8 +1,8 @@
 // Points with exact coordinates: integers at one common power-of-two scale, over odd denominators
-// for points on planes. What is kept of each coordinate are two doubles, for the filter: one within
-// an ulp, and the rest. The integers are made anew from the definition whenever somebody asks,
-// because intervals nearly always suffice, and all of them take several times the memory of a mesh.
-// Shares nothing with the mesher's arithmetic.
+// for points on planes. Of each coordinate two doubles are kept, for the filter: one within an ulp,
+// and the rest. The integers are made anew from the definition whenever they are needed, because
+// intervals nearly always suffice, and all of them take several times the memory of a mesh. Shares
+// nothing with the mesher's arithmetic.
 #pragma once
 
 #include <array>

@@ -315,8 +315,8 @@ class FilterCheck {
     report_.figures.emplace_back("dropped that could return", could_return);
   }
 
-  // The first step of the paper: exactly the facets are dropped that something of the whole surface
-  // is too close to.
+  // The first step of the paper: a facet is dropped exactly if an element of the whole surface is
+  // too close to it.
   void check_all_pairs(const std::vector<Index>& dropped, double low, double high) {
     for (const Index f : dropped) features_.set_present(f, true);
     for (Index f = 0; f < surface_.facets().size(); ++f) {

@@ -200,7 +200,7 @@ class Improvement {
     }
   }
 
-  // What is bad has to be near something that was as bad before.
+  // A bad tetrahedron has to be near one that was as bad before.
   void explain() {
     int edges = 0;
     for (;; ++edges) {
@@ -220,7 +220,7 @@ class Improvement {
     }
   }
 
-  // Every vertex comes to know what its neighbours know.
+  // Passes the worst angles known at every vertex on to its neighbours.
   void spread() {
     const std::vector<WorstAngles> known = worst_;
     for (const auto* mesh : {&record_.unrepaired, &record_.final}) {
@@ -293,7 +293,7 @@ class Improvement {
   const bool all_;
   const WorstAngles goal_;
   const double longest_;
-  std::vector<WorstAngles> worst_;  // per point, of what was there before
+  std::vector<WorstAngles> worst_;  // per point, of the tetrahedra there before
   WorstAngles before_, after_;
   std::vector<Bad> bad_;
   std::uint64_t defects_ = 0;

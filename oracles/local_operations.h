@@ -1,4 +1,4 @@
-// What local operations made of the constrained Delaunay mesh: the improvement, and repairs of
+// The changes of the constrained Delaunay mesh by local operations: the improvement, and repairs of
 // rounding.
 #pragma once
 
@@ -18,8 +18,8 @@ OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoin
                            const Promise& promise);
 
 // Of an improved mesh (--improve), in the region: where a face angle is below the promised bound,
-// or a dihedral angle flatter than kImprovedDihedral degrees (of the angle and what it lacks of 180
-// degrees, the smaller), a tetrahedron at least as bad was there before, at most kOperationsReach
+// or a dihedral angle flatter than kImprovedDihedral degrees (the angle or its rest to 180 degrees,
+// whichever is smaller), a tetrahedron at least as bad was there before, at most kOperationsReach
 // edges away along edges of either mesh; so neither the smallest nor the flattest one becomes
 // worse, and nothing bad is made where all was good. One that was not positive on the nearest
 // doubles counts as flat, as repairs of rounding may follow there. No edge longer than --max-edge

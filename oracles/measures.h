@@ -1,4 +1,4 @@
-// Oracles of volumes and of the flags that say what is inside.
+// Oracles of volumes and of the flags of tetrahedra inside.
 #pragma once
 
 #include "oracles/input_surface.h"

@@ -14,9 +14,9 @@ namespace tetproof::oracles {
 // When all have ended, the exception of the first task in order that threw is thrown on.
 void run_tasks(unsigned threads, std::size_t count, const std::function<void(std::size_t)>& task);
 
-// What the first thread that asks does, while the others wait for it. What it throws is thrown to
-// all of them; it is not done again. std::call_once lets exceptions pass through functions in C,
-// for which the C library needs memory: lack of memory would end the program.
+// A task that the first thread to ask carries out, while the others wait for it. Its exception is
+// thrown to all of them; the task is not repeated. std::call_once lets exceptions pass through
+// functions in C, for which the C library needs memory: lack of memory would end the program.
 class Once {
  public:
   template <class Work>

@@ -32,8 +32,8 @@ std::vector<Index> groups_over(const Neighbours& neighbours,
 // plane, nothing crosses the way from one centroid through the middle of the face to the other, and
 // both are on the same side.
 //
-// A face of a mesh enters none of its tetrahedra, so only what is left of the surface beside the
-// faces on it is asked about, and these faces are walls.
+// A face of a mesh enters none of its tetrahedra, so only the rest of the surface beside the faces
+// on it is asked about, and these faces are walls.
 void Places::find() const {
   const std::vector<Tet>& tets = complex_.tetrahedra;
   const ExactPoints& points = *complex_.points;

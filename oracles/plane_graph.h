@@ -37,7 +37,7 @@ class PlaneGraph {
   // Does the inside change to the outside across the segment? (Some inputs have others, between two
   // faces of the same side.)
   bool separates(Index segment) const;
-  // Does parity decide what is inside, everywhere?
+  // Does parity decide the inside, everywhere?
   bool closed_rings() const { return rings_; }
   // Twice the area within if the segments are one simple closed curve; else negative.
   const mpq_class& area_of_ring() const { return ring_area_; }

@@ -1,7 +1,7 @@
 // Exact checks of a mesh of the plane, of its record, and of the promises. Shares no code with the
 // mesher: rationals decide, a plain floating-point bound only skips the obvious cases.
 //
-// plane_conformity.h describes the checks of the file. Of a PlaneRecord nothing is believed:
+// plane_conformity.h describes the checks of the file. No claim of a PlaneRecord is believed:
 // - promise: the present version, the sections that the promise needs, bounds as promised;
 // - sidecar: the input vertices come first, unchanged; points on segments lie between their ends;
 // - same-mesh: triangles, sides and listed edges of the file are, one to one, those of the last

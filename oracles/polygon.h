@@ -1,5 +1,5 @@
 // Cuts faces of more than three corners into triangles by the rule of mesher/io/formats.md, which
-// decides the solid that is meant where they are not planar.
+// decides which solid is meant where they are not planar.
 #pragma once
 
 #include "oracles/input_surface.h"

@@ -61,8 +61,8 @@ bool parse_number(const std::string& text, double& value) {
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
-// What is done as the paper says. The way to the same promises of some choices differs; their names
-// only have to be known.
+// A choice of --as-paper. Some choices change only the way to the same promises; of these only the
+// names have to be known.
 struct Choice {
   const char* name;
   bool Promise::*target;  // null: promises nothing
@@ -99,7 +99,7 @@ void set_defaults(Task task, bool paper, Promise& p) {
   if (task == Task::plane) p.tau = 0;
 }
 
-// Empty, or what is wrong with the list.
+// Empty, or the mistake in the list.
 std::string choose(const std::string& list, Promise& p) {
   choose_all(list == "all", p);
   if (list == "none" || list == "all") return {};

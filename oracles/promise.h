@@ -27,7 +27,7 @@ struct Promise {
   bool gabriel = false;
   bool approximate = false;
   bool improve = true;
-  // What is asked to be done as the paper says, as far as an oracle can tell (--as-paper).
+  // The choices of --as-paper that an oracle can see.
   bool link = false;              // chamfers reach a third of the way to the link
   bool bridges = false;           // a bridge per triangle
   bool kept_points = false;       // enriched with the points on artificial segments, too
@@ -54,7 +54,7 @@ struct Promise {
 
 // Reads a command line without the program's name: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS';
 // without a first word `mesh` is meant. Options that promise nothing of the result (files, threads,
-// times) are ignored. Empty on success, else what is wrong with it.
+// times) are ignored. Empty on success, else the mistake.
 std::string parse_promise(std::string_view text, Promise& promise);
 
 // The same for a call of the library.

@@ -1,5 +1,5 @@
-// The report of an oracle: how much it checked, and what is wrong and where. Oracles never abort
-// and never throw.
+// The report of an oracle: how much it checked, and which violations it found where. Oracles never
+// abort and never throw.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ struct Difference {
   bool written;  // in the file
 };
 
-// Differences that hang together over common faces, and what they amount to.
+// Differences that are connected over common faces, and their effect.
 struct Change {
   std::vector<Difference> differences;
   bool same_surface = true;  // the faces that bound those of the file bound those of the record
@@ -230,7 +230,7 @@ class SameMesh {
     }
   }
 
-  // Region 1 is inside. What is outside is called 2, or 0 where a format says "inside" or not.
+  // Region 1 is inside. The outside is called 2, or 0 where a format says "inside" or not.
   void compare_regions(std::size_t w, std::size_t r) {
     const bool inside = tets_[r].inside;
     if (w >= mesh_.regions.size()) {

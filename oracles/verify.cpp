@@ -718,7 +718,7 @@ void Verification::check_unrepaired(const ExactPoints& points, const InputSurfac
   add(std::move(shape), "unrepaired-");
   if (!usable) return;
   add(check_orientation(before), "unrepaired-");
-  // Else the unrepaired mesh could leave out the part that is wrong in the final one.
+  // Otherwise the unrepaired mesh could lack the wrong part of the final one.
   add(check_hull(before, neighbours), "unrepaired-");
   // The record lists none if repairs did not change them.
   const auto& listed =

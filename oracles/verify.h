@@ -16,7 +16,7 @@
 
 namespace tetproof::oracles {
 
-// What is checked. A mesh file alone holds one of the two stages; a sidecar has both.
+// The stage that is checked. A mesh file alone holds one of the two stages; a sidecar has both.
 enum class Stage : std::uint8_t { refined, final, both };
 
 struct VerifyOptions {

@@ -69,8 +69,8 @@ void declare(CLI::App& app, Arguments& arguments) {
   app.add_flag("--json", arguments.json, "report as JSON");
 }
 
-// On a terminal, a line that says what has been checked last and how long all has taken, cleared at
-// the end. Elsewhere nothing.
+// On a terminal, a line that names the last check and the time taken so far, cleared at the end.
+// Elsewhere nothing.
 class Terminal {
  public:
   void say(const std::string& what) {
@@ -114,7 +114,7 @@ std::string reason(const VerifyReport& report) {
   return line + " by more than declared";
 }
 
-// All that is promised is checked, whether the record has it or not. A file alone is taken for a
+// Every promise is checked, whether the record has its sections or not. A file alone is taken for a
 // final mesh unless --promised or --stage says otherwise.
 Stage promised_stage(const Promise& promised, const std::string& exact) {
   if (promised.approximate) return Stage::refined;

@@ -12,9 +12,9 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 
-// Adds the triangles one by one. The kernel refuses a triangle that would make an edge or a vertex
-// that is no manifold. A refusal may depend on the order, so a refused triangle is tried again once
-// the fan has grown.
+// Adds the triangles one by one. The kernel refuses a triangle that would make the surface
+// non-manifold at an edge or a vertex. A refusal may depend on the order, so a refused triangle is
+// tried again once the fan has grown.
 std::size_t add_triangles(const Polyhedron& surface,
                           const std::vector<Mesh::VertexHandle>& vertices, Mesh& mesh) {
   std::vector<std::size_t> waiting(surface.triangles.size());
