@@ -33,7 +33,7 @@ Leniency not_spatial("points-in-one-plane", 0.3);
 
 constexpr std::uint32_t kMostPoints = 300;
 
-// Points one by one, with any doubles: two dozen show what goes wrong among few points.
+// Points one by one, with any doubles: two dozen show the bugs that few points can show.
 Points points_of_bytes(Bytes& bytes) {
   Points points;
   while (!bytes.empty() && points.size() < 24) {

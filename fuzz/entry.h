@@ -11,7 +11,7 @@
 
 namespace tetproof::fuzz {
 
-// Empty if the property holds, else "oracle: what is wrong", in one line. The part before the colon
+// Empty if the property holds, else "oracle: violation", in one line. The part before the colon
 // names the kind of failure: findings with the same name and place are one finding.
 using Finding = std::string;
 

@@ -69,7 +69,7 @@ std::vector<const char*> family_names() {
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::ValuesIn(family_names()),
                          [](const auto& name) { return std::string(name.param); });
 
-// The statistics of a member that passes all oracles, to see what rounding did.
+// The statistics of a member that passes all oracles, to see the effect of rounding.
 delmesher::Statistics expect_written_positive(const char* family, std::uint64_t member) {
   const auto surface = generate(*find_family(family), 1, member);
   EXPECT_TRUE(surface);

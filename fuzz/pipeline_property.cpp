@@ -183,8 +183,8 @@ Options options_for(const Surface& surface) {
   return options;
 }
 
-// Without the options that ask for many vertices whatever the surface is, and with less of the
-// surface in the refinement.
+// Without the options that ask for many vertices on any surface, and with less of the surface in
+// the refinement.
 Options coarser(Options options, std::uint64_t budget) {
   options.budget = budget;
   options.max_edge = options.chamfer_radius = 0;

@@ -20,7 +20,7 @@ Leniency no_bound("infinite-error-bound", 0.01);
 
 struct Points {
   PointStore store;
-  VertexId corners = 0;  // what segments and triangles may be between
+  VertexId corners = 0;  // the points that segments and triangles may be between
 };
 
 // Through points of the store, all of which are explicit yet.

@@ -20,11 +20,11 @@ Finding predicates_on_planes_agree(Bytes bytes);
 // `name` gives the format by its extension.
 Finding reader_holds(const std::string& text, const std::string& name);
 
-// The same of a reader of meshes of tetrahedra; what is read is improved or refused. The files of
-// TetGen's are parts of one text, separated by form feeds: .node, .ele, .face.
+// The same of a reader of meshes of tetrahedra; a mesh that is read is improved or refused. The
+// files of TetGen's are parts of one text, separated by form feeds: .node, .ele, .face.
 Finding mesh_reader_holds(const std::string& text, const std::string& name);
 
-// Our check of a surface and CGAL's agree on what is valid; defects are named.
+// Our check of a surface and CGAL's agree on its validity; defects are named.
 Finding check_agrees(const delmesher::Surface& surface);
 
 // Facets are those of the oracles; the smallest local feature size is that of all pairs.
@@ -67,7 +67,7 @@ Finding plane_holds(Bytes bytes);
 // format by its extension.
 Finding plane_reader_holds(const std::string& text, const std::string& name);
 
-// Every format reads back what was written.
+// Every format reads back the mesh that was written.
 Finding writers_hold(Bytes bytes);
 
 // The command line ends with a documented code and says one line.

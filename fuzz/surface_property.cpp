@@ -52,7 +52,8 @@ Finding volume_agrees(const Surface& surface, double ours) {
     no_volume.take();
     return {};
   }
-  // Ours is a sum in doubles of a term per triangle, each at most the box: what rounding may lose.
+  // Ours is a sum in doubles of a term per triangle, each at most the box. Rounding may lose so
+  // much.
   const auto terms = static_cast<double>(surface.triangles.size());
   const double lost = terms * (terms + 32) * 0x1p-52 * box;
   if (std::fabs(ours - theirs) <= lost + 4 * std::numeric_limits<double>::denorm_min()) return {};

@@ -1,5 +1,5 @@
-// Laws of improve_mesh(), which improves meshes of whatever origin: ours without improvement,
-// TetGen's and Gmsh's. Judged by rational arithmetic that shares nothing with it.
+// Laws of improve_mesh(), which improves meshes of any origin: ours without improvement, TetGen's
+// and Gmsh's. Judged by rational arithmetic that shares nothing with it.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ using Point = std::array<double, 3>;
 
 constexpr std::uint64_t kSeed = 5;
 constexpr double kDihedral = oracles::kImprovedDihedral,
-                 kDelta = 14.47;    // what is as good as this may become worse
+                 kDelta = 14.47;    // tetrahedra as good as this may become worse
 constexpr double kRounding = 1e-6;  // of angles
 
 // Six times the volume.

@@ -48,6 +48,6 @@ bool leniencies_within_bounds();
 // of its own there at all times, so that they survive every way to end. Its lines are "NAME COUNT
 // BOUND", the first two "executed" and "judged" with bound 1. ci/fuzz adds them up. If
 // TETPROOF_COUNTERS_AFTER is a number, so many inputs at the beginning of a process are not
-// counted: what a campaign begins with was chosen because it is special.
+// counted: the inputs that a campaign begins with were chosen because they are special.
 
 }  // namespace tetproof

@@ -32,7 +32,7 @@ void run(int inputs, int seldom_of) {
   }
 }
 
-// Ends the child: with 0 if all holds, else with 1 and what the table says.
+// Ends the child: with 0 if all holds, else with 1 and the text of the table.
 void end(bool all) {
   if (!all) std::fputs(leniency_table().c_str(), stderr);
   std::exit(all ? 0 : 1);

@@ -87,7 +87,7 @@ void expect_faces_counted_once(const NamedSurface& model, const Options& options
   EXPECT_NEAR(told.mean_min_face_angle, compared.mean_min_face_angle, 1e-9);
 }
 
-// What the mesher says of the angles and shapes is what the oracle finds in the file.
+// The mesher's statistics of angles and shapes are those that the oracle finds in the file.
 void expect_quality_told(const NamedSurface& model, const Options& options) {
   SCOPED_TRACE(model.name);
   const Result result = delmesher::tetrahedralize(model.surface, options);

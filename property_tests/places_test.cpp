@@ -1,5 +1,5 @@
-// Which tetrahedra are inside, outside or crossed: what groups and faces on facets save must change
-// no answer.
+// Which tetrahedra are inside, outside or crossed: the work that groups and faces on facets save
+// must change no answer.
 #include "oracles/places.h"
 
 #include <gtest/gtest.h>
@@ -69,7 +69,7 @@ TEST(Places, InAGridAreThoseOfEachTetrahedronAlone) {
   for (const std::size_t count : counts) EXPECT_GT(count, 200U);
 }
 
-// The refined mesh of a run, whose faces cover what they do of the surface.
+// The refined mesh of a run, with the part of the surface that its faces cover.
 void expect_places_of_a_run(const delmesher::Surface& input, bool chamfered) {
   delmesher::Options options;
   options.want_exact = true;

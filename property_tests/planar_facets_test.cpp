@@ -239,7 +239,7 @@ struct Lie {
   const char* name;
   const char* oracle;  // the one meant to catch it
   void (*tell)(Told&);
-  const char* before = "";  // for the table: what became of it before its row was there
+  const char* before = "";  // for the table: its fate before its row was there
 };
 void PrintTo(const Lie& lie, std::ostream* out) {
   *out << lie.name;

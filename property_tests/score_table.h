@@ -15,7 +15,7 @@ namespace tetproof {
 struct Score {
   std::string base, damage, meant;
   bool caught = false;
-  std::string before;  // what became of it before its row was there, if that is known
+  std::string before;  // its fate before its row was there, if that is known
   std::string also;    // other oracles that objected
 };
 

@@ -1,5 +1,5 @@
-// Other programs' answers: CGAL and OpenMesh on what a valid surface is, CGAL's and TetGen's meshes
-// before our oracles.
+// Other programs' answers: CGAL and OpenMesh on the validity of surfaces, CGAL's and TetGen's
+// meshes before our oracles.
 #include <gtest/gtest.h>
 
 #include <algorithm>

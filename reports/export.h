@@ -4,7 +4,7 @@
 // Laws: rows come in the order of sort_rows(), whatever the order of storing; a `stable` export
 // depends on models, meshers and results only, so that two campaigns over the same models, however
 // they were interrupted, divided and merged, give the same bytes; JSON read back gives the rows
-// written, but for what was left out.
+// written, but for the parts that were left out.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ struct ExportOptions {
   // place of the run are left out, and of the statistics all but the parameters and the refined
   // mesh.
   bool brief = false;
-  // Leaves out what differs between equal campaigns: times, memory, host, paths.
+  // Leaves out the values that differ between equal campaigns: times, memory, host, paths.
   bool stable = false;
 };
 

@@ -1,8 +1,8 @@
 // The figures of a report, as data.
 //
 // Laws: bins are the same for all meshers of a chart; the bars of one mesher in a histogram add up
-// to 100 % of what the denominator says (its own successes in Figures 10 and 11, as in the paper;
-// its own angles in Figure 13).
+// to 100 % of the denominator named (its own successes in Figures 10 and 11, as in the paper; its
+// own angles in Figure 13).
 #pragma once
 
 #include <string>

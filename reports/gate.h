@@ -1,4 +1,4 @@
-// Compares a campaign with an earlier one and finds what got worse.
+// Compares a campaign with an earlier one and finds the measures that got worse.
 //
 // Laws: a campaign against itself has no finding; leaving out models or adding better results gives
 // no finding but "missing"; every disposition but ok counts as not ok, refusals and skips included;
@@ -15,7 +15,7 @@
 namespace tetproof {
 
 // Limits for one model are wide, because any change of the mesher changes every mesh a little.
-// Those for all models of a mesher together are narrow, because such changes cancel out. A limit
+// Limits for all models of a mesher together are narrow, because such changes cancel out. A limit
 // for all models counts from 8 pairs on, and only if 99 of 100 resamplings of the models
 // (bootstrap) agree on the direction, so that a few models never decide for all.
 struct GateOptions {

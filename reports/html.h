@@ -28,7 +28,7 @@ struct Page {
   std::vector<ViewPart> views;
   std::vector<std::string> notes;
   // Does this build hold the libraries that draw charts (Chart.js) and pictures (three.js)? A page
-  // without them says what is missing.
+  // without them names the missing ones.
   bool has_charts = true, has_pictures = true;
 };
 

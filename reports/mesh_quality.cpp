@@ -181,7 +181,7 @@ void count_signs(const oracles::MeshFile& mesh, MeshQuality& result) {
     std::sort(sorted.begin(), sorted.end());
     result.repeated_corners += std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
   }
-  // Programs differ in the order of corners; what counts is that one file keeps to one order.
+  // Programs differ in the order of corners; a file only has to keep to one order.
   result.left_handed = negative > positive;
   result.inverted = std::min(positive, negative);
 }

@@ -1,5 +1,5 @@
-// A reader of meshes refuses in one line, or what it delivers is read back as written, and improved
-// or refused. Compiled once per format.
+// A reader of meshes refuses in one line, or its mesh is read back as written, and improved or
+// refused. Compiled once per format.
 #include "fuzz/properties.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

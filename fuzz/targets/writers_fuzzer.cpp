@@ -1,4 +1,4 @@
-// Every format reads back what was written.
+// Every format reads back the mesh that was written.
 #include "fuzz/properties.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

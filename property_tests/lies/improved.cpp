@@ -1,4 +1,4 @@
-// Lies about local operations: the mesh before them, and what the improvement made of it.
+// Lies about local operations: the mesh before them, and the improved mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Lies about a run: what is told, and to which oracle it should be plain.
+// Lies about a run: the false account, and the oracle that should see through it.
 #pragma once
 
 #include <iosfwd>
@@ -10,7 +10,7 @@
 
 namespace tetproof::lies {
 
-// A run as it is told, and what was asked for.
+// A run as it is told, and the options that were asked for.
 struct Told {
   samples::Sample sample;
   delmesher::ExactRecord record;
@@ -40,7 +40,7 @@ struct Lie {
   const char* name;
   const char* oracle;  // the one meant to catch it
   void (*tell)(Told&);
-  const char* before = "";  // for the table: what became of it before its row was there
+  const char* before = "";  // for the table: its fate before its row was there
 };
 
 void PrintTo(const Lie& lie, std::ostream* stream);

@@ -1,4 +1,4 @@
-// Damage to good meshes: what the three files of tables share.
+// Damage to good meshes: the common parts of the three files of tables.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// The input surface: its facets, what is in its interior, and the tree of boxes that finds its
-// triangles.
+// The input surface: its facets, its interior, and the tree of boxes that finds its triangles.
 #include <gtest/gtest.h>
 
 #include <algorithm>

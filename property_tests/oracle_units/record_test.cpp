@@ -96,7 +96,7 @@ TEST(Promises, AreReadFromCommandLines) {
     EXPECT_EQ(p.acute, 60) << text;
     EXPECT_FALSE(p.link) << text;
   }
-  // What is promised by a text is what is promised by the same options.
+  // The promises of a text are those of the same options.
   for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
     delmesher::Options options;
     options.as_paper.*choice.member = true;

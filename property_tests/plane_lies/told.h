@@ -1,4 +1,4 @@
-// Lies about a run in the plane: what is told, and to which oracle it should be plain.
+// Lies about a run in the plane: the false account, and the oracle that should see through it.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace tetproof::plane_lies {
 
-// A run as it is told, and what was asked for.
+// A run as it is told, and the options that were asked for.
 struct Told {
   delmesher::PlanarGraph graph;
   oracles::PlaneFile file;
@@ -19,8 +19,8 @@ struct Told {
   PlaneVerifyOptions how;
 };
 
-// A square with a sharp dent and a slender hole: chamfers. Two lines inside with a channel of
-// 1 : 2000 between them: one is dropped. Holes decide what is inside, not parity.
+// A square with a sharp dent and a slender hole: chamfers. Two lines inside with a channel of 1 :
+// 2000 between them: one is dropped. Holes decide the inside, not parity.
 delmesher::PlanarGraph honest_graph();
 
 delmesher::Options honest_options();

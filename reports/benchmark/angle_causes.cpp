@@ -82,7 +82,7 @@ class FacetAngles {
   }
 
   // Between the triangle t at edge ab and the one beyond, on their inner side. The tetrahedron of
-  // the two has this angle there, or what it lacks of 360 degrees; two coplanar triangles have 180.
+  // the two has this angle there, or the rest of 360 degrees; two coplanar triangles have 180.
   double wedge(std::uint32_t a, std::uint32_t b, std::uint32_t t) const {
     const auto beyond = triangle_at_.find({b, a});
     if (beyond == triangle_at_.end()) return 180;

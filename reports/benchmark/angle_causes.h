@@ -25,9 +25,9 @@ struct AngleBounds {
   double face = 180;  // the smallest angle of a facet (coplanar triangles) at an input vertex
   // The sharpest wedge: the smallest dihedral angle between facets at an input edge, inside. It may
   // be one tetrahedron's alone; no tetrahedron has six dihedral angles above acos(1/3). Corners set
-  // no other bound: what a tetrahedron has there are the angles of a spherical triangle, and those
-  // of the corner are the wedges of its edges; needles have small face angles, but no small
-  // dihedral ones.
+  // no other bound: a tetrahedron has the angles of a spherical triangle there, and the angles of
+  // the corner are the wedges of its edges; needles have small face angles, but no small dihedral
+  // ones.
   double dihedral = 70.528779365509308;
 };
 

@@ -1,4 +1,4 @@
-// What a solver sees of a mesh: the Poisson equation with linear elements, by conjugate gradients.
+// A mesh judged by a solver: the Poisson equation with linear elements, by conjugate gradients.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace tetproof::benchmark {
 
 struct PoissonRun {
   std::uint64_t tetrahedra = 0, unknowns = 0;
-  unsigned iterations = 0;  // until the residual is 1e-8 of what it was; `converged` says whether
+  unsigned iterations = 0;  // until the residual is 1e-8 of the first one; `converged` says whether
   bool converged = false;
   double largest_error = 0;  // of the solution at a vertex, relative to the largest value
   double mean_error = 0;     // root of the mean square over the volume, in the same way
