@@ -1,4 +1,4 @@
-// The oracles accept good meshes and measure small damage; mutation_test.cpp does large damage.
+// The oracles accept good meshes and measure small damage; mutations/ does large damage.
 #include <gtest/gtest.h>
 
 #include <algorithm>
