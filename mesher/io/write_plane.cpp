@@ -98,77 +98,6 @@ void write_off(TextSink& out, const PlaneMesh& mesh) {
   }
 }
 
-void begin_array(TextSink& out, const char* type, const char* name) {
-  out.text("<DataArray type=\"");
-  out.text(type);
-  out.text("\" Name=\"");
-  out.text(name);
-  out.text("\" format=\"ascii\">\n");
-}
-
-// Triangles, then the edges on segments.
-template <class TriangleValue, class EdgeValue>
-void cell_array(TextSink& out, const PlaneMesh& mesh, const char* type, const char* name,
-                TriangleValue triangle_value, EdgeValue edge_value) {
-  begin_array(out, type, name);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    triangle_value(t);
-    line(out);
-  }
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    edge_value(e);
-    line(out);
-  }
-  out.text("</DataArray>\n");
-}
-
-void write_vtu(TextSink& out, const PlaneMesh& mesh) {
-  const std::size_t triangles = mesh.triangles.size();
-  out.text(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"");
-  out.integer(mesh.vertices.size());
-  out.text("\" NumberOfCells=\"");
-  out.integer(triangles + mesh.edges.size());
-  out.text(
-      "\">\n<Points>\n"
-      "<DataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\" format=\"ascii\">\n");
-  for (const Point2& p : mesh.vertices) {
-    point(out, p);
-    out.text(" 0\n");
-  }
-  out.text("</DataArray>\n</Points>\n<Cells>\n");
-  cell_array(
-      out, mesh, "Int64", "connectivity",
-      [&](std::size_t t) {
-        for (const std::uint32_t v : mesh.triangles[t]) out.integers(v);
-      },
-      [&](std::size_t e) { out.integers(mesh.edges[e][0], mesh.edges[e][1]); });
-  cell_array(
-      out, mesh, "Int64", "offsets", [&](std::size_t t) { out.integer(3 * (t + 1)); },
-      [&](std::size_t e) { out.integer(3 * triangles + 2 * (e + 1)); });
-  cell_array(
-      out, mesh, "UInt8", "types", [&](std::size_t) { out.integer(5); },
-      [&](std::size_t) { out.integer(3); });
-  out.text("</Cells>\n<CellData>\n");
-  cell_array(
-      out, mesh, "Int8", "inside", [&](std::size_t t) { out.integer(mesh.inside[t] != 0 ? 1 : 0); },
-      [&](std::size_t) { out.integer(-1); });
-  cell_array(
-      out, mesh, "Int32", "marker", [&](std::size_t) { out.integer(0); },
-      [&](std::size_t e) { out.integer(mesh.edge_markers[e]); });
-  cell_array(
-      out, mesh, "Int64", "segment", [&](std::size_t) { out.integer(-1); },
-      [&](std::size_t e) { out.integer(mesh.edge_segments[e]); });
-  if (!mesh.attributes.empty()) {
-    cell_array(
-        out, mesh, "Float64", "attribute", [&](std::size_t t) { out.number(mesh.attributes[t]); },
-        [&](std::size_t) { out.integer(0); });
-  }
-  out.text("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-}
-
 struct PlaneOutput {
   const PlaneMesh& mesh;
   const PlanarGraph* graph;  // null: no holes and regions
@@ -178,7 +107,7 @@ struct PlaneOutput {
 constexpr std::array<FileFormat<PlaneOutput>, 5> kFormats = {
     {{{".node", ".ele", ".poly"},
       [](Sinks f, const PlaneOutput& o) { write_triangle(*f[0], *f[1], *f[2], o.mesh, o.graph); }},
-     {{".vtu"}, [](Sinks f, const PlaneOutput& o) { write_vtu(*f[0], o.mesh); }},
+     {{".vtu"}, [](Sinks f, const PlaneOutput& o) { write_plane_vtu(*f[0], o.mesh); }},
      {{".off"}, [](Sinks f, const PlaneOutput& o) { write_off(*f[0], o.mesh); }},
      {{".msh"}, [](Sinks f, const PlaneOutput& o) { write_plane_gmsh(*f[0], o.mesh); }},
      {{".svg"}, [](Sinks f, const PlaneOutput& o) { write_svg(*f[0], o.mesh); }}}};

@@ -1,5 +1,5 @@
 // The writers of single formats of the plane that have files of their own, for meshes that
-// write_plane has checked, and what they share.
+// write_plane has checked, and their common parts.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace delmesher::io {
 
 using Point2 = std::array<double, 2>;
 
-// Number of the region of a triangle: of the side.
+// The region number of a triangle, which tells its side.
 inline int region(const PlaneMesh& mesh, std::size_t t) {
   return mesh.inside[t] != 0 ? kRegionInside : kRegionOutside;
 }
@@ -28,6 +28,7 @@ inline void line(TextSink& out) {
 }
 
 void write_plane_gmsh(TextSink& out, const PlaneMesh& mesh);
+void write_plane_vtu(TextSink& out, const PlaneMesh& mesh);
 void write_svg(TextSink& out, const PlaneMesh& mesh);
 
 }  // namespace delmesher::io
