@@ -43,7 +43,7 @@ LAYERS = {
     "results": FOUNDATION + ("chamfer", "refine", "cdt", "output", "plane", "run"),
     "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "plane", "run", "results"),
     "io": ("base", "arithmetic", "predicates"),
-    "cli": ("base", "io"),
+    "cli": ("base", "arithmetic", "predicates", "io"),
 }
 # Folders that are namespaces under delmesher; the public types and the tables of their names are in delmesher itself.
 NAMESPACES = tuple(LAYERS)

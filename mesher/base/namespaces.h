@@ -62,5 +62,8 @@ using namespace results;     // NOLINT(google-build-using-namespace)
 namespace io {
 using namespace predicates;  // NOLINT(google-build-using-namespace)
 }
+namespace cli {
+using namespace predicates;  // NOLINT(google-build-using-namespace)
+}
 
 }  // namespace delmesher

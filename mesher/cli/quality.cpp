@@ -8,6 +8,7 @@
 #include <span>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/predicates/vector.h"
 
 namespace delmesher::cli {
 namespace {
@@ -19,23 +20,8 @@ constexpr double kRounding = 1e-6;              // of angles that meet a bound, 
 // shared among more than so many elements.
 constexpr double kForced = 2;
 
-using Vector = std::array<double, 3>;
-
-Vector from_to(const Vector& a, const Vector& b) {
-  return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-}
-
-double dot(const Vector& u, const Vector& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-Vector cross(const Vector& u, const Vector& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-double between(const Vector& u, const Vector& v) {
-  const Vector n = cross(u, v);
-  return std::atan2(std::sqrt(dot(n, n)), dot(u, v)) * kDegrees;
+double between(const Vec3& u, const Vec3& v) {
+  return std::atan2(norm(cross(u, v)), dot(u, v)) * kDegrees;
 }
 
 // With some digits after the point, and at least the first two that are not 0.
@@ -56,7 +42,7 @@ std::string place(std::span<const double> p) {
   return out + ")";
 }
 
-Vector middle(const Vector& a, const Vector& b) {
+Vec3 middle(const Vec3& a, const Vec3& b) {
   return {a[0] / 2 + b[0] / 2, a[1] / 2 + b[1] / 2, a[2] / 2 + b[2] / 2};
 }
 
@@ -155,12 +141,12 @@ class InputAngles {
     return sum;
   }
 
-  Vector edge(std::uint32_t a, std::uint32_t b) const {
-    return from_to(mesh_.vertices[a], mesh_.vertices[b]);
+  Vec3 edge(std::uint32_t a, std::uint32_t b) const {
+    return subtract(mesh_.vertices[b], mesh_.vertices[a]);
   }
 
   double dihedral(const std::array<std::uint32_t, 4>& tet, std::uint32_t a, std::uint32_t b) const {
-    Vector normal[2];
+    Vec3 normal[2];
     int sides = 0;
     for (const std::uint32_t v : tet) {
       if (v != a && v != b && sides < 2) normal[sides++] = cross(edge(a, b), edge(a, v));
@@ -171,7 +157,7 @@ class InputAngles {
   const TetMesh& mesh_;
 };
 
-// Are the numbers of vertices in the statistics those of this mesh?
+// Do the statistics number vertices of this mesh?
 bool has_sharpest(const Result& result) {
   const MeshStatistics& s = result.statistics.final;
   const auto known = [&](std::uint32_t v) { return v < result.mesh.vertices.size(); };
@@ -203,15 +189,15 @@ std::string quality_text(const PlaneResult& result) {
   const PlaneMesh& mesh = result.mesh;
   if (s.triangles == 0) return "";
   const auto at = [&](std::uint32_t v) {
-    return Vector{mesh.vertices[v][0], mesh.vertices[v][1], 0};
+    return Vec3{mesh.vertices[v][0], mesh.vertices[v][1], 0};
   };
   double smallest = 360;
   std::uint32_t worst = 0;
   for (const auto& t : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vector apex = at(t[i]);
+      const Vec3 apex = at(t[i]);
       const double angle =
-          between(from_to(apex, at(t[(i + 1) % 3])), from_to(apex, at(t[(i + 2) % 3])));
+          between(subtract(at(t[(i + 1) % 3]), apex), subtract(at(t[(i + 2) % 3]), apex));
       if (angle >= smallest) continue;
       smallest = angle;
       worst = t[i];
@@ -229,7 +215,8 @@ std::vector<std::string> quality_warnings(const Result& result, double delta) {
   const MeshStatistics& s = result.statistics.final;
   const InputAngles input(result.mesh);
   if (s.min_face_angle < delta - kRounding) {
-    // Of a vertex on a sharp edge, faces across have angles that are no larger.
+    // Faces across a sharp edge have angles at its vertices that are no larger than the angle of
+    // the edge.
     const std::uint32_t apex = s.sharpest_face_angle[0];
     const double corner = input.corner(apex), wedge = input.wedge_at(apex);
     const double forced = std::min(delta, kForced * s.min_face_angle);
