@@ -1,0 +1,25 @@
+// The meshes that are written, and that improve_mesh() takes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace delmesher {
+
+// A tetrahedral mesh; every tetrahedron (a, b, c, d) has det(b-a, c-a, d-a) > 0 unless
+// Statistics::rounding says otherwise.
+struct TetMesh {
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+  std::vector<std::uint8_t> inside;  // per tetrahedron: 1 if contained in the solid
+  // Per tetrahedron, of meshes from elsewhere; empty: 1 inside the solid, 2 outside.
+  std::vector<std::int32_t> regions;
+  // Triangles tiling the input surface, counter-clockwise seen from outside the solid, with the
+  // label of the input and the id of the facet they tile (its smallest input triangle index).
+  std::vector<std::array<std::uint32_t, 3>> boundary;
+  std::vector<std::int32_t> boundary_labels;
+  std::vector<std::uint32_t> boundary_facets;
+};
+
+}  // namespace delmesher
