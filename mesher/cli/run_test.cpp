@@ -1,0 +1,121 @@
+// Runs of the command line: the files that are written, the exit codes, signals.
+#include "mesher/cli/run.h"
+
+#include <csignal>
+#include <new>
+#include <stdexcept>
+
+#include "mesher/cli/signals.h"
+#include "mesher/cli/test_run.h"
+
+namespace delmesher::cli {
+namespace {
+
+class Run : public RunTest {};
+
+TEST_F(Run, WritesEveryOutputAndIsSilent) {
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-o", path("a.node"), "--stats",
+                path("s.json"), "--exact", path("e.txt"), "--save-chamfered", path("c.off")}),
+            kDone);
+  EXPECT_EQ(out_ + error_, "");
+  EXPECT_EQ(files(), 8U);
+  EXPECT_EQ(go({path("in.off"), "-v", "-o", path("b.tet")}), kDone);
+  EXPECT_NE(error_.find("refine "), std::string::npos);
+  EXPECT_NE(error_.find("b.tet: 4 vertices, 1 tetrahedra"), std::string::npos);
+}
+
+TEST_F(Run, StatusesBecomeExitCodesAndLeaveNoOutput) {
+  const std::vector<std::pair<StatusCode, int>> cases = {{StatusCode::invalid_options, 2},
+                                                         {StatusCode::invalid_surface, 4},
+                                                         {StatusCode::limit_reached, 5},
+                                                         {StatusCode::internal_error, 6},
+                                                         {StatusCode::interrupted, 130}};
+  for (const auto& [status, code] : cases) {
+    answer_.status = {status, "because\nof this"};
+    EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), code);
+    EXPECT_TRUE(one_error_line()) << error_;
+    EXPECT_NE(error_.find("in.off: because?of this"), std::string::npos) << error_;
+    EXPECT_EQ(files(), 1U);
+  }
+}
+
+TEST_F(Run, InvertedIsOneAndFlatIsSaid) {
+  answer_.statistics.rounding_flat = 2;
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kDone);
+  EXPECT_NE(error_.find("2 flat"), std::string::npos);
+  answer_.statistics.rounding_inverted = 3;
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh"), "-q"}), kFailed);
+  EXPECT_NE(error_.find("3 inverted and 2 flat"), std::string::npos);
+  EXPECT_TRUE(one_error_line());
+  EXPECT_TRUE(fs::exists(path("a.mesh")));
+}
+
+TEST_F(Run, UnwritableOutputsAreFoundBeforeTheRun) {
+  for (const char* option : {"-o", "--stats", "--exact", "--save-chamfered"}) {
+    const std::string file = path("missing/x.mesh");
+    std::vector<std::string> arguments = {path("in.off"), option, file};
+    if (std::string(option) != "-o") arguments.insert(arguments.end(), {"-o", path("a.mesh")});
+    EXPECT_EQ(go(arguments), kUnreadable);
+    EXPECT_TRUE(one_error_line()) << error_;
+  }
+  EXPECT_EQ(calls_, 0);
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(Run, UnreadableInputIsThree) {
+  std::ofstream(path("bad.off")) << "OFF\n1 1 0\n0 0 nan\n3 0 0 0\n";
+  EXPECT_EQ(go({path("bad.off"), "-o", path("a.mesh")}), kUnreadable);
+  EXPECT_NE(error_.find("bad.off:3: non-finite coordinate 'nan'"), std::string::npos) << error_;
+  EXPECT_EQ(go({"check", path("none.off")}), kUnreadable);
+  EXPECT_TRUE(one_error_line());
+  EXPECT_EQ(calls_, 0);
+}
+
+TEST_F(Run, ExceptionsDoNotEscape) {
+  library_.tetrahedralize = [](const Surface&, const Options&) -> Result {
+    throw std::bad_alloc();
+  };
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kLimit);
+  library_.tetrahedralize = [](const Surface&, const Options&) -> Result {
+    throw std::runtime_error("oops");
+  };
+  EXPECT_EQ(go({path("in.off"), "-o", path("a.mesh")}), kInternal);
+  EXPECT_TRUE(one_error_line());
+}
+
+TEST_F(Run, ASignalStopsTheLibraryAndLeavesNothing) {
+  library_.tetrahedralize = [](const Surface&, const Options& options) {
+    std::raise(SIGINT);
+    Result result;
+    if (!options.progress({Phase::refine, -1, 0})) {
+      result.status = {StatusCode::interrupted, "interrupted"};
+    }
+    return result;
+  };
+  // In a child process: the flag stays set for the rest of its life.
+  const auto child = [this] {
+    install_signal_handlers();
+    std::_Exit(go({path("in.off"), "-o", path("a.mesh")}));
+  };
+  EXPECT_EXIT(child(), testing::ExitedWithCode(kInterrupted), "");
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(Run, TheSecondSignalDoesNotWait) {
+  library_.tetrahedralize = [this](const Surface&, const Options&) -> Result {
+    std::ofstream(path("left.part0")) << "x";
+    set_temporaries({path("left.part0")});
+    std::raise(SIGTERM);
+    std::raise(SIGINT);
+    std::_Exit(0);
+  };
+  const auto child = [this] {
+    install_signal_handlers();
+    go({path("in.off"), "-o", path("a.mesh")});
+  };
+  EXPECT_EXIT(child(), testing::ExitedWithCode(kInterrupted), "");
+  EXPECT_EQ(files(), 1U);
+}
+
+}  // namespace
+}  // namespace delmesher::cli
