@@ -4,71 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <set>
 #include <tuple>
 
-#include "mesher/chamfer/assemble.h"
 #include "mesher/chamfer/chamfer_surface.h"
 #include "mesher/chamfer/test_model.h"
+#include "mesher/chamfer/test_outline.h"
 #include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
-#include "mesher/surface/feature_size.h"
 #include "mesher/surface/validity.h"
 
 namespace delmesher::chamfer {
 namespace {
 
-using plc_angles::degrees;
 using plc_angles::measure;
-using plc_angles::position;
 using plc_angles::Report;
 using test_polyhedra::Sample;
 
 // Rounding of points to 2^-20 of the bridges, in degrees.
 constexpr double kRounding = 1e-3;
-
-std::array<double, 2> flat(const PlcFacet& facet, const plc_angles::QuadPoint& p) {
-  const int x = (facet.axis + 1) % 3, y = (facet.axis + 2) % 3;
-  return {static_cast<double>(p[x]), facet.axis_sign * static_cast<double>(p[y])};
-}
-
-double turn(const std::array<double, 2>& a, const std::array<double, 2>& b,
-            const std::array<double, 2>& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-struct Outline {
-  double area = 0;
-  int crossings = 0;
-};
-
-// Signed area inside a facet's boundary, and the number of pairs of sides that cross.
-Outline outline(const Plc& plc, const PlcFacet& facet, const PointStore& points) {
-  std::vector<std::array<std::array<double, 2>, 2>> sides;
-  Outline result;
-  const auto origin = position(points, facet.frame[0]);
-  for (const PlcFacet::Side& side : facet.boundary) {
-    auto v = plc.segments[side.segment].vertex;
-    if (side.reversed) std::swap(v[0], v[1]);
-    std::array<std::array<double, 2>, 2> ends;
-    for (int k = 0; k < 2; ++k) {
-      auto p = position(points, v[k]);
-      for (int i = 0; i < 3; ++i) p[i] -= origin[i];
-      ends[k] = flat(facet, p);
-    }
-    result.area += 0.5 * (ends[0][0] * ends[1][1] - ends[0][1] * ends[1][0]);
-    sides.push_back(ends);
-  }
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto &a = sides[i][0], &b = sides[i][1], &c = sides[j][0], &d = sides[j][1];
-      if (a == c || a == d || b == c || b == d) continue;
-      result.crossings += turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0;
-    }
-  }
-  return result;
-}
 
 // A pyramid on a prism: its faces have corners of 43.6 and 95.9 degrees at the apex, vertex 8,
 // where nothing else is acute.
@@ -92,8 +46,8 @@ TEST(Corners, OfOneFacetHaveAThresholdOfTheirOwn) {
   EXPECT_EQ(acute(40, 30), std::pair(false, false));
 }
 
-// So have edges that bound no common facet: every other edge of a low pyramid, 58 degrees apart
-// where neighbours are 30.
+// Edges that bound no common facet have that threshold, too: every other edge of a low pyramid, 58
+// degrees apart where neighbours are 30.
 TEST(Corners, OfDifferentFacetsHaveItToo) {
   const test_polyhedra::Polygon base = {{20, 0},    {17, 10},  {10, 17},  {0, 20},
                                         {-10, 17},  {-17, 10}, {-20, 0},  {-17, -10},
@@ -138,7 +92,7 @@ TEST_P(ChamferSamples, NoAngleIsLeftBelowTheThreshold) {
       EXPECT_GE(report.edge_edge.degrees, threshold - kRounding);
       EXPECT_GE(report.edge_facet.degrees, threshold - kRounding);
       EXPECT_GE(report.dihedral.degrees, threshold - kRounding);
-      // The exact test of what is acute agrees with the measure.
+      // The exact test for acute corners agrees with the measured angles.
       EXPECT_EQ(result.acute_vertices > 0, before < threshold - 1e-9) << before;
       acute += result.acute_vertices > 0;
     }
@@ -264,243 +218,7 @@ TEST_P(ChamferSamples, ScaleByPowersOfTwo) {
 
 INSTANTIATE_TEST_SUITE_P(Thresholds, ChamferSamples, testing::Values(45.0, 60.0, 75.0, 90.0));
 
-// Figure 3: joining the split points directly, as naive chamfering does, makes new acute angles.
-TEST(Chamfer, NaiveChamferingOfALowSpikeFails) {
-  for (double threshold : {60.0, 90.0}) {
-    Model model(test_polyhedra::spike(1));
-    const ChamferOptions options = below(threshold);
-    const KeptSurface surface(model.topology, model.points, {});
-    const Thresholds thresholds(options);
-    const Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
-    EXPECT_TRUE(acute.vertex[3]);
-    const Cuts cuts = find_cuts(surface, acute, model.predicates, {}, model.control);
-    NewPoints new_points(model.topology, model.points);
-    Bridges bridges = build_bridges(surface, acute, cuts, thresholds, new_points, model.control);
-    for (auto& chain : bridges.chain) {
-      if (chain.size() > 2) chain = {chain.front(), chain.back()};
-    }
-    ChamferResult result;
-    result.vertex_radius.assign(5, 0);
-    assemble_plc(surface, acute, cuts, bridges, {}, 0, result);
-    EXPECT_LT(measure(result.plc, model.points).smallest(), threshold - 1);
-  }
-}
-
-// Length and angle helpers on exact positions.
-plc_angles::Vector away(const PointStore& points, VertexId a, VertexId b) {
-  return plc_angles::direction(position(points, a), position(points, b));
-}
-double length(const PointStore& points, VertexId a, VertexId b) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const auto d = static_cast<double>(position(points, a)[i] - position(points, b)[i]);
-    sum += d * d;
-  }
-  return std::sqrt(sum);
-}
-
-// Statement 1 of appendix B, for all corners: right angles at A and B, equal sides, and
-// 180 - alpha / 2 at P and Q (alpha: the part of the corner that the bridge spans).
-TEST(Chamfer, BridgesHaveTheAnglesOfStatement1) {
-  int bridges_seen = 0, wide_seen = 0;
-  for (const Sample& sample : test_polyhedra::samples()) {
-    SCOPED_TRACE(sample.name);
-    Model model(sample.surface);
-    const ChamferOptions options = below(90);
-    const KeptSurface surface(model.topology, model.points, {});
-    const Thresholds thresholds(options);
-    // As if no edge were acute, so that no strip is cut.
-    Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
-    acute.edge.assign(acute.edge.size(), 0);
-    const Cuts cuts = find_cuts(surface, acute, model.predicates, {}, model.control);
-    NewPoints new_points(model.topology, model.points);
-    const Bridges bridges =
-        build_bridges(surface, acute, cuts, thresholds, new_points, model.control);
-    const PointStore& p = model.points;
-    for (std::size_t c = 0; c < bridges.chain.size(); ++c) {
-      const auto& chain = bridges.chain[c];
-      if (chain.empty()) continue;
-      ++bridges_seen;
-      const Corner& corner = surface.corners()[c];
-      const std::size_t parts = cuts.split[c].size();
-      ASSERT_EQ(chain.size(), 2 + 2 * parts);
-      wide_seen += parts > 1;
-      const double part = 2 * std::asin(cuts.split[c].front().half_sine) * 180 / M_PI;
-      EXPECT_LE(part, 120 + 1e-6);
-      const VertexId v = corner.vertex, a = chain.front(), b = chain.back();
-      EXPECT_NEAR(length(p, v, a) / cuts.distance[v] * surface.scale(), 1, 1e-5);
-      EXPECT_NEAR(length(p, v, b) / cuts.distance[v] * surface.scale(), 1, 1e-5);
-      const double step = length(p, a, chain[1]);
-      EXPECT_NEAR(length(p, b, chain[chain.size() - 2]) / step, 1, 1e-4);
-      EXPECT_NEAR(length(p, chain[1], chain[2]) / step, 1, 1e-4);
-      EXPECT_NEAR(degrees(away(p, a, v), away(p, a, chain[1])), 90, kRounding);
-      EXPECT_NEAR(degrees(away(p, b, v), away(p, b, chain[chain.size() - 2])), 90, kRounding);
-      // Never below a right angle on the side that stays, exactly.
-      EXPECT_LE(model.predicates.dot_sign(model.topology.to(corner.outgoing), a, chain[1]), 0);
-      EXPECT_LE(model.predicates.dot_sign(model.topology.from(corner.incoming), b,
-                                          chain[chain.size() - 2]),
-                0);
-      for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
-        EXPECT_NEAR(degrees(away(p, chain[i], chain[i - 1]), away(p, chain[i], chain[i + 1])),
-                    180 - part / 2, 10 * kRounding);
-      }
-    }
-  }
-  EXPECT_GT(bridges_seen, 500);
-  EXPECT_GT(wide_seen, 10);
-}
-
-// Statement 2: the strip beside an acute edge is a rectangle, with 90 + alpha / 2 beyond its ends
-// if the bridge there is whole, and no less than a right angle in any case.
-TEST(Chamfer, StripsHaveTheAnglesOfStatement2) {
-  int strips = 0;
-  for (const Sample& sample : test_polyhedra::samples()) {
-    SCOPED_TRACE(sample.name);
-    Model model(sample.surface);
-    const ChamferOptions options = below(90);
-    const KeptSurface surface(model.topology, model.points, {});
-    const Thresholds thresholds(options);
-    const Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
-    const Cuts cuts = find_cuts(surface, acute, model.predicates, {}, model.control);
-    NewPoints new_points(model.topology, model.points);
-    const Bridges bridges =
-        build_bridges(surface, acute, cuts, thresholds, new_points, model.control);
-    const PointStore& p = model.points;
-    for (std::uint32_t c = 0; c < surface.corners().size(); ++c) {
-      const Corner& corner = surface.corners()[c];
-      if (!acute.edge[model.topology.edge_of[corner.outgoing]]) continue;
-      ++strips;
-      const auto &here = bridges.chain[c], &there = bridges.chain[corner.next];
-      const VertexId v = corner.vertex, w = model.topology.to(corner.outgoing);
-      const VertexId p1 = here.front(), p2 = there.back();
-      const double height = cuts.height[corner.outgoing];
-      EXPECT_GT(height, 0);
-      EXPECT_LE(height, cuts.split[c].front().step * cuts.distance[v] * (1 + 1e-9));
-      EXPECT_LT(degrees(away(p, v, w), away(p, p1, p2)), kRounding);
-      const double tail = length(p, v, w) * cuts.fraction_at_tail(model.topology, corner.outgoing);
-      const double slope = degrees(away(p, v, w), away(p, v, p1));
-      EXPECT_NEAR(slope, std::atan2(height / surface.scale(), tail) * 180 / M_PI, kRounding);
-      const double angle = degrees(away(p, p1, p2), away(p, p1, here[1]));
-      EXPECT_GE(angle, 90 - kRounding);
-      const double part = 2 * std::asin(cuts.split[c].front().half_sine) * 180 / M_PI;
-      if (height == cuts.split[c].front().step * cuts.distance[v] && cuts.split[c].size() > 1) {
-        EXPECT_NEAR(angle, 90 + part / 2, 10 * kRounding);
-      }
-    }
-  }
-  EXPECT_GT(strips, 100);
-}
-
-ChamferOptions as_paper(bool link, bool bridges, bool angles) {
-  ChamferOptions options = below(90);
-  options.link_distances = link || bridges;
-  options.bridge_per_triangle = bridges;
-  options.simplify_to_angles = angles;
-  return options;
-}
-
-// Section 4.1: the link of a vertex are the edges of its triangles that it is not on.
-TEST(AsPaper, ChamfersReachAThirdOfTheWayToTheLink) {
-  int nearer = 0;
-  for (const Sample& sample : test_polyhedra::samples()) {
-    SCOPED_TRACE(sample.name);
-    Model model(sample.surface), other(sample.surface);
-    const ChamferResult result = model.run(as_paper(true, false, false));
-    const ChamferResult by_facets = other.run(below(90));
-    EXPECT_EQ(result.vertex_is_acute, by_facets.vertex_is_acute);
-    std::vector<double> link(result.vertex_distance.size(), HUGE_VAL);
-    for (const auto& t : model.topology.triangles) {
-      for (int k = 0; k < 3; ++k) {
-        const Vec3 p = model.points.nearest(t[(k + 1) % 3]),
-                   q = model.points.nearest(t[(k + 2) % 3]);
-        link[t[k]] = std::min(link[t[k]], point_segment_distance(model.points.nearest(t[k]), p, q));
-      }
-    }
-    for (VertexId v = 0; v < link.size(); ++v) {
-      if (!result.vertex_is_acute[v]) continue;
-      EXPECT_NEAR(result.vertex_distance[v] / link[v], 1.0 / 3, 1e-9);
-      nearer += link[v] < 2.99 * by_facets.vertex_distance[v];
-    }
-  }
-  EXPECT_GT(nearer, 20);
-}
-
-// Section 4.2: around a vertex every triangle has two points of its own, inside it.
-TEST(AsPaper, EveryTriangleHasABridge) {
-  int flat = 0, wide = 0;
-  for (const Sample& sample : test_polyhedra::samples()) {
-    SCOPED_TRACE(sample.name);
-    Model model(sample.surface);
-    const ChamferOptions options = as_paper(true, true, false);
-    const KeptSurface surface(model.topology, model.points, {});
-    const Thresholds thresholds(options);
-    const Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
-    const Cuts cuts = find_cuts(surface, acute, model.predicates,
-                                {.to_link = true, .per_triangle = true}, model.control);
-    NewPoints new_points(model.topology, model.points);
-    const Bridges bridges =
-        build_bridges(surface, acute, cuts, thresholds, new_points, model.control);
-    const PointStore& p = model.points;
-    for (std::uint32_t c = 0; c < bridges.chain.size(); ++c) {
-      const std::vector<VertexId>& chain = bridges.chain[c];
-      if (chain.empty()) continue;
-      const Corner& corner = surface.corners()[c];
-      const std::vector<std::uint32_t> fan = surface.fan(corner);
-      const std::size_t first = acute.edge[model.topology.edge_of[corner.outgoing]] ? 0 : 1;
-      ASSERT_GE(chain.size(), first + 2 * fan.size());
-      flat += fan.size() > 1;
-      for (std::size_t n = 0; n < fan.size(); ++n) {
-        const std::uint32_t h = fan[fan.size() - 1 - n];
-        const VertexId v = corner.vertex, b = model.topology.to(h),
-                       d = model.topology.from(SurfaceTopology::previous(h));
-        wide += degrees(away(p, v, b), away(p, v, d)) > 120;
-        const int axis = model.topology.facet_axis[corner.facet];
-        const int sign = model.topology.facet_axis_sign[corner.facet];
-        for (const VertexId x : {chain[first + 2 * n], chain[first + 2 * n + 1]}) {
-          EXPECT_GT(sign * model.predicates.orient2d(axis, v, b, x), 0);
-          EXPECT_GT(sign * model.predicates.orient2d(axis, b, d, x), 0);
-          EXPECT_GT(sign * model.predicates.orient2d(axis, d, v, x), 0);
-        }
-      }
-    }
-  }
-  EXPECT_GT(flat, 100);
-  EXPECT_GT(wide, 10);
-}
-
-// Section 4.4, and that each choice leaves no acute angle and simple outlines, as the default.
-TEST(AsPaper, SimplificationStopsAtAnglesAlone) {
-  std::size_t points = 0, fewer = 0;
-  for (const Sample& sample : test_polyhedra::samples()) {
-    SCOPED_TRACE(sample.name);
-    Model model(sample.surface), other(sample.surface);
-    model.run(as_paper(false, false, true));
-    other.run(below(90));
-    points += other.points.size();
-    fewer += model.points.size();
-  }
-  EXPECT_LT(fewer, points);
-}
-
-TEST(AsPaper, NoAngleIsLeftBelowTheThreshold) {
-  for (const Sample& sample : test_polyhedra::samples()) {
-    SCOPED_TRACE(sample.name);
-    for (const ChamferOptions& options :
-         {as_paper(true, false, false), as_paper(true, true, false), as_paper(true, true, true),
-          as_paper(false, false, true)}) {
-      Model model(sample.surface);
-      const ChamferResult result = model.run(options);
-      const Report report = measure(result.plc, model.points);
-      EXPECT_EQ(report.defect, "");
-      EXPECT_GE(report.smallest(), 90 - kRounding);
-      for (const PlcFacet& facet : result.plc.facets) {
-        EXPECT_EQ(outline(result.plc, facet, model.points).crossings, 0);
-      }
-    }
-  }
-}
-
-// What the filter's local rounds rely on.
+// The filter's local rounds rely on this.
 TEST(Chamfer, APartIsChamferedLikeTheWhole) {
   const auto points_of = [](const Model& model, const ChamferResult& result, VertexId v) {
     std::vector<std::tuple<std::array<VertexId, 3>, double, double>> list;

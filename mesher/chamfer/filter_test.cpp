@@ -7,6 +7,7 @@
 #include <random>
 
 #include "mesher/chamfer/closest.h"
+#include "mesher/chamfer/test_model.h"
 #include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
 #include "mesher/predicates/vector.h"
@@ -16,19 +17,6 @@ namespace delmesher::chamfer {
 namespace {
 
 using test_polyhedra::Sample;
-
-struct Model {
-  explicit Model(const Surface& surface)
-      : predicates(points),
-        control(control_options),
-        topology(build_topology(surface, points, predicates)) {}
-
-  Limits control_options;
-  PointStore points;
-  Predicates predicates;
-  Control control;
-  SurfaceTopology topology;
-};
 
 Surface joined(Surface a, const Surface& b, const std::array<double, 3>& offset) {
   const auto first = static_cast<std::uint32_t>(a.vertices.size());
@@ -124,28 +112,40 @@ std::vector<Sample> cases() {
   return result;
 }
 
-TEST(Filter, LeavesNoFeatureBelowTheTolerance) {
-  int dropping = 0;
+// Calls test(model, tolerance) for every case with three tolerances.
+template <class Test>
+void for_each_case(Test test) {
   for (const Sample& sample : cases()) {
     for (double tolerance : {0.5, 5.0, 60.0}) {
       SCOPED_TRACE(sample.name + " " + std::to_string(tolerance));
       Model model(sample.surface);
-      const std::vector<std::uint8_t> all(model.topology.facet_triangles.size(), 1);
-      const double before = smallest_feature(model.topology, model.points, all);
-      const FilterResult result =
-          filter_input(model.topology, model.points, tolerance, model.control);
-      const double after = smallest_feature(model.topology, model.points, result.facet_kept);
-      EXPECT_GE(after, tolerance * (1 - 1e-12));
-      std::uint64_t dropped = 0;
-      for (std::size_t f = 0; f < result.facet_kept.size(); ++f) {
-        if (!result.facet_kept[f]) dropped += model.topology.facet_triangles[f].size();
-      }
-      EXPECT_EQ(dropped, result.dropped_triangles);
-      // Nothing is dropped without need.
-      EXPECT_EQ(dropped > 0, before < tolerance) << before;
-      dropping += dropped > 0;
+      test(model, tolerance);
     }
   }
+}
+
+// No feature smaller than `least` is left, and nothing is dropped without need.
+void expect_filtered(Model& model, double tolerance, double least, const FilterResult& result) {
+  const std::vector<std::uint8_t> all(model.topology.facet_triangles.size(), 1);
+  const double before = smallest_feature(model.topology, model.points, all);
+  const double after = smallest_feature(model.topology, model.points, result.facet_kept);
+  EXPECT_GE(after, least);
+  EXPECT_EQ(result.dropped_triangles > 0, before < tolerance) << before;
+}
+
+TEST(Filter, LeavesNoFeatureBelowTheTolerance) {
+  int dropping = 0;
+  for_each_case([&](Model& model, double tolerance) {
+    const FilterResult result =
+        filter_input(model.topology, model.points, tolerance, model.control);
+    expect_filtered(model, tolerance, tolerance * (1 - 1e-12), result);
+    std::uint64_t dropped = 0;
+    for (std::size_t f = 0; f < result.facet_kept.size(); ++f) {
+      if (!result.facet_kept[f]) dropped += model.topology.facet_triangles[f].size();
+    }
+    EXPECT_EQ(dropped, result.dropped_triangles);
+    dropping += dropped > 0;
+  });
   EXPECT_GT(dropping, 40);
 }
 
@@ -214,22 +214,15 @@ TEST(FilterAsPaper, AllSidesOfAClosePairGo) {
 
 TEST(FilterAsPaper, DropsNothingElse) {
   int dropping = 0;
-  for (const Sample& sample : cases()) {
-    for (double tolerance : {0.5, 5.0, 60.0}) {
-      SCOPED_TRACE(sample.name + " " + std::to_string(tolerance));
-      Model model(sample.surface);
-      const std::vector<std::uint8_t> all(model.topology.facet_triangles.size(), 1);
-      const double before = smallest_feature(model.topology, model.points, all);
-      const FilterResult result =
-          filter_all_pairs(model.topology, model.points, tolerance, model.control);
-      const FilterResult one_side =
-          filter_input(model.topology, model.points, tolerance, model.control);
-      EXPECT_GE(smallest_feature(model.topology, model.points, result.facet_kept), tolerance);
-      EXPECT_EQ(result.dropped_triangles > 0, before < tolerance);
-      EXPECT_GE(result.dropped_triangles, one_side.dropped_triangles);
-      dropping += result.dropped_triangles > one_side.dropped_triangles;
-    }
-  }
+  for_each_case([&](Model& model, double tolerance) {
+    const FilterResult result =
+        filter_all_pairs(model.topology, model.points, tolerance, model.control);
+    const FilterResult one_side =
+        filter_input(model.topology, model.points, tolerance, model.control);
+    expect_filtered(model, tolerance, tolerance, result);
+    EXPECT_GE(result.dropped_triangles, one_side.dropped_triangles);
+    dropping += result.dropped_triangles > one_side.dropped_triangles;
+  });
   EXPECT_GT(dropping, 20);
 }
 
