@@ -20,14 +20,15 @@ bool FaceRemoval::run(TetId t, int i) {
   if (state_.too_long(state_.position(above_), state_.position(below_))) return false;
   removed_ = {t, u};
   created_.clear();
+  quality_.clear();
   const VertexId corner[3] = {v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]};
   for (int k = 0; k < 3; ++k) {
     const Quality q = fill({t, u, corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3]});
     if (!(q.dihedral > 0)) return false;
   }
   const Quality least = state_.to_be_better(state_.worst_of(removed_));
-  for (const CreatedTet& tet : created_) {
-    if (!State::reaches(state_.quality_of(tet.vertices, least), least)) return false;
+  for (const Quality& quality : quality_) {
+    if (!State::reaches(quality, least)) return false;
   }
   for (const CreatedTet& tet : created_) {
     if (!state_.is_positive(tet.vertices)) return false;
@@ -36,16 +37,17 @@ bool FaceRemoval::run(TetId t, int i) {
   return true;
 }
 
-// The best filling of what is beyond edge x, y of a face that goes: one tetrahedron at that edge,
-// or what comes of it if the face beyond it goes as well.
+// The best filling beyond edge x, y of a face that goes: one tetrahedron at that edge, or, if the
+// face beyond it goes as well, the fillings beyond that face's other edges.
 Quality FaceRemoval::fill(const Side& side) {
   const std::size_t created = created_.size(), removed = removed_.size();
   const CreatedTet tet = {{side.x, side.y, above_, below_}, state_.mesh.region(side.above)};
-  created_.push_back(tet);
   const Quality alone = state_.quality_of(tet.vertices);
+  create(tet, alone);
   Side next{};
   if (state_.good(alone) || removed >= kMost || !beyond(side, next)) return alone;
   created_.pop_back();
+  quality_.pop_back();
   removed_.insert(removed_.end(), {next.above, next.below});
   Quality both = fill({next.above, next.below, side.x, next.z, side.y});
   if (state_.score(both) > state_.score(alone)) {
@@ -53,9 +55,15 @@ Quality FaceRemoval::fill(const Side& side) {
     if (state_.score(both) > state_.score(alone)) return both;
   }
   created_.resize(created);
+  quality_.resize(created);
   removed_.resize(removed);
-  created_.push_back(tet);
+  create(tet, alone);
   return alone;
+}
+
+void FaceRemoval::create(const CreatedTet& tet, const Quality& quality) {
+  created_.push_back(tet);
+  quality_.push_back(quality);
 }
 
 // The face beyond edge x, y, if there is one between the same two vertices.

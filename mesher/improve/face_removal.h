@@ -1,5 +1,5 @@
-// Removes faces: those that are sandwiched between two vertices, one above them and one below, give
-// way to an edge between the two (Shewchuk 2002, "Two discrete optimization algorithms for the
+// Removes the faces that are sandwiched between two vertices, one above them and one below, in
+// favour of an edge between the two (Shewchuk 2002, "Two discrete optimization algorithms for the
 // topological improvement of tetrahedral meshes"). One face is the 2-3 flip; more are the inverse
 // of edge removal.
 #pragma once
@@ -15,8 +15,8 @@ class FaceRemoval {
  public:
   explicit FaceRemoval(State& state) : state_(state) {}
 
-  // Removes face i of t, and those beside it with which the new tetrahedra are best, if that makes
-  // the worst of what they replace better.
+  // Removes face i of t, and the faces beside it with which the new tetrahedra are best, if the
+  // worst of these is better than the worst of the tetrahedra that they replace.
   bool run(TetId t, int i);
 
  private:
@@ -28,12 +28,14 @@ class FaceRemoval {
   };
 
   Quality fill(const Side& side);
+  void create(const CreatedTet& tet, const Quality& quality);
   bool beyond(const Side& side, Side& next) const;
 
   State& state_;
   VertexId above_ = 0, below_ = 0;
   std::vector<TetId> removed_;
   std::vector<CreatedTet> created_;
+  std::vector<Quality> quality_;  // of the tetrahedra created
 };
 
 }  // namespace delmesher::improve
