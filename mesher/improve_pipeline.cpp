@@ -1,4 +1,4 @@
-// The improvement of meshes from elsewhere: the order of its steps, and what is told of them.
+// The improvement of meshes from elsewhere: its steps in their order, and their statistics.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -81,8 +81,8 @@ MeshStatistics statistics_of(const TetMesh& mesh, Session& s) {
 }
 
 // The vertices in use in the order in which they were given, then new ones, and tetrahedra of them.
-// `became`: of each vertex given, its point now.
-void take_tetrahedra(const improve::ImproveMesh& improved, const std::vector<VertexId>& became,
+// `became`: the present point of each given vertex.
+void take_tetrahedra(improve::ImproveMesh improved, const std::vector<VertexId>& became,
                      const Regions& regions, const PointStore& points, TetMesh& mesh,
                      std::vector<std::uint32_t>& number) {
   std::vector<std::uint8_t> used(points.size(), 0);
@@ -99,7 +99,7 @@ void take_tetrahedra(const improve::ImproveMesh& improved, const std::vector<Ver
     if (p != kNone) take(p);
   }
   for (VertexId p = 0; p < points.size(); ++p) take(p);
-  mesh.tetrahedra = improved.tetrahedra;
+  mesh.tetrahedra = std::move(improved.tetrahedra);
   for (auto& t : mesh.tetrahedra) {
     for (VertexId& v : t) v = number[v];
   }
@@ -113,12 +113,9 @@ std::string counted(std::uint64_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-Status improve_given(const TetMesh& given, Session& s, Result& result) {
-  s.control.enter(Phase::check);
-  if (std::string defect = sizes_defect(given); !defect.empty()) {
-    return {StatusCode::invalid_mesh, std::move(defect)};
-  }
-  const Regions regions(given);
+// The conforming mesh that was given, turned if all of it was negative. Warnings tell what is odd.
+Status check(const TetMesh& given, const Regions& regions, Session& s, Result& result,
+             improve::ImproveMesh& mesh) {
   improve::CheckedMesh checked = improve::check_given(
       {given.vertices, given.tetrahedra, regions.of_tetrahedron, given.boundary}, s.control);
   if (!checked.defect.empty()) return {StatusCode::invalid_mesh, std::move(checked.defect)};
@@ -129,30 +126,33 @@ Status improve_given(const TetMesh& given, Session& s, Result& result) {
     result.warnings.push_back("the mesh given has " +
                               counted(checked.flat, "flat tetrahedron", "flat tetrahedra"));
   }
-  Statistics& statistics = result.statistics;
-  s.diagonal = statistics.bbox_diagonal = diagonal(given.vertices);
+  s.diagonal = result.statistics.bbox_diagonal = diagonal(given.vertices);
   for (const Vec3& p : given.vertices) s.points.add_explicit(p[0], p[1], p[2]);
-  TetMesh& mesh = result.mesh;
-  const improve::ImproveMesh before = {checked.mesh.tetrahedra, checked.mesh.region, {}};
+  mesh = std::move(checked.mesh);
+  return {};
+}
+
+// The statistics of the mesh as given, without vertices of no tetrahedron.
+void measure_given(const TetMesh& given, const improve::ImproveMesh& checked,
+                   const Regions& regions, Session& s, Result& result) {
   std::vector<VertexId> same(given.vertices.size());
   for (VertexId v = 0; v < same.size(); ++v) same[v] = v;
+  TetMesh used;
   std::vector<std::uint32_t> number;
-  take_tetrahedra(before, same, regions, s.points, mesh, number);
-  if (const std::uint64_t unused = given.vertices.size() - mesh.vertices.size(); unused > 0) {
+  take_tetrahedra(checked, same, regions, s.points, used, number);
+  if (const std::uint64_t unused = given.vertices.size() - used.vertices.size(); unused > 0) {
     result.warnings.push_back(
         counted(unused, "vertex of no tetrahedron is", "vertices of no tetrahedron are") +
         " dropped");
   }
-  statistics.refined = statistics_of(mesh, s);
-  mesh = {};
+  result.statistics.refined = statistics_of(used, s);
+}
 
-  s.control.enter(Phase::improve);
-  const improve::ImproveOptions options{
-      .delta = s.options.delta, .max_edge = s.options.max_edge, .region = Region::hull};
-  const improve::ImproveResult improved = improve::improve(
-      std::move(checked.mesh), nullptr, {}, options, s.points, s.predicates, s.control);
-  s.control.enter(Phase::round);
-  take_tetrahedra(improved.mesh, improved.became, regions, s.points, mesh, number);
+// The improved mesh as it is written; its boundary is the one given.
+void take_result(const TetMesh& given, improve::ImproveResult improved, const Regions& regions,
+                 const PointStore& points, TetMesh& mesh) {
+  std::vector<std::uint32_t> number;
+  take_tetrahedra(std::move(improved.mesh), improved.became, regions, points, mesh, number);
   mesh.boundary = given.boundary;
   for (auto& triangle : mesh.boundary) {
     for (std::uint32_t& v : triangle) v = number[improved.became[v]];
@@ -162,13 +162,36 @@ Status improve_given(const TetMesh& given, Session& s, Result& result) {
   mesh.boundary_labels.resize(mesh.boundary.size());
   mesh.boundary_facets = given.boundary_facets;
   mesh.boundary_facets.resize(mesh.boundary.size());
+}
+
+void count_not_positive(const TetMesh& mesh, Statistics& statistics) {
   for (const auto& t : mesh.tetrahedra) {
     const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[t[i]]; };
     const int sign = orient3d_sign(at(0), at(1), at(2), at(3));
     statistics.rounding_flat += sign == 0 ? 1 : 0;
     statistics.rounding_inverted += sign < 0 ? 1 : 0;
   }
-  statistics.final = statistics_of(mesh, s);
+}
+
+Status improve_given(const TetMesh& given, Session& s, Result& result) {
+  s.control.enter(Phase::check);
+  if (std::string defect = sizes_defect(given); !defect.empty()) {
+    return {StatusCode::invalid_mesh, std::move(defect)};
+  }
+  const Regions regions(given);
+  improve::ImproveMesh mesh;
+  if (Status status = check(given, regions, s, result, mesh); !status.ok()) return status;
+  measure_given(given, mesh, regions, s, result);
+
+  s.control.enter(Phase::improve);
+  const improve::ImproveOptions options{
+      .delta = s.options.delta, .max_edge = s.options.max_edge, .region = Region::hull};
+  improve::ImproveResult improved =
+      improve::improve(std::move(mesh), nullptr, {}, options, s.points, s.predicates, s.control);
+  s.control.enter(Phase::round);
+  take_result(given, std::move(improved), regions, s.points, result.mesh);
+  count_not_positive(result.mesh, result.statistics);
+  result.statistics.final = statistics_of(result.mesh, s);
   return {};
 }
 
