@@ -60,20 +60,26 @@ std::vector<T> values_of(const Array<T>& array, const char* name) {
   return {array.data(), array.data() + array.size()};
 }
 
+// A number for each cell, if there are any.
 using Labels = std::optional<Array<std::int32_t>>;
+
+std::vector<std::int32_t> labels_of(const Labels& labels, const char* name, std::size_t cells,
+                                    const char* cell_name) {
+  if (!labels) return {};
+  std::vector<std::int32_t> values = values_of(*labels, name);
+  if (values.size() != cells) {
+    throw py::value_error(std::to_string(values.size()) + " " + name + " for " +
+                          std::to_string(cells) + " " + cell_name);
+  }
+  return values;
+}
 
 Surface surface_of(const Array<double>& points, const Array<std::uint32_t>& triangles,
                    const Labels& labels) {
   Surface surface;
   surface.vertices = rows_of<double, 3>(points, "points");
   surface.triangles = rows_of<std::uint32_t, 3>(triangles, "triangles");
-  if (labels) {
-    surface.labels = values_of(*labels, "labels");
-    if (surface.labels.size() != surface.triangles.size()) {
-      throw py::value_error(std::to_string(surface.labels.size()) + " labels for " +
-                            std::to_string(surface.triangles.size()) + " triangles");
-    }
-  }
+  surface.labels = labels_of(labels, "labels", surface.triangles.size(), "triangles");
   return surface;
 }
 
@@ -286,12 +292,7 @@ py::dict plane(const Array<double>& points, const Array<std::uint32_t>& segments
   PlanarGraph graph;
   graph.vertices = rows_of<double, 2>(points, "points");
   graph.segments = rows_of<std::uint32_t, 2>(segments, "segments");
-  if (markers) {
-    graph.markers = values_of(*markers, "markers");
-    if (graph.markers.size() != graph.segments.size()) {
-      throw py::value_error("as many markers as segments are expected");
-    }
-  }
+  graph.markers = labels_of(markers, "markers", graph.segments.size(), "segments");
   graph.holes = rows_of<double, 2>(holes, "holes");
   Options options = plane_options();
   set_options(options, given);

@@ -51,7 +51,7 @@ Paired paired(const Selection& selection, const std::string& mesher) {
 }
 
 std::string text(const std::optional<double>& value) {
-  return value ? fmt::format("{:.3f}", *value) : "-";
+  return fixed(value, 3);
 }
 
 }  // namespace

@@ -88,6 +88,10 @@ std::string fixed(std::optional<double> value, int digits) {
   return value ? fmt::format("{:.{}f}", *value, digits) : "-";
 }
 
+std::string significant(std::optional<double> value, int digits) {
+  return value ? fmt::format("{:.{}g}", *value, digits) : "-";
+}
+
 std::string degrees(std::optional<double> value) {
   if (!value) return "-";
   if (*value == 0 || std::fabs(*value) >= 0.1) return fmt::format("{:.2f}", *value);

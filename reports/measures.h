@@ -77,6 +77,7 @@ std::vector<double> values_of(const Rows& rows, const Value& value);
 
 // "-" for nothing.
 std::string fixed(std::optional<double> value, int digits);
+std::string significant(std::optional<double> value, int digits);
 std::string degrees(std::optional<double> value);  // small ones keep two significant digits
 
 // The meshers of the list that the selection has runs of, in the order given.

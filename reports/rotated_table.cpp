@@ -74,7 +74,18 @@ std::string share_within(const std::vector<double>& ratios, double low, double h
 }
 
 std::string ratio(const std::optional<double>& value) {
-  return value ? fmt::format("{:.3g}", *value) : "-";
+  return significant(value, 3);
+}
+
+// The tetrahedra of all copies together, relative to those of the models as given.
+std::optional<double> of_all(const Copies& c) {
+  if (c.tetrahedra == 0 || c.given_tetrahedra == 0) return std::nullopt;
+  return static_cast<double>(c.tetrahedra) / static_cast<double>(c.given_tetrahedra);
+}
+
+std::optional<double> largest(const std::vector<double>& ratios) {
+  if (ratios.empty()) return std::nullopt;
+  return *std::max_element(ratios.begin(), ratios.end());
 }
 
 }  // namespace
@@ -107,13 +118,9 @@ Table rotated_table(const Selection& selection) {
       if (p == as_given) {
         cells.resize(table.header.size(), "-");
       } else {
-        const double all = c.given_tetrahedra > 0 ? static_cast<double>(c.tetrahedra) /
-                                                        static_cast<double>(c.given_tetrahedra)
-                                                  : 0;
-        const auto largest = std::max_element(c.sizes.begin(), c.sizes.end());
-        cells.push_back(all > 0 ? fmt::format("{:.3g}", all) : "-");
+        cells.push_back(ratio(of_all(c)));
         cells.push_back(ratio(median(c.sizes)));
-        cells.push_back(largest == c.sizes.end() ? "-" : fmt::format("{:.3g}", *largest));
+        cells.push_back(ratio(largest(c.sizes)));
         cells.push_back(share_within(c.sizes, 0.9, 1.1));
         cells.push_back(share_within(c.sizes, 0, 1.5));
         cells.push_back(ratio(median(c.face_angles)));
