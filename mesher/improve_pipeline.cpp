@@ -113,7 +113,7 @@ std::string counted(std::uint64_t n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
 
-// The conforming mesh that was given, turned if all of it was negative. Warnings tell what is odd.
+// The conforming mesh that was given, turned if all of it was negative. Warnings tell of oddities.
 Status check(const TetMesh& given, const Regions& regions, Session& s, Result& result,
              improve::ImproveMesh& mesh) {
   improve::CheckedMesh checked = improve::check_given(

@@ -142,7 +142,7 @@ TEST_F(ChainsOfABox, ValidateReportsEveryBrokenInvariant) {
   }
 }
 
-// Validation is no part of what is counted.
+// Validation does not count.
 TEST_F(ChainsOfABox, ValidateCountsNoPredicates) {
   const Chains chains(model_.input, model_.points);
   const PredicateCounters before = model_.predicates.counters;

@@ -3,7 +3,8 @@
 //
 // Laws. Around an acute vertex, parts of different edges end on common spheres, so that they do not
 // split each other for ever. Points of edges that run along each other face each other. Everything
-// is steered by doubles, which only costs points: the splitter decides what lies on a subsegment.
+// is steered by doubles, which only costs points: the splitter decides which points lie on a
+// subsegment.
 #pragma once
 
 #include <cstdint>

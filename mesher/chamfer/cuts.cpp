@@ -130,8 +130,8 @@ class Cutter {
   }
 
   // The step is that of the lower of the two bridges, so that the strip is a rectangle, and a third
-  // of the distance to what lies beyond in the same facet. With a bridge per triangle the rectangle
-  // is inside the edge's own.
+  // of the distance to the boundary beyond in the same facet. With a bridge per triangle the
+  // rectangle is inside the edge's own.
   double strip_height(std::uint32_t h) {
     const std::uint32_t tail = surface_.corner_of_outgoing(h);
     const std::uint32_t head = surface_.corners()[tail].next;

@@ -136,8 +136,8 @@ class Simplifier {
     return {original[1], chain[1]};
   }
 
-  // All angles at a cut point x between a new edge towards y and what is there: the rest of the
-  // edge, the other facet's bridge, and that facet.
+  // All angles at a cut point x between a new edge towards y and its neighbours there: the rest of
+  // the edge, the other facet's bridge, and that facet.
   bool allows_at_edge(std::uint32_t index, bool forward, VertexId x, VertexId y, double limit) {
     const Corner& corner = surface_.corners()[index];
     const std::uint32_t toward = forward ? topology_.opposite[corner.outgoing] : corner.incoming;

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Child {
   std::size_t command;
-  std::FILE *out, *error;  // what it says, in files without a name
+  std::FILE *out, *error;  // its messages, in files without a name
   Clock::time_point start;
 };
 

@@ -6,7 +6,7 @@
 namespace delmesher::cli {
 namespace {
 
-// Damerau's distance, without changes of what has been exchanged.
+// Damerau's distance, without changes of letters that have been exchanged.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {

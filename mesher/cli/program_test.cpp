@@ -377,7 +377,7 @@ TEST_F(Program, AnyNumberOfThreadsWritesTheSameBytes) {
   }
 }
 
-// A cube with a corner torn into three and a triangle missing: refused with what is wrong, shown,
+// A cube with a corner torn into three and a triangle missing: refused with its defects, shown,
 // mended, meshed.
 TEST_F(Program, ATornSurfaceIsShownAndMended) {
   std::string torn = replaced(cube(), "8 12", "10 11");

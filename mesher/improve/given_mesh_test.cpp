@@ -159,7 +159,7 @@ const Wrong kWrong[] = {
 INSTANTIATE_TEST_SUITE_P(GivenMesh, WrongMeshes, testing::ValuesIn(kWrong),
                          [](const auto& wrong) { return std::string(wrong.param.name); });
 
-// Vertices that are kept may join what no face connects.
+// Vertices that are kept may join parts that no face connects.
 TEST(GivenMesh, TetrahedraMayMeetAtAKeptVertex) {
   Given given;
   given.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};

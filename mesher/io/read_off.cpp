@@ -12,7 +12,7 @@ struct Keyword {
   bool valid = false;
   bool extras = false;  // lines hold more than coordinates
   std::string_view dimension;
-  std::string_view rest;  // what follows "OFF" in the token: "OFF490 518 0" occurs in the wild
+  std::string_view rest;  // the rest of the token behind "OFF": "OFF490 518 0" occurs in the wild
 };
 
 Keyword parse_keyword(std::string_view token) {

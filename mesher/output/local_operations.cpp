@@ -197,8 +197,8 @@ bool LocalOperations::collapse(std::uint32_t v) {
   return std::any_of(link.begin(), link.end(), [&](std::uint32_t w) { return collapse_to(v, w); });
 }
 
-// A cone from w over the link of v: a sphere, so positive tetrahedra fill exactly what the star
-// did.
+// A cone from w over the link of v: a sphere, so positive tetrahedra fill exactly the space of the
+// star.
 bool LocalOperations::collapse_to(std::uint32_t v, std::uint32_t w) {
   const auto star = mesh_.star(v);
   removed_.assign(star.begin(), star.end());

@@ -31,7 +31,7 @@ struct Scene {
   }
 
  private:
-  RoundingInput given_;  // what the mesh takes its tetrahedra from
+  RoundingInput given_;  // the mesh takes its tetrahedra from it
 };
 
 std::size_t alive(const RoundedMesh& mesh) {

@@ -118,7 +118,7 @@ void Refiner::try_for(double degrees) {
   const std::uint64_t most = 8 * points_.size() + 1000;
   if (refine_to(degrees, most) && !crowding_.any()) return;
   bad_.clear();
-  crowding_.forget();  // notes on what need not be reached
+  crowding_.forget();  // notes on a bound that need not be reached
   result_.delta = kProvenDelta;
   refine_to(kProvenDelta, 0);
 }

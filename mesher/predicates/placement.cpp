@@ -87,7 +87,7 @@ double shortest_dyadic(double lo, double hi) {
   const auto low = std::bit_cast<std::uint64_t>(lo), high = std::bit_cast<std::uint64_t>(hi);
   if (low > kFraction) {  // not subnormal
     if ((low & kFraction) == 0) return lo;
-    // The power of two between them, or what both have in common down to the first difference.
+    // The power of two between them, or their common bits down to the first difference.
     if (high >> 52 != low >> 52) return std::bit_cast<double>(((low >> 52) + 1) << 52);
     const int equal = std::countl_zero((low - 1) ^ high);
     return std::bit_cast<double>(high >> (63 - equal) << (63 - equal));

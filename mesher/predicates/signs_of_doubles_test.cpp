@@ -86,7 +86,7 @@ TEST(SignsOfDoubles, AgreeWithRationals) {
 }
 
 // Vertices an ulp or so from a plane, far from and near the origin, whose coordinates need all bits
-// and more: what rounding leaves of flat tetrahedra.
+// and more: flat tetrahedra after rounding.
 TEST(SignsOfDoubles, AgreeWithRationalsNearPlanes) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);

@@ -43,7 +43,8 @@ double opposite_edges_distance2(const TetrahedronShape& s) {
 }
 
 // The level of a squared radius-edge ratio, kLevels = 2^kLevelBits per doubling: within a level the
-// last queued goes first, so that successive insertions share what is in the processor's caches.
+// last queued goes first, so that successive insertions share the contents of the processor's
+// caches.
 constexpr int kLevelBits = 2;
 std::uint8_t level_of(double ratio2) {
   const auto bits = std::bit_cast<std::uint64_t>(ratio2) >> (52 - kLevelBits);

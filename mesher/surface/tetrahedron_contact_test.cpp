@@ -50,8 +50,8 @@ mpq_class volume(const Rational& a, const Rational& b, const Rational& c, const 
   return det;
 }
 
-// Clips the triangle with the closed tetrahedron. The mean of the corners of what remains is inside
-// the tetrahedron iff the triangle meets its interior.
+// Clips the triangle with the closed tetrahedron. The mean of the corners of the rest is inside the
+// tetrahedron iff the triangle meets its interior.
 bool meets_interior_by_clipping(const std::array<Rational, 4>& k,
                                 const std::array<Rational, 3>& t) {
   constexpr std::size_t kFaces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};

@@ -293,7 +293,7 @@ class Checker {
     Intersections all;
     for (const Intersections& found : of_task) {
       all.add(found);
-      if (stop_at_first_ && all.count > 0) break;  // what other threads found later
+      if (stop_at_first_ && all.count > 0) break;  // found by other threads later
     }
     result_.report.defect_counts[static_cast<std::size_t>(Kind::self_intersection)] += all.count;
     for (const auto [t, u] : all.first) describe_intersection(t, u);
