@@ -390,7 +390,7 @@ std::string mistyped_command(const std::vector<std::string>& arguments) {
   if (contains(kCommands, arguments[0]) || std::filesystem::exists(arguments[0], ignored))
     return {};
   const std::string meant = suggestion(arguments[0], kCommands);
-  return meant.empty() ? "" : "no command or file " + io::quoted(arguments[0]) + meant;
+  return meant.empty() ? "" : "no command or file " + io::in_quotes(arguments[0]) + meant;
 }
 
 // The first option of the command line that the command has not; CLI11 would name something else
@@ -407,7 +407,8 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
     const bool is_long = word[1] == '-';
     const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
     if (!contains(names, name)) {
-      return io::quoted(word) + ": no such option of " + app.get_name() + suggestion(name, names);
+      return io::in_quotes(word) + ": no such option of " + app.get_name() +
+             suggestion(name, names);
     }
     const CLI::Option* option = app.get_option(name);
     const bool has_value = is_long ? name.size() < word.size() : word.size() > 2;

@@ -40,8 +40,8 @@ std::string_view MeshText::take_rest_of_line() {
 double MeshText::finite(std::string_view token) const {
   double x = 0;
   const NumberStatus status = parse_double(token, x);
-  if (status == NumberStatus::malformed) fail("bad number " + quoted(token));
-  if (status == NumberStatus::not_finite) fail("non-finite coordinate " + quoted(token));
+  if (status == NumberStatus::malformed) fail("bad number " + in_quotes(token));
+  if (status == NumberStatus::not_finite) fail("non-finite coordinate " + in_quotes(token));
   return x;
 }
 

@@ -50,7 +50,7 @@ class MeshText {
   template <class T>
   T parsed(std::string_view token, const char* what) const {
     T value{};
-    if (!parse_integer(token, value)) fail("bad " + std::string(what) + " " + quoted(token));
+    if (!parse_integer(token, value)) fail("bad " + std::string(what) + " " + in_quotes(token));
     return value;
   }
   double coordinate() { return finite(need("a coordinate")); }

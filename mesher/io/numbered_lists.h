@@ -47,7 +47,7 @@ class NumberedLists {
   template <typename T>
   T integer(std::string_view token, const std::string& what) const {
     T value{};
-    if (!parse_integer(token, value)) fail(here(), "bad " + what + " " + quoted(token));
+    if (!parse_integer(token, value)) fail(here(), "bad " + what + " " + in_quotes(token));
     return value;
   }
 

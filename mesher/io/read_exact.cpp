@@ -31,7 +31,7 @@ class ExactReader {
   T integer() {
     const std::string_view t = token();
     T value{};
-    if (!parse_integer(t, value)) fail(here(), "bad integer " + quoted(t));
+    if (!parse_integer(t, value)) fail(here(), "bad integer " + in_quotes(t));
     return value;
   }
   std::uint32_t point() {
@@ -48,13 +48,13 @@ class ExactReader {
     const std::string_view t = token();
     double value = 0;
     if (parse_hex_double(t, value) != NumberStatus::ok) {
-      fail(here(), "bad hexadecimal number " + quoted(t));
+      fail(here(), "bad hexadecimal number " + in_quotes(t));
     }
     return value;
   }
   void line_end() {
     std::string_view t;
-    if (in_.next_token(t)) fail(here(), "unexpected " + quoted(t));
+    if (in_.next_token(t)) fail(here(), "unexpected " + in_quotes(t));
   }
   std::uint64_t section(std::string_view name);
   template <typename Read>
@@ -80,7 +80,7 @@ class ExactReader {
 std::uint64_t ExactReader::section(std::string_view name) {
   line();
   const std::string_view found = token();
-  if (found != name) fail(here(), quoted(found) + " instead of " + quoted(name));
+  if (found != name) fail(here(), in_quotes(found) + " instead of " + in_quotes(name));
   const auto count = integer<std::uint64_t>();
   line_end();
   return count;
@@ -111,7 +111,7 @@ void ExactReader::read_point() {
     p.j = integer<std::uint32_t>();
     p.k = integer<std::uint32_t>();
   } else {
-    fail(here(), "unknown kind of point " + quoted(kind));
+    fail(here(), "unknown kind of point " + in_quotes(kind));
   }
   record_.points.push_back(p);
 }
@@ -120,7 +120,7 @@ void ExactReader::read_plane() {
   const std::string_view kind = token();
   ExactRecord::Plane plane;
   plane.spanned = kind == "T";
-  if (!plane.spanned && kind != "N") fail(here(), "unknown kind of plane " + quoted(kind));
+  if (!plane.spanned && kind != "N") fail(here(), "unknown kind of plane " + in_quotes(kind));
   const auto numbers = [&](std::array<double, 3>& x) {
     for (double& value : x) value = number();
   };
@@ -217,7 +217,7 @@ ExactRecord ExactReader::read() {
   items("segments", [&] {
     ExactRecord::Chain chain{};
     const std::string_view kind = token();
-    if (kind != "A" && kind != "I") fail(here(), "unknown kind of segment " + quoted(kind));
+    if (kind != "A" && kind != "I") fail(here(), "unknown kind of segment " + in_quotes(kind));
     chain.artificial = kind == "A";
     if (chain.artificial) {
       chain.facet = integer<std::uint32_t>();

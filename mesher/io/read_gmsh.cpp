@@ -36,7 +36,7 @@ class GmshReader {
 
   void read() {
     for (auto section = in_.word(); !section.empty(); section = in_.word()) {
-      if (section[0] != '$') in_.fail("a section is expected, not " + quoted(section));
+      if (section[0] != '$') in_.fail("a section is expected, not " + in_quotes(section));
       const std::string end = "$End" + std::string(section.substr(1));
       read_section(section, end);
     }
@@ -48,7 +48,7 @@ class GmshReader {
 
   void read_section(std::string_view section, const std::string& end) {
     if (version_ == Version::none && section != "$MeshFormat" && section != "$Comments") {
-      in_.fail("$MeshFormat is expected, not " + quoted(section));
+      in_.fail("$MeshFormat is expected, not " + in_quotes(section));
     }
     if (section == "$MeshFormat") {
       read_format();
@@ -68,7 +68,7 @@ class GmshReader {
       return;
     }
     const std::string_view token = in_.need(end.c_str());
-    if (token != end) in_.fail(end + " expected, not " + quoted(token));
+    if (token != end) in_.fail(end + " expected, not " + in_quotes(token));
   }
 
   void read_format() {
@@ -78,7 +78,7 @@ class GmshReader {
     } else if (version == "2.2" || version == "2.1" || version == "2") {
       version_ = Version::two;
     } else {
-      in_.fail("version " + quoted(version) + " is not read, only 4.1 and 2.2");
+      in_.fail("version " + in_quotes(version) + " is not read, only 4.1 and 2.2");
     }
     const auto type = in_.integer<std::int64_t>("file type");
     if (type != 0) in_.fail("binary .msh files are not read: save as text (gmsh -bin 0)");

@@ -45,7 +45,7 @@ void read_medit_section(std::string_view section, MeshText& in, MeshBuilder& bui
     const auto per_item = static_cast<std::uint64_t>(numbers);
     in.skip(per_item * in.count("number of items", kMostCells, 2 * per_item));
   } else {
-    const std::string name = quoted(section);
+    const std::string name = in_quotes(section);
     if (section != "Quadrilaterals" && section != "Hexahedra" && section != "Prisms" &&
         section != "Pyramids") {
       in.fail("unknown section " + name);
@@ -169,7 +169,7 @@ std::int32_t region(NumberedLines& lines) {
   using Bounds = std::numeric_limits<std::int32_t>;
   if (parse_double(token, value) != NumberStatus::ok || std::trunc(value) != value ||
       value < Bounds::min() || value > Bounds::max()) {
-    lines.text().fail("bad attribute " + quoted(token) + ": regions are whole numbers");
+    lines.text().fail("bad attribute " + in_quotes(token) + ": regions are whole numbers");
   }
   return static_cast<std::int32_t>(value);
 }
@@ -246,7 +246,7 @@ void read_tet(std::string_view text, const std::string& path, Polling& polling,
   const auto need_word = [&](std::string_view expected) {
     const std::string_view token = in.need("the header");
     if (token != expected) {
-      in.fail("'" + std::string(expected) + "' expected, not " + quoted(token));
+      in.fail("'" + std::string(expected) + "' expected, not " + in_quotes(token));
     }
   };
   const auto vertices = in.count("number of vertices", kMostVertices, 6);
@@ -260,7 +260,7 @@ void read_tet(std::string_view text, const std::string& path, Polling& polling,
     need_word("outer");
     need_word("tets");
   } else if (kind != "tets") {
-    in.fail("'tets' expected, not " + quoted(kind));
+    in.fail("'tets' expected, not " + in_quotes(kind));
   }
   for (std::uint64_t v = 0; v < vertices; ++v) builder.add_vertex(in.point());
   for (std::uint64_t t = 0; t < inner + outer; ++t) {

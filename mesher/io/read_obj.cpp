@@ -31,7 +31,7 @@ class Names {
     std::string out;
     for (const auto& [number, name] : names) {
       if (number > 20) return out + ", ...";
-      out += (number == 1 ? "" : ", ") + std::to_string(number) + " = " + quoted(name);
+      out += (number == 1 ? "" : ", ") + std::to_string(number) + " = " + in_quotes(name);
     }
     return out;
   }
@@ -105,10 +105,10 @@ void ObjReader::read_vertex() {
   for (; next(token); ++count) {
     double value = 0;
     const NumberStatus status = parse_double(token, value);
-    if (status == NumberStatus::malformed) fail(here(), "bad number " + quoted(token));
+    if (status == NumberStatus::malformed) fail(here(), "bad number " + in_quotes(token));
     if (count >= 3) continue;  // a weight or a colour
     if (status == NumberStatus::not_finite) {
-      fail(here(), "non-finite coordinate " + quoted(token));
+      fail(here(), "non-finite coordinate " + in_quotes(token));
     }
     values[count] = value;
   }
@@ -121,7 +121,7 @@ void ObjReader::read_vertex() {
 void ObjReader::check_reference(std::string_view reference, std::string_view token) const {
   std::int64_t number = 0;
   if (!parse_integer(reference, number) || number == 0) {
-    fail(here(), "bad corner " + quoted(token));
+    fail(here(), "bad corner " + in_quotes(token));
   }
 }
 
@@ -140,7 +140,7 @@ std::uint32_t ObjReader::read_corner(std::string_view token) const {
   }
   std::int64_t number = 0;
   if (!parse_integer(token.substr(0, slash), number) || number == 0) {
-    fail(here(), "bad corner " + quoted(token));
+    fail(here(), "bad corner " + in_quotes(token));
   }
   const auto count = static_cast<std::int64_t>(builder_.vertex_count());
   if (number < -count || number > static_cast<std::int64_t>(kMaxVertices)) {
@@ -241,7 +241,7 @@ void ObjReader::read() {
       });
       const bool letter_first =
           (keyword[0] >= 'a' && keyword[0] <= 'z') || (keyword[0] >= 'A' && keyword[0] <= 'Z');
-      if (!word || !letter_first) fail(here(), "unexpected " + quoted(keyword));
+      if (!word || !letter_first) fail(here(), "unexpected " + in_quotes(keyword));
     }
   }
   if (curves) builder_.warn("free-form curves and surfaces ignored");

@@ -70,7 +70,7 @@ class OffReader {
 std::uint64_t OffReader::read_count(std::string_view token, const char* what) const {
   std::uint64_t count = 0;
   if (!parse_integer(token, count)) {
-    fail(here(), std::string("bad number of ") + what + " " + quoted(token));
+    fail(here(), std::string("bad number of ") + what + " " + in_quotes(token));
   }
   return count;
 }
@@ -81,7 +81,7 @@ void OffReader::read_header() {
   const Keyword keyword = parse_keyword(token);
   if (keyword.valid) {
     if (!keyword.dimension.empty()) {
-      fail(here(), quoted(token) + " is not a surface in three dimensions");
+      fail(here(), in_quotes(token) + " is not a surface in three dimensions");
     }
     extras_ = keyword.extras;
     token = keyword.rest;
@@ -112,10 +112,10 @@ void OffReader::read_vertex(std::uint64_t index) {
   for (; in_.next_token(token); ++count) {
     double value = 0;
     const NumberStatus status = parse_double(token, value);
-    if (status == NumberStatus::malformed) fail(here(), "bad number " + quoted(token));
+    if (status == NumberStatus::malformed) fail(here(), "bad number " + in_quotes(token));
     if (count >= 3) continue;
     if (status == NumberStatus::not_finite) {
-      fail(here(), "non-finite coordinate " + quoted(token));
+      fail(here(), "non-finite coordinate " + in_quotes(token));
     }
     values[count] = value;
   }
@@ -132,7 +132,7 @@ void OffReader::read_face(std::uint64_t index) {
   std::string_view token;
   in_.next_token(token);
   std::uint32_t count = 0;
-  if (!parse_integer(token, count)) fail(here(), "bad number of corners " + quoted(token));
+  if (!parse_integer(token, count)) fail(here(), "bad number of corners " + in_quotes(token));
   corners_.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
     std::uint32_t corner = 0;
@@ -140,7 +140,7 @@ void OffReader::read_face(std::uint64_t index) {
       fail(here(), "the line ends after " + std::to_string(i) + " of " + std::to_string(count) +
                        " corners");
     }
-    if (!parse_integer(token, corner)) fail(here(), "bad vertex index " + quoted(token));
+    if (!parse_integer(token, corner)) fail(here(), "bad vertex index " + in_quotes(token));
     if (corner >= vertices_) {
       fail(here(), "vertex index out of range: " + std::to_string(corner) + " of " +
                        std::to_string(vertices_));

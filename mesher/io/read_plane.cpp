@@ -18,9 +18,9 @@ double need_number(TextLines& in, const char* what) {
   double value = 0;
   switch (parse_double(token, value)) {
     case NumberStatus::malformed:
-      fail(at_line(in.line()), "bad number " + quoted(token));
+      fail(at_line(in.line()), "bad number " + in_quotes(token));
     case NumberStatus::not_finite:
-      fail(at_line(in.line()), "non-finite number " + quoted(token));
+      fail(at_line(in.line()), "non-finite number " + in_quotes(token));
     case NumberStatus::ok:
       break;
   }
@@ -90,7 +90,7 @@ class PolyReader {
       std::string_view token;
       double area = 0;
       if (in_.lines().next_token(token) && parse_double(token, area) != NumberStatus::ok) {
-        fail(in_.here(), "bad number " + quoted(token));
+        fail(in_.here(), "bad number " + in_quotes(token));
       }
       areas = areas || area > 0;
       graph_.regions.push_back({point, attribute});

@@ -118,7 +118,7 @@ void PlyReader::read_format() {
   } else if (name == "binary_big_endian") {
     encoding_ = Encoding::big;
   } else {
-    fail(line(), "unknown format " + quoted(name));
+    fail(line(), "unknown format " + in_quotes(name));
   }
 }
 
@@ -126,7 +126,7 @@ void PlyReader::read_element() {
   Element element;
   element.name = need_word("the element's name");
   const std::string_view count = need_word("the element's count");
-  if (!parse_integer(count, element.count)) fail(line(), "bad count " + quoted(count));
+  if (!parse_integer(count, element.count)) fail(line(), "bad count " + in_quotes(count));
   element.position = line();
   elements_.push_back(std::move(element));
 }
@@ -139,12 +139,12 @@ void PlyReader::read_property() {
     const std::string_view count_type = need_word("the list's count type");
     property.count_type = scalar_of(count_type);
     if (property.count_type >= Scalar::f32) {
-      fail(line(), "bad list count type " + quoted(count_type));
+      fail(line(), "bad list count type " + in_quotes(count_type));
     }
     type = need_word("the list's type");
   }
   property.type = scalar_of(type);
-  if (property.type == Scalar::none) fail(line(), "unknown type " + quoted(type));
+  if (property.type == Scalar::none) fail(line(), "unknown type " + in_quotes(type));
   property.name = need_word("the property's name");
   elements_.back().properties.push_back(std::move(property));
 }
@@ -168,7 +168,7 @@ void PlyReader::read_header() {
       if (!format) fail(line(), "the header names no format");
       return;
     } else if (keyword != "comment" && keyword != "obj_info") {
-      fail(line(), "unexpected " + quoted(keyword) + " in the header");
+      fail(line(), "unexpected " + in_quotes(keyword) + " in the header");
     }
   }
   fail(line(), "the file ends in the header");
@@ -190,7 +190,7 @@ double PlyReader::read_scalar(Scalar type) {
     if (!in_.next_token_anywhere(token)) fail(line(), "the file ends before its last element");
     double value = 0;
     if (parse_double(token, value) == NumberStatus::malformed) {
-      fail(line(), "bad number " + quoted(token));
+      fail(line(), "bad number " + in_quotes(token));
     }
     return value;
   }
@@ -267,7 +267,7 @@ void PlyReader::read_vertices(const Element& element) {
     static constexpr std::array<std::string_view, 3> kNames = {"x", "y", "z"};
     axes[k] = element.find({kNames[k]}, false);
     if (axes[k] == Element::kNotFound) {
-      fail(element.position, "the vertices have no property " + quoted(kNames[k]));
+      fail(element.position, "the vertices have no property " + in_quotes(kNames[k]));
     }
   }
   std::vector<double> scalars, values;
@@ -287,7 +287,7 @@ void PlyReader::read_faces(const Element& element) {
   const std::size_t label = element.find(
       {"label", "region", "marker", "group", "attribute", "material_index", "physical"}, false);
   if (label != Element::kNotFound) {
-    builder_.note("labels from the property " + io::quoted(element.properties[label].name));
+    builder_.note("labels from the property " + io::in_quotes(element.properties[label].name));
   }
   std::vector<double> scalars, values;
   std::vector<std::uint32_t> corners;
@@ -327,7 +327,7 @@ void PlyReader::read() {
     const std::uint64_t least = element.least_bytes(encoding_);
     if (least > 0 && element.count > remaining() / least + 1) {
       fail(element.position, "the file is too short for " + std::to_string(element.count) +
-                                 " elements " + io::quoted(element.name));
+                                 " elements " + io::in_quotes(element.name));
     }
   }
   if (vertices == nullptr) fail(line(), "no element 'vertex'");

@@ -104,10 +104,10 @@ std::string_view AsciiStlReader::need(const char* what) {
 }
 
 void AsciiStlReader::expect_word(std::string_view word) {
-  const std::string quoted_word = quoted(word);
+  const std::string quoted_word = in_quotes(word);
   const std::string_view token = need(quoted_word.c_str());
   if (!equal_ignoring_case(token, word)) {
-    fail(here(), quoted(token) + " instead of " + quoted_word);
+    fail(here(), in_quotes(token) + " instead of " + quoted_word);
   }
 }
 
@@ -115,9 +115,9 @@ double AsciiStlReader::read_number() {
   const std::string_view token = need("a coordinate");
   double value = 0;
   const NumberStatus status = parse_double(token, value);
-  if (status == NumberStatus::malformed) fail(here(), "bad number " + quoted(token));
+  if (status == NumberStatus::malformed) fail(here(), "bad number " + in_quotes(token));
   if (status == NumberStatus::not_finite) {
-    fail(here(), "non-finite coordinate " + quoted(token));
+    fail(here(), "non-finite coordinate " + in_quotes(token));
   }
   return value;
 }
@@ -155,7 +155,7 @@ void AsciiStlReader::read() {
       open = false;
       read_name();
     } else {
-      fail(here(), "unexpected " + quoted(token));
+      fail(here(), "unexpected " + in_quotes(token));
     }
   }
   if (open) fail(here(), "the file ends without 'endsolid'");

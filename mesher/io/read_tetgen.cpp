@@ -47,9 +47,9 @@ Point3 TetgenReader::need_point() {
     std::string_view token;
     if (!in_.lines().next_token(token)) fail(in_.here(), "fewer than 3 coordinates");
     const NumberStatus status = parse_double(token, x);
-    if (status == NumberStatus::malformed) fail(in_.here(), "bad number " + quoted(token));
+    if (status == NumberStatus::malformed) fail(in_.here(), "bad number " + in_quotes(token));
     if (status == NumberStatus::not_finite) {
-      fail(in_.here(), "non-finite coordinate " + quoted(token));
+      fail(in_.here(), "non-finite coordinate " + in_quotes(token));
     }
   }
   return point;

@@ -70,7 +70,7 @@ class VtuReader {
         const std::string key =
             section == "Points" ? section : section + " " + std::string(attribute(tag, "Name"));
         if (!arrays_.try_emplace(key, Array{end + 1, close}).second) {
-          fail(at, "a second array " + quoted(key));
+          fail(at, "a second array " + in_quotes(key));
         }
       }
       at = end;
@@ -98,7 +98,7 @@ class VtuReader {
   std::vector<T> numbers(const std::string& key, bool optional = false) const {
     const auto found = arrays_.find(key);
     if (found == arrays_.end()) {
-      if (!optional) fail(0, "there is no array " + quoted(key));
+      if (!optional) fail(0, "there is no array " + in_quotes(key));
       return {};
     }
     MeshText in = text_of(found->second);

@@ -88,7 +88,7 @@ void append_hex(std::string& out, double value) {
   out.append(buffer, result.ptr);
 }
 
-std::string quoted(std::string_view token) {
+std::string in_quotes(std::string_view token) {
   constexpr std::size_t kLongest = 40;
   std::string out = "'";
   for (char c : token.substr(0, kLongest)) out += c >= ' ' && c <= '~' ? c : '?';

@@ -36,7 +36,7 @@ void append_double(std::string& out, double value);
 void append_hex(std::string& out, double value);
 
 // A token made fit for an error message: quoted, printable, at most 40 characters.
-std::string quoted(std::string_view token);
+std::string in_quotes(std::string_view token);
 
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 

@@ -137,8 +137,8 @@ TEST(TextLines, AnyLineEndsCommentsAndNoFinalNewline) {
 }
 
 TEST(Quoted, IsPrintableAndShort) {
-  EXPECT_EQ(quoted("a\x01z"), "'a?z'");
-  EXPECT_LT(io::quoted(std::string_view(std::string(1000, 'x'))).size(), 50U);
+  EXPECT_EQ(in_quotes("a\x01z"), "'a?z'");
+  EXPECT_LT(io::in_quotes(std::string_view(std::string(1000, 'x'))).size(), 50U);
 }
 
 }  // namespace
