@@ -5,11 +5,12 @@ Usage: check_names.py BUILD_DIR [JOBS]. Files that passed before and have not ch
 not read again. Exits 1 and prints clang-tidy's words if a name breaks the rules.
 
 Most of the time would go into the headers of libraries, once per file. So files of a folder that are compiled alike are
-read together, as one that includes them, unless they have a local name in common. Where that does not compile all the same,
-those that the errors name are read without the others, or each half, at last each alone.
+read together, as one that includes them, unless they have a local name in common, or one has a name that the other's headers have.
+Where that does not compile all the same, those that the errors name are read without the others, or each half, at last each alone.
 """
 import collections
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -21,10 +22,11 @@ import sys
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), ".."))
 FOLDERS = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports")
 TOGETHER = 64  # files
+FUZZER_ENTRIES = ("LLVMFuzzerTestOneInput", "LLVMFuzzerCustomMutator", "LLVMFuzzerCustomCrossOver")  # each target has its own
 # What a file defines outside of classes and functions begins a line there.
-DEFINED = re.compile(r"^(?:using (\w+) =|(?:struct|class|enum class|union) (\w+)|namespace (\w+) =|"
+DEFINED = re.compile(r"^(?:using (\w+) =|(?:struct|class|enum class|union) (\w+)|"
                      r"(?:inline |static )*const(?:expr|init)? .*?\b(k[A-Z]\w*)\W|"
-                     r"\w+_(MAIN)\(|(?!TEST|INSTANTIATE|namespace)[\w:<].*?[ *&](\w+)\(|(?:TYPED_)?TEST(?:_F|_P)?\((\w+, \w+))")
+                     r"\w+_(MAIN)\(|(?!TEST|INSTANTIATE|namespace|extern)[\w:<].*?[ *&](\w+)\(|(?:TYPED_)?TEST(?:_F|_P)?\((\w+, \w+))")
 
 
 def digest(paths):
@@ -60,25 +62,42 @@ def flags_of(entry):
     return defined, others
 
 
+@functools.cache
 def local_names(path):
     with open(path, encoding="utf-8") as stream:
         found = [DEFINED.match(line.rstrip()) for line in stream]
     return {next(name for name in match.groups() if name).lower() for match in found if match}
 
 
+@functools.cache
+def headers_of(path):
+    """The project's headers that a file includes, and that those include."""
+    with open(path, encoding="utf-8") as stream:
+        direct = {os.path.join(ROOT, name) for name in re.findall(r'^#include "([^"]+)"', stream.read(), re.MULTILINE)}
+    direct = {header for header in direct if os.path.exists(header)}
+    return direct.union(*map(headers_of, direct))
+
+
+def names_in(headers):
+    return set().union(*map(local_names, headers))
+
+
 class Group:
-    """Files that are read together: no local name in common, no macro with two values."""
+    """Files that are read together: no local name in common, none that a header of others has, no macro with two values."""
 
     def __init__(self):
-        self.files, self.names, self.defined, self.others = [], set(), {}, []
+        self.files, self.names, self.headers, self.defined, self.others = [], set(), set(), {}, []
 
-    def takes(self, names, flags):
-        return len(self.files) < TOGETHER and not self.names & names and all(
-            self.defined.get(name, flag) == flag for name, flag in flags[0].items())
+    def takes(self, file, flags):
+        names, headers = local_names(file), headers_of(file)
+        return len(self.files) < TOGETHER and all(
+            self.defined.get(name, flag) == flag for name, flag in flags[0].items()) and not (
+                self.names & (names | names_in(headers - self.headers)) or names & names_in(self.headers - headers))
 
-    def add(self, file, names, flags):
+    def add(self, file, flags):
         self.files.append(file)
-        self.names |= names
+        self.names |= local_names(file)
+        self.headers |= headers_of(file)
         self.defined |= flags[0]
         self.others += [flag for flag in flags[1] if flag not in self.others]
 
@@ -86,12 +105,12 @@ class Group:
 def groups_of(files, flags):
     groups = collections.defaultdict(list)  # by top folder: what lies together includes the same libraries
     for file in files:
-        names, top = local_names(file), os.path.relpath(file, ROOT).split(os.sep)[0]
-        group = next((g for g in groups[top] if g.takes(names, flags[file])), None)
+        top = os.path.relpath(file, ROOT).split(os.sep)[0]
+        group = next((g for g in groups[top] if g.takes(file, flags[file])), None)
         if group is None:
             group = Group()
             groups[top].append(group)
-        group.add(file, names, flags[file])
+        group.add(file, flags[file])
     return [group for groups_there in groups.values() for group in groups_there]
 
 
@@ -105,7 +124,10 @@ class Tidy:
         if len(files) > 1:
             unit = os.path.join(self.scratch, hashlib.sha256("\n".join(files).encode()).hexdigest()[:16] + ".cpp")
             with open(unit, "w", encoding="utf-8") as stream:
-                stream.writelines('#include "%s"\n' % file for file in files)
+                for n, file in enumerate(files):
+                    stream.writelines("#define %s %s%d\n" % (entry, entry, n) for entry in FUZZER_ENTRIES)
+                    stream.write('#include "%s"\n' % file)
+                    stream.writelines("#undef %s\n" % entry for entry in FUZZER_ENTRIES)
         run = subprocess.run(["clang-tidy", "--quiet", "--config-file=" + os.path.join(ROOT, ".clang-tidy"),
                               "--header-filter=^%s/(%s)/.*[.](h|cpp)$" % (ROOT, "|".join(FOLDERS)), unit, "--", *flags,
                               "-Wno-unknown-warning-option", "-Wno-everything"], capture_output=True, text=True)
