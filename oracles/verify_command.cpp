@@ -11,6 +11,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "oracles/envelope.h"
 #include "oracles/plane_verify.h"
 #include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
@@ -33,6 +34,7 @@ enum ExitCode {
 struct Arguments {
   std::string input, mesh, exact, promised = "mesh";
   bool json = false;
+  double envelope = 0;  // not 0: the mesh has a surface of its own, so near
   std::optional<Stage> stage;
   VerifyOptions options;
 };
@@ -63,6 +65,11 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "(mesh)");
   app.add_option("--declared-deviation", arguments.options.declared_deviation,
                  "deviation that is no failure, as a fraction of the diagonal (0)");
+  app.add_option(
+         "--envelope", arguments.envelope,
+         "the mesh has a surface of its own, at most this fraction of the diagonal from the "
+         "input, and the input from it")
+      ->check(CLI::PositiveNumber);
   app.add_option("--threads", arguments.options.threads,
                  "threads that share the checks, 0: one per core (1)")
       ->check(CLI::Range(0, 1024));
@@ -127,6 +134,9 @@ std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   terminal.say("reading " + arguments.mesh);
   const Polyhedron input = read_surface(arguments.input);
   const MeshFile mesh = read_mesh(arguments.mesh);
+  if (arguments.envelope > 0) {
+    return verify_envelope(input, mesh, arguments.envelope, arguments.options, report);
+  }
   delmesher::ExactRecord record;
   VerifyOptions options = arguments.options;
   if (!arguments.exact.empty()) record = read_sidecar(arguments.exact, &options.record_version);
@@ -165,9 +175,9 @@ int verify_files(const Arguments& arguments) {
     return kInvalid;
   }
   std::fputs((arguments.json ? to_json(report) : to_text(report)).c_str(), stdout);
-  const int code = failed(report, arguments.options)      ? kFailed
-                   : report.verdict == Verdict::undecided ? kLimit
-                                                          : kDone;
+  const bool bad = arguments.envelope > 0 ? report.verdict == Verdict::broken
+                                          : failed(report, arguments.options);
+  const int code = bad ? kFailed : report.verdict == Verdict::undecided ? kLimit : kDone;
   // As text, the report has given the reason.
   if (code != kDone && arguments.json) {
     std::fprintf(stderr, "tetproof: %s: %s\n", arguments.mesh.c_str(), reason(report).c_str());
@@ -202,6 +212,11 @@ int run_verify(int argc, char** argv) {
   // Nothing is more than no number.
   if (const double declared = arguments.options.declared_deviation; !(declared >= 0)) {
     std::fprintf(stderr, "tetproof: --declared-deviation: %g is no deviation\n", declared);
+    return kUsage;
+  }
+  if (arguments.envelope > 0 &&
+      (arguments.options.promised.task == Task::plane || !arguments.exact.empty())) {
+    std::fputs("tetproof: --envelope: of a file alone, and not in the plane\n", stderr);
     return kUsage;
   }
   if (arguments.stage && arguments.options.promised.task == Task::plane) {

@@ -1,0 +1,313 @@
+#include "oracles/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace tetproof::oracles {
+namespace {
+
+Position minus(const Position& a, const Position& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double dot(const Position& a, const Position& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Position cross(const Position& a, const Position& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double distance(const Position& a, const Position& b) {
+  const Position d = minus(a, b);
+  return std::sqrt(dot(d, d));
+}
+
+Position between(const Position& a, const Position& b, double share) {
+  Position p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = a[i] + share * (b[i] - a[i]);
+  return p;
+}
+
+using Corners = std::array<Position, 3>;
+
+Corners corners_of(const Polyhedron& surface, std::size_t t) {
+  const auto& [a, b, c] = surface.triangles[t];
+  return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
+}
+
+double to_segment(const Position& p, const Position& a, const Position& b) {
+  const Position along = minus(b, a);
+  const double length = dot(along, along);
+  const double share = length > 0 ? std::clamp(dot(minus(p, a), along) / length, 0.0, 1.0) : 0;
+  return distance(p, between(a, b, share));
+}
+
+// The plane's distance where the foot is in the triangle, else that of an edge.
+double to_triangle(const Position& p, const Corners& t) {
+  const Position normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+  bool above = true;
+  double nearest = HUGE_VAL;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Position& a = t[i];
+    const Position& b = t[(i + 1) % 3];
+    nearest = std::min(nearest, to_segment(p, a, b));
+    above = above && dot(cross(normal, minus(b, a)), minus(p, a)) >= 0;
+  }
+  const double length = std::sqrt(dot(normal, normal));
+  if (!above || !(length > 0)) return nearest;
+  return std::min(nearest, std::fabs(dot(normal, minus(p, t[0]))) / length);
+}
+
+std::vector<BoxTree::Box> boxes_of(const Polyhedron& surface) {
+  std::vector<BoxTree::Box> boxes;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Corners c = corners_of(surface, t);
+    BoxTree::Box& box = boxes.emplace_back(BoxTree::Box{c[0], c[0]});
+    for (const Position& p : c) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        box.low[i] = std::min(box.low[i], p[i]);
+        box.high[i] = std::max(box.high[i], p[i]);
+      }
+    }
+  }
+  return boxes;
+}
+
+// The largest distance of a surface from another, by branch and bound: a distance from one triangle
+// is convex, so over a piece it is largest at a corner; and distances change by no more than the
+// way.
+class Farthest {
+ public:
+  Farthest(const Polyhedron& to, double precision, double enough)
+      : to_(to), tree_(boxes_of(to)), precision_(precision), least_(enough / 10) {}
+
+  void look_at(const Corners& whole) {
+    std::vector<Corners> pieces = {whole};
+    while (!pieces.empty()) {
+      const Corners piece = pieces.back();
+      pieces.pop_back();
+      if (upper_bound(piece) <= std::max(lower_, least_) + precision_) continue;
+      split(piece, pieces);
+    }
+  }
+  double bound() const { return std::max(lower_, least_) + precision_; }
+
+ private:
+  static void split(const Corners& piece, std::vector<Corners>& pieces) {
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < 3; ++i) {
+      if (distance(piece[i], piece[(i + 1) % 3]) >
+          distance(piece[longest], piece[(longest + 1) % 3])) {
+        longest = i;
+      }
+    }
+    const Position& a = piece[longest];
+    const Position& b = piece[(longest + 1) % 3];
+    const Position& c = piece[(longest + 2) % 3];
+    const Position middle = between(a, b, 0.5);
+    pieces.push_back({a, middle, c});
+    pieces.push_back({middle, b, c});
+  }
+
+  // Of the piece's distance from the surface. Raises the lower bound of all by what it sees.
+  double upper_bound(const Corners& piece) {
+    Position centre;
+    for (std::size_t i = 0; i < 3; ++i) centre[i] = (piece[0][i] + piece[1][i] + piece[2][i]) / 3;
+    const auto [at_centre, near_centre] = nearest(centre);
+    double radius = 0;
+    for (const Position& p : piece) radius = std::max(radius, distance(p, centre));
+    double bound = std::min(at_centre + radius, from_triangle(piece, near_centre));
+    lower_ = std::max(lower_, at_centre);
+    for (const Position& p : piece) {
+      const auto [d, t] = nearest(p);
+      lower_ = std::max(lower_, d);
+      if (t != near_centre) bound = std::min(bound, from_triangle(piece, t));
+    }
+    return bound;
+  }
+
+  double from_triangle(const Corners& piece, Index t) const {
+    const Corners c = corners_of(to_, t);
+    double most = 0;
+    for (const Position& p : piece) most = std::max(most, to_triangle(p, c));
+    return most;
+  }
+
+  // By boxes that grow until one holds something that is nearer than its sides.
+  std::pair<double, Index> nearest(const Position& p) {
+    for (double reach = std::max(std::max(lower_, least_), precision_);; reach *= 4) {
+      BoxTree::Box box{p, p};
+      for (std::size_t i = 0; i < 3; ++i) {
+        box.low[i] -= reach;
+        box.high[i] += reach;
+      }
+      found_.clear();
+      tree_.query(box, found_);
+      std::pair<double, Index> best{HUGE_VAL, kNone};
+      for (const Index t : found_) {
+        best = std::min(best, {to_triangle(p, corners_of(to_, t)), t});
+      }
+      if (best.first <= reach) return best;
+    }
+  }
+
+  const Polyhedron& to_;
+  const BoxTree tree_;
+  double precision_, least_;
+  double lower_ = 0;  // of the largest distance
+  std::vector<Index> found_;
+};
+
+double diagonal_of(const Polyhedron& surface) {
+  Position low = surface.vertices.at(0), high = low;
+  for (const Position& p : surface.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  return distance(low, high);
+}
+
+struct Extent {
+  double volume = 0, area = 0;
+};
+
+Extent extent_of(const Polyhedron& surface) {
+  Extent extent;
+  const Position origin = surface.vertices.at(0);
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const Corners c = corners_of(surface, t);
+    const Position normal = cross(minus(c[1], c[0]), minus(c[2], c[0]));
+    extent.area += std::sqrt(dot(normal, normal)) / 2;
+    extent.volume += dot(normal, minus(c[0], origin)) / 6;
+  }
+  return extent;
+}
+
+OracleReport check_distances(const Polyhedron& input, const Polyhedron& own, double allowed,
+                             double& deviation) {
+  OracleReport report("envelope", "triangles");
+  report.checked = input.triangles.size() + own.triangles.size();
+  const double there = farthest(own, input, allowed / 100, allowed);
+  const double back = farthest(input, own, allowed / 100, allowed);
+  deviation = std::max(there, back);
+  report.figures.emplace_back("of the mesh from the input, at most", there);
+  report.figures.emplace_back("of the input from the mesh, at most", back);
+  // What the bounds are uncertain by is nobody's fault.
+  const double most = allowed * 1.01;
+  if (there > most)
+    report.fail("the mesh's surface is as far from the input as " +
+                std::to_string(there / allowed) + " envelopes");
+  if (back > most)
+    report.fail("the input is as far from the mesh's surface as " + std::to_string(back / allowed) +
+                " envelopes");
+  return report;
+}
+
+OracleReport check_volumes(const Polyhedron& input, const Polyhedron& own, double allowed) {
+  OracleReport report("envelope-volume", "volumes");
+  report.checked = 2;
+  const Extent given = extent_of(input), made = extent_of(own);
+  report.figures.emplace_back("of the mesh", made.volume);
+  report.figures.emplace_back("of the input", given.volume);
+  if (std::fabs(made.volume - given.volume) > 2 * allowed * std::max(given.area, made.area)) {
+    report.fail("the mesh has the volume " + std::to_string(made.volume) + " and the input " +
+                std::to_string(given.volume));
+  }
+  return report;
+}
+
+bool names_places(const MeshFile& mesh) {
+  const bool finite =
+      std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Position& p) {
+        return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+      });
+  return finite && std::all_of(mesh.tetrahedra.begin(), mesh.tetrahedra.end(), [&](const Tet& tet) {
+           return std::all_of(tet.begin(), tet.end(),
+                              [&](Index v) { return v < mesh.vertices.size(); });
+         });
+}
+
+void broken(VerifyReport& report, const std::string& oracle, const std::string& finding) {
+  OracleReport said(oracle);
+  said.checked = 1;
+  said.fail(finding);
+  report.oracles.push_back(std::move(said));
+  report.verdict = Verdict::broken;
+}
+
+}  // namespace
+
+double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough) {
+  Farthest search(to, precision, enough);
+  for (std::size_t t = 0; t < from.triangles.size(); ++t) search.look_at(corners_of(from, t));
+  return search.bound();
+}
+
+Polyhedron boundary_of(const MeshFile& mesh) {
+  std::map<std::array<Index, 3>, std::pair<int, std::array<Index, 3>>> faces;
+  // Of a positive tetrahedron, seen from outside.
+  static constexpr std::size_t kFaces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  for (const Tet& tet : mesh.tetrahedra) {
+    for (const auto& [i, j, k] : kFaces) {
+      const std::array<Index, 3> face = {tet[i], tet[j], tet[k]};
+      std::array<Index, 3> key = face;
+      std::sort(key.begin(), key.end());
+      const auto at = faces.try_emplace(key, 0, face).first;
+      ++at->second.first;
+    }
+  }
+  Polyhedron surface;
+  std::map<Index, Index> number;
+  for (const auto& [key, seen] : faces) {
+    if (seen.first != 1) continue;
+    std::array<Index, 3> triangle;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Index v = seen.second[c];
+      const auto [at, fresh] = number.try_emplace(v, static_cast<Index>(surface.vertices.size()));
+      if (fresh) surface.vertices.push_back(mesh.vertices[v]);
+      triangle[c] = at->second;
+    }
+    surface.triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, double share,
+                            const VerifyOptions& options, VerifyReport& report) {
+  report = {};
+  if (!names_places(mesh)) {
+    broken(report, "complex", "a tetrahedron names no vertex, or a vertex no place");
+    return {};
+  }
+  MeshFile bare;
+  bare.vertices = mesh.vertices;
+  bare.tetrahedra = mesh.tetrahedra;
+  bare.lists_boundary = false;
+  bare.either_orientation = mesh.either_orientation;
+  const Polyhedron own = boundary_of(bare);
+  if (own.triangles.empty()) {
+    broken(report, "own-surface", "the tetrahedra have no boundary");
+    return {};
+  }
+  VerifyOptions as_given = options;
+  parse_promise("mesh --planar 0", as_given.promised);
+  as_given.declared_deviation = 0;
+  if (const std::string why = verify(own, bare, nullptr, as_given, report); !why.empty()) {
+    broken(report, "own-surface", "the boundary of the tetrahedra bounds no solid: " + why);
+    return {};
+  }
+  const double diagonal = diagonal_of(input), allowed = share * diagonal;
+  report.oracles.push_back(check_distances(input, own, allowed, report.deviation));
+  report.oracles.push_back(check_volumes(input, own, allowed));
+  report.deviation_share = report.deviation / diagonal;
+  report.verdict = report.any_failed() ? Verdict::broken : Verdict::deviating;
+  return {};
+}
+
+}  // namespace tetproof::oracles

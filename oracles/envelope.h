@@ -1,0 +1,31 @@
+// Meshes whose surface is one of their own, near the input: what meshers with an envelope promise.
+//
+// Laws: the mesh, judged by the other oracles against its own boundary, passes all of them (so it
+// is a complex of positive tetrahedra that fill a valid surface); no point of that surface is
+// farther from the input than the envelope, nor a point of the input from it; and the volumes
+// differ by at most what surfaces so near to each other can enclose, so that a thin crust around
+// the input does not pass for the solid.
+#pragma once
+
+#include <string>
+
+#include "oracles/input_surface.h"
+#include "oracles/mesh_file.h"
+#include "oracles/verify.h"
+
+namespace tetproof::oracles {
+
+// An upper bound of the distance from any point of `from` to `to`, in doubles, in input units.
+// Exact but for `precision`, or for a tenth of `enough` if that is larger: distances so small are
+// not told apart. Neither may be empty, and not both bounds 0.
+double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough);
+
+// The faces of one tetrahedron, seen from outside, with the vertices that they use.
+Polyhedron boundary_of(const MeshFile& mesh);
+
+// Empty on success, else why the input bounds no solid. `share` is the envelope, as a fraction of
+// the input's diagonal; the report's deviation is the larger one of the two distances.
+std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, double share,
+                            const VerifyOptions& options, VerifyReport& report);
+
+}  // namespace tetproof::oracles

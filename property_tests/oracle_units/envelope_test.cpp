@@ -1,0 +1,154 @@
+#include "oracles/envelope.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tetproof::oracles {
+namespace {
+
+// A unit cube as given, and its six tetrahedra around the diagonal from 0 to 7; bits of an index
+// are coordinates.
+Polyhedron cube() {
+  Polyhedron p;
+  for (int v = 0; v < 8; ++v) {
+    p.vertices.push_back({double(v & 1), double(v >> 1 & 1), double(v >> 2 & 1)});
+  }
+  p.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                 {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return p;
+}
+
+MeshFile cube_mesh() {
+  MeshFile mesh;
+  mesh.vertices = cube().vertices;
+  mesh.tetrahedra = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
+                     {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
+  return mesh;
+}
+
+constexpr double kShare = 0.01;
+const double kAllowed = kShare * std::sqrt(3.0);
+
+VerifyReport judged(const MeshFile& mesh, const Polyhedron& input = cube()) {
+  VerifyReport report;
+  EXPECT_EQ(verify_envelope(input, mesh, kShare, {}, report), "");
+  return report;
+}
+
+std::string failed_first(const VerifyReport& report) {
+  for (const OracleReport& oracle : report.oracles) {
+    if (!oracle.passed()) return oracle.name;
+  }
+  return report.verdict == Verdict::deviating ? "" : "none named";
+}
+
+TEST(Envelope, DistancesAreBoundedFromAboveAndNearlySo) {
+  Polyhedron spiked = cube();
+  spiked.vertices.push_back({0.5, 0.6, 1.25});  // stands on the face z = 1, seen by no corner of it
+  spiked.triangles.erase(spiked.triangles.begin() + 2);
+  for (const auto& [a, b] : {std::pair{4U, 5U}, {5U, 7U}, {7U, 4U}}) {
+    spiked.triangles.push_back({a, b, 8U});
+  }
+  for (const double precision : {1e-2, 1e-4}) {
+    const double there = farthest(spiked, cube(), precision, 0);
+    EXPECT_GE(there, 0.25);
+    EXPECT_LE(there, 0.25 + precision * 1.0001);
+  }
+  // The point of the face z = 1 below the spike's apex, by a search over the face.
+  double exact = 0;
+  for (int i = 0; i <= 20; ++i) {
+    for (int j = 0; j <= 20; ++j) {
+      Polyhedron point;  // a triangle without extent
+      point.vertices = {{i / 20.0, j / 20.0, 1}};
+      point.triangles = {{0, 0, 0}};
+      exact = std::max(exact, farthest(point, spiked, 1e-9, 0));
+    }
+  }
+  const double back = farthest(cube(), spiked, 1e-4, 0);
+  EXPECT_GE(back, exact - 1e-9);
+  EXPECT_LE(back, exact + 0.03);  // half a step of the search
+}
+
+TEST(Envelope, AMeshWithinItPasses) {
+  EXPECT_EQ(failed_first(judged(cube_mesh())), "");
+  MeshFile moved = cube_mesh();
+  for (Position& p : moved.vertices) p[0] += 0.9 * kAllowed;
+  const VerifyReport report = judged(moved);
+  EXPECT_EQ(failed_first(report), "");
+  EXPECT_GE(report.deviation, 0.9 * kAllowed);
+  EXPECT_LE(report.deviation, 1.01 * kAllowed);
+}
+
+TEST(Envelope, WhatEachOracleIsFor) {
+  MeshFile far = cube_mesh();
+  for (Position& p : far.vertices) p[0] += 1.1 * kAllowed;
+  EXPECT_EQ(failed_first(judged(far)), "envelope");
+
+  // All that there is lies on the input; a part of the input is far from it.
+  MeshFile less = cube_mesh();
+  less.tetrahedra.pop_back();
+  EXPECT_EQ(failed_first(judged(less)), "envelope");
+
+  MeshFile inverted = cube_mesh();
+  std::swap(inverted.tetrahedra[0][0], inverted.tetrahedra[0][1]);
+  EXPECT_EQ(judged(inverted).verdict, Verdict::broken);
+
+  MeshFile twice = cube_mesh();
+  twice.tetrahedra.push_back(twice.tetrahedra[0]);
+  EXPECT_EQ(judged(twice).verdict, Verdict::broken);
+
+  MeshFile nowhere = cube_mesh();
+  nowhere.tetrahedra[0][0] = 99;
+  EXPECT_EQ(failed_first(judged(nowhere)), "complex");
+
+  MeshFile no_place = cube_mesh();
+  no_place.vertices[3][1] = NAN;
+  EXPECT_EQ(failed_first(judged(no_place)), "complex");
+
+  MeshFile empty = cube_mesh();
+  empty.tetrahedra.clear();
+  EXPECT_EQ(failed_first(judged(empty)), "own-surface");
+}
+
+// Six plates thinner than the envelope, one on each face of the cube: every point of either surface
+// is near the other one.
+TEST(Envelope, ACrustIsNoSolid) {
+  const double inner = 1 - kAllowed;
+  MeshFile crust;
+  for (const double scale : {1.0, inner}) {
+    for (const Position& p : cube().vertices) {
+      Position q;
+      for (std::size_t i = 0; i < 3; ++i) q[i] = 0.5 + scale * (p[i] - 0.5);
+      crust.vertices.push_back(q);
+    }
+  }
+  // A prism below each triangle; triangles of a prism's sides are cut at the smaller index.
+  for (const auto& [a, b, c] : cube().triangles) {
+    std::array<Index, 3> t = {a, b, c};
+    std::sort(t.begin(), t.end());
+    const auto [p, q, r] = t;
+    for (std::array<Index, 4> tet :
+         {std::array<Index, 4>{p, q, r, p + 8}, {q, r, p + 8, q + 8}, {r, p + 8, q + 8, r + 8}}) {
+      crust.tetrahedra.push_back(tet);
+    }
+  }
+  for (Tet& tet : crust.tetrahedra) {
+    double e[3][3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        e[i][c] = crust.vertices[tet[i + 1]][c] - crust.vertices[tet[0]][c];
+      }
+    }
+    const double volume = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
+                          e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
+                          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    if (volume < 0) std::swap(tet[2], tet[3]);
+  }
+  EXPECT_EQ(failed_first(judged(crust)), "envelope-volume");
+}
+
+}  // namespace
+}  // namespace tetproof::oracles
