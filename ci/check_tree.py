@@ -64,9 +64,9 @@ FOLDERS = {
     "ci": (),
 }
 
-# The benchmarks time the kernels. The adapter of TetGen and the table of plane meshers read and write with the very code of the mesher's command line, so that every mesher
+# The benchmarks time the kernels. The adapters of peers and the table of plane meshers read and write with the very code of the mesher's command line, so that every mesher
 # sees the same doubles; the io library needs nothing of the mesher but the public header.
-ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/tetgen_adapter/": "mesher/io/", "corpus/plane/": "mesher/io/"}
+ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/tetgen_adapter/": "mesher/io/", "corpus/peer_adapters/": "mesher/io/", "corpus/plane/": "mesher/io/"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 OPENED = re.compile(r"^(?:inline )?namespace(?: ([\w:]+))? \{$")

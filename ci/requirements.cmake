@@ -86,6 +86,12 @@ if(TETPROOF_HARNESS)
     optional(TetGen "no mesher `tetgen`" TETPROOF_TETGEN_INCLUDE_DIR TETPROOF_TETGEN_LIBRARY)
   endif()
 
+  # Peers of the league; only their own programs link them.
+  find_path(TETPROOF_NGLIB_INCLUDE_DIR netgen/nglib.h)
+  find_library(TETPROOF_NGLIB_LIBRARY nglib PATH_SUFFIXES netgen)
+  mark_as_advanced(TETPROOF_NGLIB_INCLUDE_DIR TETPROOF_NGLIB_LIBRARY)
+  optional(Netgen "no mesher `netgen`" TETPROOF_NGLIB_INCLUDE_DIR TETPROOF_NGLIB_LIBRARY)
+
   # Scripts that are compiled into the report; builds that define globals, not modules.
   set(script_folders PATHS /usr/share /usr/local/share PATH_SUFFIXES javascript javascript/chart.js javascript/chartjs
     javascript/three javascript/three/build javascript/three/examples/js/controls nodejs/three/build

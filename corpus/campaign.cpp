@@ -285,7 +285,11 @@ class Job {
                                      "--declared-deviation",
                                      deviation.str()};
     if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
-    argv.insert(argv.end(), {"--promised", mesher_.promised()});
+    if (mesher_.envelope > 0) {
+      argv.insert(argv.end(), {"--envelope", std::to_string(mesher_.envelope)});
+    } else {
+      argv.insert(argv.end(), {"--promised", mesher_.promised()});
+    }
     start(argv, options_.verify_limits);
     return true;
   }
@@ -459,6 +463,7 @@ class Campaign {
       row.model_path = model.path.string();
       row.model_bytes = model.bytes;
       row.region = mesher.region;
+      row.promise = mesher.promise();
       row.host = host_;
       running_.push_back(std::make_unique<Job>(model, mesher, std::move(row),
                                                folder / std::to_string(next_), options_));

@@ -2,12 +2,14 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
 
+#include "corpus/peers.h"
 #include "corpus/process.h"
 #include "corpus/sha256.h"
 #include "corpus/shell.h"
@@ -39,7 +41,6 @@ constexpr OwnVariant kDeviations[] = {
     {"gabriel", "mesh --gabriel"},    {"acute-90", "mesh --acute 90 --corner 90"},
     {"planar-0", "mesh --planar 0"},  {"improve-off", "mesh --improve off --slivers off"},
     {"slivers", "mesh --slivers on"}, {"hull", "mesh --region hull"}};
-constexpr OwnVariant kTetgen[] = {{"tetgen", "zpcq"}, {"tetgen-T0", "zpcqT0"}};
 
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream in(text);
@@ -52,16 +53,19 @@ std::string build_id(const fs::path& program) {
   return sha256_of_file(program).substr(0, 12);
 }
 
-std::string version_of(const fs::path& program, const MesherPrograms& programs) {
+std::string version_of(const fs::path& program, const MesherPrograms& programs,
+                       const char* option = "--version") {
   if (!fs::exists(program)) throw std::runtime_error(program.string() + ": no such program");
   const ProcessSpec spec = {
-      .argv = {program.string(), "--version"}, .directory = "/", .limits = {.wall_seconds = 30}};
+      .argv = {program.string(), option}, .directory = "/", .limits = {.wall_seconds = 30}};
   const Outcome outcome = run_supervised(programs.supervisor, spec);
   if (outcome.ending != Ending::exited || outcome.exit_code != 0) {
     throw std::runtime_error(program.string() + ": does not tell its version: " + outcome.error +
                              last_line(outcome.stderr_tail));
   }
-  return last_line(outcome.stdout_tail) + " (build " + build_id(program) + ")";
+  const std::string said = last_line(outcome.stdout_tail);
+  return (said.empty() ? last_line(outcome.stderr_tail) : said) + " (build " + build_id(program) +
+         ")";
 }
 
 Mesher own_mesher(const std::string& name, const std::string& arguments,
@@ -111,28 +115,6 @@ std::string deviation(const std::string& name) {
   return {};
 }
 
-Mesher tetgen_mesher(const std::string& name, const std::string& switches,
-                     const MesherPrograms& programs) {
-  if (!fs::exists(programs.tetgen)) {
-    throw std::runtime_error(name + ": " + programs.tetgen.string() +
-                             " is missing; it is built where TetGen (libtet1.5-dev) is installed");
-  }
-  Mesher mesher;
-  mesher.name = name;
-  mesher.version = version_of(programs.tetgen, programs);
-  mesher.flags = switches;
-  mesher.region = switches.find('c') != std::string::npos ? "hull" : "interior";
-  // Without T0 TetGen may move the surface by its default tolerance.
-  mesher.declared_deviation = switches.find("T0") != std::string::npos ? 0 : 1e-8;
-  mesher.mesh_extension = ".mesh";
-  mesher.exit_codes = ExitCodes::ours;
-  mesher.command = [program = programs.tetgen.string(), switches](const RunFiles& files) {
-    return std::vector<std::string>{program, switches, files.input.string(), files.mesh.string(),
-                                    files.stats.string()};
-  };
-  return mesher;
-}
-
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
   for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
     text.replace(at, from.size(), to);
@@ -157,6 +139,76 @@ std::optional<fs::path> program_of(const std::string& line) {
   return std::nullopt;
 }
 
+// The program that a peer's script runs; nothing if it is not there.
+std::optional<fs::path> program_of(const Peer& peer) {
+  const char* chosen = std::getenv(peer.variable);
+  return program_of(chosen != nullptr && *chosen != 0 ? chosen : peer.program);
+}
+
+// "Build options     : ... Netgen ..." on the error stream.
+bool has_feature(const Peer& peer, const MesherPrograms& programs) {
+  const ProcessSpec spec = {.argv = {program_of(peer).value().string(), "-info"},
+                            .directory = "/",
+                            .limits = {.wall_seconds = 30}};
+  const Outcome outcome = run_supervised(programs.supervisor, spec);
+  std::istringstream lines(outcome.stdout_tail + "\n" + outcome.stderr_tail);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("Build options")) continue;
+    const std::vector<std::string> words = words_of(line);
+    return std::find(words.begin(), words.end(), peer.feature) != words.end();
+  }
+  return false;
+}
+
+std::string version_of(const Peer& peer, const MesherPrograms& programs) {
+  if (peer.program == nullptr) return version_of(programs.adapters / peer.adapter, programs);
+  const fs::path program = program_of(peer).value();
+  if (*peer.version_option != 0) {
+    return peer.program + (" " + version_of(program, programs, peer.version_option));
+  }
+  return std::string(peer.program) + " (build " + build_id(program) + ")";
+}
+
+// The command of a program with our contract, or of a script.
+std::vector<std::string> peer_command(const Peer& peer, const fs::path& folder,
+                                      const RunFiles& files) {
+  const std::string adapter = (folder / peer.adapter).string();
+  if (peer.program == nullptr) {
+    return {adapter, peer.switches, files.input.string(), files.mesh.string(),
+            files.stats.string()};
+  }
+  std::vector<std::string> argv = {"/usr/bin/env", "TETPROOF=" + (folder / "tetproof").string(),
+                                   adapter, files.input.string(), files.mesh.string()};
+  for (const std::string& word : words_of(peer.switches)) argv.push_back(word);
+  return argv;
+}
+
+Mesher peer_mesher(const Peer& peer, const MesherPrograms& programs) {
+  const std::string missing = why_not_at_hand(peer.name, programs);
+  if (!missing.empty()) throw std::runtime_error(std::string(peer.name) + ": " + missing);
+  Mesher mesher;
+  mesher.name = peer.name;
+  mesher.version = version_of(peer, programs);
+  mesher.flags = peer.switches;
+  mesher.region = peer.region;
+  mesher.declared_deviation = peer.deviation;
+  mesher.envelope = peer.envelope;
+  mesher.mesh_extension = peer.extension;
+  mesher.exit_codes = peer.program == nullptr ? ExitCodes::ours : ExitCodes::unknown;
+  mesher.command = [&peer, folder = programs.adapters](const RunFiles& files) {
+    return peer_command(peer, folder, files);
+  };
+  return mesher;
+}
+
+// A share of the diagonal; nothing if the text is none.
+std::optional<double> share_of(const std::string& text) {
+  char* end = nullptr;
+  const double share = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != 0 || !(share >= 0)) return std::nullopt;
+  return share;
+}
+
 // "key=value" pieces between "cmd" and ':'.
 void take_declarations(const std::string& text, Mesher& mesher) {
   std::istringstream pieces(text);
@@ -165,15 +217,17 @@ void take_declarations(const std::string& text, Mesher& mesher) {
     const auto equals = piece.find('=');
     const std::string key = piece.substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : piece.substr(equals + 1);
-    char* end = nullptr;
+    const std::optional<double> share = share_of(value);
     if (key == "region" && (value == "hull" || value == "interior")) {
       mesher.region = value;
-    } else if (key == "deviation" && !value.empty() &&
-               (mesher.declared_deviation = std::strtod(value.c_str(), &end)) >= 0 && *end == 0) {
-      continue;
+    } else if (key == "deviation" && share) {
+      mesher.declared_deviation = *share;
+    } else if (key == "envelope" && share) {
+      mesher.envelope = *share;
     } else {
-      throw std::runtime_error("cmd," + piece +
-                               ": region=hull, region=interior or deviation=FRACTION is expected");
+      throw std::runtime_error(
+          "cmd," + piece +
+          ": region=hull, region=interior, deviation=FRACTION or envelope=FRACTION is expected");
     }
   }
 }
@@ -211,6 +265,22 @@ bool is_command(const std::string& text) {
 
 }  // namespace
 
+std::string Mesher::promise() const {
+  std::ostringstream text;
+  if (envelope > 0) {
+    text << "envelope " << envelope;
+  } else if (declared_deviation > 0) {
+    text << "within " << declared_deviation;
+  } else if (sidecar_command && flags.starts_with("mesh") &&
+             flags.find("--planar 0") == std::string::npos &&
+             flags.find("--preset paper") == std::string::npos) {
+    text << "planar within 2^-18";
+  } else {
+    text << "exact";
+  }
+  return text.str();
+}
+
 Mesher make_mesher(const std::string& text, const MesherPrograms& programs) {
   for (const OwnVariant& own : kOwn) {
     if (text == own.name) return own_mesher(own.name, own.arguments, programs);
@@ -220,9 +290,7 @@ Mesher make_mesher(const std::string& text, const MesherPrograms& programs) {
     const std::string arguments = deviation(text.substr(kPlus.size()));
     if (!arguments.empty()) return own_mesher(text, arguments, programs);
   }
-  for (const OwnVariant& tetgen : kTetgen) {
-    if (text == tetgen.name) return tetgen_mesher(tetgen.name, tetgen.arguments, programs);
-  }
+  if (const Peer* peer = peer_of(text.c_str())) return peer_mesher(*peer, programs);
   if (is_command(text)) return command_mesher(text, text);
   const auto equals = text.find('=');
   if (equals != std::string::npos && equals > 0) {
@@ -236,8 +304,26 @@ Mesher make_mesher(const std::string& text, const MesherPrograms& programs) {
 std::vector<std::string> mesher_names() {
   std::vector<std::string> names;
   for (const OwnVariant& own : kOwn) names.emplace_back(own.name);
-  for (const OwnVariant& tetgen : kTetgen) names.emplace_back(tetgen.name);
+  for (const Peer& peer : peers()) names.emplace_back(peer.name);
   return names;
+}
+
+std::string why_not_at_hand(const std::string& name, const MesherPrograms& programs) {
+  const Peer* peer = peer_of(name.c_str());
+  if (peer == nullptr) return "no peer has this name";
+  const fs::path adapter = programs.adapters / peer->adapter;
+  if (!fs::exists(adapter)) {
+    return adapter.filename().string() + " is missing; it is built where the library is (" +
+           peer->from + ")";
+  }
+  if (peer->program != nullptr && !program_of(*peer)) {
+    return std::string(peer->program) + " is neither on the PATH nor named by $" + peer->variable +
+           " (" + peer->from + ")";
+  }
+  if (peer->feature != nullptr && !has_feature(*peer, programs)) {
+    return std::string("this build of ") + peer->program + " is without " + peer->feature;
+  }
+  return "";
 }
 
 std::vector<std::string> ablation_names() {

@@ -14,7 +14,9 @@ namespace tetproof {
 struct MesherPrograms {
   std::filesystem::path supervisor;  // tetproof-supervise
   std::filesystem::path delmesher;
-  std::filesystem::path tetgen;  // tetproof-tetgen
+  // The folder of the adapters of peers (peers.h): tetproof-tetgen, adapters/gmsh, ..., and of
+  // tetproof, which scripts call.
+  std::filesystem::path adapters;
 };
 
 // The files of one run, all in a folder of its own.
@@ -32,6 +34,8 @@ struct Mesher {
   std::string mesh_extension;
   std::string line;               // for the shell, if it is a command of the user
   double declared_deviation = 0;  // fraction of the diagonal by which it may miss the surface
+  // Not 0: its boundary is any surface that is within this fraction of the diagonal of the input.
+  double envelope = 0;
   ExitCodes exit_codes = ExitCodes::unknown;
   std::function<std::vector<std::string>(const RunFiles&)> command;
   // Writes the mesh once more, to `again`, with the sidecar beside it; null if it knows none.
@@ -41,22 +45,29 @@ struct Mesher {
   // it is called with. Other meshers are not asked for planar facets: their surface is the one
   // given, but for the deviation that they declare.
   std::string promised() const { return sidecar_command ? flags : "mesh --planar 0"; }
+
+  // In words, for tables: "exact", "planar within 2^-18", "within 1e-08", "envelope 0.001".
+  std::string promise() const;
 };
 
 // Understands
 //   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges cdt
-//   tetgen tetgen-T0
+//   tetgen tetgen-T0 netgen gmsh-delaunay ...     the peers of peers.h
 //   delmesher+NAME                     one departure of its default from the paper undone: gabriel,
 //                                      acute-90, planar-0, improve-off, slivers, hull, or a name
 //                                      of --as-paper
 //   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options
 //   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it, and
-//   NAME=cmd,region=hull,deviation=1e-8:'...'   to say what it meshes and by how much it may miss
+//   NAME=cmd,region=hull,deviation=1e-8:'...'   to say what it meshes and by how much it may miss;
+//   NAME=cmd,envelope=1e-3:'...'                if its boundary is a surface of its own, so near
 // \throw std::runtime_error for an unknown name or a program that is missing.
 Mesher make_mesher(const std::string& name, const MesherPrograms& programs);
 
 // The names above, for help texts, without delmesher+NAME.
 std::vector<std::string> mesher_names();
+
+// Empty if the peer can be run here, else what is missing.
+std::string why_not_at_hand(const std::string& peer, const MesherPrograms& programs);
 
 // The default, every delmesher+NAME, and the paper's preset.
 std::vector<std::string> ablation_names();

@@ -1,10 +1,12 @@
 #include "corpus/meshers.h"
+#include "corpus/peers.h"
 #include "mesher/delmesher.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 namespace tetproof {
@@ -17,8 +19,9 @@ class Meshers : public testing::Test {
   void SetUp() override {
     folder_ = fs::path(testing::TempDir()) / ("meshers_test_" + std::to_string(getpid()));
     fs::create_directories(folder_);
-    programs_ = {TETPROOF_SUPERVISE_PATH, script("delmesher", "echo delmesher 1.2"),
-                 script("tetproof-tetgen", "echo TetGen 9.9")};
+    fs::create_directories(folder_ / "adapters");
+    programs_ = {TETPROOF_SUPERVISE_PATH, script("delmesher", "echo delmesher 1.2"), folder_};
+    script("tetproof-tetgen", "echo TetGen 9.9");
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -49,7 +52,7 @@ TEST_F(Meshers, ThePapersExperiments) {
   EXPECT_EQ(command("safe-delmesher-e4"), own + " mesh --preset paper --slivers off" + files);
   EXPECT_EQ(command("delmesher-nofilter"), own + " mesh --preset paper --tau 0" + files);
   EXPECT_EQ(command("cdt"), own + " cdt --region hull" + files);
-  const std::string tetgen = programs_.tetgen.string();
+  const std::string tetgen = (programs_.adapters / "tetproof-tetgen").string();
   EXPECT_EQ(command("tetgen"), tetgen + " zpcq in.off out.mesh stats.json");
   EXPECT_EQ(command("tetgen-T0"), tetgen + " zpcqT0 in.off out.mesh stats.json");
 }
@@ -100,9 +103,9 @@ TEST_F(Meshers, CommandsDeclareWhatTheyMesh) {
   EXPECT_EQ(mesher.declared_deviation, 1e-8);
   EXPECT_EQ(mesher.flags, "prog a:b {in} {out.msh}");
   EXPECT_EQ(make_mesher("cmd:prog {in} {out.msh}", programs_).declared_deviation, 0);
-  for (const char* text :
-       {"g=cmd,region=outside:p {in} {out.msh}", "cmd,deviation=:p {in} {out.msh}",
-        "cmd,deviation=-1:p {in} {out.msh}", "cmd,x:p {in} {out.msh}"}) {
+  for (const char* text : {"g=cmd,region=outside:p {in} {out.msh}",
+                           "cmd,deviation=:p {in} {out.msh}", "cmd,deviation=-1:p {in} {out.msh}",
+                           "cmd,envelope=x:p {in} {out.msh}", "cmd,x:p {in} {out.msh}"}) {
     EXPECT_THROW(make_mesher(text, programs_), std::runtime_error) << text;
   }
 }
@@ -130,13 +133,58 @@ TEST_F(Meshers, TheChamferedSurfaceIsAskedForOnlyWhereThereIsOne) {
   EXPECT_FALSE(asks("tetgen"));
 }
 
+// Programs of ours that link a peer, and scripts that run its program, which tells the version even
+// if on the error stream.
+TEST_F(Meshers, Peers) {
+  EXPECT_THROW(make_mesher("netgen", programs_), std::runtime_error);
+  EXPECT_FALSE(why_not_at_hand("netgen", programs_).empty());
+  script("tetproof-netgen", "echo Netgen 7");
+  EXPECT_EQ(why_not_at_hand("netgen", programs_), "");
+  const std::string folder = folder_.string();
+  EXPECT_EQ(command("netgen-raw"), folder + "/tetproof-netgen raw in.off out.mesh stats.json");
+  EXPECT_EQ(make_mesher("netgen", programs_).exit_codes, ExitCodes::ours);
+
+  script("adapters/gmsh", "true");
+  setenv("GMSH_PROGRAM", (folder_ / "nowhere").c_str(), 1);
+  EXPECT_NE(why_not_at_hand("gmsh-hxt", programs_).find("GMSH_PROGRAM"), std::string::npos);
+  setenv("GMSH_PROGRAM", script("gmsh", "echo 4.9 >&2").c_str(), 1);
+  EXPECT_EQ(command("gmsh-hxt-raw"), "/usr/bin/env TETPROOF=" + folder + "/tetproof " + folder +
+                                         "/adapters/gmsh in.off out.mesh -algo hxt -setnumber "
+                                         "Mesh.Optimize 0");
+  const Mesher gmsh = make_mesher("gmsh-hxt", programs_);
+  EXPECT_TRUE(gmsh.version.starts_with("gmsh 4.9 (build ")) << gmsh.version;
+  EXPECT_EQ(gmsh.mesh_extension, ".msh");
+  EXPECT_EQ(why_not_at_hand("gmsh-frontal", programs_), "this build of gmsh is without Netgen");
+  script("gmsh", "echo 'Build options     : 64Bit Netgen OpenMP' >&2");
+  EXPECT_EQ(why_not_at_hand("gmsh-frontal", programs_), "");
+  unsetenv("GMSH_PROGRAM");
+}
+
+TEST_F(Meshers, WhatEachPromises) {
+  const auto promise = [&](const std::string& text) {
+    return make_mesher(text, programs_).promise();
+  };
+  EXPECT_EQ(promise("delmesher"), "planar within 2^-18");
+  EXPECT_EQ(promise("delmesher+planar-0"), "exact");
+  EXPECT_EQ(promise("delmesher-e4"), "exact");
+  EXPECT_EQ(promise("cdt"), "exact");
+  EXPECT_EQ(promise("tetgen"), "within 1e-08");
+  EXPECT_EQ(promise("tetgen-T0"), "exact");
+  EXPECT_EQ(promise("g=cmd,envelope=1e-3:p {in} {out.msh}"), "envelope 0.001");
+  for (const Peer& peer : peers()) {
+    EXPECT_TRUE(peer.deviation == 0 || peer.envelope == 0) << peer.name;
+    EXPECT_EQ(peer_of(peer.name), &peer);
+    EXPECT_EQ(std::string(peer.adapter).starts_with("adapters/"), peer.program != nullptr);
+  }
+}
+
 TEST_F(Meshers, Errors) {
   EXPECT_THROW(make_mesher("nonsense", programs_), std::runtime_error);
   EXPECT_THROW(make_mesher("cmd:prog {in}", programs_), std::runtime_error);
   EXPECT_THROW(make_mesher("cmd:prog {out.mesh}", programs_), std::runtime_error);
   EXPECT_THROW(make_mesher("=cmd:prog {in} {out.mesh}", programs_), std::runtime_error);
   MesherPrograms none = programs_;
-  none.tetgen = folder_ / "missing";
+  none.adapters = folder_ / "missing";
   EXPECT_THROW(make_mesher("tetgen", none), std::runtime_error);
   none.delmesher = script("broken", "exit 1");
   EXPECT_THROW(make_mesher("delmesher", none), std::runtime_error);

@@ -99,6 +99,7 @@ Json to_object(const RunRow& row, const ExportOptions& options) {
   put(json, "exit_code", row.exit_code);
   put(json, "signal", row.signal);
   json["region"] = row.region;
+  if (!row.promise.empty()) json["promise"] = row.promise;
   put(json, "inverted", row.inverted);
   put(json, "flat", row.flat);
   const bool brief = options.brief;
@@ -143,6 +144,7 @@ RunRow from_object(const Json& json) {
   get(json, "exit_code", row.exit_code);
   get(json, "signal", row.signal);
   get(json, "region", row.region);
+  get(json, "promise", row.promise);
   get(json, "inverted", row.inverted);
   get(json, "flat", row.flat);
   get(json, "wall_seconds", row.wall_seconds);
@@ -195,6 +197,7 @@ std::vector<std::string> csv_header(const ExportOptions& options) {
                                      "signal",
                                      "verdict",
                                      "region",
+                                     "promise",
                                      "vertices",
                                      "tetrahedra",
                                      "inside_tetrahedra",
@@ -243,6 +246,7 @@ std::vector<std::string> csv_row(const RunRow& row, const ExportOptions& options
                                     text(row.signal),
                                     verdict_of(row),
                                     row.region,
+                                    row.promise,
                                     of(row.mesh, &MeshColumns::vertices),
                                     of(row.mesh, &MeshColumns::tetrahedra),
                                     of(row.inside, &MeshColumns::tetrahedra),

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int kSchemaVersion = 4;
+constexpr int kSchemaVersion = 5;
 constexpr int kApplicationId = 0x74657470;  // "tetp"
 constexpr std::array<const char*, kDispositionCount> kDispositions = {
     "ok", "unverified", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"};
@@ -46,6 +46,7 @@ CREATE TABLE IF NOT EXISTS runs (
   verify_seconds REAL,
   share_below_5_degrees REAL, share_below_10_degrees REAL, dihedral_1_percent REAL,
   min_gamma REAL, mean_gamma REAL, gamma_1_percent REAL, min_sicn REAL, mean_sicn REAL,
+  promise TEXT NOT NULL DEFAULT '',
   UNIQUE (model_sha256, mesher, version, flags, limits)))";
 
 constexpr const char* kColumns =
@@ -55,7 +56,7 @@ constexpr const char* kColumns =
     "max_face_angle, min_dihedral, max_dihedral, microseconds_per_tetrahedron, "
     "peak_bytes_per_tetrahedron, stats_json, mesh_json, verdict_json, stderr_tail, stdout_tail, "
     "command, host, started";
-constexpr const char* kLaterColumns = ", verdict, mesh_path, verify_seconds";
+constexpr const char* kLaterColumns = ", verdict, mesh_path, verify_seconds, promise";
 
 // Written for queries by hand only: they are read from the JSON texts.
 struct QualityColumn {
@@ -71,7 +72,7 @@ constexpr QualityColumn kQualityColumns[] = {
     {"gamma_1_percent", &MeshColumns::gamma_percent},
     {"min_sicn", &MeshColumns::min_sicn},
     {"mean_sicn", &MeshColumns::mean_sicn}};
-constexpr std::size_t kColumnCount = 38 + std::size(kQualityColumns);
+constexpr std::size_t kColumnCount = 39 + std::size(kQualityColumns);
 
 constexpr const char* kWhereKey =
     " WHERE model_sha256 = ? AND mesher = ? AND version = ? AND flags = ? AND limits = ?";
@@ -175,6 +176,7 @@ void bind_row(SQLite::Statement& statement, const RunRow& row) {
   bind(verdict_of(row));
   bind(row.mesh_path);
   bind(row.verify_seconds);
+  bind(row.promise);
   for (const QualityColumn& quality : kQualityColumns) {
     bind(row.mesh ? (*row.mesh).*quality.column : std::nullopt);
   }
@@ -214,6 +216,7 @@ RunRow read_row(SQLite::Statement& statement) {
   read(in_verdict);
   read(row.mesh_path);
   read(row.verify_seconds);
+  read(row.promise);
   row.mesh = mesh_columns(row.mesh_json, "");
   row.inside = mesh_columns(row.mesh_json, "inside");
   row.refined = mesh_columns(row.stats_json, "refined");
@@ -365,6 +368,9 @@ void ResultsDatabase::prepare_for_writing() {
       database_->exec(std::string("ALTER TABLE runs ADD COLUMN ") + quality.name + " REAL");
     }
   }
+  if (!empty && version_ < 5) {
+    database_->exec("ALTER TABLE runs ADD COLUMN promise TEXT NOT NULL DEFAULT ''");
+  }
   version_ = kSchemaVersion;
   database_->exec("PRAGMA user_version = " + std::to_string(kSchemaVersion));
   database_->exec("PRAGMA application_id = " + std::to_string(kApplicationId));
@@ -420,8 +426,11 @@ void ResultsDatabase::store(const RunRow& row) {
 }
 
 std::string ResultsDatabase::selected_columns() const {
-  if (version_ == 1) return std::string(kColumns) + ", '', '', NULL";
-  return std::string(kColumns) + (version_ == 2 ? ", verdict, mesh_path, NULL" : kLaterColumns);
+  const char* later = version_ == 1   ? ", '', '', NULL, ''"
+                      : version_ == 2 ? ", verdict, mesh_path, NULL, ''"
+                      : version_ < 5  ? ", verdict, mesh_path, verify_seconds, ''"
+                                      : kLaterColumns;
+  return std::string(kColumns) + later;
 }
 
 std::optional<RunRow> ResultsDatabase::find(const RunKey& key) {

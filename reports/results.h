@@ -69,6 +69,7 @@ struct RunRow {
   std::optional<MeshColumns> refined;  // before the enriched CDT, by the mesher's account
   std::optional<std::uint64_t> inverted, flat;
   std::string region;        // the region that the mesh covers: "hull", "interior" or empty
+  std::string promise;       // of the surface, in words: "exact", ...; empty in older results
   std::string stats_json;    // the mesher's own, empty if none
   std::string mesh_json;     // measured, empty if no readable mesh
   std::string verdict_json;  // the oracles', empty if not asked

@@ -41,6 +41,7 @@ RunRow sample(const std::string& model = "aa", const std::string& mesher = "tetg
   row.peak_rss_bytes = 1234567890123;
   row.inverted = 3;
   row.region = "hull";
+  row.promise = "within 1e-08";
   row.mesh_json = R"({"tetrahedra": 10, "vertices": 7, "min_face_angle": 0.25,
                       "inside": {"tetrahedra": 4}})";
   row.stats_json = R"({"refined": {"tetrahedra": 9, "min_face_angle": 14.5}})";
@@ -265,8 +266,9 @@ TEST(Verdict, NoRowIsOkWithoutOne) {
   }
 }
 
-// The columns that came with the fourth version.
+// The columns that came with the fourth version and the fifth.
 void drop_quality(SQLite::Database& raw) {
+  raw.exec("ALTER TABLE runs DROP COLUMN promise");
   for (const char* column :
        {"share_below_5_degrees", "share_below_10_degrees", "dihedral_1_percent", "min_gamma",
         "mean_gamma", "gamma_1_percent", "min_sicn", "mean_sicn"}) {
@@ -289,10 +291,13 @@ TEST_F(Results, FilesOfTheThirdVersionGetColumnsOfQuality) {
   const MeshColumns old = *ResultsDatabase(path_, Mode::read).rows().at(0).mesh;
   EXPECT_EQ(old.mean_gamma, std::nullopt);
   EXPECT_EQ(old.share_below_5, std::nullopt);
+  EXPECT_EQ(ResultsDatabase(path_, Mode::read).rows().at(0).promise, "");
   row.key.model_sha256 = "bb";
   ResultsDatabase(path_, Mode::write).store(row);
   const auto rows = ResultsDatabase(path_, Mode::read).rows();
   ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].promise, "");
+  EXPECT_EQ(rows[1].promise, "within 1e-08");
   EXPECT_EQ(rows[1].mesh->share_below_5, 0.015);
   EXPECT_EQ(rows[1].mesh->share_below_10, 0.04);
   EXPECT_EQ(rows[1].mesh->dihedral_percent, 7.5);

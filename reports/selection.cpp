@@ -9,9 +9,26 @@
 namespace tetproof {
 namespace {
 
-constexpr const char* kKnownOrder[] = {"tetgen-T0",           "tetgen",       "cdt",
-                                       "safe-delmesher-e4",   "delmesher-e4", "delmesher-nofilter",
-                                       "delmesher-nobridges", "delmesher"};
+// The paper's, with other peers after TetGen.
+constexpr const char* kKnownOrder[] = {"tetgen-T0",
+                                       "tetgen",
+                                       "netgen",
+                                       "netgen-raw",
+                                       "gmsh-delaunay",
+                                       "gmsh-delaunay-raw",
+                                       "gmsh-frontal",
+                                       "gmsh-frontal-raw",
+                                       "gmsh-hxt",
+                                       "gmsh-hxt-raw",
+                                       "cgal-mesh3",
+                                       "tetwild",
+                                       "ftetwild",
+                                       "cdt",
+                                       "safe-delmesher-e4",
+                                       "delmesher-e4",
+                                       "delmesher-nofilter",
+                                       "delmesher-nobridges",
+                                       "delmesher"};
 
 std::vector<std::string> ordered_meshers(
     const std::map<std::string, std::map<std::string, RunRow>>& runs) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/meshers.h"
 #include "reports/gate.h"
 
 namespace tetproof {
@@ -26,6 +27,10 @@ struct RunArguments {
   unsigned jobs = 1;
   bool verify = true, sidecars = false;
   bool ablation = false;  // ablation_names() as well
+};
+
+struct MeshersArguments {
+  bool at_hand = false;  // the names alone of those that can be run here
 };
 
 struct ExportArguments {
@@ -105,7 +110,11 @@ void handle_interrupts();
 // The meshers that are asked for, one by one. \throw UsageError if there are none.
 std::vector<std::string> asked_meshers(const RunArguments& arguments);
 
+// The programs that stand in one folder with the running one.
+MesherPrograms programs_here();
+
 int run_command(const RunArguments& arguments);
+int meshers_command(const MeshersArguments& arguments);
 int report_command(const ReportArguments& arguments);
 int measure_command(const MeasureArguments& arguments);
 int export_command(const ExportArguments& arguments);

@@ -50,12 +50,10 @@ std::vector<std::string> asked_meshers(const RunArguments& arguments) {
 namespace {
 
 std::vector<Mesher> chosen_meshers(const RunArguments& arguments) {
-  MesherPrograms programs;
-  programs.supervisor = beside_this_program("tetproof-supervise");
-  programs.tetgen = beside_this_program("tetproof-tetgen");
-  programs.delmesher = std::filesystem::absolute(arguments.delmesher.empty()
-                                                     ? beside_this_program("delmesher").string()
-                                                     : arguments.delmesher);
+  MesherPrograms programs = programs_here();
+  if (!arguments.delmesher.empty()) {
+    programs.delmesher = std::filesystem::absolute(arguments.delmesher);
+  }
   std::vector<Mesher> meshers;
   try {
     for (const std::string& name : asked_meshers(arguments))

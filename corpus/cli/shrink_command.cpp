@@ -18,10 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Prober prober_for(const ShrinkArguments& arguments, const fs::path& folder) {
-  MesherPrograms programs;
-  programs.supervisor = beside_this_program("tetproof-supervise");
-  programs.tetgen = beside_this_program("tetproof-tetgen");
-  programs.delmesher = beside_this_program("delmesher");
+  const MesherPrograms programs = programs_here();
   Prober prober;
   try {
     prober.mesher = make_mesher(arguments.mesher, programs);

@@ -100,6 +100,14 @@ CLI::App* declare_merge(CLI::App& tetproof, MergeArguments& a) {
   return app;
 }
 
+CLI::App* declare_meshers(CLI::App& tetproof, MeshersArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "meshers",
+      "The meshers of others known by name: licence, promise, version or what is missing");
+  app->add_flag("--at-hand", a.at_hand, "Only the names of those that can be run here");
+  return app;
+}
+
 CLI::App* declare_convert(CLI::App& tetproof, ConvertArguments& a) {
   CLI::App* app = tetproof.add_subcommand("convert", "A surface in another format, exactly");
   app->add_option("input", a.input, "A surface file")->required();
@@ -274,6 +282,8 @@ int parse_and_run(int argc, char** argv) {
   const CLI::App* classify_app = declare_classify(app, classification);
   SlurmArguments slurm;
   const CLI::App* slurm_app = declare_slurm(app, slurm);
+  MeshersArguments meshers;
+  const CLI::App* meshers_app = declare_meshers(app, meshers);
   ConvertArguments conversion;
   const CLI::App* convert_app = declare_convert(app, conversion);
 #ifdef TETPROOF_HAS_GENERATE
@@ -299,6 +309,7 @@ int parse_and_run(int argc, char** argv) {
   if (classify_app->parsed()) return classify_command(classification);
   if (slurm_app->parsed()) return slurm_command(slurm);
   if (merge_app->parsed()) return merge_command(merging);
+  if (meshers_app->parsed()) return meshers_command(meshers);
   if (convert_app->parsed()) return convert_command(conversion);
 #ifdef TETPROOF_HAS_GENERATE
   if (generate_app->parsed()) return generate_command(generate);

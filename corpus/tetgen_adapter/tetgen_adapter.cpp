@@ -4,14 +4,11 @@
 // same writer and the same exit codes: 3 input unreadable, 4 refused, 5 out of memory, 6 internal
 // error. TetGen may also abort, hang or crash: the caller runs this as a supervised child.
 #include <tetgen.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <new>
 #include <numeric>
@@ -19,41 +16,31 @@
 #include <utility>
 #include <vector>
 
+#include "corpus/peer_adapters/adapter.h"
 #include "corpus/tetgen_adapter/inside_flood.h"
-#include "mesher/io/parse_surface.h"
-#include "mesher/io/write_mesh.h"
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-[[noreturn]] void finish(int code, const std::string& file, const std::string& reason) {
-  if (code != 0) std::fprintf(stderr, "tetproof-tetgen: %s: %s\n", file.c_str(), reason.c_str());
-  std::fflush(nullptr);
-  _exit(code);  // without TetGen's destructors, which are not part of what is measured
-}
+using tetproof::adapter::Call;
+using tetproof::adapter::finish;
 
 // Ends with the meaning of the integer that TetGen throws.
-[[noreturn]] void refused(int thrown, const std::string& file) {
+[[noreturn]] void refused(int thrown, const Call& call) {
   switch (thrown) {
     case 1:
-      finish(5, file, "TetGen 1: out of memory");
+      finish(call, 5, call.input, "TetGen 1: out of memory");
     case 2:
-      finish(6, file, "TetGen 2: internal error");
+      finish(call, 6, call.input, "TetGen 2: internal error");
     case 3:
-      finish(4, file, "TetGen 3: self-intersection detected");
+      finish(call, 4, call.input, "TetGen 3: self-intersection detected");
     case 4:
-      finish(4, file, "TetGen 4: very small input feature");
+      finish(call, 4, call.input, "TetGen 4: very small input feature");
     case 5:
-      finish(4, file, "TetGen 5: two very close input facets");
+      finish(call, 4, call.input, "TetGen 5: two very close input facets");
     case 10:
-      finish(4, file, "TetGen 10: input error");
+      finish(call, 4, call.input, "TetGen 10: input error");
     default:
-      finish(4, file, "TetGen " + std::to_string(thrown));
+      finish(call, 4, call.input, "TetGen " + std::to_string(thrown));
   }
 }
 
@@ -165,26 +152,6 @@ void fill(const delmesher::Surface& surface, const Markers& markers, tetgenio& i
   }
 }
 
-bool positive(const delmesher::TetMesh& mesh, const std::array<std::uint32_t, 4>& t) {
-  double e[3][3];
-  for (int i = 0; i < 3; ++i) {
-    for (int c = 0; c < 3; ++c) e[i][c] = mesh.vertices[t[i + 1]][c] - mesh.vertices[t[0]][c];
-  }
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) -
-             e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-             e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]) >
-         0;
-}
-
-// TetGen orders corners the other way round. All are turned or none, so that tetrahedra that TetGen
-// inverted stay visible.
-void orient(delmesher::TetMesh& mesh) {
-  const auto count = std::count_if(mesh.tetrahedra.begin(), mesh.tetrahedra.end(),
-                                   [&](const auto& t) { return positive(mesh, t); });
-  if (2 * static_cast<std::size_t>(count) >= mesh.tetrahedra.size()) return;
-  for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
-}
-
 delmesher::TetMesh take(const tetgenio& out, const delmesher::Surface& surface,
                         const Markers& markers, bool whole_hull) {
   delmesher::TetMesh mesh;
@@ -211,54 +178,33 @@ delmesher::TetMesh take(const tetgenio& out, const delmesher::Surface& surface,
     mesh.boundary_labels.push_back(surface.labels.empty() ? 0 : surface.labels[facet]);
     mesh.boundary_facets.push_back(facet);
   }
-  orient(mesh);
+  tetproof::adapter::orient(mesh);
   if (whole_hull) mesh.inside = tetproof::flood_inside(mesh.tetrahedra, mesh.boundary);
   if (mesh.inside.empty()) mesh.inside.assign(mesh.tetrahedra.size(), whole_hull ? 0 : 1);
   return mesh;
 }
 
-void write_statistics(const char* path, const delmesher::Surface& surface,
-                      const delmesher::TetMesh& mesh, double read, double meshing, double write) {
-  std::ofstream out(path);
-  out.precision(9);
-  const auto inside = std::count(mesh.inside.begin(), mesh.inside.end(), 1);
-  out << "{\"input\": {\"vertices\": " << surface.vertices.size()
-      << ", \"triangles\": " << surface.triangles.size() << "}, \"status\": \"ok\", "
-      << "\"phases_seconds\": {\"read\": " << read << ", \"tetrahedralize\": " << meshing
-      << ", \"write\": " << write << "}, \"final\": {\"vertices\": " << mesh.vertices.size()
-      << ", \"tetrahedra\": " << mesh.tetrahedra.size() << ", \"interior_tetrahedra\": " << inside
-      << "}}\n";
-}
-
-int run(MarkersBy by, char* switches, const std::string& input, const std::string& output,
-        const char* stats) {
-  auto start = Clock::now();
-  const delmesher::io::ReadResult read = delmesher::io::read_surface(input);
-  if (!read.ok()) finish(3, input, read.error);
+// `switches` is TetGen's to write into.
+[[noreturn]] void run(MarkersBy by, char* switches, const Call& call) {
+  const tetproof::adapter::Stopwatch reading;
+  const delmesher::Surface surface = tetproof::adapter::read(call);
   tetgenio in, out;
-  const Markers markers(read.surface, by);
-  fill(read.surface, markers, in);
-  const double reading = seconds_since(start);
+  const Markers markers(surface, by);
+  fill(surface, markers, in);
+  const double read_seconds = reading.seconds();
 
-  start = Clock::now();
+  const tetproof::adapter::Stopwatch meshing;
   try {
     tetrahedralize(switches, &in, &out);
   } catch (int thrown) {
-    refused(thrown, input);
+    refused(thrown, call);
   } catch (const std::bad_alloc&) {
-    finish(5, input, "out of memory");
+    finish(call, 5, call.input, "out of memory");
   }
-  const double meshing = seconds_since(start);
-
-  start = Clock::now();
+  const double mesh_seconds = meshing.seconds();
   const bool whole_hull = std::strchr(switches, 'c') != nullptr;
-  const delmesher::TetMesh mesh = take(out, read.surface, markers, whole_hull);
-  delmesher::io::OutputSet outputs;
-  delmesher::io::WriteStatus status = delmesher::io::write_mesh(outputs, output, mesh);
-  if (status.ok()) status = outputs.commit();
-  if (!status.ok()) finish(3, output, status.error);
-  write_statistics(stats, read.surface, mesh, reading, meshing, seconds_since(start));
-  finish(0, input, "");
+  tetproof::adapter::deliver(call, surface, take(out, surface, markers, whole_hull), read_seconds,
+                             mesh_seconds);
 }
 
 }  // namespace
@@ -286,5 +232,5 @@ int main(int argc, char** argv) {
                  "OUT.mesh STATS.json\n");
     return 2;
   }
-  return run(by, argv[1], argv[2], argv[3], argv[4]);
+  run(by, argv[1], {"tetproof-tetgen", argv[1], argv[2], argv[3], argv[4]});
 }

@@ -1,0 +1,64 @@
+#include "corpus/peers.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace tetproof {
+namespace {
+
+// Gmsh writes 16 digits, which are not always the double it had.
+constexpr double kGmsh = 1e-14;
+
+constexpr Peer gmsh(const char* name, const char* switches, const char* feature = nullptr) {
+  return {.name = name,
+          .adapter = "adapters/gmsh",
+          .switches = switches,
+          .extension = ".msh",
+          .region = "interior",
+          .deviation = kGmsh,
+          .envelope = 0,
+          .licence = "GPL-2.0",
+          .from = "package gmsh",
+          .program = "gmsh",
+          .variable = "GMSH_PROGRAM",
+          .version_option = "--version",
+          .feature = feature};
+}
+
+// Without T0 TetGen may move the surface by its default tolerance. Envelopes are the defaults of
+// the programs.
+constexpr Peer kPeers[] = {
+    {"tetgen", "tetproof-tetgen", "zpcq", ".mesh", "hull", 1e-8, 0, "AGPL-3.0",
+     "package libtet1.5-dev"},
+    {"tetgen-T0", "tetproof-tetgen", "zpcqT0", ".mesh", "hull", 0, 0, "AGPL-3.0",
+     "package libtet1.5-dev"},
+    {"netgen", "tetproof-netgen", "-", ".mesh", "interior", 0, 0, "LGPL-2.1",
+     "package libnglib-dev"},
+    {"netgen-raw", "tetproof-netgen", "raw", ".mesh", "interior", 0, 0, "LGPL-2.1",
+     "package libnglib-dev"},
+    gmsh("gmsh-delaunay", "-algo del3d"),
+    gmsh("gmsh-delaunay-raw", "-algo del3d -setnumber Mesh.Optimize 0"),
+    gmsh("gmsh-frontal", "-algo front3d", "Netgen"),
+    gmsh("gmsh-frontal-raw", "-algo front3d -setnumber Mesh.Optimize 0", "Netgen"),
+    gmsh("gmsh-hxt", "-algo hxt"),
+    gmsh("gmsh-hxt-raw", "-algo hxt -setnumber Mesh.Optimize 0"),
+    {"ftetwild", "adapters/ftetwild", "", ".msh", "interior", 0, 1e-3, "MPL-2.0",
+     "github.com/wildmeshing/fTetWild", "FloatTetwild_bin", "FTETWILD_PROGRAM", ""},
+    {"tetwild", "adapters/tetwild", "", ".msh", "interior", 0, 1e-3, "MPL-2.0",
+     "github.com/Yixin-Hu/TetWild", "TetWild", "TETWILD_PROGRAM", ""},
+};
+
+}  // namespace
+
+std::span<const Peer> peers() {
+  return kPeers;
+}
+
+const Peer* peer_of(const char* name) {
+  const auto found = std::find_if(std::begin(kPeers), std::end(kPeers), [&](const Peer& peer) {
+    return std::string_view(peer.name) == name;
+  });
+  return found == std::end(kPeers) ? nullptr : found;
+}
+
+}  // namespace tetproof
