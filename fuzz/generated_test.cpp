@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "corpus/generate/certify.h"
 #include "corpus/generate/edits.h"
@@ -168,7 +169,14 @@ TEST(Shrink, KeepsWhatMatters) {
   const double enough = 0.9 * reach(surface);
   ShrinkProgress progress;
   const Surface small = shrink(
-      surface, [&](const Surface& s) { return reach(s) > enough; }, {2000, 20}, progress);
+      surface,
+      [&](const std::vector<Surface>& candidates) -> std::optional<std::size_t> {
+        for (std::size_t i = 0; i < candidates.size(); ++i) {
+          if (reach(candidates[i]) > enough) return i;
+        }
+        return std::nullopt;
+      },
+      {2000, 20}, progress);
   EXPECT_TRUE(certified_valid(small));
   EXPECT_GT(reach(small), enough);
   EXPECT_LE(small.triangles.size(), 8U);

@@ -1,8 +1,10 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 
 #include "corpus/cli/commands.h"
 #include "corpus/files.h"
@@ -44,22 +46,23 @@ int shrink_command(const ShrinkArguments& arguments) {
   if (const auto defect = first_defect(surface)) {
     throw std::runtime_error(arguments.input + ": not a valid surface");
   }
-  const Failure wanted = prober.failure(surface);
-  if (wanted.empty()) {
+  const Probe first = prober.probe(surface);
+  if (first.failure.empty()) {
     fmt::print("{} does not fail on {}\n", prober.mesher.name, arguments.input);
     return 1;
   }
-  fmt::print("{} triangles: {}\n", surface.triangles.size(), wanted);
+  fmt::print("{} triangles: {}\n", surface.triangles.size(), first.failure);
   ShrinkProgress progress;
   progress.tell = [&](const std::string& step, const delmesher::Surface& s) {
     fmt::print("{:>8} runs, after {:<12} {} triangles\n", progress.runs, step, s.triangles.size());
     std::fflush(stdout);
   };
-  const delmesher::Surface small = shrink(
-      surface, [&](const delmesher::Surface& s) { return prober.failure(s) == wanted; },
-      {arguments.runs, arguments.seconds}, progress);
+  SideBySide judges(prober, first);
+  const delmesher::Surface small =
+      shrink(surface, std::ref(judges),
+             {arguments.runs, arguments.seconds, std::max(1U, arguments.jobs)}, progress);
   std::ofstream file(arguments.output, std::ios::binary);
-  file << to_off(small, prober.mesher.name + ": " + wanted, true);
+  file << to_off(small, prober.mesher.name + ": " + first.failure, true);
   file.close();
   if (!file) throw std::runtime_error(arguments.output + ": cannot be written");
   fmt::print("{} triangles in {} after {} runs\n", small.triangles.size(), arguments.output,

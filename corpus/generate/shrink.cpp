@@ -79,21 +79,23 @@ std::size_t digits(const Surface& s) {
 
 class Shrinker {
  public:
-  Shrinker(const Surface& surface, const StillFails& fails, const ShrinkLimits& limits,
+  Shrinker(const Surface& surface, const OneThatFails& fails, const ShrinkLimits& limits,
            ShrinkProgress& progress)
       : best_(shapes::welded(surface)), fails_(fails), limits_(limits), progress_(progress) {}
 
   Surface run() {
+    // Single collapses are many runs, and wait until nothing else helps.
     for (bool better = true; better && !spent();) {
       better = false;
       better |= step("components", [&] { return remove_components(); });
       better |= step("cuts", [&] { return cut_away(); });
-      better |= step("collapses", [&] { return collapse_edges(); });
+      better |= step("collapses", [&] { return collapse_edges(false); });
+      if (!better) better = step("collapses", [&] { return collapse_edges(true); });
     }
     // Coordinates come last, as a collapse keeps them simple; a collapse may become possible again.
     for (bool better = true; better && !spent();) {
       better = step("coordinates", [&] { return simplify_coordinates(); });
-      step("collapses", [&] { return collapse_edges(); });
+      step("collapses", [&] { return collapse_edges(true); });
     }
     return best_;
   }
@@ -113,16 +115,28 @@ class Shrinker {
     return true;
   }
 
-  // Keeps the surface if it is valid and fails.
-  bool accept(const Surface& candidate) {
-    if (spent() || candidate.triangles.empty()) return false;
-    Surface welded = shapes::welded(candidate);
-    if (!certified_valid(welded)) return false;
-    ++progress_.runs;
-    if (!fails_(welded)) return false;
-    best_ = std::move(welded);
-    return true;
+  // Keeps the first of the surfaces that is known to fail, of those that are valid. Takes them in
+  // their order, as many at once as are to be judged together.
+  bool accept(const std::vector<Surface>& candidates) {
+    std::vector<Surface> together;
+    for (std::size_t i = 0; i < candidates.size() && !spent(); ++i) {
+      Surface welded = shapes::welded(candidates[i]);
+      if (!welded.triangles.empty() && certified_valid(welded)) {
+        together.push_back(std::move(welded));
+      }
+      if (together.empty() || (together.size() < limits_.at_once && i + 1 < candidates.size())) {
+        continue;
+      }
+      progress_.runs += together.size();
+      if (const auto one = fails_(together)) {
+        best_ = std::move(together[*one]);
+        return true;
+      }
+      together.clear();
+    }
+    return false;
   }
+  bool accept(const Surface& candidate) { return accept(std::vector<Surface>{candidate}); }
 
   // Halves of the components first, then single ones.
   bool remove_components() {
@@ -149,53 +163,85 @@ class Shrinker {
     }
   }
 
+  // The largest cuts first; after one that failed too, the same share of what is left.
   bool cut_away() {
     bool better = false;
     for (const double share : {0.5, 0.25, 0.125, 1.0 / 32}) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const bool upper : {false, true}) {
-          while (cut_once(axis, upper, share)) better = true;
-        }
-      }
+      while (!spent() && accept(cuts(share))) better = true;
     }
     return better;
   }
 
-  // Removes about this share of the extent at one end of an axis.
-  bool cut_once(int axis, bool upper, double share) {
-    const Range r = range_of(best_);
-    const auto i = static_cast<std::size_t>(axis);
-    const double at = upper ? r.high[i] - (r.high[i] - r.low[i]) * share
-                            : r.low[i] + (r.high[i] - r.low[i]) * share;
-    const std::size_t before = best_.triangles.size();
-    Surface part;
-    if (upper) {
-      part = cut(best_, axis, at);
-    } else {
-      Surface mirrored = best_;
-      mirror(mirrored, i);
-      part = cut(mirrored, axis, -at);
-      mirror(part, i);
+  // What is left after about this share of the extent is removed at either end of an axis, the
+  // smallest first.
+  std::vector<Surface> cuts(double share) const {
+    std::vector<Surface> left;
+    for (const std::size_t axis : {0U, 1U, 2U}) {
+      for (const bool upper : {false, true}) {
+        Surface part = cut_once(axis, upper, share);
+        if (part.triangles.size() < best_.triangles.size()) left.push_back(std::move(part));
+      }
     }
-    return part.triangles.size() < before && accept(part);
+    std::stable_sort(left.begin(), left.end(), [](const Surface& a, const Surface& b) {
+      return a.triangles.size() < b.triangles.size();
+    });
+    return left;
+  }
+
+  Surface cut_once(std::size_t axis, bool upper, double share) const {
+    const Range r = range_of(best_);
+    const double width = (r.high[axis] - r.low[axis]) * share;
+    if (upper) return cut(best_, static_cast<int>(axis), r.high[axis] - width);
+    Surface mirrored = best_;
+    mirror(mirrored, axis);
+    Surface part = cut(mirrored, static_cast<int>(axis), -(r.low[axis] + width));
+    mirror(part, axis);
+    return part;
   }
   static void mirror(Surface& s, std::size_t axis) {
     for (Point& p : s.vertices) p[axis] = -p[axis];
     shapes::reverse(s);
   }
 
-  // Collapses many edges at once, then fewer, down to one by one.
-  bool collapse_edges() {
+  // Collapses many edges at once, then fewer; down to one by one if `single`, else to groups.
+  bool collapse_edges(bool single) {
+    constexpr std::size_t kMisses = 6;  // in a row, of candidates judged together
     bool better = false;
     for (std::size_t batch = std::max<std::size_t>(1, best_.triangles.size() / 8);; batch /= 2) {
-      const std::size_t tries = batch == 1 ? 2 * best_.triangles.size() : 24;
-      for (std::size_t i = 0; i < tries && !spent(); ++i) {
-        if (batch == 1 ? collapse_edge_number(i) : collapse_some(batch)) better = true;
+      if (batch == 1) return (single && collapse_one_by_one()) || better;
+      for (std::size_t misses = 0; misses < kMisses && !spent();) {
+        if (accept(some_collapses(batch))) {
+          better = true;
+          misses = 0;
+        } else {
+          ++misses;
+        }
       }
-      if (batch == 1) return better;
+      if (spent()) return better;
     }
   }
-  bool collapse_some(std::size_t count) {
+  bool collapse_one_by_one() {
+    bool better = false;
+    for (std::size_t i = 0; i < 2 * best_.triangles.size() && !spent();) {
+      std::vector<Surface> candidates;
+      for (std::size_t n = 0; n < limits_.at_once; ++n) candidates.push_back(edge_collapsed(i++));
+      if (accept(candidates)) better = true;
+    }
+    return better;
+  }
+  // As many different groups as are judged together, of those that certainly are valid.
+  std::vector<Surface> some_collapses(std::size_t count) {
+    constexpr int kTries = 24;
+    std::vector<Surface> groups;
+    for (int i = 0; i < kTries && groups.size() < limits_.at_once; ++i) {
+      Surface s = collapse_some(count);
+      if (s.triangles.size() < best_.triangles.size() && certified_valid(shapes::welded(s))) {
+        groups.push_back(std::move(s));
+      }
+    }
+    return groups;
+  }
+  Surface collapse_some(std::size_t count) {
     Surface s = best_;
     std::vector<bool> touched(s.vertices.size(), false);
     for (std::size_t i = 0; i < count && s.triangles.size() > 4; ++i) {
@@ -211,15 +257,15 @@ class Shrinker {
       collapse(next, a, b);
       s = std::move(next);
     }
-    return s.triangles.size() < best_.triangles.size() && accept(s);
+    return s;
   }
-  bool collapse_edge_number(std::size_t i) {
+  Surface edge_collapsed(std::size_t i) {
     const auto& t = best_.triangles[(i / 2) % best_.triangles.size()];
     const std::size_t k = random_.below(3);
     const auto a = t[k], b = t[(k + 1) % 3];
     Surface s = best_;
     collapse(s, i % 2 == 0 ? a : b, i % 2 == 0 ? b : a);
-    return s.triangles.size() < best_.triangles.size() && accept(s);
+    return s;
   }
 
   // Fewer bits for all coordinates, then for single ones.
@@ -275,7 +321,7 @@ class Shrinker {
   }
 
   Surface best_;
-  const StillFails& fails_;
+  const OneThatFails& fails_;
   const ShrinkLimits& limits_;
   ShrinkProgress& progress_;
   Random random_{1};
@@ -284,7 +330,7 @@ class Shrinker {
 
 }  // namespace
 
-Surface shrink(const Surface& surface, const StillFails& fails, const ShrinkLimits& limits,
+Surface shrink(const Surface& surface, const OneThatFails& fails, const ShrinkLimits& limits,
                ShrinkProgress& progress) {
   return Shrinker(surface, fails, limits, progress).run();
 }

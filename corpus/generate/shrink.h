@@ -3,10 +3,13 @@
 // obstacle.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "corpus/meshers.h"
 #include "mesher/delmesher.h"
@@ -18,12 +21,16 @@ namespace tetproof {
 // Numbers, which change with the input, are left out.
 using Failure = std::string;
 
-// Does a surface that is certified valid still fail in the wanted way?
-using StillFails = std::function<bool(const delmesher::Surface&)>;
+// Which of some surfaces, all certified valid, still fails in the wanted way; nothing if none does.
+// They may be run side by side: then the answer is the one that is known first, and the others are
+// given up.
+using OneThatFails =
+    std::function<std::optional<std::size_t>(const std::vector<delmesher::Surface>&)>;
 
 struct ShrinkLimits {
   std::uint64_t runs = 5000;  // of the mesher
   double seconds = 600;
+  std::size_t at_once = 1;  // surfaces to be judged together
 };
 
 struct ShrinkProgress {
@@ -32,9 +39,15 @@ struct ShrinkProgress {
 };
 
 // The search alone. The result is valid and fails; it is `surface` itself if nothing smaller was
-// found. Deterministic if `fails` is and time does not run out.
-delmesher::Surface shrink(const delmesher::Surface& surface, const StillFails& fails,
+// found. Deterministic if `fails` is and time does not run out. What takes most away is tried
+// first, and a step that misses several times in a row gives way to the next.
+delmesher::Surface shrink(const delmesher::Surface& surface, const OneThatFails& fails,
                           const ShrinkLimits& limits, ShrinkProgress& progress);
+
+struct Probe {
+  Failure failure;
+  double cpu_seconds = 0;  // of the mesher
+};
 
 struct Prober {
   Mesher mesher;
@@ -43,7 +56,28 @@ struct Prober {
   Limits limits;
   bool verify = true;  // ask the oracles about meshes that are delivered
 
-  Failure failure(const delmesher::Surface& surface) const;
+  // Ends early, with any failure, once `given_up` is set.
+  Probe probe(const delmesher::Surface& surface, const std::atomic<bool>& given_up) const;
+  Probe probe(const delmesher::Surface& surface) const;
+};
+
+// Judges surfaces side by side, each in a process and a folder of its own. The limit of processor
+// time follows the current case: what takes much longer than the last surface that failed in the
+// wanted way is ended, and counts as one that does not fail so. A failure that is a limit keeps it.
+class SideBySide {
+ public:
+  // `first` is the probe of the surface that the search begins with.
+  SideBySide(const Prober& prober, const Probe& first);
+
+  std::optional<std::size_t> operator()(const std::vector<delmesher::Surface>& surfaces);
+  double cpu_limit() const { return limits_.cpu_seconds; }
+
+ private:
+  void follow(double cpu_seconds);
+
+  Prober prober_;
+  Failure wanted_;
+  Limits limits_;
 };
 
 }  // namespace tetproof
