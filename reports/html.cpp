@@ -344,7 +344,9 @@ std::string to_html(const Table& table) {
     text += "<p class=\"caption\">" + whole_words(table.caption) + "</p>\n";
   }
   if (!table.rows.empty()) {
-    text += "<div class=\"scroll\"><table><thead>" + header_row(table) + "</thead><tbody>\n";
+    const char* kind = table.heat_map ? " class=\"heat\"" : "";
+    text += fmt::format("<div class=\"scroll\"><table{}><thead>", kind) + header_row(table) +
+            "</thead><tbody>\n";
     for (const auto& row : table.rows) text += table_row(table, row);
     text += "</tbody></table></div>\n";
   }

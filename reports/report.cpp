@@ -71,7 +71,8 @@ std::vector<Chart> joined(std::vector<Chart> first, const std::vector<Chart>& se
   return first;
 }
 
-std::vector<Section> sections_of(const Selection& selection, const std::string& model) {
+std::vector<Section> sections_of(const Selection& selection, const std::string& model,
+                                 const Families& families) {
   std::vector<Section> sections;
   const auto add = [&](std::string id, std::string title, std::string text,
                        std::vector<Table> tables, std::vector<Chart> charts) -> Section& {
@@ -82,6 +83,13 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
       "Laid out as the paper's Tables 1 and 2, with every mesher of this campaign on its models.",
       {table_1(selection), table_2(selection)}, {})
       .side_by_side = true;
+  add("league", "League",
+      "Every mesher on every model, judged by the same oracles; the most successful first.",
+      {league_table(selection), family_table(selection, families)},
+      {cactus_chart(selection), size_cactus_chart(selection)});
+  add("matrix", "League: wrong results, and model by model", "",
+      {wrong_result_table(selection), league_matrix(selection, families)}, {})
+      .folded = true;
   add("figures", "Angles (after Figures 10, 11, 13)",
       "Extreme angles of each model, average angles of each model, all angles of all models, and "
       "gamma of each model. "
@@ -93,7 +101,7 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
       "What became of the runs, and what the oracles say of the files that were delivered.",
       {disposition_table(selection), oracle_table(selection), failure_group_table(selection),
        limit_table(selection)},
-      {disposition_chart(selection), cactus_chart(selection), size_cactus_chart(selection)});
+      {disposition_chart(selection)});
   add("speed", "Time and memory", "",
       {speed_table(selection), time_table(selection), phase_table(selection)},
       {time_chart(selection), speed_chart(selection), phase_chart(selection)});
@@ -176,7 +184,7 @@ ReportFiles write_report(const Selection& selection, const std::filesystem::path
   Page page;
   page.title = "Meshing campaign";
   page.headline = headline_of(selection);
-  page.sections = sections_of(selection, model);
+  page.sections = sections_of(selection, model, options.families);
   page.notes = {
       "CSV files of every table and figure, LaTeX (tables.tex) and Markdown (report.md) "
       "stand beside this page."};

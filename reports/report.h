@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "reports/league.h"
 #include "reports/selection.h"
 #include "reports/views.h"
 
@@ -14,6 +15,7 @@ struct ReportOptions {
   // The model of Table 3 and Figure 13, by name; empty: the largest of those on which most succeed.
   std::string model;
   ViewOptions views;
+  Families families = {};  // of the models, for the league
 };
 
 struct ReportFiles {

@@ -15,6 +15,9 @@ struct Table {
   std::string caption = {};        // below the title: the conditions, such as limits of the runs
   // Columns of commands and the like, which the page shows on request.
   std::vector<std::size_t> folded_columns = {};
+  // The page colours cells by what they say (a number or the name of a disposition), and sorts by
+  // the column whose head is clicked.
+  bool heat_map = false;
 };
 
 // Has any cell contents other than "-"? Row labels do not count.

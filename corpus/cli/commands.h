@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "corpus/meshers.h"
@@ -50,7 +51,7 @@ struct ConvertArguments {
 
 struct ReportArguments {
   std::vector<std::string> databases, base, show;
-  std::string folder, model;
+  std::string folder, model, families;
   std::size_t views = 10;
   bool processor_time = false;
 };
@@ -98,6 +99,7 @@ struct ShrinkArguments {
   std::string input, mesher, output;
   double timeout = 10, seconds = 600;  // per run, in all
   std::uint64_t memory_mebibytes = 2048, runs = 5000;
+  unsigned jobs = std::thread::hardware_concurrency();
   bool no_verify = false;
 };
 

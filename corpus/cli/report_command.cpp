@@ -13,6 +13,7 @@ int report_command(const ReportArguments& arguments) {
   options.model = arguments.model;
   options.views.models = arguments.views;
   options.views.wanted = arguments.show;
+  if (!arguments.families.empty()) options.families = Families(arguments.families);
   const ReportFiles files = write_report(selection, arguments.folder, options);
   fmt::print("{}report: {}\n", files.headline, std::filesystem::absolute(files.html).string());
   return 0;

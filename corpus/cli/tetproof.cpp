@@ -69,6 +69,9 @@ CLI::App* declare_report(CLI::App& tetproof, ReportArguments& a) {
   app->add_option("--base", a.base, "Results to compare with: meshers NAME@base")
       ->check(CLI::ExistingFile);
   app->add_option("--model", a.model, "Model of Table 3 and Figure 13, by name");
+  app->add_option("--families", a.families,
+                  "Lines PATTERN,FAMILY: which models the league puts together")
+      ->check(CLI::ExistingFile);
   app->add_flag("--processor-time", a.processor_time,
                 "All times are processor seconds: for campaigns on a busy machine");
   app->add_option("--views", a.views,
@@ -256,6 +259,8 @@ CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
   app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")->capture_default_str();
   app->add_option("--seconds", a.seconds, "In all")->capture_default_str();
   app->add_option("--runs", a.runs, "Of the mesher, at most")->capture_default_str();
+  app->add_option("-j,--jobs", a.jobs, "Runs at a time (1: the same result each time)")
+      ->capture_default_str();
   app->add_flag("--no-verify", a.no_verify, "Look at how it ends only, not at what it delivers");
   return app;
 }

@@ -242,6 +242,37 @@
     }
   }
 
+  // Heat maps: cells coloured by what they say, columns sorted by a click on their head.
+  function startHeatMaps() {
+    const dispositions = ["unverified", "wrong-result", "rejected", "crash", "timeout", "out-of-memory", "killed"];
+    document.querySelectorAll("table.heat").forEach(table => {
+      const body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
+      const text = (row, i) => row.cells[i].textContent;
+      for (const row of body.rows) {
+        for (const cell of [...row.cells].slice(3)) {
+          const said = cell.textContent, seconds = Number(said);
+          cell.className = said === "-" ? "" : said === "wrong-result" ? "wrong" : Number.isNaN(seconds) ? "none"
+            : seconds < 1 ? "fast" : "slow";
+        }
+      }
+      // Numbers first, then dispositions in their order, then other words.
+      const rank = said => {
+        const number = Number(said), place = dispositions.indexOf(said);
+        return !Number.isNaN(number) ? [0, number] : place >= 0 ? [1, place] : [2, 0];
+      };
+      heads.forEach((head, i) => {
+        let sign = -1;
+        head.addEventListener("click", () => {
+          sign = -sign;
+          body.replaceChildren(...[...body.rows].sort((a, b) => {
+            const [x, y] = [rank(text(a, i)), rank(text(b, i))];
+            return sign * (x[0] - y[0] || x[1] - y[1] || (x[0] === 2 ? text(a, i).localeCompare(text(b, i)) : 0));
+          }));
+        });
+      });
+    });
+  }
+
   function attempt(what) {
     try {
       what();
@@ -251,6 +282,6 @@
       $("trouble").textContent = "A part of this page could not be drawn: " + error.message;
     }
   }
-  [startComparison, startGallery, startModels].forEach(attempt);
+  [startComparison, startGallery, startModels, startHeatMaps].forEach(attempt);
   document.body.dataset.ready = "yes";
 })();
