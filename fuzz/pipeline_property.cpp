@@ -42,6 +42,7 @@ oracles::MeshFile as_file(const delmesher::TetMesh& mesh) {
   file.regions.assign(mesh.inside.begin(), mesh.inside.end());
   file.boundary = mesh.boundary;
   file.labels = mesh.boundary_labels;
+  file.facets = mesh.boundary_facets;
   return file;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "oracles/text_reader.h"
+#include "oracles/vtu_text.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -281,23 +282,23 @@ class GmshReader {
 class VtuReader {
  public:
   explicit VtuReader(const std::string& path)
-      : path_(path), contents_(read_whole_file(path)), text_(contents_) {}
+      : contents_(read_whole_file(path)), text_(path, contents_) {}
   VtuReader(const VtuReader&) = delete;
 
   MeshFile read() {
     MeshFile mesh;
-    const std::vector<double> points = array("<Points", "");
-    const std::vector<double> corners = array("<Cells", "connectivity");
-    const std::vector<double> types = array("<Cells", "types");
-    const std::vector<double> offsets = array("<Cells", "offsets");
+    const std::vector<double> points = text_.array("Points", "");
+    const std::vector<double> corners = text_.array("Cells", "connectivity");
+    const std::vector<double> types = text_.array("Cells", "types");
+    const std::vector<double> offsets = text_.array("Cells", "offsets");
     for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
       mesh.vertices.push_back({points[i], points[i + 1], points[i + 2]});
     }
     if (types.size() != offsets.size()) fail("types and offsets differ in length");
-    std::vector<double> values = array("<CellData", "region");
-    if (values.empty()) values = array("<CellData", "inside");
-    const std::vector<double> labels = array("<CellData", "label");
-    const std::vector<double> facets = array("<CellData", "facet");
+    std::vector<double> values = text_.array("CellData", "region");
+    if (values.empty()) values = text_.array("CellData", "inside");
+    const std::vector<double> labels = text_.array("CellData", "label");
+    const std::vector<double> facets = text_.array("CellData", "facet");
     for (const auto* list :
          std::initializer_list<const std::vector<double>*>{&values, &labels, &facets}) {
       if (!list->empty() && list->size() != types.size()) fail("an array has not a value per cell");
@@ -333,47 +334,11 @@ class VtuReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& reason) const {
-    throw ReadError(path_ + ": " + reason);
-  }
+  [[noreturn]] void fail(const std::string& reason) const { text_.fail(reason); }
+  std::int64_t integer(double value) const { return text_.integer(value); }
 
-  std::int64_t integer(double value) const {
-    if (!(std::fabs(value) < 0x1p53) || value != std::trunc(value)) fail("a value is no integer");
-    return static_cast<std::int64_t>(value);
-  }
-
-  static std::string attribute(std::string_view tag, const std::string& name) {
-    const std::size_t at = tag.find(" " + name + "=\"");
-    if (at == std::string_view::npos) return {};
-    const std::size_t start = at + name.size() + 3;
-    return std::string(tag.substr(start, tag.find('"', start) - start));
-  }
-
-  // The values of the DataArray of that name in the first section of that kind; empty if there is
-  // none.
-  std::vector<double> array(const std::string& section, const std::string& name) const {
-    const std::size_t begin = text_.find(section);
-    if (begin == std::string_view::npos) return {};
-    const std::size_t end = text_.find("</" + section.substr(1), begin);
-    std::size_t at = begin;
-    while ((at = text_.find("<DataArray", at)) < end) {
-      const std::size_t close = text_.find('>', at);
-      if (close == std::string_view::npos) break;
-      const std::string_view tag = text_.substr(at, close - at);
-      at = close;
-      if (!name.empty() && attribute(tag, "Name") != name) continue;
-      if (attribute(tag, "format") != "ascii") fail("only text .vtu files are read");
-      const std::size_t stop = std::min(text_.find('<', close), text_.size());
-      TextReader reader(path_, text_.substr(close + 1, stop - close - 1), '\0');
-      std::vector<double> values;
-      while (!reader.at_end()) values.push_back(reader.number());
-      return values;
-    }
-    return {};
-  }
-
-  std::string path_, contents_;
-  std::string_view text_;
+  const std::string contents_;
+  const VtuText text_;
 };
 
 // ----------------------------------------------------------------------------------------- TetGen

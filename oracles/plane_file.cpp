@@ -7,6 +7,7 @@
 
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
+#include "oracles/vtu_text.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -338,39 +339,15 @@ PlaneFile read_gmsh(const std::string& path, std::string_view text) {
 
 // ----------------------------------------------------------------------------- .vtu, as written
 
-class VtuArrays {
- public:
-  VtuArrays(std::string path, std::string_view text) : path_(std::move(path)), text_(text) {}
-
-  std::vector<double> numbers(const std::string& name) const {
-    const std::size_t tag = text_.find("Name=\"" + name + "\"");
-    if (tag == std::string_view::npos) return {};
-    const std::size_t begin = text_.find('>', tag);
-    if (begin == std::string_view::npos) return {};
-    if (text_.substr(tag, begin - tag).find("format=\"ascii\"") == std::string_view::npos) {
-      throw ReadError(path_ + ": only text .vtu files are read");
-    }
-    const std::size_t end = std::min(text_.find('<', begin), text_.size());
-    TextReader reader(path_, text_.substr(begin + 1, end - begin - 1), '\0');
-    std::vector<double> values;
-    while (!reader.at_end()) values.push_back(reader.number());
-    return values;
-  }
-
- private:
-  std::string path_;
-  std::string_view text_;
-};
-
 PlaneFile read_vtu(const std::string& path, std::string_view text) {
-  const VtuArrays arrays(path, text);
-  const auto fail = [&](const std::string& why) { throw ReadError(path + ": " + why); };
-  const auto points = arrays.numbers("Points"), corners = arrays.numbers("connectivity"),
-             types = arrays.numbers("types"), offsets = arrays.numbers("offsets"),
-             inside = arrays.numbers("inside"), markers = arrays.numbers("marker"),
-             segments = arrays.numbers("segment");
+  const VtuText vtu(path, text);
+  const auto fail = [&](const std::string& why) { vtu.fail(why); };
+  const auto points = vtu.array("Points", ""), corners = vtu.array("Cells", "connectivity"),
+             types = vtu.array("Cells", "types"), offsets = vtu.array("Cells", "offsets"),
+             inside = vtu.array("CellData", "inside"), markers = vtu.array("CellData", "marker"),
+             segments = vtu.array("CellData", "segment");
   PlaneFile file;
-  file.lists_edges = true;
+  file.lists_edges = file.names_segments = true;
   for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
     file.vertices.push_back({points[i], points[i + 1]});
     if (points[i + 2] != 0) fail("a point is not in the plane");
@@ -387,8 +364,8 @@ PlaneFile read_vtu(const std::string& path, std::string_view text) {
       fail("offsets leave the connectivity");
     }
     const auto corner = [&](std::size_t k) {
-      const double v = corners[start + k];
-      if (!(v >= 0 && v < static_cast<double>(file.vertices.size()))) {
+      const std::int64_t v = vtu.integer(corners[start + k]);
+      if (v < 0 || v >= static_cast<std::int64_t>(file.vertices.size())) {
         fail("a cell refers to no point");
       }
       return static_cast<std::uint32_t>(v);
@@ -398,10 +375,12 @@ PlaneFile read_vtu(const std::string& path, std::string_view text) {
       if (!inside.empty()) file.inside.push_back(inside[cell] == 1 ? 1 : 0);
     } else {
       file.edges.push_back({corner(0), corner(1)});
-      file.markers.push_back(markers.empty() ? 0 : static_cast<std::int32_t>(markers[cell]));
+      file.markers.push_back(
+          markers.empty() ? 0 : static_cast<std::int32_t>(vtu.integer(markers[cell])));
       if (!segments.empty()) {
-        file.segments.push_back(segments[cell] < 0 ? 0xffffffffU
-                                                   : static_cast<std::uint32_t>(segments[cell]));
+        file.segments.push_back(segments[cell] < 0
+                                    ? 0xffffffffU
+                                    : static_cast<std::uint32_t>(vtu.integer(segments[cell])));
       }
     }
     start += size;
@@ -524,6 +503,7 @@ PlaneFile plane_file_of(const delmesher::PlaneMesh& mesh) {
   file.lists_edges = true;
   file.edges = mesh.edges;
   file.markers = mesh.edge_markers;
+  file.names_segments = true;
   file.segments = mesh.edge_segments;
   return file;
 }

@@ -19,6 +19,7 @@ struct PlaneFile {
   bool lists_edges = false;          // the file lists the edges that tile the segments
   std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::int32_t> markers;    // per edge
+  bool names_segments = false;          // the format has a segment for every edge
   std::vector<std::uint32_t> segments;  // per edge, of the input; empty: the file says nothing
 };
 

@@ -730,6 +730,12 @@ class RecordVerifier {
       if (segment != kNothing && edges.contains(edge)) expected.emplace(edge, segment);
     }
     const auto& ids = record_.mesh_vertices;
+    if (file_.markers.size() != file_.edges.size()) {
+      oracle.fail("not every listed edge has a marker");
+    }
+    if (file_.names_segments && file_.segments.size() != file_.edges.size()) {
+      oracle.fail("not every listed edge has a segment");
+    }
     for (std::size_t i = 0; i < file_.edges.size(); ++i) {
       ++oracle.checked;
       const auto& [a, b] = file_.edges[i];

@@ -99,7 +99,7 @@ class SameMesh {
   SameMesh(const MeshFile& mesh, const ExactRecord& record, const Promise& promise, bool labelled)
       : mesh_(mesh),
         record_(record),
-        labelled_(labelled && mesh.labels.size() == mesh.boundary.size()),
+        labelled_(labelled),
         all_(promise.region == delmesher::Region::hull),
         tets_(record.final.empty() ? record.refined : record.final),
         faces_(record.final.empty() ? record.refined_facets : record.final_facets) {}
@@ -296,9 +296,14 @@ class SameMesh {
   }
 
   void compare_boundary() {
-    if (!mesh_.facets.empty() && mesh_.facets.size() != mesh_.boundary.size()) {
+    const std::size_t triangles = mesh_.boundary.size();
+    if (mesh_.facets.size() != triangles) {
       report_.fail("the file names " + std::to_string(mesh_.facets.size()) + " facets for " +
-                   std::to_string(mesh_.boundary.size()) + " boundary triangles");
+                   std::to_string(triangles) + " boundary triangles");
+    }
+    if (labelled_ && mesh_.labels.size() != triangles) {
+      report_.fail("the file has " + std::to_string(mesh_.labels.size()) + " labels for " +
+                   std::to_string(triangles) + " boundary triangles");
     }
     const std::vector<LabelledFace> recorded = recorded_faces();
     std::vector<std::uint8_t> seen(recorded.size());
@@ -314,7 +319,7 @@ class SameMesh {
         report_.fail(name + " is no face on a facet of the record");
         continue;
       }
-      if (labelled_ && found->label != mesh_.labels[n]) {
+      if (labelled_ && n < mesh_.labels.size() && found->label != mesh_.labels[n]) {
         report_.fail(name + " has another label in the record");
       }
       if (n < mesh_.facets.size() && found->facet != mesh_.facets[n]) {

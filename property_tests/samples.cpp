@@ -235,7 +235,10 @@ ExactSample exact_sample() {
   points.assign(exact.points);
   for (Index v = 0; v < points.size(); ++v) mesh.vertices.push_back(points.nearest(v));
   for (const auto& tet : exact.final) mesh.tetrahedra.push_back(tet.vertices);
-  for (const auto& [a, b, c, id] : exact.final_facets) mesh.boundary.push_back({a, b, c});
+  for (const auto& [a, b, c, id] : exact.final_facets) {
+    mesh.boundary.push_back({a, b, c});
+    mesh.facets.push_back(id);
+  }
   return result;
 }
 

@@ -139,6 +139,14 @@ const Lie kForeign[] = {
      [](Told& t) { std::swap(t.sample.mesh.facets.front(), t.sample.mesh.facets.back()); }},
     {"facets of boundary triangles cut short", "same-mesh",
      [](Told& t) { t.sample.mesh.facets.pop_back(); }},
+    {"no facets of boundary triangles", "same-mesh", [](Told& t) { t.sample.mesh.facets.clear(); },
+     "passed"},
+    {"no labels of boundary triangles", "same-mesh",
+     [](Told& t) {
+       t.sample.input.labels.assign(t.sample.input.triangles.size(), 0);
+       t.sample.mesh.labels.clear();
+     },
+     "passed"},
     {"a face of the hull listed as boundary", "same-mesh",
      [](Told& t) {
        run_hull(t);

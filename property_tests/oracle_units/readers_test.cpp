@@ -13,6 +13,7 @@
 
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
+#include "oracles/vtu_text.h"
 #include "property_tests/little_memory.h"
 #include "property_tests/oracle_units/helpers.h"
 
@@ -35,6 +36,29 @@ TEST(TextReader, ReadsWordsAndCountsLines) {
   EXPECT_TRUE(reader.at_end());
   EXPECT_EQ(reader.word(), "");
   EXPECT_THROW(reader.required_word("a word"), ReadError);
+}
+
+// Where something is there twice, other readers may take the other one.
+TEST(VtuText, RefusesWhatIsThereTwice) {
+  const std::string array = "<DataArray Name=\"label\" format=\"ascii\">1 2</DataArray>";
+  const std::string points = "<Points><DataArray format=\"ascii\">0 1 2</DataArray></Points>";
+  const auto text = [&](const std::string& in_piece, const std::string& in_data) {
+    return "<VTKFile><Piece>" + points + in_piece + "<CellData>" + array + in_data +
+           "</CellData></Piece></VTKFile>\n";
+  };
+  const auto labels = [](const std::string& contents) {
+    return VtuText("file", contents).array("CellData", "label");
+  };
+  const std::string honest = text("", "<DataArray Name=\"other\" format=\"ascii\">3</DataArray>");
+  EXPECT_EQ(labels(honest), (std::vector<double>{1, 2}));
+  EXPECT_EQ(VtuText("file", honest).array("Points", ""), (std::vector<double>{0, 1, 2}));
+  EXPECT_EQ(VtuText("file", honest).array("CellData", "region"), std::vector<double>());
+  EXPECT_THROW(labels(text("", array)), ReadError);
+  EXPECT_THROW(labels(text(points, "")), ReadError);
+  EXPECT_THROW(labels(text("</Piece><Piece>", "")), ReadError);
+  EXPECT_THROW(labels(text("", "</CellData><CellData>")), ReadError);
+  EXPECT_THROW(labels(honest + "<VTKFile>"), ReadError);
+  EXPECT_THROW(labels(honest.substr(0, honest.size() - 4)), ReadError);
 }
 
 TEST(TextReader, NumbersBelowDoublesAreZeroThoseAboveAreRefused) {

@@ -65,6 +65,8 @@ const Lie kForeign[] = {
      [](Told& t) { t.file.triangles[0][0] = 0xfffffff0U; }},
     {"a triangle of the file called outside", "same-mesh", [](Told& t) { t.file.inside[0] = 0; }},
     {"a listed edge with another marker", "same-mesh", [](Told& t) { t.file.markers[2] = 77; }},
+    {"no markers of the listed edges", "same-mesh", [](Told& t) { t.file.markers.clear(); }},
+    {"no segments of the listed edges", "same-mesh", [](Told& t) { t.file.segments.clear(); }},
     {"a listed edge fewer", "same-mesh",
      [](Told& t) {
        t.file.edges.pop_back();
