@@ -50,7 +50,9 @@ class ChamferedSurface {
         facets_(surface_, record_),
         default_(record_.parameters.acute),
         of_edges_(record_.parameters.corner) {
-    for (const auto& corner : record_.corners) corner_[corner.vertex] = &corner;
+    for (const auto& corner : record_.corners) {
+      corner_.insert_or_assign(corner.vertex, Threshold(corner.threshold));
+    }
     for (const auto& [point, vertex] : record_.chamfer_points) made_for_[point] = vertex;
     collect_segments();
     collect_sectors();
@@ -61,24 +63,26 @@ class ChamferedSurface {
   const std::vector<Index>& vertices() const { return vertices_; }
   const std::vector<Sector>& sectors(std::size_t slot) const { return sectors_[slot]; }
 
-  Threshold at_input_vertex(Index v) const {
+  const Threshold& at_input_vertex(Index v) const {
     const auto corner = corner_.find(v);
-    return Threshold(corner != corner_.end() ? corner->second->threshold : default_);
+    return corner != corner_.end() ? corner->second : default_;
   }
-  Threshold at_vertex(Index p) const {
+  const Threshold& at_vertex(Index p) const {
     const auto made = made_for_.find(p);
     return at_input_vertex(made != made_for_.end() ? made->second : p);
   }
   // For the angle of two edges.
-  Threshold of_edges(Index p) const {
+  const Threshold& of_edges(Index p) const {
     const bool chamfered = made_for_.contains(p) || corner_.contains(p);
-    if (chamfered || of_edges_ == 0 || of_edges_ > default_) return at_vertex(p);
-    return Threshold(of_edges_);
+    if (chamfered || of_edges_.degrees() == 0 || of_edges_.degrees() > default_.degrees()) {
+      return at_vertex(p);
+    }
+    return of_edges_;
   }
   // The stricter of the ends of the input edge.
-  Threshold at_edge(Index e) const {
-    const Threshold a = at_input_vertex(surface_.edges()[e].from),
-                    b = at_input_vertex(surface_.edges()[e].to);
+  const Threshold& at_edge(Index e) const {
+    const Threshold &a = at_input_vertex(surface_.edges()[e].from),
+                    &b = at_input_vertex(surface_.edges()[e].to);
     return a.degrees() > b.degrees() ? a : b;
   }
 
@@ -91,8 +95,8 @@ class ChamferedSurface {
   const ExactPoints& points_;
   const InputSurface& surface_;
   const FacetIndex facets_;
-  double default_, of_edges_;
-  std::unordered_map<Index, const ExactRecord::Corner*> corner_;
+  Threshold default_, of_edges_;
+  std::unordered_map<Index, Threshold> corner_;
   std::unordered_map<Index, Index> made_for_;
   std::vector<Segment> segments_;
   std::vector<Index> vertices_;  // ends of segments, ascending
@@ -103,7 +107,11 @@ class ChamferedSurface {
 void ChamferedSurface::collect_segments() {
   // Only the faces on the facet tell on which side of an artificial segment the facet is.
   std::vector<std::pair<Index, std::uint64_t>> sides;
+  const bool any_artificial =
+      std::any_of(record_.segments.begin(), record_.segments.end(),
+                  [](const ExactRecord::Chain& chain) { return chain.artificial; });
   for (const auto& [a, b, c, id] : record_.refined_facets) {
+    if (!any_artificial) break;
     for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
       sides.emplace_back(id, static_cast<std::uint64_t>(p) << 32 | q);
     }
@@ -123,12 +131,7 @@ void ChamferedSurface::collect_segments() {
       s.input_edge = input_edges.of_chain(record_, chain.vertices);
       if (s.input_edge == kNone) continue;
       const InputSurface::Edge& edge = surface_.edges()[s.input_edge];
-      // Whole edges are the most.
-      const bool along = s.from == edge.from && s.to == edge.to;
-      if (!along && exact::dot(exact::difference(points_, edge.from, edge.to),
-                               exact::difference(points_, s.from, s.to)) < 0) {
-        std::swap(s.from, s.to);
-      }
+      if (along_edge(points_, edge, s.from, s.to) < 0) std::swap(s.from, s.to);
       s.left = facets_.kept(edge.left) ? edge.left : kNone;
       s.right = facets_.kept(edge.right) ? edge.right : kNone;
     }
@@ -272,7 +275,7 @@ void ChamferAngles::check_dihedral(const Segment& s) {
   ++report_.checked;
   const InputSurface::Facet &left = surface_.facets()[s.left], &right = surface_.facets()[s.right];
   const IntervalVector &p = left.rough_normal, &q = right.rough_normal;
-  const Threshold threshold = chamfered_.at_edge(s.input_edge);
+  const Threshold& threshold = chamfered_.at_edge(s.input_edge);
   if (threshold.surely_not_above(-exact::dot(p, q), exact::dot(p, p) * exact::dot(q, q))) return;
   const ExactVector m = left.normal(points_), n = right.normal(points_);
   const ExactNumber cosine = -exact::dot(m, n);
@@ -286,7 +289,7 @@ void ChamferAngles::check_dihedral(const Segment& s) {
 void ChamferAngles::check_vertex(std::size_t slot) {
   const Index v = chamfered_.vertices()[slot];
   const std::vector<Index>& at = chamfered_.at()[slot];
-  const Threshold threshold = chamfered_.at_vertex(v);
+  const Threshold& threshold = chamfered_.at_vertex(v);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Segment& s = chamfered_.segments()[at[i]];
     for (std::size_t j = 0; j < i; ++j) {
@@ -302,7 +305,7 @@ void ChamferAngles::check_pair(Index v, const Segment& s, const Segment& t) {
   ++report_.checked;
   const Index p = s.from == v ? s.to : s.from, q = t.from == v ? t.to : t.from;
   const IntervalVector x = points_.rough_difference(v, p), y = points_.rough_difference(v, q);
-  const Threshold threshold = chamfered_.of_edges(v);
+  const Threshold& threshold = chamfered_.of_edges(v);
   if (threshold.surely_not_above(exact::dot(x, y), exact::dot(x, x) * exact::dot(y, y))) return;
   if (exact::dot_sign(points_, v, p, q) <= 0) return;
   const ExactVector a = exact::difference(points_, v, p), b = exact::difference(points_, v, q);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <unordered_map>
 
 #include "oracles/chamfer.h"
@@ -134,11 +135,11 @@ class ChamferNeed {
 
 // --- the missing parts
 
+using AreaSum = std::array<ExactSum, 3>;
+
 // Follows the boundary of the rest of every kept facet. It has to be the facet's own boundary, side
 // by side, but for a detour around each chamfered corner, over points made for that corner, and a
 // strip beside each acute edge, from the points made for one end to those made for the other.
-using AreaSum = std::array<ExactSum, 3>;
-
 class ChamferCuts {
  public:
   explicit ChamferCuts(const RefinedMesh& mesh)
@@ -188,7 +189,8 @@ class ChamferCuts {
   void check_facet(Index f);
   bool walk(Index f, std::size_t first);
   void add(const std::vector<Index>& chain, bool reversed);
-  void add(Index a, Index b);
+  bool accounts_for(Index f);
+  AreaSum area(Index f, std::span<const std::uint64_t> edges) const;
   void fail(Index f, const std::string& what) {
     report_.fail("facet " + std::to_string(surface_.facets()[f].id) + ": " + what);
   }
@@ -206,25 +208,21 @@ class ChamferCuts {
   std::unordered_map<Index, Index> made_for_;
   std::set<Index> corners_;
   std::vector<std::pair<Index, std::uint64_t>> face_sides_;
-  std::vector<AreaSum> area_;                // of the faces of each facet, twice
   std::vector<std::vector<Index>> on_edge_;  // the chain of each input edge, from -> to
   Links links_;
   std::vector<Side> sides_;
   std::vector<std::vector<std::size_t>> sides_of_;  // per facet
   std::vector<std::uint8_t> passed_;
-  AreaSum walked_;  // twice the area inside the boundary followed so far
-  Index origin_ = 0;
+  std::vector<std::uint64_t> walked_;  // the directed edges followed so far
   std::uint64_t detours_ = 0, strips_ = 0;
   OracleReport report_{"chamfer-cuts", "sides of kept facets"};
 };
 
 void ChamferCuts::collect_faces() {
-  area_.resize(surface_.facets().size());
+  face_sides_.reserve(3 * record_.refined_facets.size());
   for (const auto& [a, b, c, id] : record_.refined_facets) {
     const Index f = facets_.find(id);
     if (f == kNone) continue;
-    const ExactVector n = exact::area2(points_, a, b, c);
-    for (int axis = 0; axis < 3; ++axis) area_[f][axis] += n[axis];
     for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
       face_sides_.emplace_back(f, directed_key(p, q));
     }
@@ -242,8 +240,7 @@ void ChamferCuts::collect_chains() {
       if (e == kNone) continue;
       const InputSurface::Edge& edge = surface_.edges()[e];
       on_edge_[e] = v;
-      if (exact::dot(exact::difference(points_, edge.from, edge.to),
-                     exact::difference(points_, v.front(), v.back())) < 0) {
+      if (along_edge(points_, edge, v.front(), v.back()) < 0) {
         std::reverse(on_edge_[e].begin(), on_edge_[e].end());
       }
       continue;
@@ -271,47 +268,70 @@ void ChamferCuts::collect_chains() {
 void ChamferCuts::collect_sides() {
   const auto& triangles = surface_.triangles();
   const auto& facet_of = surface_.facet_of_triangle();
-  std::unordered_map<std::uint64_t, std::size_t> number;  // triangle * 4 + side
+  std::vector<std::size_t> number(3 * triangles.size(), kNone);  // per triangle * 3 + side
   sides_of_.resize(surface_.facets().size());
   for (Index t = 0; t < triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
       if (facet_of[surface_.neighbour(t, i)] == facet_of[t]) continue;
       const Index a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-      number[std::uint64_t{t} * 4 + i] = sides_.size();
+      number[3 * std::size_t{t} + i] = sides_.size();
       sides_of_[facet_of[t]].push_back(sides_.size());
       sides_.push_back({a, b, input_edges_.find(a, b), 0});
     }
   }
-  for (const auto& [key, side] : number) {
+  for (std::size_t key = 0; key < number.size(); ++key) {
+    const std::size_t side = number[key];
+    if (side == kNone) continue;
     // Around the head, over the triangles of the facet, to the next side.
-    auto t = static_cast<Index>(key / 4);
-    int i = (static_cast<int>(key % 4) + 1) % 3;
+    auto t = static_cast<Index>(key / 3);
+    int i = (static_cast<int>(key % 3) + 1) % 3;
     const Index head = sides_[side].to;
     while (facet_of[surface_.neighbour(t, i)] == facet_of[t]) {
       t = surface_.neighbour(t, i);
       i = static_cast<int>(std::find(triangles[t].begin(), triangles[t].end(), head) -
                            triangles[t].begin());
     }
-    sides_[side].next = number.at(std::uint64_t{t} * 4 + i);
+    sides_[side].next = number[3 * std::size_t{t} + i];
   }
   passed_.resize(sides_.size());
 }
 
-void ChamferCuts::add(Index a, Index b) {
-  const ExactVector n =
-      exact::cross(exact::difference(points_, origin_, a), exact::difference(points_, origin_, b));
-  for (int axis = 0; axis < 3; ++axis) walked_[axis] += n[axis];
-}
-
 void ChamferCuts::add(const std::vector<Index>& chain, bool reversed) {
   for (std::size_t i = 1; i < chain.size(); ++i) {
-    reversed ? add(chain[i], chain[i - 1]) : add(chain[i - 1], chain[i]);
+    walked_.push_back(reversed ? directed_key(chain[i], chain[i - 1])
+                               : directed_key(chain[i - 1], chain[i]));
   }
 }
 
+// Is the area inside what has been followed that of the faces? It is, without any arithmetic, if
+// these are the directed edges that bound the faces.
+bool ChamferCuts::accounts_for(Index f) {
+  std::vector<std::uint64_t> sides, border;
+  const auto begin = std::lower_bound(face_sides_.begin(), face_sides_.end(), std::pair(f, 0UL)),
+             end = std::lower_bound(begin, face_sides_.end(), std::pair(f + 1, 0UL));
+  for (auto side = begin; side != end; ++side) sides.push_back(side->second);
+  for (const std::uint64_t side : sides) {
+    const std::uint64_t back = side << 32 | side >> 32;
+    if (!std::binary_search(sides.begin(), sides.end(), back)) border.push_back(side);
+  }
+  std::sort(walked_.begin(), walked_.end());
+  const bool once = std::adjacent_find(sides.begin(), sides.end()) == sides.end();
+  return (once && walked_ == border) || area(f, walked_) == area(f, sides);
+}
+
+// Twice the area inside directed edges in the plane of a facet.
+AreaSum ChamferCuts::area(Index f, std::span<const std::uint64_t> edges) const {
+  AreaSum sum;
+  for (const std::uint64_t edge : edges) {
+    const ExactVector n = exact::area2(points_, surface_.facets()[f].span[0],
+                                       static_cast<Index>(edge >> 32), static_cast<Index>(edge));
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += n[axis];
+  }
+  return sum;
+}
+
 void ChamferCuts::check_facet(Index f) {
-  walked_ = {};
-  origin_ = surface_.facets()[f].span[0];
+  walked_.clear();
   bool followed = true;
   for (const std::size_t s : sides_of_[f]) {
     ++report_.checked;
@@ -330,7 +350,7 @@ void ChamferCuts::check_facet(Index f) {
                          " cuts off no corner and no edge");
     }
   }
-  if (!(walked_ == area_[f])) fail(f, "the cuts do not account for what is missing");
+  if (!accounts_for(f)) fail(f, "the cuts do not account for what is missing");
 }
 
 // Follows the boundary from a side, over all sides after it, back to it.

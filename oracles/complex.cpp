@@ -233,22 +233,6 @@ std::uint64_t match_faces(const TetComplex& complex, Neighbours& neighbours,
 
 }  // namespace
 
-std::vector<std::uint64_t> mesh_edges(const TetComplex& complex) {
-  std::vector<std::uint64_t> edges;
-  edges.reserve(6 * complex.tetrahedra.size());
-  for (const Tet& t : complex.tetrahedra) {
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < i; ++j) {
-        edges.push_back(static_cast<std::uint64_t>(std::min(t[i], t[j])) << 32 |
-                        std::max(t[i], t[j]));
-      }
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
 std::string TetComplex::vertex_name(Index v) const {
   return v < first_vertex ? "input vertex " + std::to_string(v)
                           : "vertex " + std::to_string(v - first_vertex);

@@ -16,6 +16,33 @@ mpq_class squared_cosine(double degrees, Doubt doubt) {
   return mpq_class(cosine * cosine * (doubt == Doubt::acute ? 1 - 1e-9 : 1 + 1e-12));
 }
 
+// The sign of the turn where doubles tell, else 0. With U, V and N the sums of the sizes of the
+// components of both directions and of the normal, the value is off by at most the error of each
+// factor times the other two, and by 2^-50 UVN for roundings. All bounds are taken twice or more.
+int surely_left(const ExactPoints& points, const IntervalVector& normal, Index v, Index p,
+                Index q) {
+  const Position &o = points.nearest(v), &a = points.nearest(p), &b = points.nearest(q);
+  Position u{}, w{}, n{};
+  double along_u = 0, along_w = 0, along_n = 0, width = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = a[i] - o[i];
+    w[i] = b[i] - o[i];
+    n[i] = normal[i].low / 2 + normal[i].high / 2;
+    along_u += std::fabs(u[i]);
+    along_w += std::fabs(w[i]);
+    along_n += std::fabs(n[i]);
+    width += normal[i].high - normal[i].low;
+  }
+  const double error_u = along_u * 0x1p-51 + 3 * points.difference_error();
+  const double error_w = along_w * 0x1p-51 + 3 * points.difference_error();
+  const double value = n[0] * (u[1] * w[2] - u[2] * w[1]) + n[1] * (u[2] * w[0] - u[0] * w[2]) +
+                       n[2] * (u[0] * w[1] - u[1] * w[0]);
+  const double error = 4 * (along_n + width) * ((along_u + error_u) * error_w + error_u * along_w) +
+                       (4 * width + along_n * 0x1p-48) * along_u * along_w +
+                       0x1p-900 * (1 + along_n);
+  return value > error ? 1 : value < -error ? -1 : 0;
+}
+
 }  // namespace
 
 // get_d() truncates the bound, by at most an ulp.
@@ -25,6 +52,7 @@ AngleBound::AngleBound(double degrees, Doubt doubt)
 
 int left_turn(const ExactPoints& points, const InputSurface::Facet& facet, Index v, Index p,
               Index q) {
+  if (const int sign = surely_left(points, facet.rough_normal, v, p, q); sign != 0) return sign;
   const IntervalVector x = points.rough_difference(v, p), y = points.rough_difference(v, q);
   const IntervalVector c = exact::cross(x, y);
   if (const int sign = exact::dot(facet.rough_normal, c).sign(); sign != 2) return sign;
@@ -37,17 +65,26 @@ AcuteCorners::AcuteCorners(const ExactPoints& points, const InputSurface& surfac
   const Index vertices = surface.used_vertices().empty() ? 0 : surface.used_vertices().back() + 1;
   edges_at_.resize(vertices);
   triangles_at_.resize(vertices);
-  std::vector<BoxTree::Box> boxes;
   for (Index e = 0; e < surface.edges().size(); ++e) {
     const InputSurface::Edge& edge = surface.edges()[e];
-    boxes.push_back(box_around(points, std::array{edge.from, edge.to}));
     edges_at_[edge.from].push_back(e);
     edges_at_[edge.to].push_back(e);
   }
-  edge_tree_ = std::make_unique<BoxTree>(std::move(boxes));
   for (Index t = 0; t < surface.triangles().size(); ++t) {
     for (const Index v : surface.triangles()[t]) triangles_at_[v].push_back(t);
   }
+}
+
+const BoxTree& AcuteCorners::edge_tree() const {
+  tree_once_([this] {
+    std::vector<BoxTree::Box> boxes;
+    boxes.reserve(surface_.edges().size());
+    for (const InputSurface::Edge& edge : surface_.edges()) {
+      boxes.push_back(box_around(points_, std::array{edge.from, edge.to}));
+    }
+    edge_tree_ = std::make_unique<BoxTree>(std::move(boxes));
+  });
+  return *edge_tree_;
 }
 
 bool AcuteCorners::edge_is_acute(Index e, const Present& present,
@@ -145,7 +182,7 @@ void AcuteCorners::boundary_near(Index v, double distance, const Present& presen
   const auto here = [&](Index f) {
     return std::find(facets.begin(), facets.end(), f) != facets.end();
   };
-  edge_tree_->query(box, found);
+  edge_tree().query(box, found);
   for (const Index e : found) {
     const InputSurface::Edge& edge = surface_.edges()[e];
     if (edge.from == v || edge.to == v || (!here(edge.left) && !here(edge.right))) continue;

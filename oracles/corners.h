@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oracles/input_surface.h"
+#include "oracles/parallel.h"
 
 namespace tetproof::oracles {
 
@@ -94,13 +95,16 @@ class AcuteCorners {
   const IntervalVector& rough_normal(Index facet) const {
     return surface_.facets()[facet].rough_normal;
   }
+  const BoxTree& edge_tree() const;
   template <class Visit>
   void boundary_near(Index v, double distance, const Present& present, Visit visit) const;
 
   const ExactPoints& points_;
   const InputSurface& surface_;
   std::vector<std::vector<Index>> edges_at_, triangles_at_;
-  std::unique_ptr<BoxTree> edge_tree_;
+  // Made by the first question about distances: most surfaces have no acute corner.
+  mutable Once tree_once_;
+  mutable std::unique_ptr<BoxTree> edge_tree_;
 };
 
 }  // namespace tetproof::oracles

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <unordered_map>
 
+#include "oracles/simplex_set.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -137,23 +139,13 @@ class Uncovered {
 std::vector<std::uint8_t> walls_of(const TetComplex& complex,
                                    std::span<const std::array<std::uint32_t, 4>> faces) {
   std::vector<std::uint8_t> walls(complex.tetrahedra.size());
-  std::vector<std::uint8_t> on_wall(complex.points->size());
-  std::vector<Face> sorted;
-  sorted.reserve(faces.size());
-  for (const auto& [a, b, c, id] : faces) {
-    sorted.push_back({a, b, c});
-    std::sort(sorted.back().begin(), sorted.back().end());
-    for (const Index v : sorted.back()) {
-      if (v < on_wall.size()) on_wall[v] = 1;
-    }
-  }
-  std::sort(sorted.begin(), sorted.end());
+  std::vector<Face> corners;
+  corners.reserve(faces.size());
+  for (const auto& [a, b, c, id] : faces) corners.push_back({a, b, c});
+  const SimplexSet<3> listed(corners);
   for (std::size_t t = 0; t < walls.size(); ++t) {
     for (int i = 0; i < 4; ++i) {
-      Face face = face_of(complex.tetrahedra[t], i);
-      if (on_wall[face[0]] + on_wall[face[1]] + on_wall[face[2]] < 3) continue;
-      std::sort(face.begin(), face.end());
-      const bool wall = std::binary_search(sorted.begin(), sorted.end(), face);
+      const bool wall = listed.contains(face_of(complex.tetrahedra[t], i));
       walls[t] |= static_cast<std::uint8_t>(static_cast<unsigned>(wall) << i);
     }
   }

@@ -83,6 +83,11 @@ class Features {
     return "edge " + std::to_string(surface_.edges()[e].from) + "-" +
            std::to_string(surface_.edges()[e].to);
   }
+  bool surely_longer(const InputSurface::Edge& edge, double than) const {
+    const IntervalVector u = points_.rough_difference(edge.from, edge.to);
+    const Interval bound = Interval(than) * Interval(than);
+    return (exact::dot(u, u) - bound).sign() == 1;
+  }
   std::string vertex_near_edge(Index e, double reach, const mpq_class& bound);
   std::string near_facet(Index facet, double reach, const mpq_class& bound);
 
@@ -103,10 +108,11 @@ std::string Features::near_vertex(Index v, double reach, const mpq_class& bound)
     if (!edge_present(e)) continue;
     const InputSurface::Edge& edge = surface_.edges()[e];
     // From an edge at the vertex itself, the distance is that of the other end.
+    const bool at_vertex = edge.from == v || edge.to == v;
+    if (at_vertex && surely_longer(edge, reach)) continue;
     const mpq_class distance =
-        edge.from == v || edge.to == v
-            ? exact::squared(exact::difference(points_, edge.from, edge.to)).rational()
-            : squared_distance_to_segment(points_, v, edge.from, edge.to);
+        at_vertex ? exact::squared(exact::difference(points_, edge.from, edge.to)).rational()
+                  : squared_distance_to_segment(points_, v, edge.from, edge.to);
     if (distance < bound) return "vertex " + std::to_string(v) + " and " + edge_name(e);
   }
   found_.clear();

@@ -104,8 +104,9 @@ std::string InputSurface::assign(const Polyhedron& polyhedron, const ExactPoints
   build_facets(polyhedron, points);
   build_edges();
   volume6_ = {};
+  exact::Volume6 volume6;
   const Index origin = triangles_[0][0];
-  for (const auto& [a, b, c] : triangles_) volume6_ += exact::volume6(points, origin, a, b, c);
+  for (const auto& [a, b, c] : triangles_) volume6_ += volume6(points, {origin, a, b, c});
   if (volume6_.sign() <= 0) return "the surface encloses no volume";
   return {};
 }

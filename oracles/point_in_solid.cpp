@@ -102,6 +102,10 @@ int side_of_plane(const ExactPoints& points, const std::array<Index, 3>& t, cons
   return sgn(exact::dot(exact::area2(points, t[0], t[1], t[2]), q.from(t[0])));
 }
 
+double middle(const Interval& x) {
+  return x.low / 2 + x.high / 2;
+}
+
 // A point of a clipped polygon by its four determinants against the faces of a tetrahedron, up to a
 // common factor.
 using FaceSides = std::array<ExactNumber, 4>;
@@ -128,6 +132,58 @@ std::vector<FaceSides> clip(const std::vector<FaceSides>& polygon, int face) {
     result.push_back(std::move(cut));
   }
   return result;
+}
+
+// A cheap proof that the triangle enters: a point of it that is strictly inside the tetrahedron.
+// Doubles look for one as `meets` does; a sum of the triangle's corners with shares that are not
+// negative is one, up to a common factor, if intervals say so for each face.
+bool surely_meets(const ExactPoints& points, const std::array<Index, 3>& triangle,
+                  const std::array<Index, 4>& tetrahedron) {
+  struct Corner {
+    Position shares;
+    std::array<double, 4> sides;
+  };
+  std::array<std::array<Interval, 4>, 3> rough;
+  std::vector<Corner> polygon(3), cut;
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    for (std::size_t face = 0; face < 4; ++face) {
+      std::array<Index, 4> replaced = tetrahedron;
+      replaced[face] = triangle[corner];
+      rough[corner][face] = exact::rough_volume6(points, replaced);
+      polygon[corner].sides[face] = middle(rough[corner][face]);
+    }
+    polygon[corner].shares[corner] = 1;
+  }
+  for (std::size_t face = 0; face < 4; ++face) {
+    cut.clear();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      const double at_a = a.sides[face], at_b = b.sides[face];
+      if (at_a >= 0) cut.push_back(a);
+      if (!(at_a * at_b < 0)) continue;
+      const double share = at_a / (at_a - at_b);
+      Corner& between = cut.emplace_back();
+      for (std::size_t j = 0; j < 3; ++j) {
+        between.shares[j] = a.shares[j] * (1 - share) + b.shares[j] * share;
+      }
+      for (std::size_t j = 0; j < 4; ++j) {
+        between.sides[j] = a.sides[j] * (1 - share) + b.sides[j] * share;
+      }
+    }
+    polygon.swap(cut);
+  }
+  Position shares = {};
+  for (const Corner& corner : polygon) {
+    for (std::size_t j = 0; j < 3; ++j) shares[j] += corner.shares[j];
+  }
+  if (!(shares[0] >= 0 && shares[1] >= 0 && shares[2] >= 0)) return false;
+  for (std::size_t face = 0; face < 4; ++face) {
+    const Interval height = Interval(shares[0]) * rough[0][face] +
+                            Interval(shares[1]) * rough[1][face] +
+                            Interval(shares[2]) * rough[2][face];
+    if (height.sign() != 1) return false;
+  }
+  return true;
 }
 
 // Does the triangle contain a point strictly inside the tetrahedron? The clipped polygon does
@@ -172,10 +228,6 @@ bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
     if (std::all_of(triangle.begin(), triangle.end(), outside)) return true;
   }
   return false;
-}
-
-double middle(const Interval& x) {
-  return x.low / 2 + x.high / 2;
 }
 
 // A cheap proof that the tetrahedron stays out, above all for large triangles: it lies beyond one
@@ -388,7 +440,9 @@ InputSurface::Contact InputSurface::contact(const ExactPoints& points,
            !beyond_edge(points, triangles_[t], facets_[facet_of_triangle_[t]].rough_normal,
                         tetrahedron) &&
            !separated(points, triangles_[t], tetrahedron) &&
-           !apart(points, triangles_[t], tetrahedron) && meets(points, triangles_[t], tetrahedron);
+           (surely_meets(points, triangles_[t], tetrahedron) ||
+            (!apart(points, triangles_[t], tetrahedron) &&
+             meets(points, triangles_[t], tetrahedron)));
   });
   return contact;
 }

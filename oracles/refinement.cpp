@@ -6,6 +6,7 @@
 
 #include "oracles/ball_side.h"
 #include "oracles/sample.h"
+#include "oracles/simplex_set.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -18,6 +19,23 @@ std::uint64_t directed_key(Index a, Index b) {
 }
 std::uint64_t edge_key(Index a, Index b) {
   return directed_key(std::min(a, b), std::max(a, b));
+}
+
+SimplexSet<2> edges_of_chains(const ExactRecord& record) {
+  std::vector<std::array<Index, 2>> edges;
+  for (const ExactRecord::Chain& chain : record.segments) {
+    for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
+      edges.push_back({chain.vertices[i - 1], chain.vertices[i]});
+    }
+  }
+  return SimplexSet<2>(edges);
+}
+
+SimplexSet<3> faces_on_facets(const ExactRecord& record) {
+  std::vector<Face> faces;
+  faces.reserve(record.refined_facets.size());
+  for (const auto& [a, b, c, id] : record.refined_facets) faces.push_back({a, b, c});
+  return SimplexSet<3>(faces);
 }
 
 std::string chain_name(std::size_t n, const ExactRecord::Chain& chain) {
@@ -35,7 +53,9 @@ class Segments {
         complex_(*mesh.complex),
         facets_(surface_, record_),
         input_edges_(surface_),
-        mesh_edges_(mesh_edges(complex_)),
+        edges_(edges_of_chains(record_)),
+        in_mesh_(edges_.size()),
+        chain_of_(edges_.size(), kNone),
         first_(surface_.edges().size(), kNone),
         last_(surface_.edges().size(), kNone) {
     for (const auto& corner : record_.corners) corner_[corner.vertex] = &corner;
@@ -43,6 +63,7 @@ class Segments {
 
   OracleReport run() {
     if (!facets_.defect().empty()) report_.fail(facets_.defect());
+    find_mesh_edges();
     for (std::size_t n = 0; n < record_.segments.size(); ++n) {
       const ExactRecord::Chain& chain = record_.segments[n];
       if (!check_mesh_edges(n, chain)) continue;
@@ -57,6 +78,7 @@ class Segments {
   }
 
  private:
+  void find_mesh_edges();
   bool check_mesh_edges(std::size_t n, const ExactRecord::Chain& chain);
   void check_artificial(std::size_t n, const ExactRecord::Chain& chain);
   void check_input(std::size_t n, const ExactRecord::Chain& chain);
@@ -72,14 +94,25 @@ class Segments {
   const TetComplex& complex_;
   const FacetIndex facets_;
   const InputEdges input_edges_;
-  const std::vector<std::uint64_t> mesh_edges_;
+  const SimplexSet<2> edges_;          // of chains
+  std::vector<std::uint8_t> in_mesh_;  // per edge of a chain
+  std::vector<std::size_t> chain_of_;  // the same; kNone: none yet
   std::unordered_map<Index, const ExactRecord::Corner*> corner_;
-  std::unordered_map<std::uint64_t, std::size_t> used_;  // edge -> chain
-  std::vector<Index> first_, last_;                      // per input edge: ends of its chain
+  std::vector<Index> first_, last_;  // per input edge: ends of its chain
   std::uint64_t artificial_ = 0;
   double largest_bend_ = 0;
   OracleReport report_{"segments", "input edges and edges of segments"};
 };
+
+void Segments::find_mesh_edges() {
+  for (const Tet& t : complex_.tetrahedra) {
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        if (const std::size_t e = edges_.find({t[i], t[j]}); e < edges_.size()) in_mesh_[e] = 1;
+      }
+    }
+  }
+}
 
 bool Segments::check_mesh_edges(std::size_t n, const ExactRecord::Chain& chain) {
   if (chain.vertices.size() < 2) {
@@ -89,14 +122,16 @@ bool Segments::check_mesh_edges(std::size_t n, const ExactRecord::Chain& chain) 
   for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
     const Index a = chain.vertices[i - 1], b = chain.vertices[i];
     ++report_.checked;
-    if (!std::binary_search(mesh_edges_.begin(), mesh_edges_.end(), edge_key(a, b))) {
+    const std::size_t e = edges_.find({a, b});
+    if (in_mesh_[e] == 0) {
       report_.fail(chain_name(n, chain) + ": " + complex_.vertex_name(a) + " - " +
                    complex_.vertex_name(b) + " is no edge of the refined mesh");
     }
-    const auto [other, fresh] = used_.emplace(edge_key(a, b), n);
-    if (!fresh) {
+    if (chain_of_[e] != kNone) {
       report_.fail(chain_name(n, chain) + " shares an edge with segment " +
-                   std::to_string(other->second));
+                   std::to_string(chain_of_[e]));
+    } else {
+      chain_of_[e] = n;
     }
   }
   return true;
@@ -151,21 +186,21 @@ void Segments::check_input(std::size_t n, const ExactRecord::Chain& chain) {
     report_.fail(name + " lies between two filtered facets");
   }
   std::vector<Index> ordered = chain.vertices;
-  const ExactVector along = exact::difference(points_, edge.from, edge.to);
-  if (exact::dot(along, exact::difference(points_, ordered.front(), ordered.back())) < 0) {
+  if (along_edge(points_, edge, ordered.front(), ordered.back()) < 0) {
     std::reverse(ordered.begin(), ordered.end());
   }
-  ExactNumber reached = -1;
-  for (const Index v : ordered) {
-    const ExactVector w = exact::difference(points_, edge.from, v);
-    if (!exact::is_zero(exact::cross(along, w))) {
-      report_.fail(name + ": " + complex_.vertex_name(v) + " is off " + edge_name(edge));
-    }
-    const ExactNumber position = exact::dot(along, w);
-    if (position <= reached) report_.fail(name + " turns back on " + edge_name(edge));
-    reached = position;
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    const Index v = ordered[i];
+    const bool on = points_.is_combination(v, {edge.from, edge.to, edge.to}) ||
+                    exact::collinear(points_, edge.from, edge.to, v);
+    if (!on) report_.fail(name + ": " + complex_.vertex_name(v) + " is off " + edge_name(edge));
+    const bool on_way = i == 0 ? along_edge(points_, edge, edge.from, v) >= 0
+                               : along_edge(points_, edge, ordered[i - 1], v) > 0;
+    if (!on_way) report_.fail(name + " turns back on " + edge_name(edge));
   }
-  if (reached > exact::squared(along)) report_.fail(name + " leaves " + edge_name(edge));
+  if (along_edge(points_, edge, ordered.back(), edge.to) < 0) {
+    report_.fail(name + " leaves " + edge_name(edge));
+  }
   if (first_[e] != kNone) return report_.fail(edge_name(edge) + " has two segments");
   first_[e] = ordered.front();
   last_[e] = ordered.back();
@@ -218,10 +253,12 @@ class RefinedFacets {
         points_(*mesh.points),
         surface_(*mesh.surface),
         complex_(*mesh.complex),
-        facets_(surface_, record_) {}
+        facets_(surface_, record_),
+        faces_(faces_on_facets(record_)),
+        in_mesh_(faces_.size()) {}
 
   OracleReport run() {
-    collect_mesh_faces();
+    find_mesh_faces();
     for (const auto& [a, b, c, id] : record_.refined_facets) check_face({a, b, c}, id);
     report_.checked += surface_.facets().size();
     collect_chains();
@@ -230,7 +267,7 @@ class RefinedFacets {
   }
 
  private:
-  void collect_mesh_faces();
+  void find_mesh_faces();
   void check_face(Face face, Index id);
   void collect_chains();
   void check_borders();
@@ -240,28 +277,24 @@ class RefinedFacets {
   const InputSurface& surface_;
   const TetComplex& complex_;
   const FacetIndex facets_;
-  std::vector<Face> mesh_faces_;
+  const SimplexSet<3> faces_;
+  std::vector<std::uint8_t> in_mesh_;                     // per face
   std::vector<std::pair<Index, std::uint64_t>> sides_;    // facet, directed edge of a face
   std::vector<std::pair<Index, std::uint64_t>> chained_;  // facet, edge of a chain
   OracleReport report_{"facets", "facets and faces"};
 };
 
-void RefinedFacets::collect_mesh_faces() {
-  mesh_faces_.reserve(4 * complex_.tetrahedra.size());
+void RefinedFacets::find_mesh_faces() {
   for (const Tet& tet : complex_.tetrahedra) {
     for (int i = 0; i < 4; ++i) {
-      mesh_faces_.push_back(face_of(tet, i));
-      std::sort(mesh_faces_.back().begin(), mesh_faces_.back().end());
+      if (const std::size_t f = faces_.find(face_of(tet, i)); f < faces_.size()) in_mesh_[f] = 1;
     }
   }
-  std::sort(mesh_faces_.begin(), mesh_faces_.end());
 }
 
 void RefinedFacets::check_face(Face face, Index id) {
   ++report_.checked;
-  Face sorted = face;
-  std::sort(sorted.begin(), sorted.end());
-  if (!std::binary_search(mesh_faces_.begin(), mesh_faces_.end(), sorted)) {
+  if (in_mesh_[faces_.find(face)] == 0) {
     return report_.fail(complex_.face_name(face) + " is no face of the refined mesh");
   }
   const Index f = facets_.find(id);
@@ -335,11 +368,7 @@ void RefinedFacets::check_borders() {
 
 }  // namespace
 
-FacetIndex::FacetIndex(const InputSurface& surface, const ExactRecord& record) {
-  for (Index f = 0; f < surface.facets().size(); ++f) {
-    by_id_.emplace_back(surface.facets()[f].id, f);
-  }
-  std::sort(by_id_.begin(), by_id_.end());
+FacetIndex::FacetIndex(const InputSurface& surface, const ExactRecord& record) : surface_(surface) {
   kept_.assign(surface.facets().size(), 1);
   std::uint64_t named = 0;
   std::vector<std::uint8_t> seen(surface.triangles().size());
@@ -372,22 +401,28 @@ FacetIndex::FacetIndex(const InputSurface& surface, const ExactRecord& record) {
   }
 }
 
+// A facet's id is its smallest triangle.
 Index FacetIndex::find(Index id) const {
-  const auto found = std::lower_bound(by_id_.begin(), by_id_.end(), std::pair(id, Index{0}));
-  return found != by_id_.end() && found->first == id ? found->second : kNone;
+  if (id >= surface_.triangles().size()) return kNone;
+  const Index facet = surface_.facet_of_triangle()[id];
+  return surface_.facets()[facet].id == id ? facet : kNone;
 }
 
 InputEdges::InputEdges(const InputSurface& surface) {
-  for (Index e = 0; e < surface.edges().size(); ++e) {
-    edges_.emplace_back(edge_key(surface.edges()[e].from, surface.edges()[e].to), e);
+  std::vector<std::array<Index, 2>> ends;
+  ends.reserve(surface.edges().size());
+  for (const InputSurface::Edge& edge : surface.edges()) ends.push_back({edge.from, edge.to});
+  ends_ = SimplexSet<2>(ends);
+  edge_.assign(ends_.size(), kNone);
+  for (Index e = 0; e < ends.size(); ++e) {
+    Index& first = edge_[ends_.find(ends[e])];
+    if (first == kNone) first = e;
   }
-  std::sort(edges_.begin(), edges_.end());
 }
 
 Index InputEdges::find(Index a, Index b) const {
-  const auto found =
-      std::lower_bound(edges_.begin(), edges_.end(), std::pair(edge_key(a, b), Index{0}));
-  return found != edges_.end() && found->first == edge_key(a, b) ? found->second : kNone;
+  const std::size_t n = ends_.find({a, b});
+  return n < ends_.size() ? edge_[n] : kNone;
 }
 
 Index InputEdges::of_chain(const ExactRecord& record, const std::vector<Index>& chain) const {
@@ -397,6 +432,16 @@ Index InputEdges::of_chain(const ExactRecord& record, const std::vector<Index>& 
     if (p.kind == ExactPoint::Kind::on_segment) return find(p.i, p.j);
   }
   return find(chain.front(), chain.back());
+}
+
+int along_edge(const ExactPoints& points, const InputSurface::Edge& edge, Index p, Index q) {
+  if (p == q) return 0;
+  if (p == edge.from && q == edge.to) return 1;
+  const int rough =
+      exact::dot(points.rough_difference(edge.from, edge.to), points.rough_difference(p, q)).sign();
+  if (rough != 2) return rough;
+  return sgn(
+      exact::dot(exact::difference(points, edge.from, edge.to), exact::difference(points, p, q)));
 }
 
 OracleReport check_segments(const RefinedMesh& mesh) {
@@ -470,10 +515,14 @@ namespace {
 class Encroachment {
  public:
   explicit Encroachment(const RefinedMesh& mesh)
-      : record_(*mesh.record), points_(*mesh.points), complex_(*mesh.complex) {}
+      : record_(*mesh.record),
+        points_(*mesh.points),
+        complex_(*mesh.complex),
+        edges_(edges_of_chains(record_)),
+        faces_(faces_on_facets(record_)) {}
 
   OracleReport run() {
-    collect();
+    report_.checked = edges_.size() + faces_.size();
     check_neighbours();
     check_sample();
     report_.figures.emplace_back("edges", edges_.size());
@@ -484,33 +533,17 @@ class Encroachment {
   }
 
  private:
-  void collect() {
-    for (const ExactRecord::Chain& chain : record_.segments) {
-      for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
-        edges_.push_back(edge_key(chain.vertices[i - 1], chain.vertices[i]));
-      }
-    }
-    for (const auto& [a, b, c, id] : record_.refined_facets) {
-      faces_.push_back({a, b, c});
-      std::sort(faces_.back().begin(), faces_.back().end());
-    }
-    std::sort(edges_.begin(), edges_.end());
-    std::sort(faces_.begin(), faces_.end());
-    report_.checked = edges_.size() + faces_.size();
-  }
-
   void check_neighbours() {
     for (const Tet& t : complex_.tetrahedra) {
       for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < i; ++j) {
-          if (!std::binary_search(edges_.begin(), edges_.end(), edge_key(t[i], t[j]))) continue;
+          if (!edges_.contains({t[i], t[j]})) continue;
           for (int k = 0; k < 4; ++k) {
             if (k != i && k != j) check_edge(t[i], t[j], t[k]);
           }
         }
-        Face face = face_of(t, i);
-        std::sort(face.begin(), face.end());
-        if (std::binary_search(faces_.begin(), faces_.end(), face)) check_face(face, t[i]);
+        const std::size_t face = faces_.find(face_of(t, i));
+        if (face < faces_.size()) check_face(faces_[face], t[i]);
       }
     }
   }
@@ -520,8 +553,7 @@ class Encroachment {
     Sample sample(edges_.size() + faces_.size(), vertices.size());
     for (std::size_t i = sample.first(); i < edges_.size() + faces_.size(); i += sample.step()) {
       const bool edge = i < edges_.size();
-      const auto a = static_cast<Index>(edge ? edges_[i] >> 32 : 0);
-      const auto b = static_cast<Index>(edge ? edges_[i] : 0);
+      const auto [a, b] = edge ? edges_[i] : std::array<Index, 2>{};
       const Face face = edge ? Face{} : faces_[i - edges_.size()];
       const BallSide ball =
           edge ? BallSide::diametral(points_, a, b) : BallSide::diametral(points_, face);
@@ -553,8 +585,8 @@ class Encroachment {
   const ExactRecord& record_;
   const ExactPoints& points_;
   const TetComplex& complex_;
-  std::vector<std::uint64_t> edges_;
-  std::vector<Face> faces_;
+  const SimplexSet<2> edges_;
+  const SimplexSet<3> faces_;
   std::uint64_t tried_ = 0, found_ = 0;
   OracleReport report_{"encroachment", "edges of segments and faces on facets"};
 };

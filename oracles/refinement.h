@@ -4,6 +4,7 @@
 
 #include "oracles/input_surface.h"
 #include "oracles/promise.h"
+#include "oracles/simplex_set.h"
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -19,7 +20,8 @@ struct RefinedMesh {
   Index input_vertices = 0;
 };
 
-// Finds facets of the surface by id, and says which of them the filter kept.
+// Finds facets of the surface by id, and says which of them the filter kept. The surface must
+// outlive this.
 class FacetIndex {
  public:
   FacetIndex(const InputSurface& surface, const delmesher::ExactRecord& record);
@@ -30,7 +32,7 @@ class FacetIndex {
   const std::string& defect() const { return defect_; }
 
  private:
-  std::vector<std::pair<Index, Index>> by_id_;
+  const InputSurface& surface_;
   std::vector<std::uint8_t> kept_;
   std::string defect_;
 };
@@ -45,8 +47,12 @@ class InputEdges {
   Index of_chain(const delmesher::ExactRecord& record, const std::vector<Index>& chain) const;
 
  private:
-  std::vector<std::pair<std::uint64_t, Index>> edges_;
+  SimplexSet<2> ends_;
+  std::vector<Index> edge_;  // per pair of ends
 };
+
+// The sign of the cosine of the angle between an input edge and the way from p to q.
+int along_edge(const ExactPoints& points, const InputSurface::Edge& edge, Index p, Index q);
 
 // Chains on input edges: straight, on their edge, made of mesh edges and disjoint. Nothing of an
 // edge is missing but at chamfered corners, and the whole of acute edges. Artificial chains:

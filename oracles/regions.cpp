@@ -11,11 +11,23 @@
 
 namespace tetproof::oracles {
 
+// By intervals where these are narrow.
 double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
   double sum = 0;
   for (const Face& f : faces) {
-    const ExactVector n = exact::area2(*complex.points, f[0], f[1], f[2]);
-    sum += length(n, 2 * complex.points->exponent()) / 2;
+    const IntervalVector rough = exact::rough_area2(*complex.points, f[0], f[1], f[2]);
+    Position n{};
+    double width = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      n[axis] = rough[axis].low / 2 + rough[axis].high / 2;
+      width = std::max(width, rough[axis].high - rough[axis].low);
+    }
+    double area = std::hypot(n[0], n[1], n[2]);
+    if (!(area > 0x1p-900 && width < 0x1p-30 * area)) {
+      area =
+          length(exact::area2(*complex.points, f[0], f[1], f[2]), 2 * complex.points->exponent());
+    }
+    sum += area / 2;
   }
   return sum;
 }

@@ -34,9 +34,6 @@ struct Neighbours {
   std::vector<Index> across;
 };
 
-// Every edge of the mesh once, ascending: the lower vertex in the high half, the higher in the low.
-std::vector<std::uint64_t> mesh_edges(const TetComplex& complex);
-
 // Complex oracle: indices in range, corners distinct, no duplicate tetrahedra, every face shared by
 // one or two with opposite orientation, no vertex unused, boundary closed. The Euler characteristic
 // is half that of the boundary, as for every manifold of odd dimension, so solids that hang

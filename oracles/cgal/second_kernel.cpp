@@ -215,22 +215,15 @@ Number power_of_two(long exponent) {
   return result * Number(std::ldexp(1.0, static_cast<int>(exponent)));
 }
 
-Number from_integer(const mpz_class& value, const Number& unit) {
-  Number result(0), scale = unit;
-  mpz_class rest = abs(value), part;
-  while (rest != 0) {
-    mpz_fdiv_r_2exp(part.get_mpz_t(), rest.get_mpz_t(), 52);
-    mpz_fdiv_q_2exp(rest.get_mpz_t(), rest.get_mpz_t(), 52);
-    result += Number(part.get_d()) * scale;
-    scale *= Number(0x1p52);
-  }
-  return value < 0 ? -result : result;
+Number from_integer(const mpz_class& value) {
+  return Number(CGAL::Gmpz(value.get_mpz_t()));
 }
 
 // Is x / w the number in these units?
 bool is_number(const Number& x, const Number& w, const ExactNumber& value, const Number& unit) {
-  return x * from_integer(value.denominator(), Number(1)) ==
-         from_integer(value.numerator(), unit) * w;
+  const Number scaled = from_integer(value.numerator()) * unit;
+  return value.is_integer() && w == Number(1) ? x == scaled
+                                              : x * from_integer(value.denominator()) == scaled * w;
 }
 
 // Residues modulo the two primes below 2^61 that follow those of exact_sum.cpp.
@@ -313,7 +306,12 @@ class SecondKernel {
     compare_points();
     for (std::size_t v = 0; v < input_.vertices.size(); ++v) {
       const Position& p = input_.vertices[v];
-      const bool moved = definitions_.points[v].kind == ExactPoint::Kind::on_planes;
+      const ExactPoint& own = definitions_.points[v];
+      const bool moved = own.kind == ExactPoint::Kind::on_planes;
+      if (!moved && (own.kind != ExactPoint::Kind::explicit_point || own.x != p[0] ||
+                     own.y != p[1] || own.z != p[2])) {
+        report_.fail("point " + std::to_string(v) + " is not the input's vertex");
+      }
       corners_.push_back(moved ? expand(static_cast<Index>(v)) : Point(place(p)));
     }
     check_tetrahedra();
@@ -431,16 +429,64 @@ class SecondKernel {
                           std::array{quarter, quarter, quarter, quarter}));
   }
 
+  // A direction of rays, and the shadows that the triangles cast along it into the plane z = 0.
+  struct Direction {
+    using Interval = CGAL::Interval_nt<false>;
+    using Shadow = std::array<Interval, 2>;  // a box around it
+
+    explicit Direction(int attempt)
+        : x(0.2718281828 + 0.37 * attempt), y(0.5772156649 - 0.11 * attempt) {}
+    // Rounding has to be set upwards.
+    Shadow of(const Point& p) const {
+      return {p.rough.x() - Interval(x) * p.rough.z(), p.rough.y() - Interval(y) * p.rough.z()};
+    }
+
+    double x, y;
+    std::vector<Shadow> shadows;
+  };
+
+  const Direction& direction(std::size_t attempt) {
+    const CGAL::Protect_FPU_rounding<true> protection;
+    while (directions_.size() <= attempt) {
+      Direction d(static_cast<int>(directions_.size()));
+      for (const auto& [i, j, k] : triangles_) {
+        const std::array corners = {d.of(corners_[i]), d.of(corners_[j]), d.of(corners_[k])};
+        auto& shadow = d.shadows.emplace_back();
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const auto &a = corners[0][axis], &b = corners[1][axis], &c = corners[2][axis];
+          shadow[axis] = {std::min({a.inf(), b.inf(), c.inf()}),
+                          std::max({a.sup(), b.sup(), c.sup()})};
+        }
+      }
+      directions_.push_back(std::move(d));
+    }
+    return directions_[attempt];
+  }
+
+  // The triangles that a line from the point may meet.
+  std::vector<Index> near_line(const Direction& d, const Point& from) const {
+    const CGAL::Protect_FPU_rounding<true> protection;
+    const auto [x, y] = d.of(from);
+    std::vector<Index> found;
+    for (Index t = 0; t < d.shadows.size(); ++t) {
+      const auto& [u, v] = d.shadows[t];
+      const bool beside =
+          u.sup() < x.inf() || u.inf() > x.sup() || v.sup() < y.inf() || v.inf() > y.sup();
+      if (!beside) found.push_back(t);
+    }
+    return found;
+  }
+
   // The parity along a ray. Tries rays in several directions until one meets no edge. -1: the point
   // is on the surface, or no ray was found.
-  int parity(const Point& from) const {
-    for (int attempt = 0; attempt < 16; ++attempt) {
-      const Vector along(Number(0.2718281828 + 0.37 * attempt),
-                         Number(0.5772156649 - 0.11 * attempt), Number(1));
-      const Point to(from.exact + along);
+  int parity(const Point& from) {
+    for (std::size_t attempt = 0; attempt < 16; ++attempt) {
+      const Direction& d = direction(attempt);
+      const Point to(from.exact + Vector(Number(d.x), Number(d.y), Number(1)));
       int crossings = 0;
       bool sure = true;
-      for (const auto& [i, j, k] : triangles_) {
+      for (const Index t : near_line(d, from)) {
+        const auto& [i, j, k] = triangles_[t];
         const Point &a = corners_[i], &b = corners_[j], &c = corners_[k];
         const CGAL::Sign ab = orientation(from, to, a, b), bc = orientation(from, to, b, c);
         if (ab != CGAL::ZERO && bc != CGAL::ZERO && ab != bc) continue;
@@ -495,7 +541,8 @@ class SecondKernel {
       if (between_normals(a, b, c, p[0], p[1], p[2]) != CGAL::POSITIVE) {
         report_.fail(name + " is not turned outwards");
       }
-      for (const Point& corner : p) {
+      for (const auto& [v, corner] : {std::pair(i, p[0]), std::pair(j, p[1]), std::pair(k, p[2])}) {
+        if (std::find(t.begin(), t.end(), v) != t.end()) continue;
         if (orientation(a, b, c, corner) != CGAL::ZERO) {
           report_.fail(name + " is off its plane");
         } else if (!on_facet(corner, *facet->second)) {
@@ -597,6 +644,7 @@ class SecondKernel {
   const Definitions definitions_;
   std::vector<Place> input_places_;  // by the definitions
   std::vector<Point> corners_;       // of the surface whose facets are meshed
+  std::vector<Direction> directions_;
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
 };
 

@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -36,23 +37,56 @@ std::string defect_of_lists(const Polyhedron& surface) {
   return {};
 }
 
+// Adds the triangles one by one, which CGAL's mesh refuses where an edge would get a third triangle
+// or two that are not consistently oriented. False if it refuses one, perhaps for the order in
+// which they come, or if two fans of triangles meet at a vertex: then more edges end there than the
+// vertex itself can reach.
+bool add_triangles(const Polyhedron& surface, const std::vector<Kernel::Point_3>& points,
+                   Mesh& mesh) {
+  mesh.reserve(static_cast<Mesh::size_type>(points.size()),
+               static_cast<Mesh::size_type>(3 * surface.triangles.size() / 2),
+               static_cast<Mesh::size_type>(surface.triangles.size()));
+  for (const Kernel::Point_3& p : points) mesh.add_vertex(p);
+  for (const auto& [a, b, c] : surface.triangles) {
+    if (a == b || b == c || c == a) return false;
+    const auto face =
+        mesh.add_face(Mesh::Vertex_index(a), Mesh::Vertex_index(b), Mesh::Vertex_index(c));
+    if (face == Mesh::null_face()) return false;
+  }
+  std::size_t reached = 0;
+  for (const auto v : mesh.vertices()) {
+    if (!mesh.is_isolated(v)) reached += mesh.degree(v);
+  }
+  return reached == mesh.number_of_halfedges();
+}
+
+// The same by functions that take several times as long, and that see all triangles at once.
+bool assemble(const Polyhedron& surface, const std::vector<Kernel::Point_3>& points, Mesh& mesh) {
+  std::vector<std::array<std::size_t, 3>> polygons;
+  for (const auto& t : surface.triangles) polygons.push_back({t[0], t[1], t[2]});
+  if (!processing::is_polygon_soup_a_polygon_mesh(polygons)) return false;
+  processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  return true;
+}
+
 }  // namespace
 
 SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface, const SurfaceQuestions& questions) {
   SurfaceOpinion opinion;
   opinion.reason = defect_of_lists(surface);
   if (!opinion.reason.empty()) return opinion;
-  std::vector<std::vector<std::size_t>> polygons;
-  for (const auto& t : surface.triangles) polygons.push_back({t[0], t[1], t[2]});
-  opinion.manifold = processing::is_polygon_soup_a_polygon_mesh(polygons);
+  std::vector<Kernel::Point_3> points;
+  for (const Position& p : surface.vertices) points.emplace_back(p[0], p[1], p[2]);
+  Mesh mesh;
+  opinion.manifold = add_triangles(surface, points, mesh);
+  if (!opinion.manifold) {
+    mesh.clear();
+    opinion.manifold = assemble(surface, points, mesh);
+  }
   if (!opinion.manifold) {
     opinion.reason = "not a consistently oriented manifold";
     return opinion;
   }
-  std::vector<Kernel::Point_3> points;
-  for (const Position& p : surface.vertices) points.emplace_back(p[0], p[1], p[2]);
-  Mesh mesh;
-  processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
   opinion.closed = CGAL::is_closed(mesh);
   if (!opinion.closed) {
     opinion.reason = "open";
