@@ -45,9 +45,9 @@ constexpr Number kNumbers[] = {{"--delta", &Promise::delta, 0, 60},
                                {"--max-vertices", &Promise::max_vertices, 0, 1e15}};
 
 // These options say where and how, not what; --slivers guarantees nothing.
-constexpr std::array kWithValue = {"-o",        "--output",     "--stats",          "--exact",
-                                   "--threads", "--time-limit", "--save-chamfered", "--slivers",
-                                   "--names"};
+constexpr std::array kWithValue = {"-o",        "--output", "--stats",      "--exact",
+                                   "--threads", "--jobs",   "--time-limit", "--save-chamfered",
+                                   "--slivers", "--names"};
 constexpr std::array kWithout = {"-q", "--quiet", "-v", "--verbose", "--no-bridge-simplification"};
 
 template <std::size_t N>
@@ -71,7 +71,7 @@ constexpr Choice kChoices[] = {{"link", &Promise::link},
                                {"bridges", &Promise::bridges},
                                {"simplification", nullptr},
                                {"order", nullptr},
-                               {"steiner-point", nullptr},
+                               {"steiner-point", &Promise::steiner_point},
                                {"kept-points", &Promise::kept_points},
                                {"enrichment", &Promise::enrichment},
                                {"filter-pairs", &Promise::filter_pairs},
@@ -372,6 +372,7 @@ Promise promise_of(const delmesher::Options& options, Task task) {
   if (task == Task::mesh) {
     p.link = options.as_paper.link;
     p.bridges = options.as_paper.bridges;
+    p.steiner_point = options.as_paper.steiner_point;
     p.kept_points = options.as_paper.kept_points;
     p.enrichment = options.as_paper.enrichment;
     p.filter_pairs = options.as_paper.filter_pairs;

@@ -30,6 +30,7 @@ struct Promise {
   // The choices of --as-paper that an oracle can see.
   bool link = false;              // chamfers reach a third of the way to the link
   bool bridges = false;           // a bridge per triangle
+  bool steiner_point = false;     // bad tetrahedra are split at their circumcentres
   bool kept_points = false;       // enriched with the points on artificial segments, too
   bool enrichment = false;        // always enriched
   bool filter_pairs = false;      // both sides of close pairs dropped

@@ -476,12 +476,47 @@ std::vector<std::uint8_t> volume_points(const RefinedMesh& mesh) {
   return is_volume;
 }
 
+// Splitting points are put on a grid of this share of the shortest edge; twice that is allowed.
+constexpr long kGridBits = 9;
+
+enum class SplitAt : std::uint8_t { circumcentre, centroid, elsewhere };
+
+// Where a vertex is in a tetrahedron (a, b, c, d) that is not flat, to 2^-9 of the shortest edge.
+SplitAt place_in(const ExactPoints& points, const std::array<Index, 4>& tetrahedron, Index vertex) {
+  const Index a = tetrahedron[0];
+  const ExactVector u = exact::difference(points, a, tetrahedron[1]),
+                    v = exact::difference(points, a, tetrahedron[2]),
+                    w = exact::difference(points, a, tetrahedron[3]),
+                    x = exact::difference(points, a, vertex);
+  ExactNumber shortest = exact::squared(u);
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < i; ++j) {
+      shortest = std::min(
+          shortest, exact::squared(exact::difference(points, tetrahedron[i], tetrahedron[j])));
+    }
+  }
+  // The circumcentre is (|u|^2 v x w + |v|^2 w x u + |w|^2 u x v) / 2 det(u, v, w) away from a.
+  const ExactVector vw = exact::cross(v, w), wu = exact::cross(w, u), uv = exact::cross(u, v);
+  const ExactNumber uu = exact::squared(u), vv = exact::squared(v), ww = exact::squared(w);
+  const ExactNumber twice = ExactNumber(2) * exact::dot(u, vw);
+  ExactVector off_centre, off_centroid;
+  for (std::size_t i = 0; i < 3; ++i) {
+    off_centre[i] = twice * x[i] - (uu * vw[i] + vv * wu[i] + ww * uv[i]);
+    off_centroid[i] = ExactNumber(4) * x[i] - (u[i] + v[i] + w[i]);
+  }
+  const auto within = [&](const ExactVector& off, const ExactNumber& scale) {
+    return exact::squared(off).shifted(2 * kGridBits) <= scale * scale * shortest;
+  };
+  if (within(off_centre, twice)) return SplitAt::circumcentre;
+  return within(off_centroid, 4) ? SplitAt::centroid : SplitAt::elsewhere;
+}
+
 }  // namespace
 
 OracleReport check_balls(const RefinedMesh& mesh) {
   OracleReport report("steiner-balls", "vertices");
   const ExactPoints& points = *mesh.points;
-  std::uint64_t on_sphere = 0;
+  std::uint64_t on_sphere = 0, at_centroids = 0;
   std::vector<std::uint8_t> waiting = volume_points(mesh);
   report.checked = used_vertices(*mesh.complex).size();
   for (const ExactRecord::Ball& ball : mesh.record->balls) {
@@ -500,6 +535,12 @@ OracleReport check_balls(const RefinedMesh& mesh) {
       report.fail(name + " is " + (inside == 0 ? "on" : "outside") +
                   " the circumsphere that it was made for");
     }
+    if (sign == 0 || !mesh.promise->steiner_point) continue;
+    const SplitAt place = place_in(points, ball.tetrahedron, ball.vertex);
+    at_centroids += place == SplitAt::centroid;
+    if (place == SplitAt::elsewhere) {
+      report.fail(name + " is not at the circumcentre of the tetrahedron that it was made for");
+    }
   }
   for (Index v = 0; v < waiting.size(); ++v) {
     if (waiting[v] != 0) {
@@ -507,6 +548,7 @@ OracleReport check_balls(const RefinedMesh& mesh) {
     }
   }
   report.figures.emplace_back("on the sphere", on_sphere);
+  if (mesh.promise->steiner_point) report.figures.emplace_back("at centroids", at_centroids);
   return report;
 }
 

@@ -70,7 +70,8 @@ OracleReport check_refined_facets(const RefinedMesh& mesh);
 OracleReport check_encroachment(const RefinedMesh& mesh);
 
 // Every volume Steiner point has exactly one circumball for which it was made (section 5.6), and
-// lies strictly inside it.
+// lies strictly inside it. If circumcentres are promised, the point is at the ball's centre, or at
+// the centroid of its tetrahedron, which is counted: the centre of a flat one cannot be computed.
 OracleReport check_balls(const RefinedMesh& mesh);
 
 }  // namespace tetproof::oracles

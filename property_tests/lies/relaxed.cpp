@@ -1,4 +1,6 @@
 // Lies: promises in the record that are laxer than those of the options.
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "property_tests/lies/told.h"
@@ -94,6 +96,27 @@ const Lie kRelaxed[] = {
      [](Told& t) { t.promise.link = true; }},
     {"chamfers that no triangle bounds", "refined-chamfer-need",
      [](Told& t) { t.promise.bridges = true; }},
+    {"Steiner points nearer to the shortest edge than the circumcentre", "refined-steiner-balls",
+     [](Told& t) { t.promise.steiner_point = true; }},
+    {"a ball of another tetrahedron, its centre elsewhere", "refined-steiner-balls",
+     [](Told& t) {
+       Options options = honest_options();
+       options.as_paper.steiner_point = true;
+       t = run_of(options);
+       ExactPoints points;
+       points.assign(t.record.points);
+       for (auto& ball : t.record.balls) {
+         for (Index v = 0; v < points.size(); ++v) {
+           const auto [a, b, c, d] = ball.tetrahedron;
+           const bool other = v != a && v != b && v != c && v != d && v != ball.vertex;
+           const int sign = exact::orient3d(points, v, b, c, d);
+           if (!other || sign * exact::insphere(points, v, b, c, d, ball.vertex) <= 0) continue;
+           ball.tetrahedron[0] = v;
+           return;
+         }
+       }
+       ADD_FAILURE() << "no other ball has the vertex inside";
+     }},
     {"points on artificial segments left out", "enrichment",
      [](Told& t) { t.promise.kept_points = true; }},
     {"one side of a close pair kept", "refined-filter",
