@@ -323,7 +323,7 @@ class VtuReader {
           mesh.labels.push_back(static_cast<std::int32_t>(integer(labels[cell])));
         if (!facets.empty()) {
           const bool known = facets[cell] >= 0 && facets[cell] < 0x1p32;
-          mesh.facets.push_back(known ? static_cast<Index>(facets[cell]) : kNone);
+          mesh.facets.push_back(known ? static_cast<Index>(integer(facets[cell])) : kNone);
         }
       } else if (types[cell] != 1 && types[cell] != 3) {  // points and lines
         fail("a cell that is no tetrahedron and no triangle");
