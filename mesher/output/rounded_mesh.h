@@ -57,6 +57,8 @@ class RoundedMesh {
   // Is v inside the union of its star? If not, it is on the hull of the tetrahedra given.
   bool is_enclosed(std::uint32_t v) const;
   bool is_boundary(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  // The faces of the surface.
+  std::span<const std::array<std::uint32_t, 3>> boundary() const { return boundary_; }
   // Is there a vertex at p?
   bool occupied(const Vec3& p) const;
   // The sign that t would have with its vertex v at p, and that of any four vertices.

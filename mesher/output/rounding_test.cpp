@@ -152,10 +152,10 @@ void check(const Scene& scene, const RoundingResult& r) {
     }
   }
   double largest = 0;
-  for (std::size_t i = 0; i < r.vertices.size(); ++i) {
-    const VertexId v = r.vertices[i];
-    if (scene.input.fixed[v] == 0 && scene.input.on_surface[v] == 0) continue;
-    for (const double c : scene.points.nearest(v)) largest = std::max(largest, std::fabs(c));
+  for (const auto& face : scene.input.boundary) {
+    for (const VertexId v : face) {
+      for (const double c : scene.points.nearest(v)) largest = std::max(largest, std::fabs(c));
+    }
   }
   const double ulp = std::nextafter(largest, INFINITY) - largest;
   for (std::size_t i = 0; i < r.vertices.size(); ++i) {

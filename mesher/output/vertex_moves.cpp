@@ -106,11 +106,17 @@ Vec3 deepest_point(const StarFrame& frame) {
 }  // namespace
 
 VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh), chains_budget_(kAllChainsBudget) {
+  // The box around the surface is larger and says nothing about the surface's scale; where there
+  // are no faces of the surface, what is held in place says it.
   double largest = 0;
-  for (std::uint32_t v = 0; v < mesh.vertices(); ++v) {
-    if (mesh.fixed(v) || mesh.on_surface(v)) {
-      largest = std::max(largest, largest_component(mesh.home(v)));
-    }
+  const auto take = [&](std::uint32_t v) {
+    largest = std::max(largest, largest_component(mesh.home(v)));
+  };
+  for (const auto& face : mesh.boundary()) {
+    for (const std::uint32_t v : face) take(v);
+  }
+  for (std::uint32_t v = 0; mesh.boundary().empty() && v < mesh.vertices(); ++v) {
+    if (mesh.fixed(v) || mesh.on_surface(v)) take(v);
   }
   surface_unit_ = unit_in_last_place(largest);
   for (int x = -2; x <= 2; ++x) {
@@ -172,7 +178,7 @@ void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
     return;
   }
   if (surface_unit_ != own) add({surface_unit_, surface_unit_, surface_unit_}, 2);
-  if (!mesh_.moves_far(v)) return;
+  if (!mesh_.moves_far(v) || surface_unit_ == 0) return;
   for (double unit = 4 * surface_unit_; unit <= 64 * surface_unit_; unit *= 4) {
     add({unit, unit, unit}, 2);
   }
