@@ -55,8 +55,10 @@ struct Options : Limits {
   double chamfer_radius = 0;     // largest chamfer distance, in input units; 0: no bound
   // Triangles that are coplanar but for rounding become one facet. The surface keeps the vertices
   // and edges of such facets; in between it may deviate by this fraction of the bounding box's
-  // diagonal. 0: the surface as given, to the last bit. kPlanarAuto: as little as it takes for
-  // triangles that are bent by less than 2^-20 of the diagonal, at most 2^-18.
+  // diagonal. 0: the surface as given, to the last bit; if meshes are improved, such triangles are
+  // one facet while they are refined, and the edges between them come back at the end. kPlanarAuto:
+  // as little as it takes for triangles that are bent by less than 2^-20 of the diagonal, at most
+  // 2^-18.
   double planar = kPlanarAuto;
   double max_edge = 0;  // largest edge wanted inside, in input units; 0: no bound
   AsPaper as_paper;

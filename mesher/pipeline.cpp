@@ -10,7 +10,9 @@
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/delmesher.h"
 #include "mesher/enrich/enrichment.h"
+#include "mesher/improve/diagonals.h"
 #include "mesher/improve/improve.h"
+#include "mesher/policies/as_given.h"
 #include "mesher/policies/budget.h"
 #include "mesher/policies/fallback.h"
 #include "mesher/policies/finer_planes.h"
@@ -44,17 +46,25 @@ Phase phase_of(cdt::CdtStep step) {
   return kPhase[static_cast<std::size_t>(step)];
 }
 
+// Are near-coplanar triangles in one plane: never, only until the refined mesh is put back onto the
+// surface as given, or to the end?
+enum class Planes { none, while_refined, to_the_end };
+
 // The surface as all stages see it: valid, oriented outwards and, if it is to be refined, with
 // near-coplanar triangles in exactly one plane.
-Status check(const Surface& surface, bool refine, Session& s, Recorder& recorder) {
+Status check(const Surface& surface, Planes planes, Session& s, Recorder& recorder) {
   s.control.enter(Phase::check);
   const ValidityResult validity = check_validity(surface, true, s.control);
   if (!validity.report.status.ok()) return validity.report.status;
   recorder.checked(validity.report);
   s.diagonal = validity.report.bbox_diagonal;
   const Surface outwards = oriented_outwards(surface, validity);
-  const double bound = refine ? planar_bound(outwards, s.options, s.diagonal) : 0;
-  const StandIn stand_in = find_stand_in(outwards, bound, s.control);
+  Options options = s.options;
+  if (planes == Planes::while_refined) options.planar = kPlanarAuto;
+  const double bound = planes == Planes::none ? 0 : planar_bound(outwards, options, s.diagonal);
+  const StandIn stand_in =
+      find_stand_in(outwards, bound, s.control,
+                    planes == Planes::while_refined ? Retriangulate::no : Retriangulate::yes);
   if (!stand_in.planes.empty()) s.given = outwards.vertices;
   s.topology = build_topology(outwards, s.points, s.predicates, stand_in);
   recorder.planar(stand_in, bound, validity);
@@ -117,18 +127,28 @@ cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
                                                     std::move(delaunay));
 }
 
-// Fewer and better tetrahedra on the same surface (section 8.3). False if there was nothing to do.
-bool improve_mesh(cdt::CdtResult& cdt, Session& s) {
-  const improve::ImproveOptions options{
-      .delta = s.options.delta, .max_edge = s.options.max_edge, .region = s.options.region};
-  improve::ImproveMesh before{
+improve::ImproveOptions improve_options(Region region, const Session& s) {
+  return {.delta = s.options.delta, .max_edge = s.options.max_edge, .region = region};
+}
+
+improve::ImproveMesh taken_from(cdt::CdtResult& cdt) {
+  return {
       std::move(cdt.tetrahedra), {cdt.inside.begin(), cdt.inside.end()}, std::move(cdt.boundary)};
-  improve::ImproveResult result = improve::improve(std::move(before), &s.topology, s.given, options,
-                                                   s.points, s.predicates, s.control);
-  cdt.tetrahedra = std::move(result.mesh.tetrahedra);
-  cdt.inside.assign(result.mesh.region.begin(), result.mesh.region.end());
-  cdt.boundary = std::move(result.mesh.boundary);
+}
+
+void give_back(improve::ImproveMesh mesh, cdt::CdtResult& cdt) {
+  cdt.tetrahedra = std::move(mesh.tetrahedra);
+  cdt.inside.assign(mesh.region.begin(), mesh.region.end());
+  cdt.boundary = std::move(mesh.boundary);
   cdt.repeated_faces.clear();
+}
+
+// Fewer and better tetrahedra on the same surface (section 8.3). False if there was nothing to do.
+bool improve_mesh(cdt::CdtResult& cdt, Region region, Session& s) {
+  improve::ImproveResult result =
+      improve::improve(taken_from(cdt), &s.topology, s.given, improve_options(region, s), s.points,
+                       s.predicates, s.control);
+  give_back(std::move(result.mesh), cdt);
   const auto follow = [&](std::vector<VertexId>& vertices) {
     for (VertexId& v : vertices) v = result.became[v];
     std::erase(vertices, kNone);
@@ -136,6 +156,31 @@ bool improve_mesh(cdt::CdtResult& cdt, Session& s) {
   for (std::vector<VertexId>& chain : cdt.chain) follow(chain);
   follow(cdt.steiner);
   return result.changed;
+}
+
+// Without what is outside, where flat tetrahedra between facets that are nearly in one plane would
+// be in the way.
+void keep_inside(cdt::CdtResult& cdt) {
+  std::size_t kept = 0;
+  for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
+    if (cdt.inside[n] != 0) cdt.tetrahedra[kept++] = cdt.tetrahedra[n];
+  }
+  cdt.tetrahedra.resize(kept);
+  cdt.inside.assign(kept, 1);
+  cdt.repeated_faces.clear();
+}
+
+// From the stand-in to the surface as given, with all its edges. False if that cannot be; the mesh
+// is not to be used then.
+bool put_back(cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
+  SurfaceTopology as_given = topology_as_given(s);
+  improve::DiagonalsResult entered =
+      improve::enter_diagonals(taken_from(cdt), s.topology, as_given, s.given,
+                               improve_options(Region::hull, s), s.points, s.predicates, s.control);
+  give_back(std::move(entered.mesh), cdt);
+  const bool done = entered.missing == 0 && go_back(cdt, std::move(as_given), s);
+  recorder.put_back(entered.diagonals, entered.missing, !done);
+  return done;
 }
 
 void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineResult refined,
@@ -148,8 +193,8 @@ void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineRes
   recorder.written(exact, std::move(rounded));
 }
 
-Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = check(surface, true, s, recorder); !status.ok()) return status;
+Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& recorder) {
+  if (Status status = check(surface, planes, s, recorder); !status.ok()) return status;
 
   Budget budget(s.options);
   Fallback fallback(s.options);
@@ -181,16 +226,32 @@ Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
   recorder.tetrahedrized(cdt);
   if (s.options.improve) {
     s.control.enter(Phase::improve);
-    if (improve_mesh(cdt, s)) recorder.improved(cdt);
+    const bool goes_back = planes == Planes::while_refined && !s.given.empty();
+    if (goes_back && s.options.region == Region::interior) keep_inside(cdt);
+    if (improve_mesh(cdt, s.options.region, s)) recorder.improved(cdt);
+    if (goes_back) {
+      if (!put_back(cdt, s, recorder)) return {};
+      improve_mesh(cdt, s.options.region, s);
+      recorder.improved(cdt);
+    }
   }
   s.control.enter(Phase::round);
   round_and_record(std::move(cdt), s, recorder);
   return {};
 }
 
+Status mesh(const Surface& surface, Session& s, Recorder& recorder) {
+  return mesh_with(goes_back(s.options) ? Planes::while_refined : Planes::to_the_end, surface, s,
+                   recorder);
+}
+
+Status mesh_directly(const Surface& surface, Session& s, Recorder& recorder) {
+  return mesh_with(Planes::none, surface, s, recorder);
+}
+
 // Without refinement: the surface alone.
 Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = check(surface, false, s, recorder); !status.ok()) return status;
+  if (Status status = check(surface, Planes::none, s, recorder); !status.ok()) return status;
   cdt::CdtInput input = enrich::plain_input(s.topology);
   input.on_step = [&s](cdt::CdtStep step) { s.control.enter(phase_of(step)); };
   cdt::CdtResult cdt =
@@ -222,7 +283,8 @@ Result run_mesh(const Surface& surface, const Options& options) {
   FinerPlanes planes(options);
   Result best = run(mesh, surface, options);
   while (planes.wants_run_after(best)) {
-    FinerPlanes::compare(run(mesh, surface, planes.options()), best);
+    FinerPlanes::compare(run(planes.directly() ? mesh_directly : mesh, surface, planes.options()),
+                         best);
   }
   return best;
 }

@@ -28,7 +28,9 @@ OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoin
 // Measured on the nearest doubles, where the improvement weighs its steps, by doubles with a
 // relative slack of 1e-6.
 inline constexpr double kImprovedDihedral = 17;
+// `returned`: the vertices on edges of the surface that the mesh before did not have, because it
+// was one of a stand-in; near them, as far as along as many edges, anything may be bad.
 OracleReport check_improvement(const delmesher::ExactRecord& record, const ExactPoints& points,
-                               const Promise& promise);
+                               const Promise& promise, const std::vector<Index>& returned = {});
 
 }  // namespace tetproof::oracles

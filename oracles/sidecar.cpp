@@ -16,7 +16,7 @@ class SidecarReader {
 
   ExactRecord read() {
     reader_.expect("delmesher-exact");
-    version_ = reader_.index(0, 5);
+    version_ = reader_.index(0, 6);
     if (version_ == 0) reader_.fail("unknown version 0");
     if (version_ >= 2) read_parameters();
     if (version_ >= 4) read_surface();

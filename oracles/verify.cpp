@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 
 #include "oracles/chamfer.h"
 #include "oracles/delaunay.h"
@@ -114,6 +115,17 @@ double diagonal_of(const Polyhedron& input) {
   return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
+// Does a face of the final mesh tile a facet that the record, whose facets are those of the surface
+// that was refined, does not list?
+bool names_other_facets(const ExactRecord& record) {
+  std::vector<std::uint32_t> listed;
+  for (const ExactRecord::Facet& facet : record.facets) listed.push_back(facet.id);
+  std::sort(listed.begin(), listed.end());
+  return std::any_of(record.final_facets.begin(), record.final_facets.end(), [&](const auto& face) {
+    return !std::binary_search(listed.begin(), listed.end(), face[3]);
+  });
+}
+
 // Data that several parts of a verification need, made by the first that asks.
 class Shared {
  public:
@@ -122,12 +134,18 @@ class Shared {
     // The same points on the vertices as given, if some were moved: these are written.
     ExactPoints given;
     InputSurface surface;  // that was meshed
-    double diagonal = 0;   // of the input
+    // Is the final mesh one of the surface as given, although another was refined?
+    bool as_given = false;
+    InputSurface surface_as_given;
+    double diagonal = 0;  // of the input
     OracleReport report{"sidecar", "input vertices"};
     std::string why;      // the input bounds no solid
     bool usable = false;  // points and surface have been made
 
     const ExactPoints& written() const { return given.size() > 0 ? given : points; }
+    // Of the final mesh.
+    const ExactPoints& final_points() const { return as_given ? given : points; }
+    const InputSurface& final_surface() const { return as_given ? surface_as_given : surface; }
   };
   struct Final {
     TetComplex complex;
@@ -195,10 +213,10 @@ std::shared_ptr<const Shared::Final> Shared::final() {
   const std::lock_guard<std::mutex> lock(final_mutex_);
   if (final_) return final_;
   const auto made = std::make_shared<Final>();
-  made->complex = complex_of(exact_->final, s.points);
+  made->complex = complex_of(exact_->final, s.final_points());
   made->shape = check_complex(made->complex, made->neighbours);
   if (made->shape.passed()) {
-    made->conformity = check_conformity(made->complex, made->neighbours, s.surface,
+    made->conformity = check_conformity(made->complex, made->neighbours, s.final_surface(),
                                         {.exact = true, .want_chains = true});
   }
   final_ = made;
@@ -258,6 +276,12 @@ void Shared::read_sidecar() {
     s.report.fail("the surface that was meshed: " + s.why);
     s.why.clear();
   }
+  // What was promised as given is judged as given; so is a mesh that claims to be more than was
+  // promised.
+  s.as_given = s.usable && moved && (promise_.planar == 0 || names_other_facets(*exact_));
+  if (!s.as_given) return;
+  s.why = s.surface_as_given.assign(input_, s.given);
+  s.usable = s.why.empty();
 }
 
 // One part of a verification, with a report of its own. Each check returns why the input bounds no
@@ -295,6 +319,7 @@ class Verification {
   std::string check_sidecar();
   OracleReport check_facet_list(const InputSurface& surface) const;
   std::string check_exact_final();
+  void check_exact_hull(const TetComplex& complex, const Neighbours& neighbours);
   void check_final_complex(const ExactPoints& points, const InputSurface& surface);
   std::string check_refined_complex();
   std::string check_refined_angles();
@@ -303,9 +328,10 @@ class Verification {
   OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,
                                const InputSurface& surface,
                                const std::vector<FaceOnFacet>& listed) const;
+  std::vector<Index> returned_vertices() const;
   void check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                          const InputSurface& surface);
-  void check_unrepaired(const ExactPoints& points, const InputSurface& surface);
+  void check_unrepaired();
   void check_promises(const RefinedMesh& mesh);
   OracleReport check_contained(const TetComplex& complex, const Places& places) const;
   OracleReport check_edges(const TetComplex& complex) const;
@@ -559,7 +585,7 @@ std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface
   for (Index e = 0; e < exact.chains.size(); ++e) {
     std::vector<Index> chain = exact.chains[e];
     for (Index& v : chain) v = written[v];
-    const auto& [from, to, left, right] = sidecar.surface.edges()[e];
+    const auto& [from, to, left, right] = sidecar.final_surface().edges()[e];
     auto found = number.find({from, to});
     if (found == number.end()) {
       found = number.find({to, from});
@@ -632,15 +658,16 @@ OracleReport Verification::check_facet_list(const InputSurface& surface) const {
 std::string Verification::check_exact_final() {
   const Shared::Sidecar& sidecar = shared_.sidecar();
   if (!sidecar.usable) return {};
-  const ExactPoints& points = sidecar.points;
-  const InputSurface& surface = sidecar.surface;
+  const ExactPoints& points = sidecar.final_points();
+  const InputSurface& surface = sidecar.final_surface();
   ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
   check_final_complex(points, surface);
   const bool usable = shared_.final()->shape.passed();
   shared_.forget_final();
-  if (usable && !exact_->unrepaired.empty()) check_unrepaired(points, surface);
+  if (usable && !exact_->unrepaired.empty()) check_unrepaired();
 #ifdef TETPROOF_SECOND_OPINIONS
-  add(check_second_kernel(input_, surface, *exact_, points, options_.sidecar), "exact-");
+  add(check_second_kernel(input_, surface, *exact_, points, options_.sidecar, sidecar.as_given),
+      "exact-");
 #endif
   return {};
 }
@@ -655,7 +682,7 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
       "exact-");
   add(conformity.report, "exact-");
   add(check_volume(complex, neighbours, surface, 0), "exact-");
-  add(check_hull(complex, neighbours), "exact-");
+  check_exact_hull(complex, neighbours);
   check_constrained(complex, neighbours, surface);
   add(check_facet_ids(complex, conformity, surface, exact_->final_facets), "exact-");
   if (options_.promised.task == Task::cdt) {
@@ -696,6 +723,44 @@ OracleReport Verification::check_facet_ids(const TetComplex& complex,
   return report;
 }
 
+// What was put back onto the surface as given has no tetrahedra outside if none were asked for.
+void Verification::check_exact_hull(const TetComplex& complex, const Neighbours& neighbours) {
+  const bool inside_alone = shared_.sidecar().as_given &&
+                            options_.promised.region == delmesher::Region::interior &&
+                            std::all_of(exact_->final.begin(), exact_->final.end(),
+                                        [](const auto& t) { return t.inside; });
+  if (!inside_alone) {
+    add(check_hull(complex, neighbours), "exact-");
+    return;
+  }
+  OracleReport report("hull", "tetrahedra");
+  report.checked = exact_->final.size();
+  report.promised = false;
+  report.notes.emplace_back("the record's final mesh is the solid alone: nothing fills the hull");
+  add(std::move(report), "exact-");
+}
+
+// On edges of the surface as given that the surface which was refined does not have.
+std::vector<Index> Verification::returned_vertices() const {
+  const Shared::Sidecar& sidecar = shared_.sidecar();
+  std::vector<Index> vertices;
+  if (!sidecar.as_given) return vertices;
+  std::set<std::pair<Index, Index>> returned;
+  for (const auto& edge : sidecar.surface_as_given.edges()) {
+    returned.insert(std::minmax(edge.from, edge.to));
+  }
+  for (const auto& edge : sidecar.surface.edges()) {
+    returned.erase(std::minmax(edge.from, edge.to));
+  }
+  for (const auto& [from, to] : returned) vertices.insert(vertices.end(), {from, to});
+  for (Index v = 0; v < exact_->points.size(); ++v) {
+    const delmesher::ExactPoint& p = exact_->points[v];
+    const bool on_edge = p.kind == delmesher::ExactPoint::Kind::on_segment;
+    if (on_edge && returned.contains(std::minmax(p.i, p.j))) vertices.push_back(v);
+  }
+  return vertices;
+}
+
 // The property is demanded before improvement and repairs of rounding, and counted after them.
 void Verification::check_constrained(const TetComplex& complex, const Neighbours& neighbours,
                                      const InputSurface& surface) {
@@ -708,10 +773,13 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
   if (!repaired || delaunay.checked > 0) add(std::move(delaunay), "exact-");
 }
 
-void Verification::check_unrepaired(const ExactPoints& points, const InputSurface& surface) {
-  add((options_.promised.improve ? check_improvement : check_repairs)(
-      *exact_, shared_.sidecar().written(), options_.promised));
-  const TetComplex before = complex_of(exact_->unrepaired, points);
+// A mesh of the surface that was refined.
+void Verification::check_unrepaired() {
+  const Shared::Sidecar& sidecar = shared_.sidecar();
+  add(options_.promised.improve
+          ? check_improvement(*exact_, sidecar.written(), options_.promised, returned_vertices())
+          : check_repairs(*exact_, sidecar.written(), options_.promised));
+  const TetComplex before = complex_of(exact_->unrepaired, sidecar.points);
   Neighbours neighbours;
   OracleReport shape = check_complex(before, neighbours);
   const bool usable = shape.passed();
@@ -725,13 +793,13 @@ void Verification::check_unrepaired(const ExactPoints& points, const InputSurfac
       exact_->unrepaired_facets.empty() ? exact_->final_facets : exact_->unrepaired_facets;
   {
     const ConformityResult conformity =
-        check_conformity(before, neighbours, surface, {.exact = true});
+        check_conformity(before, neighbours, sidecar.surface, {.exact = true});
     add(conformity.report, "unrepaired-");
-    add(check_facet_ids(before, conformity, surface, listed), "unrepaired-");
+    add(check_facet_ids(before, conformity, sidecar.surface, listed), "unrepaired-");
   }
   std::vector<Face> constraints;
   for (const auto& [a, b, c, id] : listed) constraints.push_back({a, b, c});
-  add(check_constrained_delaunay(before, neighbours, surface, constraints), "unrepaired-");
+  add(check_constrained_delaunay(before, neighbours, sidecar.surface, constraints), "unrepaired-");
 }
 
 std::string Verification::check_refined_complex() {

@@ -66,10 +66,8 @@ struct Told {
   delmesher::Statistics statistics;
 };
 
-Told run_of(const Surface& surface, double planar = delmesher::kPlanarAuto) {
-  Options options;
+Told run_with(const Surface& surface, Options options) {
   options.want_exact = true;
-  options.planar = planar;
   const delmesher::Result result = delmesher::tetrahedralize(surface, options);
   EXPECT_TRUE(result.status.ok()) << result.status.message;
   return {{samples::to_polyhedron(surface), samples::to_mesh(result.mesh)},
@@ -77,6 +75,12 @@ Told run_of(const Surface& surface, double planar = delmesher::kPlanarAuto) {
           promise_of(options),
           kRecordVersion,
           result.statistics};
+}
+
+Told run_of(const Surface& surface, double planar = delmesher::kPlanarAuto) {
+  Options options;
+  options.planar = planar;
+  return run_with(surface, options);
 }
 
 VerifyReport verdict_on(const Told& told, bool with_record = true) {
@@ -180,18 +184,52 @@ TEST(Split, AtRoundedPointsFacetsStay) {
   expect_the_facets_of(stairs(), split);
 }
 
-TEST_P(Rotated, WithoutTheOptionTheSurfaceIsKeptToTheLastBit) {
-  const Told told = run_of(rotated(stairs(), GetParam().round), 0);
-  EXPECT_EQ(told.statistics.planar_groups, 0U);
-  EXPECT_TRUE(told.record.planes.empty());
+// Refined as with planar facets, and put back: the surface as given, at hardly more tetrahedra.
+TEST_P(Rotated, WithPlanarZeroTheSurfaceIsKeptToTheLastBit) {
+  const Told straight = run_of(stairs()), told = run_of(rotated(stairs(), GetParam().round), 0);
+  EXPECT_GT(told.statistics.planar_groups, 0U);
+  EXPECT_FALSE(told.record.planes.empty());
+  EXPECT_LT(told.statistics.final.tetrahedra, 3 * straight.statistics.final.tetrahedra);
+  std::set<std::uint32_t> refined, final;
+  for (const auto& face : told.record.refined_facets) refined.insert(face[3]);
+  for (const auto& face : told.record.final_facets) final.insert(face[3]);
+  EXPECT_EQ(final.size(), told.statistics.given_facets);
+  EXPECT_LT(refined.size(), final.size());
   const VerifyReport report = verdict_on(told);
   EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+  EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
+  // More than was promised is a pass, too.
+  Told more = told;
+  more.promise.planar = delmesher::kPlanarAuto;
+  const VerifyReport of_more = verdict_on(more);
+  EXPECT_TRUE(samples::as_promised(of_more, more.promise)) << to_text(of_more);
+}
+
+// What comes back makes no edge longer than what is wanted, and fits into a mesh of the hull.
+TEST(PlanarZero, KeepsLongestEdgeAndHull) {
+  for (const double max_edge : {0.7, 0.3}) {
+    for (const delmesher::Region region : {delmesher::Region::interior, delmesher::Region::hull}) {
+      Options options;
+      options.planar = 0;
+      options.max_edge = max_edge;
+      options.region = region;
+      const Told told = run_with(rotated(stairs(), to_single), options);
+      EXPECT_GT(told.statistics.planar_groups, 0U) << "refined without planar facets";
+      const VerifyReport report = verdict_on(told);
+      EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
+    }
+  }
 }
 
 // ------------------------------------------------------------------------------------------- lies
 
 const Told& honest() {
   static const Told told = run_of(rotated(stairs(), to_single));
+  return told;
+}
+
+const Told& as_given() {
+  static const Told told = run_of(rotated(stairs(), to_single), 0);
   return told;
 }
 
@@ -235,6 +273,21 @@ void insert_point(ExactRecord& r, Index at, const ExactPoint& point) {
   move(r.mesh_vertices);
 }
 
+// The first point on an edge of the surface as given that the mesh before the edges came back did
+// not use.
+ExactPoint& point_that_came_with_an_edge(ExactRecord& r) {
+  std::set<Index> before;
+  for (const auto& tet : r.unrepaired) before.insert(tet.vertices.begin(), tet.vertices.end());
+  for (const auto& face : r.final_facets) {
+    for (int k = 0; k < 3; ++k) {
+      ExactPoint& p = r.points[face[k]];
+      if (p.kind == ExactPoint::Kind::on_segment && !before.contains(face[k])) return p;
+    }
+  }
+  ADD_FAILURE() << "no edge needed a point";
+  return r.points.back();
+}
+
 struct Lie {
   const char* name;
   const char* oracle;  // the one meant to catch it
@@ -246,8 +299,73 @@ void PrintTo(const Lie& lie, std::ostream* out) {
 }
 
 const Lie kLies[] = {
-    {"facets are planar, promised was the surface as given", "promise",
+    {"facets are planar, promised was the surface as given", "exact-conformity",
      [](Told& t) { t.promise.planar = 0; }},
+    {"the surface as given, refined as one of a larger bound", "promise",
+     [](Told& t) {
+       t = as_given();
+       t.record.parameters.planar *= 1000;
+     }},
+    {"the surface as given, a face on a facet of the refined one", "exact-facets",
+     [](Told& t) {
+       t = as_given();
+       std::set<std::uint32_t> listed;
+       for (const auto& facet : t.record.facets) listed.insert(facet.id);
+       for (auto& face : t.record.final_facets) {
+         if (!listed.contains(face[3])) face[3] = *listed.begin();
+       }
+     }},
+    {"the surface as given, its mesh before the edges came back", "exact-conformity",
+     [](Told& t) {
+       t = as_given();
+       t.record.final = t.record.unrepaired;
+       t.record.final_facets = t.record.unrepaired_facets;
+     }},
+    {"the surface as given, no bound for its refinement", "promise",
+     [](Told& t) {
+       t = as_given();
+       t.record.parameters.planar = 0;
+     }},
+    {"the surface as given, a point of an edge that came back on another one", "exact-conformity",
+     [](Told& t) {
+       t = as_given();
+       ExactPoint& p = point_that_came_with_an_edge(t.record);
+       for (p.j = 0; p.j == p.i || t.record.points[p.j].kind != ExactPoint::Kind::on_planes;) ++p.j;
+     }},
+    {"the surface as given, a tetrahedron left out beside an edge that came back", "exact-volume",
+     [](Told& t) {
+       t = as_given();
+       t.record.final.pop_back();
+     }},
+    {"the surface as given, the facets of that told to be the refined ones", "facet-list",
+     [](Told& t) {
+       t = as_given();
+       std::set<std::uint32_t> listed;
+       for (auto& facet : t.record.facets) {
+         listed.insert(facet.id);
+         facet.triangles.resize(1);
+       }
+       for (const auto& face : t.record.final_facets) {
+         if (listed.insert(face[3]).second) t.record.facets.push_back({face[3], 0, 0, {face[3]}});
+       }
+     }},
+    {"the surface as given, its stand-in farther away than told", "stand-in",
+     [](Told& t) {
+       t = as_given();
+       t.record.parameters.planar *= 0x1p-20;
+     }},
+    {"the surface as given in all of the hull, which is not there", "exact-hull",
+     [](Told& t) {
+       t = as_given();
+       t.promise.region = delmesher::Region::hull;
+     }},
+    {"the surface as given, told as version 4", "promise",
+     [](Told& t) {
+       t = as_given();
+       t.version = 4;
+     }},
+    {"planar facets, and nothing outside them", "exact-hull",
+     [](Told& t) { std::erase_if(t.record.final, [](const auto& tet) { return !tet.inside; }); }},
     {"a bound a thousand times as large", "promise",
      [](Told& t) { t.record.parameters.planar *= 1000; }},
     {"no bound for the planes", "promise", [](Told& t) { t.record.parameters.planar = 0; }},

@@ -14,12 +14,14 @@
 namespace delmesher::cdt::test_models {
 
 struct Model {
-  explicit Model(const Surface& given) : control(options), predicates(points) {
+  // With `bound` above 0 it is a stand-in whose facets are planar within that.
+  explicit Model(const Surface& given, double bound = 0) : control(options), predicates(points) {
     const ValidityResult validity = check_validity(given, true, control);
     valid = validity.report.defects.empty();
     if (!valid) return;
     surface = oriented_outwards(given, validity);
-    topology = build_topology(surface, points, predicates);
+    topology = build_topology(surface, points, predicates,
+                              find_stand_in(surface, bound, control, Retriangulate::no));
     input.topology = &topology;
     input.validate = true;  // in every build
     for (VertexId v = 0; v < surface.vertices.size(); ++v) input.vertices.push_back(v);

@@ -167,7 +167,10 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"groups", s.planar_groups},
                     {"given_facets", s.given_facets},
                     {"bound", s.planar_bound},
-                    {"deviation", s.planar_deviation}};
+                    {"deviation", s.planar_deviation},
+                    {"diagonals", s.diagonals},
+                    {"diagonals_missing", s.diagonals_missing},
+                    {"given_up", s.planar_given_up}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
   json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};
   json["chamfer"] = {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}};
@@ -229,11 +232,17 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
   return dump(json);
 }
 
-std::string planar_text(const std::string& file, const Statistics& s) {
+std::string planar_text(const std::string& file, const Statistics& s, bool as_given) {
   const double diagonal = s.bbox_diagonal;
-  return file + ": " + std::to_string(s.given_facets) + " facets, " + std::to_string(s.facets) +
-         " if planar within " + number_short(s.planar_bound / diagonal) +
-         " of the diagonal; vertices are up to " + number_short(s.planar_deviation / diagonal) +
+  const std::string facets = file + ": " + std::to_string(s.given_facets) + " facets, ";
+  const std::string within =
+      " if planar within " + number_short(s.planar_bound / diagonal) + " of the diagonal";
+  if (as_given) {
+    return facets + std::to_string(s.facets) + within +
+           ", as which they were refined; the mesh has all of them";
+  }
+  return facets + std::to_string(s.facets) + within + "; vertices are up to " +
+         number_short(s.planar_deviation / diagonal) +
          " from their planes (--planar 0 keeps all facets)";
 }
 
@@ -244,6 +253,10 @@ std::vector<std::string> limits_texts(const Statistics& s) {
         s.guaranteed_acute >= 90 ? "all corners" : std::to_string(s.fallback_corners) + " corners";
     texts.push_back("the refinement would not end: begun anew " + std::to_string(s.guard_stops) +
                     " times, at last with empty balls and chamfers up to 90 degrees at " + corners);
+  }
+  if (s.planar_given_up) {
+    texts.push_back(std::to_string(s.diagonals_missing) + " of " + std::to_string(s.diagonals) +
+                    " edges within planar facets found no place: meshed anew without those");
   }
   if (s.refinement_capped) {
     texts.emplace_back(

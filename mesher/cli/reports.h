@@ -31,8 +31,9 @@ std::string improve_stats_json(const Command& command, const Result& result, con
 std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts);
 
-// One line on the triangles that were merged because they are planar within the bound.
-std::string planar_text(const std::string& file, const Statistics& statistics);
+// One line on the triangles that were merged because they are planar within the bound: to the end
+// or, in a mesh of the surface as given, while they were refined.
+std::string planar_text(const std::string& file, const Statistics& statistics, bool as_given);
 // One line for each limit that the mesher set itself and that struck, for -v.
 std::vector<std::string> limits_texts(const Statistics& statistics);
 

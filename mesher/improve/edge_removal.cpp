@@ -26,6 +26,14 @@ bool EdgeRemoval::run(TetId t, int i, int j, std::span<const std::uint32_t> fail
   return refill(-HUGE_VAL);
 }
 
+bool EdgeRemoval::flip(TetId t, int i, int j) {
+  a_ = state_.mesh.tet(t)[i];
+  b_ = state_.mesh.tet(t)[j];
+  aim_ = Aim::best_worst;
+  least_ = {};
+  return find_ring(t, {}) && split_ring() && !faces_.empty() && refill(-HUGE_VAL);
+}
+
 bool EdgeRemoval::round_off(TetId t, int i, int j, std::span<const std::uint32_t> failed) {
   // Of a change, so that many that bring nothing do not follow each other.
   constexpr double kLeastGain = 0.02;

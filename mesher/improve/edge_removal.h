@@ -24,6 +24,9 @@ class EdgeRemoval {
   // Removes it if the tetrahedra are rounder on average afterwards, and the worst of them stay good
   // enough.
   bool round_off(TetId t, int i, int j, std::span<const std::uint32_t> failed);
+  // Removes edge i-j of t, which lies within a facet, if what replaces the ring is positive,
+  // however bad.
+  bool flip(TetId t, int i, int j);
 
  private:
   // The longest ring that is considered.

@@ -3,26 +3,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesher/base/spatial_sort.h"
 #include "mesher/base/validating.h"
 #include "mesher/improve/collapse.h"
 #include "mesher/improve/edge_removal.h"
 #include "mesher/improve/face_removal.h"
 #include "mesher/improve/insertion.h"
+#include "mesher/improve/mesh_in_order.h"
 #include "mesher/improve/smoothing.h"
 #include "mesher/improve/state.h"
 
 namespace delmesher::improve {
 namespace {
-
-// What is as good as this is left alone. (Lower targets were tried: they take a quarter less time,
-// but nearly as many tetrahedra; then the worst of them are worse.)
-constexpr double kDihedral = 22, kFaceAngle = 20;  // degrees
-constexpr float kGamma = 0.4F;
-
-float squared_sine(double degrees) {
-  return static_cast<float>(1 - cosine_squared(degrees));
-}
 
 class Improvement {
  public:
@@ -216,94 +207,11 @@ class Improvement {
   std::vector<std::uint32_t> tried_, smooth_tried_, collapse_tried_, polish_tried_;
 };
 
-// The vertices of a mesh, along a Hilbert curve, so that what is near is near in memory.
-std::vector<VertexId> vertices_in_order(const ImproveMesh& mesh, const PointStore& points) {
-  std::vector<std::uint8_t> used(points.size(), 0);
-  for (const Tet& t : mesh.tetrahedra) {
-    for (const VertexId v : t) used[v] = 1;
-  }
-  std::vector<VertexId> order;
-  std::vector<Vec3> coordinates;
-  coordinates.reserve(points.size());
-  for (VertexId v = 0; v < points.size(); ++v) {
-    if (used[v] != 0) order.push_back(v);
-    coordinates.push_back(points.nearest(v));
-  }
-  hilbert_sort(order, coordinates);
-  return order;
-}
-
-// The vertices in ascending order, but for the last two where that would turn it inside out.
-Tet in_order(Tet t) {
-  bool turned = false;
-  for (int last = 3; last > 0; --last) {
-    for (int i = 0; i < last; ++i) {
-      if (t[i] < t[i + 1]) continue;
-      std::swap(t[i], t[i + 1]);
-      turned = !turned;
-    }
-  }
-  if (turned) std::swap(t[2], t[3]);
-  return t;
-}
-
-// The mesh in numbers of its own vertices, `point` in the store. Tetrahedra and their vertices are
-// in the order of those numbers, so that it does not matter in which order they were given.
-WorkMesh work_mesh(const ImproveMesh& mesh, std::span<const VertexId> point, std::size_t points) {
-  std::vector<VertexId> number(points, kNone);
-  for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
-  std::vector<std::pair<Tet, RegionId>> sorted;
-  for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
-    Tet t = mesh.tetrahedra[n];
-    for (VertexId& v : t) v = number[v];
-    sorted.emplace_back(in_order(t), mesh.region[n]);
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<Tet> tetrahedra;
-  std::vector<RegionId> region;
-  for (const auto& [tet, of_tet] : sorted) {
-    tetrahedra.push_back(tet);
-    region.push_back(of_tet);
-  }
-  std::vector<SurfaceFace> boundary = mesh.boundary;
-  for (SurfaceFace& face : boundary) {
-    for (VertexId& v : face.vertices) v = number[v];
-  }
-  return {std::move(tetrahedra), region, boundary, point.size()};
-}
-
-ImproveMesh result_of(const State& state) {
-  const WorkMesh& mesh = state.mesh;
-  // A face of the surface has one side that is inside, or else any one side tells of it.
-  const auto is_told_from = [&](TetId t, TetId u) {
-    return u == kNone || std::pair(mesh.region(u), u) < std::pair(mesh.region(t), t);
-  };
-  ImproveMesh result;
-  for (TetId t = 0; t < mesh.slots(); ++t) {
-    if (!mesh.alive(t)) continue;
-    Tet v;
-    for (int i = 0; i < 4; ++i) v[i] = state.point(mesh.tet(t)[i]);
-    result.tetrahedra.push_back(v);
-    result.region.push_back(mesh.region(t));
-    for (int i = 0; i < 4; ++i) {
-      if (mesh.facet(t, i) == kNone || !is_told_from(t, mesh.neighbor(t, i))) continue;
-      result.boundary.push_back(
-          {{v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]}, mesh.facet(t, i)});
-    }
-  }
-  return result;
-}
-
 }  // namespace
 
 ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
                       std::span<const Vec3> given, const ImproveOptions& options,
                       PointStore& points, Predicates& predicates, Control& control) {
-  const Goals goals{.target = {squared_sine(kDihedral), squared_sine(kFaceAngle), kGamma * kGamma},
-                    .promised = squared_sine(options.delta),
-                    .floor = squared_sine(kFlattestDihedral),
-                    .max_edge = options.max_edge,
-                    .everywhere = options.region == Region::hull};
   // A face that is a facet of its own has no other triangulation.
   std::vector<FacetId> facets;
   if (topology == nullptr) {
@@ -316,7 +224,7 @@ ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
   result.became.assign(points.size(), kNone);
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
   State state(work_mesh(mesh, point, points.size()), point, topology, given, points, predicates,
-              goals);
+              goals_of(options));
   Improvement(state, control).run();
   for (VertexId v = 0; v < point.size(); ++v) {
     if (state.mesh.incident(v) != kNone) result.became[point[v]] = state.point(v);

@@ -1,5 +1,8 @@
 #include "mesher/improve/state.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "mesher/base/check.h"
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/placement.h"
@@ -116,10 +119,36 @@ Place State::moved(VertexId v, const Vec3& offset, double tolerance) {
   }
   const std::vector<PlaneId> planes(points_.planes(p).begin(), points_.planes(p).end());
   const std::vector<std::uint32_t> lines(points_.lines(p).begin(), points_.lines(p).end());
-  const VertexId moved = points_.add(d);
-  points_.set_supports(moved, planes, lines);
+  return place_of(d, planes, lines);
+}
+
+Place State::place_of(const PointDefinition& d, std::span<const PlaneId> planes,
+                      std::span<const std::uint32_t> lines) {
+  const VertexId v = points_.add(d);
+  points_.set_supports(v, planes, lines);
   PointStore scratch;
-  return {moved, given_place(points_, moved, given_, scratch)};
+  return {v, given_place(points_, v, given_, scratch)};
+}
+
+Place State::place_on_edge(const std::array<VertexId, 2>& end, const Vec3& x, double tolerance) {
+  std::vector<PlaneId> planes;
+  std::ranges::set_intersection(points_.planes(end[0]), points_.planes(end[1]),
+                                std::back_inserter(planes));
+  return place_of(place_on_segment(points_, end[0], end[1], x, tolerance), planes, {});
+}
+
+Place State::place_in_triangle(VertexId v, const std::array<VertexId, 3>& corners,
+                               double tolerance) {
+  const VertexId p = point_[v];
+  const std::vector<PlaneId> planes(points_.planes(p).begin(), points_.planes(p).end());
+  return place_of(
+      place_on_triangle(points_, corners[0], corners[1], corners[2], points_.nearest(p), tolerance),
+      planes, {});
+}
+
+void State::move_to_edge(VertexId v, const Place& place, std::span<const TetId> star) {
+  mobility_[v] = Mobility::on_line;
+  move(v, place, star);
 }
 
 Place State::new_place(const Vec3& x, double tolerance) {
@@ -145,15 +174,31 @@ void State::move(VertexId v, const Place& place, std::span<const TetId> star) {
   for (const TetId t : star) note(t);
 }
 
-void State::insert(const Place& place, std::span<const TetId> removed,
-                   std::span<CreatedTet> created) {
-  const VertexId v = mesh.add_vertex();
+VertexId State::add_vertex(const Place& place, Mobility mobility, FacetId facet) {
   ++gained_;
   point_.push_back(place.point);
   position_.push_back(place.position);
-  mobility_.push_back(Mobility::free);
-  facet_.push_back(kNone);
+  mobility_.push_back(mobility);
+  facet_.push_back(facet);
   changed_at_.push_back(clock_);
+  return mesh.add_vertex();
+}
+
+void State::insert_on_edge(const Place& place, std::span<const TetId> removed,
+                           std::span<CreatedTet> created, std::span<SurfaceFace> faces) {
+  const VertexId v = add_vertex(place, Mobility::on_line, faces.front().facet);
+  for (CreatedTet& tet : created) {
+    std::replace(tet.vertices.begin(), tet.vertices.end(), kNone, v);
+  }
+  for (SurfaceFace& face : faces) {
+    std::replace(face.vertices.begin(), face.vertices.end(), kNone, v);
+  }
+  replace(removed, created, faces);
+}
+
+void State::insert(const Place& place, std::span<const TetId> removed,
+                   std::span<CreatedTet> created) {
+  const VertexId v = add_vertex(place, Mobility::free, kNone);
   for (CreatedTet& tet : created) {
     std::replace(tet.vertices.begin(), tet.vertices.end(), kNone, v);
   }

@@ -139,6 +139,15 @@ class State {
   // `created` has kNone where the new vertex is.
   void insert(const Place& place, std::span<const TetId> removed, std::span<CreatedTet> created);
 
+  // For points of facets that come to lie on an edge of the surface, which is straight: where they
+  // go, near x; then v goes there, or it becomes a new vertex (kNone in `created` and `faces`).
+  Place place_on_edge(const std::array<VertexId, 2>& end, const Vec3& x, double tolerance);
+  void move_to_edge(VertexId v, const Place& place, std::span<const TetId> star);
+  void insert_on_edge(const Place& place, std::span<const TetId> removed,
+                      std::span<CreatedTet> created, std::span<SurfaceFace> faces);
+  // A place near v within the plane of a triangle of its facet.
+  Place place_in_triangle(VertexId v, const std::array<VertexId, 3>& corners, double tolerance);
+
   // Counts changes.
   std::uint32_t clock() const { return clock_; }
   // When a tetrahedron at v last changed.
@@ -159,6 +168,9 @@ class State {
             score * goals_.target.gamma};
   }
   void find_mobility();
+  Place place_of(const PointDefinition& d, std::span<const PlaneId> planes,
+                 std::span<const std::uint32_t> lines);
+  VertexId add_vertex(const Place& place, Mobility mobility, FacetId facet);
   void measure(TetId t);
   void note(TetId t);
 

@@ -9,7 +9,7 @@
 
 namespace delmesher::io {
 
-inline constexpr int kExactVersion = 4;
+inline constexpr int kExactVersion = 5;
 
 WriteStatus write_exact(OutputSet& outputs, const std::string& path, const ExactRecord& record);
 

@@ -1,5 +1,6 @@
 #include "mesher/policies/finer_planes.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -17,22 +18,33 @@ std::uint64_t defects(const Result& result) {
 
 bool FinerPlanes::wants_run_after(const Result& best) {
   const Statistics& s = best.statistics;
-  if (!best.status.ok() || s.planar_groups == 0 || defects(best) == 0) return false;
-  if (attempts_ == std::size(kFactors)) return false;
+  if (!best.status.ok() || s.planar_groups == 0) return false;
+  if (!s.planar_given_up && defects(best) == 0) return false;
+  if (attempts_ == (exact_ ? 1 : std::size(kFactors))) return false;
   if (time_limit_ > 0) {
     const std::chrono::duration<double> spent = Clock::now() - start_;
     options_.time_limit_seconds = time_limit_ - spent.count();
+    // Without a mesh, there is a run that tells so.
+    if (s.planar_given_up)
+      options_.time_limit_seconds = std::max(options_.time_limit_seconds, 1e-9);
     if (options_.time_limit_seconds <= 0) return false;
   }
   // Options::planar is twice the bound (planar_bound.h).
-  options_.planar = kFactors[attempts_++] * 2 * s.planar_bound / s.bbox_diagonal;
+  if (!exact_) options_.planar = kFactors[attempts_] * 2 * s.planar_bound / s.bbox_diagonal;
+  ++attempts_;
   return true;
 }
 
 void FinerPlanes::compare(Result result, Result& best) {
   const bool interrupted = result.status.code == StatusCode::interrupted;
   const bool better = result.status.ok() && defects(result) < defects(best);
-  if (interrupted || better) best = std::move(result);
+  const Statistics& s = best.statistics;
+  if (s.planar_given_up) {  // however the other ended
+    result.statistics.diagonals = s.diagonals;
+    result.statistics.diagonals_missing = s.diagonals_missing;
+    result.statistics.planar_given_up = true;
+  }
+  if (interrupted || better || s.planar_given_up) best = std::move(result);
 }
 
 }  // namespace delmesher::policies

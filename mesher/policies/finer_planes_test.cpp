@@ -69,6 +69,42 @@ TEST(FinerPlanes, TheBestResultCounts) {
   EXPECT_EQ(best.statistics.rounding_inverted, 1U);
 }
 
+// With --planar 0: one more run, whatever comes of it, and it tells why.
+TEST(FinerPlanes, WhatWasGivenUpIsMeshedDirectly) {
+  Options options;
+  options.planar = 0;
+  FinerPlanes planes(options);
+  Result best = result_with(0, 0);
+  best.statistics.planar_given_up = true;
+  best.statistics.diagonals = 9;
+  best.statistics.diagonals_missing = 2;
+  ASSERT_TRUE(planes.wants_run_after(best));
+  EXPECT_TRUE(planes.directly());
+  Result direct = result_with(1, 0);
+  direct.statistics.planar_groups = 0;
+  Result failed;
+  failed.status = {StatusCode::limit_reached, "vertex limit reached", Limit::size};
+  Result of_failure = best;
+  FinerPlanes::compare(failed, of_failure);
+  EXPECT_EQ(of_failure.status.code, StatusCode::limit_reached);
+  FinerPlanes::compare(direct, best);
+  EXPECT_EQ(best.statistics.rounding_inverted, 1U);
+  EXPECT_TRUE(best.statistics.planar_given_up);
+  EXPECT_EQ(best.statistics.diagonals, 9U);
+  EXPECT_EQ(best.statistics.diagonals_missing, 2U);
+  EXPECT_FALSE(planes.wants_run_after(best));
+}
+
+// The last run of the default has no stand-in either.
+TEST(FinerPlanes, WithoutPlanesMeansDirectly) {
+  FinerPlanes planes({});
+  const Result bad = result_with(0, 2);
+  ASSERT_TRUE(planes.wants_run_after(bad));
+  EXPECT_FALSE(planes.directly());
+  ASSERT_TRUE(planes.wants_run_after(bad));
+  EXPECT_TRUE(planes.directly());
+}
+
 TEST(FinerPlanes, AnInterruptionIsReported) {
   Result best = result_with(1, 0), interrupted;
   interrupted.status = {StatusCode::interrupted, "interrupted"};

@@ -130,7 +130,7 @@ void record_repaired(const output::RoundingResult& rounded, Region region, Exact
   }
 }
 
-void record_points(const PointStore& points, std::size_t input_vertices,
+void record_points(const PointStore& points, const PointStore* stand_in, std::size_t input_vertices,
                    const output::RoundingResult& rounded, ExactRecord& record) {
   record.mesh_vertices = rounded.vertices;
   std::vector<std::uint32_t> number(points.size(), 0);
@@ -152,7 +152,8 @@ void record_points(const PointStore& points, std::size_t input_vertices,
       continue;
     }
     number[v] = next++;
-    const PointDefinition d = points.definition(v);
+    const bool moved = stand_in != nullptr && v < input_vertices;
+    const PointDefinition d = moved ? stand_in->definition(v) : points.definition(v);
     const auto at = [&](int k) { return number[d.corner[k]]; };
     ExactPoint p;
     switch (d.kind) {
@@ -173,8 +174,9 @@ void record_points(const PointStore& points, std::size_t input_vertices,
     }
     record.points.push_back(p);
   }
-  for (std::uint32_t n = 0; n < points.plane_count(); ++n) {
-    const PlaneEquation& plane = points.plane(n);
+  const PointStore& moved = stand_in != nullptr ? *stand_in : points;
+  for (std::uint32_t n = 0; n < moved.plane_count(); ++n) {
+    const PlaneEquation& plane = moved.plane(n);
     record.planes.push_back({plane.spanned, plane.normal, plane.through});
   }
   for_each_point(record, [&](std::uint32_t& v) { v = number[v]; });

@@ -111,6 +111,12 @@ void Recorder::thinned(const cdt::CdtResult& cdt, std::uint64_t vertices) {
   if (exact()) record_changed(cdt, session_.topology, result_.exact);
 }
 
+void Recorder::put_back(std::uint64_t diagonals, std::uint64_t missing, bool given_up) {
+  result_.statistics.diagonals = diagonals;
+  result_.statistics.diagonals_missing = missing;
+  result_.statistics.planar_given_up = given_up;
+}
+
 void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) {
   Statistics& s = result_.statistics;
   s.rounding_inverted = rounded.inverted;
@@ -128,7 +134,8 @@ void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) 
     if (rounded.operations > 0) {
       record_repaired(rounded, session_.options.region, result_.exact);
     }
-    record_points(session_.points, session_.input_vertices(), rounded, result_.exact);
+    record_points(session_.points, session_.stand_in ? &*session_.stand_in : nullptr,
+                  session_.input_vertices(), rounded, result_.exact);
   }
   TetMesh& mesh = result_.mesh;
   mesh.vertices = std::move(rounded.coordinates);

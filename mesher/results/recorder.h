@@ -31,6 +31,9 @@ class Recorder {
   void improved(const cdt::CdtResult& cdt);
   // `vertices` in all were taken out again before rounding.
   void thinned(const cdt::CdtResult& cdt, std::uint64_t vertices);
+  // Edges of the surface as given came back, but for `missing`; if the mesh is `given_up` for that,
+  // nothing else of it counts.
+  void put_back(std::uint64_t diagonals, std::uint64_t missing, bool given_up);
   // The mesh itself, as written.
   void written(MeshToWrite& exact, output::RoundingResult rounded);
   // Times and counters, however the run ended; without a mesh if it failed.

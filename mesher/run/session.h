@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher.h"
@@ -21,6 +22,9 @@ struct Session {
   SurfaceTopology topology;  // of the input, or of its stand-in; oriented outwards
   // The vertices as given, if there is a stand-in; else empty.
   std::vector<Vec3> given;
+  // What the stand-in's vertices were, once the session has gone back to the surface as given
+  // (policies/as_given.h): its first points, and their planes.
+  std::optional<PointStore> stand_in;
   double diagonal = 0;  // of the input's bounding box, in its units
 
   std::size_t input_vertices() const { return topology.vertex_half_edge.size(); }

@@ -25,9 +25,11 @@ double roundings(const Surface& surface) {
 class StandInBuilder {
  public:
   // Groups grow by half the bound: their planes may yet be moved by the other half.
-  StandInBuilder(const Surface& surface, double bound, Control& control)
+  StandInBuilder(const Surface& surface, double bound, Control& control,
+                 Retriangulate retriangulate)
       : given_(surface),
         bound_(bound),
+        may_flip_(retriangulate == Retriangulate::yes),
         vertices_(surface.vertices),
         triangles_(surface.triangles),
         control_(control),
@@ -165,7 +167,7 @@ class StandInBuilder {
       if (!positive(predicates, t)) turned.push_back(t);
     }
     // A flip may make room for the next.
-    for (bool again = true; again;) {
+    for (bool again = may_flip_; again;) {
       again = false;
       std::erase_if(turned, [&](std::uint32_t t) {
         const bool done = positive(predicates, t) || flip_edge_of(predicates, t);
@@ -333,6 +335,7 @@ class StandInBuilder {
 
   const Surface& given_;
   const double bound_;
+  const bool may_flip_;
   const std::vector<Vec3>& vertices_;
   const std::vector<std::array<std::uint32_t, 3>>& triangles_;
   Control& control_;
@@ -350,9 +353,10 @@ class StandInBuilder {
 
 }  // namespace
 
-StandIn find_stand_in(const Surface& surface, double bound, Control& control) {
+StandIn find_stand_in(const Surface& surface, double bound, Control& control,
+                      Retriangulate retriangulate) {
   if (!(bound > 0)) return {};
-  return StandInBuilder(surface, bound, control).build();
+  return StandInBuilder(surface, bound, control, retriangulate).build();
 }
 
 void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points) {

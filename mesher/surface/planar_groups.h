@@ -34,9 +34,14 @@ struct StandIn {
   double displacement = 0;         // largest distance of a vertex from its stand-in
 };
 
+// May groups have another triangulation? With the same one a mesh of the stand-in can go back to
+// the surface as given; triangles that the moves turn over then are facets of their own.
+enum class Retriangulate : std::uint8_t { no, yes };
+
 // `surface` is valid, with finite coordinates. No vertex is farther than `bound`, in its units,
 // from the planes of its facets.
-StandIn find_stand_in(const Surface& surface, double bound, Control& control);
+StandIn find_stand_in(const Surface& surface, double bound, Control& control,
+                      Retriangulate retriangulate = Retriangulate::yes);
 
 // Adds the vertices of the stand-in to an empty store, as points 0 .. vertices-1.
 void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points);

@@ -291,11 +291,14 @@ class SecondKernel {
   using Place = typename K::Point_3;
 
  public:
+  // The facets are those of the surface of the final mesh.
   SecondKernel(const Polyhedron& input, const InputSurface& surface, const ExactRecord& record,
-               const ExactPoints& points, Definitions definitions)
+               std::vector<ExactRecord::Facet> facets, const ExactPoints& points,
+               Definitions definitions)
       : input_(input),
         triangles_(surface.triangles()),
         record_(record),
+        facets_(std::move(facets)),
         points_(points),
         definitions_(std::move(definitions)) {}
 
@@ -524,7 +527,7 @@ class SecondKernel {
   void check_faces() {
     constexpr std::size_t kMost = 5000;
     std::map<Index, const ExactRecord::Facet*> facets;
-    for (const ExactRecord::Facet& facet : record_.facets) facets[facet.id] = &facet;
+    for (const ExactRecord::Facet& facet : facets_) facets[facet.id] = &facet;
     const std::size_t every = step(record_.final_facets.size(), kMost);
     std::size_t asked = 0;
     for (std::size_t n = 0; n < record_.final_facets.size(); n += every, ++asked) {
@@ -615,7 +618,7 @@ class SecondKernel {
         add(areas[id][0], at(i), at(j), at(k));
       }
       if (!(sum == solid)) report_.fail("the faces enclose another volume");
-      for (const ExactRecord::Facet& facet : record_.facets) {
+      for (const ExactRecord::Facet& facet : facets_) {
         for (const Index t : facet.triangles) {
           const auto& [i, j, k] = triangles_[t];
           add(areas[facet.id][1], corners[i], corners[j], corners[k]);
@@ -640,6 +643,7 @@ class SecondKernel {
   const Polyhedron& input_;
   const std::vector<std::array<Index, 3>>& triangles_;
   const ExactRecord& record_;
+  const std::vector<ExactRecord::Facet> facets_;
   const ExactPoints& points_;
   const Definitions definitions_;
   std::vector<Place> input_places_;  // by the definitions
@@ -648,11 +652,25 @@ class SecondKernel {
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
 };
 
+// The record lists those of the surface that was refined.
+std::vector<ExactRecord::Facet> facets_of(const InputSurface& surface) {
+  const InputSurface::Members members = surface.members();
+  std::vector<ExactRecord::Facet> facets;
+  for (Index f = 0; f < surface.facets().size(); ++f) {
+    const std::span<const Index> triangles = members.of(f);
+    facets.push_back({surface.facets()[f].id,
+                      surface.facets()[f].label,
+                      0,
+                      {triangles.begin(), triangles.end()}});
+  }
+  return facets;
+}
+
 }  // namespace
 
 OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& surface,
                                  const ExactRecord& record, const ExactPoints& points,
-                                 const std::string& sidecar) {
+                                 const std::string& sidecar, bool as_given) {
   Definitions definitions;
   if (sidecar.empty()) {
     definitions = {record.points, record.planes};
@@ -663,10 +681,22 @@ OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& su
     report.fail("the text of the points is not what the format says");
     return report;
   }
-  if (record.planes.empty()) {
-    return SecondKernel<Whole>(input, surface, record, points, std::move(definitions)).run();
+  if (as_given) {
+    for (std::size_t v = 0; v < input.vertices.size(); ++v) {
+      const auto& [x, y, z] = input.vertices[v];
+      definitions.points[v] = {ExactPoint::Kind::explicit_point, 0, 0, 0, x, y, z};
+    }
+    definitions.planes.clear();
   }
-  return SecondKernel<Fractions>(input, surface, record, points, std::move(definitions)).run();
+  std::vector<ExactRecord::Facet> facets = as_given ? facets_of(surface) : record.facets;
+  if (definitions.planes.empty()) {
+    return SecondKernel<Whole>(input, surface, record, std::move(facets), points,
+                               std::move(definitions))
+        .run();
+  }
+  return SecondKernel<Fractions>(input, surface, record, std::move(facets), points,
+                                 std::move(definitions))
+      .run();
 }
 
 }  // namespace tetproof::oracles

@@ -20,9 +20,9 @@ namespace tetproof::oracles {
 // On small meshes all elements are asked, on large ones an evenly spread sample. Sums are complete
 // or left out, and the figures say how many of each were asked. Triangles are oriented as in the
 // surface. Coordinates of the input are those given, but for vertices that were moved, which the
-// record defines.
+// record defines; with `as_given` for those, too.
 OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& surface,
                                  const delmesher::ExactRecord& record, const ExactPoints& points,
-                                 const std::string& sidecar);
+                                 const std::string& sidecar, bool as_given);
 
 }  // namespace tetproof::oracles

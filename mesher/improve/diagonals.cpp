@@ -1,0 +1,412 @@
+#include "mesher/improve/diagonals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "mesher/base/sort_unique.h"
+#include "mesher/improve/edge_removal.h"
+#include "mesher/improve/mesh_in_order.h"
+#include "mesher/improve/state.h"
+#include "mesher/surface/facet_locator.h"
+
+namespace delmesher::improve {
+namespace {
+
+// Which input vertices are corners of a facet.
+class FacetCorners {
+ public:
+  explicit FacetCorners(const SurfaceTopology& topology)
+      : topology_(topology), corners_(topology.facet_triangles.size()) {}
+
+  // Is a Steiner point on the surface one of this facet, wherever the vertices are?
+  bool have(const PointDefinition& d, FacetId facet) {
+    std::vector<VertexId>& corners = corners_[facet];
+    if (corners.empty()) {
+      for (const std::uint32_t t : topology_.facet_triangles[facet]) {
+        corners.insert(corners.end(), topology_.triangles[t].begin(), topology_.triangles[t].end());
+      }
+      sort_unique(corners);
+    }
+    return std::ranges::all_of(d.corner, [&](VertexId corner) {
+      return corner == kNone || std::ranges::binary_search(corners, corner);
+    });
+  }
+
+ private:
+  const SurfaceTopology& topology_;
+  std::vector<std::vector<VertexId>> corners_;  // ascending; empty until somebody asks
+};
+
+struct Diagonal {
+  std::array<VertexId, 2> end;  // of the surface
+  FacetId facet;                // of the stand-in
+};
+
+// A facet's edge across a diagonal, and the third vertices of its two faces there.
+struct Crossing {
+  std::array<VertexId, 2> end;
+  VertexId before, after;
+};
+
+class Entry {
+ public:
+  Entry(State& state, std::span<const VertexId> number, const SurfaceTopology& stand_in,
+        const SurfaceTopology& as_given, Predicates& predicates, Control& control)
+      : state_(state),
+        number_(number),
+        stand_in_(stand_in),
+        as_given_(as_given),
+        predicates_(predicates),
+        control_(control),
+        edges_(state),
+        corners_(as_given) {}
+
+  // The short ones first: they are in the way of fewer others' repairs.
+  std::vector<Diagonal> diagonals() const {
+    std::vector<std::pair<double, Diagonal>> sorted;
+    for (std::uint32_t e = 0; e < as_given_.edge_count(); ++e) {
+      const auto [h, g] = as_given_.edge_half_edges(e);
+      const FacetId facet = stand_in_.facet_of_half_edge(h);
+      if (as_given_.edge_is_flat[e] != 0 || facet != stand_in_.facet_of_half_edge(g)) continue;
+      const std::array<VertexId, 2> end = as_given_.edge_vertices(e);
+      sorted.emplace_back(
+          distance(state_.points().nearest(end[0]), state_.points().nearest(end[1])),
+          Diagonal{end, facet});
+    }
+    std::ranges::stable_sort(sorted, {}, [](const auto& item) { return item.first; });
+    std::vector<Diagonal> result;
+    for (const auto& [length, diagonal] : sorted) result.push_back(diagonal);
+    return result;
+  }
+
+  // False if it cannot be done.
+  bool enter(const Diagonal& diagonal) {
+    diagonal_ = diagonal;
+    axis_ = stand_in_.facet_axis[diagonal.facet];
+    to_ = number_[diagonal.end[1]];
+    VertexId at = number_[diagonal.end[0]];
+    while (at != to_) {
+      control_.poll();
+      crossings_.clear();
+      const VertexId next = neighbour_on_diagonal(at);
+      if (next != kNone) {
+        if (!is_on_diagonal(next) && !snap(next)) return false;
+        at = next;
+      } else if (!find_crossings(at) || !(flip_one(at) || snap_one() || split_one())) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Places Steiner points of facets anew that are given by a triangle of another facet as given.
+  // False if there is no room for one.
+  bool anchor_all() {
+    FacetLocator locator(stand_in_, state_.points());
+    for (VertexId v = 0; v < state_.mesh.vertices(); ++v) {
+      control_.poll();
+      if (state_.mobility(v) != Mobility::in_plane || state_.mesh.incident(v) == kNone) continue;
+      if (!anchor(v, locator)) return false;
+    }
+    return true;
+  }
+
+ private:
+  int side(VertexId a, VertexId b, VertexId c) {
+    return predicates_.orient2d(axis_, state_.point(a), state_.point(b), state_.point(c));
+  }
+  // A point of the segment itself, not just near it.
+  bool is_on_diagonal(VertexId v) const {
+    if (v == to_) return true;
+    const PointDefinition d = state_.points().definition(state_.point(v));
+    if (d.kind != PointKind::on_segment) return false;
+    const auto [p, q] = diagonal_.end;
+    return (d.corner[0] == p && d.corner[1] == q) || (d.corner[0] == q && d.corner[1] == p);
+  }
+
+  // The faces of the facet at a vertex, as its other two vertices, counter-clockwise.
+  std::vector<std::array<VertexId, 2>> faces_at(VertexId v) {
+    std::vector<std::array<VertexId, 2>> faces;
+    const WorkMesh& mesh = state_.mesh;
+    mesh.star(v, star_);
+    for (const TetId t : star_) {
+      for (int k = 0; k < 4; ++k) {
+        if (!mesh.inside(t) || mesh.facet(t, k) != diagonal_.facet || mesh.tet(t)[k] == v) continue;
+        std::array<VertexId, 2> other{};
+        int n = 0;
+        for (const int j : kFace[k]) {
+          if (mesh.tet(t)[j] != v) other[n++] = mesh.tet(t)[j];
+        }
+        if (side(v, other[0], other[1]) < 0) std::swap(other[0], other[1]);
+        faces.push_back(other);
+      }
+    }
+    return faces;
+  }
+  // The vertex that an edge of the facet joins to `at`, on the diagonal; kNone if there is none.
+  VertexId neighbour_on_diagonal(VertexId at) {
+    faces_ = faces_at(at);
+    for (const auto& face : faces_) {
+      for (const VertexId v : face) {
+        if (v == to_) return v;
+        if (side(at, to_, v) == 0 &&
+            predicates_.dot_difference_sign(state_.point(at), state_.point(v), state_.point(at),
+                                            state_.point(to_)) > 0) {
+          return v;
+        }
+      }
+    }
+    return kNone;
+  }
+  // The edges between `at` and the next vertex on the diagonal. False if there are none.
+  bool find_crossings(VertexId at) {
+    const auto first = std::ranges::find_if(faces_, [&](const auto& face) {
+      return side(at, face[0], to_) > 0 && side(at, to_, face[1]) > 0;
+    });
+    if (first == faces_.end()) return false;
+    auto [right, left] = *first;
+    VertexId before = at;
+    while (true) {
+      const VertexId after = beyond(right, left, before);
+      if (after == kNone) return false;
+      crossings_.push_back({{right, left}, before, after});
+      const int s = after == to_ ? 0 : side(at, to_, after);
+      if (s == 0) return true;
+      VertexId& replaced = s > 0 ? left : right;
+      before = replaced;
+      replaced = after;
+    }
+  }
+  VertexId beyond(VertexId x, VertexId y, VertexId before) {
+    for (const auto& [v, w] : faces_at(x)) {
+      const VertexId other = v == y ? w : w == y ? v : kNone;
+      if (other != kNone && other != before) return other;
+    }
+    return kNone;
+  }
+
+  // Removes an edge whose two vertices beside it are not on either side of the diagonal: what
+  // replaces it does not cross.
+  bool flip_one(VertexId at) {
+    return std::ranges::any_of(crossings_, [&](const Crossing& c) {
+      if (side(at, to_, c.before) * side(at, to_, c.after) < 0) return false;
+      const TetId t = tet_at(c.end);
+      return edges_.flip(t, state_.mesh.index_of(t, c.end[0]), state_.mesh.index_of(t, c.end[1]));
+    });
+  }
+  TetId tet_at(const std::array<VertexId, 2>& edge) {
+    state_.mesh.star(edge[0], star_);
+    return *std::ranges::find_if(star_,
+                                 [&](TetId t) { return state_.mesh.index_of(t, edge[1]) >= 0; });
+  }
+
+  bool snap_one() {
+    return std::ranges::any_of(crossings_,
+                               [&](const Crossing& c) { return snap(c.end[0]) || snap(c.end[1]); });
+  }
+  // Moves a Steiner point of the facet onto the diagonal, unless that makes an edge too long.
+  bool snap(VertexId v) {
+    constexpr double kTolerance = 0x1p-10;  // of the shortest edge
+    if (state_.mobility(v) != Mobility::in_plane) return false;
+    state_.mesh.star(v, star_);
+    const Place place =
+        state_.place_on_edge(diagonal_.end, state_.position(v), shortest_edge(v) * kTolerance);
+    if (!fits(v, place) || becomes_too_long(v, place)) {
+      state_.forget(place);
+      return false;
+    }
+    state_.move_to_edge(v, place, star_);
+    return true;
+  }
+  // An edge at v, whose star is there.
+  bool becomes_too_long(VertexId v, const Place& place) const {
+    return std::ranges::any_of(star_, [&](TetId t) {
+      return std::ranges::any_of(state_.mesh.tet(t), [&](VertexId w) {
+        const Vec3& end = state_.position(w);
+        return w != v && state_.too_long(place.position, end) &&
+               !state_.too_long(state_.position(v), end);
+      });
+    });
+  }
+  // At v, whose star is there.
+  double shortest_edge(VertexId v) const {
+    double shortest = HUGE_VAL;
+    for (const TetId t : star_) {
+      for (const VertexId w : state_.mesh.tet(t)) {
+        if (w == v) continue;
+        shortest = std::min(shortest, distance(state_.position(v), state_.position(w)));
+      }
+    }
+    return shortest;
+  }
+  FacetId facet_at(VertexId v) const {
+    for (const TetId t : star_) {
+      for (int k = 0; k < 4; ++k) {
+        if (state_.mesh.tet(t)[k] != v && state_.mesh.facet(t, k) != kNone) {
+          return state_.mesh.facet(t, k);
+        }
+      }
+    }
+    return kNone;
+  }
+  bool fits(VertexId v, const Place& place) {
+    return std::ranges::all_of(star_, [&](TetId t) {
+      return state_.is_positive_with(state_.mesh.tet(t), state_.mesh.index_of(t, v), place);
+    });
+  }
+
+  // Splits the edge in the middle, or the one nearest to it that can be split.
+  bool split_one() {
+    const std::size_t n = crossings_.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      if (split(crossings_[(n / 2 + k) % n])) return true;
+    }
+    return false;
+  }
+  // The new point is on the diagonal, and near the edge: within a smaller and smaller fraction of
+  // it, until tetrahedra are thicker than that.
+  bool split(const Crossing& c) {
+    const auto [x, y] = c.end;
+    const double length = distance(state_.position(x), state_.position(y));
+    for (double tolerance = 0x1p-10; tolerance > 0x1p-50; tolerance *= 0x1p-12) {
+      ring_.clear();
+      state_.mesh.star(x, star_);
+      std::ranges::copy_if(star_, std::back_inserter(ring_),
+                           [&, y = y](TetId t) { return state_.mesh.index_of(t, y) >= 0; });
+      const Place place =
+          state_.place_on_edge(diagonal_.end, crossing_point(c), length * tolerance);
+      const auto bad = std::ranges::find_if(ring_, [&](TetId t) {
+        return std::ranges::any_of(c.end, [&](VertexId v) {
+          return !state_.is_positive_with(state_.mesh.tet(t), state_.mesh.index_of(t, v), place);
+        });
+      });
+      if (bad == ring_.end()) {
+        insert(place, c);
+        return true;
+      }
+      state_.forget(place);
+    }
+    return false;
+  }
+  Vec3 crossing_point(const Crossing& c) const {
+    const std::size_t i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
+    const Vec3 &a = state_.position(number_[diagonal_.end[0]]),
+               &b = state_.position(number_[diagonal_.end[1]]), &x = state_.position(c.end[0]),
+               &y = state_.position(c.end[1]);
+    const Vec3 u = subtract(b, a), v = subtract(y, x), w = subtract(x, a);
+    return add_scaled(a, (w[i] * v[j] - w[j] * v[i]) / (u[i] * v[j] - u[j] * v[i]), u);
+  }
+  void insert(const Place& place, const Crossing& c) {
+    std::vector<CreatedTet> created;
+    for (const TetId t : ring_) {
+      for (const VertexId v : c.end) {
+        created.push_back({state_.mesh.tet(t), state_.mesh.region(t)});
+        created.back().vertices[state_.mesh.index_of(t, v)] = kNone;
+      }
+    }
+    std::vector<SurfaceFace> faces;
+    for (const VertexId v : c.end) {
+      for (const VertexId w : {c.before, c.after}) {
+        faces.push_back({{v, kNone, w}, diagonal_.facet});
+      }
+    }
+    state_.insert_on_edge(place, ring_, created, faces);
+  }
+
+  bool anchor(VertexId v, FacetLocator& locator) {
+    constexpr double kTolerance = 0x1p-30;  // of the shortest edge
+    state_.mesh.star(v, star_);
+    const FacetId facet = facet_at(v);
+    const Vec3 place = state_.points().nearest(state_.point(v));
+    const auto& corners = as_given_.triangles[locator.triangle_at(facet, place)];
+    const FacetId wanted = as_given_.facet_of[locator.triangle_at(facet, place)];
+    if (corners_.have(state_.points().definition(state_.point(v)), wanted)) return true;
+    const Place anew = state_.place_in_triangle(v, corners, shortest_edge(v) * kTolerance);
+    if (fits(v, anew)) {
+      state_.move(v, anew, star_);
+      return true;
+    }
+    state_.forget(anew);
+    return false;
+  }
+
+  State& state_;
+  std::span<const VertexId> number_;  // of points of the store in the mesh
+  const SurfaceTopology& stand_in_;
+  const SurfaceTopology& as_given_;
+  Predicates& predicates_;
+  Control& control_;
+  EdgeRemoval edges_;
+  FacetCorners corners_;
+  Diagonal diagonal_{};
+  int axis_ = 0;
+  VertexId to_ = 0;
+  std::vector<std::array<VertexId, 2>> faces_;  // at the vertex that was reached
+  std::vector<Crossing> crossings_;
+  std::vector<TetId> star_, ring_;
+};
+
+// Gives the faces of the surface, on points of the store, their facets of the surface as given.
+class Handover {
+ public:
+  Handover(const SurfaceTopology& stand_in, const SurfaceTopology& as_given,
+           const PointStore& points)
+      : as_given_(as_given), points_(points), locator_(stand_in, points), corners_(as_given) {}
+
+  // A face lies in one facet, since all edges between them are chains of edges: that of its middle,
+  // in doubles. False if a vertex of it is not of that facet.
+  bool run(std::vector<SurfaceFace>& faces) {
+    return std::ranges::all_of(faces, [&](SurfaceFace& face) {
+      face.facet = as_given_.facet_of[triangle_of(face)];
+      return std::ranges::all_of(face.vertices, [&](VertexId v) {
+        return points_.is_corner(v) || corners_.have(points_.definition(v), face.facet);
+      });
+    });
+  }
+
+ private:
+  std::uint32_t triangle_of(const SurfaceFace& face) {
+    Vec3 middle{0, 0, 0};
+    for (const VertexId v : face.vertices) {
+      middle = add_scaled(middle, 1.0 / 3, points_.nearest(v));
+    }
+    return locator_.triangle_at(face.facet, middle);
+  }
+
+  const SurfaceTopology& as_given_;
+  const PointStore& points_;
+  FacetLocator locator_;
+  FacetCorners corners_;
+};
+
+}  // namespace
+
+DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_in,
+                                const SurfaceTopology& as_given, std::span<const Vec3> given,
+                                const ImproveOptions& options, PointStore& points,
+                                Predicates& predicates, Control& control) {
+  Goals goals = goals_of(options);
+  goals.everywhere = true;
+  const std::vector<VertexId> point = vertices_in_order(mesh, points);
+  std::vector<VertexId> number(points.size(), kNone);
+  for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
+  State state(work_mesh(mesh, point, points.size()), point, &stand_in, given, points, predicates,
+              goals);
+  Entry entry(state, number, stand_in, as_given, predicates, control);
+  DiagonalsResult result;
+  for (const Diagonal& diagonal : entry.diagonals()) {
+    ++result.diagonals;
+    if (!entry.enter(diagonal)) ++result.missing;
+  }
+  const bool anchored = entry.anchor_all();
+  result.mesh = result_of(state);
+  Handover handover(stand_in, as_given, points);
+  if (result.missing == 0 && !(anchored && handover.run(result.mesh.boundary))) {
+    result.missing = result.diagonals;
+  }
+  return result;
+}
+
+}  // namespace delmesher::improve

@@ -1,0 +1,32 @@
+// Brings the edges of a surface as given back into a mesh of its stand-in (planar_groups.h), where
+// they are diagonals of planar facets: each becomes a chain of edges.
+//
+// A facet's edge in the way of a diagonal is removed, where what replaces the tetrahedra around it
+// is positive; or one of its ends, a Steiner point of the facet, is moved onto the diagonal; or the
+// two cross in a new point. Each of these leaves a crossing less than before, so that it ends.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "mesher/improve/improve.h"
+
+namespace delmesher::improve {
+
+struct DiagonalsResult {
+  ImproveMesh mesh;             // faces have the facets of the surface as given
+  std::uint64_t diagonals = 0;  // edges of the surface as given within a facet of the stand-in
+  std::uint64_t missing = 0;    // of them; unless none is, the mesh is not to be used
+};
+
+// `stand_in` and `as_given` have the same triangles; `given`: the vertices as given. On success
+// every vertex on a diagonal is a point on that segment, and every other one inside a facet one of
+// a triangle of that facet, so that moving the vertices of the surface to where they were given
+// puts the faces onto the surface as given. Quality is not asked for. New points are appended to
+// the store. Deterministic; throws Stopped when the control says so.
+DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_in,
+                                const SurfaceTopology& as_given, std::span<const Vec3> given,
+                                const ImproveOptions& options, PointStore& points,
+                                Predicates& predicates, Control& control);
+
+}  // namespace delmesher::improve

@@ -1,0 +1,143 @@
+#include "mesher/improve/diagonals.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <set>
+
+#include "mesher/cdt/model_reference.h"
+#include "mesher/cdt/test_models.h"
+#include "mesher/surface/flatness.h"
+#include "mesher/surface/test_surfaces.h"
+
+namespace delmesher::improve {
+namespace {
+
+using cdt::test_models::Model;
+using surface::test_surfaces::in_single_precision;
+using surface::test_surfaces::rotated;
+
+// A mesh of the stand-in of a surface, with points of all kinds.
+struct Case {
+  Case(const Surface& surface, int density, std::uint32_t seed)
+      : model(surface, 2 * surface::flatness(surface)) {
+    EXPECT_TRUE(model.valid);
+    if (density > 0) cdt::test_models::enrich(model, density, seed);
+    result = model.run();
+    given_points = std::make_unique<PointStore>();
+    Predicates predicates(*given_points);
+    as_given = build_topology(model.surface, *given_points, predicates);
+  }
+
+  ImproveMesh taken() {
+    return {result.tetrahedra, {result.inside.begin(), result.inside.end()}, result.boundary};
+  }
+  void give_back(const ImproveMesh& mesh) {
+    result.tetrahedra = mesh.tetrahedra;
+    result.inside.assign(mesh.region.begin(), mesh.region.end());
+    result.boundary = mesh.boundary;
+    result.repeated_faces.clear();
+  }
+  DiagonalsResult enter() {
+    const ImproveOptions options{.region = Region::hull};
+    ImproveResult improved = improve(taken(), &model.topology, model.surface.vertices, options,
+                                     model.points, model.predicates, model.control);
+    give_back(improved.mesh);
+    DiagonalsResult entered =
+        enter_diagonals(std::move(improved.mesh), model.topology, as_given, model.surface.vertices,
+                        options, model.points, model.predicates, model.control);
+    give_back(entered.mesh);
+    return entered;
+  }
+  // What is wrong with it as a mesh of the surface as given, by rational arithmetic.
+  std::string wrong() {
+    PointStore& points = *given_points;
+    for (auto v = static_cast<VertexId>(points.size()); v < model.points.size(); ++v) {
+      const Vec3 x = model.points.nearest(v);
+      if (model.points.is_explicit(v)) {
+        points.add_explicit(x[0], x[1], x[2]);
+      } else {
+        points.add(model.points.definition(v));
+      }
+    }
+    find_chains();
+    return cdt::rational::Checker(as_given, points, result, false).run();
+  }
+  // By the definitions of the vertices.
+  void find_chains() {
+    std::set<VertexId> used;
+    for (const SurfaceFace& face : result.boundary) {
+      used.insert(face.vertices.begin(), face.vertices.end());
+    }
+    result.chain.assign(as_given.edge_count(), {});
+    for (std::uint32_t e = 0; e < as_given.edge_count(); ++e) {
+      if (as_given.edge_is_flat[e] != 0) continue;
+      const auto [a, b] = as_given.edge_vertices(e);
+      std::map<double, VertexId> inside;  // by how near they are to b
+      for (const VertexId v : used) {
+        const PointDefinition d = given_points->definition(v);
+        if (d.kind != PointKind::on_segment) continue;
+        if (d.corner[0] == b && d.corner[1] == a) inside[d.u] = v;
+        if (d.corner[0] == a && d.corner[1] == b) inside[1 - d.u] = v;
+      }
+      result.chain[e].push_back(a);
+      for (const auto& [t, v] : inside) result.chain[e].push_back(v);
+      result.chain[e].push_back(b);
+    }
+  }
+
+  Model model;
+  cdt::CdtResult result;
+  std::unique_ptr<PointStore> given_points;
+  SurfaceTopology as_given;
+};
+
+std::vector<Surface> surfaces() {
+  using namespace cdt::test_models;
+  const Surface plate = perforated_plate(5, 0.25, 2), star_shaped = star(1, 0.1, 5);
+  const Surface steps = voxels({{{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 0.5, 1, 3}}},
+                               [](int i, int j, int k) { return k <= i || j == 1; });
+  return {rotated(plate), in_single_precision(rotated(plate)), rotated(star_shaped), rotated(steps),
+          in_single_precision(rotated(steps))};
+}
+
+TEST(Diagonals, TheMeshConformsToTheSurfaceAsGiven) {
+  std::uint64_t diagonals = 0;
+  for (const Surface& surface : surfaces()) {
+    for (const int density : {0, 1, 3}) {
+      Case c(surface, density, 7);
+      const DiagonalsResult entered = c.enter();
+      EXPECT_EQ(entered.missing, 0U);
+      EXPECT_EQ(c.wrong(), "");
+      diagonals += entered.diagonals;
+    }
+  }
+  EXPECT_GT(diagonals, 100U);
+}
+
+// Without them it does not.
+TEST(Diagonals, AreMissedWhereTheyAreNotEntered) {
+  Case c(surfaces().front(), 1, 7);
+  EXPECT_NE(c.wrong(), "");
+}
+
+// Points that were moved or are new lie on the diagonals themselves.
+TEST(Diagonals, NewPointsAreOnSegments) {
+  Case c(surfaces().front(), 3, 7);
+  const std::size_t before = c.model.points.size();
+  c.enter();
+  std::set<VertexId> used;
+  for (const SurfaceFace& face : c.result.boundary) {
+    used.insert(face.vertices.begin(), face.vertices.end());
+  }
+  std::uint64_t on_segments = 0;
+  for (const VertexId v : used) {
+    if (v < before) continue;
+    on_segments += c.model.points.definition(v).kind == PointKind::on_segment;
+  }
+  EXPECT_GT(on_segments, 0U);
+}
+
+}  // namespace
+}  // namespace delmesher::improve

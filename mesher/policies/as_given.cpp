@@ -1,0 +1,123 @@
+#include "mesher/policies/as_given.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "mesher/base/sort_unique.h"
+
+namespace delmesher::policies {
+namespace {
+
+PointStore moved_back(const Session& session) {
+  const PointStore& from = session.points;
+  PointStore points;
+  points.reserve(from.size());
+  for (VertexId v = 0; v < from.size(); ++v) {
+    const bool given = v < session.given.size();
+    if (given || from.is_explicit(v)) {
+      const Vec3 x = given ? session.given[v] : from.nearest(v);
+      points.add_explicit(x[0], x[1], x[2]);
+    } else {
+      points.add(from.definition(v));
+    }
+  }
+  return points;
+}
+
+// kNone if there is none.
+std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b) {
+  const std::uint32_t first = topology.vertex_half_edge[a];
+  for (std::uint32_t h = first; h != kNone;) {
+    if (topology.to(h) == b) return topology.edge_of[h];
+    h = topology.opposite[SurfaceTopology::previous(h)];
+    if (h == first) break;
+  }
+  return kNone;
+}
+
+// Of the vertices of the surface `as_given`, of the points that the mesh has on it, and of those on
+// the outer box, whose planes are numbered after those of the surface.
+void set_supports(const cdt::CdtResult& mesh, const Session& session,
+                  const SurfaceTopology& as_given, const PointStore& vertices, PointStore& points) {
+  std::vector<std::vector<PlaneId>> planes(points.size());
+  for (const SurfaceFace& face : mesh.boundary) {
+    for (const VertexId v : face.vertices) planes[v].push_back(as_given.facet_plane[face.facet]);
+  }
+  const auto before = static_cast<PlaneId>(session.topology.plane_count),
+             now = static_cast<PlaneId>(as_given.plane_count);
+  for (VertexId v = 0; v < points.size(); ++v) {
+    if (v < session.given.size()) {
+      points.set_supports(v, vertices.planes(v), vertices.lines(v));
+      continue;
+    }
+    for (const PlaneId plane : session.points.planes(v)) {
+      if (plane >= before) planes[v].push_back(plane - before + now);
+    }
+    sort_unique(planes[v]);
+    std::vector<std::uint32_t> lines;
+    const PointDefinition d = points.definition(v);
+    if (d.kind == PointKind::on_segment && d.corner[0] < session.given.size()) {
+      const std::uint32_t edge = edge_between(as_given, d.corner[0], d.corner[1]);
+      if (edge != kNone && as_given.edge_is_flat[edge] == 0) {
+        lines = {edge, as_given.edge_line[edge]};
+      }
+      sort_unique(lines);
+    }
+    if (!planes[v].empty()) points.set_supports(v, planes[v], lines);
+  }
+}
+
+// By exact signs, without supports.
+bool conforms(const cdt::CdtResult& mesh, const SurfaceTopology& as_given, const PointStore& points,
+              Control& control) {
+  Predicates predicates(points);
+  for (const auto& [a, b, c, d] : mesh.tetrahedra) {
+    control.poll();
+    if (predicates.orient3d(a, b, c, d) <= 0) return false;
+  }
+  return std::ranges::all_of(mesh.boundary, [&](const SurfaceFace& face) {
+    const auto& [a, b, c] = as_given.triangles[as_given.facet_triangles[face.facet].front()];
+    return std::ranges::all_of(face.vertices, [&, a = a, b = b, c = c](VertexId v) {
+      return predicates.orient3d(a, b, c, v) == 0;
+    });
+  });
+}
+
+PointStore vertices_of(const PointStore& points, std::size_t count) {
+  PointStore vertices;
+  for (std::uint32_t n = 0; n < points.plane_count(); ++n) vertices.add_plane(points.plane(n));
+  vertices.copy_corners(points, count);
+  return vertices;
+}
+
+SurfaceTopology build(const Session& session, PointStore& points) {
+  Predicates predicates(points);
+  return build_topology({session.given, session.topology.triangles, session.topology.labels},
+                        points, predicates);
+}
+
+}  // namespace
+
+bool goes_back(const Options& options) {
+  return options.planar == 0 && options.improve && !options.approximate;
+}
+
+SurfaceTopology topology_as_given(const Session& session) {
+  PointStore points;
+  return build(session, points);
+}
+
+bool go_back(const cdt::CdtResult& mesh, SurfaceTopology as_given, Session& session) {
+  PointStore points = moved_back(session);
+  if (!conforms(mesh, as_given, points, session.control)) return false;
+  PointStore vertices;
+  build(session, vertices);  // for the supports of the vertices
+  set_supports(mesh, session, as_given, vertices, points);
+  session.stand_in = vertices_of(session.points, session.given.size());
+  session.points = std::move(points);
+  session.topology = std::move(as_given);
+  session.given.clear();
+  return true;
+}
+
+}  // namespace delmesher::policies
