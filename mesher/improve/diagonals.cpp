@@ -392,8 +392,8 @@ DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_i
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
   std::vector<VertexId> number(points.size(), kNone);
   for (VertexId v = 0; v < point.size(); ++v) number[point[v]] = v;
-  State state(work_mesh(mesh, point, points.size()), point, &stand_in, given, points, predicates,
-              goals);
+  State state(work_mesh(std::move(mesh), point, points.size()), point, &stand_in, given, points,
+              predicates, goals);
   Entry entry(state, number, stand_in, as_given, predicates, control);
   DiagonalsResult result;
   for (const Diagonal& diagonal : entry.diagonals()) {

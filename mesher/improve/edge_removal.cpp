@@ -67,7 +67,7 @@ bool EdgeRemoval::refill(double least_roundness) {
   return true;
 }
 
-// Finds what is around the edge. False if there is too much, or if the edge may not go or has been
+// Finds the ring around the edge. False if there is too much, or if the edge may not go or has been
 // tried.
 bool EdgeRemoval::find_ring(TetId t, std::span<const std::uint32_t> failed) {
   if (!collect_ring(t, failed)) return false;
@@ -162,7 +162,7 @@ bool EdgeRemoval::improves(const Filling& filling, const Filling& best) const {
 }
 
 // Two tetrahedra, towards a and b, for each triangle of the polygon: the best filling among those
-// that reach what they have to (Klincsek's dynamic program).
+// that reach the quality required (Klincsek's dynamic program).
 EdgeRemoval::Filling EdgeRemoval::triangulate(Polygon& polygon) const {
   const int n = polygon.size;
   const bool counts = state_.counts_in(polygon.region);

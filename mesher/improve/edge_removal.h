@@ -32,10 +32,10 @@ class EdgeRemoval {
   // The longest ring that is considered.
   static constexpr int kLongest = 9;
 
-  // By what ways to fill a polygon are compared.
+  // The measure by which fillings of a polygon are compared.
   enum class Aim : std::uint8_t { best_worst, roundest };
 
-  // What a filling comes to; nothing has been found while its worst is flat. `roundness`: how much
+  // The value of a filling; nothing has been found while its worst is flat. `roundness`: how much
   // rounder than is asked for on average, summed over its tetrahedra, if that is the aim.
   struct Filling {
     Quality worst;
@@ -68,7 +68,7 @@ class EdgeRemoval {
   std::vector<VertexId> vertex_;  // one more than tetrahedra if the ring is open
   std::vector<FacetId> facet_;    // of the face a, b, vertex[n]
   Aim aim_ = Aim::best_worst;
-  Quality least_;                   // what the new tetrahedra have to reach
+  Quality least_;                   // the quality that the new tetrahedra have to reach
   std::vector<std::size_t> walls_;  // numbers of the faces of the surface
   std::vector<Polygon> polygons_;
   std::vector<CreatedTet> created_;

@@ -27,8 +27,8 @@ class Improvement {
         insertion_(state),
         vertices_(static_cast<std::int64_t>(state.mesh.vertices())) {}
 
-  // What can go goes first; then less is left to repair. Points are put in when everything else has
-  // been tried.
+  // Vertices that are not needed go first; then less is left to repair. Points are put in when
+  // everything else has been tried.
   void run() {
     begin(0.12);
     coarsen();
@@ -52,7 +52,7 @@ class Improvement {
 
  private:
   // The score below which tetrahedra are tried, pass by pass: later ones take as long as the first,
-  // but bring less, except to what is bad.
+  // but bring less, except to bad tetrahedra.
   static constexpr float kFirst[] = {1, 0.8F, 0.6F, 0.5F}, kAgain[] = {0.7F, 0.5F};
   static constexpr int kPassesForBad = 10;
 
@@ -77,7 +77,7 @@ class Improvement {
     }
   }
 
-  // Takes out what is not needed for good tetrahedra.
+  // Takes out vertices that good tetrahedra do not need.
   void coarsen() {
     for_each_vertex([&](VertexId v) { collapse(v); });
     validate();
@@ -109,7 +109,7 @@ class Improvement {
   // or hardly anything is left to gain.
   void repair(std::span<const float> limits) {
     std::vector<std::pair<float, TetId>> work;
-    double left = 1;  // each pass is taken for half of what is left
+    double left = 1;  // each pass counts as half of the rest
     for (std::size_t pass = 0; pass < limits.size() + kPassesForBad; ++pass) {
       const float limit = pass < limits.size() ? limits[pass] : State::kBad;
       tried_.resize(state_.mesh.slots(), 0);
@@ -223,8 +223,8 @@ ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
   ImproveResult result;
   result.became.assign(points.size(), kNone);
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
-  State state(work_mesh(mesh, point, points.size()), point, topology, given, points, predicates,
-              goals_of(options));
+  State state(work_mesh(std::move(mesh), point, points.size()), point, topology, given, points,
+              predicates, goals_of(options));
   Improvement(state, control).run();
   for (VertexId v = 0; v < point.size(); ++v) {
     if (state.mesh.incident(v) != kNone) result.became[point[v]] = state.point(v);

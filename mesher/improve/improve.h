@@ -36,7 +36,7 @@ struct ImproveMesh {
 struct ImproveResult {
   ImproveMesh mesh;
   bool changed = false;
-  std::vector<VertexId> became;  // per point of the store before: what it is now, kNone if gone
+  std::vector<VertexId> became;  // per point of the store before: its point now, kNone if gone
 };
 
 // `topology`: of the surface that the mesh conforms to; null if all of its faces stay as they are.
