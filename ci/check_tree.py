@@ -40,7 +40,7 @@ LAYERS = {
     "output": FOUNDATION,
     "enrich": FOUNDATION + ("chamfer", "refine", "cdt"),
     "run": FOUNDATION + ("plane",),
-    "results": FOUNDATION + ("chamfer", "refine", "cdt", "output", "plane", "run"),
+    "results": FOUNDATION + ("chamfer", "refine", "cdt", "improve", "output", "plane", "run"),
     "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "plane", "run", "results"),
     "io": ("base", "arithmetic", "predicates"),
     "cli": ("base", "arithmetic", "predicates", "io"),

@@ -20,6 +20,7 @@
 #include "mesher/policies/planar_bound.h"
 #include "mesher/policies/thinned_rounding.h"
 #include "mesher/refine/refine.h"
+#include "mesher/results/improvement.h"
 #include "mesher/results/recorder.h"
 #include "mesher/results/units.h"
 #include "mesher/run/options.h"
@@ -90,6 +91,17 @@ chamfer::ChamferedSurface filter_and_chamfer(double tau, const chamfer::ChamferO
   return surface.result();
 }
 
+// With so large a tolerance of the filter that the mesh is predicted to keep to the budget.
+chamfer::ChamferedSurface filter_to_budget(Budget& budget, const Fallback& fallback, Session& s,
+                                           Recorder& recorder) {
+  chamfer::ChamferedSurface chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
+  while (!budget.allows(chamfered, s, recorder)) {
+    s.points.truncate(s.input_vertices());
+    chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
+  }
+  return chamfered;
+}
+
 refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double tau,
                                  Fallback& fallback, Session& s) {
   refine::add_outer_box(s.topology, s.points, chamfered.chamfer.plc);
@@ -111,7 +123,7 @@ refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double ta
                         s.control);
 }
 
-// Without the refined mesh, whose memory the last step needs.
+// Gives up the refined mesh, because the last step needs its memory.
 cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
                             refine::RefineResult refined, Session& s) {
   s.control.enter(Phase::enrich);
@@ -131,43 +143,14 @@ improve::ImproveOptions improve_options(Region region, const Session& s) {
   return {.delta = s.options.delta, .max_edge = s.options.max_edge, .region = region};
 }
 
-improve::ImproveMesh taken_from(cdt::CdtResult& cdt) {
-  return {
-      std::move(cdt.tetrahedra), {cdt.inside.begin(), cdt.inside.end()}, std::move(cdt.boundary)};
-}
-
-void give_back(improve::ImproveMesh mesh, cdt::CdtResult& cdt) {
-  cdt.tetrahedra = std::move(mesh.tetrahedra);
-  cdt.inside.assign(mesh.region.begin(), mesh.region.end());
-  cdt.boundary = std::move(mesh.boundary);
-  cdt.repeated_faces.clear();
-}
-
 // Fewer and better tetrahedra on the same surface (section 8.3). False if there was nothing to do.
-bool improve_mesh(cdt::CdtResult& cdt, Region region, Session& s) {
+bool improve_mesh(cdt::CdtResult& cdt, Session& s) {
   improve::ImproveResult result =
-      improve::improve(taken_from(cdt), &s.topology, s.given, improve_options(region, s), s.points,
-                       s.predicates, s.control);
-  give_back(std::move(result.mesh), cdt);
-  const auto follow = [&](std::vector<VertexId>& vertices) {
-    for (VertexId& v : vertices) v = result.became[v];
-    std::erase(vertices, kNone);
-  };
-  for (std::vector<VertexId>& chain : cdt.chain) follow(chain);
-  follow(cdt.steiner);
+      improve::improve(improvable(cdt), &s.topology, s.given, improve_options(s.options.region, s),
+                       s.points, s.predicates, s.control);
+  put_in(std::move(result.mesh), cdt);
+  follow(result.became, cdt);
   return result.changed;
-}
-
-// Without what is outside, where flat tetrahedra between facets that are nearly in one plane would
-// be in the way.
-void keep_inside(cdt::CdtResult& cdt) {
-  std::size_t kept = 0;
-  for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
-    if (cdt.inside[n] != 0) cdt.tetrahedra[kept++] = cdt.tetrahedra[n];
-  }
-  cdt.tetrahedra.resize(kept);
-  cdt.inside.assign(kept, 1);
-  cdt.repeated_faces.clear();
 }
 
 // From the stand-in to the surface as given, with all its edges. False if that cannot be; the mesh
@@ -175,12 +158,26 @@ void keep_inside(cdt::CdtResult& cdt) {
 bool put_back(cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
   SurfaceTopology as_given = topology_as_given(s);
   improve::DiagonalsResult entered =
-      improve::enter_diagonals(taken_from(cdt), s.topology, as_given, s.given,
+      improve::enter_diagonals(improvable(cdt), s.topology, as_given, s.given,
                                improve_options(Region::hull, s), s.points, s.predicates, s.control);
-  give_back(std::move(entered.mesh), cdt);
+  put_in(std::move(entered.mesh), cdt);
   const bool done = entered.missing == 0 && go_back(cdt, std::move(as_given), s);
   recorder.put_back(entered.diagonals, entered.missing, !done);
   return done;
+}
+
+// Improves the final mesh; a mesh of the stand-in that goes back is improved before and after.
+// False if it cannot go back.
+bool improve_final(Planes planes, cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
+  const bool goes_back = planes == Planes::while_refined && !s.given.empty();
+  // Outside, flat tetrahedra between facets that are nearly in one plane would be in the way.
+  if (goes_back && s.options.region == Region::interior) keep_inside(cdt);
+  if (improve_mesh(cdt, s)) recorder.improved(cdt);
+  if (!goes_back) return true;
+  if (!put_back(cdt, s, recorder)) return false;
+  improve_mesh(cdt, s);
+  recorder.improved(cdt);
+  return true;
 }
 
 void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineResult refined,
@@ -198,11 +195,7 @@ Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& re
 
   Budget budget(s.options);
   Fallback fallback(s.options);
-  chamfer::ChamferedSurface chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
-  while (!budget.allows(chamfered, s, recorder)) {
-    s.points.truncate(s.input_vertices());
-    chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
-  }
+  chamfer::ChamferedSurface chamfered = filter_to_budget(budget, fallback, s, recorder);
   refine::RefineResult refined = refine_mesh(chamfered, budget.tau(), fallback, s);
   while (refined.runaway) {
     fallback.tighten(*refined.runaway, s);
@@ -226,14 +219,7 @@ Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& re
   recorder.tetrahedrized(cdt);
   if (s.options.improve) {
     s.control.enter(Phase::improve);
-    const bool goes_back = planes == Planes::while_refined && !s.given.empty();
-    if (goes_back && s.options.region == Region::interior) keep_inside(cdt);
-    if (improve_mesh(cdt, s.options.region, s)) recorder.improved(cdt);
-    if (goes_back) {
-      if (!put_back(cdt, s, recorder)) return {};
-      improve_mesh(cdt, s.options.region, s);
-      recorder.improved(cdt);
-    }
+    if (!improve_final(planes, cdt, s, recorder)) return {};
   }
   s.control.enter(Phase::round);
   round_and_record(std::move(cdt), s, recorder);
