@@ -320,10 +320,11 @@ class Entry {
     state_.mesh.star(v, star_);
     const FacetId facet = facet_at(v);
     const Vec3 place = state_.points().nearest(state_.point(v));
-    const auto& corners = as_given_.triangles[locator.triangle_at(facet, place)];
-    const FacetId wanted = as_given_.facet_of[locator.triangle_at(facet, place)];
+    const std::uint32_t triangle = locator.triangle_at(facet, place);
+    const FacetId wanted = as_given_.facet_of[triangle];
     if (corners_.have(state_.points().definition(state_.point(v)), wanted)) return true;
-    const Place anew = state_.place_in_triangle(v, corners, shortest_edge(v) * kTolerance);
+    const Place anew =
+        state_.place_in_triangle(v, as_given_.triangles[triangle], shortest_edge(v) * kTolerance);
     if (fits(v, anew)) {
       state_.move(v, anew, star_);
       return true;
