@@ -246,6 +246,29 @@ TEST(PlaneGoal, JudgesAnglesThenEdges) {
   EXPECT_EQ(Goal(1, 0).reach(thin), thin.circumcentre);
 }
 
+// A far vertex takes nothing from what doubles can hold of the near ones (fourth powers of the
+// longest side stay finite, squares of the shortest one do not vanish).
+TEST(PlaneShape, HoldsAcrossTheRangeOfDoubles) {
+  for (const double far : {0x1p0, 0x1p50, 0x1p300, 0x1p700, 0x1p768, 0x1p1000}) {
+    PointStore points;
+    const auto add = [&](double x, double y) { return points.add_explicit(x / far, y / far, 0); };
+    const VertexId a = add(0, 0), b = add(1, 0), c = add(0.5, 4 * far);
+    for (const std::array<VertexId, 3>& v : {std::array{a, b, c}, {b, c, a}, {c, a, b}}) {
+      SCOPED_TRACE(testing::Message() << far << ' ' << v[0]);
+      const Shape shape = shape_of(points, v[0], v[1], v[2]);
+      EXPECT_EQ(v[static_cast<std::size_t>(shape.sharpest)], c);
+      EXPECT_GT(shape.shortest_squared, 0x1p-1022);
+      EXPECT_EQ(shape.shortest_squared, (shape.scale / far) * (shape.scale / far));
+      EXPECT_LE(shape.sine_squared, 1 / 16.0);
+      EXPECT_TRUE(std::isfinite(shape.longest_squared));
+      EXPECT_NE(Goal(20, 0).badness(shape), std::nullopt);
+      const Vec3 place = shape.place(points, v, 1);
+      EXPECT_NEAR(place[0] * far, 0.5, 1e-5);
+      EXPECT_NEAR(place[1] * far, 1, 1e-5);
+    }
+  }
+}
+
 TEST(PlaneCrowding, NamesWhatCanBeSpared) {
   const Stages s(square());
   const std::vector<PieceId> carrier(s.points.size() + 2, kNone);

@@ -38,6 +38,16 @@ double larger_coordinate(const Vec2& v) {
   return std::max(std::fabs(v.x), std::fabs(v.y));
 }
 
+// The fourth powers of sides have to stay finite. A side that is 2^200 times as long as the
+// shortest one makes a triangle with an angle that counts as zero, and one more so changes nothing.
+Vec2 shortened(const Vec2& v) {
+  constexpr double kLongest = 0x1p200;
+  const double size = larger_coordinate(v);
+  if (size < 2 * kLongest) return v;
+  const double factor = kLongest / power_below(size);
+  return {v.x * factor, v.y * factor};
+}
+
 // The sides times `scale`.
 Shape measure(const Vec2& ab, const Vec2& bc, const Vec2& ca, double scale) {
   // Squared lengths opposite the corners.
@@ -66,14 +76,11 @@ Shape shape_of(const PointStore& points, VertexId a, VertexId b, VertexId c) {
   const Shape shape = measure(ab, bc, ca, 1);
   if (shape.shortest_squared > 0x1p-500) return shape;
   const double sizes[3] = {larger_coordinate(ab), larger_coordinate(bc), larger_coordinate(ca)};
-  const double largest = std::max({sizes[0], sizes[1], sizes[2]});
   const double smallest = std::min({sizes[0], sizes[1], sizes[2]});
   if (!(smallest > 0)) return shape;
-  // The fourth powers of the longest have to stay finite.
-  const double scale =
-      std::min(0x1p900, std::min(1 / power_below(smallest), 0x1p200 / power_below(largest)));
+  const double scale = std::min(0x1p900, 1 / power_below(smallest));
   if (!(scale > 1)) return shape;
-  for (Vec2* v : {&ab, &bc, &ca}) *v = {v->x * scale, v->y * scale};
+  for (Vec2* v : {&ab, &bc, &ca}) *v = shortened({v->x * scale, v->y * scale});
   return measure(ab, bc, ca, scale);
 }
 
