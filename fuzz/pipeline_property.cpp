@@ -75,12 +75,13 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
   return {};
 }
 
-// Reaching the limit on vertices is no finding. Stopping for want of precision is one if there is
-// room. No other limit was set.
+// Reaching the limit on vertices is no finding: it is counted by its cause, and features that
+// doubles can hardly tell apart take thousands of vertices by themselves. Stopping for want of
+// precision is a finding if there is room. No other limit was set.
 Finding at_limit(const Surface& surface, const delmesher::Status& status) {
   switch (status.limit) {
     case delmesher::Limit::size:
-      too_many_vertices.take();
+      (roomy(surface) ? too_many_vertices : too_precise).take();
       return {};
     case delmesher::Limit::precision:
       if (roomy(surface)) return "status: " + status.message;
@@ -189,16 +190,18 @@ Options options_for(const Surface& surface) {
 Options coarser(Options options, std::uint64_t budget) {
   options.budget = budget;
   options.max_edge = options.chamfer_radius = 0;
+  options.gabriel = false;
   options.region = delmesher::Region::interior;
   options.tau = std::max(options.tau, 1e-2);
   return options;
 }
 
-// A surface that would need more vertices than the limit is meshed with a budget instead.
+// A surface that would need more vertices than the limit is meshed with a budget of tetrahedra
+// instead, of which there are several per vertex.
 Result meshed(const Surface& surface, Options& options) {
   Result result = delmesher::tetrahedralize(surface, options);
   if (result.status.limit != delmesher::Limit::size) return result;
-  options = coarser(options, kMostVertices / 2);
+  options = coarser(options, 2 * kMostVertices);
   return delmesher::tetrahedralize(surface, options);
 }
 
