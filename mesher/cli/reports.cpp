@@ -256,7 +256,7 @@ std::vector<std::string> limits_texts(const Statistics& s) {
   }
   if (s.planar_given_up) {
     texts.push_back(std::to_string(s.diagonals_missing) + " of " + std::to_string(s.diagonals) +
-                    " edges within planar facets found no place: meshed anew without those");
+                    " edges within planar facets did not come back: meshed anew without those");
   }
   if (s.refinement_capped) {
     texts.emplace_back(

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/improve/edge_removal.h"
 #include "mesher/improve/mesh_in_order.h"
+#include "mesher/improve/smoothing.h"
 #include "mesher/improve/state.h"
 #include "mesher/surface/facet_locator.h"
 
@@ -61,6 +63,7 @@ class Entry {
         predicates_(predicates),
         control_(control),
         edges_(state),
+        smoothing_(state),
         corners_(as_given) {}
 
   // The short ones first: they are in the way of fewer others' repairs.
@@ -87,15 +90,20 @@ class Entry {
     axis_ = stand_in_.facet_axis[diagonal.facet];
     to_ = number_[diagonal.end[1]];
     VertexId at = number_[diagonal.end[0]];
+    bool made_room = false;
     while (at != to_) {
       control_.poll();
-      crossings_.clear();
       const VertexId next = neighbour_on_diagonal(at);
       if (next != kNone) {
         if (!is_on_diagonal(next) && !snap(next)) return false;
         at = next;
-      } else if (!find_crossings(at) || !(flip_one(at) || snap_one() || split_one())) {
+        made_room = false;
+      } else if (find_crossings(at) && uncross(at)) {
+        made_room = false;
+      } else if (made_room || !make_room()) {
         return false;
+      } else {
+        made_room = true;
       }
     }
     return true;
@@ -165,6 +173,7 @@ class Entry {
     const auto first = std::ranges::find_if(faces_, [&](const auto& face) {
       return side(at, face[0], to_) > 0 && side(at, to_, face[1]) > 0;
     });
+    crossings_.clear();
     if (first == faces_.end()) return false;
     auto [right, left] = *first;
     VertexId before = at;
@@ -187,21 +196,43 @@ class Entry {
     return kNone;
   }
 
+  // A crossing less.
+  bool uncross(VertexId at) { return flip_one(at) || snap_one() || split_one(); }
+
+  // Moves vertices of the volume to where the tetrahedra are thicker at the edges across. False if
+  // none moves.
+  bool make_room() {
+    std::vector<VertexId> free;
+    for (const Crossing& c : crossings_) {
+      find_ring(c.end);
+      for (const TetId t : ring_) {
+        std::ranges::copy_if(state_.mesh.tet(t), std::back_inserter(free),
+                             [&](VertexId v) { return state_.mobility(v) == Mobility::free; });
+      }
+    }
+    sort_unique(free);
+    bool any = false;
+    for (const VertexId v : free) any = smoothing_.improve_worst(v) || any;
+    return any;
+  }
+  // The tetrahedra at an edge.
+  void find_ring(const std::array<VertexId, 2>& edge) {
+    ring_.clear();
+    state_.mesh.star(edge[0], star_);
+    std::ranges::copy_if(star_, std::back_inserter(ring_),
+                         [&](TetId t) { return state_.mesh.index_of(t, edge[1]) >= 0; });
+  }
+
   // Removes an edge whose two vertices beside it are not on either side of the diagonal: what
   // replaces it does not cross.
   bool flip_one(VertexId at) {
     return std::ranges::any_of(crossings_, [&](const Crossing& c) {
       if (side(at, to_, c.before) * side(at, to_, c.after) < 0) return false;
-      const TetId t = tet_at(c.end);
+      find_ring(c.end);
+      const TetId t = ring_.front();
       return edges_.flip(t, state_.mesh.index_of(t, c.end[0]), state_.mesh.index_of(t, c.end[1]));
     });
   }
-  TetId tet_at(const std::array<VertexId, 2>& edge) {
-    state_.mesh.star(edge[0], star_);
-    return *std::ranges::find_if(star_,
-                                 [&](TetId t) { return state_.mesh.index_of(t, edge[1]) >= 0; });
-  }
-
   bool snap_one() {
     return std::ranges::any_of(crossings_,
                                [&](const Crossing& c) { return snap(c.end[0]) || snap(c.end[1]); });
@@ -270,11 +301,8 @@ class Entry {
   bool split(const Crossing& c) {
     const auto [x, y] = c.end;
     const double length = distance(state_.position(x), state_.position(y));
+    find_ring(c.end);
     for (double tolerance = 0x1p-10; tolerance > 0x1p-50; tolerance *= 0x1p-12) {
-      ring_.clear();
-      state_.mesh.star(x, star_);
-      std::ranges::copy_if(star_, std::back_inserter(ring_),
-                           [&, y = y](TetId t) { return state_.mesh.index_of(t, y) >= 0; });
       const Place place =
           state_.place_on_edge(diagonal_.end, crossing_point(c), length * tolerance);
       const auto bad = std::ranges::find_if(ring_, [&](TetId t) {
@@ -340,6 +368,7 @@ class Entry {
   Predicates& predicates_;
   Control& control_;
   EdgeRemoval edges_;
+  Smoothing smoothing_;
   FacetCorners corners_;
   Diagonal diagonal_{};
   int axis_ = 0;
@@ -396,17 +425,17 @@ DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_i
   State state(work_mesh(std::move(mesh), point, points.size()), point, &stand_in, given, points,
               predicates, goals);
   Entry entry(state, number, stand_in, as_given, predicates, control);
+  const std::vector<Diagonal> diagonals = entry.diagonals();
+  const auto stuck =
+      std::ranges::find_if(diagonals, [&](const Diagonal& d) { return !entry.enter(d); });
   DiagonalsResult result;
-  for (const Diagonal& diagonal : entry.diagonals()) {
-    ++result.diagonals;
-    if (!entry.enter(diagonal)) ++result.missing;
-  }
+  result.diagonals = diagonals.size();
+  result.missing = static_cast<std::uint64_t>(diagonals.end() - stuck);
+  if (result.missing > 0) return result;
   const bool anchored = entry.anchor_all();
   result.mesh = result_of(state);
   Handover handover(stand_in, as_given, points);
-  if (result.missing == 0 && !(anchored && handover.run(result.mesh.boundary))) {
-    result.missing = result.diagonals;
-  }
+  if (!(anchored && handover.run(result.mesh.boundary))) result.missing = result.diagonals;
   return result;
 }
 

@@ -4,6 +4,8 @@
 // A facet's edge in the way of a diagonal is removed, where what replaces the tetrahedra around it
 // is positive; or one of its ends, a Steiner point of the facet, is moved onto the diagonal; or the
 // two cross in a new point. Each of these leaves a crossing less than before, so that it ends.
+// Where flat tetrahedra leave no room for any of them, their vertices in the volume are moved
+// first.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +18,7 @@ namespace delmesher::improve {
 struct DiagonalsResult {
   ImproveMesh mesh;             // faces have the facets of the surface as given
   std::uint64_t diagonals = 0;  // edges of the surface as given within a facet of the stand-in
-  std::uint64_t missing = 0;    // of them; unless none is, the mesh is not to be used
+  std::uint64_t missing = 0;  // of them, from the first that finds no place; then there is no mesh
 };
 
 // `stand_in` and `as_given` have the same triangles; `given`: the vertices as given. On success
