@@ -15,17 +15,17 @@ bool PlanarCavity::excludes(std::uint32_t s) const {
   return std::find(excluded_.begin(), excluded_.end(), s) != excluded_.end();
 }
 
-// The cavity is star-shaped in theory; a point that bends an artificial edge may see a far rim edge
+// The cavity is star-shaped in theory; a point that bends an artificial edge may see a far skin edge
 // from behind: such subfacets are left out.
 void PlanarCavity::find(const Subfacets& all, VertexId v, std::uint32_t start, SubfacetEdge split) {
   excluded_.clear();
   for (;;) {
     grow(all, v, start, split);
-    const auto behind = std::find_if(rim_.begin(), rim_.end(), [&](SubfacetEdge e) {
+    const auto behind = std::find_if(skin_.begin(), skin_.end(), [&](SubfacetEdge e) {
       const auto [from, to] = all.ends(e);
       return all.orient(all[start].facet, from, to, v) <= 0;
     });
-    if (behind == rim_.end()) return;
+    if (behind == skin_.end()) return;
     DELMESHER_CHECK(behind->subfacet() != start, "planar cavity is not star-shaped");
     excluded_.push_back(behind->subfacet());
   }
@@ -33,7 +33,7 @@ void PlanarCavity::find(const Subfacets& all, VertexId v, std::uint32_t start, S
 
 void PlanarCavity::grow(const Subfacets& all, VertexId v, std::uint32_t start, SubfacetEdge split) {
   subfacets_.assign(1, start);
-  rim_.clear();
+  skin_.clear();
   for (std::size_t n = 0; n < subfacets_.size(); ++n) {
     const std::uint32_t s = subfacets_[n];
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -43,11 +43,11 @@ void PlanarCavity::grow(const Subfacets& all, VertexId v, std::uint32_t start, S
         subfacets_.push_back(next.subfacet());
         continue;
       }
-      rim_.emplace_back(s, i);
+      skin_.emplace_back(s, i);
     }
   }
-  // An edge may have been put on the rim before the subfacet beyond it joined the cavity.
-  std::erase_if(rim_, [&](SubfacetEdge e) {
+  // An edge may have been put on the skin before the subfacet beyond it joined the cavity.
+  std::erase_if(skin_, [&](SubfacetEdge e) {
     const SubfacetEdge next = all[e.subfacet()].neighbor[e.edge()];
     return e == split || (next.exists() && contains(next.subfacet()));
   });

@@ -2,7 +2,7 @@
 // the edges around them.
 //
 // Laws: the cavity is connected and does not reach beyond subsegments; the point sees every edge of
-// the rim from its inner side, so that the triangles from the point to the rim fill the cavity.
+// the skin from its inner side, so that the triangles from the point to the skin fill the cavity.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ class Subfacets;
 class PlanarCavity {
  public:
   // `start`: a subfacet that contains v. `split`: the edge of it on which v lies, or none; it is
-  // not on the rim.
+  // not on the skin.
   void find(const Subfacets& subfacets, VertexId v, std::uint32_t start, SubfacetEdge split);
 
-  // In the order in which they were met, as the rim is.
+  // In the order in which they were met, as the skin is.
   const std::vector<std::uint32_t>& subfacets() const { return subfacets_; }
-  const std::vector<SubfacetEdge>& rim() const { return rim_; }
+  const std::vector<SubfacetEdge>& skin() const { return skin_; }
 
  private:
   void grow(const Subfacets& all, VertexId v, std::uint32_t start, SubfacetEdge split);
@@ -30,7 +30,7 @@ class PlanarCavity {
   bool excludes(std::uint32_t s) const;
 
   std::vector<std::uint32_t> subfacets_;
-  std::vector<SubfacetEdge> rim_;
+  std::vector<SubfacetEdge> skin_;
   std::vector<std::uint32_t> excluded_;
 };
 

@@ -37,19 +37,19 @@ struct Bottom : Parts {
       }
     }
     EXPECT_EQ(reached, in);
-    // The rim is the boundary of the cavity, without the edge that is split, and is visible.
+    // The skin is the boundary of the cavity, without the edge that is split, and is visible.
     std::size_t bounding = 0;
     for (const std::uint32_t s : in) {
       for (std::uint32_t i = 0; i < 3; ++i) {
         const SubfacetEdge beyond = subfacets[s].neighbor[i];
         const bool bounds = !beyond.exists() || !in.contains(beyond.subfacet());
         const bool expected = bounds && SubfacetEdge(s, i) != split;
-        EXPECT_EQ(std::ranges::count(cavity.rim(), SubfacetEdge(s, i)), expected ? 1 : 0);
+        EXPECT_EQ(std::ranges::count(cavity.skin(), SubfacetEdge(s, i)), expected ? 1 : 0);
         bounding += expected ? 1 : 0;
       }
     }
-    EXPECT_EQ(cavity.rim().size(), bounding);
-    for (const SubfacetEdge e : cavity.rim()) {
+    EXPECT_EQ(cavity.skin().size(), bounding);
+    for (const SubfacetEdge e : cavity.skin()) {
       const auto [from, to] = subfacets.ends(e);
       EXPECT_GT(subfacets.orient(facet, from, to, v), 0);
     }

@@ -130,12 +130,12 @@ void Subfacets::insert_on_edge(VertexId v, SubfacetEdge side, std::uint32_t half
   fill_cavity(v, half_a, half_b);
 }
 
-// Replaces the cavity by the triangles from v to its rim. A side of v that no other triangle has
+// Replaces the cavity by the triangles from v to its skin. A side of v that no other triangle has
 // must be one of the two halves of a subsegment.
 void Subfacets::fill_cavity(VertexId v, std::uint32_t half_a, std::uint32_t half_b) {
   const std::uint32_t facet = list_[cavity_.subfacets().front()].facet;
   spokes_.clear();
-  for (const SubfacetEdge e : cavity_.rim()) {
+  for (const SubfacetEdge e : cavity_.skin()) {
     const auto [x, y] = ends(e);
     const std::uint32_t created = add({v, x, y}, facet);
     const SubfacetEdge base(created, 0);
