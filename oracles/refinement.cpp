@@ -206,7 +206,9 @@ void Segments::check_input(std::size_t n, const ExactRecord::Chain& chain) {
   last_[e] = ordered.back();
 }
 
-// A missing part of an edge was cut off at a chamfered corner, or the edge was acute.
+// Of an edge with a kept facet, a part may be missing at an end that was chamfered. All of it may
+// be missing if both ends were chamfered and its dihedral angle, between kept facets, is below 90
+// degrees. Whether it is below the threshold in force, check_chamfer_need decides.
 void Segments::check_ends() {
   std::uint64_t missing = 0;
   for (std::size_t e = 0; e < surface_.edges().size(); ++e) {
@@ -476,7 +478,8 @@ std::vector<std::uint8_t> volume_points(const RefinedMesh& mesh) {
   return is_volume;
 }
 
-// Splitting points are put on a grid of this share of the shortest edge; twice that is allowed.
+// Volume Steiner points are put on a grid of 2^-10 of the shortest edge, and may be twice that away
+// from their place: 2^-kGridBits of it.
 constexpr long kGridBits = 9;
 
 enum class SplitAt : std::uint8_t { circumcentre, centroid, elsewhere };

@@ -22,7 +22,7 @@ namespace delmesher::cdt {
 enum class CdtStep : std::uint8_t {
   delaunay,  // Delaunay tetrahedrization of the vertices
   segments,  // Steiner points on missing segments
-  facets,    // cavities of missing triangles, tetrahedrized by gift wrapping
+  facets,    // cavities of missing triangles, filled anew
   classify   // inside and outside
 };
 

@@ -7,8 +7,8 @@
 //  - at an end the fractions are 0 and 1; from end 0 to end 1 no fraction from end 0 falls and no
 //    fraction from end 1 grows by more than the rounding of 1;
 //  - a vertex strictly inside an edge is found by node_of(), and no other vertex is;
-//  - the valence of a vertex is the number of the subsegments that end there. validate_segments()
-// checks whether subsegments are edges of the tetrahedrization.
+//  - the valence of a vertex is the number of the subsegments that end there.
+// Whether subsegments are edges of the tetrahedrization is checked by validate_segments().
 #pragma once
 
 #include <array>

@@ -40,14 +40,18 @@ SplitTarget SplitRule::target(std::uint32_t n, Centre centre, VertexId reference
   return on_sphere(u, w, static_cast<int>(centre), reference, middle);
 }
 
-// Opposite a reference on an edge that runs along this one. By their distances from different ends,
-// points of edges at a distance d would not face each other: each new point would be the reference
-// of the next one on the other edge, a distance d farther on. Points that face each other are done
-// with, if they do so up to d^2 / L: farther from its place, a point is in the diametral ball of a
-// part of length L of the other edge, and a part between two other edges may be missing for good.
-// Hence the reference's projection, with twice as many bits where it takes them, and only where the
-// edges are parallel enough for the projection back to be as near. `soon` says that they will be
-// when this part has been halved a few times.
+// Opposite a reference on an edge that runs along this one: the reference's projection.
+//
+// The rules by distances from ends would not end here. Points of two edges at a distance d would
+// not face each other, so each new point would be the reference of the next one on the other edge,
+// a distance d farther on. Points that face each other are done with. They have to face each other
+// up to d^2 / L, where L is the length of the part of the other edge: a point farther from its
+// place is in the diametral ball of that part, and a part between two other edges may then be
+// missing for good.
+//
+// So the projection has twice as many bits where it takes them. It is used only where the edges are
+// so nearly parallel that the projection back onto the other edge is as near. `soon` says that this
+// part will be short enough for that when it has been halved a few times.
 bool SplitRule::target_opposite(const ChainNode& u, const ChainNode& w, VertexId reference,
                                 SplitTarget& t, bool& soon) const {
   const Vec3 along = points_.difference(u.vertex, w.vertex);

@@ -41,8 +41,9 @@ class AcuteFinder {
   const PredicateCounters& counters() const { return predicates_.counters; }
 
  private:
-  // Few directions fit into space without an acute pair, so this ends soon however many edges there
-  // are.
+  // Few directions fit into space without a pair below the threshold of corners, so this ends soon
+  // even at a vertex of many edges, unless that threshold is small: with --corner 0 it asks all
+  // pairs.
   bool two_edges_are_acute(VertexId v, const std::vector<std::uint32_t>& spokes) {
     const double limit = thresholds_.at_vertex(v);
     for (std::size_t i = 1; i < spokes.size(); ++i) {

@@ -23,7 +23,8 @@ inline constexpr VertexId kInfinite = kNone - 1;
 
 // Vertices of face i, counter-clockwise seen from outside.
 inline constexpr int kFace[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-// The six edges, and the faces (opposite vertices) that share each.
+// The six edges, by the indices of their ends. Edge e and edge 5 - e are opposite, so kEdge[5 - e]
+// are also the faces that share edge e.
 inline constexpr int kEdge[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
 class Tetrahedrization {
@@ -105,8 +106,7 @@ class Tetrahedrization {
   // edge.
   void edge_ring(TetId t, VertexId a, VertexId b, std::vector<TetId>& ring) const;
 
-  // --- insertion in three steps, so that a caller can look before it
-  // commits
+  // --- insertion in three steps, so that a caller can look before it commits
   // A tetrahedron containing point v, walking from `hint`; a ghost if v is outside the hull. v need
   // not be a vertex. If v coincides with a vertex, that vertex's id is stored in *duplicate (else
   // kNone).

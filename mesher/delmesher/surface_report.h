@@ -10,7 +10,7 @@
 
 namespace delmesher {
 
-// Defects and properties of a surface.
+// One place where a surface is not a valid one: closed, manifold, oriented, free of intersections.
 struct Defect {
   enum class Kind : std::uint8_t {
     non_finite,                // vertex
@@ -29,6 +29,7 @@ struct Defect {
   std::string message;  // one line naming them, e.g. "triangles 12 and 840 intersect"
 };
 
+// Defects and properties of a surface.
 struct SurfaceReport {
   Status status;                // ok, invalid_surface, interrupted ...
   std::vector<Defect> defects;  // at most a few of each kind; counts below are complete

@@ -37,10 +37,10 @@ struct RoundingResult {
   std::vector<std::array<double, 3>> coordinates;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  // indices into vertices
   std::vector<std::uint8_t> inside;
-  std::vector<std::array<std::uint32_t, 3>> boundary;
-  std::uint64_t inverted = 0, flat = 0;  // left in the result, by exact sign
-  std::uint64_t repaired = 0;            // were not positive after plain rounding, and are now
-  std::uint64_t coincident = 0;          // vertices left with the coordinates of an earlier one
+  std::vector<std::array<std::uint32_t, 3>> boundary;  // in the order of RoundingInput::boundary
+  std::uint64_t inverted = 0, flat = 0;                // left in the result, by exact sign
+  std::uint64_t repaired = 0;    // were not positive after plain rounding, and are now
+  std::uint64_t coincident = 0;  // vertices left with the coordinates of an earlier one
   // Points of the store at the tetrahedra that plain rounding left not positive.
   std::vector<VertexId> disturbed;
   // Local operations done: if not 0, the tetrahedra are not those given. They are positive on the

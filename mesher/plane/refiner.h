@@ -11,10 +11,11 @@
 //
 // Invariants between insertions, as long as nothing is crowded:
 //  - every encroached subsegment waits in the queue (Subsegments);
-//  - once triangles are judged, every bad one that counts waits among the bad ones. Where there is
-// no room for a point, the subsegment or triangle that asked for it no longer waits: the attempt
-// has failed, and goes on to find the other crowded places. Encroached subsegments are split before
-// bad triangles are.
+//  - once triangles are judged, every bad one that counts waits among the bad ones.
+//
+// Encroached subsegments are split before bad triangles are. Where there is no room for a point,
+// the subsegment or triangle that asked for it no longer waits: the attempt has failed, and goes on
+// to find the other crowded places.
 #pragma once
 
 #include <vector>

@@ -75,7 +75,7 @@ class Thinning {
       mesh_.tetrahedra[tets] = mesh_.tetrahedra[t];
       mesh_.inside[tets++] = mesh_.inside[t];
     }
-    for (const cdt::SurfaceFace& face : mesh_.boundary) {
+    for (const SurfaceFace& face : mesh_.boundary) {
       if (face.vertices[0] != kNone) mesh_.boundary[faces++] = face;
     }
     mesh_.tetrahedra.resize(tets);

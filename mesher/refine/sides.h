@@ -32,6 +32,7 @@ class Sides {
   bool known_outside(TetId t) const { return state(t) == State::outside; }
   bool known_inside(TetId t) const { return state(t) == State::inside; }
 
+  // A tetrahedron is `asked` during find_out() only.
   enum class State : std::uint8_t { unknown, outside, inside, straddling, asked };
   // The common side of the tetrahedra of a cavity, which their replacements inherit.
   State common_of_cavity() const;

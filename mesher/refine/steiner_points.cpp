@@ -12,11 +12,11 @@
 namespace delmesher::refine {
 namespace {
 
-// Split points keep within this fraction of the subsegment of its midpoint. On input lines a point
-// is exactly on the line wherever it is, so a coarse tolerance gives short parameters; a point of
-// an artificial edge bends it, so it is placed finely: a point of the n-th generation adds at most
-// (2/3)^n of the tolerance to its neighbours' distance from the segment, all of them together at
-// most 3 times the tolerance, which is below 2^-20 of the segment.
+// Split points keep within this fraction of the subsegment of its midpoint. On an input line a
+// point is exactly on the line wherever it is, so a coarse tolerance will do, and gives short
+// parameters. A point of an artificial edge bends it, so it is placed finely. A point of the n-th
+// generation adds at most (2/3)^n of the tolerance to its neighbours' distance from the segment.
+// All generations together add at most 3 times the tolerance, which is below 2^-20 of the segment.
 constexpr double kLineTolerance = 1.0 / 256;
 constexpr double kBendTolerance = 1.0 / (1 << 22);
 // A facet's Steiner point keeps within this fraction of the circumradius of the circumcentre.

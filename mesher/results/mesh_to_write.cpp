@@ -52,9 +52,9 @@ MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& to
       mesh.repeated_faces.push_back(repeated_within(region, cdt.repeated_faces[n]));
     }
   }
-  for (const cdt::SurfaceFace& face : cdt.boundary) {
+  for (const SurfaceFace& face : cdt.boundary) {
     input.boundary.push_back(face.vertices);
-    mesh.boundary_facet.push_back(face.facet);
+    mesh.facet_of_boundary.push_back(face.facet);
   }
   return mesh;
 }
@@ -82,7 +82,7 @@ MeshToWrite approximate_mesh(const chamfer::ChamferResult& chamfered,
       continue;
     }
     input.boundary.push_back(v);
-    mesh.boundary_facet.push_back(facet);
+    mesh.facet_of_boundary.push_back(facet);
   }
   return mesh;
 }

@@ -12,7 +12,7 @@ namespace delmesher::results {
 
 struct MeshToWrite {
   output::RoundingInput rounding;
-  std::vector<FacetId> boundary_facet;  // per face of rounding.boundary
+  std::vector<FacetId> facet_of_boundary;  // per face of rounding.boundary
   // Per tetrahedron: bit i if an earlier one has face i too. May be empty.
   std::vector<std::uint8_t> repeated_faces;
 };

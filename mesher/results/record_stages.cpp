@@ -5,12 +5,17 @@
 namespace delmesher::results {
 namespace {
 
+// visit(v) for each point that the record names by its number, the definitions of points aside.
 template <class Visit>
 void for_each_point(ExactRecord& record, Visit&& visit) {
   for (auto& chain : record.segments) {
     for (auto& v : chain.vertices) visit(v);
   }
-  for (auto& point : record.chamfer_points) visit(point[0]);
+  for (auto& corner : record.corners) visit(corner.vertex);
+  for (auto& [point, vertex] : record.chamfer_points) {
+    visit(point);
+    visit(vertex);
+  }
   for (auto& ball : record.balls) {
     visit(ball.vertex);
     for (auto& v : ball.tetrahedron) visit(v);
@@ -101,7 +106,7 @@ void record_final(const cdt::CdtResult& cdt, const SurfaceTopology& topology, Ex
   for (std::size_t n = 0; n < cdt.tetrahedra.size(); ++n) {
     record.final.push_back({cdt.tetrahedra[n], cdt.inside[n] != 0});
   }
-  for (const cdt::SurfaceFace& face : cdt.boundary) {
+  for (const SurfaceFace& face : cdt.boundary) {
     record.final_facets.push_back({face.vertices[0], face.vertices[1], face.vertices[2],
                                    topology.facet_triangles[face.facet][0]});
   }
@@ -136,7 +141,6 @@ void record_points(const PointStore& points, const PointStore* stand_in, std::si
   std::vector<std::uint32_t> number(points.size(), 0);
   const auto use = [&](std::uint32_t v) { number[v] = 1; };
   for_each_point(record, use);
-  for (const auto& corner : record.corners) use(corner.vertex);
   for (VertexId v = 0; v < points.size(); ++v) {
     const PointDefinition d = points.definition(v);
     if (number[v] == 0 || points.is_corner(v)) continue;
@@ -180,8 +184,6 @@ void record_points(const PointStore& points, const PointStore* stand_in, std::si
     record.planes.push_back({plane.spanned, plane.normal, plane.through});
   }
   for_each_point(record, [&](std::uint32_t& v) { v = number[v]; });
-  for (auto& corner : record.corners) corner.vertex = number[corner.vertex];
-  for (auto& point : record.chamfer_points) point[1] = number[point[1]];
 }
 
 }  // namespace delmesher::results

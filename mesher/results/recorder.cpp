@@ -143,7 +143,7 @@ void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) 
   mesh.inside = std::move(rounded.inside);
   mesh.boundary = std::move(rounded.boundary);
   const SurfaceTopology& topology = session_.topology;
-  for (const FacetId f : exact_mesh.boundary_facet) {
+  for (const FacetId f : exact_mesh.facet_of_boundary) {
     mesh.boundary_facets.push_back(topology.facet_triangles[f][0]);
     mesh.boundary_labels.push_back(topology.labels[topology.facet_triangles[f][0]]);
   }
