@@ -4,7 +4,6 @@
 
 #include "mesher/base/epoch.h"
 #include "mesher/base/face_key.h"
-#include "mesher/base/flat_map.h"
 #include "mesher/base/numbering.h"
 #include "mesher/base/sort_unique.h"
 
@@ -186,15 +185,18 @@ bool FacetRecovery::recover_patch() {
   counters_.cavity_tetrahedra += cavity_.size();
   counters_.largest_cavity = std::max<std::uint64_t>(counters_.largest_cavity, cavity_.size());
 
-  std::vector<Tetrahedron> upper, lower;
+  Filling filling;
   std::vector<Triangle> faces;
   for (const Triangle& t : patch_) faces.push_back(reversed(t));
   for (const SkinFace& f : upper_skin_) faces.push_back(f.vertices);
-  if (!filler_.fill(std::move(faces), upper_isolated_, upper)) return false;
+  if (!filler_.fill(std::move(faces), upper_isolated_, filling.tetrahedra)) return false;
   faces = patch_;
   for (const SkinFace& f : lower_skin_) faces.push_back(f.vertices);
-  if (!filler_.fill(std::move(faces), lower_isolated_, lower)) return false;
-  return replace_cavity(upper, lower);
+  if (!filler_.fill(std::move(faces), lower_isolated_, filling.tetrahedra)) return false;
+  if (!keeps_all_vertices(filling.tetrahedra)) return false;
+  if (!match_faces(filling)) return false;
+  put_in(filling);
+  return true;
 }
 
 void FacetRecovery::number_vertices() {
@@ -224,29 +226,33 @@ std::uint64_t FacetRecovery::face_key(const Triangle& t) const {
   return directed_face_key(t, local_);
 }
 
-// Swaps the cavity's tetrahedra for the new ones, if these fit: every face of a new tetrahedron is
-// either matched by another new one or on the skin, the whole skin is covered, and no vertex is
-// lost.
-bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
-                                   const std::vector<Tetrahedron>& lower) {
-  std::vector<Tetrahedron> all = upper;
-  all.insert(all.end(), lower.begin(), lower.end());
-  if (!keeps_all_vertices(all)) return false;
+// Finds what lies across the faces of the new tetrahedra. False if they do not fill the cavity:
+// every face of a new tetrahedron has to be matched by another new one or to be on the skin, and
+// the whole skin has to be covered.
+bool FacetRecovery::match_faces(Filling& filling) const {
   // Directed face, counter-clockwise seen from outside its new tetrahedron -> 4 * index + face.
   FlatMap owner;
-  std::vector<Triangle> face(4 * all.size());
-  for (std::uint32_t n = 0; n < all.size(); ++n) {
+  std::vector<Triangle> face(4 * filling.tetrahedra.size());
+  for (std::uint32_t n = 0; n < filling.tetrahedra.size(); ++n) {
     for (std::uint32_t i = 0; i < 4; ++i) {
-      const Tetrahedron& t = all[n];
+      const Tetrahedron& t = filling.tetrahedra[n];
       face[4 * n + i] = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
       if (owner.get(face_key(face[4 * n + i]), kNone) != kNone) return false;
       owner.set(face_key(face[4 * n + i]), 4 * n + i);
     }
   }
-  // Across new face f: partner[f], another new face, or outer[f], a face outside the cavity.
-  constexpr std::uint32_t kUnmatched = kNone;
-  std::vector<std::uint32_t> partner(face.size(), kUnmatched);
-  std::vector<std::uint32_t> outer(face.size(), kUnmatched);
+  filling.partner.assign(face.size(), kNone);
+  filling.outer.assign(face.size(), kNone);
+  if (!match_skin(owner, filling)) return false;
+  for (std::uint32_t f = 0; f < face.size(); ++f) {
+    if (filling.outer[f] != kNone) continue;
+    filling.partner[f] = owner.get(face_key(reversed(face[f])), kNone);
+    if (filling.partner[f] == kNone) return false;
+  }
+  return true;
+}
+
+bool FacetRecovery::match_skin(const FlatMap& owner, Filling& filling) const {
   for (const std::vector<SkinFace>* skin : {&upper_skin_, &lower_skin_}) {
     for (const SkinFace& s : *skin) {
       const std::uint32_t f = owner.get(face_key(s.vertices), kNone);
@@ -254,30 +260,29 @@ bool FacetRecovery::replace_cavity(const std::vector<Tetrahedron>& upper,
       const TetId t = s.inner >> 2;
       const int i = static_cast<int>(s.inner & 3);
       const TetId beyond = mesh_.neighbor(t, i);
-      // A dangling wall between two tetrahedra of the cavity is matched below like any other face.
+      // A dangling wall between two tetrahedra of the cavity is matched like any other face.
       if (cavity_mark_[beyond] != cavity_epoch_) {
-        outer[f] = 4 * beyond + static_cast<std::uint32_t>(mesh_.mirror(t, i));
+        filling.outer[f] = 4 * beyond + static_cast<std::uint32_t>(mesh_.mirror(t, i));
       }
     }
   }
-  for (std::uint32_t f = 0; f < face.size(); ++f) {
-    if (outer[f] != kUnmatched) continue;
-    partner[f] = owner.get(face_key(reversed(face[f])), kNone);
-    if (partner[f] == kNone) return false;
-  }
-  for (const TetId t : cavity_) mesh_.destroy(t);
-  std::vector<TetId> id(all.size());
-  for (std::size_t n = 0; n < all.size(); ++n) {
-    id[n] = mesh_.create(all[n][0], all[n][1], all[n][2], all[n][3]);
-    for (const VertexId v : all[n]) mesh_.set_incident(v, id[n]);
-  }
-  for (std::uint32_t f = 0; f < face.size(); ++f) {
-    const bool inside = outer[f] == kUnmatched;
-    const TetId to = inside ? id[partner[f] >> 2] : outer[f] >> 2;
-    mesh_.glue(id[f >> 2], static_cast<int>(f & 3), to,
-               static_cast<int>((inside ? partner[f] : outer[f]) & 3));
-  }
   return true;
+}
+
+// Swaps the cavity's tetrahedra for the new ones.
+void FacetRecovery::put_in(const Filling& filling) {
+  for (const TetId t : cavity_) mesh_.destroy(t);
+  std::vector<TetId> id;
+  for (const Tetrahedron& t : filling.tetrahedra) {
+    id.push_back(mesh_.create(t[0], t[1], t[2], t[3]));
+    for (const VertexId v : t) mesh_.set_incident(v, id.back());
+  }
+  for (std::uint32_t f = 0; f < filling.partner.size(); ++f) {
+    const bool inside = filling.outer[f] == kNone;
+    const std::uint32_t across = inside ? filling.partner[f] : filling.outer[f];
+    mesh_.glue(id[f >> 2], static_cast<int>(f & 3), inside ? id[across >> 2] : across >> 2,
+               static_cast<int>(across & 3));
+  }
 }
 
 }  // namespace delmesher::cdt

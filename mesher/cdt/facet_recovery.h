@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesher/base/flat_map.h"
 #include "mesher/cdt/facet_triangles.h"
 #include "mesher/cdt/polyhedron.h"
 
@@ -51,7 +52,15 @@ class FacetRecovery {
   bool grow_cavity();
   void collect_skin();
   void collect_isolated();
-  bool replace_cavity(const std::vector<Tetrahedron>& upper, const std::vector<Tetrahedron>& lower);
+  // New tetrahedra for the cavity. Its faces f are 4 * index + face; across f lies partner[f],
+  // another new face, or outer[f], 4 * tet + face outside the cavity. The other one is kNone.
+  struct Filling {
+    std::vector<Tetrahedron> tetrahedra;
+    std::vector<std::uint32_t> partner, outer;
+  };
+  bool match_faces(Filling& filling) const;
+  bool match_skin(const FlatMap& owner, Filling& filling) const;
+  void put_in(const Filling& filling);
   void number_vertices();
   bool keeps_all_vertices(const std::vector<Tetrahedron>& tetrahedra) const;
   std::uint64_t face_key(const Triangle& t) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <span>
 
 #include "mesher/base/check.h"
@@ -62,13 +63,11 @@ class SegmentRecovery {
       centre_.push_back(initial_centre(acute, chains_.node(n).edge));
       if (chains_.is_subsegment(n)) remember(n);
     }
-    for (std::size_t i = 0; i < queue_.size(); ++i) {
+    while (!queue_.empty()) {
       control_.poll(points_.size());
-      recover(queue_[i]);
-      if (i >= (1U << 16)) {  // the finished part of the queue
-        queue_.erase(queue_.begin(), queue_.begin() + (1 << 16));
-        i -= 1U << 16;
-      }
+      const std::uint32_t n = queue_.front();
+      queue_.pop_front();
+      recover(n);
     }
     return std::move(added_);
   }
@@ -165,9 +164,9 @@ class SegmentRecovery {
   SubsegmentSplitter splitter_;
   SplitRule rule_;
   ReferenceFinder references_;
-  FlatMap subsegments_;               // end vertices -> node
-  std::vector<Centre> centre_;        // per node, of the subsegment behind it
-  std::vector<std::uint32_t> queue_;  // nodes whose subsegment may be missing
+  FlatMap subsegments_;              // end vertices -> node
+  std::vector<Centre> centre_;       // per node, of the subsegment behind it
+  std::deque<std::uint32_t> queue_;  // nodes whose subsegment may be missing
   std::vector<VertexId> added_;
   std::vector<std::uint64_t> kept_;
 };
