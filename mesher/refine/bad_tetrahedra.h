@@ -37,6 +37,11 @@ class BadTetrahedra {
   // largest ratio, and of equal ones that with the largest id. It waits on until it dies or is
   // dismissed.
   TetId next();
+  // Does it wait at this level, or to be judged?
+  bool waits(TetId t, std::uint8_t level) const {
+    const std::uint8_t waiting = note(dt_, t, Note::waiting);
+    return waiting == level || waiting == kFresh;
+  }
   // It will not be split after all.
   void dismiss(TetId t) { note(dt_, t, Note::waiting) = 0; }
 

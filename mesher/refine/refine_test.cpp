@@ -57,6 +57,7 @@ struct RefinerBreaker {
   }
   void ask_for_side() const { r.sides_.inherit(finite(), Sides::State::asked); }
   void let_wait() const { note(r.dt_, finite(), Note::waiting) = 1; }
+  void ask_for_more() const { r.goal_ = Goal(50, false, 0); }
 };
 
 namespace {
@@ -494,6 +495,7 @@ TEST(Refine, ValidateReportsWhatIsBrokenInAnyPartOrBetweenThem) {
       {&Breaker::forget_faces, "does not know of its subfacet"},
       {&Breaker::ask_for_side, "asked for its side"},
       {&Breaker::let_wait, "waits at no level"},
+      {&Breaker::ask_for_more, "a bad tetrahedron does not wait"},
   };
   for (const auto& [damage, reason] : cases) {
     State state(true);

@@ -189,7 +189,16 @@ void Refiner::validate() {
   validate_links();
   sides_.validate();
   bad_.validate();
+  if (refining_) validate_goal();
   predicates_.counters = counters;
+}
+
+void Refiner::validate_goal() const {
+  for (TetId t = 0; t < dt_.capacity(); ++t) {
+    if (!dt_.alive(t)) continue;
+    const std::uint8_t level = badness(t);
+    DELMESHER_CHECK(level == 0 || bad_.waits(t, level), "a bad tetrahedron does not wait");
+  }
 }
 
 void Refiner::validate_links() const {

@@ -14,6 +14,8 @@
 // Invariants that link them:
 //  - a subsegment names its edge in the subfacets beside it, one in each facet of its segment, and
 //    these name it there;
+//  - once tetrahedra are judged, every bad one waits, at its level or to be judged, unless it is
+//    known to be outside, where the goal need not be reached;
 //  - queued elements are split before a bad tetrahedron is, so that every subfacet is a face when a
 //    side is asked for.
 #pragma once
@@ -73,6 +75,7 @@ class Refiner {
   TetId created_with(VertexId v) const;
 
   void validate_links() const;
+  void validate_goal() const;
 
   const Plc& plc_;
   const SurfaceTopology& topology_;
