@@ -178,11 +178,12 @@ TEST(Budget, PredictionsAreAboutTheIntegral) {
     ratios.push_back(result.statistics.predicted_tetrahedra / integral_over_box(side));
   }
   const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-  // Each prediction is promised within a factor of 3 of one multiple of the integral.
+  // If each is within a factor of 3 of one multiple of the integral, as predictions should be, two
+  // of them differ by at most 9.
   EXPECT_LT(*most / *least, 9) << testing::PrintToString(ratios);
 }
 
-// Nor on the order of the triangles.
+// Only the integral counts, not the order of the triangles.
 TEST(Budget, PredictionDoesNotDependOnTheOrder) {
   const auto predicted = [](std::size_t first) {
     Surface surface;

@@ -112,7 +112,8 @@ TEST_F(Files, WhatSaysNothingIsRefused) {
     return verify({path("in.off"), path(mesh), "--exact", path(exact)});
   };
   ASSERT_EQ(verified("out.mesh", "out.exact"), 0);
-  // No number is less than no number.
+  // No deviation is larger than nan, so that would let all pass. It is refused, as a negative one
+  // is.
   for (const char* deviation : {"nan", "-1"}) {
     EXPECT_EQ(verify({path("in.off"), path("out.mesh"),
                       std::string("--declared-deviation=") + deviation}),
@@ -499,7 +500,7 @@ TEST_F(Files, GraphsAreReadAlikeByBothReaders) {
   }
 }
 
-// Wherever memory ends.
+// Whichever step runs out of memory.
 TEST_F(Files, VerifyingWithoutEnoughMemoryIsFive) {
   const std::string said = path("said");
   if (!can_be_limited(said)) GTEST_SKIP() << "address space cannot be limited here";

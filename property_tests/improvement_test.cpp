@@ -58,7 +58,7 @@ const Told& honest() {
 
 class Models : public testing::TestWithParam<NamedSurface> {};
 
-// Not improved, sliver treatment off too, as it is where meshes are improved.
+// Both runs are the same up to the improvement: slivers are not treated in either.
 TEST_P(Models, AreNeverWorseThanWithoutIt) {
   for (const auto region : {delmesher::Region::interior, delmesher::Region::hull}) {
     Options options;
@@ -287,7 +287,8 @@ double along_bar(const ExactRecord& record, const ExactRecord::Tet& tet) {
   return x;
 }
 
-// Whoever makes doubles too coarse at one place is allowed nothing at another.
+// A tetrahedron that was inverted before the improvement excuses a flat one near it afterwards, and
+// none far from it.
 TEST(Improvement, IsNotExcusedByRoundingElsewhere) {
   Options options;
   options.improve = false;  // the mesh before and after is the same

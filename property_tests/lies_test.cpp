@@ -1,6 +1,7 @@
-// Lies of a record: relaxed promises; sections swapped, emptied, duplicated, cut short, out of
-// date; records of other runs; and lies that change mesh and record together, so that both agree.
-// Each has to be caught by the oracle meant for it. At the end they are printed as a table.
+// Lies about a run: promises laxer than asked; sections of the record swapped, emptied, duplicated,
+// cut short, out of date; records and files of other runs; changes of mesh and record together, so
+// that both agree; false local operations. Each has to be caught by the oracle meant for it. At the
+// end they are printed as a table.
 #include <gtest/gtest.h>
 
 #include <cctype>

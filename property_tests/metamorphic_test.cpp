@@ -171,7 +171,8 @@ TEST_P(Metamorphic, OrientationFlipIsReportedAndGivesTheSameSolid) {
   EXPECT_TRUE(samples::exact_or_rounded(verified(flipped, result, oracles::Stage::final)));
 }
 
-// Exchanges the diagonal of every flat convex quadrilateral made of two triangles.
+// Exchanges the diagonal of the first flat convex quadrilateral of two triangles whose other
+// diagonal is no edge yet.
 Surface retriangulated(const Surface& surface, std::size_t& changed) {
   oracles::ExactPoints points;
   points.assign(surface.vertices);
@@ -256,7 +257,8 @@ TEST_P(Metamorphic, UnionWithADisjointCopyDoublesEverything) {
   EXPECT_EQ(verified(both, two, oracles::Stage::refined, options).verdict, oracles::Verdict::exact);
 }
 
-// The solid's exact volume in units that no relation above changes.
+// The exact volume, as the nearest double: a motion that rounds no coordinate keeps it, and a copy
+// doubles it.
 TEST(MetamorphicVolume, RigidMotionsKeepTheVolumeAndACopyDoublesIt) {
   const Surface surface = samples::random_voxels(kSeed);
   const auto volume = [](const Surface& s) {

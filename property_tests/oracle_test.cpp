@@ -258,7 +258,7 @@ TEST(RefinedStage, AcceptsAndChecksARecord) {
   damaged = record;
   for (auto& tet : damaged.refined) tet.inside = true;
   EXPECT_FALSE(run(sample, &damaged, options).find("refined-contained")->passed());
-  // A tetrahedron that is called outside must be outside as well.
+  // Nor may all be called outside, even where a facet is said to be dropped.
   for (auto& tet : damaged.refined) tet.inside = false;
   damaged.facets = {{0, 0, 1, {0}}};
   const VerifyReport none = run(sample, &damaged, options);

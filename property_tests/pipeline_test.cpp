@@ -25,7 +25,7 @@ using samples::NamedSurface;
 
 constexpr std::uint64_t kSeed = 20261121;
 
-// The paper's settings: `--preset paper`.
+// The paper's thresholds, empty balls and region.
 Options paper_options() {
   Options options;
   options.acute = options.corner = 90;
@@ -73,7 +73,8 @@ void expect_right(const NamedSurface& model, const Options& options) {
   EXPECT_NE(refined_report.find("refined-delaunay"), nullptr);
 }
 
-// Every face counts once although the pipeline does not compare the faces.
+// In the statistics every face counts once. The pipeline tells repeated faces by the neighbours of
+// the tetrahedra; here they are found by comparing faces.
 void expect_faces_counted_once(const NamedSurface& model, const Options& options) {
   SCOPED_TRACE(model.name);
   const Result result = delmesher::tetrahedralize(model.surface, options);
@@ -173,7 +174,8 @@ TEST_P(Models, HaveAConstrainedDelaunayTetrahedrization) {
   EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
 }
 
-// The regular tetrahedron and a bipyramid of two: no added point makes them better.
+// A regular tetrahedron, and two tetrahedra with a common face: they meet the bound as they are, so
+// nothing is added.
 TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
   const NamedSurface models[] = {
       {"regular",
@@ -284,8 +286,9 @@ TEST(Labels, AreKeptAndMakeConstraints) {
   EXPECT_GT(std::count(labels.begin(), labels.end(), 1), 0);
 }
 
-// Figure 8: two parallel faces at distance h in a cube: counts grow as 1/h^2 and refinement ends.
-TEST(Refinement, EndsOnThinGapsWithCountsThatGrowAsTheGapShrinks) {
+// As in figure 8 two parallel faces are at a distance h, here those of a cube that is flattened.
+// Thinner plates take more tetrahedra, and no more than the order of 1/h^2.
+TEST(Refinement, EndsOnThinPlatesWithMoreTetrahedraTheThinnerTheyAre) {
   std::size_t last = 0;
   for (const double h : {0.2, 0.1, 0.05}) {
     Surface surface = samples::to_surface(samples::cube().input);

@@ -1,5 +1,6 @@
-// Which tetrahedra are inside, outside or crossed: the work that groups and faces on facets save
-// must change no answer.
+// Which tetrahedra are inside, outside or crossed (oracles/places.h). The oracle asks once for a
+// group of tetrahedra, and asks nothing about the surface that faces of the mesh cover. That saves
+// work, and must change no answer.
 #include "oracles/places.h"
 
 #include <gtest/gtest.h>
@@ -94,7 +95,7 @@ void expect_places_of_a_run(const delmesher::Surface& input, bool chamfered) {
                             nullptr,
                             static_cast<Index>(polyhedron.vertices.size())};
   const Cover cover = cover_of(mesh);
-  // Without chamfers and filter nothing is left of the surface.
+  // Without chamfers and filter the faces of the mesh cover all of the surface.
   ASSERT_EQ(cover.triangles.empty(), !chamfered);
   const Places places(mesh);
   std::array<std::size_t, 3> counts{};

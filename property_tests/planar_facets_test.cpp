@@ -50,8 +50,8 @@ double to_six_digits(double x) {
   return std::round(x * 1e6) / 1e6;
 }
 
-// The cells of a grid on both sides of a diagonal step, as one solid with flat faces of many
-// triangles, concave edges and a hole through it.
+// Stairs of four steps with a square hole through the second: flat faces of many triangles, concave
+// edges.
 Surface stairs() {
   return samples::to_surface(samples::grid_sample(4, 1, [](int x, int y, int z) {
                                return (x != 1 || y != 1) && z <= x;
@@ -506,7 +506,8 @@ INSTANTIATE_TEST_SUITE_P(Planes, PlanarLies, testing::ValuesIn(kLies), [](const 
   return name;
 });
 
-// A box whose waist is elsewhere in the mesh: the united walls would have no direction.
+// The mesh bends the box at its waist, so that edges between its walls are missing. United, the
+// walls around the box would be one facet, whose normals cancel: none at all.
 TEST(PlanarFile, WallsAroundABoxAreNoFacet) {
   samples::Sample stretched = samples::cube();
   const auto stretch = [](std::vector<Position>& vertices) {
@@ -527,7 +528,8 @@ TEST(PlanarFile, WallsAroundABoxAreNoFacet) {
   EXPECT_EQ(report.verdict, Verdict::broken) << to_text(report);
 }
 
-// The same by a small distance, which makes no planar facet either.
+// A vertex inside a face is 1e-6 off its plane. No planar facet explains that, since the face is
+// planar as given: it is a deviation.
 TEST(PlanarFile, AVertexOffItsFacetIsNoPlanarFacet) {
   samples::Sample sample = samples::cube();
   for (Position& p : sample.mesh.vertices) {

@@ -66,7 +66,7 @@ oracles::VerifyReport verdict_on(const Told& told, bool with_record = true) {
 
 TEST(PlaneTruths, DeviationIsToldInUnitsOfTheLargestCoordinate) {
   Told told = honest();
-  told.file.vertices[steiner(told)][0] += 3 * 0x1p-50;  // of the largest, 4.5
+  told.file.vertices[steiner(told)][0] += 3 * 0x1p-50;  // 3 ulp of the largest, 4.5
   for (const bool with_record : {false, true}) {
     const oracles::VerifyReport report = verdict_on(told, with_record);
     EXPECT_GT(report.deviation, 0x1p-50);

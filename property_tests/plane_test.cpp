@@ -17,9 +17,10 @@ namespace {
 using namespace delmesher;
 namespace shapes = tetproof::shapes;
 
-int iterations(int otherwise) {
-  const char* given = std::getenv("TETPROOF_ITERATIONS");
-  return given != nullptr ? std::max(1, std::atoi(given)) : otherwise;
+// That many times TETPROOF_ITERATIONS.
+int iterations(int normal) {
+  const char* times = std::getenv("TETPROOF_ITERATIONS");
+  return times == nullptr ? normal : std::max(1, std::atoi(times)) * normal;
 }
 
 Options exact_options() {
@@ -46,7 +47,8 @@ std::string refusal(const PlanarGraph& graph, const Options& options = plane_opt
   return result.status.message;
 }
 
-std::vector<std::array<double, 2>> doubled(std::vector<std::array<double, 2>> points, int k) {
+// Points times 2^k.
+std::vector<std::array<double, 2>> scaled(std::vector<std::array<double, 2>> points, int k) {
   for (auto& p : points) p = {std::ldexp(p[0], k), std::ldexp(p[1], k)};
   return points;
 }
@@ -149,11 +151,11 @@ TEST(Plane, ScalesWithPowersOfTwo) {
   for (const int k : {-300, -3, 1, 40, 300}) {
     PlanarGraph graph = shapes::figure();
     const PlaneResult first = triangulate_polygon(graph);
-    graph.vertices = doubled(graph.vertices, k);
+    graph.vertices = scaled(graph.vertices, k);
     const PlaneResult second = triangulate_polygon(graph);
     ASSERT_TRUE(first.status.ok() && second.status.ok());
     EXPECT_EQ(first.mesh.triangles, second.mesh.triangles);
-    EXPECT_EQ(doubled(first.mesh.vertices, k), second.mesh.vertices);
+    EXPECT_EQ(scaled(first.mesh.vertices, k), second.mesh.vertices);
   }
 }
 
@@ -326,7 +328,8 @@ TEST(Plane, RefusesAndSaysWhy) {
 }
 
 TEST(Plane, HugeCoordinates) {
-  // The rectangle around them is half as large again: it is no matter unless it is asked for.
+  // The rectangle around the graph is half as large again. That it may be beyond the largest double
+  // is no matter, unless the rectangle is asked for, as it is in a record.
   for (const double size : {0.7e308, 1.5e308}) {
     const PlanarGraph graph = shapes::polygon({{0, 0}, {size, 0}, {0, size}});
     const PlaneResult inside = triangulate_polygon(graph, plane_options());
@@ -407,7 +410,7 @@ TEST(Plane, SubnormalSizes) {
       graph.segments.push_back({4, 5});
       graph.segments.push_back({0, 4});
       if (k < -1072) graph = shapes::polygon({{0, 0}, {1, 0}, {0, 1}});
-      graph.vertices = doubled(graph.vertices, k);
+      graph.vertices = scaled(graph.vertices, k);
       Options options = exact_options();
       options.region = region;
       const PlaneResult result = triangulate_polygon(graph, options);
@@ -495,7 +498,7 @@ TEST(PlaneOracle, NoticesWhatIsWrong) {
 }
 
 TEST(PlaneOracle, NoticesAnEdgeThatIsNotDelaunay) {
-  // A flip of an edge of the final mesh leaves all but this right.
+  // A flip of an edge of the refined mesh leaves all but this right.
   const PlanarGraph graph = shapes::square();
   Options options = exact_options();
   options.max_edge = 0.3;

@@ -59,8 +59,8 @@ fs::path extracted(const std::string& model) {
   return folder / member;
 }
 
-// Without the package these tests do not vanish: this one is skipped, and fails where all packages
-// should be installed (ci/test).
+// Without the package the tests below are not there. So that this is noticed, this one is skipped
+// then, and fails where all packages should be installed (ci/test).
 TEST(Package, OfRealModelsIsInstalled) {
   if (kInstalled) return;
   const char* const missing = "no models: Debian's libcgal-demo (data.tar.gz) was not found";

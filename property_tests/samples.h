@@ -28,8 +28,8 @@ using Cells = std::function<bool(int x, int y, int z)>;
 Sample grid_sample(int coarse, int finer, const Cells& solid, bool hull = false);
 
 Sample cube();         // one cell, refined
-Sample l_shape();      // three of eight cells and their copies above: concave edge
-Sample hollow_cube();  // 27 of 64 cells missing inside: a cavity, nested component
+Sample l_shape();      // six of eight cells: a concave edge
+Sample hollow_cube();  // 8 of 64 cells missing inside: a cavity, nested component
 Sample cube_in_hull();
 
 // The sample under x -> A x with a matrix of rounded numbers. Facets are exact, because only

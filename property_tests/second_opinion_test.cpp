@@ -297,8 +297,8 @@ TEST(MeshesByCgal, OfCosphericalPointsPass) {
 #ifdef TETGEN_PATH
 namespace fs = std::filesystem;
 
-// The only verdict "deviating" that passes anywhere, and is reported: TetGen places its points on
-// the surface in doubles, and declares this fraction of the diagonal (corpus/meshers.cpp).
+// TetGen places its points on the surface in doubles, and declares this fraction of the diagonal
+// (corpus/meshers.cpp). Up to that its meshes may be "deviating"; which ones are is reported.
 constexpr double kTetgensDeviation = 1e-8;
 
 TEST(MeshesByTetgen, OfValidSurfacesPass) {

@@ -44,7 +44,7 @@ void put_plain_final(Told& told) {
 }
 
 // Tetrahedron t of the final mesh is split at a new point near its centroid, in file and record.
-void split_in_both(Told& told, std::size_t t, Index w) {
+void split_in_both(Told& told, std::size_t t) {
   ExactPoints points;
   points.assign(told.record.points);
   const Tet tet = told.sample.mesh.tetrahedra[t];
@@ -53,10 +53,10 @@ void split_in_both(Told& told, std::size_t t, Index w) {
     for (int axis = 0; axis < 3; ++axis) centre[axis] += told.sample.mesh.vertices[v][axis] / 4;
   }
   const auto in_file = static_cast<Index>(told.sample.mesh.vertices.size());
-  const auto in_record = w != kNone ? w : static_cast<Index>(told.record.points.size());
+  const auto in_record = static_cast<Index>(told.record.points.size());
   told.sample.mesh.vertices.push_back(centre);
   told.record.mesh_vertices.push_back(in_record);
-  if (w == kNone) told.record.points.push_back(explicit_points(std::span(&centre, 1))[0]);
+  told.record.points.push_back(explicit_points(std::span(&centre, 1))[0]);
   std::array<Index, 4> recorded;
   for (int i = 0; i < 4; ++i) recorded[i] = told.record.mesh_vertices[tet[i]];
   std::array<Index, 4> sorted = recorded;
@@ -199,7 +199,8 @@ void leave_slab_out(Told& told) {
 }
 
 // Makes the final mesh not Delaunay: outside, the face between two tetrahedra is replaced by an
-// edge. The record says that this came with a repair of a mesh that had nothing outside.
+// edge. If `hide`, the record says that local operations did that, and that the mesh before them
+// had no tetrahedra outside.
 void flip_and_hide(Told& told, bool hide) {
   // In the wedge and the slab nothing can be flipped.
   for (const samples::NamedSurface& model : samples::surfaces(1)) {
@@ -276,7 +277,7 @@ void flip_and_hide(Told& told, bool hide) {
   ADD_FAILURE() << "nothing to flip";
 }
 
-// Every input triangle with a label of its own facet.
+// Gives every facet a label of its own, in the input, the record and the file.
 void give_labels(Told& told) {
   auto& labels = told.sample.input.labels;
   labels.assign(told.sample.input.triangles.size(), 0);
@@ -335,17 +336,17 @@ const Lie kConsistent[] = {
        t.record.unrepaired_facets = before.final_facets;
      }},
     {"a point of no origin in the volume", "enrichment",
-     [](Told& t) { split_in_both(t, t.sample.mesh.tetrahedra.size() / 2, kNone); }},
+     [](Told& t) { split_in_both(t, t.sample.mesh.tetrahedra.size() / 2); }},
     {"a point of no origin that was not put where it is", "exact-constrained-delaunay",
-     [](Told& t) { split_in_both(t, t.sample.mesh.tetrahedra.size() / 2, kNone); }},
+     [](Told& t) { split_in_both(t, t.sample.mesh.tetrahedra.size() / 2); }},
     {"a cavity away from all facets, its faces said to be on one", "exact-conformity",
      [](Told& t) {
        // Three points, each inside a tetrahedron that the last one made: a tetrahedron of them and
        // one vertex has no edge on the surface.
        const auto& tets = t.sample.mesh.tetrahedra;
-       split_in_both(t, tets.size() / 2, kNone);
-       split_in_both(t, tets.size() - 2, kNone);
-       split_in_both(t, tets.size() - 1, kNone);
+       split_in_both(t, tets.size() / 2);
+       split_in_both(t, tets.size() - 2);
+       split_in_both(t, tets.size() - 1);
        auto& cavity = t.record.final[t.record.final.size() - 3];
        cavity.inside = false;
        for (int i = 0; i < 4; ++i) {

@@ -85,8 +85,8 @@ const Lie kForeign[] = {
      [](Told& t) { std::swap(t.record.mesh_vertices[0], t.record.mesh_vertices[5]); }},
     {"a written vertex 6 ulp off", "rounding",
      [](Told& t) {
-       // The ulp is that of the largest coordinate, 3. Vertices that are not of the input may move
-       // at all.
+       // The ulp is that of the largest coordinate, 3. Only vertices that are not of the input may
+       // be written elsewhere, up to 4 ulp away.
        for (std::size_t i = 0; i < t.record.mesh_vertices.size(); ++i) {
          if (t.record.mesh_vertices[i] < t.sample.input.vertices.size()) continue;
          t.sample.mesh.vertices[i][0] += 6 * 0x1p-51;
@@ -104,7 +104,7 @@ const Lie kForeign[] = {
      "passed"},
     {"one written vertex more in the record than in the file", "rounding",
      [](Told& t) { t.record.mesh_vertices.push_back(t.record.mesh_vertices.front()); }},
-    {"a tetrahedron of the record turned to another of the same four points", "same-mesh",
+    {"a tetrahedron of the record with another corner", "same-mesh",
      [](Told& t) {
        for (auto& tet : t.record.final) {
          if (!tet.inside) continue;

@@ -26,8 +26,8 @@ void improve(Told& told, Region region = Region::interior) {
   ASSERT_FALSE(told.record.unrepaired_facets.empty());
 }
 
-// A tetrahedron of a mesh of the record alone gets a point, and is split: near a face it makes flat
-// tetrahedra.
+// Splits a tetrahedron of the record, but not of the file, at a new point with these barycentric
+// coordinates. Near a face that makes flat tetrahedra.
 void split(ExactRecord& r, std::vector<ExactRecord::Tet>& tets, std::size_t n,
            const std::array<double, 4>& weights) {
   ExactPoints points;

@@ -171,7 +171,7 @@ const Lie kSections[] = {
      }},
     {"two input vertices exchanged", "sidecar",
      [](Told& t) { std::swap(t.record.points[0], t.record.points[1]); }},
-    {"labels of facets exchanged", "refined-segments",
+    {"another label of a facet", "refined-segments",
      [](Told& t) { t.record.facets[kept_facet(t.record)].label = 17; }},
     {"a facet of a triangle that does not exist", "sidecar",
      [](Told& t) { t.record.facets.front().triangles.back() = 4294967295U; }, "crashed"},
@@ -221,7 +221,7 @@ const Lie kSections[] = {
        t.record.unrepaired_facets.back() = t.record.unrepaired_facets.front();
      },
      "passed"},
-    {"a tetrahedron before repairs fewer", "unrepaired-hull",
+    {"no tetrahedra outside before repairs", "unrepaired-hull",
      [](Told& t) {
        t.record.unrepaired = t.record.final;
        std::erase_if(t.record.unrepaired, [](const auto& tet) { return !tet.inside; });
@@ -342,7 +342,7 @@ const Lie kSections[] = {
      [](Told& t) { t.record.final.front().vertices[1] = 4294967295U; }},
     {"a tetrahedron of the refined mesh of a point that does not exist", "sidecar",
      [](Told& t) { t.record.refined.front().vertices[1] = 4294967295U; }},
-    {"a point on a segment given by its nearest doubles", "exact-conformity",
+    {"points on the surface given by their nearest doubles", "exact-conformity",
      [](Told& t) {
        ExactPoints points;
        ASSERT_EQ(points.assign(t.record.points), "");

@@ -218,7 +218,8 @@ TEST(Stl, SolidsAreLabelsAndCornersAreWelded) {
   EXPECT_THROW(read_surface(written("wrong.stl", two_corners)), ReadError);
 }
 
-// The same as 84 bytes and 50 for each triangle, the corners from byte 12 of these.
+// The same two triangles in binary: 84 bytes, then 50 for each triangle, whose corners begin at its
+// byte 12.
 TEST(Stl, BinaryFilesHaveTheirCornersWhereTheFormatSays) {
   const float corners[2][9] = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0.5, 0, 1, 0}};
   std::string bytes(84 + 2 * 50, '\0');

@@ -116,8 +116,6 @@ TEST(Encroachment, ByAnotherTetrahedronIsDecidedExactly) {
   EXPECT_EQ(violations({1, 0, 1 + 0x1p-52}), (Two{0, 0}));
 }
 
-// record
-
 // The sphere through the first tetrahedron contains the apex of the second, and the other way
 // round: reported once for the face between them, once for each of the two.
 TEST(Delaunay, AFaceBetweenTwoSpheresIsNamed) {
