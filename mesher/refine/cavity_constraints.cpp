@@ -37,8 +37,7 @@ bool CavityConstraints::queue_encroached_subsegments(VertexId v, Count first,
   bool any = false;
   for (std::size_t n = first.subsegments; n < found_subsegments_.size(); ++n) {
     const std::uint32_t s = found_subsegments_[n];
-    if (s == except) continue;
-    if (dt_.predicates().dot_sign(subsegments_[s].a, v, subsegments_[s].b) >= 0) continue;
+    if (s == except || !subsegments_.encroached_by(s, v)) continue;
     subsegments_.queue(s);
     any = true;
   }
@@ -49,8 +48,7 @@ bool CavityConstraints::queue_encroached_subfacets(VertexId v, Count first) {
   bool any = false;
   for (std::size_t n = first.subfacets; n < found_subfacets_.size(); ++n) {
     const std::uint32_t s = found_subfacets_[n].id;
-    const auto& c = subfacets_[s].v;
-    if (dt_.predicates().in_diametral_ball(c[0], c[1], c[2], v) <= 0) continue;
+    if (!subfacets_.encroached_by(s, v)) continue;
     subfacets_.queue(s);
     any = true;
   }

@@ -15,8 +15,8 @@ bool PlanarCavity::excludes(std::uint32_t s) const {
   return std::find(excluded_.begin(), excluded_.end(), s) != excluded_.end();
 }
 
-// The cavity is star-shaped in theory; a point that bends an artificial edge may see a far skin edge
-// from behind: such subfacets are left out.
+// The cavity is star-shaped in theory; a point that bends an artificial edge may see a far skin
+// edge from behind: such subfacets are left out.
 void PlanarCavity::find(const Subfacets& all, VertexId v, std::uint32_t start, SubfacetEdge split) {
   excluded_.clear();
   for (;;) {

@@ -181,7 +181,6 @@ void Subfacets::settle(std::uint32_t s, std::uint32_t face) {
     queue(s);
     return;
   }
-  const auto& c = list_[s].v;
   const TetId t[2] = {face >> 2, dt_.neighbor(face >> 2, static_cast<int>(face & 3U))};
   const int i[2] = {static_cast<int>(face & 3U),
                     dt_.mirror(face >> 2, static_cast<int>(face & 3U))};
@@ -190,7 +189,7 @@ void Subfacets::settle(std::uint32_t s, std::uint32_t face) {
     note(dt_, t[k], Note::faces) |= static_cast<std::uint8_t>(1U << i[k]);
     const VertexId v = dt_.vertex(t[k], i[k]);
     if (!gabriel_ || v == kInfinite) continue;
-    if (dt_.predicates().in_diametral_ball(c[0], c[1], c[2], v) > 0) queue(s);
+    if (encroached_by(s, v)) queue(s);
   }
 }
 
@@ -324,8 +323,7 @@ void Subfacets::validate_in_mesh(std::uint32_t s) {
         "a tetrahedron does not know of its subfacet");
     const VertexId v = dt_.vertex(t[k], opposite[k]);
     if (!gabriel_ || v == kInfinite) continue;
-    DELMESHER_CHECK(dt_.predicates().in_diametral_ball(c[0], c[1], c[2], v) <= 0,
-                    "a subfacet is encroached");
+    DELMESHER_CHECK(!encroached_by(s, v), "a subfacet is encroached");
   }
 }
 

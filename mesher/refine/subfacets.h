@@ -96,6 +96,11 @@ class Subfacets {
   }
   // False only if no face of t is a subfacet.
   bool any_on(TetId t) const { return note(dt_, t, Note::faces) != 0; }
+  // Is v strictly inside the diametral ball of s? It has to be no corner of it.
+  bool encroached_by(std::uint32_t s, VertexId v) const {
+    const auto& c = list_[s].v;
+    return dt_.predicates().in_diametral_ball(c[0], c[1], c[2], v) > 0;
+  }
   // Marks the subfacet on a face of the tetrahedrization, 4 * tet + index. Queues it if it is
   // missing there (kNone) or, with the Gabriel property, encroached.
   void settle(std::uint32_t s, std::uint32_t face);

@@ -73,7 +73,7 @@ bool Subsegments::encroached(std::uint32_t s, TetId having_edge) {
     for (int i = 0; i < 4; ++i) {
       const VertexId v = dt_.vertex(t, i);
       if (v == a || v == b || v == kInfinite) continue;
-      if (dt_.predicates().dot_sign(a, v, b) < 0) return true;
+      if (encroached_by(s, v)) return true;
     }
   }
   return false;
@@ -110,9 +110,9 @@ void Subsegments::replace_side(std::uint32_t s, SubfacetEdge from, SubfacetEdge 
 void Subsegments::validate(Control& control) {
   validate_queue();
   validate_chains();
-  for (const Subsegment& sub : list_) {
+  for (std::uint32_t s = 0; s < size(); ++s) {
     control.poll();
-    if (!sub.queued) validate_in_mesh(sub);
+    if (!list_[s].queued) validate_in_mesh(s);
   }
 }
 
@@ -143,7 +143,8 @@ void Subsegments::validate_chains() const {
   DELMESHER_CHECK(by_ends_.size() == chained, "something is found that is no subsegment");
 }
 
-void Subsegments::validate_in_mesh(const Subsegment& sub) {
+void Subsegments::validate_in_mesh(std::uint32_t s) {
+  const Subsegment& sub = list_[s];
   const TetId t = dt_.find_edge(sub.a, sub.b);
   DELMESHER_CHECK(t != kNone, "a subsegment is no edge");
   std::vector<TetId> ring;
@@ -158,8 +159,7 @@ void Subsegments::validate_in_mesh(const Subsegment& sub) {
     for (int i = 0; i < 4; ++i) {
       const VertexId v = dt_.vertex(u, i);
       if (v == sub.a || v == sub.b || v == kInfinite) continue;
-      DELMESHER_CHECK(dt_.predicates().dot_sign(sub.a, v, sub.b) >= 0,
-                      "a subsegment is encroached");
+      DELMESHER_CHECK(!encroached_by(s, v), "a subsegment is encroached");
     }
   }
 }

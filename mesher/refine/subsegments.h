@@ -57,6 +57,11 @@ class Subsegments {
     }
   }
 
+  // Is v strictly inside the diametral ball of s? It has to be no end of it.
+  bool encroached_by(std::uint32_t s, VertexId v) const {
+    return dt_.predicates().dot_sign(list_[s].a, v, list_[s].b) < 0;
+  }
+
   // Ends s at v; returns the subsegment from v on, which has no sides yet.
   std::uint32_t split(std::uint32_t s, VertexId v);
   // Marks the subsegment in the tetrahedrization, where t has its edge. Queues it if it is missing
@@ -99,7 +104,7 @@ class Subsegments {
   bool encroached(std::uint32_t s, TetId having_edge);
   void validate_queue() const;
   void validate_chains() const;
-  void validate_in_mesh(const Subsegment& sub);
+  void validate_in_mesh(std::uint32_t s);
 
   const Plc& plc_;
   Tetrahedrization& dt_;
