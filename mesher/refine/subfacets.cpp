@@ -210,20 +210,10 @@ void Subfacets::settle_created() {
   }
 }
 
-void Subfacets::queue(std::uint32_t s) {
-  if (list_[s].queued || !list_[s].alive) return;
-  list_[s].queued = true;
-  queue_.push_back(s);
-}
-
 std::uint32_t Subfacets::take_queued() {
-  while (!queue_.empty()) {
-    const std::uint32_t s = queue_.front();
-    queue_.pop_front();
-    list_[s].queued = false;
-    if (list_[s].alive) return s;
-  }
-  return kNone;
+  std::uint32_t s = queue_.take();
+  while (s != kNone && !list_[s].alive) s = queue_.take();
+  return s;
 }
 
 void Subfacets::renumber_if_sparse() {
@@ -258,36 +248,26 @@ void Subfacets::renumber() {
       if (s == kNone) faces &= static_cast<std::uint8_t>(~(1U << i));
     }
   }
-  std::deque<std::uint32_t> queue;
-  for (const std::uint32_t s : queue_) {
-    if (number[s] != kNone) queue.push_back(number[s]);
-  }
-  queue_.swap(queue);
+  queue_.renumber(number);
 }
 
 // ------------------------------------------------------------------------------------ validation
 
 void Subfacets::validate(Control& control) {
-  validate_queue();
+  validate_dead();
+  queue_.validate(size());
   for (std::uint32_t s = 0; s < list_.size(); ++s) {
     control.poll();
     if (!list_[s].alive) continue;
     validate_in_facet(s);
-    if (!list_[s].queued) validate_in_mesh(s);
+    if (!queue_.waits(s)) validate_in_mesh(s);
   }
 }
 
-void Subfacets::validate_queue() const {
-  std::size_t flagged = 0, dead = 0;
-  for (const Subfacet& f : list_) {
-    flagged += f.queued ? 1 : 0;
-    dead += f.alive ? 0 : 1;
-  }
+void Subfacets::validate_dead() const {
+  std::size_t dead = 0;
+  for (const Subfacet& f : list_) dead += f.alive ? 0 : 1;
   DELMESHER_CHECK(dead == dead_, "dead subfacets are not counted");
-  DELMESHER_CHECK(flagged == queue_.size(), "a queued subfacet waits in no queue, or twice");
-  for (const std::uint32_t s : queue_) {
-    DELMESHER_CHECK(s < list_.size() && list_[s].queued, "a waiting subfacet is not queued");
-  }
 }
 
 void Subfacets::validate_in_facet(std::uint32_t s) const {

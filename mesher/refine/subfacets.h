@@ -5,7 +5,7 @@
 //  - the live subfacets of a facet are the Delaunay triangulation of its vertices in its plane,
 //    bounded by its subsegments: each is counter-clockwise seen from outside, and across each of
 //    its edges lies either a subsegment or a neighbour that names it in return;
-//  - a subfacet is in the queue, once, if and only if it says so;
+//  - only subfacets are in the queue, some of which may be dead;
 //  - the dead are counted; their slots are used again only when all are renumbered.
 // Invariants between insertions, for a live subfacet that is not in the queue:
 //  - it is a face of the tetrahedrization, and both tetrahedra there (a ghost on the hull) have its
@@ -15,7 +15,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -25,6 +24,7 @@
 #include "mesher/refine/planar_cavity.h"
 #include "mesher/refine/subfacet_edge.h"
 #include "mesher/refine/subsegments.h"
+#include "mesher/refine/work_queue.h"
 #include "mesher/surface/plc.h"
 
 namespace delmesher::refine {
@@ -38,7 +38,6 @@ class Subfacets {
     std::array<std::uint32_t, 3> subsegment;
     std::uint32_t facet;  // of the complex
     bool alive = true;
-    bool queued = false;
   };
 
   // `gabriel`: is the Gabriel property asked for?
@@ -119,7 +118,9 @@ class Subfacets {
   }
 
   // --- queue
-  void queue(std::uint32_t s);
+  void queue(std::uint32_t s) {
+    if (list_[s].alive) queue_.add(s);
+  }
   // Takes the first live one out of the queue; kNone if there is none.
   std::uint32_t take_queued();
   bool queue_empty() const { return queue_.empty(); }
@@ -144,7 +145,7 @@ class Subfacets {
   void link(std::uint32_t s, std::uint32_t edge, std::uint32_t subsegment);
   void fill_cavity(VertexId v, std::uint32_t half_a, std::uint32_t half_b);
   void renumber();
-  void validate_queue() const;
+  void validate_dead() const;
   void validate_in_facet(std::uint32_t s) const;
   void validate_in_mesh(std::uint32_t s);
 
@@ -158,7 +159,7 @@ class Subfacets {
   std::size_t dead_ = 0;
   std::vector<FacetPlane> planes_;                      // per facet
   GrowingArray<std::array<std::uint32_t, 4>> on_face_;  // per tetrahedron, where its note says so
-  std::deque<std::uint32_t> queue_;
+  WorkQueue queue_;
   std::vector<std::uint32_t> created_;
   // Scratch of an insertion.
   struct Spoke {

@@ -55,12 +55,8 @@ struct SubfacetsBreaker {
   void misname_face() const {
     for (std::uint32_t& s : part.on_face_[marked()]) ++s;
   }
-  void claim_to_wait() const { part.list_[live()].queued = true; }
-  void wait_unknown() const { part.queue_.push_back(live()); }
-  void wait_instead() const {
-    part.list_[live()].queued = true;
-    part.queue_.push_back(part.size());
-  }
+  void claim_to_wait() const { WorkQueueBreaker{part.queue_}.claim_to_wait(live()); }
+  void wait_unknown() const { part.queue_.add(part.size()); }
   void ask_for_empty_balls() const { part.gabriel_ = true; }
 };
 
@@ -336,8 +332,7 @@ TEST(Subfacets, ValidateReportsEveryBrokenInvariant) {
       {&Breaker::forget_face, "does not know of its subfacet"},
       {&Breaker::misname_face, "does not know of its subfacet"},
       {&Breaker::claim_to_wait, "waits in no queue"},
-      {&Breaker::wait_unknown, "waits in no queue"},
-      {&Breaker::wait_instead, "is not queued"},
+      {&Breaker::wait_unknown, "is not queued"},
       {&Breaker::ask_for_empty_balls, "is encroached"},
   };
   for (const auto& [damage, reason] : cases) {

@@ -79,20 +79,6 @@ bool Subsegments::encroached(std::uint32_t s, TetId having_edge) {
   return false;
 }
 
-void Subsegments::queue(std::uint32_t s) {
-  if (list_[s].queued) return;
-  list_[s].queued = true;
-  queue_.push_back(s);
-}
-
-std::uint32_t Subsegments::take_queued() {
-  if (queue_.empty()) return kNone;
-  const std::uint32_t s = queue_.front();
-  queue_.pop_front();
-  list_[s].queued = false;
-  return s;
-}
-
 void Subsegments::attach(std::uint32_t s, SubfacetEdge side) {
   auto& sides = list_[s].side;
   DELMESHER_CHECK(!sides[0].exists() || !sides[1].exists(), "a subsegment beside three subfacets");
@@ -108,20 +94,11 @@ void Subsegments::replace_side(std::uint32_t s, SubfacetEdge from, SubfacetEdge 
 // ------------------------------------------------------------------------------------ validation
 
 void Subsegments::validate(Control& control) {
-  validate_queue();
+  queue_.validate(size());
   validate_chains();
   for (std::uint32_t s = 0; s < size(); ++s) {
     control.poll();
-    if (!list_[s].queued) validate_in_mesh(s);
-  }
-}
-
-void Subsegments::validate_queue() const {
-  std::size_t flagged = 0;
-  for (const Subsegment& sub : list_) flagged += sub.queued ? 1 : 0;
-  DELMESHER_CHECK(flagged == queue_.size(), "a queued subsegment waits in no queue, or twice");
-  for (const std::uint32_t s : queue_) {
-    DELMESHER_CHECK(s < list_.size() && list_[s].queued, "a waiting subsegment is not queued");
+    if (!queue_.waits(s)) validate_in_mesh(s);
   }
 }
 

@@ -4,7 +4,7 @@
 // Invariants at any time:
 //  - the subsegments of a segment follow each other from its first vertex to its second;
 //  - a subsegment is found by its ends, and nothing else is found;
-//  - a subsegment is in the queue, once, if and only if it says so.
+//  - only subsegments are in the queue.
 // Invariants between insertions, for a subsegment that is not in the queue:
 //  - it is an edge of the tetrahedrization, and every tetrahedron having that edge has the edge's
 //    bit in its note (Note::edges), which may also have bits of edges that are no subsegments any
@@ -13,12 +13,12 @@
 // The sides of a subsegment are linked by Subfacets and checked by Refiner::validate().
 #pragma once
 
-#include <deque>
 #include <vector>
 
 #include "mesher/base/flat_map.h"
 #include "mesher/refine/notes.h"
 #include "mesher/refine/subfacet_edge.h"
+#include "mesher/refine/work_queue.h"
 #include "mesher/surface/plc.h"
 
 namespace delmesher::refine {
@@ -30,7 +30,6 @@ class Subsegments {
     std::uint32_t segment;  // of the complex
     std::uint32_t next;     // following subsegment of the same segment
     SubfacetEdge side[2];   // the same edge in the subfacets beside it
-    bool queued = false;
   };
 
   // One per segment of the complex, with the same numbers. `gabriel`: is the Gabriel property asked
@@ -72,9 +71,9 @@ class Subsegments {
     note(dt_, created, Note::edges) = note(dt_, inner, Note::edges) & kEdgesWithout[face];
   }
 
-  void queue(std::uint32_t s);
+  void queue(std::uint32_t s) { queue_.add(s); }
   // Takes the first one out of the queue; kNone if it is empty.
-  std::uint32_t take_queued();
+  std::uint32_t take_queued() { return queue_.take(); }
   bool queue_empty() const { return queue_.empty(); }
 
   void attach(std::uint32_t s, SubfacetEdge side);
@@ -102,7 +101,6 @@ class Subsegments {
   std::uint32_t add(VertexId a, VertexId b, std::uint32_t segment);
   void mark(std::uint32_t s, TetId having_edge);
   bool encroached(std::uint32_t s, TetId having_edge);
-  void validate_queue() const;
   void validate_chains() const;
   void validate_in_mesh(std::uint32_t s);
 
@@ -111,7 +109,7 @@ class Subsegments {
   bool gabriel_;
   std::vector<Subsegment> list_;
   FlatMap by_ends_;
-  std::deque<std::uint32_t> queue_;
+  WorkQueue queue_;
   std::vector<TetId> ring_;  // scratch
 };
 

@@ -29,12 +29,8 @@ struct SubsegmentsBreaker {
         pair_key(parts.plc().segments[0].vertex[0], parts.plc().segments[0].vertex[1]), 0);
   }
   void add_to_no_chain() const { part.add(0, 6, 0); }
-  void claim_to_wait() const { part.list_[0].queued = true; }
-  void wait_twice() const {
-    part.queue(0);
-    part.list_[1].queued = true;
-    part.queue_.push_back(part.size());
-  }
+  void claim_to_wait() const { WorkQueueBreaker{part.queue_}.claim_to_wait(0); }
+  void wait_unknown() const { part.queue_.add(part.size()); }
   void ask_for_empty_balls() const { part.gabriel_ = true; }
 };
 
@@ -165,7 +161,7 @@ TEST(Subsegments, ValidateReportsEveryBrokenInvariant) {
       {&Breaker::remember_the_split, "no subsegment"},
       {&Breaker::add_to_no_chain, "in no chain"},
       {&Breaker::claim_to_wait, "waits in no queue"},
-      {&Breaker::wait_twice, "is not queued"},
+      {&Breaker::wait_unknown, "is not queued"},
       {&Breaker::ask_for_empty_balls, "is encroached"},
   };
   for (const auto& [damage, reason] : cases) {

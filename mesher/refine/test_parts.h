@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "mesher/predicates/vector.h"
@@ -13,6 +14,20 @@
 #include "mesher/refine/test_complexes.h"
 
 namespace delmesher::refine {
+
+// Breaks its invariant.
+struct WorkQueueBreaker {
+  WorkQueue& queue;
+
+  void claim_to_wait(std::uint32_t n) const {
+    if (n >= queue.waits_.size()) queue.waits_.resize(std::size_t{n} + 1, 0);
+    queue.waits_[n] = 1;
+  }
+  void put_in(std::uint32_t n) const { queue.queue_.push_back(n); }
+  void wait_instead(std::uint32_t n, std::uint32_t other) const {
+    std::swap(queue.waits_[n], queue.waits_[other]);
+  }
+};
 
 // In the Delaunay tetrahedrization of the complex's vertices. That of the box has all of them: its
 // corners are on one sphere, with nothing inside, and those of the outer box are the hull.
