@@ -2,9 +2,11 @@
 // The input vertices and pieces there are to be spared at the next attempt.
 //
 // Invariants:
-//  - something was noted if and only if any(); a note may be of nothing that can be spared;
-//  - no piece but those of the input was split, and none is hopeless before it was split as often
-//    as the options allow.
+//  - a note names a vertex or a piece of the input, and if there is one, or if it is hopeless,
+//  any()
+//    says so; any() without a note is of nothing that can be spared;
+//  - splits are counted of pieces of the input alone, and it is hopeless only if one of them was
+//    split as often as the options allow.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +39,12 @@ class Crowding {
   // Forgets the notes made for a goal that need not be reached. The counts of splits stay.
   void forget();
 
+  // Throws InternalError at the first broken invariant.
+  void validate() const;
+
  private:
+  friend struct CrowdingBreaker;  // of the tests of validate()
+
   const InputGraph& graph_;
   const std::vector<PieceId>& carrier_;
   std::uint64_t most_splits_;

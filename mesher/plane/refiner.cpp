@@ -68,18 +68,19 @@ void Refiner::split_triangle(TriangleId t) {
   if (candidate.vertex == kNone) return crowd(t);
   const Triangulation::Sight sight = mesh_.look(candidate.vertex, t);
   const bool coincides = sight.blocked == kNone && std::popcount(sight.location.zeros) > 1;
-  if (!coincides) find_encroached(candidate.vertex, sight);
-  if (coincides || (encroached_.empty() && !in_cavity(t))) {
+  const Encroached encroached = coincides ? Encroached{} : find_encroached(candidate.vertex, sight);
+  const bool free = encroached.cavity_found && encroached.upon.empty();
+  if (coincides || (free && !in_cavity(t))) {
     steiner_.take_back(candidate);
     return crowd(t);
   }
-  if (encroached_.empty()) {
+  if (free) {
     if (!candidate.restored) ++result_.in_faces;
     fill(candidate.vertex);
     return subsegments_.queue_around_created();
   }
   steiner_.take_back(candidate);
-  const bool progress = split_encroached();
+  const bool progress = split_all(encroached.upon);
   if (mesh_[t].vertex != v) return;
   if (progress) {
     judge(t);
@@ -88,34 +89,36 @@ void Refiner::split_triangle(TriangleId t) {
   }
 }
 
-// Puts into encroached_ the segment that hides p from the triangle or on which p lies, else those
-// whose open diametral disc contains p. If there are none, the cavity of p has been found.
-void Refiner::find_encroached(VertexId p, const Triangulation::Sight& sight) {
-  encroached_.clear();
+// The subsegment that hides p from the triangle or on which p lies, or else, with the cavity of p,
+// the ones whose open diametral disc contains p.
+Refiner::Encroached Refiner::find_encroached(VertexId p, const Triangulation::Sight& sight) {
+  Encroached encroached;
   EdgeId blocked = sight.blocked;
   for (int i = 0; blocked == kNone && i < 3; ++i) {
     const EdgeId e = edge_of(sight.location.triangle, i);
     if ((sight.location.zeros >> i & 1) != 0 && mesh_.piece(e) != kNone) blocked = e;
   }
   if (blocked != kNone) {
-    encroached_.push_back({mesh_.origin(blocked), mesh_.target(blocked), blocked});
-    return;
+    encroached.upon.push_back({mesh_.origin(blocked), mesh_.target(blocked), blocked});
+    return encroached;
   }
   mesh_.find_cavity(p, sight.location.triangle, kNone);
+  encroached.cavity_found = true;
   for (const auto& edge : mesh_.boundary()) {
     if (edge.piece != kNone && sides_.counts(edge.inner) &&
         predicates_.dot(edge.from, p, edge.to) < 0) {
       // For the sides of the box, any edge will do: they are looked up.
       const EdgeId inner = edge.outer != kNone ? mesh_.twin(edge.outer) : 0;
-      encroached_.push_back({edge.from, edge.to, inner});
+      encroached.upon.push_back({edge.from, edge.to, inner});
     }
   }
+  return encroached;
 }
 
 // Has one of them been split, or is it gone?
-bool Refiner::split_encroached() {
+bool Refiner::split_all(const std::vector<Subsegment>& subsegments) {
   bool progress = false;
-  for (const Subsegment& s : encroached_) {
+  for (const Subsegment& s : subsegments) {
     const EdgeId e = subsegments_.find(s);
     if (e == kNone || split_subsegment(e)) progress = true;
   }
@@ -151,8 +154,10 @@ void Refiner::crowd(TriangleId t) {
 void Refiner::validate() {
   const PlaneCounters counters = predicates_.counters;
   mesh_.validate(true);
+  sides_.validate();
   predicates_.counters = counters;
   bad_.validate();
+  crowding_.validate();
   if (crowding_.any()) return;
   subsegments_.validate();
   if (judging_) validate_bad_triangles();

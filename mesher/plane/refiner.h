@@ -60,8 +60,12 @@ class Refiner {
   // False if there is no room.
   bool split_subsegment(EdgeId e);
   void split_triangle(TriangleId t);
-  void find_encroached(VertexId p, const Triangulation::Sight& sight);
-  bool split_encroached();
+  struct Encroached {
+    std::vector<Subsegment> upon;
+    bool cavity_found = false;  // the cavity of the point is that of mesh_
+  };
+  Encroached find_encroached(VertexId p, const Triangulation::Sight& sight);
+  bool split_all(const std::vector<Subsegment>& subsegments);
   void fill(VertexId p);
   void judge(TriangleId t);
   bool in_cavity(TriangleId t) const;
@@ -82,9 +86,8 @@ class Refiner {
   BadTriangles bad_;
   Crowding crowding_;
   Goal goal_;
-  bool judging_ = false;                // are triangles judged?
-  std::vector<Subsegment> encroached_;  // by the point at hand
-  RefinedMesh result_;                  // as far as it is known: counts and the bound
+  bool judging_ = false;  // are triangles judged?
+  RefinedMesh result_;    // as far as it is known: counts and the bound
 };
 
 }  // namespace delmesher::plane

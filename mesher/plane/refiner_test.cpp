@@ -46,6 +46,50 @@ struct RefinerBreaker {
 
   void forget_subsegments() const { r.subsegments_.clear(); }
   void forget_triangles() const { r.bad_.clear(); }
+  Sides& sides() const { return r.sides_; }
+  Crowding& crowding() const { return r.crowding_; }
+};
+
+// Breaks one invariant at a time.
+struct SidesBreaker {
+  Sides& sides;
+
+  TriangleId some(bool with_gaps) const {
+    TriangleId t = 0;
+    while (sides.gaps_at(t).empty() == with_gaps || (!with_gaps && sides.of(t) == Side::mixed)) ++t;
+    return t;
+  }
+  std::vector<std::uint32_t>& list() const { return sides.lists_[sides.list_of_[some(true)]]; }
+
+  void lose_one() const { sides.side_.pop_back(); }
+  void forget() const { sides.side_[some(false)] = 3; }
+  void turn() const { sides.side_[some(false)] ^= 1; }
+  void decide() const { sides.side_[some(true)] = 0; }
+  void empty_a_list() const { list().clear(); }
+  void list_another() const {
+    // One that is not at the same corner.
+    std::uint32_t g = 0;
+    while (sides.contact(some(true), sides.gaps_[g]) == Sides::Contact::proper) ++g;
+    list().push_back(g);
+  }
+  void lose_a_list() const { sides.list_of_[some(true)] = kNone; }
+  void free_a_list() const { sides.free_lists_.push_back(sides.list_of_[some(true)]); }
+};
+
+struct CrowdingBreaker {
+  Crowding& crowding;
+
+  void note_silently() const { crowding.vertices_.push_back(0); }
+  void note_another_vertex() const {
+    crowding.at(0);
+    crowding.vertices_.push_back(~VertexId{0});
+  }
+  void note_another_piece() const {
+    crowding.at(0);
+    crowding.pieces_.push_back(~PieceId{0});
+  }
+  void count_the_box() const { ++crowding.splits_[0]; }
+  void despair() const { crowding.any_ = crowding.hopeless_ = true; }
 };
 
 // Breaks one invariant at a time.
@@ -182,6 +226,47 @@ TEST(PlaneRefiner, ValidateReportsEveryBrokenInvariant) {
   ASSERT_EQ(complaint_of(triangles.refiner), "nothing");
   triangles.step.forget_triangles();
   expect_complaint(complaint_of(triangles.refiner), "a bad triangle does not wait");
+}
+
+TEST(PlaneRefiner, ValidateReportsWhatIsBrokenOfTheSides) {
+  using Breaker = SidesBreaker;
+  const std::pair<void (Breaker::*)() const, const char*> cases[] = {
+      {&Breaker::lose_one, "not every triangle has a side"},
+      {&Breaker::forget, "has no side"},
+      {&Breaker::turn, "disagree"},
+      {&Breaker::decide, "a triangle with gaps is not mixed"},
+      {&Breaker::empty_a_list, "a list has no gaps"},
+      {&Breaker::list_another, "not where it is listed"},
+      {&Breaker::lose_a_list, "a gap is not listed"},
+      {&Breaker::free_a_list, "a free list has gaps"},
+  };
+  for (const auto& [damage, reason] : cases) {
+    Refinement r(arrow());
+    r.step.start();
+    while (r.step.split_next_subsegment()) {
+    }
+    ASSERT_EQ(complaint_of(r.refiner), "nothing");
+    (Breaker{r.step.sides()}.*damage)();
+    expect_complaint(complaint_of(r.refiner), reason);
+  }
+}
+
+TEST(PlaneRefiner, ValidateReportsWhatIsBrokenOfTheCrowding) {
+  using Breaker = CrowdingBreaker;
+  const std::pair<void (Breaker::*)() const, const char*> cases[] = {
+      {&Breaker::note_silently, "not told"},
+      {&Breaker::note_another_vertex, "not of the input"},
+      {&Breaker::note_another_piece, "does not exist"},
+      {&Breaker::count_the_box, "side of the box"},
+      {&Breaker::despair, "hopeless"},
+  };
+  for (const auto& [damage, reason] : cases) {
+    Refinement r(arrow());
+    r.step.start();
+    ASSERT_EQ(complaint_of(r.refiner), "nothing");
+    (Breaker{r.step.crowding()}.*damage)();
+    expect_complaint(complaint_of(r.refiner), reason);
+  }
 }
 
 TEST(PlaneRefiner, ValidateCountsNoPredicates) {

@@ -228,4 +228,51 @@ void Sides::settle() {
   }
 }
 
+// ------------------------------------------------------------------------------------ validation
+
+void Sides::validate() {
+  DELMESHER_CHECK(side_.size() == mesh_.size(), "not every triangle has a side");
+  for (TriangleId t = 0; t < mesh_.size(); ++t) {
+    DELMESHER_CHECK(side_[t] != kUnknown, "a triangle has no side");
+    validate_gaps(t);
+  }
+  for (TriangleId t = 0; t < mesh_.size(); ++t) validate_neighbours(t);
+  for (const std::uint32_t free : free_lists_) {
+    DELMESHER_CHECK(lists_[free].empty(), "a free list has gaps");
+  }
+}
+
+void Sides::validate_neighbours(TriangleId t) {
+  if (side_[t] == kMixed) return;
+  for (int i = 0; i < 3; ++i) {
+    const EdgeId e = edge_of(t, i), f = mesh_.twin(e);
+    if (mesh_.piece(e) != kNone) {
+      DELMESHER_CHECK(of(t) == beside(e), "a triangle and a piece beside it disagree");
+    } else if (f != kNone && side_[triangle_of(f)] != kMixed) {
+      DELMESHER_CHECK(side_[t] == side_[triangle_of(f)], "two triangles of a face disagree");
+    }
+  }
+}
+
+std::span<const std::uint32_t> Sides::gaps_at(TriangleId t) const {
+  if (list_of_.empty() || list_of_[t] == kNone) return {};
+  return lists_[list_of_[t]];
+}
+
+void Sides::validate_gaps(TriangleId t) {
+  const std::span<const std::uint32_t> here = gaps_at(t);
+  DELMESHER_CHECK(here.empty() || side_[t] == kMixed, "a triangle with gaps is not mixed");
+  DELMESHER_CHECK(!here.empty() || list_of_.empty() || list_of_[t] == kNone, "a list has no gaps");
+  for (const std::uint32_t g : here) {
+    DELMESHER_CHECK(contact(t, gaps_[g]) == Contact::proper, "a gap is not where it is listed");
+  }
+  for (const EdgeId f : mesh_[t].neighbor) {
+    if (f == kNone) continue;
+    for (const std::uint32_t g : gaps_at(triangle_of(f))) {
+      const bool listed = std::ranges::find(here, g) != here.end();
+      DELMESHER_CHECK(listed || contact(t, gaps_[g]) != Contact::proper, "a gap is not listed");
+    }
+  }
+}
+
 }  // namespace delmesher::plane

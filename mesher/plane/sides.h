@@ -3,8 +3,18 @@
 // The segments of the chamfered graph leak at the cut points, so that triangles cannot be told by
 // flooding alone. The missing parts of the segments, the gaps, are remembered by the triangles that
 // they run through (mixed); every other triangle lies in one face of the graph.
+//
+// Invariants from start() to settle(), between insertions:
+//  - every triangle has a side; two neighbours that are not mixed have the same one, unless there
+//  is
+//    a piece between them, and then each has the one that the piece says;
+//  - a triangle has a list of gaps if and only if a gap meets its interior or part of an edge. Then
+//    it is mixed, and has just these gaps in its list. Without a list it is mixed only if its side
+//    could not be decided;
+//  - a list that is free is empty and of no triangle.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesher/plane/chamfer.h"
@@ -42,7 +52,13 @@ class Sides {
   // Decides for mixed triangles that gaps only touch: contained in the inside or not.
   void settle();
 
+  // Throws InternalError at the first broken invariant. A gap that only touches a neighbour's gaps
+  // at a vertex is not looked for.
+  void validate();
+
  private:
+  friend struct SidesBreaker;  // of the tests of validate()
+
   enum class Contact : std::uint8_t { none, point, proper };
   // How a gap meets a triangle: `proper` if it meets the interior or part of an edge.
   Contact contact(TriangleId t, const Gap& gap);
@@ -52,6 +68,9 @@ class Sides {
   Side resolve(TriangleId t, VertexId from);
   void flood();
   void spread(TriangleId t, std::vector<TriangleId>& stack);
+  std::span<const std::uint32_t> gaps_at(TriangleId t) const;
+  void validate_neighbours(TriangleId t);
+  void validate_gaps(TriangleId t);
 
   InputGraph& graph_;
   Triangulation& mesh_;
