@@ -1,4 +1,4 @@
-// The order of the stages (Algorithm 2 of the paper), and nothing else.
+// The order of the stages: Algorithm 2 of the paper, and the policies that repeat parts of it.
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,7 +25,6 @@
 #include "mesher/results/units.h"
 #include "mesher/run/options.h"
 #include "mesher/run/session.h"
-#include "mesher/surface/feature_size.h"
 #include "mesher/surface/validity.h"
 
 namespace delmesher {
@@ -53,7 +52,7 @@ enum class Planes { none, while_refined, to_the_end };
 
 // The surface as all stages see it: valid, oriented outwards and, if it is to be refined, with
 // near-coplanar triangles in exactly one plane.
-Status check(const Surface& surface, Planes planes, Session& s, Recorder& recorder) {
+Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& recorder) {
   s.control.enter(Phase::check);
   const ValidityResult validity = check_validity(surface, true, s.control);
   if (!validity.report.status.ok()) return validity.report.status;
@@ -144,7 +143,7 @@ improve::ImproveOptions improve_options(Region region, const Session& s) {
 }
 
 // Fewer and better tetrahedra on the same surface (section 8.3). False if there was nothing to do.
-bool improve_mesh(cdt::CdtResult& cdt, Session& s) {
+bool improve_cdt(cdt::CdtResult& cdt, Session& s) {
   improve::ImproveResult result =
       improve::improve(improvable(cdt), &s.topology, s.given, improve_options(s.options.region, s),
                        s.points, s.predicates, s.control);
@@ -172,10 +171,10 @@ bool improve_final(Planes planes, cdt::CdtResult& cdt, Session& s, Recorder& rec
   const bool goes_back = planes == Planes::while_refined && !s.given.empty();
   // Outside, flat tetrahedra between facets that are nearly in one plane would be in the way.
   if (goes_back && s.options.region == Region::interior) keep_inside(cdt);
-  if (improve_mesh(cdt, s)) recorder.improved(cdt);
+  if (improve_cdt(cdt, s)) recorder.improved(cdt);
   if (!goes_back) return true;
   if (!put_back(cdt, s, recorder)) return false;
-  improve_mesh(cdt, s);
+  improve_cdt(cdt, s);
   recorder.improved(cdt);
   return true;
 }
@@ -191,7 +190,7 @@ void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineRes
 }
 
 Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = check(surface, planes, s, recorder); !status.ok()) return status;
+  if (Status status = prepare(surface, planes, s, recorder); !status.ok()) return status;
 
   Budget budget(s.options);
   Fallback fallback(s.options);
@@ -219,6 +218,7 @@ Status mesh_with(Planes planes, const Surface& surface, Session& s, Recorder& re
   recorder.tetrahedrized(cdt);
   if (s.options.improve) {
     s.control.enter(Phase::improve);
+    // Without a mesh: run_mesh has to run once more, without a stand-in.
     if (!improve_final(planes, cdt, s, recorder)) return {};
   }
   s.control.enter(Phase::round);
@@ -237,7 +237,7 @@ Status mesh_directly(const Surface& surface, Session& s, Recorder& recorder) {
 
 // Without refinement: the surface alone.
 Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
-  if (Status status = check(surface, Planes::none, s, recorder); !status.ok()) return status;
+  if (Status status = prepare(surface, Planes::none, s, recorder); !status.ok()) return status;
   cdt::CdtInput input = enrich::plain_input(s.topology);
   input.on_step = [&s](cdt::CdtStep step) { s.control.enter(phase_of(step)); };
   cdt::CdtResult cdt =
@@ -287,33 +287,6 @@ Result tetrahedralize(const Surface& surface, const Options& options) {
 
 Result constrained_delaunay(const Surface& surface, const Options& options) {
   return in_ordinary_units(surface, options, run_plain_cdt);
-}
-
-SurfaceReport check_surface(const Surface& surface, const Options& options) {
-  SurfaceReport report;
-  Control control(options);
-  const Status status = guarded(control, [&]() -> Status {
-    control.enter(Phase::check);
-    ValidityResult validity = check_validity(surface, false, control);
-    report = std::move(validity.report);
-    if (!report.status.ok()) return report.status;
-    PointStore points;
-    Predicates predicates(points);
-    const Surface outwards = oriented_outwards(surface, validity);
-    report.planar_bound = planar_bound(outwards, options, report.bbox_diagonal);
-    const StandIn stand_in = find_stand_in(outwards, report.planar_bound, control);
-    const SurfaceTopology topology = build_topology(outwards, points, predicates, stand_in);
-    report.planar_facets = topology.facet_triangles.size();
-    report.facets = stand_in.planes.empty() ? report.planar_facets : stand_in.given_facets;
-    report.smallest_local_feature_size = smallest_local_feature_size(topology, points, control);
-    const chamfer::AcuteCount acute =
-        chamfer::count_acute(topology, points, predicates, chamfer_options(options), control);
-    report.acute_vertices = acute.vertices;
-    report.acute_edges = acute.edges;
-    return {};
-  });
-  report.status = status;
-  return report;
 }
 
 }  // namespace delmesher
