@@ -66,8 +66,15 @@ class ExactReader {
       line_end();
     }
   }
-  void read_point();
+  void read_parameters(std::uint64_t version);
   void read_plane();
+  void read_triangle();
+  void read_point();
+  void read_facet();
+  void read_segment();
+  void read_corner();
+  void read_chamfer_point();
+  void read_ball();
   void check_references();
   std::vector<std::uint32_t> list(bool of_points);
   void tets(std::string_view name, std::vector<ExactRecord::Tet>& out);
@@ -84,6 +91,20 @@ std::uint64_t ExactReader::section(std::string_view name) {
   const auto count = integer<std::uint64_t>();
   line_end();
   return count;
+}
+
+void ExactReader::read_parameters(std::uint64_t version) {
+  auto& p = record_.parameters;
+  for (double* value : {&p.delta, &p.acute, &p.corner, &p.tolerance}) *value = number();
+  p.region = flag() ? Region::hull : Region::interior;
+  p.gabriel = flag();
+  if (version >= 4) p.planar = number();
+}
+
+void ExactReader::read_triangle() {
+  std::array<std::uint32_t, 3> corners{};
+  for (std::uint32_t& v : corners) v = integer<std::uint32_t>();
+  record_.triangles.push_back(corners);
 }
 
 void ExactReader::read_point() {
@@ -148,6 +169,56 @@ void ExactReader::check_references() {
       }
     }
   }
+  for (const auto& corners : record_.triangles) {
+    for (const std::uint32_t v : corners) {
+      if (v >= points.size()) fail(here(), "a triangle has a corner out of range");
+    }
+  }
+}
+
+void ExactReader::read_facet() {
+  ExactRecord::Facet facet{};
+  facet.id = integer<std::uint32_t>();
+  facet.label = integer<std::int32_t>();
+  const auto filtered = integer<std::uint32_t>();
+  if (filtered > 2) fail(here(), "a facet is filtered in neither step");
+  facet.filtered = static_cast<std::uint8_t>(filtered);
+  facet.triangles = list(false);
+  record_.facets.push_back(std::move(facet));
+}
+
+void ExactReader::read_segment() {
+  ExactRecord::Chain chain{};
+  const std::string_view kind = token();
+  if (kind != "A" && kind != "I") fail(here(), "unknown kind of segment " + in_quotes(kind));
+  chain.artificial = kind == "A";
+  if (chain.artificial) {
+    chain.facet = integer<std::uint32_t>();
+  } else if (token() != "-") {
+    fail(here(), "an input edge has no facet");
+  }
+  chain.vertices = list(true);
+  record_.segments.push_back(std::move(chain));
+}
+
+void ExactReader::read_corner() {
+  ExactRecord::Corner corner{};
+  corner.vertex = point();
+  corner.threshold = number();
+  corner.radius = number();
+  record_.corners.push_back(corner);
+}
+
+void ExactReader::read_chamfer_point() {
+  const std::uint32_t p = point();
+  record_.chamfer_points.push_back({p, point()});
+}
+
+void ExactReader::read_ball() {
+  ExactRecord::Ball ball{};
+  ball.vertex = point();
+  for (std::uint32_t& v : ball.tetrahedron) v = point();
+  record_.balls.push_back(ball);
 }
 
 std::vector<std::uint32_t> ExactReader::list(bool of_points) {
@@ -180,76 +251,24 @@ ExactRecord ExactReader::read() {
   if (version < 1 || version > kExactVersion) {
     fail(here(), "unknown version " + std::to_string(version));
   }
-  if (version >= 2) {
-    items("parameters", [&] {
-      auto& p = record_.parameters;
-      for (double* value : {&p.delta, &p.acute, &p.corner, &p.tolerance}) *value = number();
-      p.region = flag() ? Region::hull : Region::interior;
-      p.gabriel = flag();
-      if (version >= 4) p.planar = number();
-    });
-  }
+  if (version >= 2) items("parameters", [&] { read_parameters(version); });
   if (version >= 4) {
     items("planes", [&] { read_plane(); });
-    items("triangles", [&] {
-      std::array<std::uint32_t, 3> corners{};
-      for (std::uint32_t& v : corners) v = integer<std::uint32_t>();
-      record_.triangles.push_back(corners);
-    });
+    items("triangles", [&] { read_triangle(); });
   }
   items("points", [&] { read_point(); });
   check_references();
-  for (const auto& corners : record_.triangles) {
-    for (const std::uint32_t v : corners) {
-      if (v >= record_.points.size()) fail(here(), "a triangle has a corner out of range");
-    }
-  }
-  items("facets", [&] {
-    ExactRecord::Facet facet{};
-    facet.id = integer<std::uint32_t>();
-    facet.label = integer<std::int32_t>();
-    const auto filtered = integer<std::uint32_t>();
-    if (filtered > 2) fail(here(), "a facet is filtered in neither step");
-    facet.filtered = static_cast<std::uint8_t>(filtered);
-    facet.triangles = list(false);
-    record_.facets.push_back(std::move(facet));
-  });
-  items("segments", [&] {
-    ExactRecord::Chain chain{};
-    const std::string_view kind = token();
-    if (kind != "A" && kind != "I") fail(here(), "unknown kind of segment " + in_quotes(kind));
-    chain.artificial = kind == "A";
-    if (chain.artificial) {
-      chain.facet = integer<std::uint32_t>();
-    } else if (token() != "-") {
-      fail(here(), "an input edge has no facet");
-    }
-    chain.vertices = list(true);
-    record_.segments.push_back(std::move(chain));
-  });
-  items("corners", [&] {
-    ExactRecord::Corner corner{};
-    corner.vertex = point();
-    corner.threshold = number();
-    corner.radius = number();
-    record_.corners.push_back(corner);
-  });
+  items("facets", [&] { read_facet(); });
+  items("segments", [&] { read_segment(); });
+  items("corners", [&] { read_corner(); });
   tets("refined", record_.refined);
   triangles("refined_facets", record_.refined_facets);
   tets("final", record_.final);
   triangles("final_facets", record_.final_facets);
   items("mesh_vertices", [&] { record_.mesh_vertices.push_back(point()); });
   if (version >= 2) {
-    items("chamfer_points", [&] {
-      const std::uint32_t p = point();
-      record_.chamfer_points.push_back({p, point()});
-    });
-    items("balls", [&] {
-      ExactRecord::Ball ball{};
-      ball.vertex = point();
-      for (std::uint32_t& v : ball.tetrahedron) v = point();
-      record_.balls.push_back(ball);
-    });
+    items("chamfer_points", [&] { read_chamfer_point(); });
+    items("balls", [&] { read_ball(); });
     tets("unrepaired", record_.unrepaired);
   }
   if (version >= 3) triangles("unrepaired_facets", record_.unrepaired_facets);

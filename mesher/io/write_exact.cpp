@@ -78,24 +78,20 @@ void write_triangles(TextSink& out, const char* name,
   }
 }
 
-}  // namespace
-
-WriteStatus write_exact(OutputSet& outputs, const std::string& path, const ExactRecord& record) {
-  WriteStatus status;
-  TextSink* opened = outputs.open(path, status);
-  if (opened == nullptr) return status;
-  TextSink& out = *opened;
-  out.section("delmesher-exact", kExactVersion);
+void write_parameters(TextSink& out, const ExactRecord::Parameters& p) {
   out.section("parameters", 1);
-  for (const double value : {record.parameters.delta, record.parameters.acute,
-                             record.parameters.corner, record.parameters.tolerance}) {
+  for (const double value : {p.delta, p.acute, p.corner, p.tolerance}) {
     out.hex(value);
     out.text(" ");
   }
-  out.text(record.parameters.region == Region::hull ? "1 " : "0 ");
-  out.text(record.parameters.gabriel ? "1 " : "0 ");
-  out.hex(record.parameters.planar);
+  out.text(p.region == Region::hull ? "1 " : "0 ");
+  out.text(p.gabriel ? "1 " : "0 ");
+  out.hex(p.planar);
   out.text("\n");
+}
+
+// Planes, triangles and points.
+void write_meshed_surface(TextSink& out, const ExactRecord& record) {
   out.section("planes", record.planes.size());
   for (const ExactRecord::Plane& plane : record.planes) write_plane(out, plane);
   out.section("triangles", record.triangles.size());
@@ -106,6 +102,10 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
   }
   out.section("points", record.points.size());
   for (const ExactPoint& p : record.points) write_point(out, p);
+}
+
+// Facets, segments and corners.
+void write_complex(TextSink& out, const ExactRecord& record) {
   out.section("facets", record.facets.size());
   for (const auto& facet : record.facets) {
     out.integers(facet.id, facet.label, static_cast<int>(facet.filtered));
@@ -126,6 +126,37 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
     out.hex(corner.radius);
     out.text("\n");
   }
+}
+
+void write_chamfer_points(TextSink& out, const ExactRecord& record) {
+  out.section("chamfer_points", record.chamfer_points.size());
+  for (const auto& [point, vertex] : record.chamfer_points) {
+    out.integers(point);
+    out.integer(vertex);
+    out.text("\n");
+  }
+}
+
+void write_balls(TextSink& out, const ExactRecord& record) {
+  out.section("balls", record.balls.size());
+  for (const auto& ball : record.balls) {
+    out.integers(ball.vertex);
+    for (std::uint32_t v : ball.tetrahedron) out.integers(v);
+    out.text("\n");
+  }
+}
+
+}  // namespace
+
+WriteStatus write_exact(OutputSet& outputs, const std::string& path, const ExactRecord& record) {
+  WriteStatus status;
+  TextSink* opened = outputs.open(path, status);
+  if (opened == nullptr) return status;
+  TextSink& out = *opened;
+  out.section("delmesher-exact", kExactVersion);
+  write_parameters(out, record.parameters);
+  write_meshed_surface(out, record);
+  write_complex(out, record);
   write_tets(out, "refined", record.refined);
   write_triangles(out, "refined_facets", record.refined_facets);
   write_tets(out, "final", record.final);
@@ -135,18 +166,8 @@ WriteStatus write_exact(OutputSet& outputs, const std::string& path, const Exact
     out.integer(v);
     out.text("\n");
   }
-  out.section("chamfer_points", record.chamfer_points.size());
-  for (const auto& [point, vertex] : record.chamfer_points) {
-    out.integers(point);
-    out.integer(vertex);
-    out.text("\n");
-  }
-  out.section("balls", record.balls.size());
-  for (const auto& ball : record.balls) {
-    out.integers(ball.vertex);
-    for (std::uint32_t v : ball.tetrahedron) out.integers(v);
-    out.text("\n");
-  }
+  write_chamfer_points(out, record);
+  write_balls(out, record);
   write_tets(out, "unrepaired", record.unrepaired);
   write_triangles(out, "unrepaired_facets", record.unrepaired_facets);
   out.text("end\n");
