@@ -437,6 +437,26 @@ Command for_input(Command command, const std::string& input) {
   return command;
 }
 
+void add_cdt(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command, given);
+  add_run(app, command, given);
+  add_names(app, command);
+  add_threads(app, given);
+}
+
+void add_check(CLI::App& app, Command& command, Given& given) {
+  add_common(app, command, given);
+  add_planar(app, given);
+  app.add_flag("--json", command.json, "report as JSON");
+  app.add_option("--defects", command.defects_file,
+                 "write the surface as .ply, its triangles coloured by what is wrong at them");
+  add_number(app, given, "acute", "corners below this angle are acute, degrees (60)",
+             kBounds.acute);
+  add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",
+             kBounds.corner);
+  add_threads(app, given);
+}
+
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 inverted or flat tetrahedra left, or a file of several failed; 2 "
     "usage;\n"
@@ -451,6 +471,67 @@ constexpr const char* kExamples =
     "  delmesher repair part.stl -o mended.stl --fill        mend what is safe to mend\n"
     "`delmesher COMMAND --help` tells the options.";
 
+// The commands, with their options.
+struct Subcommands {
+  CLI::App *mesh, *cdt, *plane, *check, *improve, *repair;
+
+  Subcommands(CLI::App& app, Command& command, Given& given)
+      : mesh(app.add_subcommand("mesh", "tetrahedralize a closed surface (the default)")),
+        cdt(app.add_subcommand(
+            "cdt", "constrained Delaunay tetrahedrization of the convex hull, no quality")),
+        plane(app.add_subcommand("plane", "mesh a planar graph with triangles")),
+        check(app.add_subcommand("check", "is this a valid surface? if not, what is wrong?")),
+        improve(app.add_subcommand(
+            "improve", "fewer and better tetrahedra of a mesh, its boundary kept exactly")),
+        repair(app.add_subcommand("repair", "mend a surface where that is safe")) {
+    add_mesh(*mesh, command, given);
+    add_cdt(*cdt, command, given);
+    add_plane(*plane, command, given);
+    add_improve(*improve, command, given);
+    add_check(*check, command, given);
+    add_repair(*repair, command, given);
+    for (CLI::App* subcommand : all()) subcommand->footer(kExitCodes);
+  }
+
+  std::array<CLI::App*, 6> all() const { return {mesh, cdt, plane, check, improve, repair}; }
+  // The one that was given.
+  Job job() const {
+    return plane->parsed()     ? Job::plane
+           : cdt->parsed()     ? Job::cdt
+           : check->parsed()   ? Job::check
+           : improve->parsed() ? Job::improve
+           : repair->parsed()  ? Job::repair
+                               : Job::mesh;
+  }
+};
+
+// What is wrong with the words before they are parsed; empty: nothing. CLI11 would not say it in a
+// line that helps.
+std::string misspelt(const Subcommands& subcommands, const std::vector<std::string>& arguments) {
+  for (const CLI::App* subcommand : subcommands.all()) {
+    if (subcommand->get_name() == arguments[0]) return unknown_option(*subcommand, arguments);
+  }
+  return {};
+}
+
+// One job for each input. Empty, or what is wrong.
+std::string make_batch(const Command& command, const Given& given, Parsed& parsed) {
+  std::vector<std::filesystem::path> seen;
+  for (const std::string& input : given.inputs) {
+    parsed.batch.push_back(for_input(command, input));
+    const std::string error = output_error(parsed.batch.back(), seen);
+    if (!error.empty()) return error;
+  }
+  if (shares_standard_output(parsed.batch)) {
+    return "standard output can take the file of one input";
+  }
+  parsed.run = true;
+  parsed.jobs = jobs_of(given);
+  parsed.command = parsed.batch.front();
+  if (parsed.batch.size() == 1) parsed.batch.clear();
+  return {};
+}
+
 }  // namespace
 
 Parsed parse_arguments(std::vector<std::string> arguments) {
@@ -460,42 +541,13 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   app.require_subcommand(1);
   app.footer(std::string(kExamples) + "\n" + kExitCodes);
   app.set_version_flag("--version", std::string("delmesher ") + version());
-  CLI::App* mesh = app.add_subcommand("mesh", "tetrahedralize a closed surface (the default)");
-  CLI::App* cdt = app.add_subcommand(
-      "cdt", "constrained Delaunay tetrahedrization of the convex hull, no quality");
-  CLI::App* plane = app.add_subcommand("plane", "mesh a planar graph with triangles");
-  CLI::App* check = app.add_subcommand("check", "is this a valid surface? if not, what is wrong?");
-  CLI::App* improve = app.add_subcommand(
-      "improve", "fewer and better tetrahedra of a mesh, its boundary kept exactly");
-  add_mesh(*mesh, command, given);
-  add_common(*cdt, command, given);
-  add_run(*cdt, command, given);
-  add_names(*cdt, command);
-  add_threads(*cdt, given);
-  add_plane(*plane, command, given);
-  add_improve(*improve, command, given);
-  add_common(*check, command, given);
-  add_planar(*check, given);
-  CLI::App* repair = app.add_subcommand("repair", "mend a surface where that is safe");
-  add_repair(*repair, command, given);
-  check->add_flag("--json", command.json, "report as JSON");
-  check->add_option("--defects", command.defects_file,
-                    "write the surface as .ply, its triangles coloured by what is wrong at them");
-  add_number(*check, given, "acute", "corners below this angle are acute, degrees (60)",
-             kBounds.acute);
-  add_number(*check, given, "corner", "the same for the angle of two edges, degrees (20)",
-             kBounds.corner);
-  add_threads(*check, given);
-
+  const Subcommands subcommands(app, command, given);
   if (const std::string error = mistyped_command(arguments); !error.empty()) {
     return usage_error(error);
   }
   default_to_mesh(arguments);
-  for (CLI::App* subcommand : {mesh, cdt, plane, check, improve, repair}) {
-    subcommand->footer(kExitCodes);
-    if (subcommand->get_name() != arguments[0]) continue;
-    const std::string error = unknown_option(*subcommand, arguments);
-    if (!error.empty()) return usage_error(error);
+  if (const std::string error = misspelt(subcommands, arguments); !error.empty()) {
+    return usage_error(error);
   }
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   Parsed parsed;
@@ -511,26 +563,11 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
     std::replace(line.begin(), line.end(), '\n', ' ');
     return usage_error(line);
   }
-  command.job = plane->parsed()     ? Job::plane
-                : cdt->parsed()     ? Job::cdt
-                : check->parsed()   ? Job::check
-                : improve->parsed() ? Job::improve
-                : repair->parsed()  ? Job::repair
-                                    : Job::mesh;
+  command.job = subcommands.job();
   apply(given, command);
-  std::vector<std::filesystem::path> seen;
-  for (const std::string& input : given.inputs) {
-    parsed.batch.push_back(for_input(command, input));
-    const std::string error = output_error(parsed.batch.back(), seen);
-    if (!error.empty()) return usage_error(error);
+  if (const std::string error = make_batch(command, given, parsed); !error.empty()) {
+    return usage_error(error);
   }
-  if (shares_standard_output(parsed.batch)) {
-    return usage_error("standard output can take the file of one input");
-  }
-  parsed.run = true;
-  parsed.jobs = jobs_of(given);
-  parsed.command = parsed.batch.front();
-  if (parsed.batch.size() == 1) parsed.batch.clear();
   return parsed;
 }
 
