@@ -2,9 +2,8 @@
 // The input vertices and pieces there are to be spared at the next attempt.
 //
 // Invariants:
-//  - a note names a vertex or a piece of the input, and if there is one, or if it is hopeless,
-//  any()
-//    says so; any() without a note is of nothing that can be spared;
+//  - a note names a vertex or a piece of the input. any() says so if there is one, or if it is
+//    hopeless; without a note it is of nothing that can be spared;
 //  - splits are counted of pieces of the input alone, and it is hopeless only if one of them was
 //    split as often as the options allow.
 #pragma once

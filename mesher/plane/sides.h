@@ -5,9 +5,8 @@
 // they run through (mixed); every other triangle lies in one face of the graph.
 //
 // Invariants from start() to settle(), between insertions:
-//  - every triangle has a side; two neighbours that are not mixed have the same one, unless there
-//  is
-//    a piece between them, and then each has the one that the piece says;
+//  - every triangle has a side; two neighbours that are not mixed have the same one, or there is a
+//    piece between them, and then each has the one that the piece says;
 //  - a triangle has a list of gaps if and only if a gap meets its interior or part of an edge. Then
 //    it is mixed, and has just these gaps in its list. Without a list it is mixed only if its side
 //    could not be decided;

@@ -78,7 +78,7 @@ TEST(PlanarCavity, AllCirclesAroundAPointInTheFacet) {
   EXPECT_GT(largest, 3U);
 }
 
-TEST(PlanarCavity, AnEdgeThatIsSplitIsNotOnTheRim) {
+TEST(PlanarCavity, AnEdgeThatIsSplitIsNotOnTheSkin) {
   Bottom bottom;
   bottom.insert_some();
   const std::uint32_t s = bottom.segment(2, 3);
@@ -95,7 +95,7 @@ TEST(PlanarCavity, AnEdgeThatIsSplitIsNotOnTheRim) {
 // A point that bends one part of a side far outwards, at its end, sees the next part from behind,
 // though the circle of the obtuse triangle there contains it. Without that triangle it sees its own
 // from behind.
-TEST(PlanarCavity, APointThatSeesItsRimFromBehindIsRefused) {
+TEST(PlanarCavity, APointThatSeesItsSkinFromBehindIsRefused) {
   Bottom bottom;
   const std::uint32_t side = bottom.segment(0, 1);
   const auto part_of_side = [&](double from, double to) {
