@@ -280,22 +280,29 @@ class StandInBuilder {
     return meeting.empty();
   }
 
-  // The facets that the stand-in will have are groups, groups that share a plane, and whatever lies
-  // in the same one. All promises about them are checked once more, exactly.
+  // The facets that the stand-in will have are groups, groups that share a plane, parts of groups
+  // that gave up the triangles between them, and whatever lies in the same one. All promises about
+  // them are checked once more, exactly.
   bool facets_keep_laws(PointStore& points, Predicates& predicates) {
     const ChangedSurface changed{given_, surface_.opposite(), flat_, twin_};
     std::vector<std::uint32_t> against;
+    std::vector<std::uint8_t> flattened(vertices_.size(), 0);
     for (const std::vector<std::uint32_t>& facet : facets_of(changed, predicates)) {
       control_.poll();
-      if (facet.size() == 1 || std::ranges::none_of(facet, [&](std::uint32_t t) {
-            return std::ranges::any_of(flat_[t], [&](VertexId v) { return moves(v); });
-          })) {
-        continue;
+      if (facet.size() == 1) continue;
+      bool any_moves = false;
+      for (const std::uint32_t t : facet) {
+        for (const VertexId v : flat_[t]) {
+          flattened[v] = 1;
+          any_moves = any_moves || moves(v);
+        }
       }
+      if (!any_moves) continue;
       const std::vector<std::uint32_t> wrong =
           keeps_outline(changed, facet) ? far_from_plane(changed, facet, bound_, points) : facet;
       against.insert(against.end(), wrong.begin(), wrong.end());
     }
+    bool good = against.empty();
     for (const std::uint32_t t : against) {
       if (in_group(t)) {
         growth_.detach(t);
@@ -303,7 +310,10 @@ class StandInBuilder {
         release_around(t);
       }
     }
-    return against.empty();
+    for (VertexId v = 0; v < vertices_.size(); ++v) {
+      if (moves(v) && flattened[v] == 0) good = !planes_.release_all(v) && good;
+    }
+    return good;
   }
 
   std::uint64_t given_facets() const {

@@ -8,8 +8,8 @@
 // point (PointKind::on_planes); a vertex on fewer is moved along an axis or two. A vertex on more
 // stays, and planes are moved to contain it, or triangles at it leave their groups. The stand-in is
 // certified: exactly planar groups of positive triangles, no two triangles of the surface meet
-// anew, and whatever facets it has in the end keep their corners, their outlines and the bound
-// (facet_laws.h).
+// anew, whatever facets it has in the end keep their corners, their outlines and the bound
+// (facet_laws.h), and every vertex that moves is in a facet of several triangles.
 #pragma once
 
 #include <cstdint>
