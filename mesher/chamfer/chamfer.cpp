@@ -39,11 +39,8 @@ void measure_radii(const KeptSurface& surface, const Cuts& cuts, const Bridges& 
   for (std::uint32_t c = 0; c < bridges.chain.size(); ++c) {
     const VertexId v = surface.corners()[c].vertex;
     for (VertexId p : bridges.chain[c]) {
-      const Vec3 there = points.nearest(p);
-      const Vec3 scaled = {surface.scale() * there[0], surface.scale() * there[1],
-                           surface.scale() * there[2]};
-      result.vertex_radius[v] =
-          std::max(result.vertex_radius[v], distance(scaled, surface.position(v)));
+      result.vertex_radius[v] = std::max(result.vertex_radius[v],
+                                         distance(surface.place(points, p), surface.position(v)));
     }
   }
   for (double& d : result.vertex_distance) d *= unscale;

@@ -79,9 +79,7 @@ class FeatureFinder {
 
  private:
   Vec3 position(VertexId v) const {
-    if (v < surface_.vertex_count()) return surface_.position(v);
-    const Vec3 p = points_.nearest(v);
-    return {surface_.scale() * p[0], surface_.scale() * p[1], surface_.scale() * p[2]};
+    return v < surface_.vertex_count() ? surface_.position(v) : surface_.place(points_, v);
   }
   std::array<Vec3, 2> ends(const PlcSegment& segment) const {
     return {position(segment.vertex[0]), position(segment.vertex[1])};

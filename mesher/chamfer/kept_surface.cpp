@@ -25,6 +25,9 @@ FacetFrame frame_of_triangle(std::uint32_t triangle, const std::array<Vec3, 3>& 
   return {add_scaled(origin, 1 / norm(base), base), add_scaled(origin, 1 / norm(up), up), triangle};
 }
 
+// An error of the doubles next to a vertex above this share of the surface's extent is too large.
+constexpr double kFewDigits = 0x1p-36;
+
 // The square of the smallest height.
 double shape(const std::array<Vec3, 3>& corner) {
   double longest = 0;
@@ -55,9 +58,16 @@ KeptSurface::KeptSurface(const SurfaceTopology& topology, const PointStore& poin
 
 void KeptSurface::scale_positions(const PointStore& points) {
   const std::size_t count = topology_.vertex_half_edge.size();
-  double largest = 0;
+  double largest = 0, extent = 0, error = 0;
   for (VertexId v = 0; v < count; ++v) {
     for (double coordinate : points.nearest(v)) largest = std::max(largest, std::abs(coordinate));
+    extent = std::max(extent, largest_component(subtract(points.nearest(v), points.nearest(0))));
+    error = std::max(error, points.approximation(v).error);
+  }
+  far_ = error > kFewDigits * extent;
+  if (far_) {
+    origin_ = points.nearest(0);
+    largest = extent;
   }
   int exponent = 0;
   if (largest > 0) std::frexp(largest, &exponent);
@@ -65,10 +75,16 @@ void KeptSurface::scale_positions(const PointStore& points) {
   exponent = std::clamp(exponent, -1000, 1000);
   scale_ = std::ldexp(1.0, -exponent);
   position_.reserve(count);
-  for (VertexId v = 0; v < count; ++v) {
-    const Vec3 p = points.nearest(v);
-    position_.push_back({scale_ * p[0], scale_ * p[1], scale_ * p[2]});
+  for (VertexId v = 0; v < count; ++v) position_.push_back(place(points, v));
+}
+
+Vec3 KeptSurface::place(const PointStore& points, VertexId v) const {
+  Vec3 p = points.nearest(v);
+  if (far_) {
+    const Approximation rest = points.remainder(v);
+    p = add(subtract(p, origin_), Vec3{rest.x, rest.y, rest.z});
   }
+  return {scale_ * p[0], scale_ * p[1], scale_ * p[2]};
 }
 
 void KeptSurface::find_frames() {

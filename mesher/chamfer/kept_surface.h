@@ -38,8 +38,12 @@ class KeptSurface {
   bool facet_is_kept(FacetId f) const { return kept_[f] != 0; }
 
   // Positions times scale(), a power of two that brings all coordinates into [-1, 1], so that
-  // products neither overflow nor depend on the unit of the input.
+  // products neither overflow nor depend on the unit of the input. Measured from a vertex of the
+  // surface if that is so far from the origin that the doubles next to its implicit vertices tell
+  // too little about it.
   const Vec3& position(VertexId v) const { return position_[v]; }
+  // The same of any point of the store.
+  Vec3 place(const PointStore& points, VertexId v) const;
   double scale() const { return scale_; }
   Vec3 edge_vector(VertexId from, VertexId to) const {
     return subtract(position_[to], position_[from]);
@@ -78,6 +82,8 @@ class KeptSurface {
   std::vector<std::uint8_t> kept_;
   std::vector<std::uint8_t> edge_is_live_;  // constrained, and on the boundary of a kept facet
   double scale_ = 1;
+  bool far_ = false;  // from the origin
+  Vec3 origin_{0, 0, 0};
   std::vector<Vec3> position_;
   std::vector<FacetFrame> frame_;
   std::vector<Corner> corners_;

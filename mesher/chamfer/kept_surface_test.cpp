@@ -9,6 +9,9 @@
 #include "mesher/chamfer/removed_surface.h"
 #include "mesher/chamfer/test_model.h"
 #include "mesher/chamfer/test_polyhedra.h"
+#include "mesher/predicates/rational_reference.h"
+#include "mesher/surface/planar_groups.h"
+#include "mesher/surface/test_surfaces.h"
 
 namespace delmesher::chamfer {
 namespace {
@@ -44,6 +47,35 @@ TEST(KeptSurface, IsScaledByNormalNumbers) {
       }
     }
   }
+}
+
+// A box of 1e-5, 8818 from the origin: doubles are 2^-39 apart there, and the vertices of flattened
+// faces lie between them. Distances on the surface have more digits than that would leave.
+TEST(KeptSurface, FarFromTheOriginDistancesKeepTheirDigits) {
+  Surface box = surface::test_surfaces::rotated(
+      test_polyhedra::scaled(test_polyhedra::prism({{0, 0}, {3, 0}, {3, 2}, {0, 2}}, 2), 1e-5 / 3));
+  for (Vec3& p : box.vertices) {
+    for (double& x : p) x += 8818;
+  }
+  Limits limits;
+  Control control(limits);
+  const surface::StandIn stand_in = surface::find_stand_in(box, 1e-9, control);
+  PointStore points;
+  Predicates predicates(points);
+  const SurfaceTopology topology = build_topology(box, points, predicates, stand_in);
+  ASSERT_EQ(topology.facet_triangles.size(), 6U);
+  const KeptSurface surface(topology, points, {});
+  std::size_t implicit = 0;
+  for (VertexId v = 1; v < points.size(); ++v) {
+    if (!points.is_explicit(v)) ++implicit;
+    using namespace predicates::reference;
+    const Point d = minus(point(points, v), point(points, 0));
+    const double squared = mpq_class(dot(d, d)).get_d();
+    const double measured =
+        squared_norm(surface.edge_vector(0, v)) / surface.scale() / surface.scale();
+    EXPECT_NEAR(measured / squared, 1, 0x1p-40);
+  }
+  EXPECT_GE(implicit, 4U);
 }
 
 // One facet of a box was dropped: points near the middle of one of its triangles are too near,

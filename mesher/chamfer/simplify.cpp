@@ -172,10 +172,7 @@ class Simplifier {
   Vec2 relative(const Corner& corner, VertexId x) const {
     return surface_.planar(corner.facet, subtract(scaled(x), surface_.position(corner.vertex)));
   }
-  Vec3 scaled(VertexId v) const {
-    const Vec3 p = predicates_.points().nearest(v);
-    return {surface_.scale() * p[0], surface_.scale() * p[1], surface_.scale() * p[2]};
-  }
+  Vec3 scaled(VertexId v) const { return surface_.place(predicates_.points(), v); }
   double length(VertexId a, VertexId b) const { return distance(scaled(a), scaled(b)); }
 
   const KeptSurface& surface_;

@@ -77,6 +77,32 @@ PlaneCoordinates solve(const Vec3& e, const Vec3& f, const Vec3& w) {
   return {dot(cross(pairs(w), pairs(f)), n) / nn, dot(cross(pairs(e), pairs(w)), n) / nn};
 }
 
+// What lies beyond the nearest doubles of points, relative to that of the anchor, in local
+// coordinates: far from the origin, corners on planes are known by their doubles to fewer digits
+// than small distances ask for. What the tolerance does not see is left out.
+class Remainders {
+ public:
+  Remainders(const PointStore& points, VertexId anchor, double tolerance, int shift)
+      : points_(points), seen_(tolerance / 16), shift_(shift), anchor_(of(anchor)) {}
+
+  Vec3 relative(VertexId v) const { return subtract(of(v), anchor_); }
+  Vec3 relative(const Vec3& rest) const {
+    return subtract(times_power_of_two(rest, shift_), anchor_);
+  }
+
+ private:
+  Vec3 of(VertexId v) const {
+    if (points_.approximation(v).error <= seen_) return {0, 0, 0};
+    const Approximation r = points_.remainder(v);
+    return times_power_of_two(Vec3{r.x, r.y, r.z}, shift_);
+  }
+
+  const PointStore& points_;
+  double seen_;
+  int shift_;
+  Vec3 anchor_;
+};
+
 }  // namespace
 
 double shortest_dyadic(double lo, double hi) {
@@ -113,8 +139,11 @@ PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId 
     std::swap(far, near);
   }
   std::array<Vec3, 2> local = {far, target};
+  const double asked = tolerance;
   const int shift = localise(local, near, tolerance);
-  local[1] = add(local[1], times_power_of_two(rest, shift));
+  const Remainders remainders(points, q, asked, shift);
+  local[0] = add(local[0], remainders.relative(p));
+  local[1] = add(local[1], remainders.relative(rest));
   const Vec3& edge = local[0];
   const double length = norm(edge);
   DELMESHER_CHECK(length > 0, "segment of no length");
@@ -147,8 +176,11 @@ PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId
   std::rotate(corner.begin(), corner.begin() + static_cast<std::ptrdiff_t>((nearest + 1) % 3),
               corner.end());
   std::array<Vec3, 3> local = {points.nearest(corner[0]), points.nearest(corner[1]), target};
+  const double asked = tolerance;
   const int shift = localise(local, points.nearest(corner[2]), tolerance);
-  local[2] = add(local[2], times_power_of_two(rest, shift));
+  const Remainders remainders(points, corner[2], asked, shift);
+  for (std::size_t i = 0; i < 2; ++i) local[i] = add(local[i], remainders.relative(corner[i]));
+  local[2] = add(local[2], remainders.relative(rest));
   const auto [u, v] = solve(local[0], local[1], local[2]);
   const auto shortest = [&](double x, const Vec3& edge) {
     const double slack = tolerance / 2 / norm(edge);

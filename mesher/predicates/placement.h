@@ -9,7 +9,7 @@ namespace delmesher::predicates {
 // zero among several). Requires lo <= hi, both finite.
 double shortest_dyadic(double lo, double hi);
 
-// A point of the line through the explicit points p and q within about `tolerance` of the
+// A point of the line through the corners p and q within about `tolerance` of the
 // projection of `target` + `rest` onto it, with the shortest parameter, anchored at the end nearest
 // to the target (so the corners of the result may be q, p). If `inside` is true, the result is
 // strictly between p and q. `rest` is the remainder of the target beyond its doubles: far from the
@@ -18,7 +18,7 @@ PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId 
                                  const Vec3& target, double tolerance, bool inside = true,
                                  const Vec3& rest = {0, 0, 0});
 
-// A point of the plane of the explicit points p, q, r within about `tolerance` of the projection of
+// A point of the plane of the corners p, q, r within about `tolerance` of the projection of
 // `target` + `rest` onto it, anchored at the nearest corner. Not confined to the triangle.
 PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId q, VertexId r,
                                   const Vec3& target, double tolerance,

@@ -252,6 +252,47 @@ TEST(Placement, WhatDoublesLeaveOverCounts) {
   }
 }
 
+// So do the remainders of corners that are no doubles themselves: meeting points of planes through
+// different points.
+TEST(Placement, WhatDoublesOfCornersLeaveOverCounts) {
+  Random random(11);
+  for (int i = 0; i < 300; ++i) {
+    const double far = 0x1p40;
+    PointStore store;
+    for (const Vec3& x : {Vec3{0, 0, 0}, Vec3{0.5, 0.0625, 0}, Vec3{0.125, 0.375, 0.25}}) {
+      std::array<std::uint32_t, 3> planes{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        Vec3 normal = {random.unit() / 4, random.unit() / 4, random.unit() / 4};
+        normal[k] = 1;
+        Vec3 through = {far + x[0], x[1] - far, x[2] + far};
+        through[(k + 1) % 3] += random.unit() / 64;
+        planes[k] = store.add_plane({normal, {through}});
+      }
+      store.add_on_planes(planes[0], planes[1], planes[2]);
+    }
+    const auto rest_of = [&](VertexId v) {
+      const Approximation rest = store.remainder(v);
+      return Vec3{rest.x, rest.y, rest.z};
+    };
+    const auto squared_error = [&](const PointDefinition& d, VertexId aim) {
+      const reference::Point w =
+          minus(reference::point(store, store.add(d)), reference::point(store, aim));
+      return dot(w, w);
+    };
+    const double u = random.unit() / 2, v = random.unit() / 2;
+    const VertexId on_edge = store.add_on_segment(0, 1, u);
+    ASSERT_LE(squared_error(place_on_segment(store, 0, 1, store.nearest(on_edge), 0x1p-30, true,
+                                             rest_of(on_edge)),
+                            on_edge),
+              mpq_class(0x1.01p-60));
+    const VertexId inside = store.add_on_triangle(0, 1, 2, u, v);
+    ASSERT_LE(squared_error(place_on_triangle(store, 0, 1, 2, store.nearest(inside), 0x1p-30,
+                                              rest_of(inside)),
+                            inside),
+              mpq_class(0x1.01p-60));
+  }
+}
+
 // Scaling by a power of two changes nothing but the scale.
 TEST(Placement, CommutesWithPowersOfTwo) {
   Random random(9);
