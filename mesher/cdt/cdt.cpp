@@ -132,7 +132,7 @@ class CdtBuilder {
   std::unique_ptr<Tetrahedrization> delaunay_;
   std::vector<VertexId> steiner_;
   std::vector<SurfaceFace> surface_;
-  std::vector<std::uint32_t> found_;  // 4 * tetrahedron + face of each, when it was recovered
+  std::vector<FaceHandle> found_;  // of each, as it was when it was recovered
   std::vector<std::uint8_t> inside_;
   std::uint64_t restarts_ = 0;
   CdtResult result_;

@@ -162,8 +162,7 @@ TetId find_edge(Tetrahedrization& mesh, const Chains& chains, VertexId a, Vertex
   return mesh.find_edge(a, b);
 }
 
-std::uint32_t find_face(Tetrahedrization& mesh, const Chains& chains,
-                        std::array<VertexId, 3> face) {
+FaceHandle find_face(Tetrahedrization& mesh, const Chains& chains, std::array<VertexId, 3> face) {
   std::sort(face.begin(), face.end(), [&](VertexId a, VertexId b) {
     const std::uint32_t x = chains.valence(a), y = chains.valence(b);
     return x != y ? x < y : a < b;

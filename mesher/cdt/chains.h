@@ -76,7 +76,7 @@ class Chains {
 // As Tetrahedrization::find_edge and find_face. The search is around the vertex with the fewest
 // subsegments, so that hubs with thousands of tetrahedra are not visited once per facet.
 TetId find_edge(Tetrahedrization& mesh, const Chains& chains, VertexId a, VertexId b);
-std::uint32_t find_face(Tetrahedrization& mesh, const Chains& chains, std::array<VertexId, 3> face);
+FaceHandle find_face(Tetrahedrization& mesh, const Chains& chains, std::array<VertexId, 3> face);
 
 // Distance of two points given by their coordinates, without overflow or underflow of squares.
 double safe_distance(const Vec3& a, const Vec3& b);

@@ -5,24 +5,24 @@
 namespace delmesher::cdt {
 namespace {
 
-// Is that face (4 * tetrahedron + face, or kNone) of the mesh this one?
-bool is_face(const Tetrahedrization& mesh, std::uint32_t code, const std::array<VertexId, 3>& v) {
-  const TetId t = code >> 2;
-  if (code == kNone || !mesh.alive(t)) return false;
+// Has the mesh still that face, if any, and is it this one?
+bool is_face(const Tetrahedrization& mesh, FaceHandle face, const std::array<VertexId, 3>& v) {
+  const TetId t = face.tet();
+  if (!face.exists() || !mesh.alive(t)) return false;
   int others = 6;
   for (const VertexId corner : v) {
     const int i = mesh.index_of(t, corner);
     if (i < 0) return false;
     others -= i;
   }
-  return others == static_cast<int>(code & 3);
+  return others == face.face();
 }
 
 }  // namespace
 
 std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
                                               std::span<const SurfaceFace> surface,
-                                              std::span<const std::uint32_t> found,
+                                              std::span<const FaceHandle> found,
                                               const Chains& chains, Control& control,
                                               std::size_t* missing) {
   constexpr std::uint8_t kUnknown = 2;
@@ -30,15 +30,14 @@ std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
   for (std::size_t n = 0; n < surface.size(); ++n) {
     control.poll();
     const auto& v = surface[n].vertices;
-    const std::uint32_t code = is_face(mesh, found[n], v) ? found[n] : find_face(mesh, chains, v);
-    if (code == kNone) {
+    const FaceHandle face = is_face(mesh, found[n], v) ? found[n] : find_face(mesh, chains, v);
+    if (!face.exists()) {
       *missing = n;
       return {};
     }
-    const TetId t = code >> 2;
-    const int i = static_cast<int>(code & 3);
-    walls[t] |= static_cast<std::uint8_t>(1U << i);
-    walls[mesh.neighbor(t, i)] |= static_cast<std::uint8_t>(1U << mesh.mirror(t, i));
+    for (const FaceHandle side : {face, mesh.across(face)}) {
+      walls[side.tet()] |= static_cast<std::uint8_t>(1U << side.face());
+    }
   }
   std::vector<std::uint8_t> inside(mesh.capacity(), kUnknown);
   std::vector<TetId> queue;

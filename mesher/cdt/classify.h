@@ -10,11 +10,11 @@
 namespace delmesher::cdt {
 
 // Per tetrahedron id: 1 if it is inside the surface made of these faces of the mesh, 0 outside.
-// `found` says where each face was (4 * tetrahedron + face, or kNone), which may be out of date.
+// `found` says where each face was, or none, which may be out of date.
 // Returns an empty vector and stores the face's index in *missing if one is not a face of the mesh.
 std::vector<std::uint8_t> classify_tetrahedra(Tetrahedrization& mesh,
                                               std::span<const SurfaceFace> surface,
-                                              std::span<const std::uint32_t> found,
+                                              std::span<const FaceHandle> found,
                                               const Chains& chains, Control& control,
                                               std::size_t* missing);
 

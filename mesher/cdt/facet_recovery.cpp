@@ -38,14 +38,15 @@ int FacetRecovery::side(VertexId v) {
 }
 
 bool FacetRecovery::recover(FacetId facet, const FacetTriangles& triangles,
-                            std::vector<std::uint32_t>& found) {
+                            std::vector<FaceHandle>& found) {
   frame_ = topology_.triangles[topology_.facet_triangles[facet][0]];
   next_epoch(facet_epoch_, side_mark_);
   done_.assign(triangles.triangles.size(), 0);
   for (std::uint32_t t = 0; t < triangles.triangles.size(); ++t) {
     control_.poll(predicates_.points().size());
-    found.push_back(done_[t] != 0 ? kNone : find_face(mesh_, chains_, triangles.triangles[t]));
-    if (done_[t] != 0 || found.back() != kNone) continue;
+    found.push_back(done_[t] != 0 ? FaceHandle()
+                                  : find_face(mesh_, chains_, triangles.triangles[t]));
+    if (done_[t] != 0 || found.back().exists()) continue;
     collect_patch(triangles, t);
     if (!recover_patch()) return false;
   }
@@ -144,7 +145,7 @@ void FacetRecovery::collect_skin() {
       const bool above = s[0] > 0 || s[1] > 0 || s[2] > 0;
       const bool below = s[0] < 0 || s[1] < 0 || s[2] < 0;
       if (above && below) continue;
-      (above ? upper_skin_ : lower_skin_).push_back({v, 4 * t + static_cast<std::uint32_t>(i)});
+      (above ? upper_skin_ : lower_skin_).push_back({v, {t, i}});
     }
   }
 }
@@ -230,24 +231,26 @@ std::uint64_t FacetRecovery::face_key(const Triangle& t) const {
 // every face of a new tetrahedron has to be matched by another new one or to be on the skin, and
 // the whole skin has to be covered.
 bool FacetRecovery::match_faces(Filling& filling) const {
-  // Directed face, counter-clockwise seen from outside its new tetrahedron -> 4 * index + face.
+  // Directed face, counter-clockwise seen from outside its new tetrahedron -> its index.
   FlatMap owner;
   std::vector<Triangle> face(4 * filling.tetrahedra.size());
   for (std::uint32_t n = 0; n < filling.tetrahedra.size(); ++n) {
-    for (std::uint32_t i = 0; i < 4; ++i) {
+    for (int i = 0; i < 4; ++i) {
       const Tetrahedron& t = filling.tetrahedra[n];
-      face[4 * n + i] = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
-      if (owner.get(face_key(face[4 * n + i]), kNone) != kNone) return false;
-      owner.set(face_key(face[4 * n + i]), 4 * n + i);
+      const std::uint32_t f = FaceHandle(n, i).index();
+      face[f] = {t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]]};
+      if (owner.get(face_key(face[f]), kNone) != kNone) return false;
+      owner.set(face_key(face[f]), f);
     }
   }
-  filling.partner.assign(face.size(), kNone);
-  filling.outer.assign(face.size(), kNone);
+  filling.partner.assign(face.size(), {});
+  filling.outer.assign(face.size(), {});
   if (!match_skin(owner, filling)) return false;
   for (std::uint32_t f = 0; f < face.size(); ++f) {
-    if (filling.outer[f] != kNone) continue;
-    filling.partner[f] = owner.get(face_key(reversed(face[f])), kNone);
-    if (filling.partner[f] == kNone) return false;
+    if (filling.outer[f].exists()) continue;
+    const std::uint32_t partner = owner.get(face_key(reversed(face[f])), kNone);
+    if (partner == kNone) return false;
+    filling.partner[f] = FaceHandle::at(partner);
   }
   return true;
 }
@@ -257,13 +260,9 @@ bool FacetRecovery::match_skin(const FlatMap& owner, Filling& filling) const {
     for (const SkinFace& s : *skin) {
       const std::uint32_t f = owner.get(face_key(s.vertices), kNone);
       if (f == kNone) return false;
-      const TetId t = s.inner >> 2;
-      const int i = static_cast<int>(s.inner & 3);
-      const TetId beyond = mesh_.neighbor(t, i);
+      const FaceHandle beyond = mesh_.across(s.inner);
       // A dangling wall between two tetrahedra of the cavity is matched like any other face.
-      if (cavity_mark_[beyond] != cavity_epoch_) {
-        filling.outer[f] = 4 * beyond + static_cast<std::uint32_t>(mesh_.mirror(t, i));
-      }
+      if (cavity_mark_[beyond.tet()] != cavity_epoch_) filling.outer[f] = beyond;
     }
   }
   return true;
@@ -278,10 +277,11 @@ void FacetRecovery::put_in(const Filling& filling) {
     for (const VertexId v : t) mesh_.set_incident(v, id.back());
   }
   for (std::uint32_t f = 0; f < filling.partner.size(); ++f) {
-    const bool inside = filling.outer[f] == kNone;
-    const std::uint32_t across = inside ? filling.partner[f] : filling.outer[f];
-    mesh_.glue(id[f >> 2], static_cast<int>(f & 3), inside ? id[across >> 2] : across >> 2,
-               static_cast<int>(across & 3));
+    const FaceHandle face = FaceHandle::at(f);
+    const bool inside = !filling.outer[f].exists();
+    const FaceHandle across = inside ? filling.partner[f] : filling.outer[f];
+    mesh_.glue(id[face.tet()], face.face(), inside ? id[across.tet()] : across.tet(),
+               across.face());
   }
 }
 

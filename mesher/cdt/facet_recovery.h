@@ -32,9 +32,9 @@ class FacetRecovery {
                 Control& control);
 
   // Makes all triangles of the facet appear. False if that failed, which the theory excludes; the
-  // mesh is still consistent then. Appends to `found` for each triangle the face of the mesh (4 *
-  // tetrahedron + face) that it was before, kNone if it was missing.
-  bool recover(FacetId facet, const FacetTriangles& triangles, std::vector<std::uint32_t>& found);
+  // mesh is still consistent then. Appends to `found` for each triangle the face of the mesh
+  // that it was before, none if it was missing.
+  bool recover(FacetId facet, const FacetTriangles& triangles, std::vector<FaceHandle>& found);
 
   const CdtCounters& counters() const { return counters_; }
 
@@ -42,7 +42,7 @@ class FacetRecovery {
   // A face of the cavity's skin, counter-clockwise seen from outside the cavity.
   struct SkinFace {
     Triangle vertices;
-    std::uint32_t inner;  // 4 * tet + face in the cavity
+    FaceHandle inner;  // of the cavity
   };
 
   int side(VertexId v);
@@ -52,11 +52,12 @@ class FacetRecovery {
   bool grow_cavity();
   void collect_skin();
   void collect_isolated();
-  // New tetrahedra for the cavity. Its faces f are 4 * index + face; across f lies partner[f],
-  // another new face, or outer[f], 4 * tet + face outside the cavity. The other one is kNone.
+  // New tetrahedra for the cavity. By the index() of a face of them: across it lies `partner`, a
+  // face of one of them as well, or `outer`, a face of the mesh outside the cavity. The other one
+  // is none.
   struct Filling {
     std::vector<Tetrahedron> tetrahedra;
-    std::vector<std::uint32_t> partner, outer;
+    std::vector<FaceHandle> partner, outer;
   };
   bool match_faces(Filling& filling) const;
   bool match_skin(const FlatMap& owner, Filling& filling) const;

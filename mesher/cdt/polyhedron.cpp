@@ -23,7 +23,7 @@ class DelaunayPart {
 
   void run(const std::vector<VertexId>& vertices) {
     mesh_.build(vertices, control_);
-    wall_.assign(4 * mesh_.capacity(), kNone);
+    wall_.assign(4 * mesh_.capacity(), 0);
     state_.assign(mesh_.capacity(), kUnknown);
     find_faces();
     block();
@@ -35,14 +35,14 @@ class DelaunayPart {
   // The tetrahedra found so far, and the faces of the polyhedron that is still empty.
   bool collect(std::vector<Tetrahedron>& tetrahedra, std::vector<Triangle>& rest) const {
     for (std::uint32_t n = 0; n < faces_.size(); ++n) {
-      if (code_[n] == kNone || state_[code_[n] >> 2] != kInside) rest.push_back(faces_[n]);
+      if (!inner_[n].exists() || state_[inner_[n].tet()] != kInside) rest.push_back(faces_[n]);
     }
     for (const TetId t : inside_) {
       if (mesh_.is_ghost(t)) return false;
       const VertexId* v = mesh_.vertices(t);
       tetrahedra.push_back({v[0], v[1], v[2], v[3]});
       for (int i = 0; i < 4; ++i) {
-        if (wall_[4 * t + i] != kNone || state_[mesh_.neighbor(t, i)] == kInside) continue;
+        if (is_wall({t, i}) || state_[mesh_.neighbor(t, i)] == kInside) continue;
         rest.push_back({v[kFace[i][0]], v[kFace[i][2]], v[kFace[i][1]]});
       }
     }
@@ -52,34 +52,32 @@ class DelaunayPart {
  private:
   enum State : std::uint8_t { kUnknown, kInside, kBlocked };
 
-  // code_[n]: the tetrahedron on the inner side of face n and its index there, kNone if missing.
   void find_faces() {
-    code_.assign(faces_.size(), kNone);
+    inner_.assign(faces_.size(), {});
     for (std::uint32_t n = 0; n < faces_.size(); ++n) {
       control_.poll();
       const Triangle& f = faces_[n];
-      const std::uint32_t found = mesh_.find_face(f[0], f[1], f[2]);
-      if (found == kNone) continue;
-      const TetId t = found >> 2;
-      const int i = static_cast<int>(found & 3);
+      const FaceHandle found = mesh_.find_face(f[0], f[1], f[2]);
+      if (!found.exists()) continue;
       // Listed from outside its tetrahedron in the same sense: then that is on the inner side.
-      const int at = position(t, i, f[0]);
-      const bool same = mesh_.vertex(t, kFace[i][(at + 1) % 3]) == f[1];
-      code_[n] = same ? found : 4 * mesh_.neighbor(t, i) + mesh_.mirror(t, i);
-      wall_[4 * t + i] = n;
-      wall_[4 * mesh_.neighbor(t, i) + mesh_.mirror(t, i)] = n;
+      const FaceHandle beyond = mesh_.across(found);
+      inner_[n] = corner_after(found, f[0]) == f[1] ? found : beyond;
+      wall_[found.index()] = wall_[beyond.index()] = 1;
     }
   }
-  int position(TetId t, int face, VertexId v) const {
+  // The corner of the face that follows v in the order of kFace.
+  VertexId corner_after(FaceHandle face, VertexId v) const {
+    const auto& corner = kFace[face.face()];
     int k = 0;
-    while (mesh_.vertex(t, kFace[face][k]) != v) ++k;
-    return k;
+    while (mesh_.vertex(face.tet(), corner[k]) != v) ++k;
+    return mesh_.vertex(face.tet(), corner[(k + 1) % 3]);
   }
+  bool is_wall(FaceHandle face) const { return wall_[face.index()] != 0; }
 
   void block() {
     std::vector<Triangle> missing;
     for (std::uint32_t n = 0; n < faces_.size(); ++n) {
-      if (code_[n] == kNone) missing.push_back(faces_[n]);
+      if (!inner_[n].exists()) missing.push_back(faces_[n]);
     }
     if (missing.empty()) return;
     for (TetId t = 0; t < mesh_.capacity(); ++t) {
@@ -104,13 +102,13 @@ class DelaunayPart {
       state_[t] = kInside;
       inside_.push_back(t);
     };
-    for (const std::uint32_t code : code_) {
-      if (code != kNone) take(code >> 2);
+    for (const FaceHandle face : inner_) {
+      if (face.exists()) take(face.tet());
     }
     for (std::size_t n = 0; n < inside_.size(); ++n) {
       const TetId t = inside_[n];
       for (int i = 0; i < 4; ++i) {
-        if (wall_[4 * t + i] == kNone) take(mesh_.neighbor(t, i));
+        if (!is_wall({t, i})) take(mesh_.neighbor(t, i));
       }
     }
   }
@@ -119,9 +117,9 @@ class DelaunayPart {
   Control& control_;
   const std::vector<Triangle>& faces_;
   Tetrahedrization mesh_;
-  std::vector<std::uint32_t> wall_;  // per face of a tetrahedron: some face of the polyhedron
+  std::vector<std::uint8_t> wall_;  // per face of a tetrahedron: is it one of the polyhedron?
   std::vector<State> state_;
-  std::vector<std::uint32_t> code_;
+  std::vector<FaceHandle> inner_;  // per face of the polyhedron, from its inner side; or none
   std::vector<TetId> inside_;
   std::uint64_t blocked_ = 0;
 };

@@ -28,14 +28,14 @@ void validate_facets(Tetrahedrization& mesh, const Chains& chains,
   mesh.validate(false);
   validate_edges(mesh, chains);
   std::vector<std::uint8_t> walls(mesh.capacity(), 0);  // bit i: face i is on the surface
-  for (const SurfaceFace& face : surface) {
-    const std::uint32_t code = find_face(mesh, chains, face.vertices);
-    DELMESHER_CHECK(code != kNone, "a triangle of a facet is no face");
-    const TetId t = code >> 2;
-    const int i = static_cast<int>(code & 3U);
-    DELMESHER_CHECK((walls[t] >> i & 1) == 0, "a triangle of a facet is there twice");
-    walls[t] |= static_cast<std::uint8_t>(1U << i);
-    walls[mesh.neighbor(t, i)] |= static_cast<std::uint8_t>(1U << mesh.mirror(t, i));
+  for (const SurfaceFace& triangle : surface) {
+    const FaceHandle face = find_face(mesh, chains, triangle.vertices);
+    DELMESHER_CHECK(face.exists(), "a triangle of a facet is no face");
+    DELMESHER_CHECK((walls[face.tet()] >> face.face() & 1) == 0,
+                    "a triangle of a facet is there twice");
+    for (const FaceHandle side : {face, mesh.across(face)}) {
+      walls[side.tet()] |= static_cast<std::uint8_t>(1U << side.face());
+    }
   }
   Predicates& predicates = mesh.predicates();
   const PredicateCounters counters = predicates.counters;

@@ -96,20 +96,19 @@ void Tetrahedrization::collect_hole(VertexId v, std::span<const std::uint8_t> go
 
 // Fills the cavity with the tetrahedra of the patch that are in it.
 void Tetrahedrization::fill_hole(Tetrahedrization& patch) {
-  std::vector<std::uint32_t> outside(4 * patch.capacity(), kNone);  // beyond faces on the boundary
+  // By face of the patch that is on the boundary: the face beyond it.
+  std::vector<FaceHandle> outside(4 * patch.capacity());
   std::vector<TetId> copy(patch.capacity(), kNone), inside;
   for (const auto& [t, i] : boundary_) {
     const std::array<VertexId, 3> face = {vertex(t, kFace[i][0]), vertex(t, kFace[i][1]),
                                           vertex(t, kFace[i][2])};
-    std::uint32_t found = patch.find_face(face[0], face[1], face[2]);
-    DELMESHER_CHECK(found != kNone, "a face around removed vertices is not Delaunay");
-    if (!is_face(patch.vertices(found >> 2), static_cast<int>(found & 3U), face)) {
-      found = patch.cell_[found >> 2].neighbor[found & 3U];
-    }
-    outside[found] = cell_[t].neighbor[i];
-    if (copy[found >> 2] != kNone) continue;
-    copy[found >> 2] = 0;
-    inside.push_back(found >> 2);
+    FaceHandle found = patch.find_face(face[0], face[1], face[2]);
+    DELMESHER_CHECK(found.exists(), "a face around removed vertices is not Delaunay");
+    if (!is_face(patch.vertices(found.tet()), found.face(), face)) found = patch.across(found);
+    outside[found.index()] = cell_[t].neighbor[i];
+    if (copy[found.tet()] != kNone) continue;
+    copy[found.tet()] = 0;
+    inside.push_back(found.tet());
   }
   for (std::size_t n = 0; n < inside.size(); ++n) {
     const TetId t = inside[n];
@@ -118,18 +117,17 @@ void Tetrahedrization::fill_hole(Tetrahedrization& patch) {
     copy[t] = create(v[0], v[1], v[2], v[3]);
     for (int i = 0; i < 4; ++i) {
       incident_[v[i]] = copy[t];
-      const std::uint32_t side = 4 * t + static_cast<std::uint32_t>(i);
       const TetId u = patch.neighbor(t, i);
-      if (outside[side] != kNone || copy[u] != kNone) continue;
+      if (outside[FaceHandle(t, i).index()].exists() || copy[u] != kNone) continue;
       copy[u] = 0;
       inside.push_back(u);
     }
   }
   for (const TetId t : inside) {
     for (int i = 0; i < 4; ++i) {
-      const std::uint32_t out = outside[4 * t + static_cast<std::uint32_t>(i)];
-      if (out != kNone) {
-        glue(copy[t], i, out >> 2, static_cast<int>(out & 3U));
+      const FaceHandle out = outside[FaceHandle(t, i).index()];
+      if (out.exists()) {
+        glue(copy[t], i, out.tet(), out.face());
       } else {
         glue(copy[t], i, copy[patch.neighbor(t, i)], patch.mirror(t, i));
       }

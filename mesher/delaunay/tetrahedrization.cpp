@@ -135,8 +135,8 @@ void Tetrahedrization::destroy(TetId t) {
 }
 
 void Tetrahedrization::glue(TetId t, int i, TetId u, int j) {
-  cell_[t].neighbor[i] = 4 * u + static_cast<std::uint32_t>(j);
-  cell_[u].neighbor[j] = 4 * t + static_cast<std::uint32_t>(i);
+  cell_[t].neighbor[i] = {u, j};
+  cell_[u].neighbor[j] = {t, i};
 }
 
 // -------------------------------------------------------------------------------------- queries
@@ -182,13 +182,13 @@ TetId Tetrahedrization::find_edge(VertexId a, VertexId b) {
   return found;
 }
 
-std::uint32_t Tetrahedrization::find_face(VertexId a, VertexId b, VertexId c) {
-  std::uint32_t found = kNone;
+FaceHandle Tetrahedrization::find_face(VertexId a, VertexId b, VertexId c) {
+  FaceHandle found;
   walk_star(a, [&](TetId t) {
     const int j = index_of(t, b);
     const int k = j < 0 ? -1 : index_of(t, c);
     if (k < 0) return true;
-    found = 4 * t + static_cast<std::uint32_t>(6 - index_of(t, a) - j - k);
+    found = {t, 6 - index_of(t, a) - j - k};
     return is_ghost(t);
   });
   return found;
@@ -278,8 +278,8 @@ void Tetrahedrization::begin_cavity(TetId start) {
 
 void Tetrahedrization::grow_across(TetId t, VertexId v) {
   const PointStore& points = predicates_.points();
-  for (const std::uint32_t across : cell_[t].neighbor) {
-    const VertexId beyond = cell_[across >> 2].vertex[across & 3U];
+  for (const FaceHandle across : cell_[t].neighbor) {
+    const VertexId beyond = opposite(across);
     if (beyond != kInfinite) points.prefetch(beyond);
   }
   for (int i = 0; i < 4; ++i) {
@@ -290,8 +290,8 @@ void Tetrahedrization::grow_across(TetId t, VertexId v) {
         state_[u].mark = epoch_;
         cavity_.push_back(u);
         // Their turn comes when u's does; by then they have arrived from memory.
-        for (const std::uint32_t next : cell_[u].neighbor) {
-          prefetch(next >> 2);
+        for (const FaceHandle next : cell_[u].neighbor) {
+          prefetch(next.tet());
         }
         continue;
       }
@@ -309,7 +309,7 @@ TetId Tetrahedrization::cone(const BoundaryFace& boundary, VertexId v) {
   bool ghost = false;
   for (int i = 0; i < 4; ++i) {
     cell.vertex[i] = i == face ? v : inner.vertex[i];
-    cell.neighbor[i] = kNone;
+    cell.neighbor[i] = {};
     ghost = ghost || cell.vertex[i] == kInfinite;
   }
   if (!ghost) {
@@ -317,10 +317,10 @@ TetId Tetrahedrization::cone(const BoundaryFace& boundary, VertexId v) {
       incident_[cell.vertex[i]] = t;
     }
   }
-  const std::uint32_t own = 4 * t + static_cast<std::uint32_t>(face);
-  const std::uint32_t outside = inner.neighbor[face];
+  const FaceHandle own(t, face);
+  const FaceHandle outside = inner.neighbor[face];
   cell.neighbor[face] = outside;
-  cell_[outside >> 2].neighbor[outside & 3U] = own;
+  cell_[outside.tet()].neighbor[outside.face()] = own;
   // The dead tetrahedron's slot now leads to the new one: glue_around looks it up there.
   inner.neighbor[face] = own;
   return t;
@@ -328,21 +328,21 @@ TetId Tetrahedrization::cone(const BoundaryFace& boundary, VertexId v) {
 
 void Tetrahedrization::glue_around(TetId created, const BoundaryFace& boundary) {
   for (int j = 0; j < 4; ++j) {
-    if (cell_[created].neighbor[j] != kNone) continue;  // done from the other side
+    if (cell_[created].neighbor[j].exists()) continue;  // done from the other side
     // Rotate inside the cavity around the edge that face j of the new tetrahedron shares with the
     // boundary face, until the boundary face on the other side.
     TetId c = boundary.inner;
     int cross = j;
     int stay = boundary.face;
     for (;;) {
-      const std::uint32_t next = cell_[c].neighbor[cross];
-      const TetId u = next >> 2;
+      const FaceHandle next = cell_[c].neighbor[cross];
+      const TetId u = next.tet();
       if (state_[u].mark != epoch_) {
         glue(created, j, u, stay);
         break;
       }
       const VertexId pivot = cell_[c].vertex[stay];
-      stay = static_cast<int>(next & 3U);
+      stay = next.face();
       c = u;
       cross = index_of(c, pivot);
     }

@@ -2,9 +2,9 @@
 // the perturbed insphere, so that it is unique for given points and ids.
 //
 // Convention: tetrahedron t has vertices v0..v3 with orient3d > 0; face i is opposite vertex i; its
-// neighbour is stored as 4 * tet + (the face's index over there). The hull is closed by ghost
-// tetrahedra with one vertex kInfinite. Face i of a positive tetrahedron, listed as in kFace[i], is
-// counter-clockwise seen from outside (its normal points away from vertex i).
+// neighbour is stored as the same face over there. The hull is closed by ghost tetrahedra with one
+// vertex kInfinite. Face i of a positive tetrahedron, listed as in kFace[i], is counter-clockwise
+// seen from outside (its normal points away from vertex i).
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 #include "mesher/base/control.h"
 #include "mesher/base/growing_array.h"
 #include "mesher/base/ids.h"
+#include "mesher/delaunay/face_handle.h"
 #include "mesher/predicates/predicates.h"
 
 namespace delmesher::delaunay {
@@ -38,8 +39,7 @@ class Tetrahedrization {
   // memory. Zero in a slot that is used for the first time, else as its last user left them.
   using Notes = std::array<std::uint8_t, 4>;
 
-  // Faces are numbered in 32 bits, as 4 * tet + face, and kNone is no face.
-  static constexpr std::uint32_t kMostTetrahedra = (1U << 30) - 1;
+  static constexpr std::uint32_t kMostTetrahedra = FaceHandle::kMostTetrahedra;
 
   // Stops at a limit of size, Stopped, when there would be more than `most` tetrahedra, ghosts
   // included.
@@ -73,15 +73,18 @@ class Tetrahedrization {
     __builtin_prefetch(&state_[t]);
   }
   // Neighbour across face i, and the same face's index over there.
-  TetId neighbor(TetId t, int i) const { return cell_[t].neighbor[i] >> 2; }
-  int mirror(TetId t, int i) const { return cell_[t].neighbor[i] & 3; }
+  TetId neighbor(TetId t, int i) const { return cell_[t].neighbor[i].tet(); }
+  int mirror(TetId t, int i) const { return cell_[t].neighbor[i].face(); }
+  // The same face, as the tetrahedron on its other side has it.
+  FaceHandle across(FaceHandle f) const { return cell_[f.tet()].neighbor[f.face()]; }
+  VertexId opposite(FaceHandle f) const { return cell_[f.tet()].vertex[f.face()]; }
   // The faces of t that a finite tetrahedron with a smaller id has, too: bit i for face i, and bit
   // 4 + i if that tetrahedron is also alike.
   template <class Alike>
   std::uint8_t repeated_faces(TetId t, Alike&& alike) const {
     unsigned bits = 0;
     for (unsigned i = 0; i < 4; ++i) {
-      const TetId u = cell_[t].neighbor[i] >> 2;
+      const TetId u = cell_[t].neighbor[i].tet();
       if (u > t || is_ghost(u)) continue;
       bits |= 1U << i;
       if (alike(u)) bits |= 16U << i;
@@ -100,8 +103,8 @@ class Tetrahedrization {
   std::span<const TetId> star(VertexId v);
   // A tetrahedron having edge ab, or kNone.
   TetId find_edge(VertexId a, VertexId b);
-  // A tetrahedron having face abc (not a ghost if possible), as 4 * tet + face, or kNone.
-  std::uint32_t find_face(VertexId a, VertexId b, VertexId c);
+  // Face abc, of a tetrahedron that is no ghost if possible, or none.
+  FaceHandle find_face(VertexId a, VertexId b, VertexId c);
   // Tetrahedra (ghosts included) around edge ab, in rotation order starting at `t`, which has the
   // edge.
   void edge_ring(TetId t, VertexId a, VertexId b, std::vector<TetId>& ring) const;
@@ -179,7 +182,7 @@ class Tetrahedrization {
   // Half a cache line.
   struct alignas(32) Cell {
     VertexId vertex[4] = {kNone, kNone, kNone, kNone};
-    std::uint32_t neighbor[4] = {kNone, kNone, kNone, kNone};  // 4 * tet + face over there
+    FaceHandle neighbor[4];  // the same face over there
   };
   GrowingArray<Cell> cell_;
   static constexpr std::uint32_t kDead = 0xffffffffU;

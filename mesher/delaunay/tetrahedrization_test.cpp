@@ -197,9 +197,18 @@ TEST(Tetrahedrization, FindsVerticesEdgesAndFaces) {
   std::size_t faces = 0;
   for (const auto& t : tets(dt)) {
     for (const auto& face : kFace) {
-      const std::uint32_t found = dt.find_face(t[face[0]], t[face[1]], t[face[2]]);
-      ASSERT_NE(found, kNone);
-      EXPECT_LT(dt.index_of(found >> 2, dt.vertex(found >> 2, static_cast<int>(found & 3U))), 4);
+      const FaceHandle found = dt.find_face(t[face[0]], t[face[1]], t[face[2]]);
+      ASSERT_TRUE(found.exists());
+      for (const FaceHandle f : {found, dt.across(found)}) {
+        std::array<VertexId, 3> corners{}, expected = {t[face[0]], t[face[1]], t[face[2]]};
+        for (int k = 0; k < 3; ++k) corners[k] = dt.vertex(f.tet(), kFace[f.face()][k]);
+        std::ranges::sort(corners);
+        std::ranges::sort(expected);
+        EXPECT_EQ(corners, expected);
+        EXPECT_EQ(dt.opposite(f), dt.vertex(f.tet(), f.face()));
+        EXPECT_EQ(FaceHandle::at(f.index()), f);
+      }
+      EXPECT_EQ(dt.across(dt.across(found)), found);
       ++faces;
     }
     for (const auto& edge : kEdge) {

@@ -114,7 +114,7 @@ TEST(CavityConstraints, WhatTheCavityRemovesIsQueued) {
     }
     for (std::uint32_t s = 0; s < parts.subfacets.size(); ++s) {
       const auto& c = parts.subfacets[s].v;
-      if (parts.dt.find_face(c[0], c[1], c[2]) == kNone) subfacets.push_back(s);
+      if (!parts.dt.find_face(c[0], c[1], c[2]).exists()) subfacets.push_back(s);
     }
     EXPECT_EQ(taken_from(parts.subsegments), subsegments);
     EXPECT_EQ(taken_from(parts.subfacets), subfacets);

@@ -176,18 +176,15 @@ void Subfacets::fill_cavity(VertexId v, std::uint32_t half_a, std::uint32_t half
 // ----------------------------------------------------------------------- in the tetrahedrization
 
 // For a present face only the two opposite vertices matter.
-void Subfacets::settle(std::uint32_t s, std::uint32_t face) {
-  if (face == kNone) {
+void Subfacets::settle(std::uint32_t s, FaceHandle face) {
+  if (!face.exists()) {
     queue(s);
     return;
   }
-  const TetId t[2] = {face >> 2, dt_.neighbor(face >> 2, static_cast<int>(face & 3U))};
-  const int i[2] = {static_cast<int>(face & 3U),
-                    dt_.mirror(face >> 2, static_cast<int>(face & 3U))};
-  for (int k = 0; k < 2; ++k) {
-    on_face_[t[k]][i[k]] = s;
-    note(dt_, t[k], Note::faces) |= static_cast<std::uint8_t>(1U << i[k]);
-    const VertexId v = dt_.vertex(t[k], i[k]);
+  for (const FaceHandle side : {face, dt_.across(face)}) {
+    on_face_[side.tet()][side.face()] = s;
+    note(dt_, side.tet(), Note::faces) |= static_cast<std::uint8_t>(1U << side.face());
+    const VertexId v = dt_.opposite(side);
     if (!gabriel_ || v == kInfinite) continue;
     if (encroached_by(s, v)) queue(s);
   }
@@ -197,13 +194,13 @@ void Subfacets::settle_created() {
   for (const std::uint32_t s : created_) {
     // Every new subfacet has the new vertex first, which all created tetrahedra have too.
     const auto& [v, x, y] = list_[s].v;
-    std::uint32_t face = kNone;
+    FaceHandle face;
     for (const TetId t : dt_.created()) {
       const int i = dt_.index_of(t, x);
       if (i < 0) continue;
       const int j = dt_.index_of(t, y);
       if (j < 0) continue;
-      face = 4 * t + static_cast<std::uint32_t>(6 - i - j - dt_.index_of(t, v));
+      face = {t, 6 - i - j - dt_.index_of(t, v)};
       break;
     }
     settle(s, face);
@@ -292,16 +289,12 @@ void Subfacets::validate_in_facet(std::uint32_t s) const {
 
 void Subfacets::validate_in_mesh(std::uint32_t s) {
   const auto& c = list_[s].v;
-  const std::uint32_t face = dt_.find_face(c[0], c[1], c[2]);
-  DELMESHER_CHECK(face != kNone, "a subfacet is no face");
-  const int i = static_cast<int>(face & 3U);
-  const TetId t[2] = {face >> 2, dt_.neighbor(face >> 2, i)};
-  const int opposite[2] = {i, dt_.mirror(face >> 2, i)};
-  for (int k = 0; k < 2; ++k) {
-    DELMESHER_CHECK(
-        (note(dt_, t[k], Note::faces) >> opposite[k] & 1) != 0 && on_face_[t[k]][opposite[k]] == s,
-        "a tetrahedron does not know of its subfacet");
-    const VertexId v = dt_.vertex(t[k], opposite[k]);
+  const FaceHandle face = dt_.find_face(c[0], c[1], c[2]);
+  DELMESHER_CHECK(face.exists(), "a subfacet is no face");
+  for (const FaceHandle side : {face, dt_.across(face)}) {
+    DELMESHER_CHECK(on_face(side.tet(), side.face()) == s,
+                    "a tetrahedron does not know of its subfacet");
+    const VertexId v = dt_.opposite(side);
     if (!gabriel_ || v == kInfinite) continue;
     DELMESHER_CHECK(!encroached_by(s, v), "a subfacet is encroached");
   }

@@ -100,9 +100,9 @@ class Subfacets {
     const auto& c = list_[s].v;
     return dt_.predicates().in_diametral_ball(c[0], c[1], c[2], v) > 0;
   }
-  // Marks the subfacet on a face of the tetrahedrization, 4 * tet + index. Queues it if it is
-  // missing there (kNone) or, with the Gabriel property, encroached.
-  void settle(std::uint32_t s, std::uint32_t face);
+  // Marks the subfacet on a face of the tetrahedrization. Queues it if it is missing there (no
+  // face) or, with the Gabriel property, encroached.
+  void settle(std::uint32_t s, FaceHandle face);
   // The same for created(), whose faces are among the tetrahedra created last.
   void settle_created();
   // To be called before anything is said of tetrahedra that are new.

@@ -216,7 +216,7 @@ TEST(Subfacets, TheQueueIsServedInItsOrderWithoutTheDead) {
 
 TEST(Subfacets, TheMissingAreQueued) {
   Parts parts;
-  parts.subfacets.settle(3, kNone);
+  parts.subfacets.settle(3, {});
   EXPECT_EQ(taken_from(parts.subfacets), std::vector<std::uint32_t>{3});
 }
 
@@ -287,9 +287,9 @@ TEST(Subfacets, TetrahedraDoNotNameTheDead) {
   const std::uint32_t container = parts.live_in(bottom).front();
   const VertexId v = parts.points.add_explicit(1.25, 0.75, 0);
   const auto& c = parts.subfacets[container].v;
-  const std::uint32_t face = parts.dt.find_face(c[0], c[1], c[2]);
-  const TetId t = face >> 2;
-  const int i = static_cast<int>(face & 3U);
+  const FaceHandle face = parts.dt.find_face(c[0], c[1], c[2]);
+  const TetId t = face.tet();
+  const int i = face.face();
   ASSERT_EQ(parts.subfacets.on_face(t, i), container);
   parts.subfacets.insert(v, parts.subfacets.locate(v, container).subfacet);
   ASSERT_FALSE(parts.subfacets[container].alive);
