@@ -8,7 +8,7 @@ namespace delmesher::refine {
 
 enum class Note : std::uint8_t {
   edges,   // Subsegments: bit e: kEdge[e] is a subsegment
-  faces,   // Subfacets: bit i: face i is a subfacet
+  faces,   // SubfacetMarks: bit i: face i has a mark
   side,    // Sides
   waiting  // BadTetrahedra
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "mesher/base/check.h"
-#include "mesher/refine/subfacets.h"
+#include "mesher/refine/facet_triangulations.h"
 
 namespace delmesher::refine {
 
@@ -17,7 +17,8 @@ bool PlanarCavity::excludes(std::uint32_t s) const {
 
 // The cavity is star-shaped in theory; a point that bends an artificial edge may see a far skin
 // edge from behind: such subfacets are left out.
-void PlanarCavity::find(const Subfacets& all, VertexId v, std::uint32_t start, SubfacetEdge split) {
+void PlanarCavity::find(const FacetTriangulations& all, VertexId v, std::uint32_t start,
+                        SubfacetEdge split) {
   excluded_.clear();
   for (;;) {
     grow(all, v, start, split);
@@ -31,7 +32,8 @@ void PlanarCavity::find(const Subfacets& all, VertexId v, std::uint32_t start, S
   }
 }
 
-void PlanarCavity::grow(const Subfacets& all, VertexId v, std::uint32_t start, SubfacetEdge split) {
+void PlanarCavity::grow(const FacetTriangulations& all, VertexId v, std::uint32_t start,
+                        SubfacetEdge split) {
   subfacets_.assign(1, start);
   skin_.clear();
   for (std::size_t n = 0; n < subfacets_.size(); ++n) {

@@ -12,20 +12,20 @@
 
 namespace delmesher::refine {
 
-class Subfacets;
+class FacetTriangulations;
 
 class PlanarCavity {
  public:
   // `start`: a subfacet that contains v. `split`: the edge of it on which v lies, or none; it is
   // not on the skin.
-  void find(const Subfacets& subfacets, VertexId v, std::uint32_t start, SubfacetEdge split);
+  void find(const FacetTriangulations& all, VertexId v, std::uint32_t start, SubfacetEdge split);
 
   // In the order in which they were met, as the skin is.
   const std::vector<std::uint32_t>& subfacets() const { return subfacets_; }
   const std::vector<SubfacetEdge>& skin() const { return skin_; }
 
  private:
-  void grow(const Subfacets& all, VertexId v, std::uint32_t start, SubfacetEdge split);
+  void grow(const FacetTriangulations& all, VertexId v, std::uint32_t start, SubfacetEdge split);
   bool contains(std::uint32_t s) const;
   bool excludes(std::uint32_t s) const;
 

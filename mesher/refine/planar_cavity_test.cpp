@@ -50,8 +50,8 @@ struct Bottom : Parts {
     }
     EXPECT_EQ(cavity.skin().size(), bounding);
     for (const SubfacetEdge e : cavity.skin()) {
-      const auto [from, to] = subfacets.ends(e);
-      EXPECT_GT(subfacets.orient(facet, from, to, v), 0);
+      const auto [from, to] = planar.ends(e);
+      EXPECT_GT(planar.orient(facet, from, to, v), 0);
     }
   }
 };
@@ -65,11 +65,11 @@ TEST(PlanarCavity, AllCirclesAroundAPointInTheFacet) {
     const VertexId v = bottom.points.add_explicit(x, y, 0);
     std::set<std::uint32_t> expected;
     for (const std::uint32_t s : bottom.live_in(bottom.facet)) {
-      if (bottom.subfacets.in_circle(s, v)) expected.insert(s);
+      if (bottom.planar.in_circle(s, v)) expected.insert(s);
     }
     const std::uint32_t start =
-        bottom.subfacets.locate(v, bottom.live_in(bottom.facet).front()).subfacet;
-    bottom.cavity.find(bottom.subfacets, v, start, {});
+        bottom.planar.locate(v, bottom.live_in(bottom.facet).front()).subfacet;
+    bottom.cavity.find(bottom.planar, v, start, {});
     bottom.expect_laws(v, start, {});
     const auto& found = bottom.cavity.subfacets();
     EXPECT_EQ(std::set(found.begin(), found.end()), expected);
@@ -85,7 +85,7 @@ TEST(PlanarCavity, AnEdgeThatIsSplitIsNotOnTheSkin) {
   const VertexId v = bottom.points.add_explicit(1.5, 2, 0);
   for (const SubfacetEdge side : bottom.subsegments[s].side) {
     if (bottom.subfacets[side.subfacet()].facet != bottom.facet) continue;
-    bottom.cavity.find(bottom.subfacets, v, side.subfacet(), side);
+    bottom.cavity.find(bottom.planar, v, side.subfacet(), side);
     bottom.expect_laws(v, side.subfacet(), side);
     return;
   }
@@ -116,14 +116,14 @@ TEST(PlanarCavity, APointThatSeesItsSkinFromBehindIsRefused) {
   const SubfacetEdge bent = beside(0.75, 1.5);
   const std::uint32_t obtuse = beside(1.5, 3).subfacet();
   const VertexId v = bottom.points.add_explicit(1.4375, -0.1875, 0);
-  ASSERT_TRUE(bottom.subfacets.in_circle(obtuse, v));
+  ASSERT_TRUE(bottom.planar.in_circle(obtuse, v));
   ASSERT_TRUE(std::ranges::any_of(bottom.subfacets[obtuse].neighbor, [&](SubfacetEdge e) {
     return e.exists() && e.subfacet() == bent.subfacet();
   }));
-  EXPECT_THROW(bottom.cavity.find(bottom.subfacets, v, bent.subfacet(), bent), InternalError);
+  EXPECT_THROW(bottom.cavity.find(bottom.planar, v, bent.subfacet(), bent), InternalError);
   // Nearer to the middle of its part it sees everything.
   const VertexId w = bottom.points.add_explicit(1.125, -0.0625, 0);
-  bottom.cavity.find(bottom.subfacets, w, bent.subfacet(), bent);
+  bottom.cavity.find(bottom.planar, w, bent.subfacet(), bent);
   bottom.expect_laws(w, bent.subfacet(), bent);
 }
 

@@ -129,7 +129,7 @@ RefineResult Refiner::result() {
     r.repeated_faces.push_back(
         dt_.repeated_faces(t, [&](TetId u) { return sides_.known_inside(u) == inside; }));
   }
-  for (const Subfacets::Subfacet& f : subfacets_) {
+  for (const Subfacet& f : subfacets_.planar()) {
     if (f.alive) r.faces.push_back({f.v, f.facet});
   }
   for (std::uint32_t n = 0; n < plc_.segments.size(); ++n) {

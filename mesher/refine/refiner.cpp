@@ -66,8 +66,7 @@ bool Refiner::find_free_cavity(VertexId v, TetId start, bool spare_subfacets) {
 void Refiner::commit(VertexId v) {
   const Sides::State side = sides_.common_of_cavity();
   dt_.fill_cavity(v);
-  subfacets_.make_room();
-  subfacets_.forget_created();
+  subfacets_.begin_insertion();
   const auto created = dt_.created();
   const auto boundary = dt_.cavity_boundary();
   for (std::size_t n = 0; n < created.size(); ++n) {
@@ -112,7 +111,7 @@ void Refiner::split_subsegment(std::uint32_t s) {
   const SubfacetEdge sides[2] = {subsegments_[s].side[0], subsegments_[s].side[1]};
   const std::uint32_t half = subsegments_.split(s, v);
   for (const SubfacetEdge side : sides) {
-    if (side.exists()) subfacets_.insert_on_edge(v, side, s, half);
+    if (side.exists()) subfacets_.planar().insert_on_edge(v, side, s, half);
   }
   subsegments_.settle(s, created_with(a));
   subsegments_.settle(half, created_with(b));
@@ -122,7 +121,7 @@ void Refiner::split_subsegment(std::uint32_t s) {
 void Refiner::split_subfacet(std::uint32_t s) {
   const std::uint32_t facet = subfacets_[s].facet;
   const VertexId v = steiner_.in_facet(facet, subfacets_[s].v);
-  const auto [container, blocked] = subfacets_.locate(v, s);
+  const auto [container, blocked] = subfacets_.planar().locate(v, s);
   if (container == kNone) {
     // Only possible while a subsegment of the facet is encroached or bent: it goes first.
     points_.pop_back();
@@ -142,7 +141,7 @@ void Refiner::split_subfacet(std::uint32_t s) {
   result_.on_facet[facet].push_back(v);
   if (options_.gabriel) constraints_.queue_encroached_subfacets(v, {});
   commit(v);
-  subfacets_.insert(v, container);
+  subfacets_.planar().insert(v, container);
   after_insertion();
 }
 
@@ -211,8 +210,9 @@ void Refiner::validate_links() const {
                           subfacets_[side.subfacet()].subsegment[side.edge()] == s,
                       "a subsegment and the subfacet beside it disagree");
     }
-    DELMESHER_CHECK(!subfacets_.built() || sides == segment_facets_.count(subsegments_[s].segment),
-                    "a subsegment lacks a subfacet beside it");
+    DELMESHER_CHECK(
+        !subfacets_.planar().built() || sides == segment_facets_.count(subsegments_[s].segment),
+        "a subsegment lacks a subfacet beside it");
   }
   for (std::uint32_t f = 0; f < subfacets_.size(); ++f) {
     if (!subfacets_[f].alive) continue;
@@ -220,7 +220,7 @@ void Refiner::validate_links() const {
       const std::uint32_t s = subfacets_[f].subsegment[i];
       if (s == kNone) continue;
       const auto& side = subsegments_[s].side;
-      const auto [x, y] = subfacets_.ends({f, i});
+      const auto [x, y] = subfacets_.planar().ends({f, i});
       DELMESHER_CHECK(subsegments_.find(x, y) == s &&
                           (side[0] == SubfacetEdge(f, i) || side[1] == SubfacetEdge(f, i)),
                       "a subfacet and its subsegment disagree");

@@ -6,7 +6,8 @@
 //
 //   SteinerPoints      where new points go
 //   Subsegments        the parts of segments, with the queue of parts to split
-//   Subfacets          the planar triangulations of facets, with the queue of subfacets to split
+//   Subfacets          the planar triangulations of facets, the faces that they are, with the
+//                      queue of subfacets to split
 //   CavityConstraints  the subsegments and subfacets near a new point
 //   Sides              which tetrahedra are inside
 //   BadTetrahedra      the tetrahedra to split, as a Goal judges them

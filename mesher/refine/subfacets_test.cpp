@@ -17,43 +17,26 @@ struct SubfacetsBreaker {
 
   std::uint32_t live() const {
     std::uint32_t s = 0;
-    while (!part.list_[s].alive) ++s;
+    while (!part[s].alive) ++s;
     return s;
   }
-  // One with an edge that is no subsegment.
-  SubfacetEdge inner() const {
-    SubfacetEdge e(live(), 0);
-    while (!part.list_[e.subfacet()].neighbor[e.edge()].exists()) e = {e.subfacet(), e.edge() + 1};
-    return e;
+  // A face of the tetrahedrization that is the subfacet.
+  FaceHandle face() const {
+    const auto& v = part[live()].v;
+    return parts.dt.find_face(v[0], v[1], v[2]);
   }
-  TetId marked() const {
-    TetId t = 0;
-    while (!parts.dt.alive(t) || !part.any_on(t)) ++t;
-    return t;
-  }
-  void turn() const { std::swap(part.list_[live()].v[0], part.list_[live()].v[1]); }
-  void unlink() const { part.list_[inner().subfacet()].neighbor[inner().edge()] = {}; }
-  void link_to_no_edge() const {
-    part.list_[inner().subfacet()].neighbor[inner().edge()] = {part.size(), 0};
-  }
-  void link_to_itself() const { part.list_[inner().subfacet()].neighbor[inner().edge()] = inner(); }
-  // Seen from below, circles have their inside outside.
-  void look_from_below() const {
-    const std::uint32_t f = part.list_[inner().subfacet()].facet;
-    const auto& frame = parts.plc().facets[f].frame;
-    for (const VertexId v : parts.all_vertices()) {
-      if (parts.predicates.orient3d(frame[0], frame[1], frame[2], v) < 0)
-        part.planes_[f].off_plane = v;
+  void forget_face() const { note(parts.dt, face().tet(), Note::faces) = 0; }
+  void misname_face() const { part.marks_.set(face(), live() + 1); }
+  void keep_a_mark_on_one_side() const { part.marks_.set(unmarked(), 0); }
+  void name_no_subfacet() const {
+    for (const FaceHandle side : {unmarked(), parts.dt.across(unmarked())}) {
+      part.marks_.set(side, part.size());
     }
   }
-  void kill() const {
-    part.list_[live()].alive = false;
-    ++part.dead_;
-  }
-  void kill_uncounted() const { part.list_[live()].alive = false; }
-  void forget_face() const { note(parts.dt, marked(), Note::faces) = 0; }
-  void misname_face() const {
-    for (std::uint32_t& s : part.on_face_[marked()]) ++s;
+  FaceHandle unmarked() const {
+    TetId t = 0;
+    while (!parts.dt.alive(t) || part.marks_.of(t, 0) != kNone) ++t;
+    return {t, 0};
   }
   void claim_to_wait() const { WorkQueueBreaker{part.queue_}.claim_to_wait(live()); }
   void wait_unknown() const { part.queue_.add(part.size()); }
@@ -61,46 +44,6 @@ struct SubfacetsBreaker {
 };
 
 namespace {
-
-// Brute force: the subfacets of each facet are the Delaunay triangulation of its vertices.
-void expect_delaunay(const Parts& parts) {
-  for (std::uint32_t f = 0; f < parts.plc().facets.size(); ++f) {
-    std::vector<VertexId> vertices;
-    for (const std::uint32_t s : parts.live_in(f)) {
-      for (const VertexId v : parts.subfacets[s].v) vertices.push_back(v);
-    }
-    for (const std::uint32_t s : parts.live_in(f)) {
-      const auto& [a, b, c] = parts.subfacets[s].v;
-      EXPECT_GT(parts.subfacets.orient(f, a, b, c), 0);
-      for (const VertexId v : vertices) {
-        EXPECT_TRUE(v == a || v == b || v == c || !parts.subfacets.in_circle(s, v));
-      }
-    }
-  }
-}
-
-// The area within the boundary as it is given by the complex.
-void expect_tiling(const Parts& parts) {
-  for (std::uint32_t f = 0; f < parts.plc().facets.size(); ++f) {
-    Vec3 expected{}, sum{};
-    double total = 0;
-    const PlcFacet& facet = parts.plc().facets[f];
-    for (const PlcFacet::Side& side : facet.boundary) {
-      auto [a, b] = parts.plc().segments[side.segment].vertex;
-      if (side.reversed) std::swap(a, b);
-      const Vec3 part = parts.area(facet.frame[0], a, b);
-      for (int k = 0; k < 3; ++k) expected[k] += part[k];
-    }
-    for (const std::uint32_t s : parts.live_in(f)) {
-      const auto& [a, b, c] = parts.subfacets[s].v;
-      const Vec3 part = parts.area(a, b, c);
-      for (int k = 0; k < 3; ++k) sum[k] += part[k];
-      total += norm(part);
-    }
-    EXPECT_LT(distance(sum, expected), 1e-12 * norm(expected));
-    EXPECT_NEAR(total, norm(expected), 1e-12 * total);  // none upside down, none twice
-  }
-}
 
 // Brute force over all faces of all tetrahedra.
 void expect_known_by_tetrahedra(const Parts& parts) {
@@ -127,73 +70,22 @@ void expect_known_by_tetrahedra(const Parts& parts) {
 
 constexpr std::array<Vec3, 3> kBottom = {{{0, 0, 0}, {3, 0, 0}, {3, 2, 0}}};
 
-TEST(Subfacets, FacetsAreTriangulated) {
-  for (const Surface& surface : {box(), ell(), wedge(), tent()}) {
-    const Parts parts(false, surface);
-    ASSERT_TRUE(parts.subfacets.built());
-    expect_tiling(parts);
-    expect_delaunay(parts);
-  }
+TEST(Subfacets, TetrahedraKnowThemAfterEveryInsertion) {
   Parts parts;
   EXPECT_EQ(parts.subfacets.size(), 24U);
   ASSERT_TRUE(parts.subfacets.queue_empty());
   expect_known_by_tetrahedra(parts);
   EXPECT_EQ(complaint_of(parts.subfacets, parts.control), "nothing");
-}
-
-TEST(Subfacets, PointsAreLocatedFromAnywhereInTheirFacet) {
-  Parts parts;
-  parts.insert_some();
   const std::uint32_t bottom = parts.facet_through(kBottom);
-  const Subfacets& part = parts.subfacets;
-  const std::vector<std::uint32_t> live = parts.live_in(bottom);
-  ASSERT_GT(live.size(), 6U);
-  for (const std::uint32_t start : live) {
-    for (const auto& [x, y] :
-         {std::array{0.25, 1.875}, std::array{2.75, 0.125}, std::array{1.5, 1.0}}) {
-      const VertexId v = parts.points.add_explicit(x, y, 0);
-      const auto [s, blocked] = part.locate(v, start);
-      ASSERT_NE(s, kNone);
-      EXPECT_EQ(blocked, kNone);
-      EXPECT_EQ(part[s].facet, bottom);
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const auto [from, to] = part.ends({s, i});
-        EXPECT_GE(part.orient(bottom, from, to, v), 0);
-      }
-    }
-    // Beyond a side, seen through one of its subsegments, with the point on their other side.
-    const VertexId outside = parts.points.add_explicit(1.375, -0.25, 0);
-    const auto [s, blocked] = part.locate(outside, start);
-    EXPECT_EQ(s, kNone);
-    ASSERT_NE(blocked, kNone);
-    EXPECT_EQ(parts.subsegments[blocked].segment, parts.segment(0, 1));
-  }
-}
-
-TEST(Subfacets, PointsAreInsertedInTheirFacetAndOnItsSides) {
-  Parts parts;
-  const std::uint32_t bottom = parts.facet_through(kBottom);
-  const VertexId v = parts.insert_in_facet(bottom, {1.25, 0.75, 0});
-  EXPECT_EQ(parts.subfacets.created().size(), 4U);
-  for (const std::uint32_t s : parts.subfacets.created()) EXPECT_EQ(parts.subfacets[s].v[0], v);
-  EXPECT_EQ(parts.live_in(bottom).size(), 4U);
+  parts.insert_in_facet(bottom, {1.25, 0.75, 0});
+  expect_known_by_tetrahedra(parts);
   const std::uint32_t half = parts.split(parts.segment(0, 1));
-  EXPECT_EQ(parts.live_in(bottom).size(), 5U);
-  for (const std::uint32_t s : {parts.segment(0, 1), half}) {
-    for (const SubfacetEdge side : parts.subsegments[s].side) {
-      ASSERT_TRUE(side.exists());
-      EXPECT_EQ(parts.subfacets[side.subfacet()].subsegment[side.edge()], s);
-      EXPECT_EQ(
-          parts.subsegments.find(parts.subfacets.ends(side)[0], parts.subfacets.ends(side)[1]), s);
-    }
-  }
+  expect_known_by_tetrahedra(parts);
   parts.insert_in_facet(bottom, {0.125, 1.875, 0});
   parts.split(half);
   parts.split(parts.segment(2, 3));
   parts.insert_in_facet(bottom, {2.875, 0.25, 0});
   ASSERT_TRUE(parts.subfacets.queue_empty());
-  expect_tiling(parts);
-  expect_delaunay(parts);
   expect_known_by_tetrahedra(parts);
   EXPECT_EQ(complaint_of(parts.subfacets, parts.control), "nothing");
 }
@@ -256,14 +148,14 @@ TEST(Subfacets, RenumberingKeepsOrderAndInvariants) {
   parts.insert_some();
   Subfacets& part = parts.subfacets;
   std::vector<std::array<VertexId, 3>> before, after;
-  for (const Subfacets::Subfacet& f : part) {
+  for (const Subfacet& f : part.planar()) {
     if (f.alive) before.push_back(f.v);
   }
   ASSERT_LT(before.size(), part.size());
   part.queue(part.size() - 1);
   const auto queued = part[part.size() - 1].v;
   SubfacetsBreaker{parts}.renumber();
-  for (const Subfacets::Subfacet& f : part) {
+  for (const Subfacet& f : part.planar()) {
     EXPECT_TRUE(f.alive);
     after.push_back(f.v);
   }
@@ -291,7 +183,7 @@ TEST(Subfacets, TetrahedraDoNotNameTheDead) {
   const TetId t = face.tet();
   const int i = face.face();
   ASSERT_EQ(parts.subfacets.on_face(t, i), container);
-  parts.subfacets.insert(v, parts.subfacets.locate(v, container).subfacet);
+  parts.planar.insert(v, parts.planar.locate(v, container).subfacet);
   ASSERT_FALSE(parts.subfacets[container].alive);
   EXPECT_EQ(parts.subfacets.on_face(t, i), kNone);
   SubfacetsBreaker{parts}.renumber();
@@ -315,22 +207,17 @@ TEST(Subfacets, TheyAreRenumberedOnlyWhereManyAreDead) {
   }
   EXPECT_GT(most - parts.subfacets.size(), 4000U);
   EXPECT_LT(parts.subfacets.size(), most / 2);
-  EXPECT_TRUE(std::ranges::all_of(parts.subfacets, [](const auto& f) { return f.alive; }));
+  EXPECT_TRUE(std::ranges::all_of(parts.planar, [](const auto& f) { return f.alive; }));
   EXPECT_EQ(complaint_of(parts.subfacets, parts.control), "nothing");
 }
 
 TEST(Subfacets, ValidateReportsEveryBrokenInvariant) {
   using Breaker = SubfacetsBreaker;
   const std::pair<void (Breaker::*)() const, const char*> cases[] = {
-      {&Breaker::turn, "turned over"},
-      {&Breaker::unlink, "has no other side"},
-      {&Breaker::link_to_no_edge, "no such neighbour"},
-      {&Breaker::link_to_itself, "disagree about their common edge"},
-      {&Breaker::look_from_below, "not Delaunay"},
-      {&Breaker::kill, "disagree about their common edge"},
-      {&Breaker::kill_uncounted, "are not counted"},
       {&Breaker::forget_face, "does not know of its subfacet"},
       {&Breaker::misname_face, "does not know of its subfacet"},
+      {&Breaker::keep_a_mark_on_one_side, "have different marks"},
+      {&Breaker::name_no_subfacet, "is marked as no subfacet"},
       {&Breaker::claim_to_wait, "waits in no queue"},
       {&Breaker::wait_unknown, "is not queued"},
       {&Breaker::ask_for_empty_balls, "is encroached"},

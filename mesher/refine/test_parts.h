@@ -35,6 +35,7 @@ struct Parts : Complex {
   Tetrahedrization dt{predicates};
   Subsegments subsegments;
   Subfacets subfacets;
+  FacetTriangulations& planar = subfacets.planar();
   CavityConstraints constraints{dt, subsegments, subfacets};
 
   explicit Parts(bool gabriel = false, const Surface& surface = box())
@@ -62,8 +63,7 @@ struct Parts : Complex {
   }
   void fill_cavity(VertexId v) {
     dt.fill_cavity(v);
-    subfacets.make_room();
-    subfacets.forget_created();
+    subfacets.begin_insertion();
     for (std::size_t n = 0; n < dt.created().size(); ++n) {
       const auto [inner, face] = dt.cavity_boundary()[n];
       subsegments.inherit(dt.created()[n], inner, face);
@@ -83,7 +83,7 @@ struct Parts : Complex {
     const VertexId v = points.add_explicit(p[0], p[1], p[2]);
     find_cavity(v);
     fill_cavity(v);
-    subfacets.insert(v, subfacets.locate(v, live_in(facet).front()).subfacet);
+    planar.insert(v, planar.locate(v, live_in(facet).front()).subfacet);
     subfacets.settle_created();
     constraints.requeue_lost();
     return v;
@@ -97,7 +97,7 @@ struct Parts : Complex {
     find_cavity(v);
     fill_cavity(v);
     const std::uint32_t half = subsegments.split(s, v);
-    for (const SubfacetEdge side : sides) subfacets.insert_on_edge(v, side, s, half);
+    for (const SubfacetEdge side : sides) planar.insert_on_edge(v, side, s, half);
     subsegments.settle(s, dt.find_edge(a, v));
     subsegments.settle(half, dt.find_edge(v, b));
     subfacets.settle_created();
