@@ -1,0 +1,52 @@
+// The subsegments that are to be recovered: a queue of those that may be no edges of the
+// tetrahedrization, and the lookup of all by their ends.
+//
+// Invariant at any time: only subsegments are in the queue. One that waits may be an edge all the
+// same, and may wait twice.
+// Invariants between two steps, a step being a split whose point has been inserted:
+//  - every subsegment that is no edge of the tetrahedrization waits;
+//  - once one has been missing, every subsegment is found by its ends. What else is found has been
+//    split.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "mesher/base/flat_map.h"
+#include "mesher/cdt/chains.h"
+
+namespace delmesher::cdt {
+
+class MissingSubsegments {
+ public:
+  MissingSubsegments(Tetrahedrization& mesh, const Chains& chains) : mesh_(mesh), chains_(chains) {}
+
+  // Queues all missing subsegments of the chains, in their order.
+  void find_all(Control& control);
+
+  bool empty() const { return queue_.empty(); }
+  // Takes the first one out of the queue, which must not be empty: the node that names it.
+  std::uint32_t take();
+
+  // When a vertex has been put between two subsegments that were one, and into the
+  // tetrahedrization: queues both of them, and those that the insertion has destroyed.
+  void follow_split(std::uint32_t first, std::uint32_t second);
+
+  // Throws InternalError at the first broken invariant. Looks every subsegment up in the mesh.
+  void validate() const;
+
+ private:
+  friend struct MissingSubsegmentsBreaker;  // of the tests of validate()
+
+  void remember(std::uint32_t n);
+  void queue_destroyed(VertexId v);
+
+  Tetrahedrization& mesh_;
+  const Chains& chains_;
+  FlatMap by_ends_;                  // end vertices -> node; empty as long as none was missing
+  std::deque<std::uint32_t> queue_;  // nodes
+  std::vector<std::uint64_t> kept_;  // scratch
+};
+
+}  // namespace delmesher::cdt
