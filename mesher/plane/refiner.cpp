@@ -105,8 +105,7 @@ Refiner::Encroached Refiner::find_encroached(VertexId p, const Triangulation::Si
   mesh_.find_cavity(p, sight.location.triangle, kNone);
   encroached.cavity_found = true;
   for (const auto& edge : mesh_.boundary()) {
-    if (edge.piece != kNone && sides_.counts(edge.inner) &&
-        predicates_.dot(edge.from, p, edge.to) < 0) {
+    if (edge.piece != kNone && subsegments_.encroached_by(p, edge.from, edge.to, edge.inner)) {
       // For the sides of the box, any edge will do: they are looked up.
       const EdgeId inner = edge.outer != kNone ? mesh_.twin(edge.outer) : 0;
       encroached.upon.push_back({edge.from, edge.to, inner});

@@ -13,8 +13,7 @@ EdgeId Subsegments::find(const Subsegment& s) const {
 }
 
 bool Subsegments::encroached_from(EdgeId e) {
-  if (!sides_.counts(triangle_of(e))) return false;
-  return predicates_.dot(mesh_.origin(e), mesh_.opposite(e), mesh_.target(e)) < 0;
+  return encroached_by(mesh_.opposite(e), mesh_.origin(e), mesh_.target(e), triangle_of(e));
 }
 
 bool Subsegments::encroached(EdgeId e) {

@@ -29,6 +29,12 @@ class Subsegments {
   // The edge of a subsegment, or kNone if it is no more.
   EdgeId find(const Subsegment& s) const;
 
+  // Is p in the open disc of which ab is a diameter, and does the triangle beside ab on the side of
+  // p count? p is to be none of the ends.
+  bool encroached_by(VertexId p, VertexId a, VertexId b, TriangleId beside) {
+    return sides_.counts(beside) && predicates_.dot(a, p, b) < 0;
+  }
+
   // Queues all subsegments that are encroached.
   void queue_all();
   // Queues the subsegments that are encroached by the new triangles: the parts of a subsegment that
@@ -47,7 +53,7 @@ class Subsegments {
   friend struct SubsegmentsBreaker;  // of the tests of validate()
 
   bool encroached(EdgeId e);
-  bool encroached_from(EdgeId e);  // by the triangle on the left
+  bool encroached_from(EdgeId e);  // by the corner opposite, in the triangle on the left
   void queue_if_encroached_from(EdgeId e);
 
   const Triangulation& mesh_;
