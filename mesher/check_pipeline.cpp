@@ -4,10 +4,9 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/delmesher.h"
 #include "mesher/policies/fallback.h"
-#include "mesher/policies/planar_bound.h"
+#include "mesher/policies/planes.h"
+#include "mesher/run/session.h"
 #include "mesher/surface/feature_size.h"
-#include "mesher/surface/planar_groups.h"
-#include "mesher/surface/topology.h"
 #include "mesher/surface/validity.h"
 
 namespace delmesher {
@@ -26,17 +25,15 @@ SurfaceReport check_surface(const Surface& surface, const Options& options) {
     ValidityResult validity = check_validity(surface, false, control);
     report = std::move(validity.report);
     if (!report.status.ok()) return report.status;
-    PointStore points;
-    Predicates predicates(points);
-    const Surface outwards = oriented_outwards(surface, validity);
-    report.planar_bound = planar_bound(outwards, options, report.bbox_diagonal);
-    const StandIn stand_in = find_stand_in(outwards, report.planar_bound, control);
-    const SurfaceTopology topology = build_topology(outwards, points, predicates, stand_in);
-    report.planar_facets = topology.facet_triangles.size();
+    Session s(options, control);
+    s.diagonal = report.bbox_diagonal;
+    const auto [stand_in, bound] = enter_surface(surface, validity, Planes::to_the_end, s);
+    report.planar_bound = bound;
+    report.planar_facets = s.topology.facet_triangles.size();
     report.facets = stand_in.planes.empty() ? report.planar_facets : stand_in.given_facets;
-    report.smallest_local_feature_size = smallest_local_feature_size(topology, points, control);
+    report.smallest_local_feature_size = smallest_local_feature_size(s.topology, s.points, control);
     const chamfer::AcuteCount acute =
-        chamfer::count_acute(topology, points, predicates, chamfer_options(options), control);
+        chamfer::count_acute(s.topology, s.points, s.predicates, chamfer_options(options), control);
     report.acute_vertices = acute.vertices;
     report.acute_edges = acute.edges;
     return {};

@@ -17,7 +17,7 @@
 #include "mesher/policies/fallback.h"
 #include "mesher/policies/finer_planes.h"
 #include "mesher/policies/plain.h"
-#include "mesher/policies/planar_bound.h"
+#include "mesher/policies/planes.h"
 #include "mesher/policies/thinned_rounding.h"
 #include "mesher/refine/refine.h"
 #include "mesher/results/improvement.h"
@@ -46,10 +46,6 @@ Phase phase_of(cdt::CdtStep step) {
   return kPhase[static_cast<std::size_t>(step)];
 }
 
-// Are near-coplanar triangles in one plane: never, only until the refined mesh is put back onto the
-// surface as given, or to the end?
-enum class Planes { none, while_refined, to_the_end };
-
 // The surface as all stages see it: valid, oriented outwards and, if it is to be refined, with
 // near-coplanar triangles in exactly one plane.
 Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& recorder) {
@@ -58,16 +54,8 @@ Status prepare(const Surface& surface, Planes planes, Session& s, Recorder& reco
   if (!validity.report.status.ok()) return validity.report.status;
   recorder.checked(validity.report);
   s.diagonal = validity.report.bbox_diagonal;
-  const Surface outwards = oriented_outwards(surface, validity);
-  Options options = s.options;
-  if (planes == Planes::while_refined) options.planar = kPlanarAuto;
-  const double bound = planes == Planes::none ? 0 : planar_bound(outwards, options, s.diagonal);
-  const StandIn stand_in =
-      find_stand_in(outwards, bound, s.control,
-                    planes == Planes::while_refined ? Retriangulate::no : Retriangulate::yes);
-  if (!stand_in.planes.empty()) s.given = outwards.vertices;
-  s.topology = build_topology(outwards, s.points, s.predicates, stand_in);
-  recorder.planar(stand_in, bound, validity);
+  const PlanarSurface planar = enter_surface(surface, validity, planes, s);
+  recorder.planar(planar.stand_in, planar.bound, validity);
   return {};
 }
 
