@@ -182,17 +182,40 @@ class ChamferCuts {
     bool used = false;
   };
   using Links = std::map<std::pair<Index, Index>, Link>;  // facet, from
+  struct Walk {                                           // around one boundary of a facet
+    Index facet;
+    std::size_t first;  // side
+    Index begin, at;    // points of the complex
+  };
 
   void collect_faces();
   void collect_chains();
   void collect_sides();
   void check_facet(Index f);
   bool walk(Index f, std::size_t first);
+  Index step(Index f, Index at);
+  Index start_of_strip(Index f, std::size_t s) const;
+  bool pass_side(Walk& walk, std::size_t s);
+  bool pass_corner(Walk& walk, std::size_t s);
+  bool is_behind_corner(const Walk& walk, std::size_t s) const;
+  // The chain of the edge that a side lies on; empty if the edge was cut off.
+  const std::vector<Index>& chain_of(std::size_t s) const { return on_edge_[sides_[s].edge]; }
+  bool is_along(std::size_t s) const {
+    return surface_.edges()[sides_[s].edge].from == sides_[s].from;
+  }
+  Index start(std::size_t s) const {
+    return is_along(s) ? chain_of(s).front() : chain_of(s).back();
+  }
+  Index end(std::size_t s) const { return is_along(s) ? chain_of(s).back() : chain_of(s).front(); }
   void add(const std::vector<Index>& chain, bool reversed);
   bool accounts_for(Index f);
   AreaSum area(Index f, std::span<const std::uint64_t> edges) const;
   void fail(Index f, const std::string& what) {
     report_.fail("facet " + std::to_string(surface_.facets()[f].id) + ": " + what);
+  }
+  bool refuse(Index f, const std::string& what) {
+    fail(f, what);
+    return false;
   }
   Index made_for(Index v) const {
     const auto found = made_for_.find(v);
@@ -353,84 +376,83 @@ void ChamferCuts::check_facet(Index f) {
   if (!accounts_for(f)) fail(f, "the cuts do not account for what is missing");
 }
 
+// Over one artificial segment; kNone if there is none that has not been passed.
+Index ChamferCuts::step(Index f, Index at) {
+  const auto link = links_.find({f, at});
+  if (link == links_.end() || link->second.used) return kNone;
+  link->second.used = true;
+  add(*link->second.vertices, link->second.reversed);
+  return link->second.to;
+}
+
+// Where the strip beside a side whose edge was cut off begins: at a point made for its tail. kNone
+// if there is no strip.
+Index ChamferCuts::start_of_strip(Index f, std::size_t s) const {
+  Index start = kNone;
+  for (auto link = links_.lower_bound({f, 0}); link != links_.end() && link->first.first == f;
+       ++link) {
+    if (!link->second.used && made_for(link->first.second) == sides_[s].from &&
+        made_for(link->second.to) == sides_[s].to) {
+      start = link->first.second;
+    }
+  }
+  return start;
+}
+
+// Over what is left of a side: its chain, or the strip beside it.
+bool ChamferCuts::pass_side(Walk& walk, std::size_t s) {
+  if (!chain_of(s).empty()) {
+    add(chain_of(s), !is_along(s));
+    walk.at = end(s);
+    return true;
+  }
+  ++strips_;
+  walk.at = step(walk.facet, walk.at);
+  if (walk.at != kNone && made_for(walk.at) == sides_[s].to) return true;
+  return refuse(walk.facet, "no cut leads along the acute edge to " + corner_name(sides_[s].to));
+}
+
+// From the end of a side to the beginning of the next one: nowhere, or around the chamfered corner
+// between them.
+bool ChamferCuts::pass_corner(Walk& walk, std::size_t s) {
+  const Index corner = sides_[s].to;
+  if (!corners_.contains(corner)) {
+    const std::size_t next = sides_[s].next;
+    const bool joined = !chain_of(next).empty() && walk.at == corner && start(next) == corner;
+    return joined || refuse(walk.facet, corner_name(corner) + " was cut off and is not chamfered");
+  }
+  ++detours_;
+  while (!is_behind_corner(walk, s)) {
+    walk.at = step(walk.facet, walk.at);
+    if (walk.at == kNone || made_for(walk.at) != corner) {
+      return refuse(walk.facet, "no cut leads around " + corner_name(corner));
+    }
+  }
+  return true;
+}
+
+// Has the detour around the corner behind a side come to where the next side begins?
+bool ChamferCuts::is_behind_corner(const Walk& walk, std::size_t s) const {
+  const std::size_t next = sides_[s].next;
+  if (next == walk.first) return walk.at == walk.begin;
+  if (!chain_of(next).empty()) return walk.at == start(next);
+  const auto link = links_.find({walk.facet, walk.at});
+  return link != links_.end() && made_for(link->second.to) == sides_[next].to &&
+         sides_[next].to != sides_[s].to;
+}
+
 // Follows the boundary from a side, over all sides after it, back to it.
 bool ChamferCuts::walk(Index f, std::size_t first) {
-  const auto chain_of = [&](std::size_t s) -> const std::vector<Index>& {
-    return on_edge_[sides_[s].edge];
-  };
-  const auto along = [&](std::size_t s) {
-    return surface_.edges()[sides_[s].edge].from == sides_[s].from;
-  };
-  const auto start = [&](std::size_t s) {
-    return along(s) ? chain_of(s).front() : chain_of(s).back();
-  };
-  const auto end = [&](std::size_t s) {
-    return along(s) ? chain_of(s).back() : chain_of(s).front();
-  };
-  const auto refuse = [&](const std::string& what) {
-    fail(f, what);
-    return false;
-  };
-  // Over one artificial segment; kNone if there is none that has not been passed.
-  const auto step = [&](Index at) {
-    const auto link = links_.find({f, at});
-    if (link == links_.end() || link->second.used) return kNone;
-    link->second.used = true;
-    add(*link->second.vertices, link->second.reversed);
-    return link->second.to;
-  };
-  std::size_t s = first;
-  Index begin = kNone, at = kNone;
-  if (!chain_of(s).empty()) {
-    begin = start(s);
-  } else {
-    // The strip beside the edge begins at a point made for its tail.
-    for (auto link = links_.lower_bound({f, 0}); link != links_.end() && link->first.first == f;
-         ++link) {
-      if (!link->second.used && made_for(link->first.second) == sides_[s].from &&
-          made_for(link->second.to) == sides_[s].to) {
-        begin = link->first.second;
-      }
-    }
-    if (begin == kNone) return refuse("nothing is left beside " + corner_name(sides_[s].from));
+  const Index begin = chain_of(first).empty() ? start_of_strip(f, first) : start(first);
+  if (begin == kNone) {
+    return refuse(f, "nothing is left beside " + corner_name(sides_[first].from));
   }
+  Walk walk{f, first, begin, begin};
+  std::size_t s = first;
   do {
-    if (passed_[s]++ != 0) return refuse("its boundary is followed twice");
-    if (!chain_of(s).empty()) {
-      add(chain_of(s), !along(s));
-      at = end(s);
-    } else {
-      ++strips_;
-      if (at == kNone) at = begin;
-      at = step(at);
-      if (at == kNone || made_for(at) != sides_[s].to) {
-        return refuse("no cut leads along the acute edge to " + corner_name(sides_[s].to));
-      }
-    }
-    const std::size_t next = sides_[s].next;
-    const Index corner = sides_[s].to;
-    const bool strip = chain_of(next).empty();
-    if (!corners_.contains(corner)) {
-      if (strip || at != corner || start(next) != corner) {
-        return refuse(corner_name(corner) + " was cut off and is not chamfered");
-      }
-    } else {
-      ++detours_;
-      const auto arrived = [&] {
-        if (next == first) return at == begin;
-        if (!strip) return at == start(next);
-        const auto link = links_.find({f, at});
-        return link != links_.end() && made_for(link->second.to) == sides_[next].to &&
-               sides_[next].to != corner;
-      };
-      while (!arrived()) {
-        at = step(at);
-        if (at == kNone || made_for(at) != corner) {
-          return refuse("no cut leads around " + corner_name(corner));
-        }
-      }
-    }
-    s = next;
+    if (passed_[s]++ != 0) return refuse(f, "its boundary is followed twice");
+    if (!pass_side(walk, s) || !pass_corner(walk, s)) return false;
+    s = sides_[s].next;
   } while (s != first);
   return true;
 }
