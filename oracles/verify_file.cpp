@@ -1,0 +1,269 @@
+// The oracles on the mesh as it was written.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "oracles/delaunay.h"
+#include "oracles/hull.h"
+#include "oracles/places.h"
+#include "oracles/regions.h"
+#include "oracles/surface_validity.h"
+#include "oracles/verdict.h"
+#include "oracles/verification.h"
+
+namespace tetproof::oracles {
+namespace {
+
+double figure(const OracleReport& report, const std::string& name) {
+  for (const auto& [key, value] : report.figures) {
+    if (key == name) return value;
+  }
+  return 0;
+}
+
+}  // namespace
+
+// Some formats have no convention: there the sign of the majority is the right one. A file with a
+// record was written by delmesher, which has one.
+void Verification::turn_all(TetComplex& complex) const {
+  if (!mesh_.either_orientation || exact_ != nullptr) return;
+  std::int64_t balance = 0;
+  for (const auto& [a, b, c, d] : complex.tetrahedra) {
+    balance += exact::orient3d(*complex.points, a, b, c, d);
+  }
+  if (balance >= 0) return;
+  for (Tet& tet : complex.tetrahedra) std::swap(tet[2], tet[3]);
+}
+
+// Numbers that are not finite are reported by an oracle, as no file may make the verification fail
+// otherwise.
+bool Verification::check_finite() {
+  OracleReport report("complex", "vertices");
+  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+    ++report.checked;
+    const Position& p = mesh_.vertices[v];
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
+      report.fail("vertex " + std::to_string(v) + " is not finite");
+    }
+  }
+  if (report.violations == 0) return true;
+  add(std::move(report));
+  return false;
+}
+
+std::string Verification::check_file() {
+  if (!check_finite()) return {};
+  std::vector<Position> positions = input_.vertices;
+  positions.insert(positions.end(), mesh_.vertices.begin(), mesh_.vertices.end());
+  ExactPoints points;
+  InputSurface surface;
+  if (std::string why = points.assign(positions); !why.empty()) return why;
+  if (std::string why = surface.assign(input_, points); !why.empty()) return why;
+  ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
+  diagonal_ = surface.diagonal();
+
+  const auto offset = static_cast<Index>(input_.vertices.size());
+  TetComplex complex{&points, mesh_.tetrahedra, {}, offset, static_cast<Index>(points.size())};
+  for (Tet& tet : complex.tetrahedra) {
+    for (Index& v : tet) v = v < mesh_.vertices.size() ? v + offset : kNone;
+  }
+  const bool in_range = std::none_of(
+      complex.tetrahedra.begin(), complex.tetrahedra.end(),
+      [](const Tet& tet) { return *std::max_element(tet.begin(), tet.end()) == kNone; });
+  // Neighbours are numbers of faces within tetrahedra, so no tetrahedron may be turned afterwards.
+  if (in_range) turn_all(complex);
+  Neighbours neighbours;
+  add(check_complex(complex, neighbours, options_.stage == Stage::refined));
+  if (!in_range) return {};  // the complex oracle has reported it
+  OracleReport orientation = check_orientation(complex);
+  report_.inverted = static_cast<std::uint64_t>(figure(orientation, "inverted"));
+  report_.flat = static_cast<std::uint64_t>(figure(orientation, "flat"));
+  add(std::move(orientation));
+  complex.inside = inside_by_parity(complex, surface);
+  if (options_.stage == Stage::refined) {
+    add(check_angles(complex, neighbours, Places(complex, neighbours, surface), delta(), scope()));
+    return {};
+  }
+  std::vector<std::int64_t> given = mesh_.regions;
+  const bool solid_only =
+      fills(complex, surface,
+            std::max(kRoundedUlps * ulp_, options_.promised.planar_share() * diagonal_));
+  if (given.empty() && solid_only) given.assign(complex.tetrahedra.size(), 0);
+  if (given.empty()) {  // the hull: parity alone decides
+    check_file_surface(complex, neighbours, surface);
+    check_file_hull(complex, neighbours);
+    return {};
+  }
+  const Regions regions(complex, given);
+  check_file_surface(complex, neighbours, surface);
+  // The centroid of a tetrahedron is a quarter of its altitude away from its faces.
+  add(regions.check_strays(8 * slack_));
+  if (!solid_only) check_file_hull(complex, neighbours);
+  return {};
+}
+
+// Tries the surface as it is first. If facets that are planar within a bound may be one, those are
+// united that no chain of mesh edges separates, provided that the mesh conforms to the united
+// surface, which is then returned as well.
+ConformityResult Verification::conformity_of_file(const TetComplex& complex,
+                                                  const Neighbours& neighbours,
+                                                  const InputSurface& surface,
+                                                  std::optional<InputSurface>& united) {
+  ConformityResult result =
+      check_conformity(complex, neighbours, surface, {.exact = true, .first_failure_ends = true});
+  if (result.report.passed()) return result;
+  const auto check = [&](const InputSurface& on, ConformityOptions options) {
+    ConformityResult r = check_conformity(complex, neighbours, on, options);
+    if (r.report.passed() || exact_ == nullptr || exact_->final.empty()) return r;
+    const auto chains = recorded_chains(on);
+    options.chains = &chains;
+    return check_conformity(complex, neighbours, on, options);
+  };
+  const double rounding = kRoundedUlps * ulp_ / diagonal_;
+  const double planar = options_.promised.planar_share();
+  ConformityOptions rounded{.exact = false};
+  // A solid may be so small that roundings are a larger share of its diagonal.
+  rounded.largest_tolerance = std::max(rounded.largest_tolerance, rounding);
+  const auto at_most_deviating = [&] { return check(surface, rounded); };
+  if (planar == 0) return at_most_deviating();
+  ConformityOptions as_rounded = rounded;
+  as_rounded.largest_tolerance = rounding;
+  result = check(surface, as_rounded);
+  if (result.report.passed() && result.deviation <= kRoundedUlps * ulp_) return result;
+  const std::vector<Index> failed_edges = std::move(result.failed_edges);
+  const double bound = planar * diagonal_;
+  const auto conforms_to = [&](InputSurface& flat, double width) {
+    if (!(width <= bound)) return false;
+    as_rounded.off_plane = width + kRoundedUlps * ulp_;
+    ConformityResult of_flat = check(flat, as_rounded);
+    if (!of_flat.report.passed()) return false;
+    of_flat.slab = width;
+    of_flat.deviation = std::max(of_flat.deviation, width);
+    of_flat.report.figures.emplace_back(
+        "facets united",
+        static_cast<double>(surface.facets().size()) - static_cast<double>(flat.facets().size()));
+    united = std::move(flat);
+    result = std::move(of_flat);
+    return true;
+  };
+  InputSurface flat = surface;
+  const double width = flat.unite_facets(failed_edges, bound, *complex.points);
+  if (conforms_to(flat, width)) return result;
+  // Triangles no wider than roundings may belong to one facet or to another. The record says to
+  // which, and whether that is a facet is decided as before.
+  if (exact_ == nullptr) return at_most_deviating();
+  const std::vector<Index> named = recorded_facets();
+  if (named.size() != surface.triangles().size()) return at_most_deviating();
+  flat = surface;
+  const double named_width = flat.group_facets(named, bound, *complex.points);
+  return conforms_to(flat, named_width) ? result : at_most_deviating();
+}
+
+// Per triangle of the input the facet that has it, by the record; empty if a triangle is in none.
+std::vector<Index> Verification::recorded_facets() const {
+  std::vector<Index> facet(input_.triangles.size(), kNone);
+  for (const delmesher::ExactRecord::Facet& f : exact_->facets) {
+    for (const std::uint32_t t : f.triangles) {
+      if (t < facet.size()) facet[t] = f.id;
+    }
+  }
+  if (std::find(facet.begin(), facet.end(), kNone) != facet.end()) facet.clear();
+  return facet;
+}
+
+void Verification::check_file_surface(const TetComplex& complex, const Neighbours& neighbours,
+                                      const InputSurface& input) {
+  std::optional<InputSurface> united;
+  ConformityResult conformity = conformity_of_file(complex, neighbours, input, united);
+  const InputSurface& surface = united ? *united : input;
+  if (conformity.report.passed()) {  // else the deviation means nothing
+    report_.deviation = conformity.deviation;
+    report_.slab = conformity.slab;
+    slack_ = conformity.deviation;
+  } else if (exact_ == nullptr && undecidable(complex, surface, conformity, kRoundedUlps * ulp_)) {
+    conformity.report.undecided = true;
+    conformity.report.notes.push_back(
+        "where it fails, edges of the input are closer than doubles can tell: the file alone "
+        "does not say which mesh edge is whose, a record (--exact) does");
+    slack_ = kRoundedUlps * ulp_;
+  }
+  add(conformity.report);
+  add(check_volume(complex, neighbours, input,
+                   2 * slack_ * surface_area(complex, conformity.faces)));
+  check_file_quality(complex, neighbours, surface, conformity);
+  // If the faces' facets are unknown, so are the labels they should have.
+  if (mesh_.boundary.empty() || conformity.report.undecided) return;
+  std::vector<Face> listed = mesh_.boundary;
+  for (Face& face : listed) {
+    for (Index& v : face) v += complex.first_vertex;
+  }
+  const bool labelled = !input_.labels.empty() && mesh_.labels.size() == listed.size();
+  add(check_boundary_list(complex, neighbours, surface, conformity, listed,
+                          labelled ? mesh_.labels : std::vector<std::int32_t>{}));
+}
+
+// The chain of mesh edges on which each edge of the surface lies by the record's exact coordinates,
+// in vertices of the file.
+std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface& surface) {
+  std::vector<std::vector<Index>> chains(surface.edges().size());
+  const SharedData::Sidecar& sidecar = shared_.sidecar();
+  if (!sidecar.usable) return chains;
+  const std::shared_ptr<const SharedData::Final> final = shared_.final();
+  if (!final->shape.passed()) return chains;
+  const ConformityResult& exact = final->conformity;
+  std::vector<Index> written(sidecar.points.size(), kNone);
+  for (std::size_t i = 0; i < exact_->mesh_vertices.size(); ++i) {
+    const Index v = exact_->mesh_vertices[i];
+    if (v >= written.size()) continue;  // check_rounding reports it
+    written[v] = static_cast<Index>(input_.vertices.size() + i);
+  }
+  // The surface that was meshed may have fewer edges than the input, or in another direction.
+  std::map<std::pair<Index, Index>, Index> number;
+  for (Index e = 0; e < surface.edges().size(); ++e) {
+    number[{surface.edges()[e].from, surface.edges()[e].to}] = e;
+  }
+  for (Index e = 0; e < exact.chains.size(); ++e) {
+    std::vector<Index> chain = exact.chains[e];
+    for (Index& v : chain) v = written[v];
+    const auto& [from, to, left, right] = sidecar.final_surface().edges()[e];
+    auto found = number.find({from, to});
+    if (found == number.end()) {
+      found = number.find({to, from});
+      std::reverse(chain.begin(), chain.end());
+    }
+    if (found != number.end()) chains[found->second] = std::move(chain);
+  }
+  return chains;
+}
+
+// Nothing is promised of the doubles as written, so these oracles only count and measure.
+void Verification::check_file_quality(const TetComplex& complex, const Neighbours& neighbours,
+                                      const InputSurface& surface,
+                                      const ConformityResult& conformity) {
+  OracleReport delaunay =
+      check_constrained_delaunay(complex, neighbours, surface, conformity.faces, {.gate = false});
+  // A mesh all of whose faces are on the surface, as a single tetrahedron, has nothing to count.
+  if (delaunay.checked > 0) add(std::move(delaunay));
+  OracleReport angles("angles", "tetrahedra inside");
+  angles.promised = false;
+  for (const std::uint8_t inside : complex.inside) angles.checked += inside;
+  measure_angles(complex, neighbours, complex.inside, angles);
+  add(std::move(angles));
+}
+
+// Steiner points on the outer boundary are rounded like all others.
+void Verification::check_file_hull(const TetComplex& complex, const Neighbours& neighbours) {
+  if (report_.inverted + report_.flat > 0) return;  // the oracle needs positive tetrahedra
+  add(check_hull(complex, neighbours,
+                 {.allowed = std::max(
+                      {kRoundedUlps * ulp_, slack_, options_.declared_deviation * diagonal_})}));
+}
+
+std::string Verification::check_input() {
+#ifdef TETPROOF_SECOND_OPINIONS
+  add(check_surface_validity(input_));  // it only asks other libraries
+#endif
+  return {};
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,194 @@
+// The oracles on the record and on its final mesh.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "oracles/delaunay.h"
+#include "oracles/hull.h"
+#include "oracles/local_operations.h"
+#include "oracles/same_mesh.h"
+#include "oracles/stand_in.h"
+#include "oracles/verification.h"
+#ifdef TETPROOF_SECOND_OPINIONS
+#include "oracles/cgal/second_kernel.h"
+#endif
+
+namespace tetproof::oracles {
+
+std::string Verification::check_sidecar() {
+  const SharedData::Sidecar& sidecar = shared_.sidecar();
+  add(sidecar.report);
+  if (!sidecar.usable) return sidecar.why;
+  ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);
+  diagonal_ = sidecar.diagonal;
+  add(check_promise(options_.promised, *exact_, options_.record_version, diagonal_));
+  if (!exact_->planes.empty() || !exact_->triangles.empty()) {
+    add(check_stand_in(input_, *exact_, sidecar.surface));
+  }
+  add(check_facet_list(sidecar.surface));
+  add(check_same_mesh(mesh_, *exact_, options_.promised, !input_.labels.empty()));
+  add(check_rounding(mesh_, *exact_, sidecar.written(),
+                     {.ulp = ulp_,
+                      .allowed = options_.declared_deviation * diagonal_,
+                      .input_vertices = static_cast<Index>(input_.vertices.size())}));
+  return {};
+}
+
+// The facets of the record are those of the input, once each, with their triangles.
+OracleReport Verification::check_facet_list(const InputSurface& surface) const {
+  OracleReport report("facet-list", "facets");
+  report.checked = surface.facets().size();
+  if (const FacetIndex facets(surface, *exact_); !facets.defect().empty()) {
+    report.fail(facets.defect());
+  }
+  return report;
+}
+
+std::string Verification::check_exact_final() {
+  const SharedData::Sidecar& sidecar = shared_.sidecar();
+  if (!sidecar.usable) return {};
+  const ExactPoints& points = sidecar.final_points();
+  const InputSurface& surface = sidecar.final_surface();
+  ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
+  check_final_complex(points, surface);
+  const bool usable = shared_.final()->shape.passed();
+  shared_.forget_final();
+  if (usable && !exact_->unrepaired.empty()) check_unrepaired();
+#ifdef TETPROOF_SECOND_OPINIONS
+  add(check_second_kernel(input_, surface, *exact_, points, options_.sidecar, sidecar.as_given),
+      "exact-");
+#endif
+  return {};
+}
+
+void Verification::check_final_complex(const ExactPoints& points, const InputSurface& surface) {
+  const std::shared_ptr<const SharedData::Final> final = shared_.final();
+  const auto& [complex, neighbours, shape, conformity] = *final;
+  add(shape, "exact-");
+  if (!shape.passed()) return;
+  add(check_orientation(complex), "exact-");
+  add(check_interior(complex, neighbours, surface, walls_of(complex, exact_->final_facets)),
+      "exact-");
+  add(conformity.report, "exact-");
+  add(check_volume(complex, neighbours, surface, 0), "exact-");
+  check_exact_hull(complex, neighbours);
+  check_constrained(complex, neighbours, surface);
+  add(check_facet_ids(complex, conformity, surface, exact_->final_facets), "exact-");
+  if (options_.promised.task == Task::cdt) {
+    add(check_origins(*exact_, points, surface, static_cast<Index>(input_.vertices.size())));
+  }
+}
+
+// The faces that the record puts on facets are those that tile them.
+OracleReport Verification::check_facet_ids(const TetComplex& complex,
+                                           const ConformityResult& conformity,
+                                           const InputSurface& surface,
+                                           const std::vector<FaceOnFacet>& listed) const {
+  OracleReport report("facets", "faces");
+  std::vector<std::pair<Face, Index>> facet_of;
+  facet_of.reserve(conformity.faces.size());
+  for (Index f = 0; f < conformity.faces.size(); ++f) {
+    facet_of.emplace_back(conformity.faces[f], conformity.facets[f]);
+    std::sort(facet_of.back().first.begin(), facet_of.back().first.end());
+  }
+  std::sort(facet_of.begin(), facet_of.end());
+  std::vector<std::uint8_t> seen(facet_of.size());
+  for (const auto& [a, b, c, id] : listed) {
+    Face face = {a, b, c};
+    std::sort(face.begin(), face.end());
+    ++report.checked;
+    const auto found =
+        std::lower_bound(facet_of.begin(), facet_of.end(), std::pair(face, Index{0}));
+    if (found == facet_of.end() || found->first != face) {
+      report.fail(complex.face_name(face) + " is no boundary face of the solid");
+    } else if (seen[found - facet_of.begin()]++ != 0) {
+      report.fail(complex.face_name(face) + " is listed twice");
+    } else if (found->second != kNone && surface.facets()[found->second].id != id) {
+      report.fail(complex.face_name(face) + " is said to tile facet " + std::to_string(id) +
+                  " but tiles " + std::to_string(surface.facets()[found->second].id));
+    }
+  }
+  if (report.checked != facet_of.size()) report.fail("not every boundary face is listed once");
+  return report;
+}
+
+// What was put back onto the surface as given has no tetrahedra outside if none were asked for.
+void Verification::check_exact_hull(const TetComplex& complex, const Neighbours& neighbours) {
+  const bool inside_alone = shared_.sidecar().as_given &&
+                            options_.promised.region == delmesher::Region::interior &&
+                            std::all_of(exact_->final.begin(), exact_->final.end(),
+                                        [](const auto& t) { return t.inside; });
+  if (!inside_alone) {
+    add(check_hull(complex, neighbours), "exact-");
+    return;
+  }
+  OracleReport report("hull", "tetrahedra");
+  report.checked = exact_->final.size();
+  report.promised = false;
+  report.notes.emplace_back("the record's final mesh is the solid alone: nothing fills the hull");
+  add(std::move(report), "exact-");
+}
+
+// On edges of the surface as given that the surface which was refined does not have.
+std::vector<Index> Verification::returned_vertices() const {
+  const SharedData::Sidecar& sidecar = shared_.sidecar();
+  std::vector<Index> vertices;
+  if (!sidecar.as_given) return vertices;
+  std::set<std::pair<Index, Index>> returned;
+  for (const auto& edge : sidecar.surface_as_given.edges()) {
+    returned.insert(std::minmax(edge.from, edge.to));
+  }
+  for (const auto& edge : sidecar.surface.edges()) {
+    returned.erase(std::minmax(edge.from, edge.to));
+  }
+  for (const auto& [from, to] : returned) vertices.insert(vertices.end(), {from, to});
+  for (Index v = 0; v < exact_->points.size(); ++v) {
+    const delmesher::ExactPoint& p = exact_->points[v];
+    const bool on_edge = p.kind == delmesher::ExactPoint::Kind::on_segment;
+    if (on_edge && returned.contains(std::minmax(p.i, p.j))) vertices.push_back(v);
+  }
+  return vertices;
+}
+
+// The property is demanded before improvement and repairs of rounding, and counted after them.
+void Verification::check_constrained(const TetComplex& complex, const Neighbours& neighbours,
+                                     const InputSurface& surface) {
+  std::vector<Face> constraints;
+  for (const auto& [a, b, c, id] : exact_->final_facets) constraints.push_back({a, b, c});
+  const bool repaired = !exact_->unrepaired.empty();
+  OracleReport delaunay =
+      check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = !repaired});
+  // Where nothing is demanded, a mesh all of whose faces are on the surface has nothing to count.
+  if (!repaired || delaunay.checked > 0) add(std::move(delaunay), "exact-");
+}
+
+// A mesh of the surface that was refined.
+void Verification::check_unrepaired() {
+  const SharedData::Sidecar& sidecar = shared_.sidecar();
+  add(options_.promised.improve
+          ? check_improvement(*exact_, sidecar.written(), options_.promised, returned_vertices())
+          : check_repairs(*exact_, sidecar.written(), options_.promised));
+  const TetComplex before = complex_of(exact_->unrepaired, sidecar.points);
+  Neighbours neighbours;
+  OracleReport shape = check_complex(before, neighbours);
+  const bool usable = shape.passed();
+  add(std::move(shape), "unrepaired-");
+  if (!usable) return;
+  add(check_orientation(before), "unrepaired-");
+  // Otherwise the unrepaired mesh could lack the wrong part of the final one.
+  add(check_hull(before, neighbours), "unrepaired-");
+  // The record lists none if repairs did not change them.
+  const auto& listed =
+      exact_->unrepaired_facets.empty() ? exact_->final_facets : exact_->unrepaired_facets;
+  {
+    const ConformityResult conformity =
+        check_conformity(before, neighbours, sidecar.surface, {.exact = true});
+    add(conformity.report, "unrepaired-");
+    add(check_facet_ids(before, conformity, sidecar.surface, listed), "unrepaired-");
+  }
+  std::vector<Face> constraints;
+  for (const auto& [a, b, c, id] : listed) constraints.push_back({a, b, c});
+  add(check_constrained_delaunay(before, neighbours, sidecar.surface, constraints), "unrepaired-");
+}
+
+}  // namespace tetproof::oracles
