@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -120,21 +121,26 @@ class Shrinker {
   bool accept(const std::vector<Surface>& candidates) {
     std::vector<Surface> together;
     for (std::size_t i = 0; i < candidates.size() && !spent(); ++i) {
-      Surface welded = shapes::welded(candidates[i]);
-      if (!welded.triangles.empty() && certified_valid(welded)) {
-        together.push_back(std::move(welded));
-      }
-      if (together.empty() || (together.size() < limits_.at_once && i + 1 < candidates.size())) {
-        continue;
-      }
-      progress_.runs += together.size();
-      if (const auto one = fails_(together)) {
-        best_ = std::move(together[*one]);
-        return true;
-      }
+      if (auto valid = valid_form(candidates[i])) together.push_back(std::move(*valid));
+      if (together.size() < limits_.at_once && i + 1 < candidates.size()) continue;
+      if (take_first_failing(together)) return true;
       together.clear();
     }
     return false;
+  }
+  // Welded; nothing unless that certainly is valid.
+  static std::optional<Surface> valid_form(const Surface& candidate) {
+    Surface welded = shapes::welded(candidate);
+    if (welded.triangles.empty() || !certified_valid(welded)) return std::nullopt;
+    return welded;
+  }
+  // Of surfaces in their valid form, which are judged together.
+  bool take_first_failing(std::vector<Surface>& valid) {
+    if (valid.empty()) return false;
+    progress_.runs += valid.size();
+    const auto one = fails_(valid);
+    if (one) best_ = std::move(valid[*one]);
+    return one.has_value();
   }
   bool accept(const Surface& candidate) { return accept(std::vector<Surface>{candidate}); }
 
@@ -210,7 +216,8 @@ class Shrinker {
     for (std::size_t batch = std::max<std::size_t>(1, best_.triangles.size() / 8);; batch /= 2) {
       if (batch == 1) return (single && collapse_one_by_one()) || better;
       for (std::size_t misses = 0; misses < kMisses && !spent();) {
-        if (accept(some_collapses(batch))) {
+        std::vector<Surface> groups = some_collapses(batch);
+        if (!spent() && take_first_failing(groups)) {
           better = true;
           misses = 0;
         } else {
@@ -229,15 +236,14 @@ class Shrinker {
     }
     return better;
   }
-  // As many different groups as are judged together, of those that certainly are valid.
+  // As many different groups as are judged together, in their valid form.
   std::vector<Surface> some_collapses(std::size_t count) {
     constexpr int kTries = 24;
     std::vector<Surface> groups;
     for (int i = 0; i < kTries && groups.size() < limits_.at_once; ++i) {
       Surface s = collapse_some(count);
-      if (s.triangles.size() < best_.triangles.size() && certified_valid(shapes::welded(s))) {
-        groups.push_back(std::move(s));
-      }
+      if (s.triangles.size() >= best_.triangles.size()) continue;
+      if (auto valid = valid_form(s)) groups.push_back(std::move(*valid));
     }
     return groups;
   }
