@@ -24,14 +24,6 @@ bool fits(const char* pattern, const char* text) {
   }
 }
 
-std::size_t count_of(const Selection& selection, const std::string& mesher,
-                     Disposition disposition) {
-  const auto& runs = selection.runs.at(mesher);
-  return static_cast<std::size_t>(std::count_if(runs.begin(), runs.end(), [&](const auto& run) {
-    return run.second.disposition == disposition;
-  }));
-}
-
 // What its runs were held to; older results do not tell.
 std::string promise_of(const Selection& selection, const std::string& mesher) {
   std::set<std::string> all;
@@ -52,9 +44,7 @@ std::vector<std::string> league_row(const Selection& selection, const std::strin
   std::vector<std::string> row = {mesher, promise_of(selection, mesher), std::to_string(runs),
                                   std::to_string(successes.size()),
                                   rate_of(successes.size(), runs)};
-  for (std::size_t d = 1; d < kDispositionCount; ++d) {
-    row.push_back(std::to_string(count_of(selection, mesher, static_cast<Disposition>(d))));
-  }
+  append_dispositions(selection, mesher, row);
   const auto add = [&](const Value& value, double p, int digits) {
     row.push_back(fixed(quantile(values_of(successes, value), p), digits));
   };
@@ -125,9 +115,7 @@ Table league_table(const Selection& selection) {
   table.title = "The league";
   table.caption = limits_caption(selection, selection.meshers);
   table.header = {"Mesher", "Promise", "Runs", "Ok", "Ok, % (95 % interval)"};
-  for (std::size_t d = 1; d < kDispositionCount; ++d) {
-    table.header.emplace_back(disposition_name(static_cast<Disposition>(d)));
-  }
+  append_dispositions(table.header);
   for (const char* name : {"tets", "min dihedral", "1 % of dihedrals", "1 % of gamma", "mean gamma",
                            "s", "s, 95 %", "us per tet", "MB"}) {
     table.header.emplace_back(name);

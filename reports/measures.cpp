@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -109,6 +110,21 @@ std::vector<std::string> present(const Selection& selection,
 std::size_t run_count(const Selection& selection, const std::string& mesher) {
   const auto found = selection.runs.find(mesher);
   return found == selection.runs.end() ? 0 : found->second.size();
+}
+
+void append_dispositions(std::vector<std::string>& header) {
+  for (std::size_t d = 1; d < kDispositionCount; ++d) {
+    header.emplace_back(disposition_name(static_cast<Disposition>(d)));
+  }
+}
+
+void append_dispositions(const Selection& selection, const std::string& mesher,
+                         std::vector<std::string>& row) {
+  std::array<std::size_t, kDispositionCount> counts{};
+  for (const auto& [model, run] : selection.runs.at(mesher)) {
+    ++counts[static_cast<std::size_t>(run.disposition)];
+  }
+  for (std::size_t d = 1; d < kDispositionCount; ++d) row.push_back(std::to_string(counts[d]));
 }
 
 std::size_t unverified_count(const Selection& selection, const std::string& mesher) {

@@ -84,6 +84,12 @@ std::string degrees(std::optional<double> value);  // small ones keep two signif
 std::vector<std::string> present(const Selection& selection,
                                  const std::vector<std::string>& meshers);
 std::size_t run_count(const Selection& selection, const std::string& mesher);
+
+// The columns of all dispositions but ok: their heads, and how many runs of a mesher, which has
+// some, ended in each.
+void append_dispositions(std::vector<std::string>& header);
+void append_dispositions(const Selection& selection, const std::string& mesher,
+                         std::vector<std::string>& row);
 // The number of its meshes that the oracles have not come to a verdict on.
 std::size_t unverified_count(const Selection& selection, const std::string& mesher);
 // "27/29", or "27/29, 1 unverified": successes of runs.

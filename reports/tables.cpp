@@ -262,24 +262,22 @@ Table disposition_table(const Selection& selection) {
   table.title = "What became of the runs";
   table.caption = limits_caption(selection, selection.meshers);
   table.header = {"Mesher", "Runs", "ok", "ok %", "95 % interval"};
-  for (std::size_t d = 1; d < kDispositionCount; ++d) {
-    table.header.emplace_back(disposition_name(static_cast<Disposition>(d)));
-  }
+  append_dispositions(table.header);
   table.header.push_back("ok with flat tets");
   for (const std::string& mesher : selection.meshers) {
-    std::array<std::size_t, kDispositionCount> counts{};
-    std::size_t with_flat = 0;
+    std::size_t ok = 0, with_flat = 0;
     for (const auto& [model, row] : selection.runs.at(mesher)) {
-      ++counts[static_cast<std::size_t>(row.disposition)];
-      with_flat += row.disposition == Disposition::ok && row.flat.value_or(0) > 0;
+      if (row.disposition != Disposition::ok) continue;
+      ++ok;
+      with_flat += row.flat.value_or(0) > 0 ? 1 : 0;
     }
     const std::size_t total = run_count(selection, mesher);
-    const Interval interval = wilson_interval(counts[0], total);
+    const Interval interval = wilson_interval(ok, total);
     std::vector<std::string> row = {
-        mesher, std::to_string(total), std::to_string(counts[0]),
-        fixed(100.0 * static_cast<double>(counts[0]) / static_cast<double>(total), 1),
+        mesher, std::to_string(total), std::to_string(ok),
+        fixed(100.0 * static_cast<double>(ok) / static_cast<double>(total), 1),
         fixed(100 * interval.low, 1) + " to " + fixed(100 * interval.high, 1)};
-    for (std::size_t d = 1; d < kDispositionCount; ++d) row.push_back(std::to_string(counts[d]));
+    append_dispositions(selection, mesher, row);
     row.push_back(std::to_string(with_flat));
     table.rows.push_back(std::move(row));
   }
