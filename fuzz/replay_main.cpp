@@ -1,16 +1,20 @@
 // Runs a fuzz target over files and folders, so that every target is also an ordinary test, with
 // any compiler. Prints how many inputs there were, and which leniencies they took; no input at all
-// is a failure.
+// is a failure. `TARGET --random SECONDS SEED FOLDER` is a campaign without instrumentation.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <vector>
 
+#include "fuzz/random_campaign.h"
 #include "property_tests/leniency.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -36,9 +40,23 @@ std::vector<fs::path> files_of(int argc, char** argv) {
   return files;
 }
 
+int campaign(char** argv) {
+  tetproof::fuzz::RandomCampaign campaign;
+  campaign.seconds = std::atof(argv[2]);
+  campaign.seed = std::strtoull(argv[3], nullptr, 10);
+  campaign.findings = argv[4];
+  try {
+    return run_random_campaign(campaign) > 0 ? 1 : 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 5 && std::string_view(argv[1]) == "--random") return campaign(argv);
   constexpr double kSlowSeconds = 2;
   const std::vector<fs::path> files = files_of(argc, argv);
   for (const fs::path& file : files) {
