@@ -79,6 +79,11 @@ double Bytes::coordinate() {
       return last_ = static_cast<std::int8_t>(byte()) * 0.1;
     case 4: {
       const int way = byte();
+      // The neighbours of 0 are the smallest numbers of all, which are not of one scale with
+      // others.
+      if (last_ == 0 && most_exponent_ > 0) {
+        return last_ = std::ldexp((way & 1) != 0 ? 1 : -1, -most_exponent_);
+      }
       if (!spread_) return last_ = std::nextafter(last_, (way & 1) != 0 ? DBL_MAX : -DBL_MAX);
       const double step = std::ldexp(last_, -8 - (way >> 1) % 32);
       return last_ = (way & 1) != 0 ? last_ + step : last_ - step;

@@ -1,7 +1,7 @@
 // A campaign without instrumentation, with any compiler: inputs come from the target's mutator and
 // a small pool of earlier ones. It sees no coverage, but an optimised build without sanitizers runs
 // several times as many inputs per second, which finds what depends on numbers rather than on
-// paths. Leniencies are not counted.
+// paths.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,15 @@ namespace tetproof::fuzz {
 struct RandomCampaign {
   double seconds = 60;
   std::uint64_t seed = 1;
-  std::string findings;         // folder: NUMBER.input and NUMBER.txt, what the target said
-  unsigned seconds_each = 120;  // an input that takes longer is a finding
+  // Folder: SEED-NUMBER.input and SEED-NUMBER.txt, what the target said. Every input has a process
+  // of its own then, and leniencies are not counted. If empty, all run in this process, which the
+  // first finding ends.
+  std::string findings;
+  unsigned seconds_each = 120;  // an input that takes longer is a finding too
 };
 
-// Runs every input in a process of its own. Returns the number of findings; prints how many inputs
-// there were and, per kind of finding, one line. Throws std::system_error where a file or a process
+// Returns the number of findings; prints how many inputs there were and, per kind of finding, one
+// line. Throws std::system_error where a file or a process
 // cannot be made.
 std::uint64_t run_random_campaign(const RandomCampaign& campaign);
 
