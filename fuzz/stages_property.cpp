@@ -138,13 +138,26 @@ std::vector<std::uint8_t> used_points(const delmesher::improve::ImproveMesh& mes
   return used;
 }
 
+// The same order whatever the order in the mesh: what is computed of a tetrahedron that is flat but
+// for roundings depends on it.
+std::array<delmesher::base::VertexId, 4> ascending(std::array<delmesher::base::VertexId, 4> t) {
+  bool odd = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto least = std::min_element(t.begin() + static_cast<std::ptrdiff_t>(i), t.end());
+    odd = odd != (*least != t[i]);
+    std::swap(t[i], *least);
+  }
+  if (odd) std::swap(t[2], t[3]);
+  return t;
+}
+
 // Of the tetrahedra inside, as they will be written.
 delmesher::improve::Quality worst_inside(const delmesher::improve::ImproveMesh& mesh,
                                          const Stages& s) {
   delmesher::improve::Quality worst = delmesher::improve::kNotCounted;
   for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
     if (mesh.region[n] == delmesher::improve::kOutside) continue;
-    const auto& t = mesh.tetrahedra[n];
+    const auto t = ascending(mesh.tetrahedra[n]);
     const auto at = [&](int i) { return s.points.nearest(t[i]); };
     worst = worse(worst, delmesher::improve::quality(at(0), at(1), at(2), at(3)));
   }
@@ -167,8 +180,12 @@ Finding is_sound(const delmesher::improve::ImproveMesh& mesh, Stages& s) {
   return {};
 }
 
-float squared_sine(double degrees) {
-  return static_cast<float>(1 - delmesher::predicates::cosine_squared(degrees));
+// Is the angle with the first squared sine smaller than with the second, or than `most` degrees?
+// What doubles tell of a sine has an error of a few roundings, and squares are kept in floats.
+bool is_smaller(float after, float before, double most) {
+  constexpr double kRoundings = 0x1p-50, kFloat = 0x1p-23;
+  const double bound = std::min<double>(before, 1 - delmesher::predicates::cosine_squared(most));
+  return std::sqrt(after) < std::sqrt(bound) * (1 - kFloat) - kRoundings;
 }
 
 }  // namespace
@@ -188,11 +205,10 @@ Finding improvement_holds(const Surface& surface) {
         improve(std::move(given), &s.topology, {}, options, s.points, s.predicates, s.control);
     if (Finding f = is_sound(result.mesh, s); !f.empty()) return f;
     const auto after = worst_inside(result.mesh, s);
-    const float flattest = squared_sine(delmesher::improve::kFlattestDihedral);
-    if (after.dihedral < std::min(before.dihedral, flattest)) {
+    if (is_smaller(after.dihedral, before.dihedral, delmesher::improve::kFlattestDihedral)) {
       return "improve dihedral: flatter than before";
     }
-    if (after.face < std::min(before.face, squared_sine(options.delta))) {
+    if (is_smaller(after.face, before.face, options.delta)) {
       return "improve face angle: smaller than before";
     }
     return {};

@@ -1,17 +1,41 @@
 #include "oracles/verify.h"
 
 #include <atomic>
+#include <cmath>
 
+#include "oracles/ordinary_units.h"
 #include "oracles/parallel.h"
 #include "oracles/verdict.h"
 #include "oracles/verification.h"
 
 namespace tetproof::oracles {
 
+namespace {
+
+// Of which every deviation is in input units again; other figures of lengths are not.
+std::string verify_scaled(const InOrdinaryUnits& task, VerifyOptions options,
+                          VerifyReport& report) {
+  options.promised = task.promise;
+  options.sidecar.clear();  // its text is in the other units
+  std::string refusal =
+      verify(task.input, task.mesh, task.record ? &*task.record : nullptr, options, report);
+  report.deviation = std::ldexp(report.deviation, task.exponent);
+  report.slab = std::ldexp(report.slab, task.exponent);
+  for (OracleReport& oracle : report.oracles) {
+    oracle.notes.push_back("lengths are in units of 2^" + std::to_string(task.exponent));
+  }
+  return refusal;
+}
+
+}  // namespace
+
 std::string verify(const Polyhedron& input, const MeshFile& mesh,
                    const delmesher::ExactRecord* exact, const VerifyOptions& options,
                    VerifyReport& report) {
   report = {};
+  if (const auto scaled = in_ordinary_units(input, mesh, exact, options.promised)) {
+    return verify_scaled(*scaled, options, report);
+  }
   SharedData shared(input, exact, options.promised);
   const std::vector<Verification::Check> checks = Verification::checks(exact, options.stage);
   std::vector<Verification> parts(checks.size(), {input, mesh, exact, options, shared});

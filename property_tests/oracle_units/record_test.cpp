@@ -1,6 +1,7 @@
 // The record and the file: same mesh, promises, sidecars, rounding, repairs.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "oracles/same_mesh.h"
 #include "oracles/sidecar.h"
 #include "oracles/text_reader.h"
+#include "oracles/verify.h"
 #include "property_tests/oracle_units/helpers.h"
 #include "property_tests/samples.h"
 
@@ -191,6 +193,43 @@ TEST(Repairs, AllIsCounted) {
   sample.exact.final = sample.exact.unrepaired;
   sample.exact.unrepaired = {sample.exact.final[0]};
   EXPECT_GT(run().violations, 0U);
+}
+
+// Squares and volumes of lengths of 1e-165 and 1e120 are no doubles.
+TEST(Units, TheVerdictIsTheSameInAll) {
+  delmesher::Surface surface = samples::random_voxels(3);
+  for (auto& p : surface.vertices) {
+    p = {p[0] * 0.8 - p[1] * 0.6, p[0] * 0.6 + p[1] * 0.8, p[2] + 0.1 * p[0]};
+  }
+  double deviation = 0;
+  for (const int power : {0, -548, 400}) {
+    delmesher::Surface scaled = surface;
+    for (auto& p : scaled.vertices) {
+      for (double& x : p) x = std::ldexp(x, power);
+    }
+    delmesher::Options options;
+    options.want_exact = true;
+    delmesher::Result result = delmesher::constrained_delaunay(scaled, options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    VerifyOptions wanted;
+    wanted.promised = promise_of(options, Task::cdt);
+    VerifyReport report;
+    ASSERT_EQ(verify(samples::to_polyhedron(scaled), samples::to_mesh(result.mesh), &result.exact,
+                     wanted, report),
+              "");
+    EXPECT_EQ(report.verdict, Verdict::rounded) << power << "\n" << to_text(report);
+    EXPECT_GT(report.deviation, 0);
+    if (power == 0) deviation = report.deviation;
+    EXPECT_EQ(report.deviation, std::ldexp(deviation, power));
+    for (const double damage : {1e-3, 2.0}) {
+      delmesher::TetMesh moved = result.mesh;
+      moved.vertices[0][0] += std::ldexp(damage, power);
+      ASSERT_EQ(verify(samples::to_polyhedron(scaled), samples::to_mesh(moved), &result.exact,
+                       wanted, report),
+                "");
+      EXPECT_EQ(report.verdict, Verdict::broken) << power;
+    }
+  }
 }
 
 }  // namespace
