@@ -12,6 +12,7 @@
 #include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/enrich/enrichment.h"
 #include "mesher/improve/improve.h"
+#include "mesher/improve/mesh_in_order.h"
 #include "mesher/improve/quality.h"
 #include "mesher/predicates/box_tree.h"
 #include "property_tests/leniency.h"
@@ -138,17 +139,20 @@ std::vector<std::uint8_t> used_points(const delmesher::improve::ImproveMesh& mes
   return used;
 }
 
-// The same order whatever the order in the mesh: what is computed of a tetrahedron that is flat but
-// for roundings depends on it.
-std::array<delmesher::base::VertexId, 4> ascending(std::array<delmesher::base::VertexId, 4> t) {
-  bool odd = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto least = std::min_element(t.begin() + static_cast<std::ptrdiff_t>(i), t.end());
-    odd = odd != (*least != t[i]);
-    std::swap(t[i], *least);
+// The tetrahedra with their vertices in the order in which the improvement takes and delivers them:
+// what doubles tell of one that is flat but for roundings depends on it.
+delmesher::improve::ImproveMesh as_measured(const delmesher::improve::ImproveMesh& given,
+                                            const Stages& s) {
+  const auto point = vertices_in_order(given, s.points);
+  const delmesher::improve::WorkMesh work = work_mesh(given, point, s.points.size());
+  delmesher::improve::ImproveMesh mesh{{}, {}, given.boundary};
+  for (delmesher::base::TetId t = 0; t < work.slots(); ++t) {
+    if (!work.alive(t)) continue;
+    const auto& v = work.tet(t);
+    mesh.tetrahedra.push_back({point[v[0]], point[v[1]], point[v[2]], point[v[3]]});
+    mesh.region.push_back(work.region(t));
   }
-  if (odd) std::swap(t[2], t[3]);
-  return t;
+  return mesh;
 }
 
 // Of the tetrahedra inside, as they will be written.
@@ -157,7 +161,7 @@ delmesher::improve::Quality worst_inside(const delmesher::improve::ImproveMesh& 
   delmesher::improve::Quality worst = delmesher::improve::kNotCounted;
   for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
     if (mesh.region[n] == delmesher::improve::kOutside) continue;
-    const auto t = ascending(mesh.tetrahedra[n]);
+    const auto& t = mesh.tetrahedra[n];
     const auto at = [&](int i) { return s.points.nearest(t[i]); };
     worst = worse(worst, delmesher::improve::quality(at(0), at(1), at(2), at(3)));
   }
@@ -180,12 +184,8 @@ Finding is_sound(const delmesher::improve::ImproveMesh& mesh, Stages& s) {
   return {};
 }
 
-// Is the angle with the first squared sine smaller than with the second, or than `most` degrees?
-// What doubles tell of a sine has an error of a few roundings, and squares are kept in floats.
-bool is_smaller(float after, float before, double most) {
-  constexpr double kRoundings = 0x1p-50, kFloat = 0x1p-23;
-  const double bound = std::min<double>(before, 1 - delmesher::predicates::cosine_squared(most));
-  return std::sqrt(after) < std::sqrt(bound) * (1 - kFloat) - kRoundings;
+float squared_sine(double degrees) {
+  return static_cast<float>(1 - delmesher::predicates::cosine_squared(degrees));
 }
 
 }  // namespace
@@ -199,16 +199,17 @@ Finding improvement_holds(const Surface& surface) {
         constrained_delaunay_tetrahedrization(input, s.points, s.predicates, s.control);
     delmesher::improve::ImproveMesh given{
         cdt.tetrahedra, {cdt.inside.begin(), cdt.inside.end()}, cdt.boundary};
-    const auto before = worst_inside(given, s);
+    const auto before = worst_inside(as_measured(given, s), s);
     const delmesher::improve::ImproveOptions options;
     const auto result =
         improve(std::move(given), &s.topology, {}, options, s.points, s.predicates, s.control);
     if (Finding f = is_sound(result.mesh, s); !f.empty()) return f;
     const auto after = worst_inside(result.mesh, s);
-    if (is_smaller(after.dihedral, before.dihedral, delmesher::improve::kFlattestDihedral)) {
+    const float flattest = squared_sine(delmesher::improve::kFlattestDihedral);
+    if (after.dihedral < std::min(before.dihedral, flattest)) {
       return "improve dihedral: flatter than before";
     }
-    if (is_smaller(after.face, before.face, options.delta)) {
+    if (after.face < std::min(before.face, squared_sine(options.delta))) {
       return "improve face angle: smaller than before";
     }
     return {};
