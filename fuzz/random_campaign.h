@@ -20,8 +20,7 @@ struct RandomCampaign {
 };
 
 // Returns the number of findings; prints how many inputs there were and, per kind of finding, one
-// line. Throws std::system_error where a file or a process
-// cannot be made.
+// line. Throws std::system_error where a file or a process cannot be made.
 std::uint64_t run_random_campaign(const RandomCampaign& campaign);
 
 }  // namespace tetproof::fuzz

@@ -43,6 +43,10 @@ std::vector<fs::path> files_of(int argc, char** argv) {
 int campaign(int argc, char** argv) {
   tetproof::fuzz::RandomCampaign campaign;
   campaign.seconds = std::atof(argv[2]);
+  if (!(campaign.seconds > 0)) {  // a campaign without inputs must not look green
+    std::fprintf(stderr, "--random: seconds above 0 are expected, not %s\n", argv[2]);
+    return 2;
+  }
   campaign.seed = std::strtoull(argv[3], nullptr, 10);
   if (argc > 4) campaign.findings = argv[4];
   try {
