@@ -1,6 +1,7 @@
 // The record and the file: same mesh, promises, sidecars, rounding, repairs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -213,6 +214,7 @@ TEST(Units, TheVerdictIsTheSameInAll) {
     ASSERT_TRUE(result.status.ok()) << result.status.message;
     VerifyOptions wanted;
     wanted.promised = promise_of(options, Task::cdt);
+    if (power != 0) wanted.sidecar = "is not read in other units";
     VerifyReport report;
     ASSERT_EQ(verify(samples::to_polyhedron(scaled), samples::to_mesh(result.mesh), &result.exact,
                      wanted, report),
@@ -221,6 +223,11 @@ TEST(Units, TheVerdictIsTheSameInAll) {
     EXPECT_GT(report.deviation, 0);
     if (power == 0) deviation = report.deviation;
     EXPECT_EQ(report.deviation, std::ldexp(deviation, power));
+    if (const OracleReport* kernel = report.find("exact-second-kernel")) {
+      EXPECT_EQ(
+          std::ranges::count(kernel->notes, "the text of the points was not read a second time"),
+          power == 0 ? 0 : 1);
+    }
     for (const double damage : {1e-3, 2.0}) {
       delmesher::TetMesh moved = result.mesh;
       moved.vertices[0][0] += std::ldexp(damage, power);
