@@ -104,7 +104,8 @@
   function runRow(mesher, run) {
     const row = element("tr"), disposition = get(run, "disposition"), verdict = get(run, "verdict") || "-";
     const colour = { ok: "ok", unverified: "unverified" }[disposition] || "not-ok";
-    row.append(element("td", data.meshers[mesher], { className: "mesher" }));
+    row.append(element("td"));
+    row.lastChild.append(element("span", data.meshers[mesher], { className: "whole" }));
     row.append(element("td", disposition, { className: "text " + colour }));
     row.append(element("td", verdict, { className: verdict.length > 30 ? "text prose" : "text" }));
     for (const [name, digits] of [["wall_seconds", 2], ["verify_seconds", 2], ["peak_mb", 0], ["vertices", 0], ["tetrahedra", 0],
