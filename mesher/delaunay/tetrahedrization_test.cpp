@@ -199,14 +199,14 @@ TEST(Tetrahedrization, FindsVerticesEdgesAndFaces) {
     for (const auto& face : kFace) {
       const FaceHandle found = dt.find_face(t[face[0]], t[face[1]], t[face[2]]);
       ASSERT_TRUE(found.exists());
-      for (const FaceHandle f : {found, dt.across(found)}) {
+      for (const FaceHandle side : {found, dt.across(found)}) {
         std::array<VertexId, 3> corners{}, expected = {t[face[0]], t[face[1]], t[face[2]]};
-        for (int k = 0; k < 3; ++k) corners[k] = dt.vertex(f.tet(), kFace[f.face()][k]);
+        for (int k = 0; k < 3; ++k) corners[k] = dt.vertex(side.tet(), kFace[side.face()][k]);
         std::ranges::sort(corners);
         std::ranges::sort(expected);
         EXPECT_EQ(corners, expected);
-        EXPECT_EQ(dt.opposite(f), dt.vertex(f.tet(), f.face()));
-        EXPECT_EQ(FaceHandle::at(f.index()), f);
+        EXPECT_EQ(dt.opposite(side), dt.vertex(side.tet(), side.face()));
+        EXPECT_EQ(FaceHandle::at(side.index()), side);
       }
       EXPECT_EQ(dt.across(dt.across(found)), found);
       ++faces;
