@@ -140,17 +140,28 @@ bool improve_cdt(cdt::CdtResult& cdt, Session& s) {
   return result.changed;
 }
 
-// From the stand-in to the surface as given, with all its edges. False if that cannot be; the mesh
-// is not to be used then.
+// From the stand-in to the surface as given, with all its edges: by local operations, or, where
+// these do not get there, by another tetrahedrization with the same vertices. False if that cannot
+// be; the mesh is not to be used then.
 bool put_back(cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
+  const cdt::CdtResult before = cdt;
+  const std::size_t points = s.points.size();
   SurfaceTopology as_given = topology_as_given(s);
   improve::DiagonalsResult entered =
       improve::enter_diagonals(improvable(cdt), s.topology, as_given, s.given,
                                improve_options(Region::hull, s), s.points, s.predicates, s.control);
   put_in(std::move(entered.mesh), cdt);
-  const bool done = entered.missing == 0 && go_back(cdt, std::move(as_given), s);
-  recorder.put_back(entered.diagonals, entered.missing, !done);
-  return done;
+  recorder.put_back(entered.diagonals, entered.missing);
+  if (entered.missing == 0 && go_back(cdt, std::move(as_given), s)) return true;
+  if (s.options.max_edge > 0) {  // another tetrahedrization may have longer edges
+    recorder.given_up();
+    return false;
+  }
+  s.points.truncate(points);
+  cdt = tetrahedrize_as_given(before, s);
+  if (s.options.region == Region::interior) keep_inside(cdt);
+  recorder.tetrahedrized_anew();
+  return true;
 }
 
 // Improves the final mesh; a mesh of the stand-in that goes back is improved before and after.

@@ -170,6 +170,7 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"deviation", s.planar_deviation},
                     {"diagonals", s.diagonals},
                     {"diagonals_missing", s.diagonals_missing},
+                    {"anew", s.planar_anew},
                     {"given_up", s.planar_given_up}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
   json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};
@@ -253,6 +254,14 @@ std::vector<std::string> limits_texts(const Statistics& s) {
         s.guaranteed_acute >= 90 ? "all corners" : std::to_string(s.fallback_corners) + " corners";
     texts.push_back("the refinement would not end: begun anew " + std::to_string(s.guard_stops) +
                     " times, at last with empty balls and chamfers up to 90 degrees at " + corners);
+  }
+  if (s.planar_anew) {
+    const std::string why = s.diagonals_missing == 0
+                                ? "tetrahedra did not fit the surface as given"
+                                : std::to_string(s.diagonals_missing) + " of " +
+                                      std::to_string(s.diagonals) +
+                                      " edges within planar facets found no place";
+    texts.push_back(why + ": tetrahedrized anew, with the vertices that there were");
   }
   if (s.planar_given_up) {
     texts.push_back(std::to_string(s.diagonals_missing) + " of " + std::to_string(s.diagonals) +

@@ -36,6 +36,16 @@ TEST(Reports, LimitsThatStruckHaveALineEach) {
   EXPECT_NE(limits_texts(s)[0].find("all corners"), std::string::npos);
 }
 
+TEST(Reports, WhatDoesNotGoBackByLocalOperationsIsTold) {
+  Statistics s;
+  s.diagonals = 9;
+  s.planar_anew = true;
+  ASSERT_EQ(limits_texts(s).size(), 1U);
+  EXPECT_NE(limits_texts(s)[0].find("did not fit"), std::string::npos);
+  s.diagonals_missing = 2;
+  EXPECT_NE(limits_texts(s)[0].find("2 of 9 edges"), std::string::npos);
+}
+
 TEST_F(Told, EndsWithALineOfQualityUnlessQuiet) {
   MeshStatistics& s = answer_.statistics.final;
   s.tetrahedra = 1;
@@ -206,7 +216,8 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["final"]), mesh);
   EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
   EXPECT_EQ(keys(json["planar"]),
-            "facets groups given_facets bound deviation diagonals diagonals_missing given_up ");
+            "facets groups given_facets bound deviation diagonals diagonals_missing anew "
+            "given_up ");
   EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
   EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");

@@ -4,35 +4,29 @@
 #include <utility>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/enrich/returning.h"
 
 namespace delmesher::policies {
 namespace {
 
-PointStore moved_back(const Session& session) {
-  const PointStore& from = session.points;
-  PointStore points;
+// Those that are not vertices of the surface, to a store that has the vertices as given.
+void append_others(const PointStore& from, PointStore& points) {
   points.reserve(from.size());
-  for (VertexId v = 0; v < from.size(); ++v) {
-    const bool given = v < session.given.size();
-    if (given || from.is_explicit(v)) {
-      const Vec3 x = given ? session.given[v] : from.nearest(v);
+  for (auto v = static_cast<VertexId>(points.size()); v < from.size(); ++v) {
+    if (from.is_explicit(v)) {
+      const Vec3 x = from.nearest(v);
       points.add_explicit(x[0], x[1], x[2]);
     } else {
       points.add(from.definition(v));
     }
   }
-  return points;
 }
 
-// kNone if there is none.
-std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b) {
-  const std::uint32_t first = topology.vertex_half_edge[a];
-  for (std::uint32_t h = first; h != kNone;) {
-    if (topology.to(h) == b) return topology.edge_of[h];
-    h = topology.opposite[SurfaceTopology::previous(h)];
-    if (h == first) break;
-  }
-  return kNone;
+PointStore moved_back(const Session& session) {
+  PointStore points;
+  for (const Vec3& x : session.given) points.add_explicit(x[0], x[1], x[2]);
+  append_others(session.points, points);
+  return points;
 }
 
 // Of the vertices of the surface `as_given`, of the points that the mesh has on it, and of those on
@@ -96,6 +90,13 @@ SurfaceTopology build(const Session& session, PointStore& points) {
                         points, predicates);
 }
 
+void enter(SurfaceTopology as_given, PointStore points, Session& session) {
+  session.stand_in = vertices_of(session.points, session.given.size());
+  session.points = std::move(points);
+  session.topology = std::move(as_given);
+  session.given.clear();
+}
+
 }  // namespace
 
 bool goes_back(const Options& options) {
@@ -113,11 +114,21 @@ bool go_back(const cdt::CdtResult& mesh, SurfaceTopology as_given, Session& sess
   PointStore vertices;
   build(session, vertices);  // for the supports of the vertices
   set_supports(mesh, session, as_given, vertices, points);
-  session.stand_in = vertices_of(session.points, session.given.size());
-  session.points = std::move(points);
-  session.topology = std::move(as_given);
-  session.given.clear();
+  enter(std::move(as_given), std::move(points), session);
   return true;
+}
+
+cdt::CdtResult tetrahedrize_as_given(const cdt::CdtResult& mesh, Session& session) {
+  PointStore points;
+  SurfaceTopology as_given = build(session, points);
+  append_others(session.points, points);
+  Predicates predicates(points);
+  cdt::CdtInput input = enrich::input_as_given(mesh, session.topology, session.points, as_given,
+                                               points, predicates, session.control);
+  enter(std::move(as_given), std::move(points), session);
+  input.topology = &session.topology;
+  return cdt::constrained_delaunay_tetrahedrization(input, session.points, session.predicates,
+                                                    session.control);
 }
 
 }  // namespace delmesher::policies

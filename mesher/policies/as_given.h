@@ -19,4 +19,9 @@ SurfaceTopology topology_as_given(const Session& session);
 // given from now on, with the same numbers of points. Otherwise it is left as it is: false.
 bool go_back(const cdt::CdtResult& mesh, SurfaceTopology as_given, Session& session);
 
+// Where that fails: the constrained Delaunay tetrahedrization of the surface as given, with the
+// vertices of a mesh of its stand-in (enrich/returning.h). The session is one of the surface as
+// given from now on. New points are appended.
+cdt::CdtResult tetrahedrize_as_given(const cdt::CdtResult& mesh, Session& session);
+
 }  // namespace delmesher::policies

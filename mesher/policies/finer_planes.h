@@ -12,8 +12,8 @@ namespace delmesher::policies {
 // may turn over tetrahedra that are no thicker than the vertices moved. If some are left, the
 // surface is meshed again with a bound a 32nd as large, and then without planar facets; the best
 // result counts. With --planar 0 there is one more run, without a stand-in, also if the first was
-// given up because it could not be put back onto the surface as given (as_given.h). The limits hold
-// for all runs together.
+// given up because no way led back to the surface as given (as_given.h). The limits hold for all
+// runs together.
 class FinerPlanes {
  public:
   // The first run begins now, with these options.

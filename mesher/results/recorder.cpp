@@ -111,10 +111,9 @@ void Recorder::thinned(const cdt::CdtResult& cdt, std::uint64_t vertices) {
   if (exact()) record_changed(cdt, session_.topology, result_.exact);
 }
 
-void Recorder::put_back(std::uint64_t diagonals, std::uint64_t missing, bool given_up) {
+void Recorder::put_back(std::uint64_t diagonals, std::uint64_t missing) {
   result_.statistics.diagonals = diagonals;
   result_.statistics.diagonals_missing = missing;
-  result_.statistics.planar_given_up = given_up;
 }
 
 void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) {

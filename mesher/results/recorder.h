@@ -31,9 +31,12 @@ class Recorder {
   void improved(const cdt::CdtResult& cdt);
   // `vertices` in all were taken out again before rounding.
   void thinned(const cdt::CdtResult& cdt, std::uint64_t vertices);
-  // Edges of the surface as given came back, but for `missing`; if the mesh is `given_up` for that,
-  // nothing else of it counts.
-  void put_back(std::uint64_t diagonals, std::uint64_t missing, bool given_up);
+  // Edges of the surface as given came back by local operations, but for `missing`.
+  void put_back(std::uint64_t diagonals, std::uint64_t missing);
+  // The surface as given was tetrahedrized anew, with the same vertices.
+  void tetrahedrized_anew() { result_.statistics.planar_anew = true; }
+  // The mesh is of no use, because it cannot be put back.
+  void given_up() { result_.statistics.planar_given_up = true; }
   // The mesh itself, as written.
   void written(MeshToWrite& exact, output::RoundingResult rounded);
   // Times and counters, however the run ended; without a mesh if it failed.

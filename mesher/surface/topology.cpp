@@ -205,6 +205,16 @@ SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predi
   return Builder(surface, stand_in, points, predicates).build();
 }
 
+std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b) {
+  const std::uint32_t first = topology.vertex_half_edge[a];
+  for (std::uint32_t h = first; h != kNone;) {
+    if (topology.to(h) == b) return topology.edge_of[h];
+    h = topology.opposite[SurfaceTopology::previous(h)];
+    if (h == first) break;
+  }
+  return kNone;
+}
+
 std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points) {
   std::vector<Box> boxes;
   boxes.reserve(topology.triangles.size());

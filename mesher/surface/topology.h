@@ -62,6 +62,9 @@ struct SurfaceTopology {
 SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates,
                                const StandIn& stand_in = {});
 
+// The undirected edge between two vertices; kNone if there is none.
+std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b);
+
 // Of the triangles, in their order.
 std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points);
 
