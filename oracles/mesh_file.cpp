@@ -4,20 +4,21 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
+#include <optional>
+#include <utility>
 
+#include "oracles/gmsh_text.h"
 #include "oracles/text_reader.h"
 #include "oracles/vtu_text.h"
 
 namespace tetproof::oracles {
 namespace {
 
-void read_positions(TextReader& reader, std::uint64_t count, std::vector<Position>& positions) {
-  positions.reserve(count);
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const double x = reader.number(), y = reader.number(), z = reader.number();
-    positions.push_back({x, y, z});
-  }
+Position read_position(TextReader& reader) {
+  const double x = reader.number(), y = reader.number();
+  return {x, y, reader.number()};
 }
 
 template <std::size_t size>
@@ -29,253 +30,220 @@ std::array<Index, size> read_corners(TextReader& reader, std::int64_t first, std
 
 // ------------------------------------------------------------------------------------------ MEDIT
 
-// delmesher's comments after the end: "# TriangleFacets N", then "# id" for every triangle.
-void read_facet_comments(TextReader& reader, MeshFile& mesh) {
-  reader.without_comments();
-  for (;;) {
-    const std::string_view word = reader.word();
-    if (word.empty()) return;
-    if (word != "#") continue;
-    if (reader.word_in_line() == "TriangleFacets") break;
-  }
-  const std::uint64_t count = reader.count();
-  for (std::uint64_t i = 0; i < count; ++i) {
-    if (reader.word() != "#") reader.fail("a damaged list of facets");
-    mesh.facets.push_back(reader.index(0, 0x100000000U));
-  }
-}
+class MeditReader {
+ public:
+  explicit MeditReader(const std::string& path) : reader_(TextReader::of_file(path)) {}
 
-MeshFile read_medit(const std::string& path) {
-  TextReader reader = TextReader::of_file(path);
-  MeshFile mesh;
-  // Sections without use here, with how many numbers an entry has.
-  static const std::map<std::string_view, int> kSkipped = {
-      {"Edges", 3},   {"Corners", 1},           {"RequiredVertices", 1}, {"Ridges", 1},
-      {"Normals", 3}, {"RequiredTriangles", 1}, {"RequiredEdges", 1},    {"Tangents", 3}};
-  // No oracle would look at these cells.
-  const auto none = [&](const std::string& section) {
-    if (reader.count() > 0) reader.fail("a section of " + section + ", which are not read");
+  MeshFile read() {
+    reader_.expect("MeshVersionFormatted");
+    reader_.index(1, 4);
+    for (;;) {
+      const std::string section(reader_.required_word("a section or End"));
+      if (section == "End") break;
+      if (!counts_.emplace(section, 0).second) reader_.fail(section + " is there twice");
+      read_section(section);
+    }
+    for (const char* section : {"Dimension", "Vertices", "Tetrahedra"}) {
+      if (!counts_.contains(section)) reader_.fail(std::string("there is no ") + section);
+    }
+    check_references();
+    read_comments();
+    return std::move(mesh_);
+  }
+
+ private:
+  // A section without use here: of what its entries tell numbers, and how many, and how many other
+  // numbers follow these.
+  struct Skipped {
+    const char* of;
+    int numbers, others;
   };
-  if (reader.word() != "MeshVersionFormatted") reader.fail("not a MEDIT file");
-  reader.integer();
-  for (auto keyword = reader.word(); !keyword.empty() && keyword != "End";
-       keyword = reader.word()) {
-    if (keyword == "Dimension") {
-      reader.integer();
-    } else if (keyword == "Vertices") {
-      const std::uint64_t count = reader.count();
-      for (std::uint64_t i = 0; i < count; ++i) {
-        read_positions(reader, 1, mesh.vertices);
-        reader.integer();
-      }
-    } else if (keyword == "Triangles") {
-      const std::uint64_t count = reader.count();
-      for (std::uint64_t i = 0; i < count; ++i) {
-        mesh.boundary.push_back(read_corners<3>(reader, 1, mesh.vertices.size()));
-        mesh.labels.push_back(static_cast<std::int32_t>(reader.integer()));
-      }
-    } else if (keyword == "Tetrahedra") {
-      const std::uint64_t count = reader.count();
-      for (std::uint64_t i = 0; i < count; ++i) {
-        mesh.tetrahedra.push_back(read_corners<4>(reader, 1, mesh.vertices.size()));
-        mesh.regions.push_back(reader.integer());
-      }
-    } else if (keyword == "Hexahedra" || keyword == "Quadrilaterals") {
-      none(std::string(keyword));
-    } else if (const auto skipped = kSkipped.find(keyword); skipped != kSkipped.end()) {
-      const std::uint64_t count = reader.count();
-      for (std::uint64_t i = 0; i < count * static_cast<std::uint64_t>(skipped->second); ++i) {
-        reader.number();
-      }
-    } else {
-      reader.fail("unknown section " + std::string(keyword.substr(0, 40)));
+
+  void read_section(const std::string& section) {
+    static const std::map<std::string, Skipped> kSkipped = {
+        {"Edges", {"Vertices", 2, 1}},
+        {"Corners", {"Vertices", 1, 0}},
+        {"RequiredVertices", {"Vertices", 1, 0}},
+        {"Ridges", {"Edges", 1, 0}},
+        {"RequiredEdges", {"Edges", 1, 0}},
+        {"RequiredTriangles", {"Triangles", 1, 0}},
+        {"Normals", {"", 0, 3}},
+        {"Tangents", {"", 0, 3}},
+        {"NormalAtVertices", {"Vertices", 1, 1}},
+        {"TangentAtVertices", {"Vertices", 1, 1}}};
+    if (section == "Dimension") {
+      if (reader_.integer() != 3) reader_.fail("a mesh that is not in space");
+      return;
+    }
+    const auto skipped = kSkipped.find(section);
+    const bool cells = section == "Hexahedra" || section == "Quadrilaterals";
+    if (section != "Vertices" && section != "Triangles" && section != "Tetrahedra" && !cells &&
+        skipped == kSkipped.end()) {
+      reader_.fail("unknown section " + section.substr(0, 40));
+    }
+    const std::uint64_t count = counts_[section] = reader_.count();
+    // No oracle would look at these.
+    if (cells && count > 0) reader_.fail("a section of " + section + ", which are not read");
+    for (std::uint64_t i = 0; i < count; ++i) {
+      skipped == kSkipped.end() ? read_entry(section) : skip_entry(skipped->second);
     }
   }
-  read_facet_comments(reader, mesh);
-  return mesh;
-}
+
+  void read_entry(const std::string& section) {
+    if (section == "Vertices") {
+      mesh_.vertices.push_back(read_position(reader_));
+      reader_.integer();
+    } else if (section == "Triangles") {
+      mesh_.boundary.push_back(read_corners<3>(reader_, 1, mesh_.vertices.size()));
+      mesh_.labels.push_back(reader_.integer32());
+    } else {
+      mesh_.tetrahedra.push_back(read_corners<4>(reader_, 1, mesh_.vertices.size()));
+      mesh_.regions.push_back(reader_.integer());
+    }
+  }
+
+  void skip_entry(const Skipped& entry) {
+    for (int k = 0; k < entry.numbers; ++k) {
+      const std::uint64_t value = reader_.index(1, 0xffffffffU) + std::uint64_t{1};
+      largest_[entry.of] = std::max(largest_[entry.of], value);
+    }
+    for (int k = 0; k < entry.others; ++k) reader_.number();
+  }
+
+  // What is referred to may come later.
+  void check_references() {
+    for (const auto& [section, largest] : largest_) {
+      if (largest > counts_[section]) {
+        reader_.fail("a reference to " + section + ": there is none of number " +
+                     std::to_string(largest));
+      }
+    }
+  }
+
+  // After the end nothing but comments; among them those of delmesher: "# TriangleFacets N", then
+  // "# id" for every triangle.
+  void read_comments() {
+    reader_.without_comments();
+    bool found = false;
+    while (!reader_.at_end()) {
+      if (!reader_.word().starts_with('#')) reader_.fail("something follows the end");
+      if (reader_.word_in_line() != "TriangleFacets") {
+        reader_.skip_line();
+        continue;
+      }
+      if (std::exchange(found, true)) reader_.fail("facets are there twice");
+      const std::uint64_t count = reader_.count();
+      if (count != mesh_.boundary.size()) reader_.fail("there is not a facet for each triangle");
+      for (std::uint64_t i = 0; i < count; ++i) {
+        reader_.expect_line_end();
+        reader_.expect("#");
+        mesh_.facets.push_back(reader_.index(0, 0x100000000U));
+      }
+      reader_.expect_line_end();
+    }
+  }
+
+  TextReader reader_;
+  MeshFile mesh_;
+  std::map<std::string, std::uint64_t> counts_;   // of the sections
+  std::map<std::string, std::uint64_t> largest_;  // number that something refers to, by section
+};
 
 // ------------------------------------------------------------------------------------------- .tet
+
+// "N vertices", or what is said of the inner and the outer tetrahedra.
+std::uint64_t counted(TextReader& reader, std::initializer_list<const char*> words) {
+  const std::uint64_t count = reader.count();
+  for (const char* word : words) {
+    if (reader.word_in_line() != word) reader.fail(std::string("no number of ") + *words.begin());
+  }
+  reader.expect_line_end();
+  return count;
+}
 
 MeshFile read_tet(const std::string& path) {
   TextReader reader = TextReader::of_file(path);
   MeshFile mesh;
   mesh.either_orientation = true;
   mesh.lists_boundary = false;
-  const std::uint64_t vertices = reader.count();
-  reader.skip_line();
-  const std::uint64_t inner = reader.count();
-  std::uint64_t outer = 0;
-  if (reader.word_in_line() == "inner") {
-    reader.skip_line();
-    outer = reader.count();
+  const std::uint64_t vertices = counted(reader, {"vertices"});
+  std::uint64_t inner = reader.count(), outer = 0;
+  const std::string kind(reader.word_in_line());
+  if (kind == "inner") {
+    reader.expect("tets");
+    outer = counted(reader, {"outer", "tets"});
     mesh.regions.assign(inner, 1);
     mesh.regions.resize(inner + outer, 0);
+    mesh.inside.assign(mesh.regions.begin(), mesh.regions.end());
+  } else if (kind != "tets") {
+    reader.fail("no number of tets");
   }
-  reader.skip_line();
-  read_positions(reader, vertices, mesh.vertices);
+  for (std::uint64_t v = 0; v < vertices; ++v) {
+    mesh.vertices.push_back(read_position(reader));
+    reader.expect_line_end();
+  }
   for (std::uint64_t t = 0; t < inner + outer; ++t) {
     if (reader.integer() != 4) reader.fail("a cell that is no tetrahedron");
     mesh.tetrahedra.push_back(read_corners<4>(reader, 0, vertices));
+    reader.expect_line_end();
   }
+  reader.expect_nothing();
   return mesh;
 }
 
 // ------------------------------------------------------------------------------------------ Gmsh
 
-class GmshReader {
- public:
-  explicit GmshReader(const std::string& path) : reader_(TextReader::of_file(path, '\0')) {}
+// Physical tags are positive. Labels that are not are written in the name: "label -3", and after
+// that what they are called.
+std::optional<std::int64_t> label_in(const std::string& name) {
+  constexpr std::string_view kStart = "label ";
+  if (!name.starts_with(kStart)) return {};
+  const char* const last = name.data() + name.size();
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(name.data() + kStart.size(), last, value);
+  if (error != std::errc() || (end != last && *end != ' ')) return {};
+  return value;
+}
 
-  MeshFile read() {
-    for (auto word = reader_.word(); !word.empty(); word = reader_.word()) {
-      if (word == "$MeshFormat") {
-        version_ = reader_.number();
-        if (reader_.integer() != 0) reader_.fail("binary .msh files are not read");
-      } else if (word == "$PhysicalNames") {
-        read_names();
-      } else if (word == "$Entities") {
-        read_entities();
-      } else if (word == "$Nodes") {
-        version_ < 4 ? read_nodes_2() : read_nodes_4();
-      } else if (word == "$Elements") {
-        version_ < 4 ? read_elements_2() : read_elements_4();
-      } else {
-        continue;
-      }
+MeshFile read_gmsh(const std::string& path) {
+  MeshFile mesh;
+  std::vector<std::int64_t> groups, entities;  // of triangles
+  GmshText text = read_gmsh_text(path, [&](const GmshElement& element) {
+    const auto& [a, b, c, d] = element.nodes;
+    if (element.type == 4) {
+      mesh.tetrahedra.push_back({a, b, c, d});
+      mesh.regions.push_back(element.group);
+    } else if (element.type == 2) {
+      mesh.boundary.push_back({a, b, c});
+      groups.push_back(element.group);
+      entities.push_back(element.entity);
     }
-    return std::move(mesh_);
+  });
+  mesh.vertices = std::move(text.nodes);
+  // Where the names say the opposite of the numbers 1 and 2, these count as exchanged.
+  const auto called = [&](std::int64_t group, const char* name) {
+    const auto found = text.names.find({3, group});
+    return found != text.names.end() && found->second == name;
+  };
+  if (called(1, "outside") || called(2, "inside")) {
+    for (std::int64_t& region : mesh.regions) region = region == 1 ? 2 : region == 2 ? 1 : region;
   }
-
- private:
-  // Physical tags are positive. Labels that are not are written in the name: "label -3".
-  void read_names() {
-    const std::uint64_t count = reader_.count();
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const std::int64_t dimension = reader_.integer(), tag = reader_.integer();
-      const bool label = reader_.word() == "\"label";
-      const std::string_view number = reader_.word_in_line();
-      std::int64_t value = 0;
-      const auto [end, error] =
-          std::from_chars(number.data(), number.data() + number.size(), value);
-      if (dimension == 2 && label && error == std::errc()) labels_[tag] = value;
-      reader_.skip_line();
+  for (const std::int64_t group : groups) {
+    const auto named = text.names.find({2, group});
+    const std::int64_t label =
+        named == text.names.end() ? group : label_in(named->second).value_or(group);
+    if (label != static_cast<std::int32_t>(label)) {
+      throw ReadError(path + ": label " + std::to_string(label) + " is no integer of 32 bits");
     }
+    mesh.labels.push_back(static_cast<std::int32_t>(label));
   }
-
-  // Physical tags of surfaces and volumes; an entity without one stands for itself.
-  void read_entities() {
-    std::uint64_t counts[4];
-    for (std::uint64_t& count : counts) count = reader_.count();
-    for (int dimension = 0; dimension < 4; ++dimension) {
-      for (std::uint64_t i = 0; i < counts[dimension]; ++i) {
-        const std::int64_t tag = reader_.integer();
-        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) reader_.number();
-        physical_[{dimension, tag}] = tag;
-        const std::uint64_t tags = reader_.count();
-        for (std::uint64_t k = 0; k < tags; ++k) {
-          const std::int64_t value = reader_.integer();
-          if (k == 0) physical_[{dimension, tag}] = value;
-        }
-        if (dimension == 0) continue;
-        const std::uint64_t bounding = reader_.count();
-        for (std::uint64_t k = 0; k < bounding; ++k) reader_.integer();
-      }
-    }
+  if (text.version < 4) return mesh;
+  for (const std::int64_t entity : entities) {
+    const bool known = entity > 0 && entity <= std::int64_t{kNone};
+    mesh.facets.push_back(known ? static_cast<Index>(entity - 1) : kNone);
   }
-
-  void read_nodes_4() {
-    const std::uint64_t blocks = reader_.count();
-    for (int i = 0; i < 3; ++i) reader_.integer();
-    for (std::uint64_t block = 0; block < blocks; ++block) {
-      const std::int64_t dimension = reader_.integer();
-      reader_.integer();
-      const bool parametric = reader_.integer() != 0;
-      const std::uint64_t count = reader_.count();
-      for (std::uint64_t i = 0; i < count; ++i) add_node_tag(reader_.integer());
-      for (std::uint64_t i = 0; i < count; ++i) {
-        read_positions(reader_, 1, mesh_.vertices);
-        for (std::int64_t k = 0; parametric && k < dimension; ++k) reader_.number();
-      }
-    }
-  }
-
-  void read_nodes_2() {
-    const std::uint64_t count = reader_.count();
-    for (std::uint64_t i = 0; i < count; ++i) {
-      add_node_tag(reader_.integer());
-      read_positions(reader_, 1, mesh_.vertices);
-    }
-  }
-
-  void read_elements_4() {
-    const std::uint64_t blocks = reader_.count();
-    for (int i = 0; i < 3; ++i) reader_.integer();
-    for (std::uint64_t block = 0; block < blocks; ++block) {
-      const int dimension = static_cast<int>(reader_.integer());
-      const std::int64_t entity = reader_.integer(), type = reader_.integer();
-      const std::uint64_t count = reader_.count();
-      const auto found = physical_.find({dimension, entity});
-      const std::int64_t tag = found == physical_.end() ? entity : found->second;
-      for (std::uint64_t i = 0; i < count; ++i) {
-        reader_.integer();
-        add_element(type, tag);
-        if (type == 2) mesh_.facets.push_back(static_cast<Index>(entity - 1));
-      }
-    }
-  }
-
-  void read_elements_2() {
-    const std::uint64_t count = reader_.count();
-    for (std::uint64_t i = 0; i < count; ++i) {
-      reader_.integer();
-      const std::int64_t type = reader_.integer();
-      const std::uint64_t tags = reader_.count();
-      std::int64_t tag = 0;
-      for (std::uint64_t k = 0; k < tags; ++k) {
-        const std::int64_t value = reader_.integer();
-        if (k == 0) tag = value;
-      }
-      add_element(type, tag);
-    }
-  }
-
-  void add_node_tag(std::int64_t tag) {
-    if (!nodes_.emplace(tag, static_cast<Index>(nodes_.size())).second) {
-      reader_.fail("node " + std::to_string(tag) + " is there twice");
-    }
-  }
-
-  Index node() {
-    const std::int64_t tag = reader_.integer();
-    const auto found = nodes_.find(tag);
-    if (found == nodes_.end()) reader_.fail("there is no node " + std::to_string(tag));
-    return found->second;
-  }
-
-  void add_element(std::int64_t type, std::int64_t tag) {
-    if (type == 4) {
-      mesh_.tetrahedra.push_back({node(), node(), node(), node()});
-      mesh_.regions.push_back(tag);
-    } else if (type == 2) {
-      mesh_.boundary.push_back({node(), node(), node()});
-      const auto label = labels_.find(tag);
-      mesh_.labels.push_back(
-          static_cast<std::int32_t>(label == labels_.end() ? tag : label->second));
-    } else if (type == 1 || type == 15) {
-      reader_.skip_line();  // lines and points
-    } else {
-      reader_.fail("an element of type " + std::to_string(type) + ", which is not read");
-    }
-  }
-
-  TextReader reader_;
-  MeshFile mesh_;
-  double version_ = 4.1;
-  std::map<std::pair<int, std::int64_t>, std::int64_t> physical_;
-  std::map<std::int64_t, std::int64_t> labels_;  // of physical tags
-  std::map<std::int64_t, Index> nodes_;
-};
+  return mesh;
+}
 
 // ------------------------------------------------------------------------------------------- .vtu
 
@@ -286,106 +254,171 @@ class VtuReader {
   VtuReader(const VtuReader&) = delete;
 
   MeshFile read() {
-    MeshFile mesh;
-    const std::vector<double> points = text_.array("Points", "");
-    const std::vector<double> corners = text_.array("Cells", "connectivity");
-    const std::vector<double> types = text_.array("Cells", "types");
-    const std::vector<double> offsets = text_.array("Cells", "offsets");
-    for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
-      mesh.vertices.push_back({points[i], points[i + 1], points[i + 2]});
+    const std::vector<double> points = text_.required_array("Points", "");
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+      mesh_.vertices.push_back({points[i], points[i + 1], points[i + 2]});
     }
-    if (types.size() != offsets.size()) fail("types and offsets differ in length");
-    std::vector<double> values = text_.array("CellData", "region");
-    if (values.empty()) values = text_.array("CellData", "inside");
-    const std::vector<double> labels = text_.array("CellData", "label");
-    const std::vector<double> facets = text_.array("CellData", "facet");
-    for (const auto* list :
-         std::initializer_list<const std::vector<double>*>{&values, &labels, &facets}) {
-      if (!list->empty() && list->size() != types.size()) fail("an array has not a value per cell");
+    corners_ = text_.required_array("Cells", "connectivity");
+    types_ = text_.required_array("Cells", "types");
+    const std::vector<double> offsets = text_.required_array("Cells", "offsets");
+    regions_ = text_.array("CellData", "region");
+    sides_ = text_.array("CellData", "inside");
+    labels_ = text_.array("CellData", "label");
+    facets_ = text_.array("CellData", "facet");
+    for (std::size_t cell = 0; cell < types_.size(); ++cell) {
+      const std::int64_t end = text_.integer(offsets[cell]);
+      read_cell(cell, end - static_cast<std::int64_t>(start_));
     }
-    std::size_t start = 0;
-    for (std::size_t cell = 0; cell < types.size(); ++cell) {
-      const auto end = static_cast<std::size_t>(integer(offsets[cell]));
-      if (end < start || end > corners.size()) fail("offsets leave the connectivity");
-      const auto corner = [&](std::size_t k) {
-        const std::int64_t v = integer(corners[start + k]);
-        if (v < 0 || v >= static_cast<std::int64_t>(mesh.vertices.size())) {
-          fail("a cell refers to no point");
-        }
-        return static_cast<Index>(v);
-      };
-      if (types[cell] == 10 && end - start == 4) {
-        mesh.tetrahedra.push_back({corner(0), corner(1), corner(2), corner(3)});
-        if (!values.empty()) mesh.regions.push_back(integer(values[cell]));
-      } else if (types[cell] == 5 && end - start == 3) {
-        mesh.boundary.push_back({corner(0), corner(1), corner(2)});
-        if (!labels.empty())
-          mesh.labels.push_back(static_cast<std::int32_t>(integer(labels[cell])));
-        if (!facets.empty()) {
-          const bool known = facets[cell] >= 0 && facets[cell] < 0x1p32;
-          mesh.facets.push_back(known ? static_cast<Index>(integer(facets[cell])) : kNone);
-        }
-      } else if (types[cell] != 1 && types[cell] != 3) {  // points and lines
-        fail("a cell that is no tetrahedron and no triangle");
-      }
-      start = end;
+    if (start_ != corners_.size()) text_.fail("the connectivity goes on after the last cell");
+    // The sides of a mesh from elsewhere are not known: all is called inside then.
+    if (!regions_.empty() &&
+        std::ranges::all_of(mesh_.inside, [](auto side) { return side != 0; })) {
+      mesh_.inside.clear();
     }
-    return mesh;
+    return std::move(mesh_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& reason) const { text_.fail(reason); }
-  std::int64_t integer(double value) const { return text_.integer(value); }
+  void read_cell(std::size_t cell, std::int64_t size) {
+    static const std::map<double, std::int64_t> kSizes = {{1, 1}, {3, 2}, {5, 3}, {10, 4}};
+    const auto wanted = kSizes.find(types_[cell]);
+    if (wanted == kSizes.end()) text_.fail("a cell that is no tetrahedron and no triangle");
+    const auto end = start_ + static_cast<std::size_t>(wanted->second);
+    if (size != wanted->second || end > corners_.size()) text_.fail("offsets that fit no cell");
+    std::array<Index, 4> corner{};
+    for (std::size_t k = start_; k < end; ++k) {
+      const std::int64_t v = text_.integer(corners_[k]);
+      if (v < 0 || v >= static_cast<std::int64_t>(mesh_.vertices.size())) {
+        text_.fail("a cell refers to no point");
+      }
+      corner[k - start_] = static_cast<Index>(v);
+    }
+    start_ = end;
+    if (size == 4) add_tetrahedron(cell, corner);
+    if (size == 3) add_triangle(cell, {corner[0], corner[1], corner[2]});
+  }
+
+  void add_tetrahedron(std::size_t cell, const Tet& tet) {
+    mesh_.tetrahedra.push_back(tet);
+    if (!sides_.empty()) {
+      if (sides_[cell] != 0 && sides_[cell] != 1) text_.fail("a side that is neither 0 nor 1");
+      mesh_.inside.push_back(sides_[cell] == 1 ? 1 : 0);
+    }
+    const std::vector<double>& values = regions_.empty() ? sides_ : regions_;
+    if (!values.empty()) mesh_.regions.push_back(text_.integer(values[cell]));
+    if (!labels_.empty() && labels_[cell] != 0) text_.fail("a label of a tetrahedron");
+    if (!facets_.empty() && facets_[cell] != -1) text_.fail("a facet of a tetrahedron");
+  }
+
+  void add_triangle(std::size_t cell, const Face& face) {
+    mesh_.boundary.push_back(face);
+    if (!sides_.empty() && sides_[cell] != -1) text_.fail("a side of a triangle");
+    if (!labels_.empty()) mesh_.labels.push_back(text_.integer32(labels_[cell]));
+    if (!facets_.empty()) {
+      const bool known = facets_[cell] >= 0 && facets_[cell] < 0x1p32;
+      mesh_.facets.push_back(known ? static_cast<Index>(text_.integer(facets_[cell])) : kNone);
+    }
+  }
 
   const std::string contents_;
   const VtuText text_;
+  MeshFile mesh_;
+  std::vector<double> corners_, types_, regions_, sides_, labels_, facets_;
+  std::size_t start_ = 0;  // of a cell, in the connectivity
 };
 
 // ----------------------------------------------------------------------------------------- TetGen
 
+// The next number of this line; 0 if there is none.
+std::int64_t integer_in_line(TextReader& reader, const std::string& path) {
+  const std::string_view word = reader.word_in_line();
+  return word.empty() ? 0 : TextReader(path, word, '\0').integer();
+}
+
+// Numbers in this line that say nothing here.
+void skip_numbers(TextReader& reader, const std::string& path, std::int64_t count) {
+  for (std::int64_t k = 0; k < count; ++k) {
+    const std::string_view word = reader.word_in_line();
+    if (word.empty()) reader.fail("a number is missing");
+    TextReader(path, word, '\0').number();
+  }
+}
+
+void expect_number(TextReader& reader, std::int64_t wanted) {
+  if (reader.integer() != wanted) reader.fail("the numbers are not in order");
+}
+
+// The first number of a vertex.
+std::int64_t read_tetgen_nodes(const std::string& path, std::vector<Position>& vertices) {
+  TextReader reader = TextReader::of_file(path);
+  const std::uint64_t count = reader.count();
+  if (integer_in_line(reader, path) != 3) reader.fail("vertices are not in space");
+  const std::int64_t attributes = integer_in_line(reader, path),
+                     markers = integer_in_line(reader, path);
+  if (attributes < 0 || (markers != 0 && markers != 1)) reader.fail("no such numbers of markers");
+  reader.expect_line_end();
+  std::int64_t first = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (i == 0) {
+      first = reader.index(0, 2);
+    } else {
+      expect_number(reader, first + static_cast<std::int64_t>(i));
+    }
+    vertices.push_back(read_position(reader));
+    skip_numbers(reader, path, attributes + markers);
+    reader.expect_line_end();
+  }
+  reader.expect_nothing();
+  return first;
+}
+
+void read_tetgen_elements(const std::string& path, std::int64_t first, MeshFile& mesh) {
+  TextReader ele = TextReader::of_file(path);
+  const std::uint64_t tets = ele.count();
+  if (integer_in_line(ele, path) != 4) ele.fail("elements are not linear tetrahedra");
+  const std::int64_t attributes = integer_in_line(ele, path);
+  if (attributes < 0) ele.fail("no such number of attributes");
+  ele.expect_line_end();
+  for (std::uint64_t i = 0; i < tets; ++i) {
+    expect_number(ele, first + static_cast<std::int64_t>(i));
+    mesh.tetrahedra.push_back(read_corners<4>(ele, first, mesh.vertices.size()));
+    if (attributes > 0) mesh.regions.push_back(ele.integer());
+    skip_numbers(ele, path, std::max<std::int64_t>(attributes - 1, 0));
+    ele.expect_line_end();
+  }
+  ele.expect_nothing();
+}
+
+void read_tetgen_faces(const std::string& path, std::int64_t first, MeshFile& mesh) {
+  TextReader face = TextReader::of_file(path);
+  const std::uint64_t triangles = face.count();
+  const std::int64_t markers = integer_in_line(face, path);
+  if (markers != 0 && markers != 1) face.fail("no such number of markers");
+  face.expect_line_end();
+  for (std::uint64_t i = 0; i < triangles; ++i) {
+    expect_number(face, first + static_cast<std::int64_t>(i));
+    mesh.boundary.push_back(read_corners<3>(face, first, mesh.vertices.size()));
+    if (markers == 1) mesh.labels.push_back(face.integer32());
+    // TetGen's own files have no further numbers, or two with another meaning (its -nn); only a
+    // record decides what it should be.
+    std::vector<std::int64_t> further;
+    for (auto word = face.word_in_line(); !word.empty(); word = face.word_in_line()) {
+      further.push_back(TextReader(path, word, '\0').integer());
+    }
+    if (further.size() > 2) face.fail("too many numbers");
+    if (further.empty() || markers == 0) continue;
+    const bool known = further.size() == 1 && further[0] >= 0 && further[0] < std::int64_t{kNone};
+    mesh.facets.push_back(known ? static_cast<Index>(further[0]) : kNone);
+  }
+  face.expect_nothing();
+}
+
 MeshFile read_tetgen(const std::string& stem) {
   MeshFile mesh;
   mesh.either_orientation = true;
-  TextReader reader = TextReader::of_file(stem + ".node");
-  const std::uint64_t count = reader.count();
-  reader.skip_line();
-  std::int64_t first = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const std::int64_t number = reader.integer();
-    if (i == 0) first = number;
-    if (number != first + static_cast<std::int64_t>(i)) reader.fail("nodes are not in order");
-    read_positions(reader, 1, mesh.vertices);
-    reader.skip_line();
-  }
-  TextReader ele = TextReader::of_file(stem + ".ele");
-  const std::uint64_t tets = ele.count();
-  const std::int64_t corners = ele.integer();
-  const bool regions = ele.integer() != 0;
-  if (corners != 4) ele.fail("elements are not linear tetrahedra");
-  for (std::uint64_t i = 0; i < tets; ++i) {
-    ele.integer();
-    mesh.tetrahedra.push_back(read_corners<4>(ele, first, count));
-    if (regions) mesh.regions.push_back(ele.integer());
-    ele.skip_line();
-  }
-  if (!std::filesystem::exists(stem + ".face")) return mesh;
-  TextReader face = TextReader::of_file(stem + ".face");
-  const std::uint64_t triangles = face.count();
-  const bool markers = face.integer() != 0;
-  for (std::uint64_t i = 0; i < triangles; ++i) {
-    face.integer();
-    mesh.boundary.push_back(read_corners<3>(face, first, count));
-    if (markers) mesh.labels.push_back(static_cast<std::int32_t>(face.integer()));
-    // TetGen's own files have no second number, or one with another meaning; only a record decides
-    // what it should be.
-    if (const std::string_view facet = face.word_in_line(); !facet.empty() && markers) {
-      Index value = 0;
-      const auto [end, error] = std::from_chars(facet.data(), facet.data() + facet.size(), value);
-      const bool whole = error == std::errc() && end == facet.data() + facet.size();
-      mesh.facets.push_back(whole ? value : kNone);
-    }
-    face.skip_line();
-  }
+  const std::int64_t first = read_tetgen_nodes(stem + ".node", mesh.vertices);
+  read_tetgen_elements(stem + ".ele", first, mesh);
+  if (std::filesystem::exists(stem + ".face")) read_tetgen_faces(stem + ".face", first, mesh);
   return mesh;
 }
 
@@ -394,13 +427,14 @@ MeshFile read_tetgen(const std::string& stem) {
 MeshFile read_mesh(const std::string& path) {
   const std::filesystem::path file(path);
   const std::string extension = file.extension().string();
-  if (extension == ".node" || extension == ".ele" || extension == ".face") {
-    return read_tetgen((file.parent_path() / file.stem()).string());
-  }
   if (extension == ".tet") return read_tet(path);
-  if (extension == ".msh") return GmshReader(path).read();
-  if (extension == ".vtu") return VtuReader(path).read();
-  return read_medit(path);
+  const bool tetgen = extension == ".node" || extension == ".ele" || extension == ".face";
+  MeshFile mesh = tetgen                ? read_tetgen((file.parent_path() / file.stem()).string())
+                  : extension == ".msh" ? read_gmsh(path)
+                  : extension == ".vtu" ? VtuReader(path).read()
+                                        : MeditReader(path).read();
+  mesh.names_sides = true;
+  return mesh;
 }
 
 }  // namespace tetproof::oracles

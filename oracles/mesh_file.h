@@ -11,11 +11,15 @@ namespace tetproof::oracles {
 struct MeshFile {
   std::vector<Position> vertices;
   std::vector<Tet> tetrahedra;
+  bool names_sides = false;           // the format has regions, which delmesher always writes
   std::vector<std::int64_t> regions;  // per tetrahedron; empty if the file says nothing
-  std::vector<Face> boundary;         // triangles listed in the file
-  std::vector<std::int32_t> labels;   // per triangle; empty if the file says nothing
-  std::vector<Index> facets;          // per triangle, the facet that it tiles; or empty
-  bool lists_boundary = true;         // false for a format that has no triangles
+  // Per tetrahedron, where the format has words for it (and not just a number for each region);
+  // empty if the file does not use them.
+  std::vector<std::uint8_t> inside;
+  std::vector<Face> boundary;        // triangles listed in the file
+  std::vector<std::int32_t> labels;  // per triangle; empty if the file says nothing
+  std::vector<Index> facets;         // per triangle, the facet that it tiles; or empty
+  bool lists_boundary = true;        // false for a format that has no triangles
   // The format has no common convention: tetrahedra that are all turned the same way are right.
   bool either_orientation = false;
 };

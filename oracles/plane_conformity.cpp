@@ -400,6 +400,18 @@ class FileChecker {
         list_.fail("an edge on segment " + std::to_string(segment) + " is not listed");
       }
     }
+    if (file_.lists_holes) check_holes();
+  }
+
+  void check_holes() {
+    const auto same = [](const auto& a, const auto& b) {
+      return a.point == b.point && a.attribute == b.attribute;
+    };
+    ++list_.checked;
+    if (file_.holes != graph_.given().holes) list_.fail("the holes are not those of the input");
+    if (!std::ranges::equal(file_.regions, graph_.given().regions, same)) {
+      list_.fail("the regions are not those of the input");
+    }
   }
 
   void measure_angles() {

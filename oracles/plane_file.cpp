@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "oracles/gmsh_text.h"
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
 #include "oracles/vtu_text.h"
@@ -39,6 +40,13 @@ std::int64_t integer_in_line(TextReader& reader, const std::string& path, std::i
   return word.empty() ? otherwise : TextReader(path, word).integer();
 }
 
+std::int32_t integer32(const TextReader& reader, std::int64_t value) {
+  if (value != static_cast<std::int32_t>(value)) {
+    reader.fail(std::to_string(value) + " is no integer of 32 bits");
+  }
+  return static_cast<std::int32_t>(value);
+}
+
 // ------------------------------------------------------------------------------------- Triangle
 
 // Numbered points; returns the first number.
@@ -54,6 +62,12 @@ std::int64_t read_nodes(TextReader& reader, std::uint64_t count, std::vector<Poi
   return first;
 }
 
+// A numbered point of a list of holes or regions.
+Point numbered_point(TextReader& reader) {
+  reader.integer();
+  return point(reader);
+}
+
 // Segments as .poly files list them.
 void read_segments(TextReader& reader, const std::string& path, std::int64_t first,
                    std::uint64_t vertices, std::vector<Edge>& segments,
@@ -65,9 +79,7 @@ void read_segments(TextReader& reader, const std::string& path, std::int64_t fir
     reader.integer();
     const std::uint32_t a = reader.index(first, vertices);
     segments.push_back({a, reader.index(first, vertices)});
-    if (marked) {
-      markers.push_back(static_cast<std::int32_t>(integer_in_line(reader, path, 0)));
-    }
+    if (marked) markers.push_back(integer32(reader, integer_in_line(reader, path, 0)));
     reader.skip_line();
   }
 }
@@ -113,48 +125,92 @@ PlanarGraph read_poly(const std::string& path, std::string_view text) {
   return graph;
 }
 
-PlaneFile read_triangle(const std::string& path) {
-  PlaneFile file;
-  const std::string node_path = beside(path, ".node"), ele_path = beside(path, ".ele"),
-                    poly_path = beside(path, ".poly");
-  const std::string node_text = read_whole_file(node_path);
-  TextReader nodes(node_path, node_text);
+// The files of a triangulation say what delmesher writes, and nothing else.
+std::int64_t read_written_nodes(const std::string& path, std::vector<Point>& vertices) {
+  const std::string text = read_whole_file(path);
+  TextReader nodes(path, text);
   const std::uint64_t count = nodes.count();
-  if (integer_in_line(nodes, node_path, 2) != 2) nodes.fail("vertices are not of the plane");
-  nodes.skip_line();
-  const std::int64_t first = read_nodes(nodes, count, file.vertices);
-  const std::string ele_text = read_whole_file(ele_path);
-  TextReader ele(ele_path, ele_text);
+  if (integer_in_line(nodes, path, 2) != 2) nodes.fail("vertices are not of the plane");
+  const std::int64_t numbers =
+      integer_in_line(nodes, path, 0) + integer_in_line(nodes, path, 0);  // attributes, markers
+  nodes.expect_line_end();
+  std::int64_t first = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::int64_t number = i == 0 ? nodes.index(0, 2) : nodes.integer();
+    if (i == 0) first = number;
+    if (number != first + static_cast<std::int64_t>(i)) nodes.fail("nodes are not in order");
+    vertices.push_back(point(nodes));
+    for (std::int64_t k = 0; k < numbers; ++k) nodes.number();
+    nodes.expect_line_end();
+  }
+  nodes.expect_nothing();
+  return first;
+}
+
+// The attributes, if there are any.
+std::vector<double> read_written_triangles(const std::string& path, std::int64_t first,
+                                           PlaneFile& file) {
+  const std::string text = read_whole_file(path);
+  TextReader ele(path, text);
   const std::uint64_t triangles = ele.count();
-  if (integer_in_line(ele, ele_path, 3) != 3) ele.fail("elements are not linear triangles");
-  const bool attributes = integer_in_line(ele, ele_path, 0) != 0;
-  ele.skip_line();
+  if (integer_in_line(ele, path, 3) != 3) ele.fail("elements are not linear triangles");
+  const std::int64_t attributes = integer_in_line(ele, path, 0);
+  if (attributes != 0 && attributes != 1) ele.fail("more than one attribute");
+  ele.expect_line_end();
   std::vector<double> values;
   for (std::uint64_t t = 0; t < triangles; ++t) {
-    ele.integer();
+    if (ele.integer() != first + static_cast<std::int64_t>(t)) ele.fail("triangles not in order");
     std::array<std::uint32_t, 3> corners;
-    for (auto& corner : corners) corner = ele.index(first, count);
+    for (auto& corner : corners) corner = ele.index(first, file.vertices.size());
     file.triangles.push_back(corners);
-    if (attributes) values.push_back(ele.number());
-    ele.skip_line();
+    if (attributes == 1) values.push_back(ele.number());
+    ele.expect_line_end();
   }
-  if (!std::filesystem::exists(poly_path)) return file;
-  const std::string poly_text = read_whole_file(poly_path);
-  TextReader poly(poly_path, poly_text);
-  poly.integer();
-  poly.skip_line();
-  read_segments(poly, poly_path, first, count, file.edges, file.markers);
+  ele.expect_nothing();
+  return values;
+}
+
+void read_written_poly(const std::string& path, std::int64_t first, PlaneFile& file) {
+  const std::string text = read_whole_file(path);
+  TextReader poly(path, text);
+  if (poly.count() != 0) poly.fail("vertices that belong in the .node file");
+  if (integer_in_line(poly, path, 2) != 2) poly.fail("vertices are not of the plane");
+  for (const char* what : {"attributes", "markers"}) {
+    const std::int64_t count = integer_in_line(poly, path, 0);
+    if (count != 0 && count != 1) poly.fail(std::string("no such number of ") + what);
+  }
+  poly.expect_line_end();
+  read_segments(poly, path, first, file.vertices.size(), file.edges, file.markers);
   file.lists_edges = true;
   file.markers.resize(file.edges.size(), 0);
-  // Attributes are those of the input's regions if there are any, else they name sides.
-  bool regions = false;
-  if (!poly.at_end()) {
-    for (std::uint64_t left = poly.count(); left > 0; --left) poly.skip_line(), poly.word();
-    poly.skip_line();
-    regions = !poly.at_end();
+  file.lists_holes = true;
+  if (poly.at_end()) return;
+  for (std::uint64_t left = poly.count(); left > 0; --left) {
+    file.holes.push_back(numbered_point(poly));
+    poly.expect_line_end();
   }
-  if (attributes && !regions) {
-    for (const double value : values) file.inside.push_back(value == 1 ? 1 : 0);
+  if (poly.at_end()) return;
+  for (std::uint64_t left = poly.count(); left > 0; --left) {
+    const Point at = numbered_point(poly);
+    file.regions.push_back({at, poly.number()});
+    poly.expect_line_end();
+  }
+  poly.expect_nothing();
+}
+
+PlaneFile read_triangle(const std::string& path) {
+  PlaneFile file;
+  const std::string poly_path = beside(path, ".poly"), ele_path = beside(path, ".ele");
+  const std::int64_t first = read_written_nodes(beside(path, ".node"), file.vertices);
+  const std::vector<double> values = read_written_triangles(ele_path, first, file);
+  if (!std::filesystem::exists(poly_path)) return file;
+  read_written_poly(poly_path, first, file);
+  // Attributes are those of the input's regions if there are any, else they name sides.
+  file.names_sides = file.regions.empty();
+  for (const double value : values) {
+    if (!file.names_sides) break;
+    if (value != 1 && value != 2) throw ReadError(ele_path + ": an attribute that names no side");
+    file.inside.push_back(value == 1 ? 1 : 0);
   }
   return file;
 }
@@ -273,137 +329,136 @@ PlanarGraph read_faces(const std::string& path, bool obj) {
 
 // ------------------------------------------------------------------------------- Gmsh, as written
 
-PlaneFile read_gmsh(const std::string& path, std::string_view text) {
-  TextReader reader(path, text, '\0');
+// The marker that the name of a group of edges tells.
+std::int32_t marker_of(const std::string& path, const GmshText& text, std::int64_t group) {
+  constexpr std::string_view kStart = "marker ";
+  const auto found = text.names.find({1, group});
+  if (found == text.names.end() || !found->second.starts_with(kStart)) {
+    throw ReadError(path + ": lines of no marker");
+  }
+  const std::string number = found->second.substr(kStart.size());
+  TextReader reader(path, number, '\0');
+  const std::int32_t marker = reader.integer32();
+  reader.expect_nothing();
+  return marker;
+}
+
+PlaneFile read_gmsh(const std::string& path) {
   PlaneFile file;
   file.lists_edges = true;
-  std::map<std::int64_t, std::uint32_t> nodes;
-  std::map<std::int64_t, std::int32_t> markers;  // by physical tag, here also the curve's own
-  for (auto word = reader.word(); !word.empty(); word = reader.word()) {
-    if (word == "$MeshFormat") {
-      if (reader.number() != 4.1 || reader.integer() != 0) reader.fail("no text of version 4.1");
-    } else if (word == "$PhysicalNames") {
-      for (std::uint64_t left = reader.count(); left > 0; --left) {
-        const std::int64_t dimension = reader.integer(), tag = reader.integer();
-        if (dimension == 1 && reader.word() == "\"marker") {
-          std::string_view number = reader.word_in_line();
-          number = number.substr(0, number.find('"'));
-          markers[tag] = static_cast<std::int32_t>(TextReader(path, number).integer());
-        }
-        reader.skip_line();
-      }
-    } else if (word == "$Nodes") {
-      const std::uint64_t blocks = reader.count();
-      for (int i = 0; i < 3; ++i) reader.integer();
-      for (std::uint64_t block = 0; block < blocks; ++block) {
-        for (int i = 0; i < 3; ++i) reader.integer();
-        const std::uint64_t count = reader.count();
-        for (std::uint64_t i = 0; i < count; ++i) {
-          const auto n = static_cast<std::uint32_t>(nodes.size());
-          if (!nodes.emplace(reader.integer(), n).second) reader.fail("a node is there twice");
-        }
-        for (std::uint64_t i = 0; i < count; ++i) {
-          file.vertices.push_back(point(reader));
-          if (reader.number() != 0) reader.fail("a node is not in the plane");
-        }
-      }
-    } else if (word == "$Elements") {
-      const auto node = [&] {
-        const auto found = nodes.find(reader.integer());
-        if (found == nodes.end()) reader.fail("an element refers to no node");
-        return found->second;
-      };
-      const std::uint64_t blocks = reader.count();
-      for (int i = 0; i < 3; ++i) reader.integer();
-      for (std::uint64_t block = 0; block < blocks; ++block) {
-        reader.integer();
-        const std::int64_t entity = reader.integer(), type = reader.integer();
-        if (type != 1 && type != 2) reader.fail("an element that is no line and no triangle");
-        for (std::uint64_t left = reader.count(); left > 0; --left) {
-          reader.integer();
-          if (type == 1) {
-            const std::uint32_t a = node();
-            file.edges.push_back({a, node()});
-            file.markers.push_back(markers[entity]);
-          } else {
-            const std::uint32_t a = node(), b = node();
-            file.triangles.push_back({a, b, node()});
-            file.inside.push_back(entity == 1 ? 1 : 0);
-          }
-        }
-      }
+  std::vector<std::int64_t> groups;  // of edges
+  const auto fail = [&](const char* why) { throw ReadError(path + ": " + why); };
+  const GmshText text = read_gmsh_text(path, [&](const GmshElement& element) {
+    const auto& n = element.nodes;
+    if (element.type == 1) {
+      file.edges.push_back({n[0], n[1]});
+      groups.push_back(element.group);
+    } else if (element.type == 2) {
+      if (element.group != 1 && element.group != 2) fail("triangles on neither side");
+      file.triangles.push_back({n[0], n[1], n[2]});
+      file.inside.push_back(element.group == 1 ? 1 : 0);
+    } else {
+      fail("an element that is no line and no triangle");
     }
+  });
+  if (text.version != 4.1) fail("no text of version 4.1");
+  for (const auto& [group, name] : text.names) {
+    if (group.first == 2 && name != (group.second == 1 ? "inside" : "outside")) {
+      fail("a side by another name");
+    }
+  }
+  for (const std::int64_t group : groups) file.markers.push_back(marker_of(path, text, group));
+  for (const Position& p : text.nodes) {
+    if (p[2] != 0) fail("a node is not in the plane");
+    file.vertices.push_back({p[0] + 0.0, p[1] + 0.0});
   }
   return file;
 }
 
 // ----------------------------------------------------------------------------- .vtu, as written
 
-PlaneFile read_vtu(const std::string& path, std::string_view text) {
-  const VtuText vtu(path, text);
-  const auto fail = [&](const std::string& why) { vtu.fail(why); };
-  const auto points = vtu.array("Points", ""), corners = vtu.array("Cells", "connectivity"),
-             types = vtu.array("Cells", "types"), offsets = vtu.array("Cells", "offsets"),
-             inside = vtu.array("CellData", "inside"), markers = vtu.array("CellData", "marker"),
-             segments = vtu.array("CellData", "segment");
-  PlaneFile file;
-  file.lists_edges = file.names_segments = true;
-  for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
-    file.vertices.push_back({points[i], points[i + 1]});
-    if (points[i + 2] != 0) fail("a point is not in the plane");
-  }
-  if (types.size() != offsets.size()) fail("types and offsets differ in length");
-  for (const auto* values : {&inside, &markers, &segments}) {
-    if (!values->empty() && values->size() != types.size()) fail("cell data of another length");
-  }
-  std::size_t start = 0;
-  for (std::size_t cell = 0; cell < types.size(); ++cell) {
-    const std::size_t size = types[cell] == 5 ? 3 : 2;
-    if (types[cell] != 5 && types[cell] != 3) fail("a cell that is no line and no triangle");
-    if (offsets[cell] != static_cast<double>(start + size) || start + size > corners.size()) {
-      fail("offsets leave the connectivity");
+class VtuReader {
+ public:
+  VtuReader(const std::string& path, std::string_view text) : vtu_(path, text) {}
+
+  PlaneFile read() {
+    file_.lists_edges = file_.names_segments = true;
+    const std::vector<double> points = vtu_.required_array("Points", "");
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+      file_.vertices.push_back({points[i], points[i + 1]});
+      if (points[i + 2] != 0) vtu_.fail("a point is not in the plane");
     }
-    const auto corner = [&](std::size_t k) {
-      const std::int64_t v = vtu.integer(corners[start + k]);
-      if (v < 0 || v >= static_cast<std::int64_t>(file.vertices.size())) {
-        fail("a cell refers to no point");
+    corners_ = vtu_.required_array("Cells", "connectivity");
+    const std::vector<double> types = vtu_.required_array("Cells", "types"),
+                              offsets = vtu_.required_array("Cells", "offsets");
+    inside_ = vtu_.required_array("CellData", "inside");
+    markers_ = vtu_.required_array("CellData", "marker");
+    segments_ = vtu_.required_array("CellData", "segment");
+    std::size_t start = 0;
+    for (std::size_t cell = 0; cell < types.size(); ++cell) {
+      if (types[cell] != 5 && types[cell] != 3) vtu_.fail("a cell that is no line and no triangle");
+      const std::size_t end = start + (types[cell] == 5 ? 3 : 2);
+      if (offsets[cell] != static_cast<double>(end) || end > corners_.size()) {
+        vtu_.fail("offsets leave the connectivity");
       }
-      return static_cast<std::uint32_t>(v);
-    };
-    if (size == 3) {
-      file.triangles.push_back({corner(0), corner(1), corner(2)});
-      if (!inside.empty()) file.inside.push_back(inside[cell] == 1 ? 1 : 0);
-    } else {
-      file.edges.push_back({corner(0), corner(1)});
-      file.markers.push_back(
-          markers.empty() ? 0 : static_cast<std::int32_t>(vtu.integer(markers[cell])));
-      if (!segments.empty()) {
-        file.segments.push_back(segments[cell] < 0
-                                    ? 0xffffffffU
-                                    : static_cast<std::uint32_t>(vtu.integer(segments[cell])));
-      }
+      types[cell] == 5 ? add_triangle(cell, start) : add_edge(cell, start);
+      start = end;
     }
-    start += size;
+    if (start != corners_.size()) vtu_.fail("the connectivity goes on after the last cell");
+    return std::move(file_);
   }
-  return file;
-}
+
+ private:
+  std::uint32_t corner(std::size_t k) const {
+    const std::int64_t v = vtu_.integer(corners_[k]);
+    if (v < 0 || v >= static_cast<std::int64_t>(file_.vertices.size())) {
+      vtu_.fail("a cell refers to no point");
+    }
+    return static_cast<std::uint32_t>(v);
+  }
+
+  void add_triangle(std::size_t cell, std::size_t k) {
+    file_.triangles.push_back({corner(k), corner(k + 1), corner(k + 2)});
+    if (inside_[cell] != 0 && inside_[cell] != 1) vtu_.fail("a side that is neither 0 nor 1");
+    file_.inside.push_back(inside_[cell] == 1 ? 1 : 0);
+    if (markers_[cell] != 0) vtu_.fail("a marker of a triangle");
+    if (segments_[cell] != -1) vtu_.fail("a segment of a triangle");
+  }
+
+  void add_edge(std::size_t cell, std::size_t k) {
+    file_.edges.push_back({corner(k), corner(k + 1)});
+    if (inside_[cell] != -1) vtu_.fail("a side of a line");
+    file_.markers.push_back(vtu_.integer32(markers_[cell]));
+    const std::int64_t segment = vtu_.integer(segments_[cell]);
+    const bool known = segment >= 0 && segment < 0xffffffff;
+    file_.segments.push_back(known ? static_cast<std::uint32_t>(segment) : 0xffffffffU);
+  }
+
+  const VtuText vtu_;
+  PlaneFile file_;
+  std::vector<double> corners_, inside_, markers_, segments_;
+};
 
 PlaneFile read_off(const std::string& path, std::string_view text) {
   TextReader reader(path, text);
   PlaneFile file;
-  if (reader.word() != "OFF") reader.fail("the file does not begin with OFF");
+  file.names_sides = false;
+  reader.expect("OFF");
   const std::uint64_t vertices = reader.count(), faces = reader.count();
-  reader.skip_line();
+  integer_in_line(reader, path, 0);  // of edges
+  reader.expect_line_end();
   for (std::uint64_t i = 0; i < vertices; ++i) {
     file.vertices.push_back(point(reader));
     if (reader.number() != 0) reader.fail("a vertex is not in the plane");
+    reader.expect_line_end();
   }
   for (std::uint64_t i = 0; i < faces; ++i) {
     if (reader.integer() != 3) reader.fail("a face that is no triangle");
     const std::uint32_t a = reader.index(0, vertices), b = reader.index(0, vertices);
     file.triangles.push_back({a, b, reader.index(0, vertices)});
-    reader.skip_line();
+    reader.expect_line_end();
   }
+  reader.expect_nothing();
   return file;
 }
 
@@ -483,11 +538,9 @@ PlaneFile read_plane_file(const std::string& path) {
   if (extension != ".vtu" && extension != ".msh" && extension != ".off") {
     throw ReadError(path + ": no triangulation is read from it (.node, .ele, .vtu, .msh, .off)");
   }
+  if (extension == ".msh") return read_gmsh(path);
   const std::string text = read_whole_file(path);
-  PlaneFile file = extension == ".vtu"   ? read_vtu(path, text)
-                   : extension == ".msh" ? read_gmsh(path, text)
-                                         : read_off(path, text);
-  return file;
+  return extension == ".vtu" ? VtuReader(path, text).read() : read_off(path, text);
 }
 
 PlaneRecord read_plane_sidecar(const std::string& path, unsigned* version) {

@@ -15,12 +15,16 @@ namespace tetproof::oracles {
 struct PlaneFile {
   std::vector<std::array<double, 2>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  bool names_sides = true;           // the format says which triangles are inside
   std::vector<std::uint8_t> inside;  // per triangle; empty: the file says nothing
   bool lists_edges = false;          // the file lists the edges that tile the segments
   std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::int32_t> markers;    // per edge
   bool names_segments = false;          // the format has a segment for every edge
   std::vector<std::uint32_t> segments;  // per edge, of the input; empty: the file says nothing
+  bool lists_holes = false;             // the file lists the holes and the regions of the input
+  std::vector<std::array<double, 2>> holes;
+  std::vector<delmesher::PlanarGraph::Region> regions;
 };
 
 // All throw ReadError.

@@ -719,6 +719,11 @@ class RecordVerifier {
       oracle.fail("the file lacks " + std::to_string(expected.size()) + " of " +
                   std::to_string(wanted) + " triangles of the record");
     }
+    const bool outside = std::any_of(mesh.triangles->begin(), mesh.triangles->end(),
+                                     [](const auto& t) { return t.side != Side::inside; });
+    if (hull() && outside && file_.names_sides && file_.inside.size() != file_.triangles.size()) {
+      oracle.fail("the file does not say which triangles are inside");
+    }
     if (file_.lists_edges) compare_edges(mesh, edges, oracle);
     if (wanted == 0) ++oracle.checked;
     tell(std::move(oracle));

@@ -233,9 +233,13 @@ class SameMesh {
   // Region 1 is inside. The outside is called 2, or 0 where a format says "inside" or not.
   void compare_regions(std::size_t w, std::size_t r) {
     const bool inside = tets_[r].inside;
+    if (!mesh_.inside.empty() && (mesh_.inside[w] != 0) != inside) {
+      report_.fail("the file calls tetrahedron " + std::to_string(w) +
+                   (inside ? " outside, the record inside" : " inside, the record outside"));
+    }
     if (w >= mesh_.regions.size()) {
-      // If all tetrahedra are inside, a file need not say so.
-      if (!inside || !mesh_.regions.empty()) {
+      // If all tetrahedra are inside, a .tet does not say so.
+      if (!inside || mesh_.names_sides || !mesh_.regions.empty()) {
         report_.fail("the file does not say on which side tetrahedron " + std::to_string(w) +
                      " is");
       }
@@ -319,7 +323,7 @@ class SameMesh {
         report_.fail(name + " is no face on a facet of the record");
         continue;
       }
-      if (labelled_ && n < mesh_.labels.size() && found->label != mesh_.labels[n]) {
+      if (n < mesh_.labels.size() && found->label != mesh_.labels[n]) {
         report_.fail(name + " has another label in the record");
       }
       if (n < mesh_.facets.size() && found->facet != mesh_.facets[n]) {

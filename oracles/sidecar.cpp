@@ -23,12 +23,14 @@ class SidecarReader {
     read_points();
     reader_.list("facets", record_.facets, [&](auto& facet) {
       facet.id = number();
-      facet.label = static_cast<std::int32_t>(reader_.integer());
+      facet.label = reader_.integer32();
       facet.filtered = static_cast<std::uint8_t>(reader_.index(0, 3));
       numbers(facet.triangles);
     });
     reader_.list("segments", record_.segments, [&](auto& chain) {
-      chain.artificial = reader_.required_word("I or A") == "A";
+      const std::string kind(reader_.required_word("I or A"));
+      if (kind != "I" && kind != "A") reader_.fail("unknown kind of segment");
+      chain.artificial = kind == "A";
       chain.facet = chain.artificial ? number() : kNone;
       if (!chain.artificial) reader_.expect("-");
       chain.vertices.resize(reader_.count());

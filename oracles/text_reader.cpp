@@ -115,6 +115,12 @@ void TextReader::skip_line() {
   while (!at_its_end() && text_[at_] != '\n') kept_ = ++at_;
 }
 
+void TextReader::expect_line_end() {
+  if (const std::string_view word = word_in_line(); !word.empty()) {
+    fail("\"" + std::string(word.substr(0, 40)) + "\" where the line should end");
+  }
+}
+
 bool TextReader::at_end() {
   skip_blanks(true);
   return at_its_end();
@@ -171,18 +177,31 @@ void TextReader::expect(const std::string& wanted) {
 
 void TextReader::expect_end(const std::string& wanted) {
   expect(wanted);
+  expect_nothing();
+}
+
+void TextReader::expect_nothing() {
   if (!at_end()) fail("something follows the end");
 }
 
 std::int64_t TextReader::integer() {
-  std::string_view text = required_word("an integer");
-  if (text.starts_with('+')) text.remove_prefix(1);
+  const std::string_view text = required_word("an integer");
+  const std::string_view digits = text.substr(text.starts_with('+') ? 1 : 0);
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const bool two_signs = digits.size() < text.size() && digits.starts_with('-');
+  if (error != std::errc() || end != digits.data() + digits.size() || two_signs) {
     fail("\"" + std::string(text.substr(0, 40)) + "\" is no integer");
   }
   return value;
+}
+
+std::int32_t TextReader::integer32() {
+  const std::int64_t value = integer();
+  if (value != static_cast<std::int32_t>(value)) {
+    fail(std::to_string(value) + " is no integer of 32 bits");
+  }
+  return static_cast<std::int32_t>(value);
 }
 
 std::uint32_t TextReader::index(std::int64_t first, std::uint64_t count) {

@@ -39,7 +39,11 @@ class TextReader {
   std::string_view word_in_line();
   std::string_view required_word(const char* what);
   void skip_line();
+  // Nothing but blanks may follow in this line.
+  void expect_line_end();
   bool at_end();
+  // Nothing but blanks may follow in the text.
+  void expect_nothing();
   // The next word has to be this one.
   void expect(const std::string& wanted);
   // This last word has to follow, and nothing else.
@@ -54,6 +58,7 @@ class TextReader {
 
   double number();  // decimal or hexadecimal ("0x1.8p3"), exact to the nearest
   std::int64_t integer();
+  std::int32_t integer32();  // as labels are
   // An index in [first, first + count), less first.
   std::uint32_t index(std::int64_t first, std::uint64_t count);
   // A count of things that take at least two characters each, so that no lie can exhaust memory.

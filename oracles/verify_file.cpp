@@ -97,7 +97,7 @@ std::string Verification::check_file() {
   const Regions regions(complex, given);
   check_file_surface(complex, neighbours, surface);
   // The centroid of a tetrahedron is a quarter of its altitude away from its faces.
-  add(regions.check_strays(8 * slack_));
+  add(regions.check_strays(8 * slack_, mesh_.inside));
   if (!solid_only) check_file_hull(complex, neighbours);
   return {};
 }

@@ -14,17 +14,31 @@ class VtuText {
  public:
   // The text must outlive this.
   VtuText(std::string path, std::string_view text);
+  VtuText(const VtuText&) = delete;
 
+  // As the piece has them.
+  std::size_t points() const { return points_; }
+  std::size_t cells() const { return cells_; }
   // The values of the array of that name in a section ("Points", "Cells", "CellData"); of the only
-  // one there if the name is empty. Empty if there is none.
+  // one there if the name is empty. Three for each point, one for each cell but for "connectivity".
+  // Empty if there is none.
   std::vector<double> array(const std::string& section, const std::string& name) const;
-  // An integer of at most 53 bits.
+  // The same, but there has to be one unless it would be empty.
+  std::vector<double> required_array(const std::string& section, const std::string& name) const;
+  // An integer of at most 53 bits, and of 32.
   std::int64_t integer(double value) const;
+  std::int32_t integer32(double value) const;
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
+  void remove_comments();
+  std::size_t count(const std::string& name) const;
+  std::vector<double> values(std::string_view tag, std::size_t start) const;
+
   std::string path_;
+  std::string without_comments_;  // empty if there are none
   std::string_view text_;
+  std::size_t points_ = 0, cells_ = 0;
 };
 
 }  // namespace tetproof::oracles

@@ -134,6 +134,10 @@ TEST_F(Files, WhatSaysNothingIsRefused) {
   EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
   changed("out.exact", "\nballs ", "\nballs 99999999999999999999");
   EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
+  changed("out.exact", "\nI -", "\nX -");
+  EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
+  changed("out.exact", "\n0 0 0 ", "\n0 4294967296 0 ");
+  EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
   const std::string record = oracles::read_whole_file(path("out.exact"));
   write("changed.exact", record.substr(0, record.size() - 4));
   EXPECT_EQ(verified("out.mesh", "changed.exact"), 3);
@@ -263,7 +267,8 @@ TEST_F(Files, BadFilesAreRefusedNotBelieved) {
   write("range.mesh",
         "MeshVersionFormatted 2 Dimension 3 Vertices 1 0 0 0 0 Tetrahedra 1 1 2 3 4 1");
   write("cut.tet", "4 vertices\n1 tets\n0 0 0\n");
-  write("infinite.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 1 inf 0 0 0");
+  write("infinite.mesh",
+        "MeshVersionFormatted 2 Dimension 3 Vertices 1 inf 0 0 0 Tetrahedra 0 End");
   for (const char* name :
        {"empty.mesh", "text.mesh", "lie.mesh", "range.mesh", "cut.tet", "none.msh"}) {
     EXPECT_EQ(verify({path("in.off"), path(name)}), 3) << name;

@@ -371,6 +371,7 @@ oracles::MeshFile to_mesh(const delmesher::TetMesh& mesh) {
   oracles::MeshFile file;
   file.vertices = mesh.vertices;
   file.tetrahedra = mesh.tetrahedra;
+  file.names_sides = true;
   file.regions.assign(mesh.inside.begin(), mesh.inside.end());
   file.boundary = mesh.boundary;
   file.labels = mesh.boundary_labels;

@@ -141,6 +141,16 @@ const Lie kForeign[] = {
      [](Told& t) { t.sample.mesh.facets.pop_back(); }},
     {"no facets of boundary triangles", "same-mesh", [](Told& t) { t.sample.mesh.facets.clear(); },
      "passed"},
+    {"labels of boundary triangles of a surface without labels", "same-mesh",
+     [](Told& t) { t.sample.mesh.labels.back() = 4; }, "passed"},
+    {"no sides in a file that should have them", "same-mesh",
+     [](Told& t) { t.sample.mesh.regions.clear(); }, "passed"},
+    {"sides of the file in words, which contradict its numbers", "same-mesh",
+     [](Told& t) {
+       t.sample.mesh.inside.assign(t.sample.mesh.tetrahedra.size(), 1);
+       t.sample.mesh.inside.front() = 0;
+     },
+     "passed"},
     {"no labels of boundary triangles", "same-mesh",
      [](Told& t) {
        t.sample.input.labels.assign(t.sample.input.triangles.size(), 0);
@@ -213,6 +223,14 @@ const Lie kForeign[] = {
        options.approximate = true;
        t = run_of(options);
        t.record.unrepaired = t.record.refined;
+     },
+     "passed"},
+    {"faces of a final mesh that is not there, for --approximate", "promise",
+     [](Told& t) {
+       Options options = honest_options();
+       options.approximate = true;
+       t = run_of(options);
+       t.record.final_facets = t.record.refined_facets;
      },
      "passed"},
     {"a plain tetrahedrization where a mesh was promised", "promise",

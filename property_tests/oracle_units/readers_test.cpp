@@ -41,10 +41,11 @@ TEST(TextReader, ReadsWordsAndCountsLines) {
 // Where something is there twice, other readers may take the other one.
 TEST(VtuText, RefusesWhatIsThereTwice) {
   const std::string array = "<DataArray Name=\"label\" format=\"ascii\">1 2</DataArray>";
-  const std::string points = "<Points><DataArray format=\"ascii\">0 1 2</DataArray></Points>";
+  const std::string points =
+      "<Points><DataArray NumberOfComponents=\"3\" format=\"ascii\">0 1 2</DataArray></Points>";
   const auto text = [&](const std::string& in_piece, const std::string& in_data) {
-    return "<VTKFile><Piece>" + points + in_piece + "<CellData>" + array + in_data +
-           "</CellData></Piece></VTKFile>\n";
+    return "<VTKFile type=\"UnstructuredGrid\"><Piece NumberOfPoints=\"1\" NumberOfCells=\"2\">" +
+           points + in_piece + "<CellData>" + array + in_data + "</CellData></Piece></VTKFile>\n";
   };
   const auto labels = [](const std::string& contents) {
     return VtuText("file", contents).array("CellData", "label");
