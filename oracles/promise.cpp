@@ -1,10 +1,11 @@
 #include "oracles/promise.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <set>
 #include <vector>
 
 namespace tetproof::oracles {
@@ -28,31 +29,70 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
+enum Tasks : unsigned { kMesh = 1, kCdt = 2, kPlane = 4, kSpace = kMesh | kCdt, kAll = 7 };
+
+unsigned bit_of(Task task) {
+  return task == Task::mesh ? kMesh : task == Task::cdt ? kCdt : kPlane;
+}
+
 struct Number {
   const char* name;
-  double Promise::*target;
+  double Promise::*target;  // null: promises nothing
+  unsigned tasks;
   double low, high;
+  bool above_low = false;  // low itself is none
+
+  bool allows(double value) const {
+    return (above_low ? value > low : value >= low) && value <= high;
+  }
 };
 
-constexpr Number kNumbers[] = {{"--delta", &Promise::delta, 0, 60},
-                               {"--tau", &Promise::tau, 0, 1},
-                               {"--planar", &Promise::planar, 0, 0.01},
-                               {"--acute", &Promise::acute, 0, 90},
-                               {"--corner", &Promise::corner, 0, 90},
-                               {"--chamfer-radius", &Promise::chamfer_radius, 0, 1e308},
-                               {"--max-edge", &Promise::max_edge, 0, 1e308},
-                               {"--budget", &Promise::budget, 0, 1e15},
-                               {"--max-vertices", &Promise::max_vertices, 0, 1e15}};
+constexpr double kMost = 1e308;
+constexpr Number kNumbers[] = {
+    {"--delta", &Promise::delta, kMesh, 0, 30, true},
+    {"--delta", &Promise::delta, kPlane, 0, 34, true},
+    {"--tau", &Promise::tau, kMesh | kPlane, 0, 1},
+    {"--planar", &Promise::planar, kMesh, 0, 0.01},
+    {"--acute", &Promise::acute, kMesh, 0, 90},
+    {"--acute", &Promise::acute, kPlane, 60, 90},
+    {"--corner", &Promise::corner, kMesh, 0, 90},
+    {"--chamfer-radius", &Promise::chamfer_radius, kMesh | kPlane, 0, kMost, true},
+    {"--max-edge", &Promise::max_edge, kMesh | kPlane, 0, kMost, true},
+    {"--budget", &Promise::budget, kMesh, 1, 1e15},
+    {"--max-vertices", &Promise::max_vertices, kAll, 1, 4294967294},
+    {"--time-limit", nullptr, kAll, 0, kMost, true},
+    {"--threads", nullptr, kSpace, 0, 1024},
+    {"--jobs", nullptr, kAll, 0, 1024}};
 
 // These options say where and how, not what; --slivers guarantees nothing.
-constexpr std::array kWithValue = {"-o",        "--output", "--stats",      "--exact",
-                                   "--threads", "--jobs",   "--time-limit", "--save-chamfered",
-                                   "--slivers", "--names"};
-constexpr std::array kWithout = {"-q", "--quiet", "-v", "--verbose", "--no-bridge-simplification"};
+struct Word {
+  const char* name;
+  unsigned tasks;
+};
+constexpr Word kFiles[] = {{"-o", kAll},
+                           {"--output", kAll},
+                           {"--stats", kAll},
+                           {"--exact", kAll},
+                           {"--save-chamfered", kMesh | kPlane},
+                           {"--names", kSpace}};
+constexpr Word kSwitches[] = {{"-q", kAll},
+                              {"--quiet", kAll},
+                              {"-v", kAll},
+                              {"--verbose", kAll},
+                              {"--no-bridge-simplification", kMesh},
+                              {"--gabriel", kMesh},
+                              {"--approximate", kMesh | kPlane}};
+constexpr Word kChosen[] = {{"--preset", kMesh | kPlane},
+                            {"--as-paper", kMesh},
+                            {"--region", kAll},
+                            {"--improve", kMesh},
+                            {"--slivers", kMesh}};
 
 template <std::size_t N>
-bool among(const std::array<const char*, N>& names, const std::string& word) {
-  return std::find(names.begin(), names.end(), word) != names.end();
+bool among(const Word (&words)[N], const std::string& name, Task task) {
+  return std::any_of(std::begin(words), std::end(words), [&](const Word& word) {
+    return name == word.name && (word.tasks & bit_of(task)) != 0;
+  });
 }
 
 // Whole words only, in no locale, finite.
@@ -155,45 +195,57 @@ class PromiseReader {
       value_ = option.substr(at + 1);
       option.resize(at);
     }
-    if (option == "--gabriel" || option == "--approximate") {
-      (option == "--gabriel" ? p.gabriel : p.approximate) = true;
+    const bool file = among(kFiles, option, p.task);
+    // Which one counts would be anybody's guess; of files there may be several.
+    if (!file && !seen_.insert(option).second) return option + " is there twice";
+    if (among(kSwitches, option, p.task)) {
+      if (value_) return option + " takes no value";
+      p.gabriel = p.gabriel || option == "--gabriel";
+      p.approximate = p.approximate || option == "--approximate";
       return {};
     }
-    if (among(kWithout, option)) return {};
     if (!value_ && next_ < words_.size()) value_ = words_[next_++];
     if (!value_) return option + ": unknown, or without a value";
-    if (among(kWithValue, option)) return {};
+    if (file) return value_->empty() ? option + " without a file" : "";
+    return among(kChosen, option, p.task) ? apply_choice(option, p) : apply_number(option, p);
+  }
+
+  std::string apply_choice(const std::string& option, Promise& p) {
+    const auto one_of = [&](const char* first, const char* second) -> std::string {
+      if (*value_ == first || *value_ == second) return {};
+      return option + " is " + first + " or " + second + ", not \"" + *value_ + "\"";
+    };
     if (option == "--preset") return *value_ == "paper" ? "" : "no preset \"" + *value_ + "\"";
     if (option == "--as-paper") return choose(*value_, p);
     if (option == "--region") {
-      if (*value_ != "interior" && *value_ != "hull") return "no region \"" + *value_ + "\"";
       p.region = *value_ == "hull" ? Region::hull : Region::interior;
-      return {};
+      return one_of("interior", "hull");
     }
-    if (option == "--improve") {
-      if (*value_ != "on" && *value_ != "off") return option + " is on or off";
-      p.improve = *value_ == "on";
-      return {};
-    }
-    if (option == "--planar" && *value_ == "auto") {
+    if (option == "--improve") p.improve = *value_ == "on";
+    return one_of("on", "off");
+  }
+
+  std::string apply_number(const std::string& option, Promise& p) {
+    if (option == "--planar" && p.task == Task::mesh && *value_ == "auto") {
       p.planar = Promise::kPlanarAuto;
       return {};
     }
     for (const Number& number : kNumbers) {
-      if (option != number.name) continue;
+      if (option != number.name || (number.tasks & bit_of(p.task)) == 0) continue;
       double value = 0;
-      if (!parse_number(*value_, value) || value < number.low || value > number.high) {
+      if (!parse_number(*value_, value) || !number.allows(value)) {
         return option + ": \"" + *value_ + "\" is no number that it takes";
       }
-      p.*number.target = value;
+      if (number.target != nullptr) p.*number.target = value;
       return {};
     }
-    return "unknown option " + option;
+    return option + ": no such option";
   }
 
   std::vector<std::string> words_;
   std::size_t next_ = 0;
   std::optional<std::string> value_;
+  std::set<std::string> seen_;  // options
 };
 
 std::string number(double value) {
@@ -221,7 +273,8 @@ class PromiseCheck {
       section("final", record_.final.size());
       section("final_facets", record_.final_facets.size());
     } else {
-      demand(record_.final.empty(), "the record has a final mesh, promised was --approximate");
+      demand(record_.final.empty() && record_.final_facets.empty(),
+             "the record has a final mesh, or faces of one, promised was --approximate");
     }
     check_planar();
     check_unasked();
@@ -258,6 +311,14 @@ class PromiseCheck {
     demand(r.refined.empty() && r.refined_facets.empty() && r.segments.empty() &&
                r.corners.empty() && r.chamfer_points.empty() && r.balls.empty(),
            "the record has a refined mesh, promised was a plain tetrahedrization");
+    demand(std::all_of(r.facets.begin(), r.facets.end(),
+                       [](const ExactRecord::Facet& facet) { return facet.filtered == 0; }),
+           "the record has dropped facets, promised was a plain tetrahedrization");
+    const ExactRecord::Parameters &p = r.parameters, none;
+    demand(p.delta == none.delta && p.acute == none.acute && p.corner == none.corner &&
+               p.tolerance == none.tolerance && p.region == none.region &&
+               p.gabriel == none.gabriel,
+           "the record has parameters, promised was a plain tetrahedrization");
   }
 
   void check_refined_sections() {

@@ -269,6 +269,30 @@ const Lie kSections[] = {
        t.record.refined = t.record.final;
      },
      "passed"},
+    {"a facet of a plain tetrahedrization called dropped", "promise",
+     [](Told& t) {
+       run_cdt(t);
+       t.record.facets.front().filtered = 1;
+     },
+     "passed"},
+    {"a region of a plain tetrahedrization", "promise",
+     [](Told& t) {
+       run_cdt(t);
+       t.record.parameters.region = delmesher::Region::hull;
+     },
+     "passed"},
+    {"balls that need not be empty in a plain tetrahedrization", "promise",
+     [](Told& t) {
+       run_cdt(t);
+       t.record.parameters.gabriel = false;
+     },
+     "passed"},
+    {"an angle bound of a plain tetrahedrization", "promise",
+     [](Told& t) {
+       run_cdt(t);
+       t.record.parameters.delta = 14;
+     },
+     "passed"},
     {"planar facets in a plain tetrahedrization", "promise",
      [](Told& t) {
        run_cdt(t);

@@ -123,6 +123,58 @@ TEST(Promises, AreReadFromCommandLines) {
   }
 }
 
+// What delmesher would not take as its options, either; the message names the option.
+TEST(Promises, AreRefusedByName) {
+  struct Wrong {
+    const char *text, *name;
+  };
+  for (const auto& [text, name] :
+       std::initializer_list<Wrong>{{"--delta 14 --delta 1", "--delta"},
+                                    {"--delta=14 --delta=14", "--delta"},
+                                    {"--gabriel --gabriel", "--gabriel"},
+                                    {"-q -q", "-q"},
+                                    {"--preset paper --preset paper", "--preset"},
+                                    {"--improve on --improve off", "--improve"},
+                                    {"--gabriel=no", "--gabriel"},
+                                    {"--delta 0", "--delta"},
+                                    {"--delta 31", "--delta"},
+                                    {"--delta 0x10", "--delta"},
+                                    {"--delta inf", "--delta"},
+                                    {"--delta nan", "--delta"},
+                                    {"--delta --tau", "--delta"},
+                                    {"--acute 91", "--acute"},
+                                    {"--planar -1", "--planar"},
+                                    {"--planar automatic", "--planar"},
+                                    {"--max-edge 0", "--max-edge"},
+                                    {"--max-edge -1", "--max-edge"},
+                                    {"--chamfer-radius 0", "--chamfer-radius"},
+                                    {"--budget 0", "--budget"},
+                                    {"--max-vertices 1e10", "--max-vertices"},
+                                    {"--threads many", "--threads"},
+                                    {"--time-limit 0", "--time-limit"},
+                                    {"--slivers maybe", "--slivers"},
+                                    {"--region inside", "--region"},
+                                    {"-o", "-o"},
+                                    {"--names=", "--names"},
+                                    {"cdt --delta 14", "--delta"},
+                                    {"cdt --gabriel", "--gabriel"},
+                                    {"cdt --planar auto", "--planar"},
+                                    {"plane --corner 20", "--corner"},
+                                    {"plane --gabriel", "--gabriel"},
+                                    {"plane --acute 59", "--acute"},
+                                    {"plane --delta 35", "--delta"},
+                                    {"plane --threads 2", "--threads"}}) {
+    Promise p;
+    EXPECT_TRUE(parse_promise(text, p).starts_with(name)) << text << ": " << parse_promise(text, p);
+  }
+  for (const char* text :
+       {"-o a.mesh -o b.vtu -q --stats s --threads 0", "cdt --region interior --names n --jobs 2",
+        "plane --delta 34 --acute 90 --save-chamfered c.poly", "--max-edge 1e-300 --budget 1"}) {
+    Promise p;
+    EXPECT_EQ(parse_promise(text, p), "") << text;
+  }
+}
+
 TEST(Sidecars, OfNoVersionAreRefusedForThat) {
   for (const char* version : {"0", "99"}) {
     std::string said = "nothing";
