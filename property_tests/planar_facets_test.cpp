@@ -225,23 +225,41 @@ Surface flat_prism(std::uint32_t n, double height, double width) {
   return s;
 }
 
+struct Part {
+  Surface surface;
+  std::uint64_t most;  // tetrahedra
+};
+
+void expect_kept(const Part& part, bool anew) {
+  const Told told = run_of(part.surface, 0);
+  EXPECT_EQ(told.statistics.planar_anew, anew);
+  EXPECT_FALSE(told.statistics.planar_given_up);
+  EXPECT_FALSE(told.record.planes.empty());
+  EXPECT_LT(told.statistics.final.tetrahedra, part.most);
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+  EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
+}
+
 // By local operations edges of the first two find no place, and tetrahedra of the third are too
-// flat for the surface as given. With every bend refined, they take 1 574, 5 928 and 11 565
+// flat for the surface as given. With every bend refined, they take 11 895, 5 928 and 11 565
 // tetrahedra.
 TEST(PlanarZero, WhatDoesNotGoBackIsTetrahedrizedAnew) {
-  const std::vector<std::pair<Surface, std::uint64_t>> parts = {
-      {rotated(flat_prism(12, 0.5, 0.3), as_it_is), 500},
-      {rotated(flat_prism(16, 2, 0.3), to_single), 2000},
-      {rotated(flat_prism(8, 0.02, 1), as_it_is), 5000}};
-  for (const auto& [part, most] : parts) {
-    const Told told = run_of(part, 0);
-    EXPECT_TRUE(told.statistics.planar_anew);
-    EXPECT_FALSE(told.statistics.planar_given_up);
-    EXPECT_FALSE(told.record.planes.empty());
-    EXPECT_LT(told.statistics.final.tetrahedra, most);
-    const VerifyReport report = verdict_on(told);
-    EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
-    EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
+  for (const Part& part : {Part{rotated(flat_prism(12, 0.1, 0.05), as_it_is), 1500},
+                           Part{rotated(flat_prism(16, 2, 0.3), to_single), 2000},
+                           Part{rotated(flat_prism(8, 0.02, 1), as_it_is), 5000}}) {
+    expect_kept(part, true);
+  }
+}
+
+// There are edges that cross a facet's edge at which tetrahedra are flatter than the surface bends
+// there, or that vertices of the stand-in were moved by more than those are thick. Tetrahedrized
+// anew, they take 175, 251 and 1 468 tetrahedra.
+TEST(PlanarZero, EdgesComeBackThroughFlatTetrahedra) {
+  for (const Part& part : {Part{rotated(flat_prism(12, 0.5, 0.3), as_it_is), 120},
+                           Part{rotated(flat_prism(16, 2, 1), as_it_is), 200},
+                           Part{rotated(flat_prism(12, 2, 0.05), to_single), 1200}}) {
+    expect_kept(part, false);
   }
 }
 

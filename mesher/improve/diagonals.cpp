@@ -297,50 +297,90 @@ class Entry {
     return false;
   }
   // The new point is on the diagonal, and near the edge: within a smaller and smaller fraction of
-  // it, until tetrahedra are thicker than that.
+  // it, until tetrahedra are thicker than that. Where the vertices that were moved take the edge
+  // along, the crossing is elsewhere on the stand-in than as given.
   bool split(const Crossing& c) {
-    const auto [x, y] = c.end;
-    const double length = distance(state_.position(x), state_.position(y));
-    find_ring(c.end);
+    const double length = distance(state_.position(c.end[0]), state_.position(c.end[1]));
+    const Vec3 on_stand_in = crossing_point(
+                   c, [&](VertexId v) { return state_.points().nearest(state_.point(v)); }),
+               as_given = crossing_point(c, [&](VertexId v) { return state_.position(v); });
     for (double tolerance = 0x1p-10; tolerance > 0x1p-50; tolerance *= 0x1p-12) {
-      const Place place =
-          state_.place_on_edge(diagonal_.end, crossing_point(c), length * tolerance);
-      const auto bad = std::ranges::find_if(ring_, [&](TetId t) {
-        return std::ranges::any_of(c.end, [&](VertexId v) {
-          return !state_.is_positive_with(state_.mesh.tet(t), state_.mesh.index_of(t, v), place);
-        });
-      });
-      if (bad == ring_.end()) {
-        insert(place, c);
-        return true;
+      for (const double share : {0.0, 1.0, 0.5}) {
+        const Vec3 x = add_scaled(on_stand_in, share, subtract(as_given, on_stand_in));
+        const Place place = state_.place_on_edge(diagonal_.end, x, length * tolerance);
+        if (find_cavity(c, place)) {
+          insert(place, c);
+          return true;
+        }
+        state_.forget(place);
       }
-      state_.forget(place);
     }
     return false;
   }
-  Vec3 crossing_point(const Crossing& c) const {
+  // Where the diagonal crosses the edge, if `at` tells where vertices are; as a point of the
+  // diagonal on the stand-in.
+  template <class At>
+  Vec3 crossing_point(const Crossing& c, At&& at) const {
     const std::size_t i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
-    const Vec3 &a = state_.position(number_[diagonal_.end[0]]),
-               &b = state_.position(number_[diagonal_.end[1]]), &x = state_.position(c.end[0]),
-               &y = state_.position(c.end[1]);
+    const VertexId p = number_[diagonal_.end[0]], q = number_[diagonal_.end[1]];
+    const Vec3 a = at(p), b = at(q), x = at(c.end[0]), y = at(c.end[1]);
     const Vec3 u = subtract(b, a), v = subtract(y, x), w = subtract(x, a);
-    return add_scaled(a, (w[i] * v[j] - w[j] * v[i]) / (u[i] * v[j] - u[j] * v[i]), u);
+    const double t = (w[i] * v[j] - w[j] * v[i]) / (u[i] * v[j] - u[j] * v[i]);
+    const Vec3 &from = state_.points().nearest(state_.point(p)),
+               &to = state_.points().nearest(state_.point(q));
+    return add_scaled(from, t, subtract(to, from));
   }
-  void insert(const Place& place, const Crossing& c) {
-    std::vector<CreatedTet> created;
-    for (const TetId t : ring_) {
-      for (const VertexId v : c.end) {
-        created.push_back({state_.mesh.tet(t), state_.mesh.region(t)});
-        created.back().vertices[state_.mesh.index_of(t, v)] = kNone;
+
+  // The tetrahedra that the point of a crossing replaces, and those that replace them: first those
+  // at the edge, then as well those beyond faces that cannot be seen from it. False if such a face
+  // is on the surface, or they are too many.
+  bool find_cavity(const Crossing& c, const Place& place) {
+    find_ring(c.end);
+    for (bool grown = true; grown;) {
+      grown = false;
+      created_.clear();
+      for (std::size_t n = 0; n < ring_.size() && !grown; ++n) {
+        for (int i = 0; i < 4 && !grown; ++i) {
+          if (is_within_cavity(c, ring_[n], i)) continue;
+          const Tet& tet = state_.mesh.tet(ring_[n]);
+          if (state_.is_positive_with(tet, i, place)) {
+            created_.push_back({tet, state_.mesh.region(ring_[n])});
+            created_.back().vertices[i] = kNone;
+          } else if (grow(ring_[n], i, place)) {
+            grown = true;
+          } else {
+            return false;
+          }
+        }
       }
     }
+    return true;
+  }
+  // Is face i of t between two tetrahedra of the cavity, or one of those that the crossing cuts?
+  bool is_within_cavity(const Crossing& c, TetId t, int i) const {
+    const WorkMesh& mesh = state_.mesh;
+    const int x = mesh.index_of(t, c.end[0]), y = mesh.index_of(t, c.end[1]);
+    if (x >= 0 && y >= 0 && x != i && y != i) return true;
+    return mesh.facet(t, i) == kNone &&
+           std::ranges::find(ring_, mesh.neighbor(t, i)) != ring_.end();
+  }
+  bool grow(TetId t, int i, const Place& place) {
+    constexpr std::size_t kMost = 24;
+    const TetId next = state_.mesh.neighbor(t, i);
+    if (next == kNone || state_.mesh.facet(t, i) != kNone || ring_.size() == kMost) return false;
+    const Vec3& apex = state_.position(state_.mesh.tet(next)[state_.mesh.mirror(t, i)]);
+    if (state_.too_long(place.position, apex)) return false;
+    ring_.push_back(next);
+    return true;
+  }
+  void insert(const Place& place, const Crossing& c) {
     std::vector<SurfaceFace> faces;
     for (const VertexId v : c.end) {
       for (const VertexId w : {c.before, c.after}) {
         faces.push_back({{v, kNone, w}, diagonal_.facet});
       }
     }
-    state_.insert_on_edge(place, ring_, created, faces);
+    state_.insert_on_edge(place, ring_, created_, faces);
   }
 
   bool anchor(VertexId v, FacetLocator& locator) {
@@ -375,7 +415,8 @@ class Entry {
   VertexId to_ = 0;
   std::vector<std::array<VertexId, 2>> faces_;  // at the vertex that was reached
   std::vector<Crossing> crossings_;
-  std::vector<TetId> star_, ring_;
+  std::vector<TetId> star_, ring_;   // the ring grows where it is a cavity
+  std::vector<CreatedTet> created_;  // in the cavity
 };
 
 // Gives the faces of the surface, on points of the store, their facets of the surface as given.

@@ -3,9 +3,9 @@
 //
 // A facet's edge in the way of a diagonal is removed, where what replaces the tetrahedra around it
 // is positive; or one of its ends, a Steiner point of the facet, is moved onto the diagonal; or the
-// two cross in a new point. Each of these leaves a crossing less than before, so that it ends.
-// Where flat tetrahedra leave no room for any of them, their vertices in the volume are moved
-// first.
+// two cross in a new point, which replaces the tetrahedra at the edge and, where some are too flat
+// for it, those beyond them. Each of these leaves a crossing less than before, so that it ends.
+// Where there is no room for any of them, vertices in the volume are moved first.
 #pragma once
 
 #include <cstdint>
