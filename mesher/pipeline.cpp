@@ -127,7 +127,10 @@ cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
 }
 
 improve::ImproveOptions improve_options(Region region, const Session& s) {
-  return {.delta = s.options.delta, .max_edge = s.options.max_edge, .region = region};
+  return {.delta = s.options.delta,
+          .max_edge = s.options.max_edge,
+          .region = region,
+          .as_given = goes_back(s.options)};
 }
 
 // Fewer and better tetrahedra on the same surface (section 8.3). False if there was nothing to do.

@@ -241,13 +241,11 @@ void expect_kept(const Part& part, bool anew) {
   EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
 }
 
-// By local operations edges of the first two find no place, and tetrahedra of the third are too
-// flat for the surface as given. With every bend refined, they take 11 895, 5 928 and 11 565
+// By local operations edges find no place. With every bend refined, these take 11 895 and 5 928
 // tetrahedra.
 TEST(PlanarZero, WhatDoesNotGoBackIsTetrahedrizedAnew) {
   for (const Part& part : {Part{rotated(flat_prism(12, 0.1, 0.05), as_it_is), 1500},
-                           Part{rotated(flat_prism(16, 2, 0.3), to_single), 2000},
-                           Part{rotated(flat_prism(8, 0.02, 1), as_it_is), 5000}}) {
+                           Part{rotated(flat_prism(16, 2, 0.3), to_single), 2000}}) {
     expect_kept(part, true);
   }
 }
@@ -259,6 +257,15 @@ TEST(PlanarZero, EdgesComeBackThroughFlatTetrahedra) {
   for (const Part& part : {Part{rotated(flat_prism(12, 0.5, 0.3), as_it_is), 120},
                            Part{rotated(flat_prism(16, 2, 1), as_it_is), 200},
                            Part{rotated(flat_prism(12, 2, 0.05), to_single), 1200}}) {
+    expect_kept(part, false);
+  }
+}
+
+// Between edges that come back, tetrahedra may be positive as doubles, but not exactly.
+// Tetrahedrized anew, these take 2 682 and 3 712 tetrahedra.
+TEST(PlanarZero, FlatTetrahedraFitTheSurfaceAsGiven) {
+  for (const Part& part : {Part{rotated(flat_prism(8, 0.02, 1), as_it_is), 2600},
+                           Part{rotated(flat_prism(24, 0.02, 1), as_it_is), 3200}}) {
     expect_kept(part, false);
   }
 }

@@ -23,6 +23,7 @@ struct ImproveOptions {
   double delta = 14.47;  // degrees: no face angle below it is made, unless one was there
   double max_edge = 0;   // no edge longer than this is made; 0: any
   Region region = Region::interior;  // which tetrahedra are to be good
+  bool as_given = false;  // of a stand-in: new tetrahedra are positive on the surface as given, too
 };
 
 // A conforming mesh: tetrahedra on points of a store, positive but for flat ones, and the faces

@@ -30,6 +30,10 @@ State::State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopol
   PointStore scratch;
   position_.reserve(point_.size());
   for (const VertexId p : point_) position_.push_back(given_place(points, p, given, scratch));
+  if (goals.as_given && !given.empty()) {
+    as_given_ = std::make_unique<GivenPoints>();
+    append_as_given(points, given, as_given_->points);
+  }
   find_mobility();
   quality_.resize(mesh.slots());
   for (TetId t = 0; t < mesh.slots(); ++t) measure(t);
@@ -79,8 +83,11 @@ bool State::is_positive(const Tet& t) {
 bool State::is_positive_with(const Tet& t, int i, const Place& place) {
   const auto point = [&](int k) { return k == i ? place.point : point_[t[k]]; };
   const auto at = [&](int k) -> const Vec3& { return k == i ? place.position : position_[t[k]]; };
-  return predicates_.orient3d(point(0), point(1), point(2), point(3)) > 0 &&
-         orient3d_sign(at(0), at(1), at(2), at(3)) > 0;
+  const auto is_positive_by = [&](Predicates& predicates) {
+    return predicates.orient3d(point(0), point(1), point(2), point(3)) > 0;
+  };
+  return is_positive_by(predicates_) && orient3d_sign(at(0), at(1), at(2), at(3)) > 0 &&
+         (!as_given_ || is_positive_by(as_given_->predicates));
 }
 
 void State::note(TetId t) {
@@ -126,6 +133,7 @@ Place State::place_of(const PointDefinition& d, std::span<const PlaneId> planes,
                       std::span<const std::uint32_t> lines) {
   const VertexId v = points_.add(d);
   points_.set_supports(v, planes, lines);
+  if (as_given_) as_given_->points.add(d);
   PointStore scratch;
   return {v, given_place(points_, v, given_, scratch)};
 }
@@ -153,12 +161,14 @@ void State::move_to_edge(VertexId v, const Place& place, std::span<const TetId> 
 
 Place State::new_place(const Vec3& x, double tolerance) {
   const Vec3 at = snap_to_grid(x, tolerance);
+  if (as_given_) as_given_->points.add_explicit(at[0], at[1], at[2]);
   return {points_.add_explicit(at[0], at[1], at[2]), at};
 }
 
 void State::forget(const Place& place) {
   DELMESHER_CHECK(place.point + 1 == points_.size(), "only the last point can be forgotten");
   points_.pop_back();
+  if (as_given_) as_given_->points.pop_back();
 }
 
 void State::move(VertexId v, const Place& place, std::span<const TetId> star) {
@@ -167,6 +177,7 @@ void State::move(VertexId v, const Place& place, std::span<const TetId> star) {
     // Nobody else has seen where it was.
     forget(place);
     points_.move_explicit(point_[v], place.position);
+    if (as_given_) as_given_->points.move_explicit(point_[v], place.position);
   } else {
     point_[v] = place.point;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -31,6 +32,7 @@ struct Goals {
   // made, unless one as bad was there.
   float promised = 0, floor = 0;
   double max_edge = 0;      // no edge longer than this is made; 0: any
+  bool as_given = false;    // tetrahedra are positive on the surface as given, too
   bool everywhere = false;  // tetrahedra outside count as well
 };
 
@@ -45,7 +47,8 @@ struct Place {
 //  - Tetrahedra that count, made by a change, have no dihedral angle flatter than the floor and no
 //    face angle below the promise, unless the replaced ones had one as bad. So neither the flattest
 //    dihedral nor the smallest face angle of a mesh that misses them becomes worse.
-//  - All tetrahedra that a change makes are positive, on exact coordinates and as doubles.
+//  - All tetrahedra that a change makes are positive, on exact coordinates and as doubles; of a
+//    stand-in that is to go back also on exact coordinates with the vertices as given.
 class State {
  public:
   // `point`: of each vertex, in the store. `topology`: of the surface; null if no vertex of it may
@@ -167,6 +170,12 @@ class State {
             std::max(score * goals_.target.face, std::min(goals_.promised, before.face)),
             score * goals_.target.gamma};
   }
+  // The points with the vertices of the surface as given, by the same numbers.
+  struct GivenPoints {
+    PointStore points;
+    Predicates predicates{points};
+  };
+
   void find_mobility();
   Place place_of(const PointDefinition& d, std::span<const PlaneId> planes,
                  std::span<const std::uint32_t> lines);
@@ -178,6 +187,7 @@ class State {
   Predicates& predicates_;
   const SurfaceTopology* topology_;
   std::span<const Vec3> given_;
+  std::unique_ptr<GivenPoints> as_given_;  // null: nobody asks
   Goals goals_;
   Quality per_target_;
   std::size_t first_new_;  // point of the store

@@ -5,29 +5,10 @@
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/enrich/returning.h"
+#include "mesher/surface/given_place.h"
 
 namespace delmesher::policies {
 namespace {
-
-// Those that are not vertices of the surface, to a store that has the vertices as given.
-void append_others(const PointStore& from, PointStore& points) {
-  points.reserve(from.size());
-  for (auto v = static_cast<VertexId>(points.size()); v < from.size(); ++v) {
-    if (from.is_explicit(v)) {
-      const Vec3 x = from.nearest(v);
-      points.add_explicit(x[0], x[1], x[2]);
-    } else {
-      points.add(from.definition(v));
-    }
-  }
-}
-
-PointStore moved_back(const Session& session) {
-  PointStore points;
-  for (const Vec3& x : session.given) points.add_explicit(x[0], x[1], x[2]);
-  append_others(session.points, points);
-  return points;
-}
 
 // Of the vertices of the surface `as_given`, of the points that the mesh has on it, and of those on
 // the outer box, whose planes are numbered after those of the surface.
@@ -109,7 +90,8 @@ SurfaceTopology topology_as_given(const Session& session) {
 }
 
 bool go_back(const cdt::CdtResult& mesh, SurfaceTopology as_given, Session& session) {
-  PointStore points = moved_back(session);
+  PointStore points;
+  append_as_given(session.points, session.given, points);
   if (!conforms(mesh, as_given, points, session.control)) return false;
   PointStore vertices;
   build(session, vertices);  // for the supports of the vertices
@@ -121,7 +103,7 @@ bool go_back(const cdt::CdtResult& mesh, SurfaceTopology as_given, Session& sess
 cdt::CdtResult tetrahedrize_as_given(const cdt::CdtResult& mesh, Session& session) {
   PointStore points;
   SurfaceTopology as_given = build(session, points);
-  append_others(session.points, points);
+  append_as_given(session.points, session.given, points);
   Predicates predicates(points);
   cdt::CdtInput input = enrich::input_as_given(mesh, session.topology, session.points, as_given,
                                                points, predicates, session.control);

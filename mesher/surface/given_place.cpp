@@ -20,4 +20,17 @@ Vec3 given_place(const PointStore& points, VertexId v, std::span<const Vec3> giv
   return place;
 }
 
+void append_as_given(const PointStore& from, std::span<const Vec3> given, PointStore& points) {
+  points.reserve(from.size());
+  for (auto v = static_cast<VertexId>(points.size()); v < from.size(); ++v) {
+    const bool is_given = v < given.size();
+    if (is_given || from.is_explicit(v)) {
+      const Vec3 x = is_given ? given[v] : from.nearest(v);
+      points.add_explicit(x[0], x[1], x[2]);
+    } else {
+      points.add(from.definition(v));
+    }
+  }
+}
+
 }  // namespace delmesher::surface

@@ -13,4 +13,8 @@ namespace delmesher::surface {
 Vec3 given_place(const PointStore& points, VertexId v, std::span<const Vec3> given,
                  PointStore& scratch);
 
+// Appends the points of `from` that `points` does not have yet, by the same numbers, with the
+// vertices of the surface as `given`. Supports are left out.
+void append_as_given(const PointStore& from, std::span<const Vec3> given, PointStore& points);
+
 }  // namespace delmesher::surface
