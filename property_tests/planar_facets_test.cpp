@@ -241,13 +241,9 @@ void expect_kept(const Part& part, bool anew) {
   EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
 }
 
-// By local operations edges find no place. With every bend refined, these take 11 895 and 5 928
-// tetrahedra.
+// By local operations edges find no place. With every bend refined, it takes 9 925 tetrahedra.
 TEST(PlanarZero, WhatDoesNotGoBackIsTetrahedrizedAnew) {
-  for (const Part& part : {Part{rotated(flat_prism(12, 0.1, 0.05), as_it_is), 1500},
-                           Part{rotated(flat_prism(16, 2, 0.3), to_single), 2000}}) {
-    expect_kept(part, true);
-  }
+  expect_kept({rotated(flat_prism(36, 0.05, 0.5), to_single), 4000}, true);
 }
 
 // There are edges that cross a facet's edge at which tetrahedra are flatter than the surface bends
@@ -257,6 +253,18 @@ TEST(PlanarZero, EdgesComeBackThroughFlatTetrahedra) {
   for (const Part& part : {Part{rotated(flat_prism(12, 0.5, 0.3), as_it_is), 120},
                            Part{rotated(flat_prism(16, 2, 1), as_it_is), 200},
                            Part{rotated(flat_prism(12, 2, 0.05), to_single), 1200}}) {
+    expect_kept(part, false);
+  }
+}
+
+// The cavity of a crossing reaches other faces of the facet, or there is no room for one before
+// vertices of the facet have moved, or other edges have come back. Tetrahedrized anew, these take
+// 597, 533, 702 and 3 461 tetrahedra.
+TEST(PlanarZero, EdgesComeBackOverOtherFacesOfTheirFacet) {
+  for (const Part& part : {Part{rotated(flat_prism(12, 0.1, 0.05), as_it_is), 500},
+                           Part{rotated(flat_prism(8, 0.1, 0.05), as_it_is), 450},
+                           Part{rotated(flat_prism(16, 2, 0.3), to_single), 600},
+                           Part{rotated(flat_prism(16, 0.02, 0.05), as_it_is), 3000}}) {
     expect_kept(part, false);
   }
 }

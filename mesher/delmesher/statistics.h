@@ -42,10 +42,10 @@ struct Statistics {
   // the plane of a facet, and the bound on it.
   double planar_deviation = 0, planar_bound = 0;
   // With Options::planar 0 the facets are planar only while they are refined: edges of the surface
-  // as given within them, which come back afterwards; how many did not by local operations, after
-  // the first that found no place; and what was done for that, or because the mesh did not fit the
-  // surface as given: that surface was tetrahedrized anew with the same vertices, or everything was
-  // done anew without planar facets.
+  // as given within them, which come back afterwards; how many found no place by local operations;
+  // and what was done for that, or because the mesh did not fit the surface as given: that surface
+  // was tetrahedrized anew with the same vertices, or everything was done anew without planar
+  // facets.
   std::uint64_t diagonals = 0, diagonals_missing = 0;
   bool planar_anew = false, planar_given_up = false;
   double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement

@@ -44,6 +44,7 @@ class FacetCorners {
 struct Diagonal {
   std::array<VertexId, 2> end;  // of the surface
   FacetId facet;                // of the stand-in
+  std::uint32_t edge;           // of the surface as given
 };
 
 // A facet's edge across a diagonal, and the third vertices of its two faces there.
@@ -64,7 +65,8 @@ class Entry {
         control_(control),
         edges_(state),
         smoothing_(state),
-        corners_(as_given) {}
+        corners_(as_given),
+        stays_(as_given.edge_count(), 0) {}
 
   // The short ones first: they are in the way of fewer others' repairs.
   std::vector<Diagonal> diagonals() const {
@@ -76,7 +78,7 @@ class Entry {
       const std::array<VertexId, 2> end = as_given_.edge_vertices(e);
       sorted.emplace_back(
           distance(state_.points().nearest(end[0]), state_.points().nearest(end[1])),
-          Diagonal{end, facet});
+          Diagonal{end, facet, e});
     }
     std::ranges::stable_sort(sorted, {}, [](const auto& item) { return item.first; });
     std::vector<Diagonal> result;
@@ -87,9 +89,11 @@ class Entry {
   // False if it cannot be done.
   bool enter(const Diagonal& diagonal) {
     diagonal_ = diagonal;
+    stays_[diagonal.edge] = 1;
     axis_ = stand_in_.facet_axis[diagonal.facet];
     to_ = number_[diagonal.end[1]];
     VertexId at = number_[diagonal.end[0]];
+    int rooms = 8;  // at most: a point of the facet that moves may make a crossing more
     bool made_room = false;
     while (at != to_) {
       control_.poll();
@@ -100,7 +104,7 @@ class Entry {
         made_room = false;
       } else if (find_crossings(at) && uncross(at)) {
         made_room = false;
-      } else if (made_room || !make_room()) {
+      } else if (made_room || rooms-- == 0 || !make_room()) {
         return false;
       } else {
         made_room = true;
@@ -199,20 +203,19 @@ class Entry {
   // A crossing less.
   bool uncross(VertexId at) { return flip_one(at) || snap_one() || split_one(); }
 
-  // Moves vertices of the volume to where the tetrahedra are thicker at the edges across. False if
-  // none moves.
+  // Moves vertices to where the tetrahedra are thicker at the edges across. False if none moves.
   bool make_room() {
-    std::vector<VertexId> free;
+    std::vector<VertexId> mobile;
     for (const Crossing& c : crossings_) {
       find_ring(c.end);
       for (const TetId t : ring_) {
-        std::ranges::copy_if(state_.mesh.tet(t), std::back_inserter(free),
-                             [&](VertexId v) { return state_.mobility(v) == Mobility::free; });
+        std::ranges::copy_if(state_.mesh.tet(t), std::back_inserter(mobile),
+                             [&](VertexId v) { return state_.mobility(v) != Mobility::fixed; });
       }
     }
-    sort_unique(free);
+    sort_unique(mobile);
     bool any = false;
-    for (const VertexId v : free) any = smoothing_.improve_worst(v) || any;
+    for (const VertexId v : mobile) any = smoothing_.improve_worst(v) || any;
     return any;
   }
   // The tetrahedra at an edge.
@@ -309,7 +312,7 @@ class Entry {
         const Vec3 x = add_scaled(on_stand_in, share, subtract(as_given, on_stand_in));
         const Place place = state_.place_on_edge(diagonal_.end, x, length * tolerance);
         if (find_cavity(c, place)) {
-          insert(place, c);
+          state_.insert_on_edge(place, ring_, created_, created_faces_);
           return true;
         }
         state_.forget(place);
@@ -332,8 +335,9 @@ class Entry {
   }
 
   // The tetrahedra that the point of a crossing replaces, and those that replace them: first those
-  // at the edge, then as well those beyond faces that cannot be seen from it. False if such a face
-  // is on the surface, or they are too many.
+  // at the edge, then as well those beyond faces that cannot be seen from it. The faces of the
+  // facet among theirs are replaced as well. False if another face of the surface cannot be seen,
+  // if an edge or a vertex would go that stays, or if they are too many.
   bool find_cavity(const Crossing& c, const Place& place) {
     find_ring(c.end);
     for (bool grown = true; grown;) {
@@ -341,12 +345,14 @@ class Entry {
       created_.clear();
       for (std::size_t n = 0; n < ring_.size() && !grown; ++n) {
         for (int i = 0; i < 4 && !grown; ++i) {
-          if (is_within_cavity(c, ring_[n], i)) continue;
-          const Tet& tet = state_.mesh.tet(ring_[n]);
-          if (state_.is_positive_with(tet, i, place)) {
-            created_.push_back({tet, state_.mesh.region(ring_[n])});
+          const TetId t = ring_[n];
+          if (is_within_cavity(t, i)) continue;
+          const Tet& tet = state_.mesh.tet(t);
+          if (state_.mesh.facet(t, i) != diagonal_.facet &&
+              state_.is_positive_with(tet, i, place)) {
+            created_.push_back({tet, state_.mesh.region(t)});
             created_.back().vertices[i] = kNone;
-          } else if (grow(ring_[n], i, place)) {
+          } else if (grow(t, i, place)) {
             grown = true;
           } else {
             return false;
@@ -354,33 +360,84 @@ class Entry {
         }
       }
     }
-    return true;
+    return find_faces(c, place);
   }
-  // Is face i of t between two tetrahedra of the cavity, or one of those that the crossing cuts?
-  bool is_within_cavity(const Crossing& c, TetId t, int i) const {
+  // Is face i of t between two tetrahedra of the cavity, or one of the facet with both sides, as
+  // far as there are two, in it?
+  bool is_within_cavity(TetId t, int i) const {
     const WorkMesh& mesh = state_.mesh;
-    const int x = mesh.index_of(t, c.end[0]), y = mesh.index_of(t, c.end[1]);
-    if (x >= 0 && y >= 0 && x != i && y != i) return true;
-    return mesh.facet(t, i) == kNone &&
-           std::ranges::find(ring_, mesh.neighbor(t, i)) != ring_.end();
+    const TetId next = mesh.neighbor(t, i);
+    const bool both = std::ranges::find(ring_, next) != ring_.end();
+    if (mesh.facet(t, i) == diagonal_.facet) return both || next == kNone;
+    return both && mesh.facet(t, i) == kNone;
   }
   bool grow(TetId t, int i, const Place& place) {
-    constexpr std::size_t kMost = 24;
+    constexpr std::size_t kMost = 32;
     const TetId next = state_.mesh.neighbor(t, i);
-    if (next == kNone || state_.mesh.facet(t, i) != kNone || ring_.size() == kMost) return false;
+    const FacetId facet = state_.mesh.facet(t, i);
+    if (next == kNone || ring_.size() >= kMost) return false;
+    if (facet != kNone && facet != diagonal_.facet) return false;
     const Vec3& apex = state_.position(state_.mesh.tet(next)[state_.mesh.mirror(t, i)]);
     if (state_.too_long(place.position, apex)) return false;
     ring_.push_back(next);
     return true;
   }
-  void insert(const Place& place, const Crossing& c) {
-    std::vector<SurfaceFace> faces;
-    for (const VertexId v : c.end) {
-      for (const VertexId w : {c.before, c.after}) {
-        faces.push_back({{v, kNone, w}, diagonal_.facet});
+
+  // The faces of the facet around the new point, in the place of those of the cavity.
+  bool find_faces(const Crossing& c, const Place& place) {
+    outline_.clear();
+    std::vector<VertexId> before, after;
+    for (const TetId t : ring_) {
+      for (int i = 0; i < 4; ++i) {
+        if (!state_.mesh.inside(t) || state_.mesh.facet(t, i) != diagonal_.facet) continue;
+        std::array<VertexId, 3> face{};
+        for (std::size_t k = 0; k < 3; ++k) face[k] = state_.mesh.tet(t)[kFace[i][k]];
+        if (side(face[0], face[1], face[2]) < 0) std::swap(face[1], face[2]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          before.push_back(face[k]);
+          if (!add_to_outline({face[k], face[(k + 1) % 3]}, c)) return false;
+        }
       }
     }
-    state_.insert_on_edge(place, ring_, created_, faces);
+    created_faces_.clear();
+    for (const auto& [a, b] : outline_) {
+      if (predicates_.orient2d(axis_, state_.point(a), state_.point(b), place.point) <= 0) {
+        return false;
+      }
+      after.push_back(a);
+      created_faces_.push_back({{a, b, kNone}, diagonal_.facet});
+    }
+    sort_unique(before);
+    sort_unique(after);
+    return before == after;  // no vertex goes
+  }
+  // False if the edge is one between two faces, and stays.
+  bool add_to_outline(const std::array<VertexId, 2>& edge, const Crossing& c) {
+    const auto other = std::ranges::find(outline_, std::array{edge[1], edge[0]});
+    if (other == outline_.end()) {
+      outline_.push_back(edge);
+      return true;
+    }
+    outline_.erase(other);
+    const bool is_crossed = std::ranges::is_permutation(edge, c.end);
+    return is_crossed || !stays(edge);
+  }
+  // Is it part of a diagonal that has come back?
+  bool stays(const std::array<VertexId, 2>& edge) const {
+    std::vector<VertexId> ends;
+    for (const VertexId v : edge) {
+      const PointDefinition d = state_.points().definition(state_.point(v));
+      if (d.kind == PointKind::on_triangle) return false;
+      if (d.kind != PointKind::on_segment) {
+        ends.push_back(state_.point(v));
+      } else {
+        ends.insert(ends.end(), {d.corner[0], d.corner[1]});
+      }
+    }
+    sort_unique(ends);
+    if (ends.size() != 2) return false;
+    const std::uint32_t e = edge_between(as_given_, ends[0], ends[1]);
+    return e != kNone && stays_[e] != 0;
   }
 
   bool anchor(VertexId v, FacetLocator& locator) {
@@ -410,6 +467,7 @@ class Entry {
   EdgeRemoval edges_;
   Smoothing smoothing_;
   FacetCorners corners_;
+  std::vector<std::uint8_t> stays_;  // per edge of the surface as given
   Diagonal diagonal_{};
   int axis_ = 0;
   VertexId to_ = 0;
@@ -417,6 +475,8 @@ class Entry {
   std::vector<Crossing> crossings_;
   std::vector<TetId> star_, ring_;   // the ring grows where it is a cavity
   std::vector<CreatedTet> created_;  // in the cavity
+  std::vector<SurfaceFace> created_faces_;
+  std::vector<std::array<VertexId, 2>> outline_;  // of the faces in the cavity, counter-clockwise
 };
 
 // Gives the faces of the surface, on points of the store, their facets of the surface as given.
@@ -466,12 +526,15 @@ DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_i
   State state(work_mesh(std::move(mesh), point, points.size()), point, &stand_in, given, points,
               predicates, goals);
   Entry entry(state, number, stand_in, as_given, predicates, control);
-  const std::vector<Diagonal> diagonals = entry.diagonals();
-  const auto stuck =
-      std::ranges::find_if(diagonals, [&](const Diagonal& d) { return !entry.enter(d); });
+  std::vector<Diagonal> missing = entry.diagonals();
   DiagonalsResult result;
-  result.diagonals = diagonals.size();
-  result.missing = static_cast<std::uint64_t>(diagonals.end() - stuck);
+  result.diagonals = missing.size();
+  // Where one finds no place, others may make some.
+  for (std::size_t before = missing.size() + 1; missing.size() < before;) {
+    before = missing.size();
+    std::erase_if(missing, [&](const Diagonal& d) { return entry.enter(d); });
+  }
+  result.missing = missing.size();
   if (result.missing > 0) return result;
   const bool anchored = entry.anchor_all();
   result.mesh = result_of(state);

@@ -4,8 +4,10 @@
 // A facet's edge in the way of a diagonal is removed, where what replaces the tetrahedra around it
 // is positive; or one of its ends, a Steiner point of the facet, is moved onto the diagonal; or the
 // two cross in a new point, which replaces the tetrahedra at the edge and, where some are too flat
-// for it, those beyond them. Each of these leaves a crossing less than before, so that it ends.
-// Where there is no room for any of them, vertices in the volume are moved first.
+// for it, those beyond them, with the faces of the facet among theirs. Each of these leaves a
+// crossing less than before, so that it ends. Where there is no room for any of them, vertices at
+// the edges across are moved first; and an edge that finds no place is tried again after the
+// others.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +20,7 @@ namespace delmesher::improve {
 struct DiagonalsResult {
   ImproveMesh mesh;             // faces have the facets of the surface as given
   std::uint64_t diagonals = 0;  // edges of the surface as given within a facet of the stand-in
-  std::uint64_t missing = 0;  // of them, from the first that finds no place; then there is no mesh
+  std::uint64_t missing = 0;    // of them, those that find no place; then there is no mesh
 };
 
 // `stand_in` and `as_given` have the same triangles; `given`: the vertices as given. On success
