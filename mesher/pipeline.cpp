@@ -133,14 +133,27 @@ improve::ImproveOptions improve_options(Region region, const Session& s) {
           .as_given = goes_back(s.options)};
 }
 
-// Fewer and better tetrahedra on the same surface (section 8.3). False if there was nothing to do.
-bool improve_cdt(cdt::CdtResult& cdt, Session& s) {
-  improve::ImproveResult result =
-      improve::improve(improvable(cdt), &s.topology, s.given, improve_options(s.options.region, s),
-                       s.points, s.predicates, s.control);
+// Fewer and better tetrahedra on the same surface (section 8.3).
+improve::ImproveResult improve_cdt(cdt::CdtResult& cdt, Session& s,
+                                   const improve::Sparing& sparing = {}) {
+  improve::ImproveOptions options = improve_options(s.options.region, s);
+  options.sparing = sparing;
+  improve::ImproveResult result = improve::improve(improvable(cdt), &s.topology, s.given, options,
+                                                   s.points, s.predicates, s.control);
   put_in(std::move(result.mesh), cdt);
   follow(result.became, cdt);
-  return result.changed;
+  return result;
+}
+
+// What has come back may take a tenth more tetrahedra than the mesh of the stand-in had; beyond
+// that, points on the edges that came back are spared.
+void improve_as_given(std::size_t before, const std::vector<std::uint8_t>& is_flat,
+                      cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
+  std::vector<std::uint8_t> returned = is_flat;  // on the stand-in
+  for (std::size_t e = 0; e < returned.size(); ++e) {
+    if (s.topology.edge_is_flat[e] != 0) returned[e] = 0;
+  }
+  recorder.spared(improve_cdt(cdt, s, {returned, before + before / 10}).spared);
 }
 
 // From the stand-in to the surface as given, with all its edges: by local operations, or, where
@@ -173,10 +186,12 @@ bool improve_final(Planes planes, cdt::CdtResult& cdt, Session& s, Recorder& rec
   const bool goes_back = planes == Planes::while_refined && !s.given.empty();
   // Outside, flat tetrahedra between facets that are nearly in one plane would be in the way.
   if (goes_back && s.options.region == Region::interior) keep_inside(cdt);
-  if (improve_cdt(cdt, s)) recorder.improved(cdt);
+  if (improve_cdt(cdt, s).changed) recorder.improved(cdt);
   if (!goes_back) return true;
+  const std::size_t before = cdt.tetrahedra.size();
+  const std::vector<std::uint8_t> is_flat = s.topology.edge_is_flat;
   if (!put_back(cdt, s, recorder)) return false;
-  improve_cdt(cdt, s);
+  improve_as_given(before, is_flat, cdt, s, recorder);
   recorder.improved(cdt);
   return true;
 }

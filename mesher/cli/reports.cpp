@@ -170,6 +170,7 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"deviation", s.planar_deviation},
                     {"diagonals", s.diagonals},
                     {"diagonals_missing", s.diagonals_missing},
+                    {"spared", s.diagonals_spared},
                     {"anew", s.planar_anew},
                     {"given_up", s.planar_given_up}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};

@@ -216,7 +216,7 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["final"]), mesh);
   EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
   EXPECT_EQ(keys(json["planar"]),
-            "facets groups given_facets bound deviation diagonals diagonals_missing anew "
+            "facets groups given_facets bound deviation diagonals diagonals_missing spared anew "
             "given_up ");
   EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
   EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");

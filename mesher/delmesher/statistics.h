@@ -47,6 +47,7 @@ struct Statistics {
   // was tetrahedrized anew with the same vertices, or everything was done anew without planar
   // facets.
   std::uint64_t diagonals = 0, diagonals_missing = 0;
+  std::uint64_t diagonals_spared = 0;  // points on them that went for fewer tetrahedra
   bool planar_anew = false, planar_given_up = false;
   double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement
   double tau = 0;                   // in force: Options::tau, or more for the budget

@@ -8,10 +8,14 @@
 namespace delmesher::improve {
 
 bool Collapse::run(VertexId v) {
+  state_.mesh.star(v, star_);
+  return run(v, state_.to_be_acceptable(state_.worst_of(star_)));
+}
+
+bool Collapse::run(VertexId v, const Quality& least) {
   if (state_.mobility(v) == Mobility::fixed) return false;
   state_.mesh.star(v, star_);
   find_targets(v);
-  const Quality least = state_.to_be_acceptable(state_.worst_of(star_));
   VertexId best = kNone;
   float best_score = 0;
   for (const VertexId w : targets_) {

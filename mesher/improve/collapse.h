@@ -17,6 +17,8 @@ class Collapse {
   // Takes v out, to the best of its neighbours, if all tetrahedra that change are good enough
   // afterwards (State::to_be_acceptable).
   bool run(VertexId v);
+  // The same, if they reach this quality.
+  bool run(VertexId v, const Quality& least);
 
  private:
   void find_targets(VertexId v);

@@ -17,8 +17,11 @@ namespace {
 
 class Improvement {
  public:
-  Improvement(State& state, Control& control)
+  Improvement(State& state, const SurfaceTopology* topology, const Sparing& sparing,
+              Control& control)
       : state_(state),
+        topology_(topology),
+        sparing_(sparing),
         control_(control),
         edges_(state),
         faces_(state),
@@ -40,6 +43,7 @@ class Improvement {
     coarsen();
     begin(0.1);
     repair(kAgain);
+    spare();
     begin(0.12);
     polish_vertices();
     begin(0.1);
@@ -49,6 +53,8 @@ class Improvement {
     begin(0.02);
     repair({});
   }
+
+  std::uint64_t spared() const { return spared_; }
 
  private:
   // The score below which tetrahedra are tried, pass by pass: later ones take as long as the first,
@@ -81,6 +87,29 @@ class Improvement {
   void coarsen() {
     for_each_vertex([&](VertexId v) { collapse(v); });
     validate();
+  }
+
+  // Takes out points on the edges where they are to be spared, until there are as few tetrahedra as
+  // wanted: first those that are missed least, and what others there are in turn.
+  void spare() {
+    constexpr float kScores[] = {0.1F, 0.01F, 0, 0, 0, 0, 0, 0};
+    for (const float score : kScores) {
+      if (sparing_.edges.empty() || !is_too_much()) return;
+      begin(0);
+      for_each_vertex([&](VertexId v) {
+        if (!is_too_much() || !is_to_be_spared(v)) return;
+        spared_ += collapse_.run(v, state_.to_reach(score)) ? 1 : 0;
+      });
+      coarsen();
+      repair(kAgain);
+    }
+  }
+  bool is_too_much() const { return state_.mesh.tetrahedra() > sparing_.tetrahedra; }
+  bool is_to_be_spared(VertexId v) const {
+    if (state_.mobility(v) != Mobility::on_line) return false;
+    const PointDefinition d = state_.points().definition(state_.point(v));
+    const std::uint32_t edge = edge_between(*topology_, d.corner[0], d.corner[1]);
+    return edge != kNone && sparing_.edges[edge] != 0;
   }
 
   // Moves vertices to where tetrahedra are rounder on average.
@@ -194,6 +223,8 @@ class Improvement {
   }
 
   State& state_;
+  const SurfaceTopology* topology_;
+  const Sparing& sparing_;
   Control& control_;
   EdgeRemoval edges_;
   FaceRemoval faces_;
@@ -201,6 +232,7 @@ class Improvement {
   Smoothing smoothing_;
   Insertion insertion_;
   bool insert_ = false;
+  std::uint64_t spared_ = 0;
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]
   // The clock when attempts failed, plus 1: per slot, and per vertex.
@@ -225,7 +257,9 @@ ImproveResult improve(ImproveMesh mesh, const SurfaceTopology* topology,
   const std::vector<VertexId> point = vertices_in_order(mesh, points);
   State state(work_mesh(std::move(mesh), point, points.size()), point, topology, given, points,
               predicates, goals_of(options));
-  Improvement(state, control).run();
+  Improvement improvement(state, topology, options.sparing, control);
+  improvement.run();
+  result.spared = improvement.spared();
   for (VertexId v = 0; v < point.size(); ++v) {
     if (state.mesh.incident(v) != kNone) result.became[point[v]] = state.point(v);
   }

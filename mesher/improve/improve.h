@@ -19,11 +19,18 @@ namespace delmesher::improve {
 // No dihedral angle flatter than this, in degrees, is made where none was before.
 inline constexpr double kFlattestDihedral = 17;
 
+// Points that go, whatever becomes of the quality, while a mesh has more tetrahedra than wanted.
+struct Sparing {
+  std::span<const std::uint8_t> edges = {};  // per edge of the topology: those on it; empty: none
+  std::size_t tetrahedra = 0;                // wanted at most
+};
+
 struct ImproveOptions {
   double delta = 14.47;  // degrees: no face angle below it is made, unless one was there
   double max_edge = 0;   // no edge longer than this is made; 0: any
   Region region = Region::interior;  // which tetrahedra are to be good
   bool as_given = false;  // of a stand-in: new tetrahedra are positive on the surface as given, too
+  Sparing sparing = {};
 };
 
 // A conforming mesh: tetrahedra on points of a store, positive but for flat ones, and the faces
@@ -38,6 +45,7 @@ struct ImproveResult {
   ImproveMesh mesh;
   bool changed = false;
   std::vector<VertexId> became;  // per point of the store before: its point now, kNone if gone
+  std::uint64_t spared = 0;      // points that went by Sparing
 };
 
 // `topology`: of the surface that the mesh conforms to; null if all of its faces stay as they are.

@@ -70,6 +70,28 @@ float squared_sine(double degrees) {
   return static_cast<float>(1 - cosine_squared(degrees));
 }
 
+// On exactly the same surface, and no more than that takes.
+TEST(Improve, SparesPointsOnEdgesWhileThereAreTooManyTetrahedra) {
+  std::uint64_t spared = 0;
+  std::uint32_t seed = 1;
+  for (const Surface& s : one_of_each()) {
+    Case as_ever(s, 3, seed), all(s, 3, seed), enough(s, 3, seed++);
+    as_ever.run();
+    const std::vector<std::uint8_t> edges(as_ever.model.topology.edge_count(), 1);
+    ImproveOptions options;
+    options.sparing = {edges, 0};
+    all.run(options);
+    EXPECT_EQ(all.wrong(), "");
+    EXPECT_LE(all.after.tetrahedra.size(), as_ever.after.tetrahedra.size());
+    spared += all.result.spared;
+    options.sparing.tetrahedra = as_ever.before.tetrahedra.size();
+    enough.run(options);
+    EXPECT_EQ(enough.result.spared, 0U);
+    EXPECT_EQ(enough.after.tetrahedra, as_ever.after.tetrahedra);
+  }
+  EXPECT_GT(spared, 100U);
+}
+
 // The surface and the hull are the same, by rational arithmetic, and no angle that misses its goal
 // has become worse.
 TEST(Improve, KeepsTheSurfaceAndTheWorstAngles) {

@@ -37,6 +37,7 @@ class WorkMesh {
            std::span<const SurfaceFace> boundary, std::size_t vertices);
 
   std::size_t slots() const { return tet_.size(); }
+  std::size_t tetrahedra() const { return tet_.size() - free_.size(); }
   bool alive(TetId t) const { return tet_[t][0] != kNone; }
   const Tet& tet(TetId t) const { return tet_[t]; }
   RegionId region(TetId t) const { return region_[t]; }

@@ -33,6 +33,8 @@ class Recorder {
   void thinned(const cdt::CdtResult& cdt, std::uint64_t vertices);
   // Edges of the surface as given came back by local operations, but for `missing`.
   void put_back(std::uint64_t diagonals, std::uint64_t missing);
+  // Points on edges that came back were taken out for fewer tetrahedra.
+  void spared(std::uint64_t points) { result_.statistics.diagonals_spared = points; }
   // The surface as given was tetrahedrized anew, with the same vertices.
   void tetrahedrized_anew() { result_.statistics.planar_anew = true; }
   // The mesh is of no use, because it cannot be put back.
