@@ -51,8 +51,22 @@ bool Verification::check_finite() {
   return false;
 }
 
+// The filter may leave nothing to refine. Then same-mesh decides whether the record has nothing to
+// write, either; without a record an empty file says nothing.
+bool Verification::check_empty() {
+  if (exact_ == nullptr || !options_.promised.approximate || !mesh_.tetrahedra.empty())
+    return false;
+  OracleReport report("complex", "vertices");
+  report.checked = 1;
+  report.notes.emplace_back("the file has no tetrahedra");
+  if (!mesh_.vertices.empty()) report.fail("the file has vertices, but no tetrahedra");
+  if (!mesh_.boundary.empty()) report.fail("the file has triangles, but no tetrahedra");
+  add(std::move(report));
+  return true;
+}
+
 std::string Verification::check_file() {
-  if (!check_finite()) return {};
+  if (!check_finite() || check_empty()) return {};
   std::vector<Position> positions = input_.vertices;
   positions.insert(positions.end(), mesh_.vertices.begin(), mesh_.vertices.end());
   ExactPoints points;

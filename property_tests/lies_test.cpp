@@ -101,6 +101,19 @@ TEST(Truths, ChamfersWithinTheirBoundPass) {
   EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
 }
 
+// The filter may leave nothing to refine; then nothing is written.
+TEST(Truths, ARefinedMeshOfNothingPasses) {
+  Options options = honest_options();
+  options.approximate = true;
+  const Told told = run_of(options, Task::mesh, flat_wedge());
+  EXPECT_TRUE(told.sample.mesh.tetrahedra.empty());
+  VerifyReport report;
+  ASSERT_EQ(verify(told.sample.input, told.sample.mesh, &told.record,
+                   {.stage = Stage::refined, .promised = told.promise}, report),
+            "");
+  EXPECT_TRUE(report.all_passed()) << to_text(report);
+}
+
 // A cut point is the same point from either end of its edge.
 TEST(Truths, CutPointsMayBeGivenFromEitherEnd) {
   Told told = honest();

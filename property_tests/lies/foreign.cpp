@@ -225,6 +225,23 @@ const Lie kForeign[] = {
        t.record.unrepaired = t.record.refined;
      },
      "passed"},
+    {"nothing written of a refined mesh", "same-mesh",
+     [](Told& t) {
+       Options options = honest_options();
+       options.approximate = true;
+       t = run_of(options);
+       t.sample.mesh = MeshFile{};
+       t.sample.mesh.names_sides = true;
+       t.record.mesh_vertices.clear();
+     }},
+    {"vertices without tetrahedra, of a refined mesh", "complex",
+     [](Told& t) {
+       Options options = honest_options();
+       options.approximate = true;
+       t = run_of(options, Task::mesh, flat_wedge());
+       t.sample.mesh.vertices.push_back({0, 0, 0});
+       t.record.mesh_vertices.push_back(0);
+     }},
     {"faces of a final mesh that is not there, for --approximate", "promise",
      [](Told& t) {
        Options options = honest_options();

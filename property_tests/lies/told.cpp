@@ -32,6 +32,12 @@ const Told& honest() {
   return told;
 }
 
+delmesher::Surface flat_wedge() {
+  return {{{0, 0, 0}, {1, 0, 0}, {0.75, 0x1p-24, 0}, {0, 0, 2}, {1, 0, 2}, {0.75, 0x1p-24, 2}},
+          {{0, 2, 1}, {3, 4, 5}, {0, 1, 3}, {1, 4, 3}, {1, 2, 4}, {2, 5, 4}, {2, 0, 3}, {2, 3, 5}},
+          {}};
+}
+
 std::size_t kept_facet(const ExactRecord& r) {
   for (std::size_t f = 0; f < r.facets.size(); ++f) {
     if (r.facets[f].filtered == 0) return f;

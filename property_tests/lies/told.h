@@ -27,6 +27,9 @@ Told run_of(const delmesher::Options& options, oracles::Task task = oracles::Tas
 // The one run that most lies are about.
 const Told& honest();
 
+// A wedge so flat that the filter leaves nothing to refine.
+delmesher::Surface flat_wedge();
+
 // The first facet that the filter has kept.
 std::size_t kept_facet(const delmesher::ExactRecord& r);
 
