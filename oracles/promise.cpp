@@ -1,6 +1,7 @@
 #include "oracles/promise.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -254,6 +255,8 @@ std::string number(double value) {
   return text;
 }
 
+constexpr double kRight = 90;  // degrees
+
 // One promise after another, each counted.
 class PromiseCheck {
  public:
@@ -294,9 +297,10 @@ class PromiseCheck {
   void section(const std::string& name, std::size_t size) {
     demand(size > 0, "the record has nothing in its section " + name);
   }
-  void not_laxer(const std::string& name, double recorded, double promised) {
-    demand(recorded >= promised, "the record has " + name + " " + number(recorded) +
-                                     ", promised was " + number(promised));
+  void as_promised(const std::string& name, double recorded, double promised, bool tightened) {
+    demand(
+        recorded == promised || (tightened && recorded == kRight),
+        "the record has " + name + " " + number(recorded) + ", promised was " + number(promised));
     if (recorded > promised) report_.figures.emplace_back("stricter: " + name, recorded);
   }
 
@@ -331,23 +335,21 @@ class PromiseCheck {
     if (!record_.corners.empty()) section("chamfer_points", record_.chamfer_points.size());
   }
 
+  // Only the guard makes anything stricter than was asked for. It demands empty balls first, then
+  // chamfers some corners up to a right angle, in the end all.
   void check_parameters() {
     const ExactRecord::Parameters& p = record_.parameters;
-    not_laxer("delta", p.delta, promise_.guaranteed_delta());
-    not_laxer("acute", p.acute, promise_.acute);
-    not_laxer("corner", p.corner, promise_.corner_in_force());
-    // No angle of a tetrahedron's face, and no threshold, is beyond these.
-    demand(p.delta <= 60, "the record has delta " + number(p.delta));
-    demand(p.acute <= 90 && p.corner <= 90, "the record has a threshold above 90 degrees");
+    as_promised("delta", p.delta, promise_.guaranteed_delta(), false);
+    as_promised("acute", p.acute, promise_.acute, p.gabriel);
+    as_promised("corner", p.corner, promise_.corner_in_force(), p.gabriel && p.acute == kRight);
     demand(p.gabriel || !promise_.gabriel, "the record has no empty balls, promised was --gabriel");
     demand(p.region == promise_.region, "the record is of another region than was promised");
     check_tolerance();
-    // The guard tightens corners only where empty balls alone did not help.
     std::uint64_t tightened = 0;
     for (const ExactRecord::Corner& corner : record_.corners) {
       ++report_.checked;
       const std::string name = "corner " + std::to_string(corner.vertex);
-      if (!(corner.threshold >= p.acute && corner.threshold <= 90)) {
+      if (corner.threshold != p.acute && corner.threshold != kRight) {
         report_.fail(name + " has a threshold of " + number(corner.threshold) + " degrees");
       }
       tightened += corner.threshold > promise_.acute;
@@ -355,8 +357,6 @@ class PromiseCheck {
         report_.fail(name + " is tightened, which comes after empty balls");
       }
     }
-    demand(p.acute <= promise_.acute || p.gabriel,
-           "corners are tightened everywhere, which comes after empty balls");
     if (promise_.no_guard) {
       demand(p.gabriel == promise_.gabriel && tightened == 0 && p.acute == promise_.acute &&
                  p.corner == promise_.corner_in_force(),
@@ -395,7 +395,10 @@ class PromiseCheck {
     demand(recorded >= 0 && recorded <= promised * (1 + kSlack),
            "the record has facets that are planar within " + number(recorded) +
                " of the diagonal, promised was " + number(promised));
-    demand(record_.planes.empty() || recorded > 0, "the record has planes, but no bound for them");
+    demand(record_.planes.empty() == (recorded == 0),
+           "the record has planes and no bound for them, or a bound and no planes");
+    demand(record_.triangles.empty() || !record_.planes.empty(),
+           "the record has triangles of its own, but no planes");
   }
 
   const Promise& promise_;

@@ -1,5 +1,6 @@
 // The oracles on the record and on its final mesh.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -15,9 +16,44 @@
 
 namespace tetproof::oracles {
 
+namespace {
+
+// No oracle would look at a point that nothing uses. Points on segments and triangles are given by
+// vertices of the input.
+void check_points_are_used(const delmesher::ExactRecord& record, std::size_t inputs,
+                           OracleReport& report) {
+  std::vector<std::uint8_t> used(record.points.size());
+  const auto use = [&](std::uint32_t v) {
+    if (v < used.size()) used[v] = 1;
+  };
+  const auto use_each = [&](const auto& list) { std::for_each(list.begin(), list.end(), use); };
+  for (const auto& chain : record.segments) use_each(chain.vertices);
+  for (const auto& corner : record.corners) use(corner.vertex);
+  for (const auto* tets : {&record.refined, &record.final, &record.unrepaired}) {
+    for (const auto& tet : *tets) use_each(tet.vertices);
+  }
+  for (const auto* faces :
+       {&record.refined_facets, &record.final_facets, &record.unrepaired_facets}) {
+    for (const auto& [a, b, c, facet] : *faces) use_each(std::array{a, b, c});
+  }
+  use_each(record.mesh_vertices);
+  for (const auto& made : record.chamfer_points) use_each(made);
+  for (const auto& ball : record.balls) {
+    use(ball.vertex);
+    use_each(ball.tetrahedron);
+  }
+  for (std::size_t v = inputs; v < used.size(); ++v) {
+    if (used[v] == 0) report.fail("point " + std::to_string(v) + " is used by nothing");
+  }
+}
+
+}  // namespace
+
 std::string Verification::check_sidecar() {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
-  add(sidecar.report);
+  OracleReport report = sidecar.report;
+  if (sidecar.usable) check_points_are_used(*exact_, input_.vertices.size(), report);
+  add(std::move(report));
   if (!sidecar.usable) return sidecar.why;
   ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);
   diagonal_ = sidecar.diagonal;

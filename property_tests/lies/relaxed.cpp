@@ -84,6 +84,14 @@ const Lie kRelaxed[] = {
        t = run_of(options);
        t.record.parameters.gabriel = true;
      }},
+    {"a threshold of two edges stricter than asked for", "promise",
+     [](Told& t) { t.record.parameters.corner += 1; }, "passed"},
+    {"delta stricter than asked for", "promise", [](Told& t) { t.record.parameters.delta += 0.01; },
+     "caught by refined-angles"},
+    {"threshold of one corner between what was asked for and a right angle", "promise",
+     [](Told& t) { t.record.corners.front().threshold = 61; }, "caught by refined-chamfer-angles"},
+    {"a bound of planar facets, of which there are none", "promise",
+     [](Told& t) { t.record.parameters.planar = 0x1p-40; }, "passed"},
     {"a bound of planar facets below nothing", "promise",
      [](Told& t) { t.record.parameters.planar = -0x1p-30; }},
     {"threshold of one corner raised to a right angle", "refined-chamfer-angles",

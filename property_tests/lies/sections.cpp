@@ -362,6 +362,14 @@ const Lie kSections[] = {
          if (facet.filtered == 1) return void(facet.filtered = 2);
        }
      }},
+    {"all facets of the first step called ones of the second, of a flat wedge", "refined-filter",
+     [](Told& t) {
+       t = run_of(honest_options(), Task::mesh, flat_wedge());
+       for (auto& facet : t.record.facets) {
+         if (facet.filtered == 1) facet.filtered = 2;
+       }
+     },
+     "passed"},
     {"a tetrahedron of the final mesh of a point that does not exist", "sidecar",
      [](Told& t) { t.record.final.front().vertices[1] = 4294967295U; }},
     {"a tetrahedron of the refined mesh of a point that does not exist", "sidecar",
@@ -410,6 +418,15 @@ const Lie kSections[] = {
        run_cdt(t);
        t.record.facets.back().label = 5;
      }},
+    {"a point that nothing uses", "sidecar",
+     [](Told& t) { t.record.points.push_back(t.record.points.front()); }, "passed"},
+    {"a point on a segment that nothing uses", "sidecar",
+     [](Told& t) {
+       t.record.points.push_back({ExactPoint::Kind::on_segment, 0, 1, 0, 0.5, 0, 0});
+     },
+     "passed"},
+    {"triangles that are those of the input", "promise",
+     [](Told& t) { t.record.triangles = t.sample.input.triangles; }, "passed"},
     {"triangles turned inwards", "stand-in",
      [](Told& t) {
        t.record.triangles = t.sample.input.triangles;
