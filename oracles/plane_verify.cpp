@@ -189,8 +189,22 @@ class RecordVerifier {
     }
     refers("a written vertex", record_.mesh_vertices);
     const bool good = oracle.violations == 0;
+    if (good) check_points_are_used(oracle);
     tell(std::move(oracle));
     return good;
+  }
+
+  // No oracle would look at the others. Points on segments are given by vertices of the input.
+  void check_points_are_used(OracleReport& oracle) const {
+    std::vector<std::uint8_t> used(record_.points.size(), 0);
+    for (const auto* triangles : {&record_.refined, &record_.final}) {
+      for (const auto& triangle : *triangles) {
+        for (const Index v : triangle.vertices) used[v] = 1;
+      }
+    }
+    for (std::size_t v = graph_.vertices.size(); v < used.size(); ++v) {
+      if (used[v] == 0) oracle.fail("point " + std::to_string(v) + " is used by nothing");
+    }
   }
 
   // ------------------------------------------------------------------------------ complexes
@@ -263,6 +277,10 @@ class RecordVerifier {
     for (const auto& [edge, t] : mesh.left_of) {
       if (mesh.left_of.contains({edge.second, edge.first})) continue;
       if (!on_side(edge)) oracle.fail(name(t) + " has a border inside the rectangle");
+      // Else nothing would ask whether a vertex encroaches upon it.
+      if (!mesh.segment.contains(undirected(edge.first, edge.second))) {
+        oracle.fail(name(t) + " has an edge on the border that is not listed");
+      }
     }
     // Marked edges are edges of the mesh, once each; an edge on no segment is on the outer
     // rectangle.

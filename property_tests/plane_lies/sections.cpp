@@ -148,6 +148,18 @@ const Lie kSections[] = {
        t.record.points.push_back(t.record.points[vertices[0]]);
        vertices[0] = static_cast<Index>(t.record.points.size()) - 1;
      }},
+    {"a point that nothing uses", "sidecar",
+     [](Told& t) { t.record.points.push_back(t.record.points.back()); }},
+    {"an edge of the border of the refined mesh fewer", "refined-complex",
+     [](Told& t) {
+       auto& edges = t.record.refined_edges;
+       edges.erase(std::ranges::find(edges, 0xffffffffU, &PlaneRecord::Edge::segment));
+     }},
+    {"an edge of the border of the final mesh fewer", "exact-complex",
+     [](Told& t) {
+       auto& edges = t.record.final_edges;
+       edges.erase(std::ranges::find(edges, 0xffffffffU, &PlaneRecord::Edge::segment));
+     }},
     {"a triangle of no points", "sidecar",
      [](Told& t) { t.record.final.front().vertices[0] = 0xfffffff0U; }},
 };
