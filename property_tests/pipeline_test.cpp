@@ -394,6 +394,9 @@ TEST(Limits, AreErrorsAsValues) {
   options.threads = 1025;
   expect_refused(options, "threads must be between 0 and 1024");
   options = {};
+  options.planar = 0.5;
+  expect_refused(options, "planar must be between 0 and 0.01");
+  options = {};
   std::uint64_t calls = 0;
   options.progress = [&](const delmesher::Progress&) { return ++calls < 3; };
   const Result result = delmesher::tetrahedralize(surface, options);

@@ -1,8 +1,8 @@
 // Compares a campaign with an earlier one and finds the measures that got worse.
 //
 // Laws: a campaign against itself has no finding; leaving out models or adding better results gives
-// no finding but "missing"; every disposition but ok counts as not ok, refusals and skips included;
-// a measure that only one of the two sides has is named, never passed over.
+// no finding but "missing"; every disposition but ok and unverified counts as no mesh, refusals
+// included; a measure that only one of the two sides has is named, never passed over.
 #pragma once
 
 #include <cstdint>

@@ -26,7 +26,7 @@ enum class CdtStep : std::uint8_t {
   classify   // inside and outside
 };
 
-// The input: points of a store, and for each its place on the surface.
+// The input: points of a store, and for those on the surface their edge or facet.
 struct CdtInput {
   const SurfaceTopology* topology = nullptr;
   // Every point that becomes a vertex: all used input vertices and the enriching points.
@@ -38,9 +38,10 @@ struct CdtInput {
   std::vector<std::vector<VertexId>> on_facet;
   // Told when a step begins; empty: nobody asks.
   std::function<void(CdtStep)> on_step;
-  // Check after each step what it promises, InternalError if it does not hold: the tetrahedrization
-  // is Delaunay with every subsegment an edge; then it has every triangle of every facet as a face,
-  // is Delaunay wherever no facet hides, and changes sides at the facets and nowhere else.
+  // Check what the steps promise, and throw InternalError if it does not hold. After `segments`:
+  // the tetrahedrization is Delaunay, and every subsegment is an edge. After `classify`: every
+  // triangle of every facet is a face, every other face is locally Delaunay, and the two tetrahedra
+  // at a face are on different sides exactly if it is on a facet.
   bool validate = kValidating;
 };
 
@@ -69,9 +70,9 @@ struct CdtResult {
   CdtCounters counters;
 };
 
-// Never fails on a valid surface; throws Stopped when the control says so. `delaunay`, if not null,
-// is the Delaunay tetrahedrization of nearly the same vertices, all of its hull among the input's;
-// it saves time and does not matter for the result.
+// A valid surface has a result: throws Stopped at a limit, and InternalError only for a bug.
+// `delaunay` may be null, or the Delaunay tetrahedrization of nearly the same vertices; those of
+// its hull have to be in `input`. It saves time and does not change the result.
 CdtResult constrained_delaunay_tetrahedrization(
     const CdtInput& input, PointStore& points, Predicates& predicates, Control& control,
     std::unique_ptr<Tetrahedrization> delaunay = nullptr);

@@ -4,8 +4,9 @@
 //  - every edge that is not flat has one chain, from its smaller end vertex to its larger one, and
 //    no other edge has any; every node is in the chain of its edge;
 //  - the vertices of a chain lie exactly on its edge, each strictly between its neighbours;
-//  - at an end the fractions are 0 and 1; from end 0 to end 1 no fraction from end 0 falls and no
-//    fraction from end 1 grows by more than the rounding of 1;
+//  - the two fractions of a node at an end are exactly 0 and 1. From node to node towards end 1,
+//    the fraction from end 0 does not fall and that from end 1 does not grow; both may be wrong by
+//    the rounding of 1;
 //  - a vertex strictly inside an edge is found by node_of(), and no other vertex is;
 //  - the valence of a vertex is the number of the subsegments that end there.
 // Whether subsegments are edges of the tetrahedrization is checked by validate_segments().

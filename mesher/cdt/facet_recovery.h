@@ -52,9 +52,9 @@ class FacetRecovery {
   bool grow_cavity();
   void collect_skin();
   void collect_isolated();
-  // New tetrahedra for the cavity. By the index() of a face of them: across it lies `partner`, a
-  // face of one of them as well, or `outer`, a face of the mesh outside the cavity. The other one
-  // is none.
+  // New tetrahedra for the cavity. `partner` and `outer` have an entry for each of their faces, at
+  // its index(): what lies across the face. That is either a face of another new tetrahedron
+  // (`partner`) or a face of the mesh outside the cavity (`outer`); the other entry is none.
   struct Filling {
     std::vector<Tetrahedron> tetrahedra;
     std::vector<FaceHandle> partner, outer;

@@ -1,12 +1,12 @@
 // The subsegments that are to be recovered: a queue of those that may be no edges of the
 // tetrahedrization, and the lookup of all by their ends.
 //
-// Invariant at any time: only subsegments are in the queue. One that waits may be an edge all the
-// same, and may wait twice.
-// Invariants between two steps, a step being a split whose point has been inserted:
-//  - every subsegment that is no edge of the tetrahedrization waits;
-//  - once one has been missing, every subsegment is found by its ends. What else is found has been
-//    split.
+// Invariant at any time: only subsegments are in the queue. A subsegment may be in it although it
+// is an edge, and may be in it twice.
+// Invariants between two steps (a step splits a subsegment and inserts the point):
+//  - every subsegment that is no edge of the tetrahedrization is in the queue;
+//  - if find_all() has found a missing one, every subsegment is found by its ends; subsegments that
+//    have been split are still found, too.
 #pragma once
 
 #include <cstdint>

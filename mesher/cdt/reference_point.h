@@ -8,15 +8,16 @@
 
 namespace delmesher::cdt {
 
-// Walks along missing subsegments. Between two calls it remembers nothing but memory.
+// Finds that vertex by a walk along the missing subsegment. Calls do not depend on each other; the
+// object only keeps allocated memory.
 class ReferenceFinder {
  public:
   ReferenceFinder(Tetrahedrization& mesh, const PointStore& points, Control& control)
       : mesh_(mesh), predicates_(mesh.predicates()), points_(points), control_(control) {}
 
-  // Of the vertices of the tetrahedra that the segment ab crosses, and of these only the ones in
-  // its diametral ball, the vertex with the largest circle through it, a and b; kNone without any.
-  // In doubles: it only guides. The star of a is visited: a should be the end of lower degree.
+  // Looks at the vertices of the tetrahedra that the segment ab crosses, as far as they are in its
+  // diametral ball. Gives the one with the largest circle through it, a and b, or kNone. Computed
+  // in doubles, because it only guides. Visits the star of a, so let a be the end of lower degree.
   VertexId find(VertexId a, VertexId b);
 
  private:

@@ -1,10 +1,10 @@
 // Where a missing subsegment is split, given the point that keeps it from being an edge (Si and
 // Gaertner 2005; Diazzi et al. 2023, section 4).
 //
-// Laws. Around an acute vertex, parts of different edges end on common spheres, so that they do not
-// split each other for ever. Points of edges that run along each other face each other. Everything
-// is steered by doubles, which only costs points: the splitter decides which points lie on a
-// subsegment.
+// Laws: around an acute vertex, parts of different edges end on common spheres, so that they do not
+// split each other for ever. Points of edges that run along each other face each other. A target is
+// only aimed at, in doubles or, at very small angles, in dyadic numbers of twice as many bits. The
+// splitter decides by an exact predicate whether the point lies on its subsegment.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@
 
 namespace delmesher::cdt {
 
-// The end of the original edge around which a subsegment's splits lie on common spheres.
+// Which ends of the original edge are acute. The split points of a subsegment lie on common spheres
+// around the acute end; if both are acute, the edge is first split in the middle.
 enum class Centre : std::uint8_t { end0 = 0, end1 = 1, none = 2, both = 3 };
 
 class SplitRule {
@@ -40,8 +41,8 @@ class SplitRule {
 
   const Chains& chains_;
   const PointStore& points_;
-  // References, in all calls, that no point on the edge can be matched with. Never reset: splitting
-  // without end takes turns among many subsegments.
+  // How many calls had a reference so near to the edge that no parameter matches its distance from
+  // the apex. Never reset: a recovery without end goes round many subsegments.
   std::uint32_t hopeless_ = 0;
 };
 

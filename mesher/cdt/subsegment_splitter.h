@@ -8,12 +8,13 @@
 
 namespace delmesher::cdt {
 
-// Where to split: fractions of the edge from both its ends; the point is anchored at `anchor`.
+// Where to split an edge.
 struct SplitTarget {
-  std::array<double, 2> from;
-  int anchor;        // end whose fraction counts
-  double tolerance;  // as a fraction of the edge
-  double low = 0;    // added to the fraction: more than 53 bits, with no tolerance then
+  std::array<double, 2> from;  // fraction of the edge from end 0 and from end 1
+  int anchor;                  // 0 or 1: the end whose fraction counts
+  double tolerance;            // the fraction may be off by this, for a short parameter
+  // Added to the fraction where 53 bits are not enough; the tolerance is 0 then.
+  double low = 0;
 };
 
 // Fraction of the edge between two nodes of its chain, a before b, from the end where it is more

@@ -24,7 +24,7 @@ class BoundaryDistance {
   double from_point(FacetId f, const Vec3& point);
 
  private:
-  // Facets with fewer corners are searched one by one.
+  // In a facet with fewer corners all boundary edges are looked at, without a tree.
   static constexpr std::uint32_t kSearchSize = 32;
 
   // measure(half-edge, from, to) returns a squared distance; gives the smallest one.

@@ -20,10 +20,11 @@ struct ChamferOptions {
   // Per input vertex, overriding cosine_squared; empty: none. The runaway guard sets 0 (90 degrees)
   // here.
   std::vector<double> vertex_cosine_squared;
-  double max_radius = 0;  // largest chamfer distance; 0: no bound
+  double max_radius = 0;  // nothing farther from its vertex or edge is cut off; 0: no bound
   bool simplify_bridges = true;
-  // How the paper does it, where the default differs: distances to the link (section 4.1), a bridge
-  // per triangle (4.2, with distances to the link), simplified as far as angles allow (4.4).
+  // The paper's way, where the default differs. link_distances: reach a third of the way to the
+  // link (section 4.1). bridge_per_triangle: one in each triangle (4.2); needs link_distances.
+  // simplify_to_angles: simplify as far as angles allow (4.4).
   bool link_distances = false;
   bool bridge_per_triangle = false;
   bool simplify_to_angles = false;
@@ -40,7 +41,8 @@ struct ChamferResult {
   std::vector<std::uint32_t> plc_facet;       // input facet -> index in plc.facets, or kNone
   std::vector<std::uint8_t> vertex_is_acute;  // per input vertex
   std::vector<std::uint8_t> edge_is_acute;    // per undirected input edge
-  // Per input vertex: not chamfered although two edges meet below cosine_squared.
+  // Per input vertex: 1 for an apex, where two edges meet below the threshold of the vertex, but
+  // not below that of two edges; so it is not chamfered.
   std::vector<std::uint8_t> vertex_is_apex;
   std::vector<double> vertex_distance;  // chamfer distance along the edges; 0: not chamfered
   // Balls around vertices and cylinders around edges that together contain everything cut off.
@@ -55,8 +57,8 @@ struct ChamferResult {
 
 // Appends the new points (on-segment and on-triangle, with supports) to the store. The result
 // satisfies the projection condition for the threshold in force, up to the rounding of on-triangle
-// points, where features are far larger than an ulp of the surface's size: in narrower facets
-// doubles cannot say where a right angle is. Stops as at a limit where they cannot place a point.
+// points, if features are far larger than an ulp of the surface's size. Throws Stopped, with
+// Limit::precision, if doubles cannot place a point.
 ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
                       const ChamferOptions& options, Control& control);
 

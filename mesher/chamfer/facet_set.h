@@ -20,7 +20,7 @@ class FacetSet {
   explicit FacetSet(const KeptSurface& surface);
 
   const std::vector<std::uint8_t>& kept() const { return kept_; }
-  // Some facet that has the element is kept. Vertices without constrained edges are never alive.
+  // Is a facet kept that contains the element? A vertex without constrained edges is never alive.
   bool alive(const Element& element) const;
   // The kept facets that contain the element, ascending. Dropping them removes the element.
   std::vector<FacetId> facets(const Element& element) const;

@@ -112,7 +112,7 @@ class FeatureFinder {
     return {{facet_of_point_[v]}, {made_for(v)}};
   }
 
-  // Triangles of the facets at acute vertices: elsewhere the input's own distances hold.
+  // Triangles of the facets that are in the Plc.
   void find_triangles() {
     std::vector<Box> boxes;
     for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) {

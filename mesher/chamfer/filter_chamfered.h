@@ -9,11 +9,12 @@
 
 namespace delmesher::chamfer {
 
-// Drops from the set facets responsible for segments shorter than the tolerance (in the scaled
-// coordinates of the surface) and for points, segments and facets without a common point that are
-// closer, smallest first. Several facets go at a time if none of them changes what was found about
-// another, and at least one if there is any; with `both_sides` all that were found. Looks only at
-// points and segments made for a vertex with changed[v] != 0. Gives the facets dropped.
+// Drops facets from the set that are responsible for too small features: segments shorter than the
+// tolerance (in the scaled coordinates of the surface), and points, segments and facets without a
+// common point that are closer than it. The smallest come first. A facet goes if no facet that went
+// before it changes what was found about it; the first one always goes. With `both_sides` all that
+// were found go. Looks only at vertices v with changed[v] != 0, at the points made for them, and at
+// the segments there. Gives the facets dropped.
 std::vector<FacetId> drop_for_chamfered_features(const KeptSurface& surface,
                                                  const PointStore& points,
                                                  const ChamferResult& chamfered, double tolerance,

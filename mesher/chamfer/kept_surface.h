@@ -38,9 +38,8 @@ class KeptSurface {
   bool facet_is_kept(FacetId f) const { return kept_[f] != 0; }
 
   // Positions times scale(), a power of two that brings all coordinates into [-1, 1], so that
-  // products neither overflow nor depend on the unit of the input. Measured from a vertex of the
-  // surface if that is so far from the origin that the doubles next to its implicit vertices tell
-  // too little about it.
+  // products neither overflow nor depend on the unit of the input. Relative to vertex 0 if the
+  // surface is so far from the origin that the nearest doubles of moved vertices are too coarse.
   const Vec3& position(VertexId v) const { return position_[v]; }
   // The same of any point of the store.
   Vec3 place(const PointStore& points, VertexId v) const;
@@ -67,7 +66,8 @@ class KeptSurface {
     return corner == kNone ? kNone : corners_[corner].next;
   }
 
-  // Outgoing half-edges of live edges at v, in order around it.
+  // The spokes of v: outgoing half-edges, in order around it, of edges that are not flat and have a
+  // kept facet (such edges are called live).
   std::vector<std::uint32_t> live_half_edges(VertexId v) const;
   // The outgoing half-edges at a corner's vertex, one per triangle of the sector (each leads its
   // triangle counter-clockwise), from the incoming side to the outgoing one.

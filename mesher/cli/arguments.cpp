@@ -458,7 +458,7 @@ void add_check(CLI::App& app, Command& command, Given& given) {
 }
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 1 inverted or flat tetrahedra left, or a file of several failed; 2 "
+    "Exit codes: 0 done; 1 inverted tetrahedra left, or a file of several failed; 2 "
     "usage;\n"
     "  3 file; 4 not valid; 5 limit; 6 a bug; 130 interrupted.";
 

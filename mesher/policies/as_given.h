@@ -1,4 +1,4 @@
-// Policy: with --planar 0, the surface as given to the last bit from a mesh of its stand-in.
+// Policy: with --planar 0, a mesh of the stand-in becomes a mesh of the surface as given.
 #pragma once
 
 #include "mesher/cdt/cdt.h"
@@ -6,17 +6,17 @@
 
 namespace delmesher::policies {
 
-// Is the surface refined as its stand-in, and the mesh put back onto the surface as given? It is
-// with --planar 0, if there is an improvement afterwards.
+// Will the final mesh have to go back from the stand-in to the surface as given? It will with
+// --planar 0, unless nothing is improved or the run is approximate: then there is no stand-in.
 bool goes_back(const Options& options);
 
 // Of the surface as given, whose triangles are those of the session's stand-in.
 SurfaceTopology topology_as_given(const Session& session);
 
 // Moves the vertices of the surface to where they were given; all other points keep their
-// definitions. The mesh has the facets of `as_given`. If exact signs say that all its tetrahedra
-// are positive then, and that every face is on its facet, the session is one of the surface as
-// given from now on, with the same numbers of points. Otherwise it is left as it is: false.
+// definitions and numbers. The faces of `mesh` have to have the facets of `as_given`. True if, by
+// exact signs, all tetrahedra are then positive and every face is on its facet: the session's
+// points and topology are those of the surface as given from now on. Otherwise nothing changes.
 bool go_back(const cdt::CdtResult& mesh, SurfaceTopology as_given, Session& session);
 
 // Where that fails: the constrained Delaunay tetrahedrization of the surface as given, with the

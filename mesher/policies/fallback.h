@@ -19,8 +19,9 @@ chamfer::ChamferOptions chamfer_options(const Options& options);
 // away, at last with them everywhere. Deterministic: the guard looks at lengths, never at time.
 class Fallback {
  public:
-  // How often only corners near the place are tightened: the nearest that is not yet and its
-  // neighbours, one edge farther after each kSameReach times.
+  // The first kLocalSteps times, only corners near the place are tightened: the nearest one that is
+  // not tight yet, and those up to some edges away from it. That is one edge at first, and one more
+  // after every kSameReach times.
   static constexpr int kLocalSteps = 32, kSameReach = 8;
 
   explicit Fallback(const Options& options);
@@ -28,8 +29,8 @@ class Fallback {
   const chamfer::ChamferOptions& chamfering() const { return chamfering_; }
   bool gabriel() const { return gabriel_; }
   InForce in_force(double tau) const;
-  // An edge this short means that corners feed each other for ever; 0: with the thresholds in force
-  // it cannot run away.
+  // An edge shorter than this means that corners make each other split for ever. 0: there is no
+  // guard, because the refinement ends with the thresholds in force, or for --as-paper no-guard.
   double runaway_length(const Session& session, double tau);
   // The next step, after a refinement that ran away near `place`.
   void tighten(const Vec3& place, const Session& session);
@@ -44,7 +45,7 @@ class Fallback {
   bool gabriel_;
   int local_steps_ = 0;
   std::uint64_t stops_ = 0;
-  double feature_length_ = -1;  // without a filter; unknown yet
+  double feature_length_ = -1;  // smallest local feature size, if tau is 0; below 0: not known yet
 };
 
 }  // namespace delmesher::policies

@@ -1,4 +1,4 @@
-// Policy: where the vertices as given do not go with planar facets.
+// Policy: other runs, with less planar facets, where the vertices as given invert tetrahedra.
 #pragma once
 
 #include <chrono>
@@ -8,12 +8,12 @@
 
 namespace delmesher::policies {
 
-// Facets were made planar by moving vertices; the mesh is written with the vertices as given, which
-// may turn over tetrahedra that are no thicker than the vertices moved. If some are left, the
-// surface is meshed again with a bound a 32nd as large, and then without planar facets; the best
-// result counts. With --planar 0 there is one more run, without a stand-in, also if the first was
-// given up because no way led back to the surface as given (as_given.h). The limits hold for all
-// runs together.
+// Facets were made planar by moving vertices. The mesh is written with the vertices as given, which
+// may invert tetrahedra that are thinner than the vertices moved. If inverted or flat ones are
+// left, the surface is meshed again with a 32nd of the bound, and then without planar facets; the
+// best result counts. With --planar 0 there is one such run, without a stand-in; also if the first
+// one had to give up, because no way led back to the surface as given (as_given.h). The time limit
+// holds for all runs together, the other limits for each.
 class FinerPlanes {
  public:
   // The first run begins now, with these options.
@@ -25,7 +25,8 @@ class FinerPlanes {
   const Options& options() const { return options_; }
   // Is that run one without a stand-in?
   bool directly() const { return options_.planar == 0; }
-  // Takes the result of that run for the best one if it is, or if the run was interrupted.
+  // `best` becomes the result of that run if it is better, if that run was interrupted, or if the
+  // run of `best` had to give up.
   static void compare(Result result, Result& best);
 
  private:

@@ -8,9 +8,10 @@
 
 namespace delmesher::policies {
 
-// A solid that meets the bound without any further point needs none: its plain constrained
-// tetrahedrization, where that is better than the enriched one in every respect. (TetGen leaves
-// such inputs as they are, too; large ones are never among them.)
+// The plain constrained tetrahedrization, if it needs no point besides the input's vertices, meets
+// the bound, and is at least as good as the enriched one in every respect. Nothing for the hull,
+// with max_edge, with --as-paper enrichment, and above 1000 triangles, where it is not tried.
+// (TetGen leaves such inputs as they are, too.)
 std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Session& session);
 
 }  // namespace delmesher::policies

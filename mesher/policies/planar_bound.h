@@ -5,10 +5,10 @@
 
 namespace delmesher::policies {
 
-// The largest distance of a vertex from the plane of its facet, in input units: half of the
-// deviation allowed, because a triangle may be as far on the other side of the plane. `diagonal`:
-// of the bounding box. For `auto` it is twice the flatness, because planes are moved once more for
-// vertices of more than three.
+// The largest distance that a vertex may have from the plane of its facet, in input units. It is
+// half of the deviation allowed, because a triangle may be as far on the other side of the plane.
+// For `auto` it is twice the flatness, because planes may be moved by as much again for vertices on
+// more than three planes. `diagonal`: of the bounding box.
 double planar_bound(const Surface& surface, const Options& options, double diagonal);
 
 }  // namespace delmesher::policies

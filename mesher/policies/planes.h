@@ -8,7 +8,8 @@
 
 namespace delmesher::policies {
 
-// Never, only until the refined mesh is put back onto the surface as given, or to the end.
+// none: never. while_refined: until the final mesh goes back to the surface as given, after it has
+// been improved once. to_the_end: in the final mesh, too.
 enum class Planes : std::uint8_t { none, while_refined, to_the_end };
 
 struct PlanarSurface {
@@ -16,9 +17,9 @@ struct PlanarSurface {
   double bound;  // of its facets (planar_bound)
 };
 
-// Gives the session the surface, which is valid, has the session's diagonal, and is meant to be
-// meshed with the session's options: its points and its topology, oriented outwards, with
-// near-coplanar triangles in one plane where that is asked for, and then the vertices as given.
+// Fills the session's points and topology with the surface, oriented outwards. If `planes` and the
+// options ask for it, near-coplanar triangles lie in one plane there; the session then keeps the
+// vertices as given, too. The surface has to be valid, and the session has to know its diagonal.
 PlanarSurface enter_surface(const Surface& surface, const ValidityResult& validity, Planes planes,
                             Session& s);
 

@@ -15,19 +15,20 @@ class Sparing {
   Spared& spared() { return spared_; }
   const Spared& spared() const { return spared_; }
 
-  // After a refinement that came to grief: its crowded pieces and vertices. Where it names nothing
-  // new, or has failed several times, all segments of the input, with which it always succeeds.
+  // After a refinement that found no room: spares its crowded pieces and vertices. If these are
+  // nothing new, or after several failures, spares all segments of the input; without them the
+  // refinement always succeeds.
   void spare(const InputGraph& graph, const RefinedMesh& refined);
-  // After a rounding that left triangles inverted or flat: the pieces on which points were made
-  // that are corners of these. In the end all, again: triangles of the input's vertices alone are
-  // not rounded. False if all were spared before.
+  // After a rounding that left triangles inverted or flat (`disturbed`: their corners): spares the
+  // pieces that such a corner was put on, in the end all segments of the input, whose own vertices
+  // are not rounded. False if all were spared before.
   bool spare_disturbed(const InputGraph& graph, const Chamfered& chamfered,
                        const RefinedMesh& refined, const std::vector<VertexId>& disturbed);
 
  private:
   void drop(std::uint8_t& flag);
-  // Also the pieces of spared vertices; all, unless more is spared than `before`, and not too
-  // often.
+  // Ends an attempt: spares the pieces of spared vertices, too. Spares everything if nothing was
+  // added since `before`, or if there were too many attempts.
   void complete(const InputGraph& graph, std::size_t before);
 
   Spared spared_;

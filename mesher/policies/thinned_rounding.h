@@ -7,9 +7,9 @@
 
 namespace delmesher::policies {
 
-// Rounds a final mesh and records it as written. Where tetrahedra are left inverted or flat, points
-// around them are taken out (thin_out), at first those alone, then up to three edges away, as long
-// as that leaves fewer.
+// Rounds a final mesh and records it as written. If tetrahedra are left inverted or flat, their
+// Steiner points are taken out (thin_out), then those up to one, two and three edges away. Of these
+// meshes the one with the fewest defects is written.
 void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder);
 
 }  // namespace delmesher::policies

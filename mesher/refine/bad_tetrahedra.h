@@ -1,13 +1,15 @@
 // The bad tetrahedra of a refinement, worst first, and the tetrahedra that are still to be judged.
 //
 // A tetrahedron's note (Note::waiting) is its level of badness, kFresh while it is to be judged, or
-// 0. Entries are not removed when their tetrahedron dies: one counts only if the tetrahedron is
-// alive and waits at the entry's level.
+// 0 if it does not wait. Entries stay when their tetrahedron dies. An entry counts only if its
+// tetrahedron is alive and waits at the level of the entry; an entry of the heap counts only if its
+// tetrahedron is alive, waits, and has the ratio of the entry.
 //
 // Invariants:
-//  - a live tetrahedron that waits at a level has an entry there;
+//  - a live tetrahedron that waits at a level has an entry: there, or in the heap if the largest
+//    ratio comes first; the other one is empty;
 //  - no level above the worst one has entries;
-//  - with the largest ratio first, the levels have no entries, and the entries are a heap;
+//  - heap_ is a heap, the largest ratio in front;
 //  - a tetrahedron, dead or alive, is noted as fresh if and only if it is in the list of fresh
 //    ones, where it is once.
 #pragma once
@@ -28,8 +30,8 @@ class BadTetrahedra {
   BadTetrahedra(Tetrahedrization& dt, const PointStore& points, bool largest_ratio_first = false)
       : dt_(dt), points_(points), largest_ratio_first_(largest_ratio_first) {}
 
-  // Forgets everything. Tetrahedra that are added until the first next() are brought into a spatial
-  // order, level by level.
+  // Forgets everything. The tetrahedra of a level are brought into a spatial order when next()
+  // comes down to that level for the first time.
   void start();
   // `level`: 1 to Goal::kWorst.
   void add(TetId t, std::uint8_t level);

@@ -30,10 +30,10 @@ class CavityConstraints {
   // Queue the constraints from `first` on that v encroaches. True if there are any.
   bool queue_encroached_subsegments(VertexId v, Count first, std::uint32_t except = kNone);
   bool queue_encroached_subfacets(VertexId v, Count first);
-  // Queues the subfacets of t with both their tetrahedra in the cavity: they would be lost. Without
-  // the Gabriel property one may hide the new point from the tetrahedron that the point was made
-  // for. One that has a ghost there is a side of the box, which only rounding can put the point
-  // beyond. True if there are any.
+  // Queues the subfacets of t that the insertion would destroy: both their tetrahedra are in the
+  // cavity. This happens without the Gabriel property, when a subfacet lies between the new point
+  // and the tetrahedron that the point was made for. If t is a ghost, all its subfacets are queued:
+  // they are on a side of the box, and rounding has put the point beyond it. True if any is queued.
   bool queue_lost_subfacets(TetId t);
 
   // When the cavity has been filled: queues the elements that are in the tetrahedrization no more.

@@ -25,7 +25,8 @@ namespace delmesher::refine {
 
 struct Subfacet {
   std::array<VertexId, 3> v;  // counter-clockwise seen from outside
-  // Of each edge, opposite v[i]: its other side, or none and the subsegment there.
+  // Edge i is opposite v[i]. Beyond it is a neighbour (then subsegment[i] is kNone) or a subsegment
+  // (then neighbor[i] is none).
   std::array<SubfacetEdge, 3> neighbor;
   std::array<std::uint32_t, 3> subsegment;
   std::uint32_t facet;  // of the complex
@@ -66,16 +67,17 @@ class FacetTriangulations {
   }
 
   struct Location {
-    std::uint32_t subfacet;  // that contains the point, or kNone
-    std::uint32_t blocked;   // and the subsegment in the way, or kNone
+    std::uint32_t subfacet;  // the one that contains the point; kNone if the walk was blocked
+    std::uint32_t blocked;   // the subsegment that blocked the walk, or kNone
   };
   // Walks from `start` towards a point of its facet.
   Location locate(VertexId v, std::uint32_t start) const;
   // Makes v, which lies in the subfacet, a vertex of its facet.
   void insert(VertexId v, std::uint32_t container);
-  // Makes v a vertex of the facet on one side of a subsegment that v has split into two.
+  // Makes v a vertex of a facet beside a subsegment that v has split. `side`: the edge that the
+  // subsegment was there; `half_a`: the half that kept its number; `half_b`: the new half.
   void insert_on_edge(VertexId v, SubfacetEdge side, std::uint32_t half_a, std::uint32_t half_b);
-  // Since forget_created(). The vertex inserted comes first.
+  // The subfacets created since forget_created(). Each has the vertex inserted as its first.
   std::span<const std::uint32_t> created() const { return created_; }
   void forget_created() { created_.clear(); }
 

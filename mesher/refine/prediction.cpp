@@ -163,7 +163,6 @@ class Predictor {
       own.insert(own.end(), facet.isolated.begin(), facet.isolated.end());
       for (const VertexId v : facet.isolated) add_vertex(v, vertices);
     }
-    for (const VertexId v : plc_.free_vertices) add_vertex(v, vertices);
   }
 
   void add_vertex(VertexId v, Owned& vertices) {

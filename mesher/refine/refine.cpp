@@ -27,7 +27,7 @@ void Refiner::run() {
 }
 
 void Refiner::triangulate_vertices() {
-  std::vector<VertexId> vertices = plc_.free_vertices;
+  std::vector<VertexId> vertices;
   for (const PlcSegment& segment : plc_.segments) {
     vertices.insert(vertices.end(), segment.vertex.begin(), segment.vertex.end());
   }

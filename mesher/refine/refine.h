@@ -19,9 +19,9 @@
 
 namespace delmesher::refine {
 
-// The bound on face angles that is guaranteed, in degrees: asin(1/4). The proof of termination
-// needs a radius-edge ratio above 2 (section 5.4); the paper's 20.7 is the bound in the plane.
-// Above it the bound is best effort.
+// The largest bound on face angles that is guaranteed, in degrees: asin(1/4), which is a
+// radius-edge ratio of 2. The proof of termination needs a ratio above that (section 5.4). A larger
+// bound is best effort. The 20.7 degrees of the paper are the bound in the plane.
 inline constexpr double kGuaranteedDelta = 14.4775;
 
 // The steps of algorithm 1, in its order.
@@ -70,7 +70,7 @@ struct RefineResult {
   std::vector<std::array<VertexId, 4>> tetrahedra;  // all of them down to the outer box
   std::vector<Side> side;                           // per tetrahedron
   // Per tetrahedron, a bit for each face: bits 0 to 3 if a tetrahedron before it has that face too,
-  // bits 4 to 7 if that tetrahedron is also on the same side of the surface.
+  // bits 4 to 7 if both are also inside, or neither is.
   std::vector<std::uint8_t> repeated_faces;
   std::unique_ptr<Tetrahedrization> delaunay;  // the tetrahedra once more, with their neighbours
   std::vector<RefinedFace> faces;

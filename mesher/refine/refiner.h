@@ -13,8 +13,8 @@
 //   BadTetrahedra      the tetrahedra to split, as a Goal judges them
 //
 // Invariants that link them:
-//  - a subsegment names its edge in the subfacets beside it, one in each facet of its segment, and
-//    these name it there;
+//  - a subsegment has one subfacet beside it in each facet of its segment. It names its edge in
+//    that subfacet, and the subfacet names the subsegment at that edge;
 //  - once tetrahedra are judged, every bad one waits, at its level or to be judged, unless it is
 //    known to be outside, where the goal need not be reached;
 //  - queued elements are split before a bad tetrahedron is, so that every subfacet is a face when a
@@ -56,7 +56,8 @@ class Refiner {
   void recover_segments();
   void recover_facets();
   void refine_tetrahedra();
-  // Splits bad tetrahedra until there are none, or the store has `cap` points; then false.
+  // Splits bad tetrahedra until there are none. Returns false, with some left, as soon as the store
+  // has more than `cap` points.
   bool reach(const Goal& goal, std::size_t cap);
   // 0 if it is not to be split.
   std::uint8_t badness(TetId t) const;
@@ -67,8 +68,9 @@ class Refiner {
   void split_subfacet(std::uint32_t s);
   void split_tetrahedron(TetId t);
   bool try_volume_point(TetId t, VertexId v);
-  // Find the cavity of v and the constraints in and on it; the second gives up, queues and returns
-  // false at the first subsegment (and subfacet, if these are to be spared) in the way.
+  // Finds the cavity of v and the constraints in and on it. find_free_cavity() gives up when it
+  // meets a subsegment that v encroaches or, with `spare_subfacets`, a subfacet that v encroaches
+  // or would destroy: it queues these and returns false.
   void find_cavity(VertexId v, TetId start);
   bool find_free_cavity(VertexId v, TetId start, bool spare_subfacets);
   void commit(VertexId v);

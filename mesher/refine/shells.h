@@ -19,8 +19,9 @@ class Shells {
   // `apex`: per input vertex, 1 if it is one. Later vertices are none.
   Shells(const Plc& plc, const PointStore& points, std::span<const std::uint8_t> apex);
 
-  // Where to split a subsegment ab of that length, as a fraction from a: where it crosses a shell
-  // in its middle third, nearest to the middle if both ends are apexes; in the middle if none is.
+  // Where to split a subsegment ab of that length, as a fraction from a: if an end is an apex,
+  // where a shell of it crosses the middle third of ab; of two such places the one nearer to the
+  // middle; without an apex in the middle.
   double split_fraction(VertexId a, VertexId b, double length) const;
 
  private:

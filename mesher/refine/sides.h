@@ -38,7 +38,8 @@ class Sides {
   State common_of_cavity() const;
   void inherit(TetId created, State common) { set(created, common); }
 
-  // Finds the sides of all tetrahedra near the removed part, as of() would. Threads share the work.
+  // With several threads: finds the sides of all tetrahedra near the removed part, as of() would.
+  // With one thread it does nothing, and of() finds them.
   void classify_near_removed(Control& control);
 
   // Requires every subfacet to be a face. Throws InternalError if the invariant is broken.

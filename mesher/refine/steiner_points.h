@@ -39,8 +39,9 @@ class SteinerPoints {
                 const SurfaceTopology& topology, PointStore& points, Predicates& predicates,
                 const RefineOptions& options);
 
-  // Splits the subsegment ab of a segment of the complex: in the middle, or where it crosses an
-  // apex's shell. Throws Runaway if it is too short.
+  // The point at which the subsegment ab is to be split: its middle, or where it crosses a shell of
+  // an apex. On an artificial segment the point may be off the line by kBendTolerance. Throws
+  // Runaway if ab is too short.
   VertexId on_segment(std::uint32_t segment, VertexId a, VertexId b);
 
   // Near the circumcentre of a subfacet.

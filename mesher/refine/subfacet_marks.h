@@ -1,8 +1,9 @@
-// Which faces of the tetrahedra are subfacets: the mark of a face is the number of a subfacet. Who
-// marks decides what it means; a mark may outlive its subfacet.
+// Which faces of the tetrahedra are subfacets: the mark of a face is the number of a subfacet. This
+// class only stores marks. A mark stays when its subfacet dies.
 //
 // Invariants between insertions:
-//  - the two tetrahedra at a face (a ghost on the hull) have the same mark there, or none;
+//  - the two tetrahedra on both sides of a face (on the hull one is a ghost) have the same mark for
+//    it, or both have none;
 //  - every mark is the number of a subfacet.
 #pragma once
 
@@ -30,7 +31,7 @@ class SubfacetMarks {
     number_[side.tet()][side.face()] = mark;
     note(dt_, side.tet(), Note::faces) |= static_cast<std::uint8_t>(1U << side.face());
   }
-  // `created` came from the tetrahedron `inner` by a new vertex in the place of `face`.
+  // `created` is `inner` with the new vertex in the place of the one opposite `face`.
   void inherit(TetId created, TetId inner, int face) {
     const auto bit = static_cast<std::uint8_t>(1U << face);
     std::uint8_t& faces = note(dt_, created, Note::faces);

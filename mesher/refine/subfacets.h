@@ -60,7 +60,7 @@ class Subfacets {
     marks_.make_room();
     planar_.forget_created();
   }
-  // `created` came from the tetrahedron `inner` by a new vertex in the place of `face`.
+  // `created` is `inner` with the new vertex in the place of the one opposite `face`.
   void inherit(TetId created, TetId inner, int face) { marks_.inherit(created, inner, face); }
   // Settles the subfacets that were created, whose faces are among the tetrahedra created last.
   void settle_created();

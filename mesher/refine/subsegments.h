@@ -10,7 +10,7 @@
 //    bit in its note (Note::edges), which may also have bits of edges that are no subsegments any
 //    more;
 //  - with the Gabriel property, its open diametral ball is empty.
-// The sides of a subsegment are linked by Subfacets and checked by Refiner::validate().
+// FacetTriangulations links the sides of a subsegment; Refiner::validate() checks them.
 #pragma once
 
 #include <vector>
@@ -66,7 +66,7 @@ class Subsegments {
   // Marks the subsegment in the tetrahedrization, where t has its edge. Queues it if it is missing
   // there (t is kNone) or, with the Gabriel property, encroached.
   void settle(std::uint32_t s, TetId t);
-  // `created` came from the tetrahedron `inner` by a new vertex in the place of `face`.
+  // `created` is `inner` with the new vertex in the place of the one opposite `face`.
   void inherit(TetId created, TetId inner, int face) {
     note(dt_, created, Note::edges) = note(dt_, inner, Note::edges) & kEdgesWithout[face];
   }

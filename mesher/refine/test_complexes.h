@@ -80,7 +80,7 @@ struct Complex {
   const Plc& plc() const { return chamfered.plc; }
   // Of all its segments and facets.
   std::vector<VertexId> vertices() const {
-    std::vector<VertexId> all = plc().free_vertices;
+    std::vector<VertexId> all;
     for (const PlcSegment& s : plc().segments)
       all.insert(all.end(), s.vertex.begin(), s.vertex.end());
     for (const PlcFacet& f : plc().facets)

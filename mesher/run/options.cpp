@@ -1,13 +1,16 @@
 #include "mesher/run/options.h"
 
+#include <cstdio>
+
 #include "mesher/delmesher_plane.h"
 
 namespace delmesher::run {
 namespace {
 
-// All bounds are whole numbers or none.
 std::string text(double bound) {
-  return std::to_string(static_cast<long long>(bound));
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.15g", bound);
+  return digits;
 }
 
 std::string defect(const char* option, const Bounds& bounds, const char* unit = "") {

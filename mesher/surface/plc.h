@@ -36,11 +36,10 @@ struct PlcFacet {
   std::vector<VertexId> isolated;  // vertices strictly inside (flat input vertices)
 };
 
-// Every point used by a segment or facet, plus free points, is to become a vertex of the mesh.
+// Every point used by a segment or facet is to become a vertex of the mesh.
 struct Plc {
   std::vector<PlcSegment> segments;
   std::vector<PlcFacet> facets;
-  std::vector<VertexId> free_vertices;  // on no facet: e.g. vertices whose facets were all filtered
 };
 
 }  // namespace delmesher::surface
