@@ -15,11 +15,25 @@ enum class AngleScope : std::uint8_t {
   all
 };
 
+// Where the vertices of a file were before they were written: rounded, and those of facets that had
+// been made planar put where they were given. With a record these are points of it; without one it
+// is only known how far, at most, they are from where they were written.
+struct BeforeWriting {
+  const ExactPoints* points = nullptr;  // of the record, or none
+  std::vector<Index> point;             // per vertex of the file, by its number there
+  double farthest = 0;                  // without a record; in input units
+};
+
 // Angle oracle: every face angle of these tetrahedra is at least `delta` degrees, decided exactly
 // by squared cosines. The bound on the squared cosine is a relative 1e-9 laxer, so that the
 // rounding of libm fails no mesh. The report holds the histograms of these tetrahedra.
+//
+// For a file, `before` says what was promised: its tetrahedra before writing. Angles that are below
+// the bound as written alone are counted, and so is how far below. Without a record these are
+// undecided, if vertices so far from where they were written can explain them.
 OracleReport check_angles(const TetComplex& complex, const Neighbours& neighbours,
-                          const Places& places, double delta, AngleScope scope);
+                          const Places& places, double delta, AngleScope scope,
+                          const BeforeWriting& before = {});
 
 // Adds to the report, without any gate: extremes, means and histograms (15 degrees a bin, decided
 // exactly) of the face angles, each face once, and of the dihedral angles of the tetrahedra with

@@ -43,6 +43,7 @@ class Verification {
   void check_file_quality(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface, const ConformityResult& conformity);
   void turn_all(TetComplex& complex) const;
+  BeforeWriting before_writing();
 
   std::string check_input();
 

@@ -95,7 +95,8 @@ std::string Verification::check_file() {
   add(std::move(orientation));
   complex.inside = inside_by_parity(complex, surface);
   if (options_.stage == Stage::refined) {
-    add(check_angles(complex, neighbours, Places(complex, neighbours, surface), delta(), scope()));
+    add(check_angles(complex, neighbours, Places(complex, neighbours, surface), delta(), scope(),
+                     before_writing()));
     return {};
   }
   std::vector<std::int64_t> given = mesh_.regions;
@@ -114,6 +115,17 @@ std::string Verification::check_file() {
   add(regions.check_strays(8 * slack_, mesh_.inside));
   if (!solid_only) check_file_hull(complex, neighbours);
   return {};
+}
+
+BeforeWriting Verification::before_writing() {
+  BeforeWriting before;
+  if (exact_ == nullptr) {
+    before.farthest = kRoundedUlps * ulp_ + options_.promised.planar_share() * diagonal_;
+  } else if (shared_.sidecar().usable) {
+    before.points = &shared_.sidecar().points;
+    before.point.assign(exact_->mesh_vertices.begin(), exact_->mesh_vertices.end());
+  }
+  return before;
 }
 
 // Tries the surface as it is first. If facets that are planar within a bound may be one, those are

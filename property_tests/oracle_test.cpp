@@ -180,12 +180,28 @@ TEST(RefinedStage, AnglesAreCertifiedOnBothSidesOfTheBound) {
   const Sample sample = samples::cube();  // smallest face angle atan(1 / sqrt 2)
   const double smallest = std::atan(std::sqrt(0.5)) * 180 / 3.14159265358979323846;
   VerifyOptions options{.stage = Stage::refined};
+  options.promised.planar = 0;
   options.promised.delta = smallest - 1e-6;
   EXPECT_TRUE(run(sample, nullptr, options).find("angles")->passed());
   options.promised.delta = smallest + 1e-6;
   const VerifyReport report = run(sample, nullptr, options);
   EXPECT_FALSE(report.find("angles")->passed());
   EXPECT_EQ(report.verdict, Verdict::broken);
+}
+
+// With planar facets, vertices may be written 2^-18 of the diagonal from where they were refined.
+// That turns an edge of the cube by at most 2 * sqrt(3) * 2^-18 radians or 8e-4 degrees, and the
+// two sides of an angle by twice that.
+TEST(RefinedStage, AnglesOfAFileAloneAreUndecidedWherePlanarFacetsExplainThem) {
+  const Sample sample = samples::cube();
+  const double smallest = std::atan(std::sqrt(0.5)) * 180 / 3.14159265358979323846;
+  VerifyOptions options{.stage = Stage::refined};
+  options.promised.delta = smallest + 1e-6;
+  const VerifyReport report = run(sample, nullptr, options);
+  EXPECT_TRUE(report.find("angles")->undecided);
+  EXPECT_EQ(report.verdict, Verdict::undecided);
+  options.promised.delta = smallest + 1e-2;
+  EXPECT_EQ(run(sample, nullptr, options).verdict, Verdict::broken);
 }
 
 TEST(RefinedStage, BadTetrahedraOutsideTheSolidAreLeftAlone) {

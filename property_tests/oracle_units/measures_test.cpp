@@ -125,6 +125,48 @@ TEST(Angles, BelowTheBoundAreFoundAmongMachineIntegers) {
   EXPECT_GT(counts[1], 300U);
 }
 
+// A regular tetrahedron and one that was pressed flat when it was written: 20 degrees are kept in
+// the record, not in the file. The face (0 1 3) then has the angle whose tangent is 0.1.
+TEST(Angles, OfAFileAreThoseOfTheMeshBeforeItWasWritten) {
+  const std::vector<Position> written = {{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 0, 0.1}};
+  std::vector<Position> meant = written;
+  meant[3][2] = 1.5;
+  const ExactPoints points = points_of(written), before = points_of(meant);
+  TetComplex complex;
+  complex.points = &points;
+  complex.tetrahedra = {{0, 1, 2, 3}};
+  complex.inside = {1};
+  Neighbours neighbours;
+  neighbours.across.assign(4, kNone);
+  const Polyhedron solid = {written, {{{0, 2, 1}}, {{0, 1, 3}}, {{1, 2, 3}}, {{2, 0, 3}}}, {}, {}};
+  InputSurface surface;
+  ASSERT_EQ(surface.assign(solid, points), "");
+  const Places places(complex, neighbours, surface);
+  const auto checked = [&](const BeforeWriting& how) {
+    return check_angles(complex, neighbours, places, 20, AngleScope::all, how);
+  };
+  const auto figure = [](const OracleReport& report, const std::string& name) {
+    for (const auto& [key, value] : report.figures) {
+      if (key == name) return value;
+    }
+    return std::nan("");
+  };
+  EXPECT_STREQ(checked({}).status(), "FAIL");
+  const OracleReport kept = checked({&before, {0, 1, 2, 3}});
+  EXPECT_STREQ(kept.status(), "pass");
+  EXPECT_EQ(figure(kept, "bad as written alone"), 1);
+  EXPECT_NEAR(figure(kept, "smallest angle of these"), std::atan(0.1) * 180 / std::acos(-1.0),
+              1e-6);
+  // The record has another tetrahedron there, which is as flat, or none.
+  EXPECT_STREQ(checked({&points, {0, 1, 2, 3}}).status(), "FAIL");
+  EXPECT_STREQ(checked({&before, {0, 1, 2}}).status(), "FAIL");
+  EXPECT_STREQ(checked({&before, {0, 1, 2, 4}}).status(), "FAIL");
+  // Without a record: 14.3 degrees are missing, and an edge of 1 turns by that where its ends move
+  // by an eighth.
+  EXPECT_STREQ(checked({nullptr, {}, 0.25}).status(), "undecided");
+  EXPECT_STREQ(checked({nullptr, {}, 0.01}).status(), "FAIL");
+}
+
 // The corner of a cube has an inscribed sphere of radius 1 / (3 + sqrt 3), a circumsphere of radius
 // sqrt(3) / 2, squared edges of 9 and squared doubled areas of 6. Far from the origin, tiny, or
 // nearly flat, it needs exact coordinates.
