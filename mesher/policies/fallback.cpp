@@ -88,12 +88,13 @@ double Fallback::runaway_length(const Session& session, double tau) {
 
 // Every local step tightens at least one more corner, so they would end by themselves; but each
 // costs a refinement up to the place where it runs away. So they reach farther with time, and after
-// kLocalSteps of them everything is tightened.
+// kLocalSteps of them everything is tightened. With --acute 90 only the threshold of two edges can
+// be stricter; it has one value for all corners, also in records, so there are no local steps.
 void Fallback::tighten(const Vec3& place, const Session& session) {
   ++stops_;
   if (!gabriel_) {
     gabriel_ = true;
-  } else if (local_steps_ < kLocalSteps) {
+  } else if (local_steps_ < kLocalSteps && chamfering_.cosine_squared > 0) {
     tighten_corners(place, 1 + local_steps_ / kSameReach, chamfering_.cosine_squared,
                     session.topology, session.points, chamfering_.vertex_cosine_squared);
     ++local_steps_;

@@ -83,6 +83,19 @@ TEST(Fallback, TightCornersAreNearThePlace) {
   }
 }
 
+// A record has one threshold of two edges for all corners that are not tightened above its `acute`.
+TEST(Fallback, WithRightAnglesOnlyTwoEdgesBecomeStricterAndAllAtOnce) {
+  Options options;
+  options.gabriel = true;
+  options.acute = 90;
+  Guarded g(options);
+  EXPECT_LT(g.fallback.in_force(0).corner, 90);
+  g.fallback.tighten({1, 0, 0}, g.session);
+  EXPECT_EQ(g.fallback.in_force(0).corner, 90);
+  EXPECT_EQ(g.tight(), 0U);
+  EXPECT_EQ(g.fallback.runaway_length(g.session, 1e-4), 0);
+}
+
 TEST(Fallback, WithoutAGuardNothingRunsAway) {
   Options options;
   EXPECT_GT(Guarded(options).fallback.runaway_length(Guarded(options).session, 1e-4), 0);
