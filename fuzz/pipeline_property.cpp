@@ -20,6 +20,7 @@ constexpr std::uint64_t kMostVertices = 3000;
 constexpr std::uint64_t kFewVertices = 1000;
 
 Leniency too_many_vertices("stopped-at-3000-vertices", 0.03);
+Leniency less_planar("stopped-with-facets-less-planar", 0.05);
 Leniency too_precise("stopped-features-below-2^-40", 0.05);
 Leniency nothing_refined("refined-oracle-without-work", 0.2);
 Leniency too_large_to_scale("too-large-to-mesh-twice", 0.1);
@@ -101,9 +102,14 @@ Finding judged(const Surface& surface, const Result& result, const Options& opti
     default:
       return "status: " + result.status.message;
   }
-  if (result.statistics.rounding_inverted + result.statistics.rounding_flat > 0) {
-    return "rounding: inverted or flat tetrahedra are left";
+  const delmesher::Statistics& s = result.statistics;
+  const std::uint64_t left = s.rounding_inverted + s.rounding_flat;
+  // A run with facets less planar may leave none, but had no more vertices.
+  if (left + s.rounding_inexact > 0 && s.planar_limit == delmesher::Limit::size) {
+    less_planar.take();
+    return {};
   }
+  if (left > 0) return "rounding: inverted or flat tetrahedra are left";
   if (refined) {
     if (Finding f = verified(surface, result, Stage::refined, options); !f.empty()) return f;
   }
@@ -227,7 +233,8 @@ Finding refinement_holds(const Surface& surface) {
 }
 
 Finding pipeline_holds(const Surface& surface) {
-  judging({&too_many_vertices, &too_precise, &nothing_refined, &too_large_to_scale, &out_of_range});
+  judging({&too_many_vertices, &less_planar, &too_precise, &nothing_refined, &too_large_to_scale,
+           &out_of_range});
   Options options = options_for(surface);
   const Result result = meshed(surface, options);
   if (Finding f = judged(surface, result, options, true); !f.empty()) return f;

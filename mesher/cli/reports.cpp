@@ -14,6 +14,11 @@
 namespace delmesher::cli {
 namespace {
 
+const char* limit_name(Limit limit) {
+  static constexpr const char* kName[] = {"none", "vertices", "time", "memory", "precision"};
+  return kName[static_cast<std::size_t>(limit)];
+}
+
 using Json = nlohmann::ordered_json;
 
 Json mesh_json(const MeshStatistics& s) {
@@ -172,7 +177,8 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                     {"diagonals_missing", s.diagonals_missing},
                     {"spared", s.diagonals_spared},
                     {"anew", s.planar_anew},
-                    {"given_up", s.planar_given_up}};
+                    {"given_up", s.planar_given_up},
+                    {"limit", limit_name(s.planar_limit)}};
   json["filter"] = {{"dropped_triangles", s.dropped_triangles}, {"rounds", s.filter_rounds}};
   json["prediction"] = {{"tetrahedra", s.predicted_tetrahedra}, {"tau", s.tau}};
   json["chamfer"] = {{"acute_vertices", s.acute_vertices}, {"acute_edges", s.acute_edges}};
@@ -189,6 +195,7 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                      {"in_volume", s.steiner_in_volume},
                      {"in_final_mesh", s.enriched}};
   json["rounding"] = rounding_json(s);
+  json["rounding"]["inexact"] = s.rounding_inexact;
   json["rounding"]["thinned"] = s.rounding_thinned;
   json["rounding"]["max_surface_deviation"] = s.max_surface_deviation;
   json["predicates"] = {{"filter", s.predicate_filter},
@@ -267,6 +274,10 @@ std::vector<std::string> limits_texts(const Statistics& s) {
   if (s.planar_given_up) {
     texts.push_back(std::to_string(s.diagonals_missing) + " of " + std::to_string(s.diagonals) +
                     " edges within planar facets did not come back: meshed anew without those");
+  }
+  if (s.planar_limit != Limit::none) {
+    texts.push_back("meshed anew with facets less planar, which ended at the limit of " +
+                    std::string(limit_name(s.planar_limit)));
   }
   if (s.refinement_capped) {
     texts.emplace_back(

@@ -217,14 +217,15 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(json["final"]["face_angle_histogram"].size(), 12U);
   EXPECT_EQ(keys(json["planar"]),
             "facets groups given_facets bound deviation diagonals diagonals_missing spared anew "
-            "given_up ");
+            "given_up limit ");
   EXPECT_EQ(keys(json["filter"]), "dropped_triangles rounds ");
   EXPECT_EQ(keys(json["prediction"]), "tetrahedra tau ");
   EXPECT_EQ(keys(json["chamfer"]), "acute_vertices acute_edges ");
   EXPECT_EQ(keys(json["guarantee"]), "acute corner gabriel fallback_corners ");
   EXPECT_EQ(keys(json["limits"]), "guard_stops refinement_capped cdt_restarts thinned ");
   EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume in_final_mesh ");
-  EXPECT_EQ(keys(json["rounding"]), "inverted flat repaired thinned max_surface_deviation ");
+  EXPECT_EQ(keys(json["rounding"]),
+            "inverted flat repaired inexact thinned max_surface_deviation ");
   EXPECT_EQ(json["status"], "ok");
   EXPECT_EQ(json["final"]["tetrahedra"], 42);
   EXPECT_EQ(json["input"]["triangles"], 4);

@@ -49,6 +49,10 @@ struct Statistics {
   std::uint64_t diagonals = 0, diagonals_missing = 0;
   std::uint64_t diagonals_spared = 0;  // points on them that went for fewer tetrahedra
   bool planar_anew = false, planar_given_up = false;
+  // Where planar facets left the mesh with inverted or flat tetrahedra: the limit that ended a run
+  // with facets less planar, which might have had none. Vertices, most of the time: there it needs
+  // more of them.
+  Limit planar_limit = Limit::none;
   double predicted_tetrahedra = 0;  // of the final mesh, in the region, before refinement
   double tau = 0;                   // in force: Options::tau, or more for the budget
   std::uint64_t dropped_triangles = 0, filter_rounds = 0;
@@ -68,6 +72,9 @@ struct Statistics {
   // better.
   bool enriched = true;
   std::uint64_t rounding_inverted = 0, rounding_flat = 0, rounding_repaired = 0;
+  // Local operations that took a tetrahedron for positive which is positive as written, but not on
+  // exact coordinates: nothing else was left to repair the written mesh.
+  std::uint64_t rounding_inexact = 0;
   // Points of the last step taken out again where doubles are too coarse for them.
   std::uint64_t rounding_thinned = 0;
   double max_surface_deviation = 0;  // input units

@@ -9,9 +9,12 @@ namespace {
 
 // Of the bound in force, in the second and third run.
 constexpr double kFactors[] = {0x1p-5, 0};
+constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
 
-std::uint64_t defects(const Result& result) {
-  return result.statistics.rounding_inverted + result.statistics.rounding_flat;
+// Of the mesh as written, and of its exact coordinates alone. Compared in this order.
+std::pair<std::uint64_t, std::uint64_t> defects(const Result& result) {
+  const Statistics& s = result.statistics;
+  return {s.rounding_inverted + s.rounding_flat, s.rounding_inexact};
 }
 
 }  // namespace
@@ -19,7 +22,7 @@ std::uint64_t defects(const Result& result) {
 bool FinerPlanes::wants_run_after(const Result& best) {
   const Statistics& s = best.statistics;
   if (!best.status.ok() || s.planar_groups == 0) return false;
-  if (!s.planar_given_up && defects(best) == 0) return false;
+  if (!s.planar_given_up && defects(best) == kNoDefects) return false;
   if (attempts_ == (exact_ ? 1 : std::size(kFactors))) return false;
   if (time_limit_ > 0) {
     const std::chrono::duration<double> spent = Clock::now() - start_;
@@ -44,7 +47,11 @@ void FinerPlanes::compare(Result result, Result& best) {
     result.statistics.diagonals_missing = s.diagonals_missing;
     result.statistics.planar_given_up = true;
   }
-  if (interrupted || better || s.planar_given_up) best = std::move(result);
+  if (interrupted || better || s.planar_given_up) {
+    best = std::move(result);
+  } else if (!result.status.ok()) {
+    best.statistics.planar_limit = result.status.limit;
+  }
 }
 
 }  // namespace delmesher::policies

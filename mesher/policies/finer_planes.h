@@ -10,10 +10,11 @@ namespace delmesher::policies {
 
 // Facets were made planar by moving vertices. The mesh is written with the vertices as given, which
 // may invert tetrahedra that are thinner than the vertices moved. If inverted or flat ones are
-// left, the surface is meshed again with a 32nd of the bound, and then without planar facets; the
-// best result counts. With --planar 0 there is one such run, without a stand-in; also if the first
-// one had to give up, because no way led back to the surface as given (as_given.h). The time limit
-// holds for all runs together, the other limits for each.
+// left, or repairs gave up the exact coordinates, the surface is meshed again with a 32nd of the
+// bound, and then without planar facets; the best result counts. With --planar 0 there is one such
+// run, without a stand-in; also if the first one had to give up, because no way led back to the
+// surface as given (as_given.h). The time limit holds for all runs together, the other limits for
+// each.
 class FinerPlanes {
  public:
   // The first run begins now, with these options.
@@ -26,7 +27,8 @@ class FinerPlanes {
   // Is that run one without a stand-in?
   bool directly() const { return options_.planar == 0; }
   // `best` becomes the result of that run if it is better, if that run was interrupted, or if the
-  // run of `best` had to give up.
+  // run of `best` had to give up. If it does not, its statistics name the limit that ended that
+  // run.
   static void compare(Result result, Result& best);
 
  private:

@@ -61,12 +61,27 @@ TEST(FinerPlanes, TheBestResultCounts) {
   Result best = result_with(2, 1);
   FinerPlanes::compare(result_with(3, 0), best);
   EXPECT_EQ(best.statistics.rounding_inverted, 2U);
+  EXPECT_EQ(best.statistics.planar_limit, Limit::none);
   Result failed = result_with(0, 0);
   failed.status = {StatusCode::limit_reached, "vertex limit reached", Limit::size};
   FinerPlanes::compare(failed, best);
   EXPECT_EQ(best.statistics.rounding_inverted, 2U);
+  EXPECT_EQ(best.statistics.planar_limit, Limit::size);
   FinerPlanes::compare(result_with(1, 1), best);
   EXPECT_EQ(best.statistics.rounding_inverted, 1U);
+}
+
+// Written tetrahedra come first, then those on exact coordinates.
+TEST(FinerPlanes, RepairsThatGiveUpExactCoordinatesAreADefect) {
+  Result best = result_with(0, 0);
+  best.statistics.rounding_inexact = 2;
+  ASSERT_TRUE(FinerPlanes({}).wants_run_after(best));
+  FinerPlanes::compare(result_with(1, 0), best);
+  EXPECT_EQ(best.statistics.rounding_inexact, 2U);
+  Result other = result_with(0, 0);
+  other.statistics.rounding_inexact = 1;
+  FinerPlanes::compare(other, best);
+  EXPECT_EQ(best.statistics.rounding_inexact, 1U);
 }
 
 // With --planar 0: one more run, whatever comes of it, and it tells why.
