@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "oracles/angles.h"
 #include "oracles/distances.h"
 #include "oracles/filter.h"
 
@@ -13,9 +14,10 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-// In doubles, from exact vectors, so that small angles are right as well.
+// In radians. From exact vectors, so that small angles are right as well, and those of normals
+// whose products are no doubles.
 double angle_between(const ExactVector& a, const ExactVector& b) {
-  return std::atan2(length(exact::cross(a, b), 0), to_double(exact::dot(a, b), 0));
+  return exact_angle(exact::squared(exact::cross(a, b)), exact::dot(a, b)) * std::numbers::pi / 180;
 }
 
 }  // namespace
@@ -123,6 +125,7 @@ double ChamferFeatures::strip(Index e, Index facet, const AcuteCorners::Present&
       height = std::min(height, corners_.local_feature_size(other, only, 3 * height) / 3);
     }
   }
+  height = std::min(height, corners_.distance_to_rest(e, facet, 3 * height) / 3);
   if (shape_.to_link) {
     for (const Index v : surface_.triangles()[beside]) {
       if (v == edge.from || v == edge.to) continue;

@@ -208,6 +208,28 @@ double AcuteCorners::local_feature_size(Index v, const Present& present, double 
   return smallest;
 }
 
+double AcuteCorners::distance_to_rest(Index e, Index facet, double most) const {
+  const auto [from, to, left, right] = surface_.edges()[e];
+  BoxTree::Box box = box_around(points_, std::array{from, to});
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] -= most;
+    box.high[axis] += most;
+  }
+  std::vector<Index> found;
+  edge_tree().query(box, found);
+  double smallest = most;
+  for (const Index other : found) {
+    const InputSurface::Edge& edge = surface_.edges()[other];
+    if (edge.left != facet && edge.right != facet) continue;
+    for (const Index v : {edge.from, edge.to}) {
+      if (v == from || v == to) continue;
+      const mpq_class squared = squared_distance_to_segment(points_, v, from, to);
+      smallest = std::min(smallest, square_root(squared, points_.exponent()));
+    }
+  }
+  return smallest;
+}
+
 double AcuteCorners::distance_to_link(Index v, const Present& present) const {
   double smallest = std::numeric_limits<double>::infinity();
   for (const Index t : triangles_at_[v]) {

@@ -82,6 +82,10 @@ class AcuteCorners {
   std::string nearer_than(double distance, Index v, const Present& present) const;
   // The local feature size itself, at most `most`, in input units; rounded.
   double local_feature_size(Index v, const Present& present, double most) const;
+  // The distance from the edge to the vertices of the facet's boundary that are not its ends, at
+  // most `most`, in input units; rounded. Other edges of a facet are no nearer than their ends or
+  // than those of this one.
+  double distance_to_rest(Index e, Index facet, double most) const;
   // The distance to the link: to the opposite edges of the triangles at v of present facets, in
   // input units; rounded. Infinite if there are none.
   double distance_to_link(Index v, const Present& present) const;

@@ -23,9 +23,9 @@ using namespace oracles;  // NOLINT
 // A prism over a triangle whose corner at vertex 0 has the half angle a, tan a = 1 / 4, and whose
 // opposite side is 12 away, so that the chamfer distance is 4 at most. Smallest is the side of the
 // bridge in that corner, sin a / (cos a + 1 / 2) of the chamfer distance (Figure 4).
-TEST(ChamferFeatures, OfASharpPrism) {
+void expect_features_of_a_sharp_prism(double bottom) {
   Polyhedron prism;
-  for (const double z : {0.0, 100.0}) {
+  for (const double z : {bottom, 100.0}) {
     for (const auto& [x, y] : {std::pair(0.0, 0.0), {12.0, -3.0}, {12.0, 3.0}}) {
       prism.vertices.push_back({x, y, z});
     }
@@ -51,6 +51,47 @@ TEST(ChamferFeatures, OfASharpPrism) {
     EXPECT_EQ(ChamferFeatures(points, surface, corners, thresholds, {}).smallest(v, all),
               kInfinity);
   }
+}
+
+TEST(ChamferFeatures, OfASharpPrism) {
+  expect_features_of_a_sharp_prism(0);
+}
+
+// Products of exact vectors are no doubles there.
+TEST(ChamferFeatures, OfCoordinatesWithManyBits) {
+  expect_features_of_a_sharp_prism(0x1p-600);
+}
+
+// A prism over a square with a notch, whose tip is 1 away from the middle of the side across. The
+// prism leans, so that it has a dihedral angle of atan(1 / 2) at that side. The strip along the
+// side is a third wide there, although its ends have no feature that near, and the two strips are
+// as far apart as the angle says.
+TEST(ChamferFeatures, AVertexNearTheMiddleOfAnEdgeNarrowsItsStrip) {
+  Polyhedron notched;
+  for (const double z : {0.0, 24.0}) {
+    for (const auto& [x, y] :
+         {std::pair(0.0, 0.0), {12.0, 0.0}, {12.0, 12.0}, {6.0, 1.0}, {0.0, 12.0}}) {
+      notched.vertices.push_back({x, y + 2 * z, z});
+    }
+  }
+  for (Index i = 0; i < 5; ++i) {
+    const Index j = (i + 1) % 5;
+    notched.triangles.push_back({i, j, j + 5});
+    notched.triangles.push_back({i, j + 5, i + 5});
+  }
+  for (const auto& [a, b, c] : {std::array<Index, 3>{0, 1, 3}, {1, 2, 3}, {0, 3, 4}}) {
+    notched.triangles.push_back({a, c, b});
+    notched.triangles.push_back({a + 5, b + 5, c + 5});
+  }
+  const ExactPoints points = points_of(notched.vertices);
+  InputSurface surface;
+  ASSERT_EQ(surface.assign(notched, points), "");
+  const AcuteCorners corners(points, surface);
+  const auto sixty = [](Index) { return 60.0; };
+  const CornerThresholds thresholds = {sixty, sixty};
+  const ChamferFeatures features(points, surface, corners, thresholds, {});
+  EXPECT_NEAR(features.smallest(0, [](Index) { return true; }),
+              2.0 / 3 * std::sin(std::atan(0.5) / 2), 1e-12);
 }
 
 // One edge after another of 16 is encroached by a corner of its own tetrahedron. With that many
