@@ -27,13 +27,17 @@ class Chamferer {
         control_(control),
         seen_(base_.size(), 0) {}
 
+  // No double is beside a corner with a chamfer below that, whose points are placed to 2^-20 of it.
+  static constexpr double kLeastRadius = 0x1p-1040;
+
   Chamfered run() {
     constexpr std::uint64_t kRounds = 50;
     spared_.piece.resize(graph_.pieces.size(), 0);
     spared_.vertex.resize(graph_.vertices, 0);
     do {
       ++result_.rounds;
-      find_corners();
+      while (!find_corners()) {
+      }
     } while (options_.tau > 0 && result_.rounds < kRounds && drop_narrow());
     cut();
     return std::move(result_);
@@ -47,7 +51,9 @@ class Chamferer {
     return {a.x, a.y};
   }
 
-  void find_corners() {
+  // False if a corner was spared, which may change others.
+  bool find_corners() {
+    bool all = true;
     radius_.assign(graph_.vertices, -1);
     for (VertexId v = 0; v < graph_.vertices; ++v) {
       control_.poll(points_.size());
@@ -58,7 +64,28 @@ class Chamferer {
                      : feature_size_.emplace(v, feature_size(v)).first->second;
       r /= 3;
       if (options_.max_radius > 0) r = std::min(r, options_.max_radius);
+      if (r < kLeastRadius) {
+        spare(v);
+        all = false;
+      }
       radius_[v] = r;
+    }
+    return all;
+  }
+
+  // The vertex and its pieces are left to the last step.
+  void spare(VertexId v) {
+    spared_.vertex[v] = 1;
+    base_.star(v, star_);
+    for (const EdgeId e : star_) {
+      for (int i = 0; i < 3; ++i) {
+        const EdgeId spoke = edge_of(triangle_of(e), i);
+        if (base_.origin(spoke) != v && base_.target(spoke) != v) continue;
+        const PieceId p = base_.piece(spoke);
+        if (p == kNone || p < kBoxPieces || !kept(p)) continue;
+        spared_.piece[p] = 1;
+        ++spared_.count;
+      }
     }
   }
 
