@@ -21,12 +21,6 @@ void Crowding::count_split(PieceId piece) {
   pieces_.push_back(piece);
 }
 
-void Crowding::forget() {
-  any_ = hopeless_ = false;
-  pieces_.clear();
-  vertices_.clear();
-}
-
 void Crowding::validate() const {
   DELMESHER_CHECK(any_ || (pieces_.empty() && vertices_.empty() && !hopeless_),
                   "a crowded place that is not told");

@@ -35,8 +35,6 @@ class Crowding {
   void at(VertexId v);
   // A piece is split once more.
   void count_split(PieceId piece);
-  // Forgets the notes made for a goal that need not be reached. The counts of splits stay.
-  void forget();
 
   // Throws InternalError at the first broken invariant.
   void validate() const;

@@ -111,16 +111,18 @@ bool Refiner::refine_to(double degrees, std::uint64_t most) {
   return true;
 }
 
-// Beyond the proven bound: with at most a multiple of the points that the proven bound took.
+// Beyond the proven bound: with at most a multiple of the points that the proven bound took. That
+// bound is kept where it ends there; but the points made by then may have crowded each other.
 void Refiner::try_for(double degrees) {
   result_.delta = degrees;
   if (crowding_.any()) return;
   const std::uint64_t most = 8 * points_.size() + 1000;
-  if (refine_to(degrees, most) && !crowding_.any()) return;
-  bad_.clear();
-  crowding_.forget();  // notes on a bound that need not be reached
-  result_.delta = kProvenDelta;
-  refine_to(kProvenDelta, 0);
+  const bool reached = refine_to(degrees, most);
+  if (!reached && !crowding_.any()) {
+    result_.delta = kProvenDelta;
+    refine_to(kProvenDelta, 0);
+  }
+  result_.crowded_beyond = crowding_.any();
 }
 
 RefinedMesh Refiner::result() {
@@ -138,9 +140,18 @@ RefinedMesh Refiner::result() {
 
 RefinedMesh refine(InputGraph& graph, const Chamfered& chamfered, PointStore& points,
                    PlanePredicates& predicates, const RefineOptions& options, Control& control) {
-  Refiner refiner(graph, chamfered, points, predicates, options, control);
-  refiner.run();
-  return refiner.result();
+  const std::size_t points_before = points.size();
+  const auto refined_to = [&](double delta) {
+    RefineOptions these = options;
+    these.delta = delta;
+    Refiner refiner(graph, chamfered, points, predicates, these, control);
+    refiner.run();
+    return refiner.result();
+  };
+  RefinedMesh result = refined_to(options.delta);
+  if (!result.crowded_beyond) return result;
+  points.truncate(points_before);
+  return refined_to(kProvenDelta);
 }
 
 }  // namespace delmesher::plane

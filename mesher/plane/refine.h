@@ -44,10 +44,13 @@ struct RefinedMesh {
   std::vector<PieceId> crowded_pieces;
   std::vector<VertexId> crowded_vertices;
   bool crowded = false;
+  // Only for a bound beyond the proven one: refine() then begins anew without that.
+  bool crowded_beyond = false;
 };
 
-// Adds points to the store. Segments end at the outer box; no two kept segments may form a corner
-// below 60 degrees on a side that is refined.
+// Adds points to the store. Where there is no room between doubles for angles above kProvenDelta,
+// these are given up, and the mesh has none of the points that were made for them. Segments end at
+// the outer box; no two kept segments may form a corner below 60 degrees on a side that is refined.
 RefinedMesh refine(InputGraph& graph, const Chamfered& chamfered, PointStore& points,
                    PlanePredicates& predicates, const RefineOptions& options, Control& control);
 

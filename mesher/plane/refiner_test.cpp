@@ -371,9 +371,6 @@ TEST(PlaneCrowding, NamesWhatCanBeSpared) {
   EXPECT_EQ(crowding.vertices(), std::vector<VertexId>({2}));
   EXPECT_EQ(crowding.pieces(), std::vector<PieceId>({kBoxPieces + 1}));
   EXPECT_FALSE(crowding.hopeless());
-  crowding.forget();
-  EXPECT_FALSE(crowding.any());
-  EXPECT_TRUE(crowding.pieces().empty() && crowding.vertices().empty());
 }
 
 TEST(PlaneCrowding, APieceThatIsSplitTooOftenIsHopeless) {
