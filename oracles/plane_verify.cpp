@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "oracles/plane_chamfer.h"
@@ -445,16 +446,16 @@ class RecordVerifier {
     for (Index t = 0; t < mesh.triangles->size(); ++t) {
       const PlaneRecord::Triangle& triangle = (*mesh.triangles)[t];
       ++oracle.checked;
-      bool crossed = false;
-      input_.near_segments(box(triangle.vertices), [&](Index s) {
-        if (crossed) return;
-        const auto [a, b] = graph_.segments[s];
-        crossed = crosses(a, b, triangle);
-      });
-      if (crossed != (triangle.side == Side::mixed)) {
-        oracle.fail(name(t) + (crossed ? " is crossed by a segment" : " is not mixed"));
+      const Crossing crossing = crossing_of(triangle, final);
+      if (crossing == Crossing::unknown) {
+        ++unknown;
+        continue;
       }
-      if (crossed) continue;
+      const bool mixed = crossing == Crossing::separating;
+      if (mixed != (triangle.side == Side::mixed)) {
+        oracle.fail(name(t) + (mixed ? " is crossed by a segment" : " is not mixed"));
+      }
+      if (mixed) continue;
       bool inside = false;
       if (input_.closed_rings()) {
         inside = input_.inside_by_ray(centroid(triangle));
@@ -470,6 +471,50 @@ class RecordVerifier {
     }
     if (unknown > 0) oracle.figures.emplace_back("of unknown side", static_cast<double>(unknown));
     tell(std::move(oracle));
+  }
+
+  // Does a part of a segment run through a triangle that separates the inside from the outside?
+  enum class Crossing : std::uint8_t { none, separating, unknown };
+
+  Crossing crossing_of(const PlaneRecord::Triangle& triangle, const Mesh& final) {
+    Crossing found = Crossing::none;
+    input_.near_segments(box(triangle.vertices), [&](Index s) {
+      for (const Index p : input_.pieces_of()[s]) {
+        const PlaneGraph::Piece& piece = input_.pieces()[p];
+        if (found == Crossing::separating || !crosses(piece.a, piece.b, triangle)) continue;
+        const std::optional<bool> separating = separates(piece, final);
+        if (!separating) {
+          found = Crossing::unknown;
+        } else if (*separating) {
+          found = Crossing::separating;
+        }
+      }
+    });
+    return found;
+  }
+
+  // By parity, or by the triangles beside the piece in the final mesh, if there is one.
+  std::optional<bool> separates(const PlaneGraph::Piece& piece, const Mesh& final) {
+    if (input_.closed_rings()) return input_.separates(piece.segment);
+    const auto at = final.at.find(piece.a);
+    if (at == final.at.end()) return {};
+    std::optional<bool> left, right;
+    for (const Index t : at->second) {
+      const auto& w = (*final.triangles)[t].vertices;
+      const auto i = static_cast<std::size_t>(std::find(w.begin(), w.end(), piece.a) - w.begin());
+      const bool inside = (*final.triangles)[t].side == Side::inside;
+      if (leads(piece, w[(i + 1) % 3])) left = inside;
+      if (leads(piece, w[(i + 2) % 3])) right = inside;
+    }
+    if (!left || !right) return {};
+    return *left != *right;
+  }
+
+  // Is the point on the ray from the piece's first end through the other one?
+  bool leads(const PlaneGraph::Piece& piece, Index v) {
+    const Point &a = points()[piece.a], &b = points()[piece.b], &p = points()[v];
+    return exact_.orient(piece.a, piece.b, v) == 0 &&
+           (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y) > 0;
   }
 
   Point centroid(const PlaneRecord::Triangle& triangle) const {

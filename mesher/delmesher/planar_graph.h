@@ -61,7 +61,7 @@ struct PlaneRecord {
   enum class Side : std::uint8_t { outside, inside, mixed };
   struct Triangle {
     std::array<std::uint32_t, 3> vertices;
-    Side side;  // mixed: a part of a segment that chamfering or filtering cut out runs through it
+    Side side;  // mixed: a part of a segment that separates and was cut out runs through it
   };
   struct Edge {
     std::array<std::uint32_t, 2> vertices;

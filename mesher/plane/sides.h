@@ -1,8 +1,10 @@
 // Which triangles of the refined mesh are inside, kept up to date during refinement.
 //
 // The segments of the chamfered graph leak at the cut points, so that triangles cannot be told by
-// flooding alone. The missing parts of the segments, the gaps, are remembered by the triangles that
-// they run through (mixed); every other triangle lies in one face of the graph.
+// flooding alone. The missing parts of the segments that separate the inside from the outside, the
+// gaps, are remembered by the triangles that they run through (mixed). Every other triangle lies on
+// one side, although parts of other segments may run through it. If these made it count, it would
+// ask for points at sharp corners that have nothing of the inside in them and are not chamfered.
 //
 // Invariants from start() to settle(), between insertions:
 //  - every triangle has a side; two neighbours that are not mixed have the same one, or there is a
@@ -13,6 +15,8 @@
 //  - a list that is free is empty and of no triangle.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -27,7 +31,7 @@ using Side = PlaneRecord::Side;
 
 class Sides {
  public:
-  // `gaps` must outlive it. `everywhere`: triangles outside count as well.
+  // `everywhere`: triangles outside count as well.
   Sides(InputGraph& graph, Triangulation& mesh, PointStore& points, PlanePredicates& predicates,
         const std::vector<Gap>& gaps, bool everywhere)
       : graph_(graph),
@@ -35,8 +39,11 @@ class Sides {
         points_(points),
         predicates_(predicates),
         spatial_(points),
-        gaps_(gaps),
-        everywhere_(everywhere) {}
+        everywhere_(everywhere) {
+    std::ranges::copy_if(gaps, std::back_inserter(gaps_), [&graph](const Gap& gap) {
+      return graph.pieces[gap.piece].inside_left != graph.pieces[gap.piece].inside_right;
+    });
+  }
 
   // Classifies all triangles of the mesh, which must have all segments of the chamfered graph.
   void start();
@@ -76,7 +83,7 @@ class Sides {
   PointStore& points_;
   PlanePredicates& predicates_;
   Predicates spatial_;
-  const std::vector<Gap>& gaps_;
+  std::vector<Gap> gaps_;  // that separate
   const bool everywhere_;
   std::vector<std::uint8_t> side_;
   // Gaps at the mixed triangles, as an index into lists_ (or kNone); empty if there are no gaps.
