@@ -90,19 +90,27 @@ class Improvement {
   }
 
   // Takes out points on the edges where they are to be spared, until there are as few tetrahedra as
-  // wanted: first those that are missed least, and what others there are in turn.
+  // wanted or hardly fewer than before: first those that are missed least.
   void spare() {
-    constexpr float kScores[] = {0.1F, 0.01F, 0, 0, 0, 0, 0, 0};
-    for (const float score : kScores) {
-      if (sparing_.edges.empty() || !is_too_much()) return;
-      begin(0);
-      for_each_vertex([&](VertexId v) {
-        if (!is_too_much() || !is_to_be_spared(v)) return;
-        spared_ += collapse_.run(v, state_.to_reach(score)) ? 1 : 0;
-      });
-      coarsen();
-      repair(kAgain);
-    }
+    constexpr std::size_t kLeastGain = 128;  // one tetrahedron in so many
+    if (sparing_.edges.empty()) return;
+    for (const float score : {0.1F, 0.01F}) spare(score);
+    std::size_t before = 0;
+    do {
+      before = state_.mesh.tetrahedra();
+      spare(0);
+    } while (state_.mesh.tetrahedra() < before - before / kLeastGain);
+  }
+  // Those without which tetrahedra have this score, and what other points there are in turn.
+  void spare(float score) {
+    if (!is_too_much()) return;
+    begin(0);
+    for_each_vertex([&](VertexId v) {
+      if (!is_too_much() || !is_to_be_spared(v)) return;
+      spared_ += collapse_.run(v, state_.to_reach(score)) ? 1 : 0;
+    });
+    coarsen();
+    repair(kAgain);
   }
   bool is_too_much() const { return state_.mesh.tetrahedra() > sparing_.tetrahedra; }
   bool is_to_be_spared(VertexId v) const {
