@@ -76,17 +76,15 @@ class Chamferer {
   // The vertex and its pieces are left to the last step.
   void spare(VertexId v) {
     spared_.vertex[v] = 1;
-    base_.star(v, star_);
-    for (const EdgeId e : star_) {
-      for (int i = 0; i < 3; ++i) {
-        const EdgeId spoke = edge_of(triangle_of(e), i);
-        if (base_.origin(spoke) != v && base_.target(spoke) != v) continue;
-        const PieceId p = base_.piece(spoke);
-        if (p == kNone || p < kBoxPieces || !kept(p)) continue;
-        spared_.piece[p] = 1;
-        ++spared_.count;
-      }
+    for (PieceId p = kBoxPieces; p < graph_.pieces.size(); ++p) {
+      const Piece& piece = graph_.pieces[p];
+      if ((piece.a == v || piece.b == v) && kept(p)) drop(p);
     }
+  }
+
+  void drop(PieceId p) {
+    spared_.piece[p] = 1;
+    ++spared_.count;
   }
 
   // Do two neighbouring segments form a sharp corner on a side that will be refined?
@@ -293,8 +291,7 @@ class Chamferer {
       const auto length = [&](PieceId p) {
         return distance(point(graph_.pieces[p].a), point(graph_.pieces[p].b));
       };
-      spared_.piece[length(pair.p) > length(pair.q) ? pair.p : pair.q] = 1;
-      ++spared_.count;
+      drop(length(pair.p) > length(pair.q) ? pair.p : pair.q);
     }
     return !pairs.empty();
   }
