@@ -165,15 +165,22 @@ bool AcuteCorners::edge_meets_facet(Index v, Index to, const Present& present,
   return false;
 }
 
-template <class Visit>
-void AcuteCorners::boundary_near(Index v, double distance, const Present& present,
-                                 Visit visit) const {
-  BoxTree::Box box = box_around(points_, std::array{v});
+std::vector<Index> AcuteCorners::edges_near(std::span<const Index> vertices,
+                                            double distance) const {
+  BoxTree::Box box = box_around(points_, vertices);
   for (int axis = 0; axis < 3; ++axis) {
     box.low[axis] -= distance;
     box.high[axis] += distance;
   }
-  std::vector<Index> facets, found;
+  std::vector<Index> found;
+  edge_tree().query(box, found);
+  return found;
+}
+
+template <class Visit>
+void AcuteCorners::boundary_near(Index v, double distance, const Present& present,
+                                 Visit visit) const {
+  std::vector<Index> facets;
   for (const Index e : edges_at_[v]) {
     for (const Index f : {surface_.edges()[e].left, surface_.edges()[e].right}) {
       if (present(f)) facets.push_back(f);
@@ -182,8 +189,7 @@ void AcuteCorners::boundary_near(Index v, double distance, const Present& presen
   const auto here = [&](Index f) {
     return std::find(facets.begin(), facets.end(), f) != facets.end();
   };
-  edge_tree().query(box, found);
-  for (const Index e : found) {
+  for (const Index e : edges_near(std::array{v}, distance)) {
     const InputSurface::Edge& edge = surface_.edges()[e];
     if (edge.from == v || edge.to == v || (!here(edge.left) && !here(edge.right))) continue;
     visit(e, squared_distance_to_segment(points_, v, edge.from, edge.to));
@@ -210,15 +216,8 @@ double AcuteCorners::local_feature_size(Index v, const Present& present, double 
 
 double AcuteCorners::distance_to_rest(Index e, Index facet, double most) const {
   const auto [from, to, left, right] = surface_.edges()[e];
-  BoxTree::Box box = box_around(points_, std::array{from, to});
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] -= most;
-    box.high[axis] += most;
-  }
-  std::vector<Index> found;
-  edge_tree().query(box, found);
   double smallest = most;
-  for (const Index other : found) {
+  for (const Index other : edges_near(std::array{from, to}, most)) {
     const InputSurface::Edge& edge = surface_.edges()[other];
     if (edge.left != facet && edge.right != facet) continue;
     for (const Index v : {edge.from, edge.to}) {

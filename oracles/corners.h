@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,8 @@ class AcuteCorners {
     return surface_.facets()[facet].rough_normal;
   }
   const BoxTree& edge_tree() const;
+  // Edges whose boxes meet the box of these vertices, widened by the distance.
+  std::vector<Index> edges_near(std::span<const Index> vertices, double distance) const;
   template <class Visit>
   void boundary_near(Index v, double distance, const Present& present, Visit visit) const;
 
