@@ -24,6 +24,9 @@ constexpr double kCenterTolerance = 1.0 / 1024;
 // Volume points are snapped to a grid of this fraction of the shortest edge, so that their
 // coordinates are short. Any point of the circumball may split a tetrahedron (section 5.6).
 constexpr double kGridFraction = 1.0 / 1024;
+// A circumcentre is one within this fraction of the shortest edge, snapped to the grid. A little
+// below 2^-9, as bounds on sums of a few roundings are compared.
+constexpr double kCircumcentreFraction = 0.999 / 512;
 // Off-centres (Uengoer 2004) a little nearer than necessary, so that the new face passes with a
 // margin.
 constexpr double kOffcentreFactor = 0.95;
@@ -146,7 +149,10 @@ VolumeTargets SteinerPoints::in_tetrahedron(const VertexId* v, const Goal& goal)
   const auto add = [&](const Vec3& x) {
     targets.place[targets.count++] = {origin[0] + x[0], origin[1] + x[1], origin[2] + x[2]};
   };
-  if (std::isfinite(s.radius2)) {
+  if (circumcentres_) {
+    const auto center = certain_circumcentre(points_, v, targets.grid, kCircumcentreFraction);
+    if (center) targets.place[targets.count++] = *center;
+  } else if (std::isfinite(s.radius2)) {
     // From the midpoint of the shortest edge towards the circumcentre, not farther than where the
     // new triangle on that edge just meets the angle bound.
     const Vec3& a = s.p[kEdge[s.shortest][0]];
@@ -155,10 +161,11 @@ VolumeTargets SteinerPoints::in_tetrahedron(const VertexId* v, const Goal& goal)
     const Vec3 d = subtract(s.center, middle);
     const double far2 = dot(d, d);
     const double reach2 = kOffcentreFactor * kOffcentreFactor * goal.offcentre2() * s.shortest2();
-    if (!circumcentres_ && reach2 < far2) add(add_scaled(middle, std::sqrt(reach2 / far2), d));
+    if (reach2 < far2) add(add_scaled(middle, std::sqrt(reach2 / far2), d));
     add(s.center);
   }
-  // The circumcentre of one too flat cannot be computed, but its centroid is inside the circumball.
+  // Where the circumcentre of one that is nearly flat cannot be told, its centroid is inside the
+  // circumball.
   Vec3 centroid{};
   for (const Vec3& q : s.p) {
     for (int k = 0; k < 3; ++k) centroid[k] += q[k] / 4;

@@ -4,8 +4,10 @@
 
 #include <cmath>
 
+#include "mesher/predicates/placement.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/test_complexes.h"
+#include "mesher/refine/tetrahedron_shape.h"
 
 namespace delmesher::refine {
 namespace {
@@ -115,6 +117,57 @@ TEST(SteinerPoints, TetrahedraAreSplitInsideTheirCircumball) {
   EXPECT_EQ(steiner.in_tetrahedron(coplanar, goal).count, 1U);
   const VertexId well_shaped[4] = {0, 1, 2, high};
   EXPECT_GE(steiner.in_tetrahedron(well_shaped, goal).count, 2U);
+}
+
+// The circumcentre relative to the first vertex, in numbers of 64 bits at least.
+Vec3 reference_center(const PointStore& points, const std::array<VertexId, 4>& v) {
+  using Long = std::array<long double, 3>;
+  const auto edge = [&](int i) {
+    const Vec3 a = points.nearest(v[0]), b = points.nearest(v[i]);
+    return Long{static_cast<long double>(b[0]) - a[0], static_cast<long double>(b[1]) - a[1],
+                static_cast<long double>(b[2]) - a[2]};
+  };
+  const auto dot = [](const Long& a, const Long& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  const auto cross = [](const Long& a, const Long& b) {
+    return Long{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const Long a = edge(1), b = edge(2), c = edge(3);
+  const Long bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+  Vec3 center{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const long double sum = dot(a, a) * bc[k] + dot(b, b) * ca[k] + dot(c, c) * ab[k];
+    center[k] = static_cast<double>(sum / (2 * dot(a, bc)));
+  }
+  return center;
+}
+
+// The fourth vertex is above a point of the other three's plane, so that the circumcentre is about
+// 1 / height away. In doubles it would be computed to about 2^-53 / height^2.
+TEST(SteinerPoints, CircumcentresAreCertainOrNone) {
+  PointStore points;
+  const auto tetrahedron = [&](double height) {
+    const Vec3 a = {0.3, 0.7, 0.1}, b = {0.9, -0.2, 0.4};
+    return std::array<VertexId, 4>{
+        points.add_explicit(0, 0, 0), points.add_explicit(a[0], a[1], a[2]),
+        points.add_explicit(b[0], b[1], b[2]),
+        points.add_explicit(0.2 * a[0] + 0.3 * b[0] + height, 0.2 * a[1] + 0.3 * b[1] - height,
+                            0.2 * a[2] + 0.3 * b[2] + height)};
+  };
+  constexpr double kGrid = 0x1p-12, kFraction = 0x1p-9;
+  for (const double height : {1.0, 0x1p-10, 0x1p-20, 0x1p-24, -0x1p-24, 0x1p-26}) {
+    const auto v = tetrahedron(height);
+    const auto center = certain_circumcentre(points, v.data(), kGrid, kFraction);
+    ASSERT_TRUE(center) << height;
+    EXPECT_LE(distance(*center, reference_center(points, v)), kFraction) << height;
+    EXPECT_EQ(*center, snap_to_grid(*center, kGrid)) << height;
+  }
+  // On one plane, or so far away that neighbouring doubles there are farther apart than is asked.
+  const std::array<VertexId, 4> flat = {points.add_explicit(0, 0, 1), points.add_explicit(1, 0, 1),
+                                        points.add_explicit(0, 1, 1), points.add_explicit(1, 1, 1)};
+  EXPECT_FALSE(certain_circumcentre(points, flat.data(), kGrid, kFraction));
+  EXPECT_FALSE(certain_circumcentre(points, tetrahedron(0x1p-50).data(), kGrid, kFraction));
 }
 
 TEST(SteinerPoints, TheGuardStopsAtShortEdges) {

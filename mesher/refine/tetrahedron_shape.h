@@ -1,8 +1,10 @@
 // Lengths, circumcentre and volume of a tetrahedron, in doubles: they tell whether it is bad and
-// where to split it, and decide nothing exact.
+// where to split it, and decide nothing exact. Where a circumcentre has to be the circumcentre, it
+// is computed in pairs of doubles and its error is known.
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/vector.h"
@@ -45,5 +47,12 @@ inline void add_circumsphere(TetrahedronShape& s) {
   }
   s.radius2 = dot(s.center, s.center);
 }
+
+// The circumcentre of the four vertices, snapped to a multiple of `grid` (section 5.6): within
+// `fraction` of the shortest edge of the exact one. None where pairs of doubles are too few digits
+// to be certain of that, as for a tetrahedron that is all but flat, or where no double is that
+// near.
+std::optional<Vec3> certain_circumcentre(const PointStore& points, const VertexId* v, double grid,
+                                         double fraction);
 
 }  // namespace delmesher::refine
