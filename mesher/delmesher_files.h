@@ -124,11 +124,18 @@ struct WriteStatus {
   bool ok() const { return error.empty(); }
 };
 
+struct WriteOptions {
+  // 2: ten-node tetrahedra and six-node triangles with straight edges, whose further nodes are in
+  // the middle of the edges as written; in .mesh, .msh, .vtu, .vtk, .inp and .bdf. Else 1.
+  int order = 1;
+};
+
 // Each file, or set of files, is complete or what it was before. The format is that of the
 // extension: .mesh (MEDIT), .msh (Gmsh 4.1), .vtu, .node (TetGen, with .ele and .face beside it),
 // .tet, .inp (Abaqus), .bdf (Nastran), .vtk (legacy), .xdmf, and of the boundary alone .stl, .ply
 // and .off. formats.md says where names are written.
-WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const LabelNames& names = {});
+WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const LabelNames& names = {},
+                       const WriteOptions& options = {});
 // OFF; labels are not kept, as the format has none.
 WriteStatus write_off(const std::string& path, const Surface& surface);
 // .node (Triangle, with .ele and .poly), .vtu, .off, .msh, .svg. The holes and regions of `graph`,

@@ -1,6 +1,7 @@
 #include "oracles/gmsh_text.h"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "oracles/text_reader.h"
@@ -166,7 +167,7 @@ class GmshReader {
       const int dimension = static_cast<int>(reader_.index(0, 4));
       element.entity = reader_.integer();
       element.type = type();
-      if (dimension != std::max(0, corners(element.type) - 1)) {
+      if (dimension != kind(element.type).dimension) {
         reader_.fail("elements of another dimension than their entity");
       }
       const auto found = group_.find({dimension, element.entity});
@@ -209,17 +210,26 @@ class GmshReader {
     tags_ = {};
   }
 
+  struct Kind {
+    int type, dimension, nodes;
+  };
+  static constexpr Kind kKinds[] = {{1, 1, 2}, {2, 2, 3},   {4, 3, 4}, {8, 1, 3},
+                                    {9, 2, 6}, {11, 3, 10}, {15, 0, 1}};
+  static const Kind& kind(std::int64_t type) {
+    return *std::find_if(std::begin(kKinds), std::end(kKinds),
+                         [&](const Kind& k) { return k.type == type; });
+  }
+
   int type() {
     const std::int64_t type = reader_.integer();
-    if (type != 1 && type != 2 && type != 4 && type != 15) {
+    if (&kind(type) == std::end(kKinds)) {
       reader_.fail("an element of type " + std::to_string(type) + ", which is not read");
     }
     return static_cast<int>(type);
   }
-  static int corners(int type) { return type == 4 ? 4 : type == 2 ? 3 : type == 1 ? 2 : 1; }
 
   void take(GmshElement& element) {
-    for (int i = 0; i < corners(element.type); ++i) {
+    for (int i = 0; i < kind(element.type).nodes; ++i) {
       const std::int64_t tag = reader_.integer();
       const auto found = number_.find(tag);
       if (found == number_.end()) reader_.fail("there is no node " + std::to_string(tag));

@@ -14,10 +14,14 @@
 namespace tetproof::oracles {
 
 struct GmshElement {
-  int type = 0;             // Gmsh's number: 15 a point, 1 a line, 2 a triangle, 4 a tetrahedron
+  // Gmsh's number: 15 a point, 1 a line, 2 a triangle, 4 a tetrahedron; of second order 8 a line, 9
+  // a triangle, 11 a tetrahedron.
+  int type = 0;
   std::int64_t entity = 0;  // its tag
   std::int64_t group = 0;   // its first physical tag; of an entity without one, its own
-  std::array<Index, 4> nodes{};  // as many as it has, in the order of the file's nodes
+  // As many as it has, by their place among the file's nodes; as Gmsh orders them: the corners,
+  // then those on the edges 01 12 02, of a tetrahedron also 03 23 13.
+  std::array<Index, 10> nodes{};
 };
 
 struct GmshText {

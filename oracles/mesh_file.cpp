@@ -7,8 +7,10 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
+#include "oracles/edge_nodes.h"
 #include "oracles/gmsh_text.h"
 #include "oracles/text_reader.h"
 #include "oracles/vtu_text.h"
@@ -32,7 +34,7 @@ std::array<Index, size> read_corners(TextReader& reader, std::int64_t first, std
 
 class MeditReader {
  public:
-  explicit MeditReader(const std::string& path) : reader_(TextReader::of_file(path)) {}
+  explicit MeditReader(const std::string& path) : path_(path), reader_(TextReader::of_file(path)) {}
 
   MeshFile read() {
     reader_.expect("MeshVersionFormatted");
@@ -44,8 +46,10 @@ class MeditReader {
       read_section(section);
     }
     for (const char* section : {"Dimension", "Vertices", "Tetrahedra"}) {
-      if (!counts_.contains(section)) reader_.fail(std::string("there is no ") + section);
+      const bool there = counts_.contains(section) || counts_.contains(section + std::string("P2"));
+      if (!there) reader_.fail(std::string("there is no ") + section);
     }
+    take_out_edge_nodes(mesh_, nodes_, path_);
     check_references();
     read_comments();
     return std::move(mesh_);
@@ -62,6 +66,7 @@ class MeditReader {
   void read_section(const std::string& section) {
     static const std::map<std::string, Skipped> kSkipped = {
         {"Edges", {"Vertices", 2, 1}},
+        {"EdgesP2", {"Vertices", 3, 1}},
         {"Corners", {"Vertices", 1, 0}},
         {"RequiredVertices", {"Vertices", 1, 0}},
         {"Ridges", {"Edges", 1, 0}},
@@ -77,8 +82,9 @@ class MeditReader {
     }
     const auto skipped = kSkipped.find(section);
     const bool cells = section == "Hexahedra" || section == "Quadrilaterals";
-    if (section != "Vertices" && section != "Triangles" && section != "Tetrahedra" && !cells &&
-        skipped == kSkipped.end()) {
+    static const std::set<std::string> kRead = {"Vertices", "Triangles", "Tetrahedra",
+                                                "TrianglesP2", "TetrahedraP2"};
+    if (!kRead.contains(section) && !cells && skipped == kSkipped.end()) {
       reader_.fail("unknown section " + section.substr(0, 40));
     }
     const std::uint64_t count = counts_[section] = reader_.count();
@@ -93,11 +99,17 @@ class MeditReader {
     if (section == "Vertices") {
       mesh_.vertices.push_back(read_position(reader_));
       reader_.integer();
-    } else if (section == "Triangles") {
+    } else if (section.starts_with("Triangles")) {
       mesh_.boundary.push_back(read_corners<3>(reader_, 1, mesh_.vertices.size()));
+      if (section.ends_with("P2")) {
+        nodes_.of_triangles.push_back(read_corners<3>(reader_, 1, mesh_.vertices.size()));
+      }
       mesh_.labels.push_back(reader_.integer32());
     } else {
       mesh_.tetrahedra.push_back(read_corners<4>(reader_, 1, mesh_.vertices.size()));
+      if (section.ends_with("P2")) {
+        nodes_.of_tetrahedra.push_back(read_corners<6>(reader_, 1, mesh_.vertices.size()));
+      }
       mesh_.regions.push_back(reader_.integer());
     }
   }
@@ -143,8 +155,10 @@ class MeditReader {
     }
   }
 
+  std::string path_;
   TextReader reader_;
   MeshFile mesh_;
+  NodesOnEdges nodes_;
   std::map<std::string, std::uint64_t> counts_;   // of the sections
   std::map<std::string, std::uint64_t> largest_;  // number that something refers to, by section
 };
@@ -207,19 +221,23 @@ std::optional<std::int64_t> label_in(const std::string& name) {
 
 MeshFile read_gmsh(const std::string& path) {
   MeshFile mesh;
+  NodesOnEdges nodes;
   std::vector<std::int64_t> groups, entities;  // of triangles
   GmshText text = read_gmsh_text(path, [&](const GmshElement& element) {
-    const auto& [a, b, c, d] = element.nodes;
-    if (element.type == 4) {
-      mesh.tetrahedra.push_back({a, b, c, d});
+    const std::array<Index, 10>& n = element.nodes;
+    if (element.type == 4 || element.type == 11) {
+      mesh.tetrahedra.push_back({n[0], n[1], n[2], n[3]});
+      if (element.type == 11) nodes.of_tetrahedra.push_back({n[4], n[5], n[6], n[7], n[9], n[8]});
       mesh.regions.push_back(element.group);
-    } else if (element.type == 2) {
-      mesh.boundary.push_back({a, b, c});
+    } else if (element.type == 2 || element.type == 9) {
+      mesh.boundary.push_back({n[0], n[1], n[2]});
+      if (element.type == 9) nodes.of_triangles.push_back({n[3], n[4], n[5]});
       groups.push_back(element.group);
       entities.push_back(element.entity);
     }
   });
   mesh.vertices = std::move(text.nodes);
+  take_out_edge_nodes(mesh, nodes, path);
   // Where the names say the opposite of the numbers 1 and 2, these count as exchanged.
   const auto called = [&](std::int64_t group, const char* name) {
     const auto found = text.names.find({3, group});
@@ -250,7 +268,7 @@ MeshFile read_gmsh(const std::string& path) {
 class VtuReader {
  public:
   explicit VtuReader(const std::string& path)
-      : contents_(read_whole_file(path)), text_(path, contents_) {}
+      : path_(path), contents_(read_whole_file(path)), text_(path, contents_) {}
   VtuReader(const VtuReader&) = delete;
 
   MeshFile read() {
@@ -270,6 +288,7 @@ class VtuReader {
       read_cell(cell, end - static_cast<std::int64_t>(start_));
     }
     if (start_ != corners_.size()) text_.fail("the connectivity goes on after the last cell");
+    take_out_edge_nodes(mesh_, nodes_, path_);
     // The sides of a mesh from elsewhere are not known: all is called inside then.
     if (!regions_.empty() &&
         std::ranges::all_of(mesh_.inside, [](auto side) { return side != 0; })) {
@@ -280,22 +299,27 @@ class VtuReader {
 
  private:
   void read_cell(std::size_t cell, std::int64_t size) {
-    static const std::map<double, std::int64_t> kSizes = {{1, 1}, {3, 2}, {5, 3}, {10, 4}};
+    static const std::map<double, std::int64_t> kSizes = {{1, 1},  {3, 2},  {5, 3},  {10, 4},
+                                                          {21, 3}, {22, 6}, {24, 10}};
     const auto wanted = kSizes.find(types_[cell]);
     if (wanted == kSizes.end()) text_.fail("a cell that is no tetrahedron and no triangle");
     const auto end = start_ + static_cast<std::size_t>(wanted->second);
     if (size != wanted->second || end > corners_.size()) text_.fail("offsets that fit no cell");
-    std::array<Index, 4> corner{};
+    std::array<Index, 10> node{};
     for (std::size_t k = start_; k < end; ++k) {
       const std::int64_t v = text_.integer(corners_[k]);
       if (v < 0 || v >= static_cast<std::int64_t>(mesh_.vertices.size())) {
         text_.fail("a cell refers to no point");
       }
-      corner[k - start_] = static_cast<Index>(v);
+      node[k - start_] = static_cast<Index>(v);
     }
     start_ = end;
-    if (size == 4) add_tetrahedron(cell, corner);
-    if (size == 3) add_triangle(cell, {corner[0], corner[1], corner[2]});
+    const auto& [a, b, c, d, e, f, g, h, i, j] = node;
+    const double type = types_[cell];
+    if (type == 10 || type == 24) add_tetrahedron(cell, {a, b, c, d});
+    if (type == 24) nodes_.of_tetrahedra.push_back({e, f, g, h, i, j});
+    if (type == 5 || type == 22) add_triangle(cell, {a, b, c});
+    if (type == 22) nodes_.of_triangles.push_back({d, e, f});
   }
 
   void add_tetrahedron(std::size_t cell, const Tet& tet) {
@@ -320,9 +344,10 @@ class VtuReader {
     }
   }
 
-  const std::string contents_;
+  const std::string path_, contents_;
   const VtuText text_;
   MeshFile mesh_;
+  NodesOnEdges nodes_;
   std::vector<double> corners_, types_, regions_, sides_, labels_, facets_;
   std::size_t start_ = 0;  // of a cell, in the connectivity
 };

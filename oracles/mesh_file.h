@@ -9,6 +9,12 @@
 namespace tetproof::oracles {
 
 struct MeshFile {
+  // A node between two vertices, of elements of second order; it is no vertex.
+  struct EdgeNode {
+    std::array<Index, 2> ends;
+    Position at;
+  };
+
   std::vector<Position> vertices;
   std::vector<Tet> tetrahedra;
   bool names_sides = false;           // the format has regions, which delmesher always writes
@@ -19,13 +25,14 @@ struct MeshFile {
   std::vector<Face> boundary;        // triangles listed in the file
   std::vector<std::int32_t> labels;  // per triangle; empty if the file says nothing
   std::vector<Index> facets;         // per triangle, the facet that it tiles; or empty
+  std::vector<EdgeNode> edge_nodes;  // one of each edge; empty if the elements are linear
   bool lists_boundary = true;        // false for a format that has no triangles
   // The format has no common convention: tetrahedra that are all turned the same way are right.
   bool either_orientation = false;
 };
 
-// Throws ReadError. The complex oracle checks indices; but a reference to no vertex at all is an
-// error of the file.
+// Elements of second order are read in MEDIT, Gmsh and .vtu. Throws ReadError. The complex oracle
+// checks indices; but a reference to no vertex at all is an error of the file.
 MeshFile read_mesh(const std::string& path);
 
 }  // namespace tetproof::oracles

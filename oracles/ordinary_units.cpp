@@ -57,6 +57,7 @@ std::optional<InOrdinaryUnits> in_ordinary_units(const Polyhedron& input, const 
   Scaling scaled(-result.exponent);
   for (Position& p : result.input.vertices) scaled(p);
   for (Position& p : result.mesh.vertices) scaled(p);
+  for (MeshFile::EdgeNode& node : result.mesh.edge_nodes) scaled(node.at);
   scaled(result.promise.chamfer_radius);
   scaled(result.promise.max_edge);
   if (record != nullptr) scale(result.record.emplace(*record), scaled);

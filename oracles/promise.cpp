@@ -63,6 +63,7 @@ constexpr Number kNumbers[] = {
     {"--max-vertices", &Promise::max_vertices, kAll, 1, 4294967294},
     {"--time-limit", nullptr, kAll, 0, kMost, true},
     {"--threads", nullptr, kSpace, 0, 1024},
+    {"--order", nullptr, kSpace, 1, 2},
     {"--jobs", nullptr, kAll, 0, 1024}};
 
 // These options say where and how, not what; --slivers guarantees nothing.

@@ -96,6 +96,16 @@ const Meshed& in_space() {
   return meshed;
 }
 
+// A box of ten-node tetrahedra, in the formats of those that are read.
+const Meshed& of_second_order() {
+  static const Meshed meshed(
+      "box.off",
+      "OFF\n8 6 0\n0 0 0\n4 0 0\n4 4 0\n0 4 0\n0 0 1\n4 0 1\n4 4 1\n0 4 1\n4 0 3 2 1\n"
+      "4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n",
+      "mesh --order 2 --region hull", {{"mesh"}, {"msh"}, {"vtu"}});
+  return meshed;
+}
+
 // A square with a hole.
 const Meshed& in_the_plane() {
   static const Meshed meshed(
@@ -194,6 +204,25 @@ const Lie kLies[] = {
     {"face", "a facet that wraps around", " (\\d+)\n$", " 429496729$1\n", 0, 1},
 };
 
+// The node of an edge of the box from (0 0 0) to (4 0 0) elsewhere, two nodes exchanged, elements
+// of both orders.
+const Lie kSecondOrderLies[] = {
+    {"mesh", "a curved edge", "\n2 0 0 0\n", "\n2 0 0.25 0\n", 1, 1},
+    {"msh", "a curved edge", "\n2 0 0\n", "\n2 0 0.25\n", 1, 1},
+    {"vtu", "a curved edge", "\n2 0 0\n", "\n2 0 0.25\n", 1, 1},
+    {"vtu", "a node on an edge, but not in the middle", "\n2 0 0\n", "\n2.001 0 0\n", 1, 1},
+    {"mesh", "an edge with a node that is no number", "\n2 0 0 0\n", "\nnan 0 0 0\n", 1, 1},
+    {"mesh", "nodes exchanged", "(TetrahedraP2\n\\d+\n\\d+ \\d+ \\d+ \\d+) (\\d+) (\\d+) ",
+     "$1 $3 $2 "},
+    {"mesh", "a corner on an edge", "(TetrahedraP2\n\\d+\n)(\\d+) (\\d+ \\d+ \\d+) (\\d+) ",
+     "$1$2 $3 $2 "},
+    {"mesh", "linear triangles", "TrianglesP2[^]*TetrahedraP2",
+     "Triangles\n1\n1 2 3 0\nTetrahedraP2"},
+    {"mesh", "a triangle without its nodes", "TrianglesP2", "Triangles"},
+    {"msh", "the edges in the order of others", "(\n3 1 11 \\d+\n\\d+( \\d+){8}) (\\d+) (\\d+)\n",
+     "$1 $4 $3\n"},
+};
+
 const Lie kPlaneLies[] = {
     {"vtu", "no sides", "<DataArray[^>]*Name=\"inside\"[^/]*</DataArray>\n", ""},
     {"vtu", "a side that is none", "Name=\"inside\"([^>]*)>\n[01]\n", "Name=\"inside\"$1>\n7\n"},
@@ -231,7 +260,7 @@ const Lie kPlaneLies[] = {
 };
 
 TEST(FileLies, HonestFilesPass) {
-  for (const Meshed* model : {&in_space(), &in_the_plane()}) {
+  for (const Meshed* model : {&in_space(), &of_second_order(), &in_the_plane()}) {
     for (const auto& [extension, text] : model->files()) {
       for (const bool with_record : {false, true}) {
         EXPECT_EQ(model->verify(extension, text, with_record), 0) << extension;
@@ -272,12 +301,13 @@ void tell(const Meshed& model, const Lie& lie) {
 
 TEST(FileLies, AreRefused) {
   for (const Lie& lie : kLies) tell(in_space(), lie);
+  for (const Lie& lie : kSecondOrderLies) tell(of_second_order(), lie);
   for (const Lie& lie : kPlaneLies) tell(in_the_plane(), lie);
 }
 
 // Of a file cut short nothing is believed, wherever that is.
 TEST(FileLies, CutShortAreRefused) {
-  for (const Meshed* model : {&in_space(), &in_the_plane()}) {
+  for (const Meshed* model : {&in_space(), &of_second_order(), &in_the_plane()}) {
     for (const auto& [extension, text] : model->files()) {
       // A .poly may end after its segments; that the holes are missing is seen with the input.
       for (std::size_t size = 1; size + 8 < text.size(); size += 1 + size / 16) {

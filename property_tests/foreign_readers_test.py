@@ -37,6 +37,9 @@ f 4 1 5 8
 AREAS = {1: 2, 2: 2, 3: 6 * HEIGHT}
 VOLUME = 2 * HEIGHT
 NAMES = {1: "bottom wall", 2: '"top" & <lid>', 3: "side"}
+SECOND_ORDER = ("mesh", "msh", "vtu", "vtk", "inp", "bdf")
+# The corners between which the further nodes of meshio's cells are.
+EDGES = {"tetra10": ((0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)), "triangle6": ((0, 1), (1, 2), (0, 2))}
 FORMATS = ("mesh", "msh", "vtu", "vtk", "xdmf", "inp", "bdf", "node", "tet", "stl", "ply", "off")
 
 
@@ -79,6 +82,8 @@ class Read(unittest.TestCase):
             file.write(BOX)
         outputs = [word for e in FORMATS for word in ("-o", path("box." + e))]
         subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", *outputs], check=True)
+        outputs = [word for e in SECOND_ORDER for word in ("-o", path("ten." + e))]
+        subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", "--order", "2", *outputs], check=True)
         cls.expected = mesh_of("mesh")  # which the tests of the writer hold to the bytes
         cls.points = cls.expected.points
         cls.tetrahedra = cells(cls.expected, "tetra")
@@ -189,6 +194,49 @@ class Read(unittest.TestCase):
             self.assertEqual(len(cells(mesh, "tetra")), len(self.tetrahedra) if solid else 0, extension)
             if solid:
                 self.assertAlmostEqual(volumes(mesh.points, cells(mesh, "tetra")).sum(), VOLUME, places=12)
+
+    def straight_elements(self, mesh, triangles=True, exactly=True, same_numbers=True):
+        """Ten-node tetrahedra, and six-node triangles if any, on the same corners, with nodes in the middle of their edges."""
+        linear = {"tetra10": self.tetrahedra, "triangle6": self.triangles}
+        for kind, edges in EDGES.items():
+            found = cells(mesh, kind)
+            if kind == "triangle6" and not triangles:
+                self.assertEqual(len(found), 0)
+                continue
+            corners = found[:, :-len(edges)]
+            self.assertEqual(len(corners), len(linear[kind]))
+            if same_numbers:
+                self.assertEqual(sorted(map(tuple, corners)), sorted(map(tuple, linear[kind])))
+            for node, (i, j) in zip(found[:, -len(edges):].T, edges):
+                off = numpy.abs(mesh.points[node] - (mesh.points[found[:, i]] + mesh.points[found[:, j]]) / 2).max()
+                self.assertLessEqual(off, 0 if exactly else 1e-13)
+        self.assertEqual(len(cells(mesh, "tetra")) + len(cells(mesh, "triangle")), 0)
+        self.assertAlmostEqual(volumes(mesh.points, cells(mesh, "tetra10")[:, :4]).sum(), VOLUME, places=12)
+        # Each edge has one node, and nothing else is added.
+        all_edges = {tuple(sorted(pair)) for i, j in EDGES["tetra10"] for pair in zip(*self.tetrahedra[:, [i, j]].T.tolist())}
+        self.assertEqual(len(mesh.points), len(self.points) + len(all_edges))
+
+    def test_second_order(self):
+        for extension in ("msh", "vtu", "vtk", "inp", "bdf"):
+            mesh = meshio.read(path("ten." + extension))
+            with self.subTest(extension):
+                self.straight_elements(mesh, triangles=extension != "inp", exactly=extension != "bdf")
+        labels = of_cells(meshio.read(path("ten.msh")), "gmsh:physical", "triangle6")
+        self.assertEqual(sorted(labels), sorted(self.labels))
+        nodes = meshio.read(path("ten.inp"))
+        # The nodes of a label are those of its triangles, in the middle of edges as well.
+        vtu = meshio.read(path("ten.vtu"))
+        label = of_cells(vtu, "label", "triangle6")
+        self.assertEqual(set(nodes.point_sets["side"]), set(cells(vtu, "triangle6")[label == 3].flat))
+
+    def test_gmsh_opens_second_order(self):
+        for extension in ("mesh", "msh", "vtk", "bdf"):
+            out = path("from_ten_%s.msh" % extension)
+            done = subprocess.run(["gmsh", "-0", path("ten." + extension), "-o", out, "-save_all", "-v", "2"],
+                                  capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""), extension)
+            with self.subTest(extension):
+                self.straight_elements(meshio.read(out), exactly=False, same_numbers=False)
 
     def test_gmsh_knows_what_bounds_the_volume(self):
         geo = path("boundary.geo")

@@ -343,8 +343,9 @@ py::dict read_mesh_file(const std::string& path) {
   return d;
 }
 
-void write_mesh_file(const std::string& path, const py::dict& given, const io::LabelNames& names) {
-  const io::WriteStatus status = io::write_mesh(path, mesh_of(given), names);
+void write_mesh_file(const std::string& path, const py::dict& given, const io::LabelNames& names,
+                     int order) {
+  const io::WriteStatus status = io::write_mesh(path, mesh_of(given), names, {.order = order});
   ok_or_throw(status);
 }
 

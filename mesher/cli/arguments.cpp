@@ -165,10 +165,19 @@ void add_names(CLI::App& app, Command& command) {
   app.add_option("--names", command.names_file, "file of lines LABEL NAME: what labels are called");
 }
 
+// How a mesh in space is written.
+void add_writing(CLI::App& app, Command& command) {
+  add_names(app, command);
+  app.add_option("--order", command.write.order,
+                 "1, or 2: ten-node tetrahedra with straight edges (1)")
+      ->check(CLI::IsMember({1, 2}))
+      ->type_name("N");
+}
+
 void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
   add_run(app, command, given);
-  add_names(app, command);
+  add_writing(app, command);
   add_number(app, given, "delta", "smallest face angle, degrees (14.47)", kBounds.delta);
   add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
              kBounds.tau);
@@ -207,7 +216,7 @@ void add_improve(CLI::App& app, Command& command, Given& given) {
   const std::string input = "mesh of tetrahedra: " + io::read_mesh_extensions();
   add_common(app, command, given, input.c_str());
   add_outputs(app, command, given, io::mesh_extensions());
-  add_names(app, command);
+  add_writing(app, command);
   add_number(app, given, "delta", "no smaller face angle is made, degrees (14.47)", kBounds.delta);
   add_number(app, given, "max-edge", "no longer edge is made", positive(kBounds.length));
   add_threads(app, given);
@@ -318,6 +327,9 @@ std::string output_error(const Command& command, std::vector<std::filesystem::pa
               : surface ? io::boundary_extensions()
                         : io::mesh_extensions()) +
              ")";
+    }
+    if (command.write.order == 2) {
+      if (const std::string error = io::second_order_error(output); !error.empty()) return error;
     }
     files.insert(files.end(), made.begin(), made.end());
   }
@@ -440,7 +452,7 @@ Command for_input(Command command, const std::string& input) {
 void add_cdt(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
   add_run(app, command, given);
-  add_names(app, command);
+  add_writing(app, command);
   add_threads(app, given);
 }
 

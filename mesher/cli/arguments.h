@@ -23,6 +23,7 @@ struct Command {
   std::string stats_file, chamfered_file, exact_file;  // empty: not wanted
   std::string names_file;                              // empty: names of the input
   std::string defects_file;                            // of check
+  io::WriteOptions write;
   io::RepairOptions repair;
   bool json = false, quiet = false, verbose = false;
 };

@@ -292,5 +292,16 @@ TEST(Arguments, MistakesAreTwo) {
   expect_usage_error({"in.off", "-o", "a.mesh", "-q", "-v"});
 }
 
+TEST(Arguments, SecondOrder) {
+  EXPECT_EQ(parse({"in.off", "-o", "a.msh"}).command.write.order, 1);
+  for (const char* job : {"mesh", "cdt"}) {
+    EXPECT_EQ(parse({job, "in.off", "-o", "a.inp", "--order", "2"}).command.write.order, 2);
+  }
+  EXPECT_EQ(parse({"improve", "a.mesh", "-o", "b.bdf", "--order=2"}).command.write.order, 2);
+  expect_usage_error({"in.off", "-o", "a.msh", "-o", "b.tet", "--order", "2"}, "b.tet");
+  expect_usage_error({"in.off", "-o", "a.msh", "--order", "3"}, "--order");
+  expect_usage_error({"plane", "in.poly", "-o", "a.msh", "--order", "2"}, "--order");
+}
+
 }  // namespace
 }  // namespace delmesher::cli

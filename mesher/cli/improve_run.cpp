@@ -62,7 +62,7 @@ int ImproveRunner::improve() {
                  [&](io::OutputSet& outputs) {
                    io::WriteStatus status;
                    for (const std::string& output : command_.outputs) {
-                     status = io::write_mesh(outputs, output, result.mesh, names_);
+                     status = io::write_mesh(outputs, output, result.mesh, names_, command_.write);
                      if (!status.ok()) break;
                    }
                    return status;

@@ -17,8 +17,10 @@ WriteStatus written(const Write& write) {
 
 }  // namespace
 
-WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const LabelNames& names) {
-  return written([&](OutputSet& outputs) { return write_mesh(outputs, path, mesh, names); });
+WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const LabelNames& names,
+                       const WriteOptions& options) {
+  return written(
+      [&](OutputSet& outputs) { return write_mesh(outputs, path, mesh, names, options); });
 }
 
 WriteStatus write_off(const std::string& path, const Surface& surface) {

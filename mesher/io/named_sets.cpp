@@ -26,7 +26,29 @@ char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+// The ends of the edges, in the order of CellNodes.
+constexpr std::array<std::array<std::size_t, 2>, 6> kEdges = {
+    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+template <class Cell>
+CellNodes nodes_of(const Cell& cell, std::size_t edges, const EdgeNodes* edge_nodes) {
+  CellNodes nodes;
+  for (const std::uint32_t v : cell) nodes.add(v);
+  for (std::size_t e = 0; edge_nodes != nullptr && e < edges; ++e) {
+    nodes.add(edge_nodes->number(cell[kEdges[e][0]], cell[kEdges[e][1]]));
+  }
+  return nodes;
+}
+
 }  // namespace
+
+CellNodes NamedMesh::tetrahedron(std::size_t i) const {
+  return nodes_of(mesh.tetrahedra[i], 6, edge_nodes);
+}
+
+CellNodes NamedMesh::triangle(std::size_t i) const {
+  return nodes_of(mesh.boundary[i], 3, edge_nodes);
+}
 
 std::int32_t region(const TetMesh& mesh, std::size_t tet) {
   if (!mesh.regions.empty()) return mesh.regions[tet];

@@ -9,13 +9,40 @@
 #include <vector>
 
 #include "mesher/delmesher_files.h"
+#include "mesher/io/edge_nodes.h"
 
 namespace delmesher::io {
+
+// The nodes of a cell as VTK, Abaqus and Nastran order them: the corners, then in elements of
+// second order the nodes of the edges 01 12 02, of a tetrahedron also 03 13 23.
+struct CellNodes {
+  std::array<std::uint32_t, 10> node{};
+  std::size_t count = 0;
+
+  void add(std::uint32_t v) { node[count++] = v; }
+  const std::uint32_t* begin() const { return node.data(); }
+  const std::uint32_t* end() const { return node.data() + count; }
+};
 
 // A mesh, with the names of its labels.
 struct NamedMesh {
   const TetMesh& mesh;
   const LabelNames& names;
+  const EdgeNodes* edge_nodes = nullptr;  // of elements of second order
+
+  bool second_order() const { return edge_nodes != nullptr; }
+  // All nodes: the vertices, then those of the edges.
+  std::size_t nodes() const {
+    return mesh.vertices.size() + (second_order() ? edge_nodes->size() : 0);
+  }
+  std::array<double, 3> node(std::size_t i) const {
+    const std::size_t vertices = mesh.vertices.size();
+    return i < vertices ? mesh.vertices[i] : edge_nodes->position(i - vertices);
+  }
+  std::size_t nodes_of_tetrahedron() const { return second_order() ? 10 : 4; }
+  std::size_t nodes_of_triangle() const { return second_order() ? 6 : 3; }
+  CellNodes tetrahedron(std::size_t i) const;
+  CellNodes triangle(std::size_t i) const;
 };
 
 // Region number of a tetrahedron in the formats that have one.

@@ -5,27 +5,28 @@
 
 namespace delmesher::io {
 
-void write_medit(TextSink& out, const TetMesh& mesh) {
+void write_medit(TextSink& out, const NamedMesh& named) {
+  const TetMesh& mesh = named.mesh;
   out.text("MeshVersionFormatted 2\nDimension 3\nVertices\n");
-  out.integer(mesh.vertices.size());
+  out.integer(named.nodes());
   out.text("\n");
-  for (const auto& v : mesh.vertices) {
-    out.point(v);
+  for (std::size_t i = 0; i < named.nodes(); ++i) {
+    out.point(named.node(i));
     out.text(" 0\n");
   }
-  out.text("Triangles\n");
+  out.text(named.second_order() ? "TrianglesP2\n" : "Triangles\n");
   out.integer(mesh.boundary.size());
   out.text("\n");
   for (std::size_t i = 0; i < mesh.boundary.size(); ++i) {
-    for (std::uint32_t v : mesh.boundary[i]) out.integers(v + 1);
+    for (const std::uint32_t v : named.triangle(i)) out.integers(v + 1);
     out.integer(mesh.boundary_labels[i]);
     out.text("\n");
   }
-  out.text("Tetrahedra\n");
+  out.text(named.second_order() ? "TetrahedraP2\n" : "Tetrahedra\n");
   out.integer(mesh.tetrahedra.size());
   out.text("\n");
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
-    for (std::uint32_t v : mesh.tetrahedra[i]) out.integers(v + 1);
+    for (const std::uint32_t v : named.tetrahedron(i)) out.integers(v + 1);
     out.integer(region(mesh, i));
     out.text("\n");
   }

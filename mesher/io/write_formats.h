@@ -8,14 +8,14 @@
 
 namespace delmesher::io {
 
-void write_medit(TextSink& out, const TetMesh& mesh);
+void write_medit(TextSink& out, const NamedMesh& named);
 void write_gmsh(TextSink& out, const NamedMesh& named);
 void write_vtu(TextSink& out, const NamedMesh& named);
 void write_tetgen(TextSink& node, TextSink& ele, TextSink& face, const TetMesh& mesh);
 void write_tet(TextSink& out, const TetMesh& mesh);
 void write_abaqus(TextSink& out, const NamedMesh& named);
 void write_nastran(TextSink& out, const NamedMesh& named);
-void write_vtk(TextSink& out, const TetMesh& mesh);
+void write_vtk(TextSink& out, const NamedMesh& named);
 void write_xdmf(TextSink& out, const NamedMesh& named);
 // The boundary alone, with the vertices that it has.
 void write_boundary_stl(TextSink& out, const NamedMesh& named);
@@ -34,6 +34,14 @@ void cell_lines(TextSink& out, const TetMesh& mesh, TetValue tet_value,
     out.integer(triangle_value(i));
     out.text("\n");
   }
+}
+
+// VTK's numbers of the types of cells.
+inline int vtk_tetrahedron(const NamedMesh& named) {
+  return named.second_order() ? 24 : 10;
+}
+inline int vtk_triangle(const NamedMesh& named) {
+  return named.second_order() ? 22 : 5;
 }
 
 // Text for an attribute or an element of XML.

@@ -30,7 +30,7 @@ struct Box {
 class GmshWriter {
  public:
   GmshWriter(TextSink& out, const NamedMesh& named)
-      : out_(out), mesh_(named.mesh), names_(named.names) {
+      : out_(out), named_(named), mesh_(named.mesh), names_(named.names) {
     physical_ = tags_of({mesh_.boundary_labels.begin(), mesh_.boundary_labels.end()});
     number_regions();
     order_triangles();
@@ -73,7 +73,19 @@ class GmshWriter {
     }
   }
 
+  // An element, with its nodes in Gmsh's order.
+  void element(std::size_t tag, CellNodes nodes) {
+    if (nodes.count == 10) std::swap(nodes.node[8], nodes.node[9]);  // the edges 23 13
+    out_.integer(tag);
+    for (const std::uint32_t v : nodes) {
+      out_.text(" ");
+      out_.integer(v + 1);
+    }
+    out_.text("\n");
+  }
+
   TextSink& out_;
+  const NamedMesh& named_;
   const TetMesh& mesh_;
   const LabelNames& names_;
   std::map<std::int32_t, std::int64_t> physical_;  // of a label
@@ -187,7 +199,7 @@ void GmshWriter::write_entities() {
 }
 
 void GmshWriter::write_nodes() {
-  const std::size_t n = mesh_.vertices.size();
+  const std::size_t n = named_.nodes();
   out_.text("$Nodes\n");
   out_.integers(n == 0 ? 0 : 1, n, n == 0 ? 0 : 1);
   out_.integer(n);
@@ -203,8 +215,8 @@ void GmshWriter::write_nodes() {
     out_.integer(i);
     out_.text("\n");
   }
-  for (const auto& v : mesh_.vertices) {
-    out_.point(v);
+  for (std::size_t i = 0; i < n; ++i) {
+    out_.point(named_.node(i));
     out_.text("\n");
   }
   out_.text("$EndNodes\n");
@@ -220,28 +232,18 @@ void GmshWriter::write_elements() {
   each_facet([&](std::size_t begin, std::size_t end) {
     out_.text("2 ");
     out_.integers(facet_tag(order_[begin]));
-    out_.text("2 ");
+    out_.text(named_.second_order() ? "9 " : "2 ");  // Gmsh's number of the type
     out_.integer(end - begin);
     out_.text("\n");
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& [a, b, c] = mesh_.boundary[order_[i]];
-      out_.integers(tag++, a + 1, b + 1);
-      out_.integer(c + 1);
-      out_.text("\n");
-    }
+    for (std::size_t i = begin; i < end; ++i) element(tag++, named_.triangle(order_[i]));
   });
   for (const auto& [number, tetrahedra] : tetrahedra_) {
     out_.text("3 ");
     out_.integers(volume_.at(number));
-    out_.text("4 ");
+    out_.text(named_.second_order() ? "11 " : "4 ");
     out_.integer(tetrahedra.size());
     out_.text("\n");
-    for (const std::size_t i : tetrahedra) {
-      const auto& [a, b, c, d] = mesh_.tetrahedra[i];
-      out_.integers(tag++, a + 1, b + 1, c + 1);
-      out_.integer(d + 1);
-      out_.text("\n");
-    }
+    for (const std::size_t i : tetrahedra) element(tag++, named_.tetrahedron(i));
   }
   out_.text("$EndElements\n");
 }

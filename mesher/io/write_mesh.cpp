@@ -26,6 +26,8 @@ const char* inconsistency(const TetMesh& mesh) {
   return nullptr;
 }
 
+constexpr std::size_t kMostNodes = 0xfffffff0U;
+
 constexpr std::array<FileFormat<NamedMesh>, 3> kBoundaryFormats = {
     {{{".stl"}, [](Sinks f, const NamedMesh& m) { write_boundary_stl(*f[0], m); }},
      {{".ply"}, [](Sinks f, const NamedMesh& m) { write_boundary_ply(*f[0], m); }},
@@ -33,10 +35,10 @@ constexpr std::array<FileFormat<NamedMesh>, 3> kBoundaryFormats = {
 
 // The extension of the path first, then the extensions of the files beside it.
 constexpr std::array<FileFormat<NamedMesh>, 12> kFormats = {
-    {{{".mesh"}, [](Sinks f, const NamedMesh& m) { write_medit(*f[0], m.mesh); }},
+    {{{".mesh"}, [](Sinks f, const NamedMesh& m) { write_medit(*f[0], m); }},
      {{".msh"}, [](Sinks f, const NamedMesh& m) { write_gmsh(*f[0], m); }},
      {{".vtu"}, [](Sinks f, const NamedMesh& m) { write_vtu(*f[0], m); }},
-     {{".vtk"}, [](Sinks f, const NamedMesh& m) { write_vtk(*f[0], m.mesh); }},
+     {{".vtk"}, [](Sinks f, const NamedMesh& m) { write_vtk(*f[0], m); }},
      {{".xdmf"}, [](Sinks f, const NamedMesh& m) { write_xdmf(*f[0], m); }},
      {{".inp"}, [](Sinks f, const NamedMesh& m) { write_abaqus(*f[0], m); }},
      {{".bdf"}, [](Sinks f, const NamedMesh& m) { write_nastran(*f[0], m); }},
@@ -47,7 +49,31 @@ constexpr std::array<FileFormat<NamedMesh>, 12> kFormats = {
      kBoundaryFormats[1],
      kBoundaryFormats[2]}};
 
+// Those of kFormats that hold elements of second order.
+constexpr std::array<std::string_view, 6> kSecondOrder = {".mesh", ".msh", ".vtu",
+                                                          ".vtk",  ".inp", ".bdf"};
+
+WriteStatus write_second_order(OutputSet& outputs, const std::string& path, const TetMesh& mesh,
+                               const LabelNames& names) {
+  if (const std::string error = second_order_error(path); !error.empty()) return {error};
+  const EdgeNodes edge_nodes(mesh);
+  const NamedMesh named{mesh, names, &edge_nodes};
+  if (named.nodes() > kMostNodes) return {path + ": too many nodes for --order 2"};
+  return write_by_extension(kFormats, outputs, path, named);
+}
+
 }  // namespace
+
+std::string second_order_error(const std::string& path) {
+  const FileFormat<NamedMesh>* format = format_of(kFormats, path);
+  if (format == nullptr ||
+      std::count(kSecondOrder.begin(), kSecondOrder.end(), format->extensions[0]) > 0) {
+    return {};
+  }
+  std::string known;
+  for (const std::string_view extension : kSecondOrder) known += " " + std::string(extension);
+  return path + ": no elements of second order are written in this format, but in" + known;
+}
 
 std::string mesh_extensions() {
   return extensions_of(kFormats);
@@ -66,9 +92,11 @@ std::vector<std::string> mesh_files_of(const std::string& path) {
 }
 
 WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh,
-                       const LabelNames& names) {
+                       const LabelNames& names, const WriteOptions& options) {
   const char* reason = mesh_files_of(path).empty() ? nullptr : inconsistency(mesh);
   if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
+  if (options.order != 1 && options.order != 2) return {path + ": the order is neither 1 nor 2"};
+  if (options.order == 2) return write_second_order(outputs, path, mesh, names);
   return write_by_extension(kFormats, outputs, path, NamedMesh{mesh, names});
 }
 

@@ -24,7 +24,9 @@ WriteStatus write_surface(OutputSet& outputs, const std::string& path, const Sur
 
 // Adds the mesh to a set of outputs; nothing is in place before its commit().
 WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMesh& mesh,
-                       const LabelNames& names = {});
+                       const LabelNames& names = {}, const WriteOptions& options = {});
+// Why WriteOptions::order 2 cannot be written to the path; empty if it can.
+std::string second_order_error(const std::string& path);
 
 // OFF; labels are not kept, as the format has none.
 WriteStatus write_off(OutputSet& outputs, const std::string& path, const Surface& surface);

@@ -211,6 +211,33 @@ TEST_F(WriteMesh, VtuAndTetgen) {
   EXPECT_EQ(content(path("a.face")), "3 1\n0 0 2 1 7 9\n1 0 1 3 0 4\n2 1 2 3 -2 5\n");
 }
 
+// The middle of the largest doubles is no infinity; the middle of 1e-310 and 0 is exact.
+TEST_F(WriteMesh, SecondOrder) {
+  TetMesh mesh = sample();
+  mesh.vertices[2][0] = std::numeric_limits<double>::max();
+  OutputSet outputs;
+  const WriteOptions second{.order = 2};
+  ASSERT_TRUE(write_mesh(outputs, path("a.mesh"), mesh, {}, second).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), mesh, {}, second).ok());
+  for (const char* name : {"a.node", "a.tet", "a.xdmf", "a.stl", "a.ply", "a.off"}) {
+    EXPECT_TRUE(write_mesh(outputs, path(name), mesh, {}, second).error.starts_with(path(name)));
+  }
+  EXPECT_FALSE(write_mesh(outputs, path("b.msh"), mesh, {}, {.order = 3}).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  EXPECT_EQ(files(), 2U);
+  // Edges 01 02 03 04 12 13 14 23 24 are nodes 5 to 13.
+  const std::string medit = content(path("a.mesh")), gmsh = content(path("a.msh"));
+  EXPECT_NE(medit.find("Vertices\n14\n"), std::string::npos) << medit;
+  EXPECT_NE(medit.find("\n8.988465674311579e+307 5e-311 0 0\n"), std::string::npos) << medit;
+  EXPECT_NE(medit.find("\n1.7976931348623157e+308 0.16666666666666666 0 0\n"), std::string::npos);
+  EXPECT_NE(
+      medit.find("TrianglesP2\n3\n1 3 2 7 10 6 7\n1 2 4 6 11 8 0\n2 3 4 10 13 11 -2\n"
+                 "TetrahedraP2\n2\n1 2 3 5 6 10 7 9 12 14 2\n1 2 3 4 6 10 7 8 11 13 1\nEnd\n"),
+      std::string::npos)
+      << medit;
+  EXPECT_NE(gmsh.find("\n3 1 11 1\n4 1 2 3 4 6 10 7 8 13 11\n"), std::string::npos) << gmsh;
+}
+
 TEST_F(WriteMesh, OffRoundTrip) {
   Surface surface;
   surface.vertices = sample().vertices;

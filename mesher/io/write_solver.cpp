@@ -51,13 +51,13 @@ std::string decimal_within(double value, std::size_t width) {
 class AbaqusWriter {
  public:
   AbaqusWriter(TextSink& out, const NamedMesh& named)
-      : out_(out), mesh_(named.mesh), names_(named.names) {}
+      : out_(out), named_(named), mesh_(named.mesh), names_(named.names) {}
 
   void write() {
     out_.text("*HEADING\ndelmesher\n*NODE\n");
-    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+    for (std::size_t i = 0; i < named_.nodes(); ++i) {
       out_.integer(i + 1);
-      for (const double x : mesh_.vertices[i]) {
+      for (const double x : named_.node(i)) {
         out_.text(", ");
         out_.text(decimal_within(x, kInpWidth));
       }
@@ -72,6 +72,7 @@ class AbaqusWriter {
   void write_surfaces();
 
   TextSink& out_;
+  const NamedMesh& named_;
   const TetMesh& mesh_;
   const LabelNames& names_;
   Identifiers identifiers_;
@@ -81,12 +82,13 @@ class AbaqusWriter {
 void AbaqusWriter::write_elements() {
   std::size_t next = 1;
   for (const auto& [number, tetrahedra] : tetrahedra_of_regions(mesh_)) {
-    out_.text("*ELEMENT, TYPE=C3D4, ELSET=");
+    out_.text(named_.second_order() ? "*ELEMENT, TYPE=C3D10, ELSET="
+                                    : "*ELEMENT, TYPE=C3D4, ELSET=");
     out_.text(identifiers_.make(region_name(mesh_, number)));
     out_.text("\n");
     for (const std::size_t t : tetrahedra) {
       out_.integer(element_[t] = next++);
-      for (const std::uint32_t v : mesh_.tetrahedra[t]) {
+      for (const std::uint32_t v : named_.tetrahedron(t)) {
         out_.text(", ");
         out_.integer(v + 1ULL);
       }
@@ -106,7 +108,8 @@ void AbaqusWriter::write_surfaces() {
     const std::string name = identifiers_.make(label_name(names_, label));
     std::vector<std::uint32_t> nodes;
     for (const std::size_t i : triangles) {
-      nodes.insert(nodes.end(), mesh_.boundary[i].begin(), mesh_.boundary[i].end());
+      const CellNodes all = named_.triangle(i);
+      nodes.insert(nodes.end(), all.begin(), all.end());
     }
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -131,7 +134,7 @@ void AbaqusWriter::write_surfaces() {
 class NastranWriter {
  public:
   NastranWriter(TextSink& out, const NamedMesh& named)
-      : out_(out), mesh_(named.mesh), names_(named.names) {}
+      : out_(out), named_(named), mesh_(named.mesh), names_(named.names) {}
 
   void write();
 
@@ -149,17 +152,22 @@ class NastranWriter {
     out_.text("$HMNAME COMP" + std::string(20 - digits.size(), ' ') + digits + "\"" + name +
               "\"\n");
   }
-  // An element's card, in fields of eight characters.
-  template <class Corners>
-  void card(const char* keyword, std::uint64_t property, const Corners& corners) {
+  // An element's card, in fields of eight characters, eight a line after the keyword.
+  void card(const char* keyword, std::uint64_t property, const CellNodes& nodes) {
     out_.text(keyword);
     number(element_++);
     number(property);
-    for (const std::uint32_t v : corners) number(v + 1ULL);
+    std::size_t fields = 2;
+    for (const std::uint32_t v : nodes) {
+      if (fields++ == 8) out_.text("+\n+       ");
+      number(v + 1ULL);
+    }
     out_.text("\n");
   }
+  void grid(std::size_t node);
 
   TextSink& out_;
+  const NamedMesh& named_;
   const TetMesh& mesh_;
   const LabelNames& names_;
   std::uint64_t element_ = 1;
@@ -181,25 +189,29 @@ void NastranWriter::write() {
     component(property[label], label_name(names_, label));
   for (const auto& [number, tetrahedra] : regions) component(next++, region_name(mesh_, number));
   out_.text("BEGIN BULK\n");
-  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
-    out_.text("GRID*   ");
-    number(i + 1);
-    out_.text(std::string(24, ' '));
-    coordinate(mesh_.vertices[i][0]);
-    coordinate(mesh_.vertices[i][1]);
-    out_.text("\n*       ");
-    coordinate(mesh_.vertices[i][2]);
-    out_.text("\n");
-  }
+  for (std::size_t i = 0; i < named_.nodes(); ++i) grid(i);
+  const char* const triangle = named_.second_order() ? "CTRIA6  " : "CTRIA3  ";
   for (const auto& [label, triangles] : labels) {
-    for (const std::size_t i : triangles) card("CTRIA3  ", property[label], mesh_.boundary[i]);
+    for (const std::size_t i : triangles) card(triangle, property[label], named_.triangle(i));
   }
   next = first_region;
   for (const auto& [number, tetrahedra] : regions) {
-    for (const std::size_t t : tetrahedra) card("CTETRA  ", next, mesh_.tetrahedra[t]);
+    for (const std::size_t t : tetrahedra) card("CTETRA  ", next, named_.tetrahedron(t));
     ++next;
   }
   out_.text("ENDDATA\n");
+}
+
+void NastranWriter::grid(std::size_t node) {
+  const std::array<double, 3> at = named_.node(node);
+  out_.text("GRID*   ");
+  number(node + 1);
+  out_.text(std::string(24, ' '));
+  coordinate(at[0]);
+  coordinate(at[1]);
+  out_.text("\n*       ");
+  coordinate(at[2]);
+  out_.text("\n");
 }
 
 }  // namespace

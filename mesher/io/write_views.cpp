@@ -27,22 +27,35 @@ void cell_arrays(TextSink& out, const TetMesh& mesh, Begin begin, End end) {
   end();
 }
 
-// One line a cell: the number that the format puts before, and the corners.
-template <class Cells>
-void cells(TextSink& out, int before, const Cells& all) {
-  for (const auto& cell : all) {
-    out.integer(before);
-    for (const std::uint32_t v : cell) {
-      out.text(" ");
-      out.integer(v);
-    }
-    out.text("\n");
+void cell(TextSink& out, std::size_t before, const CellNodes& nodes) {
+  out.integer(before);
+  for (const std::uint32_t v : nodes) {
+    out.text(" ");
+    out.integer(v);
+  }
+  out.text("\n");
+}
+
+// One line a cell: the number that the format puts before tetrahedra, or triangles, and the nodes.
+void cells(TextSink& out, const NamedMesh& named, std::size_t before_tetrahedron,
+           std::size_t before_triangle) {
+  for (std::size_t i = 0; i < named.mesh.tetrahedra.size(); ++i) {
+    cell(out, before_tetrahedron, named.tetrahedron(i));
+  }
+  for (std::size_t i = 0; i < named.mesh.boundary.size(); ++i) {
+    cell(out, before_triangle, named.triangle(i));
   }
 }
 
-void points(TextSink& out, const TetMesh& mesh) {
-  for (const auto& v : mesh.vertices) {
-    out.point(v);
+// How many numbers these are.
+std::size_t numbers_of_cells(const NamedMesh& named) {
+  return (1 + named.nodes_of_tetrahedron()) * named.mesh.tetrahedra.size() +
+         (1 + named.nodes_of_triangle()) * named.mesh.boundary.size();
+}
+
+void points(TextSink& out, const NamedMesh& named) {
+  for (std::size_t i = 0; i < named.nodes(); ++i) {
+    out.point(named.node(i));
     out.text("\n");
   }
 }
@@ -72,23 +85,24 @@ std::string xml_escaped(const std::string& text) {
   return out;
 }
 
-void write_vtk(TextSink& out, const TetMesh& mesh) {
+void write_vtk(TextSink& out, const NamedMesh& named) {
+  const TetMesh& mesh = named.mesh;
   const std::size_t tets = mesh.tetrahedra.size(), triangles = mesh.boundary.size();
   out.text("# vtk DataFile Version 3.0\ndelmesher\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
-  out.integer(mesh.vertices.size());
+  out.integer(named.nodes());
   out.text(" double\n");
-  points(out, mesh);
+  points(out, named);
   out.text("CELLS ");
   out.integers(tets + triangles);
-  out.integer(5 * tets + 4 * triangles);
+  out.integer(numbers_of_cells(named));
   out.text("\n");
-  cells(out, 4, mesh.tetrahedra);
-  cells(out, 3, mesh.boundary);
+  cells(out, named, named.nodes_of_tetrahedron(), named.nodes_of_triangle());
   out.text("CELL_TYPES ");
   out.integer(tets + triangles);
   out.text("\n");
   cell_lines(
-      out, mesh, [](std::size_t) { return 10; }, [](std::size_t) { return 5; });
+      out, mesh, [&](std::size_t) { return vtk_tetrahedron(named); },
+      [&](std::size_t) { return vtk_triangle(named); });
   out.text("CELL_DATA ");
   out.integer(tets + triangles);
   out.text("\n");
@@ -112,14 +126,13 @@ void write_xdmf(TextSink& out, const NamedMesh& named) {
   out.text(
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n"
       "<Grid Name=\"delmesher\" GridType=\"Uniform\">\n<Geometry GeometryType=\"XYZ\">\n");
-  item("Float", "8", mesh.vertices.size(), 3);
-  points(out, mesh);
+  item("Float", "8", named.nodes(), 3);
+  points(out, named);
   out.text("</DataItem>\n</Geometry>\n<Topology TopologyType=\"Mixed\" NumberOfElements=\"");
   out.integer(tets + triangles);
   out.text("\">\n");
-  item("Int", "8", 5 * tets + 4 * triangles, 1);
-  cells(out, 6, mesh.tetrahedra);  // XDMF's numbers of a tetrahedron and a triangle
-  cells(out, 4, mesh.boundary);
+  item("Int", "8", numbers_of_cells(named), 1);
+  cells(out, named, 6, 4);  // XDMF's numbers of a tetrahedron and a triangle
   out.text("</DataItem>\n</Topology>\n");
   cell_arrays(
       out, mesh,

@@ -99,9 +99,9 @@ std::string field_data(const NamedMesh& named) {
 void write_vtu(TextSink& out, const NamedMesh& named) {
   const TetMesh& mesh = named.mesh;
   const std::size_t tets = mesh.tetrahedra.size(), triangles = mesh.boundary.size();
-  begin_file(out, field_data(named), mesh.vertices.size(), tets + triangles);
-  for (const auto& v : mesh.vertices) {
-    out.point(v);
+  begin_file(out, field_data(named), named.nodes(), tets + triangles);
+  for (std::size_t i = 0; i < named.nodes(); ++i) {
+    out.point(named.node(i));
     out.text("\n");
   }
   begin_cells(out);
@@ -109,16 +109,19 @@ void write_vtu(TextSink& out, const NamedMesh& named) {
   arrays.write(
       "Int64", "connectivity",
       [&](std::size_t i) {
-        for (const std::uint32_t v : mesh.tetrahedra[i]) out.integers(v);
+        for (const std::uint32_t v : named.tetrahedron(i)) out.integers(v);
       },
       [&](std::size_t i) {
-        for (const std::uint32_t v : mesh.boundary[i]) out.integers(v);
+        for (const std::uint32_t v : named.triangle(i)) out.integers(v);
       });
   arrays.numbers(
-      "Int64", "offsets", [](std::size_t i) { return 4 * (i + 1); },
-      [&](std::size_t i) { return 4 * tets + 3 * (i + 1); });
+      "Int64", "offsets", [&](std::size_t i) { return named.nodes_of_tetrahedron() * (i + 1); },
+      [&](std::size_t i) {
+        return named.nodes_of_tetrahedron() * tets + named.nodes_of_triangle() * (i + 1);
+      });
   arrays.numbers(
-      "UInt8", "types", [](std::size_t) { return 10; }, [](std::size_t) { return 5; });
+      "UInt8", "types", [&](std::size_t) { return vtk_tetrahedron(named); },
+      [&](std::size_t) { return vtk_triangle(named); });
   begin_cell_data(out);
   arrays.numbers(
       "Int8", "inside", [&](std::size_t i) { return mesh.inside[i] != 0 ? 1 : 0; },

@@ -143,9 +143,9 @@ class Mesh:
         a, b, c, d = (self.points[self.tetrahedra[:, k]] for k in range(4))
         return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
 
-    def write(self, path: "Union[str, os.PathLike[str]]") -> None:
+    def write(self, path: "Union[str, os.PathLike[str]]", *, order: int = 1) -> None:
         """Write a file, see `write`."""
-        write(path, self)
+        write(path, self, order=order)
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` of the tetrahedra and the boundary, with cell data ``label`` and ``inside``."""
@@ -449,10 +449,11 @@ def _fields(mesh: Mesh) -> Dict[str, np.ndarray]:
             "labels": np.ascontiguousarray(mesh.labels, np.int32), "facets": _indices(mesh.facets, "facets")}
 
 
-def write(path: "Union[str, os.PathLike[str]]", mesh: Mesh, names: Optional[Mapping[int, str]] = None) -> None:
+def write(path: "Union[str, os.PathLike[str]]", mesh: Mesh, names: Optional[Mapping[int, str]] = None, *, order: int = 1) -> None:
     """Write a mesh in the format of the extension; labels are called by `names` (of the mesh).
 
     .mesh, .msh, .vtu, .vtk, .xdmf, .inp, .bdf, .node, .tet; .stl, .ply and .off hold the boundary alone. ValueError says why a file
-    could not be written; it is complete or not there.
+    could not be written; it is complete or not there. With ``order=2`` the elements have a node in the middle of every edge, too
+    (.mesh, .msh, .vtu, .vtk, .inp, .bdf).
     """
-    _core.write_mesh(os.fspath(path), _fields(mesh), dict(mesh.names if names is None else names))
+    _core.write_mesh(os.fspath(path), _fields(mesh), dict(mesh.names if names is None else names), order)

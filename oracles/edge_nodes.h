@@ -1,0 +1,24 @@
+// Elements of second order: nodes on edges besides the corners.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "oracles/mesh_file.h"
+
+namespace tetproof::oracles {
+
+// The nodes of a file's elements that are no corners: of a tetrahedron abcd on ab bc ac ad bd cd,
+// of a triangle abc on ab bc ac.
+struct NodesOnEdges {
+  std::vector<std::array<Index, 6>> of_tetrahedra;
+  std::vector<std::array<Index, 3>> of_triangles;
+};
+
+// Takes them out of the vertices of the mesh, which keep their order, and lists them with their
+// edges. Throws ReadError (`path` is its beginning) if not all elements have them, if one of them
+// is a corner or on two edges, or if an edge has two.
+void take_out_edge_nodes(MeshFile& mesh, const NodesOnEdges& nodes, const std::string& path);
+
+}  // namespace tetproof::oracles
