@@ -146,7 +146,8 @@ void export_mesh(const RoundedMesh& mesh, const RoundingInput& input, RoundingRe
 }
 
 // The tetrahedra of the input are there again afterwards if there was something to repair.
-RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& control) {
+RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& control,
+                          std::size_t most) {
   RoundedMesh mesh(input, control);
   RoundingResult result;
   const std::size_t bad_before = mesh.bad().size();
@@ -160,8 +161,11 @@ RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& cont
           {mesh.store_id(a), mesh.store_id(b), mesh.store_id(c), mesh.store_id(d)});
       input.inside.push_back(mesh.inside(t) ? 1 : 0);
     }
-    mesh.prepare_repairs();
-    Repair(mesh, *input.points, control, result).run(strategy);
+    result.tried = bad_before <= most;
+    if (result.tried) {
+      mesh.prepare_repairs();
+      Repair(mesh, *input.points, control, result).run(strategy);
+    }
   }
   for (const std::uint32_t t : mesh.bad()) ++(mesh.sign(t) < 0 ? result.inverted : result.flat);
   result.repaired = bad_before - mesh.bad().size();
@@ -182,22 +186,28 @@ void shuffle_tetrahedra(RoundingInput& input, std::uint32_t& state) {
 
 }  // namespace
 
-RoundingResult round_mesh(RoundingInput input, Control& control, bool thoroughly) {
+RoundingResult round_mesh(RoundingInput input, Control& control, const RepairLimits& limits) {
   // Which repairs are possible depends on those done before: where one order of the tetrahedra ends
   // in a dead end, another may not.
   constexpr int kOrders = 4;
-  RoundingResult best = round_once(input, Strategy::descend, control);
-  if (!thoroughly) return best;
+  // Where more than this is left, the mesh itself has to change, not the order of repairs.
+  constexpr std::uint64_t kFew = 1000;
+  const auto round = [&](Strategy s) { return round_once(input, s, control, limits.most); };
+  RoundingResult best = round(Strategy::descend);
+  if (!limits.thoroughly || !best.tried || defects(best).first > kFew) return best;
   std::uint32_t state = 1;
   for (int order = 1; order < kOrders && defects(best).first > 0; ++order) {
     shuffle_tetrahedra(input, state);
-    RoundingResult other = round_once(input, Strategy::descend, control);
+    RoundingResult other = round(Strategy::descend);
     if (defects(other).first < defects(best).first) best = std::move(other);
   }
-  for (const Strategy s : {Strategy::descend_and_untangle, Strategy::untangle_first}) {
-    if (defects(best) == kNoDefects) break;
-    RoundingResult other = round_once(input, s, control);
-    if (defects(other) < defects(best)) best = std::move(other);
+  for (int order = 0; order < kOrders; ++order) {
+    for (const Strategy s : {Strategy::descend_and_untangle, Strategy::untangle_first}) {
+      if (defects(best) == kNoDefects) return best;
+      RoundingResult other = round(s);
+      if (defects(other) < defects(best)) best = std::move(other);
+    }
+    shuffle_tetrahedra(input, state);
   }
   return best;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -41,6 +42,7 @@ struct RoundingResult {
   std::uint64_t inverted = 0, flat = 0;                // left in the result, by exact sign
   std::uint64_t repaired = 0;    // were not positive after plain rounding, and are now
   std::uint64_t coincident = 0;  // vertices left with the coordinates of an earlier one
+  bool tried = true;             // false: there was too much to repair (RepairLimits::most)
   // Points of the store at the tetrahedra that plain rounding left not positive.
   std::vector<VertexId> disturbed;
   // Local operations done: if not 0, the tetrahedra are not those given. They are positive on the
@@ -57,8 +59,14 @@ inline std::pair<std::uint64_t, std::uint64_t> defects(const RoundingResult& res
 }
 inline constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
 
-// `thoroughly`: where the first repairs leave defects, others are tried, which may take a hundred
-// times as long.
-RoundingResult round_mesh(RoundingInput input, Control& control, bool thoroughly = true);
+struct RepairLimits {
+  // Where the first repairs leave a few defects, others are tried, which may take a hundred times
+  // as long.
+  bool thoroughly = true;
+  // Nothing is repaired where more tetrahedra than this are not positive.
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+};
+
+RoundingResult round_mesh(RoundingInput input, Control& control, const RepairLimits& limits = {});
 
 }  // namespace delmesher::output

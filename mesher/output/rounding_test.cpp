@@ -118,10 +118,10 @@ struct Scene {
   }
 };
 
-RoundingResult run(const Scene& scene) {
+RoundingResult run(const Scene& scene, const RepairLimits& limits = {}) {
   const Limits options;
   Control control(options);
-  return round_mesh(scene.input, control);
+  return round_mesh(scene.input, control, limits);
 }
 
 // Everything that round_mesh promises, whatever it could or could not repair.
@@ -423,6 +423,23 @@ TEST(Rounding, WhatCannotMoveIsCounted) {
   EXPECT_EQ(r.tetrahedra, s.input.tetrahedra);
   EXPECT_EQ(r.operations, 0U);
   EXPECT_EQ(r.inexact_operations, 0U);
+}
+
+TEST(Rounding, WhereThereIsTooMuchToRepairNothingIs) {
+  const Scene s = make_ridge(0, 1, 3e-16);
+  const std::size_t before = s.bad_when_rounded();
+  ASSERT_GT(before, 0U);
+  const RoundingResult left = run(s, {.most = before - 1});
+  check(s, left);
+  EXPECT_FALSE(left.tried);
+  EXPECT_EQ(left.inverted + left.flat, before);
+  EXPECT_EQ(left.tetrahedra, s.input.tetrahedra);
+  for (std::size_t i = 0; i < left.vertices.size(); ++i) {
+    EXPECT_EQ(left.coordinates[i], s.points.nearest(left.vertices[i]));
+  }
+  const RoundingResult repaired = run(s, {.most = before});
+  EXPECT_TRUE(repaired.tried);
+  EXPECT_GT(repaired.repaired, 0U);
 }
 
 TEST(Rounding, FlipsWhereNothingMoves) {

@@ -6,22 +6,28 @@ namespace delmesher::policies {
 
 void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) {
   constexpr int kMostRings = 3;
+  // Repairing takes milliseconds for each tetrahedron, and where so many are not positive, they are
+  // of features below roundings: taking points out there leaves few to repair.
+  constexpr std::size_t kMostRepairs = 1000;
   Control& control = session.control;
   const auto to_write = [&] {
     return conforming_mesh(cdt, session.topology, session.points, session.given,
                            session.options.region);
   };
   MeshToWrite exact = to_write();
-  output::RoundingResult rounded = output::round_mesh(std::move(exact.rounding), control);
+  output::RoundingResult rounded =
+      output::round_mesh(std::move(exact.rounding), control, {.most = kMostRepairs});
   std::uint64_t thinned = 0;
   for (int rings = 0; rings <= kMostRings && defects(rounded) != output::kNoDefects; ++rings) {
     const std::size_t gone = thin_out(rounded.disturbed, rings, session.input_vertices(),
                                       session.points, session.predicates, control, cdt);
     thinned += gone;
-    if (gone == 0) continue;
+    const bool last = rings == kMostRings;
+    if (gone == 0 && (!last || rounded.tried)) continue;
     MeshToWrite thinner = to_write();
-    output::RoundingResult other =
-        output::round_mesh(std::move(thinner.rounding), control, rings == kMostRings);
+    const output::RepairLimits limits =
+        last ? output::RepairLimits{} : output::RepairLimits{false, kMostRepairs};
+    output::RoundingResult other = output::round_mesh(std::move(thinner.rounding), control, limits);
     if (!(defects(other) < defects(rounded))) continue;
     rounded = std::move(other);
     exact = std::move(thinner);
