@@ -144,6 +144,11 @@ TEST_F(Meshers, Peers) {
   EXPECT_EQ(command("netgen-raw"), folder + "/tetproof-netgen raw in.off out.mesh stats.json");
   EXPECT_EQ(make_mesher("netgen", programs_).exit_codes, ExitCodes::ours);
 
+  EXPECT_NE(why_not_at_hand("cgal-mesh3", programs_).find("--target"), std::string::npos);
+  script("tetproof-cgal-mesh3", "echo CGAL 5");
+  EXPECT_EQ(command("cgal-mesh3"), folder + "/tetproof-cgal-mesh3 - in.off out.mesh stats.json");
+  EXPECT_EQ(make_mesher("cgal-mesh3", programs_).promise(), "envelope 0.005");
+
   script("adapters/gmsh", "true");
   setenv("GMSH_PROGRAM", (folder_ / "nowhere").c_str(), 1);
   EXPECT_NE(why_not_at_hand("gmsh-hxt", programs_).find("GMSH_PROGRAM"), std::string::npos);

@@ -25,6 +25,12 @@ constexpr Peer gmsh(const char* name, const char* switches, const char* feature 
           .feature = feature};
 }
 
+// Mesh_3 bounds the distance of facets from the surface at the centres of their balls alone, and
+// does not see edges below its angle, so ten times that bound is allowed everywhere.
+constexpr double kMesh3 = 5e-3;
+constexpr const char* kMesh3From =
+    "package libcgal-dev; cmake --build BUILD --target tetproof-cgal-mesh3";
+
 // Without T0 TetGen may move the surface by its default tolerance. Envelopes are the defaults of
 // the programs.
 constexpr Peer kPeers[] = {
@@ -42,6 +48,10 @@ constexpr Peer kPeers[] = {
     gmsh("gmsh-frontal-raw", "-algo front3d -setnumber Mesh.Optimize 0", "Netgen"),
     gmsh("gmsh-hxt", "-algo hxt"),
     gmsh("gmsh-hxt-raw", "-algo hxt -setnumber Mesh.Optimize 0"),
+    {"cgal-mesh3", "tetproof-cgal-mesh3", "-", ".mesh", "interior", 0, kMesh3, "GPL-3.0",
+     kMesh3From},
+    {"cgal-mesh3-raw", "tetproof-cgal-mesh3", "raw", ".mesh", "interior", 0, kMesh3, "GPL-3.0",
+     kMesh3From},
     {"ftetwild", "adapters/ftetwild", "", ".msh", "interior", 0, 1e-3, "MPL-2.0",
      "github.com/wildmeshing/fTetWild", "FloatTetwild_bin", "FTETWILD_PROGRAM", ""},
     {"tetwild", "adapters/tetwild", "", ".msh", "interior", 0, 1e-3, "MPL-2.0",

@@ -1,0 +1,132 @@
+// tetproof-cgal-mesh3 SWITCHES INPUT OUT.mesh STATS.json: CGAL's Mesh_3 on the surface with its
+// sharp edges protected, as in the example mesh_polyhedral_domain_with_features of its manual. The
+// manual leaves sizes to the user; here they are fractions of the diagonal of the bounding box.
+// SWITCHES: "-" for its defaults, "raw" for no step of optimization.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mesh_complex_3_in_triangulation_3.h>
+#include <CGAL/Mesh_criteria_3.h>
+#include <CGAL/Mesh_polyhedron_3.h>
+#include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polyhedral_mesh_domain_with_features_3.h>
+#include <CGAL/make_mesh_3.h>
+#include <CGAL/version.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "corpus/peer_adapters/adapter.h"
+
+namespace {
+
+using tetproof::adapter::Call;
+using tetproof::adapter::finish;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Polyhedron = CGAL::Mesh_polyhedron_3<Kernel>::type;
+using Domain = CGAL::Polyhedral_mesh_domain_with_features_3<Kernel>;
+using Triangulation = CGAL::Mesh_triangulation_3<Domain, CGAL::Default, CGAL::Sequential_tag>::type;
+using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::Corner_index,
+                                                        Domain::Curve_index>;
+using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
+
+// Of the diagonal. Facets are a tenth of the envelope that the peer is judged by from the surface,
+// at their centres (corpus/peers.cpp); the other sizes are in proportion as in the manual's
+// example.
+constexpr double kFacetDistance = 0.5e-3;
+constexpr double kEdgeSize = 0.025;
+constexpr double kFacetSize = 0.05;
+constexpr double kCellSize = 0.05;
+
+Polyhedron polyhedron_of(const delmesher::Surface& surface) {
+  std::vector<Kernel::Point_3> points;
+  for (const auto& [x, y, z] : surface.vertices) points.emplace_back(x, y, z);
+  std::vector<std::vector<std::size_t>> triangles;
+  for (const auto& [a, b, c] : surface.triangles) triangles.push_back({a, b, c});
+  Polyhedron polyhedron;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, triangles, polyhedron);
+  return polyhedron;
+}
+
+double diagonal_of(const Polyhedron& polyhedron) {
+  CGAL::Bbox_3 box;
+  for (auto p = polyhedron.points_begin(); p != polyhedron.points_end(); ++p) box += p->bbox();
+  return std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+}
+
+Complex mesh(const Polyhedron& polyhedron, bool optimize) {
+  Domain domain(polyhedron);
+  domain.detect_features();  // edges of at least 60 degrees, its default
+  const double size = diagonal_of(polyhedron);
+  namespace parameters = CGAL::parameters;
+  const Criteria criteria(parameters::edge_size = kEdgeSize * size, parameters::facet_angle = 25,
+                          parameters::facet_size = kFacetSize * size,
+                          parameters::facet_distance = kFacetDistance * size,
+                          parameters::cell_radius_edge_ratio = 3,
+                          parameters::cell_size = kCellSize * size);
+  if (optimize) return CGAL::make_mesh_3<Complex>(domain, criteria);
+  return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(),
+                                    parameters::no_exude());
+}
+
+delmesher::TetMesh take(const Complex& complex) {
+  delmesher::TetMesh taken;
+  std::unordered_map<const void*, std::uint32_t> index;
+  for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end();
+       ++cell) {
+    std::array<std::uint32_t, 4> corners;
+    for (int i = 0; i < 4; ++i) {
+      const auto vertex = cell->vertex(i);
+      const auto [at, is_new] =
+          index.try_emplace(&*vertex, static_cast<std::uint32_t>(taken.vertices.size()));
+      if (is_new) {
+        const auto& p = vertex->point();
+        taken.vertices.push_back(
+            {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())});
+      }
+      corners[static_cast<std::size_t>(i)] = at->second;
+    }
+    taken.tetrahedra.push_back(corners);
+  }
+  taken.inside.assign(taken.tetrahedra.size(), 1);
+  tetproof::adapter::orient(taken);
+  return taken;
+}
+
+[[noreturn]] void run(const Call& call) {
+  const tetproof::adapter::Stopwatch reading;
+  const delmesher::Surface surface = tetproof::adapter::read(call);
+  const double read_seconds = reading.seconds();
+  const tetproof::adapter::Stopwatch meshing;
+  try {
+    const delmesher::TetMesh taken = take(mesh(polyhedron_of(surface), call.switches != "raw"));
+    if (taken.tetrahedra.empty()) finish(call, 4, call.input, "CGAL: no tetrahedron inside");
+    tetproof::adapter::deliver(call, surface, taken, read_seconds, meshing.seconds());
+  } catch (const std::bad_alloc&) {
+    finish(call, 5, call.input, "out of memory");
+  } catch (const std::exception& error) {
+    finish(call, 4, call.input, std::string("CGAL: ") + error.what());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::strcmp(argv[1], "--version") == 0) {
+    std::puts("CGAL " CGAL_VERSION_STR);
+    return 0;
+  }
+  const std::string switches = argc == 5 ? argv[1] : "";
+  if (switches != "-" && switches != "raw") {
+    std::fputs("usage: tetproof-cgal-mesh3 -|raw INPUT OUT.mesh STATS.json\n", stderr);
+    return 2;
+  }
+  run({"tetproof-cgal-mesh3", switches, argv[2], argv[3], argv[4]});
+}
