@@ -1,22 +1,16 @@
 // Exact checks of a mesh of the plane, of its record, and of the promises. Shares no code with the
 // mesher: rationals decide, a plain floating-point bound only skips the obvious cases.
 //
-// plane_conformity.h describes the checks of the file. No claim of a PlaneRecord is believed:
-// - promise: the present version, the sections that the promise needs, bounds as promised;
-// - sidecar: the input vertices come first, unchanged; points on segments lie between their ends;
-// - same-mesh: triangles, sides and listed edges of the file are, one to one, those of the last
-//   mesh of the record;
-// - rounding: every written vertex is within 4 ulp of the largest coordinate from its exact place,
-//   or within the declared deviation, input vertices are unmoved, and no point is written twice;
-// - both meshes (exact-, refined-): complex (the border of the triangles is a rectangle around the
-//   input, and they have its area), orientation (counter-clockwise triangles), delaunay (all edges
-//   on no segment);
-// - exact: segments are tiled completely; the sides agree with a flood; the vertices are those of
-//   the input and of the refined mesh; the inside of a single ring has its area;
-// - refined: edges on segments are parts of them; no edge of a triangle in the region is encroached
-//   from there (open discs); the angle bound, and --max-edge; triangles are on the side that they
-//   claim, and are mixed exactly if a segment crosses them; chamfers and drops as in
-//   plane_chamfer.h.
+// plane_conformity.h describes the checks of the file. No claim of a PlaneRecord is believed; the
+// rooms of its checks say their laws:
+// - plane_record.h: the bounds and sections that were promised, the exact points, and that the file
+//   holds the last mesh of the record (promise, sidecar, same-mesh, rounding);
+// - plane_complex.h: both meshes are triangulations (complex, orientation, delaunay; exact-,
+//   refined-);
+// - plane_final.h: the final mesh is one of the input (exact-conformity, exact-sides, exact-area,
+//   enrichment);
+// - plane_refined.h: the refined mesh keeps its promises (segments, angles, encroachment, edges,
+//   sides), and plane_chamfer.h: it lacks of the input what it may.
 #pragma once
 
 #include <string>

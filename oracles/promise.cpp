@@ -415,8 +415,8 @@ double Promise::planar_share() const {
 }
 
 double Promise::guaranteed_delta() const {
-  constexpr double kGuaranteed = 14.4775;
-  return std::min(delta, kGuaranteed);
+  const double guaranteed = task == Task::plane ? 20.7 : 14.4775;
+  return std::min(delta, guaranteed);
 }
 
 double Promise::corner_in_force() const {

@@ -45,8 +45,9 @@ struct Promise {
   // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a
   // fraction of the diagonal.
   double planar_share() const;
-  // The face angle that is guaranteed, in degrees. A larger delta asks for a radius-edge ratio
-  // below 2, where the bound is best effort.
+  // The angle that is guaranteed, in degrees: of faces, or of triangles of the plane. A larger
+  // delta asks for a radius-edge ratio below 2 (in the plane: root 2), where the bound is best
+  // effort.
   double guaranteed_delta() const;
   // The threshold for two edges that is in force, in degrees. An angle of two edges that is not
   // chamfered is an angle of the mesh, so the threshold has to exceed delta by some degrees.
