@@ -151,7 +151,8 @@ Finding same_when_scaled(const Surface& surface, const Result& plain, const Opti
   }
   bool same = plain.exact.corners.size() == result.exact.corners.size();
   for (std::size_t c = 0; same && c < plain.exact.corners.size(); ++c) {
-    same = result.exact.corners[c].radius == std::ldexp(plain.exact.corners[c].radius, exponent);
+    same =
+        result.exact.corners[c].distance == std::ldexp(plain.exact.corners[c].distance, exponent);
   }
   same = same && result.exact.parameters.tolerance ==
                      std::ldexp(plain.exact.parameters.tolerance, exponent);

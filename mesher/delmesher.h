@@ -52,7 +52,7 @@ struct Options : Limits {
   bool slivers = false;
   bool approximate = false;      // stop before the enriched CDT (section 6)
   bool simplify_bridges = true;  // section 4.4
-  double chamfer_radius = 0;     // largest chamfer distance, in input units; 0: no bound
+  double chamfer_radius = 0;     // how far a chamfer may reach, in input units; 0: no bound
   // Triangles that are coplanar but for rounding become one facet. The surface keeps the vertices
   // and edges of such facets; in between it may deviate by this fraction of the bounding box's
   // diagonal. 0: the surface as given, to the last bit; if meshes are improved, such triangles are

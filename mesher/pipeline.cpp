@@ -82,7 +82,7 @@ chamfer::ChamferedSurface filter_and_chamfer(double tau, const chamfer::ChamferO
 chamfer::ChamferedSurface filter_to_budget(Budget& budget, const Fallback& fallback, Session& s,
                                            Recorder& recorder) {
   chamfer::ChamferedSurface chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
-  while (!budget.allows(chamfered, s, recorder)) {
+  while (budget.raise_tau_over_budget(chamfered, s, recorder)) {
     s.points.truncate(s.input_vertices());
     chamfered = filter_and_chamfer(budget.tau(), fallback.chamfering(), s);
   }
@@ -285,9 +285,9 @@ Result run(Pipeline pipeline, const Surface& surface, const Options& options) {
 Result run_mesh(const Surface& surface, const Options& options) {
   FinerPlanes planes(options);
   Result best = run(mesh, surface, options);
-  while (planes.wants_run_after(best)) {
-    FinerPlanes::compare(run(planes.directly() ? mesh_directly : mesh, surface, planes.options()),
-                         best);
+  while (planes.plan_run_after(best)) {
+    FinerPlanes::keep_better(
+        run(planes.directly() ? mesh_directly : mesh, surface, planes.options()), best);
   }
   return best;
 }

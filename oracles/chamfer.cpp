@@ -370,7 +370,7 @@ class ChamferExtent {
     }
     check_areas();
     report_.figures.emplace_back("edges of artificial segments", edges_);
-    report_.figures.emplace_back("largest distance over radius", farthest_);
+    report_.figures.emplace_back("largest distance over chamfer distance", farthest_);
     return std::move(report_);
   }
 
@@ -423,10 +423,11 @@ void ChamferExtent::check_point(Index p, Index vertex) {
                         std::to_string(vertex) + ", which was not chamfered");
   }
   const double distance = exact::distance(points_, p, vertex);
-  const double radius = corner->second->radius;
-  farthest_ = std::max(farthest_, distance / radius);
-  if (!(distance <= radius * (on_edge ? 1 : widest_) * kPlacement)) {
-    report_.fail(complex_.vertex_name(p) + " is farther than the radius from input vertex " +
+  const double reach = corner->second->distance;
+  farthest_ = std::max(farthest_, distance / reach);
+  if (!(distance <= reach * (on_edge ? 1 : widest_) * kPlacement)) {
+    report_.fail(complex_.vertex_name(p) +
+                 " is farther than the chamfer distance from input vertex " +
                  std::to_string(vertex));
   }
   if (limit_ > 0 && !(distance <= limit_ * kPlacement)) {

@@ -13,15 +13,15 @@ namespace tetproof::oracles {
 // how much they do.
 OracleReport check_chamfer_angles(const RefinedMesh& mesh);
 
-// Every point made by chamfering lies on the input, at a chamfered corner, within its radius (and
-// --chamfer-radius): cut points on edges no farther than the radius, bridge points no farther than
-// the radius times the factor that the widest sector (120 degrees; 180 where every triangle has a
-// bridge) needs. New edges stay inside the facet that they were cut from, and the facet's faces
-// cover no more than the facet.
+// Every point made by chamfering lies on the input, at a chamfered corner, and not beyond
+// --chamfer-radius: cut points on edges no farther than the corner's distance, bridge points no
+// farther than the distance times the factor that the widest sector (120 degrees; 180 where every
+// triangle has a bridge) needs. New edges stay inside the facet that they were cut from, and the
+// facet's faces cover no more than the facet.
 OracleReport check_chamfer_extent(const RefinedMesh& mesh);
 
 // On the surface that the filter kept, a corner was chamfered exactly if it is acute at the
-// threshold in force there, and an edge was cut off exactly if it is acute. No radius is above a
+// threshold in force there, and an edge was cut off exactly if it is acute. No distance is above a
 // third of the local feature size (the distance, within the facets kept at the corner, to their
 // edges that do not meet it; where that was promised, to the corner's link), nor above
 // --chamfer-radius.

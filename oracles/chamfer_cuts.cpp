@@ -61,7 +61,7 @@ class ChamferNeed {
       } else if (!cut && !why.empty()) {
         report_.fail(corner_name(v) + " was not chamfered and is acute: " + why);
       }
-      if (cut) check_radius(*corner->second);
+      if (cut) check_distance(*corner->second);
     }
     if (corner_.size() != record_.corners.size()) report_.fail("a corner is listed twice");
     for (const auto& [v, corner] : corner_) {
@@ -72,31 +72,34 @@ class ChamferNeed {
     }
     check_missing_edges();
     report_.figures.emplace_back("corners", static_cast<double>(corner_.size()));
-    report_.figures.emplace_back("largest radius over local feature size", largest_share_);
+    report_.figures.emplace_back("largest distance over local feature size", largest_share_);
     return std::move(report_);
   }
 
  private:
-  void check_radius(const ExactRecord::Corner& corner) {
+  void check_distance(const ExactRecord::Corner& corner) {
     const Index v = corner.vertex;
-    if (!(corner.radius > 0)) return report_.fail(corner_name(v) + " has no radius");
+    if (!(corner.distance > 0)) return report_.fail(corner_name(v) + " is not cut back");
     const auto present = [this](Index f) { return facets_.kept(f); };
-    const double reach = 3 * corner.radius * (1 - 1e-9);
+    const double reach = 3 * corner.distance * (1 - 1e-9);
     const double link = to_link_ ? acute_.distance_to_link(v, present) : HUGE_VAL;
     if (link < reach) {
-      report_.fail(corner_name(v) + " has a radius above a third of its distance from its link");
+      report_.fail(corner_name(v) +
+                   " is cut back by more than a third of its distance from its link");
     }
     // The link is nearer than the rest of the boundary of the facets here; the boundary of another
     // part of a facet may be nearer, beyond the part that is cut off.
     const std::string near = to_link_ ? "" : acute_.nearer_than(reach, v, present);
     if (!near.empty()) {
-      report_.fail(corner_name(v) + " has a radius above a third of its distance from " + near);
+      report_.fail(corner_name(v) + " is cut back by more than a third of its distance from " +
+                   near);
     }
-    if (limit_ > 0 && corner.radius > limit_ * kPlacement) {
-      report_.fail(corner_name(v) + " has a radius above --chamfer-radius");
+    if (limit_ > 0 && corner.distance > limit_ * kPlacement) {
+      report_.fail(corner_name(v) + " is cut back farther than --chamfer-radius");
     }
-    const double size = to_link_ ? link : acute_.local_feature_size(v, present, 4 * corner.radius);
-    largest_share_ = std::max(largest_share_, corner.radius / size);
+    const double size =
+        to_link_ ? link : acute_.local_feature_size(v, present, 4 * corner.distance);
+    largest_share_ = std::max(largest_share_, corner.distance / size);
   }
 
   void check_missing_edges() {

@@ -8,7 +8,7 @@ namespace tetproof::oracles {
 
 // What was promised of the chamfers.
 struct ChamferShape {
-  double limit = 0;           // the largest chamfer distance; 0: none
+  double limit = 0;           // the largest chamfer radius (--chamfer-radius); 0: none
   bool to_link = false;       // a third of the way to the link, not to the facets' boundary
   bool per_triangle = false;  // a bridge in every triangle, however wide
 };

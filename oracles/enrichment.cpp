@@ -143,7 +143,8 @@ class Enrichment {
   void collect_rounds() {
     std::unordered_map<Index, double> radius;
     std::unordered_map<Index, Index> made_for;
-    for (const ExactRecord::Corner& corner : record_.corners) radius[corner.vertex] = corner.radius;
+    for (const ExactRecord::Corner& corner : record_.corners)
+      radius[corner.vertex] = corner.distance;
     for (const auto& [point, vertex] : record_.chamfer_points) {
       made_for[point] = vertex;
       double& r = radius[vertex];

@@ -38,7 +38,7 @@ void scale(delmesher::ExactRecord& record, Scaling& scaled) {
     scaled(point.y);
     scaled(point.z);
   }
-  for (auto& corner : record.corners) scaled(corner.radius);
+  for (auto& corner : record.corners) scaled(corner.distance);
 }
 
 }  // namespace

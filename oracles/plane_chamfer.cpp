@@ -78,11 +78,11 @@ class ChamferChecker {
         promise_(promise) {}
 
   void run(VerifyReport& report) {
-    check_radii();
+    check_distances();
     check_need();
     check_cuts();
     check_drops();
-    for (OracleReport* r : {&radius_, &need_, &cuts_, &drops_}) {
+    for (OracleReport* r : {&distance_, &need_, &cuts_, &drops_}) {
       report.oracles.push_back(std::move(*r));
     }
   }
@@ -91,29 +91,29 @@ class ChamferChecker {
   const std::vector<Piece>& pieces() const { return graph_.pieces(); }
   static std::string corner_name(Index v) { return "corner " + std::to_string(v); }
 
-  void check_radii() {
+  void check_distances() {
     constexpr double kSlack = 1e-6;
     const std::size_t vertices = graph_.given().vertices.size();
-    radius_.checked += vertices;
+    distance_.checked += vertices;
     for (const auto& corner : record_.corners) {
-      ++radius_.checked;
+      ++distance_.checked;
       const std::string what = corner_name(corner.vertex);
       if (corner.vertex >= vertices) {
-        radius_.fail(what + " is no input vertex");
+        distance_.fail(what + " is no input vertex");
         continue;
       }
-      if (!radius_of_.emplace(corner.vertex, corner.radius).second) {
-        radius_.fail(what + " is listed twice");
+      if (!distance_of_.emplace(corner.vertex, corner.distance).second) {
+        distance_.fail(what + " is listed twice");
       }
-      if (!(corner.radius > 0) || !std::isfinite(corner.radius)) {
-        radius_.fail(what + " has no radius");
+      if (!(corner.distance > 0) || !std::isfinite(corner.distance)) {
+        distance_.fail(what + " is not cut back");
         continue;
       }
-      if (promise_.chamfer_radius > 0 && corner.radius > promise_.chamfer_radius * (1 + 1e-9)) {
-        radius_.fail(what + " is cut farther out than --chamfer-radius");
+      if (promise_.chamfer_radius > 0 && corner.distance > promise_.chamfer_radius * (1 + 1e-9)) {
+        distance_.fail(what + " is cut farther out than --chamfer-radius");
       }
-      if (3 * corner.radius > feature_size(corner.vertex) * (1 + kSlack)) {
-        radius_.fail(what + " is cut beyond a third of its feature size");
+      if (3 * corner.distance > feature_size(corner.vertex) * (1 + kSlack)) {
+        distance_.fail(what + " is cut beyond a third of its feature size");
       }
     }
   }
@@ -180,7 +180,7 @@ class ChamferChecker {
         may = may || side != 0;
         must = must || (side > 0 && dot * dot > certain * lengths);
       }
-      const bool chamfered = radius_of_.contains(v);
+      const bool chamfered = distance_of_.contains(v);
       if (chamfered && !may)
         need_.fail("vertex " + std::to_string(v) + " is chamfered without need");
       if (!chamfered && must)
@@ -202,14 +202,14 @@ class ChamferChecker {
         ++cuts_.checked;
         const Index v = at_a ? pieces()[p].a : pieces()[p].b;
         const double cut = at_a ? rests_[p].cut_a : rests_[p].cut_b;
-        const auto corner = radius_of_.find(v);
+        const auto corner = distance_of_.find(v);
         const std::string what = "segment " + std::to_string(pieces()[p].segment);
-        if (corner == radius_of_.end()) {
+        if (corner == distance_of_.end()) {
           if (cut != 0) {
             cuts_.fail(what + " is cut at vertex " + std::to_string(v) + ", no chamfered corner");
           }
         } else if (!(std::fabs(cut - corner->second) <= kSlack * corner->second)) {
-          cuts_.fail(what + " is not cut at the radius of " + corner_name(v));
+          cuts_.fail(what + " is not cut at the distance of " + corner_name(v));
         }
       }
     }
@@ -373,9 +373,9 @@ class ChamferChecker {
   const std::vector<PieceRest>& rests_;
   const WedgeSide& wedge_side_;
   const Promise& promise_;
-  std::map<Index, double> radius_of_;
+  std::map<Index, double> distance_of_;
   std::map<Index, double> sizes_;
-  OracleReport radius_{"refined-chamfer-radius", "vertices"},
+  OracleReport distance_{"refined-chamfer-distance", "vertices"},
       need_{"refined-chamfer-need", "vertices"}, cuts_{"refined-chamfer-cuts", "ends of pieces"},
       drops_{"refined-drops", "segments"};
 };

@@ -23,11 +23,12 @@ struct PieceRest {
 using WedgeSide = std::function<int(std::uint32_t v, std::uint32_t from, std::uint32_t to)>;
 
 // Adds to the report:
-// - refined-chamfer-radius: every corner is an input vertex, once; its radius is positive, at most
+// - refined-chamfer-distance: every corner is an input vertex, once; its distance is positive, at
+// most
 //   a third of its local feature size and at most --chamfer-radius;
 // - refined-chamfer-need: a vertex is chamfered exactly if two neighbouring kept pieces form an
 //   angle there below the promised threshold, on a side that is refined;
-// - refined-chamfer-cuts: kept pieces are cut at the radius of their chamfered ends, and nowhere
+// - refined-chamfer-cuts: kept pieces are cut at the distance of their chamfered ends, and nowhere
 //   else;
 // - refined-drops: a piece is missing exactly if its segment is called dropped, and has a reason to
 //   be: a channel narrower than tau beside it, or features closer to each other than doubles leave

@@ -485,7 +485,7 @@ class RecordReader {
     });
     reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = vertex();
-      corner.radius = reader_.number();
+      corner.distance = reader_.number();
     });
     reader_.list("dropped", record_.dropped, [&](auto& segment) { segment = number(); });
     reader_.expect("bounds");

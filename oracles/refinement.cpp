@@ -240,8 +240,8 @@ void Segments::check_gap(const InputSurface::Edge& edge, Index input_vertex, Ind
   }
   const double cut = exact::distance(points_, input_vertex, end);
   // Cut points are placed with a relative accuracy of 2^-20.
-  if (!(cut <= corner->second->radius * (1 + 0x1p-16))) {
-    report_.fail(edge_name(edge) + " is cut off farther than the radius at input vertex " +
+  if (!(cut <= corner->second->distance * (1 + 0x1p-16))) {
+    report_.fail(edge_name(edge) + " is cut off farther than the distance at input vertex " +
                  std::to_string(input_vertex));
   }
 }

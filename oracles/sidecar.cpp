@@ -39,7 +39,7 @@ class SidecarReader {
     reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = point();
       corner.threshold = reader_.number();
-      corner.radius = reader_.number();
+      corner.distance = reader_.number();
     });
     read_tets("refined", record_.refined);
     read_faces("refined_facets", record_.refined_facets);

@@ -136,8 +136,8 @@ TEST(PlaneLies, AboutARadiusThatReachesToASegment) {
   ASSERT_TRUE(good.all_passed()) << to_text(good);
   const auto tip = std::ranges::find(told.record.corners, 0U, &PlaneRecord::Corner::vertex);
   ASSERT_NE(tip, told.record.corners.end());
-  tip->radius = 0.2;  // 0.5 / 3 is what the segment leaves
-  EXPECT_TRUE(says(verdict_on(told), "refined-chamfer-radius", "corner 0 is cut beyond a third"));
+  tip->distance = 0.2;  // 0.5 / 3 is what the segment leaves
+  EXPECT_TRUE(says(verdict_on(told), "refined-chamfer-distance", "corner 0 is cut beyond a third"));
 }
 
 // A vertex lies on a segment; two edges of the refined mesh that end there are told as one.

@@ -116,7 +116,7 @@ TEST(Plane, CornersComeBackWithoutNeedles) {
     const auto& a = graph.vertices[corner.vertex];
     for (const auto& p : result.mesh.vertices) {
       if (p == a) continue;
-      EXPECT_GT(std::hypot(p[0] - a[0], p[1] - a[1]), corner.radius / 10) << corner.vertex;
+      EXPECT_GT(std::hypot(p[0] - a[0], p[1] - a[1]), corner.distance / 10) << corner.vertex;
     }
   }
   EXPECT_GT(result.statistics.final.min_angle, 2);
@@ -486,7 +486,7 @@ TEST(PlaneOracle, NoticesWhatIsWrong) {
   noticed("refined-sides", [](PlaneResult& r) {
     for (auto& t : r.exact.refined) t.side = PlaneRecord::Side::inside;
   });
-  noticed("refined-chamfer-radius", [](PlaneResult& r) { r.exact.corners[0].radius *= 2; });
+  noticed("refined-chamfer-distance", [](PlaneResult& r) { r.exact.corners[0].distance *= 2; });
   noticed("rounding", [](PlaneResult& r) { r.mesh.vertices[3][0] += 1e-9; });
   noticed("same-mesh", [](PlaneResult& r) { r.mesh.triangles.pop_back(); });
   noticed("promise", [](PlaneResult& r) { r.exact.acute = 1; });

@@ -199,7 +199,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
       ->check(CLI::IsMember({"on", "off"}));
   app.add_flag("--approximate", given.approximate,
                "stop before restoring the input: a mesh of the chamfered surface");
-  add_number(app, given, "chamfer-radius", "largest chamfer distance", positive(kBounds.length));
+  add_number(app, given, "chamfer-radius", "how far a chamfer may reach", positive(kBounds.length));
   add_number(app, given, "max-edge", "largest edge", positive(kBounds.length));
   add_as_paper(app, given);
   app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
@@ -233,7 +233,7 @@ void add_plane(CLI::App& app, Command& command, Given& given) {
              kPlaneBounds.acute);
   app.add_flag("--approximate", given.approximate,
                "stop before restoring the input: a mesh of the chamfered graph");
-  add_number(app, given, "chamfer-radius", "largest chamfer distance",
+  add_number(app, given, "chamfer-radius", "how far a chamfer may reach",
              positive(kPlaneBounds.length));
   add_number(app, given, "max-edge", "largest edge", positive(kPlaneBounds.length));
   app.add_option_function<std::string>(

@@ -52,7 +52,7 @@ struct PlaneRecord {
   std::vector<ExactPoint> points;  // the input vertices first, in input order
   struct Corner {                  // a chamfered input vertex
     std::uint32_t vertex;
-    double radius;  // chamfer distance along its segments, rounded to nearest
+    double distance;  // chamfer distance along its segments, rounded to nearest
   };
   std::vector<Corner> corners;
   std::vector<std::uint32_t> dropped;  // input segments that the refinement was spared

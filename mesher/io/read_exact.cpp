@@ -205,7 +205,7 @@ void ExactReader::read_corner() {
   ExactRecord::Corner corner{};
   corner.vertex = point();
   corner.threshold = number();
-  corner.radius = number();
+  corner.distance = number();
   record_.corners.push_back(corner);
 }
 

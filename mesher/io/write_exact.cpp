@@ -123,7 +123,7 @@ void write_complex(TextSink& out, const ExactRecord& record) {
     out.integers(corner.vertex);
     out.hex(corner.threshold);
     out.text(" ");
-    out.hex(corner.radius);
+    out.hex(corner.distance);
     out.text("\n");
   }
 }

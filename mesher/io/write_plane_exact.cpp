@@ -49,7 +49,7 @@ WriteStatus write_plane_exact(OutputSet& outputs, const std::string& path,
   out->section("corners", record.corners.size());
   for (const auto& corner : record.corners) {
     out->integers(corner.vertex);
-    out->hex(corner.radius);
+    out->hex(corner.distance);
     line(*out);
   }
   out->section("dropped", record.dropped.size());

@@ -28,7 +28,7 @@ class Chamferer {
         seen_(base_.size(), 0) {}
 
   // No double is beside a corner with a chamfer below that, whose points are placed to 2^-20 of it.
-  static constexpr double kLeastRadius = 0x1p-1040;
+  static constexpr double kLeastDistance = 0x1p-1040;
 
   Chamfered run() {
     constexpr std::uint64_t kRounds = 50;
@@ -54,7 +54,7 @@ class Chamferer {
   // False if a corner was spared, which may change others.
   bool find_corners() {
     bool all = true;
-    radius_.assign(graph_.vertices, -1);
+    distance_.assign(graph_.vertices, -1);
     for (VertexId v = 0; v < graph_.vertices; ++v) {
       control_.poll(points_.size());
       if (spared_.vertex[v] != 0 || !acute(v)) continue;
@@ -64,11 +64,11 @@ class Chamferer {
                      : feature_size_.emplace(v, feature_size(v)).first->second;
       r /= 3;
       if (options_.max_radius > 0) r = std::min(r, options_.max_radius);
-      if (r < kLeastRadius) {
+      if (r < kLeastDistance) {
         spare(v);
         all = false;
       }
-      radius_[v] = r;
+      distance_[v] = r;
     }
     return all;
   }
@@ -169,14 +169,14 @@ class Chamferer {
     const Line whole{point(piece.a), point(piece.b)};
     const double length = whole.length();
     const auto cut_at = [&](VertexId v) {
-      return v < graph_.vertices && radius_[v] > 0 && length > 0 ? radius_[v] / length : 0.0;
+      return v < graph_.vertices && distance_[v] > 0 && length > 0 ? distance_[v] / length : 0.0;
     };
     return {whole.at(cut_at(piece.a)), whole.at(1 - cut_at(piece.b))};
   }
 
   bool share_vertex(const Piece& p, const Piece& q) const {
     for (const VertexId v : {p.a, p.b}) {
-      if ((v == q.a || v == q.b) && !(v < graph_.vertices && radius_[v] > 0)) return true;
+      if ((v == q.a || v == q.b) && !(v < graph_.vertices && distance_[v] > 0)) return true;
     }
     return false;
   }
@@ -316,8 +316,8 @@ class Chamferer {
     result_.vertex_kept.assign(graph_.vertices, 0);
     for (VertexId v = 0; v < graph_.vertices; ++v) {
       const bool alone = attached[v] == 1;  // all its pieces are dropped
-      if (radius_[v] > 0) {
-        result_.corners.push_back({v, radius_[v]});
+      if (distance_[v] > 0) {
+        result_.corners.push_back({v, distance_[v]});
       } else {
         result_.vertex_kept[v] = !alone && spared_.vertex[v] == 0;
       }
@@ -326,16 +326,16 @@ class Chamferer {
 
   // The end of a piece at its vertex v: v, or a new point beside it.
   VertexId cut_point(PieceId id, VertexId v) {
-    if (v >= graph_.vertices || !(radius_[v] > 0)) return v;
+    if (v >= graph_.vertices || !(distance_[v] > 0)) return v;
     const Piece& piece = graph_.pieces[id];
     const Point p = point(v), q = point(v == piece.a ? piece.b : piece.a);
-    const double t = radius_[v] / distance(p, q);
+    const double t = distance_[v] / distance(p, q);
     const double dx = t * (q[0] - p[0]), dy = t * (q[1] - p[1]);
     const Vec3 target = {p[0] + dx, p[1] + dy, 0};
-    // Far from the origin doubles are coarser than the radius asks for.
+    // Far from the origin doubles are coarser than the distance asks for.
     const Vec3 rest = {dx - (target[0] - p[0]), dy - (target[1] - p[1]), 0};
     const VertexId c = points_.add(
-        place_on_segment(points_, piece.a, piece.b, target, radius_[v] * 0x1p-20, true, rest));
+        place_on_segment(points_, piece.a, piece.b, target, distance_[v] * 0x1p-20, true, rest));
     result_.gaps.push_back({v, c, id});
     return c;
   }
@@ -354,7 +354,7 @@ class Chamferer {
   Spared& spared_;
   Control& control_;
   Chamfered result_;
-  std::vector<double> radius_;  // per input vertex; negative: not acute
+  std::vector<double> distance_;  // per input vertex; negative: not acute
   std::map<VertexId, double> feature_size_;
   std::vector<EdgeId> star_;
   std::vector<Spoke> spokes_;

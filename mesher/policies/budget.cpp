@@ -28,8 +28,8 @@ std::string over_budget(double predicted, double tau, std::uint64_t budget) {
 
 }  // namespace
 
-bool Budget::allows(const chamfer::ChamferedSurface& surface, Session& session,
-                    Recorder& recorder) {
+bool Budget::raise_tau_over_budget(const chamfer::ChamferedSurface& surface, Session& session,
+                                   Recorder& recorder) {
   // Beyond this, whole features of the model go.
   constexpr double kLargestTau = 0.05, kLeastTau = 1e-5;
   const std::uint64_t budget = session.options.budget;
@@ -37,13 +37,13 @@ bool Budget::allows(const chamfer::ChamferedSurface& surface, Session& session,
   recorder.predicted(predicted);
   if (budget == 0 || predicted <= static_cast<double>(budget)) {
     session.control.predict(predicted);
-    return true;
+    return false;
   }
   if (tau_ > kLargestTau) {
     throw Stopped{{StatusCode::limit_reached, over_budget(predicted, tau_, budget), Limit::size}};
   }
   tau_ = std::max(2 * tau_, kLeastTau);
-  return false;
+  return true;
 }
 
 }  // namespace delmesher::policies

@@ -16,9 +16,11 @@ class Budget {
   // In force: a fraction of the diagonal.
   double tau() const { return tau_; }
 
-  // Is the mesh of that surface, which was filtered with tau(), predicted to keep to the budget? If
-  // not, tau() is doubled; throws Stopped where it is too large for that.
-  bool allows(const chamfer::ChamferedSurface& surface, Session& session, Recorder& recorder);
+  // Doubles tau() if the mesh of that surface, which was filtered with tau(), is predicted to
+  // exceed the budget; throws Stopped where tau() is too large for that. Returns whether it was
+  // doubled. Otherwise the prediction is told to Session::control.
+  bool raise_tau_over_budget(const chamfer::ChamferedSurface& surface, Session& session,
+                             Recorder& recorder);
 
  private:
   double tau_;

@@ -19,7 +19,7 @@ std::pair<std::uint64_t, std::uint64_t> defects(const Result& result) {
 
 }  // namespace
 
-bool FinerPlanes::wants_run_after(const Result& best) {
+bool FinerPlanes::plan_run_after(const Result& best) {
   const Statistics& s = best.statistics;
   if (!best.status.ok() || s.planar_groups == 0) return false;
   if (!s.planar_given_up && defects(best) == kNoDefects) return false;
@@ -38,7 +38,7 @@ bool FinerPlanes::wants_run_after(const Result& best) {
   return true;
 }
 
-void FinerPlanes::compare(Result result, Result& best) {
+void FinerPlanes::keep_better(Result result, Result& best) {
   const bool interrupted = result.status.code == StatusCode::interrupted;
   const bool better = result.status.ok() && defects(result) < defects(best);
   const Statistics& s = best.statistics;

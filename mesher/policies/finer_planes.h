@@ -21,15 +21,16 @@ class FinerPlanes {
   explicit FinerPlanes(const Options& options)
       : options_(options), time_limit_(options.time_limit_seconds), exact_(options.planar == 0) {}
 
-  // Is another run wanted, with options()? `best` is the best result so far.
-  bool wants_run_after(const Result& best);
+  // Plans another run, with options(), where `best`, the best result so far, asks for one. Returns
+  // whether it does.
+  bool plan_run_after(const Result& best);
   const Options& options() const { return options_; }
-  // Is that run one without a stand-in?
+  // Is the run that was planned one without a stand-in?
   bool directly() const { return options_.planar == 0; }
   // `best` becomes the result of that run if it is better, if that run was interrupted, or if the
   // run of `best` had to give up. If it does not, its statistics name the limit that ended that
   // run.
-  static void compare(Result result, Result& best);
+  static void keep_better(Result result, Result& best);
 
  private:
   using Clock = std::chrono::steady_clock;

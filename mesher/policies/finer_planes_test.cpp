@@ -17,19 +17,19 @@ Result result_with(std::uint64_t inverted, std::uint64_t flat) {
 }
 
 TEST(FinerPlanes, NothingIsWantedAfterAGoodMesh) {
-  EXPECT_FALSE(FinerPlanes({}).wants_run_after(result_with(0, 0)));
+  EXPECT_FALSE(FinerPlanes({}).plan_run_after(result_with(0, 0)));
 }
 
 TEST(FinerPlanes, NothingIsWantedWherePlanesAreNotTheCause) {
   Result exact = result_with(1, 0);
   exact.statistics.planar_groups = 0;
-  EXPECT_FALSE(FinerPlanes({}).wants_run_after(exact));
+  EXPECT_FALSE(FinerPlanes({}).plan_run_after(exact));
 }
 
 TEST(FinerPlanes, NothingIsWantedAfterAFailure) {
   Result failed = result_with(1, 0);
   failed.status = {StatusCode::limit_reached, "out of memory", Limit::memory};
-  EXPECT_FALSE(FinerPlanes({}).wants_run_after(failed));
+  EXPECT_FALSE(FinerPlanes({}).plan_run_after(failed));
 }
 
 // A vertex may be 0.5 from its plane, so the surface 1, a quarter of the diagonal.
@@ -38,36 +38,36 @@ TEST(FinerPlanes, AThirtySecondOfTheBoundThenNoPlanes) {
   options.tau = 0.25;
   FinerPlanes planes(options);
   const Result bad = result_with(0, 2);
-  ASSERT_TRUE(planes.wants_run_after(bad));
+  ASSERT_TRUE(planes.plan_run_after(bad));
   EXPECT_EQ(planes.options().planar, 0.25 / 32);
   EXPECT_EQ(planes.options().tau, 0.25);
-  ASSERT_TRUE(planes.wants_run_after(bad));
+  ASSERT_TRUE(planes.plan_run_after(bad));
   EXPECT_EQ(planes.options().planar, 0);
-  EXPECT_FALSE(planes.wants_run_after(bad));
+  EXPECT_FALSE(planes.plan_run_after(bad));
 }
 
 TEST(FinerPlanes, AllRunsShareTheTimeLimit) {
   Options options;
   options.time_limit_seconds = 1e6;
   FinerPlanes planes(options);
-  ASSERT_TRUE(planes.wants_run_after(result_with(1, 0)));
+  ASSERT_TRUE(planes.plan_run_after(result_with(1, 0)));
   EXPECT_LT(planes.options().time_limit_seconds, 1e6);
   options.time_limit_seconds = 1e-300;
   FinerPlanes late(options);
-  EXPECT_FALSE(late.wants_run_after(result_with(1, 0)));
+  EXPECT_FALSE(late.plan_run_after(result_with(1, 0)));
 }
 
 TEST(FinerPlanes, TheBestResultCounts) {
   Result best = result_with(2, 1);
-  FinerPlanes::compare(result_with(3, 0), best);
+  FinerPlanes::keep_better(result_with(3, 0), best);
   EXPECT_EQ(best.statistics.rounding_inverted, 2U);
   EXPECT_EQ(best.statistics.planar_limit, Limit::none);
   Result failed = result_with(0, 0);
   failed.status = {StatusCode::limit_reached, "vertex limit reached", Limit::size};
-  FinerPlanes::compare(failed, best);
+  FinerPlanes::keep_better(failed, best);
   EXPECT_EQ(best.statistics.rounding_inverted, 2U);
   EXPECT_EQ(best.statistics.planar_limit, Limit::size);
-  FinerPlanes::compare(result_with(1, 1), best);
+  FinerPlanes::keep_better(result_with(1, 1), best);
   EXPECT_EQ(best.statistics.rounding_inverted, 1U);
 }
 
@@ -75,12 +75,12 @@ TEST(FinerPlanes, TheBestResultCounts) {
 TEST(FinerPlanes, RepairsThatGiveUpExactCoordinatesAreADefect) {
   Result best = result_with(0, 0);
   best.statistics.rounding_inexact = 2;
-  ASSERT_TRUE(FinerPlanes({}).wants_run_after(best));
-  FinerPlanes::compare(result_with(1, 0), best);
+  ASSERT_TRUE(FinerPlanes({}).plan_run_after(best));
+  FinerPlanes::keep_better(result_with(1, 0), best);
   EXPECT_EQ(best.statistics.rounding_inexact, 2U);
   Result other = result_with(0, 0);
   other.statistics.rounding_inexact = 1;
-  FinerPlanes::compare(other, best);
+  FinerPlanes::keep_better(other, best);
   EXPECT_EQ(best.statistics.rounding_inexact, 1U);
 }
 
@@ -93,30 +93,30 @@ TEST(FinerPlanes, WhatWasGivenUpIsMeshedDirectly) {
   best.statistics.planar_given_up = true;
   best.statistics.diagonals = 9;
   best.statistics.diagonals_missing = 2;
-  ASSERT_TRUE(planes.wants_run_after(best));
+  ASSERT_TRUE(planes.plan_run_after(best));
   EXPECT_TRUE(planes.directly());
   Result direct = result_with(1, 0);
   direct.statistics.planar_groups = 0;
   Result failed;
   failed.status = {StatusCode::limit_reached, "vertex limit reached", Limit::size};
   Result of_failure = best;
-  FinerPlanes::compare(failed, of_failure);
+  FinerPlanes::keep_better(failed, of_failure);
   EXPECT_EQ(of_failure.status.code, StatusCode::limit_reached);
-  FinerPlanes::compare(direct, best);
+  FinerPlanes::keep_better(direct, best);
   EXPECT_EQ(best.statistics.rounding_inverted, 1U);
   EXPECT_TRUE(best.statistics.planar_given_up);
   EXPECT_EQ(best.statistics.diagonals, 9U);
   EXPECT_EQ(best.statistics.diagonals_missing, 2U);
-  EXPECT_FALSE(planes.wants_run_after(best));
+  EXPECT_FALSE(planes.plan_run_after(best));
 }
 
 // The last run of the default has no stand-in either.
 TEST(FinerPlanes, WithoutPlanesMeansDirectly) {
   FinerPlanes planes({});
   const Result bad = result_with(0, 2);
-  ASSERT_TRUE(planes.wants_run_after(bad));
+  ASSERT_TRUE(planes.plan_run_after(bad));
   EXPECT_FALSE(planes.directly());
-  ASSERT_TRUE(planes.wants_run_after(bad));
+  ASSERT_TRUE(planes.plan_run_after(bad));
   EXPECT_TRUE(planes.directly());
 }
 
@@ -124,9 +124,9 @@ TEST(FinerPlanes, AnInterruptionIsReported) {
   Result best = result_with(1, 0), interrupted;
   interrupted.status = {StatusCode::interrupted, "interrupted"};
   FinerPlanes planes({});
-  FinerPlanes::compare(interrupted, best);
+  FinerPlanes::keep_better(interrupted, best);
   EXPECT_EQ(best.status.code, StatusCode::interrupted);
-  EXPECT_FALSE(planes.wants_run_after(best));
+  EXPECT_FALSE(planes.plan_run_after(best));
 }
 
 }  // namespace

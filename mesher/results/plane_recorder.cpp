@@ -58,7 +58,7 @@ void Recorder::record_refined(const InputGraph& graph, const Chamfered& chamfere
   record.corners = chamfered.corners;
   for (PlaneRecord::Corner& corner : record.corners) {
     corner.vertex = graph.number_of(corner.vertex);
-    corner.radius = std::ldexp(corner.radius, graph.scale);
+    corner.distance = std::ldexp(corner.distance, graph.scale);
   }
   record_triangles(graph, refined.mesh, refined.side, record.refined, record.refined_edges);
 }

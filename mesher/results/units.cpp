@@ -39,7 +39,7 @@ void scale(ExactRecord& record, int exponent) {
   record.parameters.tolerance = std::ldexp(record.parameters.tolerance, exponent);
   record.parameters.planar = std::ldexp(record.parameters.planar, exponent);
   for (ExactRecord::Corner& corner : record.corners) {
-    corner.radius = std::ldexp(corner.radius, exponent);
+    corner.distance = std::ldexp(corner.distance, exponent);
   }
 }
 

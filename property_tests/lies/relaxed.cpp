@@ -41,12 +41,12 @@ const Lie kRelaxed[] = {
      }},
     {"radii of 2^60", "refined-chamfer-need",
      [](Told& t) {
-       for (auto& corner : t.record.corners) corner.radius = 0x1p60;
+       for (auto& corner : t.record.corners) corner.distance = 0x1p60;
      }},
-    {"a radius half as large again", "refined-chamfer-need",
-     [](Told& t) { t.record.corners.front().radius *= 1.5; }},
-    {"a radius of nothing", "refined-chamfer-need",
-     [](Told& t) { t.record.corners.front().radius = 0; }},
+    {"a distance half as large again", "refined-chamfer-need",
+     [](Told& t) { t.record.corners.front().distance *= 1.5; }},
+    {"a distance of nothing", "refined-chamfer-need",
+     [](Told& t) { t.record.corners.front().distance = 0; }},
     {"all relaxed at once", "promise",
      [](Told& t) {
        t.record.parameters = {};
@@ -71,12 +71,12 @@ const Lie kRelaxed[] = {
     {"tolerance negative", "promise",
      [](Told& t) { t.record.parameters.tolerance = -t.record.parameters.tolerance; }},
     {"tolerance denormal", "promise", [](Told& t) { t.record.parameters.tolerance = 0x1p-1070; }},
-    {"a radius that is no number", "sidecar",
-     [](Told& t) { t.record.corners.front().radius = std::nan(""); }},
-    {"a radius negative", "refined-chamfer-need",
-     [](Told& t) { t.record.corners.front().radius *= -1; }},
-    {"a radius denormal", "refined-chamfer-extent",
-     [](Told& t) { t.record.corners.front().radius = 0x1p-1070; }},
+    {"a distance that is no number", "sidecar",
+     [](Told& t) { t.record.corners.front().distance = std::nan(""); }},
+    {"a distance negative", "refined-chamfer-need",
+     [](Told& t) { t.record.corners.front().distance *= -1; }},
+    {"a distance denormal", "refined-chamfer-extent",
+     [](Told& t) { t.record.corners.front().distance = 0x1p-1070; }},
     {"empty balls that the mesh does not have", "refined-encroachment",
      [](Told& t) {
        Options options = honest_options();
@@ -96,8 +96,8 @@ const Lie kRelaxed[] = {
      [](Told& t) { t.record.parameters.planar = -0x1p-30; }},
     {"threshold of one corner raised to a right angle", "refined-chamfer-angles",
      [](Told& t) { t.record.corners.front().threshold = 90; }},
-    {"a radius a ten-thousandth smaller", "refined-chamfer-extent",
-     [](Told& t) { t.record.corners.front().radius *= 0.9999; }},
+    {"a distance a ten-thousandth smaller", "refined-chamfer-extent",
+     [](Told& t) { t.record.corners.front().distance *= 0.9999; }},
     {"delta denormal", "promise", [](Told& t) { t.record.parameters.delta = 0x1p-1070; }},
     // Done in the mesher's own way, and told to be as the paper says.
     {"chamfers beyond a third of the way to the link", "refined-chamfer-need",

@@ -226,11 +226,11 @@ const RecordDamage kRefinedDamages[] = {
     {"chamfered corner not told", "refined-segments", [](auto& r) { r.corners.pop_back(); }},
     {"chamfer opened too wide along an edge", "refined-segments",
      [](auto& r) {
-       for (auto& corner : r.corners) corner.radius *= 0.75;
+       for (auto& corner : r.corners) corner.distance *= 0.75;
      }},
     {"chamfer opened too wide inside a facet", "refined-chamfer-extent",
      [](auto& r) {
-       for (auto& corner : r.corners) corner.radius *= 0.75;
+       for (auto& corner : r.corners) corner.distance *= 0.75;
      }},
     {"chamfer point for another corner", "refined-chamfer-extent",
      [](auto& r) { r.chamfer_points[0][1] = r.chamfer_points[0][1] == 0 ? 5 : 0; }},
@@ -331,8 +331,8 @@ TEST(RefinedFigures, AreThoseOfTheRecord) {
   const OracleReport& need = *report.find("refined-chamfer-need");
   EXPECT_GT(good.record.corners.size(), 0U);
   EXPECT_EQ(figure_of(need, "corners"), good.record.corners.size());
-  EXPECT_GT(figure_of(need, "largest radius over local feature size"), 0);
-  EXPECT_LE(figure_of(need, "largest radius over local feature size"), (1 + 1e-9) / 3);
+  EXPECT_GT(figure_of(need, "largest distance over local feature size"), 0);
+  EXPECT_LE(figure_of(need, "largest distance over local feature size"), (1 + 1e-9) / 3);
 }
 
 // A tetrahedron with an edge of 1.2 across from one of 1.5, ten apart. No features are closer than

@@ -160,7 +160,7 @@ const Lie kConsistent[] = {
      [](Told& t) { claim_for(t, [](Options& o) { o.delta = 5; }); }},
     {"a run with corners below 90 degrees chamfered", "refined-chamfer-need",
      [](Told& t) { claim_for(t, [](Options& o) { o.acute = 90; }); }},
-    {"a run with chamfers wider than promised", "refined-chamfer-radius",
+    {"a run with chamfers wider than promised", "refined-chamfer-distance",
      [](Told& t) { t.how.promised.chamfer_radius = 0x1p-8; }},
     {"a run with edges longer than promised", "refined-edges",
      [](Told& t) { t.how.promised.max_edge = 0x1p-4; }},
