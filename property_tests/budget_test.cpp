@@ -16,30 +16,16 @@ using delmesher::Result;
 using delmesher::StatusCode;
 using delmesher::Surface;
 
-void add_box(Surface& surface, const std::array<double, 3>& lo, const std::array<double, 3>& hi) {
-  const auto base = static_cast<std::uint32_t>(surface.vertices.size());
-  for (unsigned i = 0; i < 8; ++i) {
-    surface.vertices.push_back({(i & 4U) != 0 ? hi[0] : lo[0], (i & 2U) != 0 ? hi[1] : lo[1],
-                                (i & 1U) != 0 ? hi[2] : lo[2]});
-  }
-  constexpr std::uint32_t kFaces[12][3] = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5},
-                                           {0, 4, 5}, {0, 5, 1}, {2, 3, 7}, {2, 7, 6},
-                                           {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
-  for (const auto& f : kFaces) {
-    surface.triangles.push_back({base + f[0], base + f[1], base + f[2]});
-  }
-}
-
 // Two facets of 0.3 diagonals at a gap, in a model of diagonal 1: of one plate, or of two boxes.
 Surface thin(double gap, bool plate) {
   Surface surface;
   if (plate) {
-    add_box(surface, {0, 0, 0}, {0.3, 0.3, gap});
+    samples::add_box(surface, {0, 0, 0}, {0.3, 0.3, gap});
   } else {
-    add_box(surface, {0, 0, 0}, {0.3, 0.3, 0.2});
-    add_box(surface, {0, 0, 0.2 + gap}, {0.3, 0.3, 0.4});
+    samples::add_box(surface, {0, 0, 0}, {0.3, 0.3, 0.2});
+    samples::add_box(surface, {0, 0, 0.2 + gap}, {0.3, 0.3, 0.4});
   }
-  add_box(surface, {0.5, 0.5, 0.5}, {0.577, 0.577, 0.577});
+  samples::add_box(surface, {0.5, 0.5, 0.5}, {0.577, 0.577, 0.577});
   return surface;
 }
 
@@ -92,7 +78,7 @@ TEST(Budget, PredictionsGrowAsTheIntegralSays) {
 
 TEST(Budget, WhatCannotFitIsRefusedWithAReason) {
   Surface surface;
-  add_box(surface, {0, 0, 0}, {1, 1, 1});
+  samples::add_box(surface, {0, 0, 0}, {1, 1, 1});
   Options options;
   options.max_edge = 0.01;  // no filter helps against this
   options.budget = 1000;
@@ -172,7 +158,7 @@ TEST(Budget, PredictionsAreAboutTheIntegral) {
   std::vector<double> ratios;
   for (const auto& side : sides) {
     Surface surface;
-    add_box(surface, {0, 0, 0}, side);
+    samples::add_box(surface, {0, 0, 0}, side);
     const Result result = delmesher::tetrahedralize(surface, Options());
     ASSERT_TRUE(result.status.ok());
     ratios.push_back(result.statistics.predicted_tetrahedra / integral_over_box(side));
@@ -187,8 +173,8 @@ TEST(Budget, PredictionsAreAboutTheIntegral) {
 TEST(Budget, PredictionDoesNotDependOnTheOrder) {
   const auto predicted = [](std::size_t first) {
     Surface surface;
-    add_box(surface, {0, 0, 0}, {2, 1, 0.5});
-    add_box(surface, {2.25, 0, 0}, {3, 1, 1});
+    samples::add_box(surface, {0, 0, 0}, {2, 1, 0.5});
+    samples::add_box(surface, {2.25, 0, 0}, {3, 1, 1});
     std::rotate(surface.triangles.begin(),
                 surface.triangles.begin() + static_cast<std::ptrdiff_t>(first),
                 surface.triangles.end());
@@ -206,8 +192,8 @@ TEST(Budget, PredictionDoesNotDependOnTheOrder) {
 TEST(Budget, PredictionDoesNotDependOnThePlace) {
   const auto predicted = [](double x, double y, double z) {
     Surface surface;
-    add_box(surface, {x, y, z}, {x + 2, y + 1, z + 0.5});
-    add_box(surface, {x + 2.25, y, z}, {x + 3, y + 1, z + 1});
+    samples::add_box(surface, {x, y, z}, {x + 2, y + 1, z + 0.5});
+    samples::add_box(surface, {x + 2.25, y, z}, {x + 3, y + 1, z + 1});
     const Result result = delmesher::tetrahedralize(surface, Options());
     EXPECT_TRUE(result.status.ok());
     return result.statistics.predicted_tetrahedra;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "mesher/delmesher.h"
+#include "mesher/surface/test_surfaces.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 #include "property_tests/score_table.h"
@@ -18,22 +19,16 @@ namespace tetproof {
 namespace {
 
 using namespace oracles;  // NOLINT
+namespace test_surfaces = delmesher::surface::test_surfaces;
 using delmesher::ExactPoint;
 using delmesher::ExactRecord;
 using delmesher::Options;
 using delmesher::Surface;
 
-// Rotates by three angles, in doubles; then applies `round` to every coordinate.
-Surface rotated(Surface s, const std::function<double(double)>& round) {
-  const auto turn = [](double& x, double& y, double angle) {
-    const double u = x * std::cos(angle) - y * std::sin(angle);
-    y = x * std::sin(angle) + y * std::cos(angle);
-    x = u;
-  };
+// In doubles; then applies `round` to every coordinate.
+Surface rotated(const Surface& surface, const std::function<double(double)>& round) {
+  Surface s = test_surfaces::rotated(surface);
   for (Position& p : s.vertices) {
-    turn(p[1], p[2], 0.3);
-    turn(p[2], p[0], 0.7);
-    turn(p[0], p[1], 1.1);
     for (double& x : p) x = round(x);
   }
   return s;
@@ -207,22 +202,7 @@ TEST_P(Rotated, WithPlanarZeroTheSurfaceIsKeptToTheLastBit) {
 
 // Its two ends are fans of needles on an ellipse.
 Surface flat_prism(std::uint32_t n, double height, double width) {
-  Surface s;
-  for (const double z : {0.0, height}) {
-    for (std::uint32_t k = 0; k < n; ++k) {
-      const double angle = 6.283185307179586 * k / n;
-      s.vertices.push_back({std::cos(angle), width * std::sin(angle), z});
-    }
-  }
-  for (std::uint32_t k = 0; k < n; ++k) {
-    const std::uint32_t next = (k + 1) % n;
-    s.triangles.push_back({k, next, n + next});
-    s.triangles.push_back({k, n + next, n + k});
-    if (k == 0 || next == 0) continue;
-    s.triangles.push_back({0, next, k});
-    s.triangles.push_back({n, n + k, n + next});
-  }
-  return s;
+  return test_surfaces::prism(test_surfaces::ellipse(n, width), height);
 }
 
 struct Part {

@@ -331,25 +331,40 @@ bool as_promised(const oracles::VerifyReport& report, const oracles::Promise& pr
          stand_in->passed() && report.deviation_share <= promise.planar_share();
 }
 
-delmesher::Surface wedge_and_slab() {
+delmesher::Surface triangular_prism(const std::array<std::array<double, 2>, 3>& base, double bottom,
+                                    double top) {
   delmesher::Surface s;
-  s.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0.2, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0.2, 1}};
+  for (const double z : {bottom, top}) {
+    for (const auto& [x, y] : base) s.vertices.push_back({x, y, z});
+  }
   s.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
                  {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
-  for (int z = 0; z < 2; ++z) {
-    for (const auto& [x, y] : {std::pair(2.0, 0.0), {3.0, 0.0}, {3.0, 1.0}, {2.0, 1.0}}) {
-      s.vertices.push_back({x, y, z * 0x1p-10});
+  return s;
+}
+
+void add_box(delmesher::Surface& surface, const std::array<double, 3>& low,
+             const std::array<double, 3>& high) {
+  const auto first = static_cast<std::uint32_t>(surface.vertices.size());
+  for (const double z : {low[2], high[2]}) {
+    for (const auto& [x, y] :
+         {std::pair(low[0], low[1]), {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}}) {
+      surface.vertices.push_back({x, y, z});
     }
   }
-  for (const auto& [a, b, c, d] : {std::array{6U, 9U, 8U, 7U},
-                                   {10U, 11U, 12U, 13U},
-                                   {6U, 7U, 11U, 10U},
-                                   {7U, 8U, 12U, 11U},
-                                   {8U, 9U, 13U, 12U},
-                                   {9U, 6U, 10U, 13U}}) {
-    s.triangles.push_back({a, b, c});
-    s.triangles.push_back({a, c, d});
+  for (const auto& [a, b, c, d] : {std::array{0U, 3U, 2U, 1U},
+                                   {4U, 5U, 6U, 7U},
+                                   {0U, 1U, 5U, 4U},
+                                   {1U, 2U, 6U, 5U},
+                                   {2U, 3U, 7U, 6U},
+                                   {3U, 0U, 4U, 7U}}) {
+    surface.triangles.push_back({first + a, first + b, first + c});
+    surface.triangles.push_back({first + a, first + c, first + d});
   }
+}
+
+delmesher::Surface wedge_and_slab() {
+  delmesher::Surface s = triangular_prism({{{0, 0}, {1, 0}, {1, 0.2}}}, 0, 1);
+  add_box(s, {2, 0, 0}, {3, 1, 0x1p-10});
   return s;
 }
 
@@ -394,11 +409,8 @@ std::vector<NamedSurface> surfaces(std::uint64_t seed) {
   delmesher::Surface two = star(seed + 1, 1, 0.5);
   append(two, prism(4, 1, 0), {3, 0.25, 0});
   list.push_back({"two_components", two});
-  delmesher::Surface wedge;  // dihedral angles from very sharp to very blunt
-  wedge.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 0.02, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0.02, 1}};
-  wedge.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
-                     {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
-  list.push_back({"wedge", wedge});
+  // Dihedral angles from very sharp to very blunt.
+  list.push_back({"wedge", triangular_prism({{{0, 0}, {1, 0}, {1, 0.02}}}, 0, 1)});
   return list;
 }
 

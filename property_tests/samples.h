@@ -2,6 +2,7 @@
 // mesher.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <iosfwd>
@@ -65,6 +66,13 @@ bool exact_or_rounded(const oracles::VerifyReport& report);
 // The same; or the verdict is deviating by at most the promise, if facets were made planar and the
 // stand-in oracle has passed.
 bool as_promised(const oracles::VerifyReport& report, const oracles::Promise& promise);
+
+// Over a counter-clockwise triangle. Triangles 2 and 3 are the side of its first edge, and so on.
+delmesher::Surface triangular_prism(const std::array<std::array<double, 2>, 3>& base, double bottom,
+                                    double top);
+// One component more.
+void add_box(delmesher::Surface& surface, const std::array<double, 3>& low,
+             const std::array<double, 3>& high);
 
 // A wedge with an edge of 11 degrees, and a slab as thin as 2^-10 beside it, one unit long each.
 delmesher::Surface wedge_and_slab();

@@ -161,13 +161,19 @@ TEST(Figure3, NaiveChamferingLeavesAcuteAnglesAtTheHole) {
   EXPECT_NEAR(figure(report, "smallest angle"), 60, 15);
 }
 
+// Chamfers all that is acute, and drops nothing.
+Options every_corner(bool simplify_bridges) {
+  Options options;
+  options.acute = options.corner = 90;
+  options.tau = 0;
+  options.want_exact = true;
+  options.simplify_bridges = simplify_bridges;
+  return options;
+}
+
 TEST(Figure3, OrthogonalChamferingLeavesNone) {
   for (const bool simplify : {false, true}) {
-    Options options;
-    options.acute = options.corner = 90;
-    options.tau = 0;
-    options.want_exact = true;
-    options.simplify_bridges = simplify;
+    const Options options = every_corner(simplify);
     const Surface surface = figure_3();
     const Result result = delmesher::tetrahedralize(surface, options);
     ASSERT_TRUE(result.status.ok()) << result.status.message;
@@ -211,11 +217,7 @@ double angle_at(const oracles::ExactPoints& points, Index apex, Index p, Index q
 TEST(AppendixB, Statement1HoldsOnTheMeshersBridges) {
   // The lifted point is acute, but its edges are not; those of the base are.
   const Surface surface = figure_3();
-  Options options;
-  options.acute = options.corner = 90;
-  options.tau = 0;
-  options.want_exact = true;
-  options.simplify_bridges = false;
+  const Options options = every_corner(false);
   const Result result = delmesher::tetrahedralize(surface, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   const delmesher::ExactRecord& r = result.exact;
@@ -244,15 +246,8 @@ TEST(AppendixB, Statement1HoldsOnTheMeshersBridges) {
 // 90 + alpha / 2 at P. Here it is asked whether that is at least 90. The wedge has two acute edges,
 // of 26.6 degrees; the others are not acute.
 TEST(AppendixB, Statement2HoldsOnTheMeshersRectangles) {
-  Surface wedge;
-  wedge.vertices = {{0, 0, 0}, {1, 0, 0}, {0.5, 0.25, 0}, {0, 0, 1}, {1, 0, 1}, {0.5, 0.25, 1}};
-  wedge.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
-                     {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
-  Options options;
-  options.acute = options.corner = 90;
-  options.tau = 0;
-  options.want_exact = true;
-  options.simplify_bridges = false;
+  const Surface wedge = samples::triangular_prism({{{0, 0}, {1, 0}, {0.5, 0.25}}}, 0, 1);
+  const Options options = every_corner(false);
   const Result result = delmesher::tetrahedralize(wedge, options);
   ASSERT_TRUE(result.status.ok()) << result.status.message;
   ASSERT_EQ(result.statistics.acute_edges, 2U);
@@ -292,19 +287,7 @@ TEST(FilterStage, DropsWhatIsCloserThanTheToleranceAndNothingElse) {
   for (const double gap : {0x1.01p-8, 0x1p-8, 0x1.fp-9, 0x1p-10}) {
     Surface plates;
     for (const double z : {0.0, 1 + gap}) {
-      const auto n = static_cast<std::uint32_t>(plates.vertices.size());
-      for (int i = 0; i < 8; ++i) {
-        plates.vertices.push_back({i & 1 ? 1.0 : 0, i & 2 ? 1.0 : 0, z + (i & 4 ? 1 : 0)});
-      }
-      for (const auto& [a, b, c, d] : {std::array{0U, 2U, 3U, 1U},
-                                       {4U, 5U, 7U, 6U},
-                                       {0U, 1U, 5U, 4U},
-                                       {2U, 6U, 7U, 3U},
-                                       {0U, 4U, 6U, 2U},
-                                       {1U, 3U, 7U, 5U}}) {
-        plates.triangles.push_back({n + a, n + b, n + c});
-        plates.triangles.push_back({n + a, n + c, n + d});
-      }
+      samples::add_box(plates, {0, 0, z}, {1, 1, z + 1});
     }
     Options options;
     options.want_exact = true;

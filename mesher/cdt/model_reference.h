@@ -75,12 +75,7 @@ inline void enrich(Model& model, int density, std::uint32_t seed) {
       const double t = std::floor(1024.0 * i / parts) / 1024;  // from end[0]
       const VertexId v = t < 0.5 ? model.points.add_on_segment(end[1], end[0], t)
                                  : model.points.add_on_segment(end[0], end[1], 1 - t);
-      const auto h = s.edge_half_edges(e);
-      std::vector<PlaneId> planes = {s.facet_plane[s.facet_of_half_edge(h[0])],
-                                     s.facet_plane[s.facet_of_half_edge(h[1])]};
-      std::sort(planes.begin(), planes.end());
-      planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
-      model.points.set_supports(v, planes, {&e, 1});
+      model.points.set_supports(v, s.edge_planes(e), {&e, 1});
       model.input.on_edge[e].push_back(v);
       add(v);
     }

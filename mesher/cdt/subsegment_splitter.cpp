@@ -67,14 +67,10 @@ VertexId SubsegmentSplitter::add(std::uint32_t edge, const SplitTarget& t) {
   // q + u (p - q) + low (p - q): a point of a triangle with two equal corners has two parameters.
   const VertexId v =
       t.low == 0 ? points_.add_on_segment(p, q, u) : points_.add_on_triangle(p, p, q, u, t.low);
-  const std::array<std::uint32_t, 2> h = s.edge_half_edges(edge);
-  std::array<PlaneId, 2> planes = {s.facet_plane[s.facet_of_half_edge(h[0])],
-                                   s.facet_plane[s.facet_of_half_edge(h[1])]};
-  std::sort(planes.begin(), planes.end());
-  const std::size_t count = planes[0] == planes[1] ? 1 : 2;
-  points_.set_supports(v, {planes.data(), count}, {&edge, 1});
+  points_.set_supports(v, s.edge_planes(edge), {&edge, 1});
   return v;
 }
+
 std::array<double, 2> SubsegmentSplitter::fractions(VertexId v, const SplitTarget& t) const {
   const double u = points_.definition(v).u;
   return t.anchor == 0 ? std::array<double, 2>{u, 1 - u} : std::array<double, 2>{1 - u, u};

@@ -1,6 +1,5 @@
 #include "mesher/chamfer/bridges.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -24,12 +23,7 @@ void NewPoints::append(const NewPoint& point) {
     return;
   }
   const VertexId id = points_.add_on_segment(d.corner[0], d.corner[1], d.u);
-  const auto [h, g] = topology_.edge_half_edges(point.edge);
-  PlaneId planes[] = {topology_.facet_plane[topology_.facet_of_half_edge(h)],
-                      topology_.facet_plane[topology_.facet_of_half_edge(g)]};
-  std::sort(std::begin(planes), std::end(planes));
-  const std::uint32_t lines[] = {point.edge};
-  points_.set_supports(id, std::span(planes, planes[0] == planes[1] ? 1 : 2), lines);
+  points_.set_supports(id, topology_.edge_planes(point.edge), {&point.edge, 1});
 }
 
 std::vector<VertexId> NewPoints::keep(const std::vector<std::uint8_t>& used) {

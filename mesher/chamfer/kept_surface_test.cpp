@@ -81,20 +81,7 @@ TEST(KeptSurface, FarFromTheOriginDistancesKeepTheirDigits) {
 // One facet of a box was dropped: points near the middle of one of its triangles are too near,
 // points near another facet are not.
 TEST(RemovedSurface, IsTheDroppedFacetsAndNothingElse) {
-  Surface box;
-  for (int v = 0; v < 8; ++v) {
-    box.vertices.push_back({1.0 * (v & 1), 1.0 * (v >> 1 & 1), 1.0 * (v >> 2)});
-  }
-  for (const auto& [a, b, c, d] : {std::array{0U, 2U, 3U, 1U},
-                                   {4U, 5U, 7U, 6U},
-                                   {0U, 1U, 5U, 4U},
-                                   {2U, 6U, 7U, 3U},
-                                   {0U, 4U, 6U, 2U},
-                                   {1U, 3U, 7U, 5U}}) {
-    box.triangles.push_back({a, b, c});
-    box.triangles.push_back({a, c, d});
-  }
-  Model model(box);
+  Model model(surface::test_surfaces::box({0, 0, 0}, {1, 1, 1}));
   const ChamferResult result = model.run(untouched());
   for (FacetId f = 0; f < 6; ++f) {
     std::vector<std::uint8_t> kept(6, 1);

@@ -192,11 +192,8 @@ class Returning {
     std::ranges::sort(chain, before);
     const auto same = [&](VertexId a, VertexId b) { return !before(a, b) && !before(b, a); };
     chain.erase(std::unique(chain.begin(), chain.end(), same), chain.end());
-    const auto [h, g] = as_given_.edge_half_edges(e);
-    std::vector<PlaneId> planes = {as_given_.facet_plane[as_given_.facet_of_half_edge(h)],
-                                   as_given_.facet_plane[as_given_.facet_of_half_edge(g)]};
+    const std::vector<PlaneId> planes = as_given_.edge_planes(e);
     std::vector<std::uint32_t> lines = {e, as_given_.edge_line[e]};
-    sort_unique(planes);
     sort_unique(lines);
     for (const VertexId v : chain) points_.set_supports(v, planes, lines);
     input_.vertices.insert(input_.vertices.end(), chain.begin(), chain.end());

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -16,7 +15,9 @@ namespace delmesher::improve {
 namespace {
 
 using cdt::test_models::Model;
+using surface::test_surfaces::ellipse;
 using surface::test_surfaces::in_single_precision;
+using surface::test_surfaces::prism;
 using surface::test_surfaces::rotated;
 
 // A mesh of the stand-in of a surface, with points of all kinds.
@@ -94,26 +95,6 @@ struct Case {
   SurfaceTopology as_given;
 };
 
-// Its two ends are fans of needles.
-Surface prism(std::uint32_t n, double height) {
-  Surface s;
-  for (const double z : {0.0, height}) {
-    for (std::uint32_t k = 0; k < n; ++k) {
-      const double angle = 6.283185307179586 * k / n;
-      s.vertices.push_back({std::cos(angle), std::sin(angle), z});
-    }
-  }
-  for (std::uint32_t k = 0; k < n; ++k) {
-    const std::uint32_t next = (k + 1) % n;
-    s.triangles.push_back({k, next, n + next});
-    s.triangles.push_back({k, n + next, n + k});
-    if (k == 0 || next == 0) continue;
-    s.triangles.push_back({0, next, k});
-    s.triangles.push_back({n, n + k, n + next});
-  }
-  return s;
-}
-
 std::vector<Surface> surfaces() {
   using namespace cdt::test_models;
   const Surface plate = perforated_plate(5, 0.25, 2), star_shaped = star(1, 0.1, 5);
@@ -145,7 +126,7 @@ TEST(Diagonals, AreMissedWhereTheyAreNotEntered) {
 
 // At one edge across, the four vertices of a tetrahedron are within 1e-9 of a plane.
 TEST(Diagonals, RoomIsMadeBetweenNeedles) {
-  Case c(in_single_precision(rotated(prism(60, 0.1))), 6, 3);
+  Case c(in_single_precision(rotated(prism(ellipse(60), 0.1))), 6, 3);
   EXPECT_EQ(c.enter().missing, 0U);
   EXPECT_EQ(c.wrong(), "");
 }

@@ -305,10 +305,10 @@ Scene make_ridge(std::uint64_t seed, double scale, double angle, double shift = 
 
 // ------------------------------------------------------------------------------------------ tests
 
-TEST(Rounding, GrazingVolumeVertices) {
+void expect_good_grazing(bool on_surface) {
   std::size_t before = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scene s = make_grazing(seed, 1, false);
+    const Scene s = make_grazing(seed, 1, on_surface);
     before += s.bad_when_rounded();
     const RoundingResult r = run(s);
     check(s, r);
@@ -317,16 +317,12 @@ TEST(Rounding, GrazingVolumeVertices) {
   EXPECT_GT(before, 50U);  // else the test shows nothing
 }
 
+TEST(Rounding, GrazingVolumeVertices) {
+  expect_good_grazing(false);
+}
+
 TEST(Rounding, GrazingSurfaceVertices) {
-  std::size_t before = 0;
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scene s = make_grazing(seed, 1, true);
-    before += s.bad_when_rounded();
-    const RoundingResult r = run(s);
-    check(s, r);
-    EXPECT_EQ(r.inverted + r.flat, 0U) << seed;
-  }
-  EXPECT_GT(before, 50U);
+  expect_good_grazing(true);
 }
 
 TEST(Rounding, Ridges) {

@@ -59,14 +59,9 @@ void split_edges(Model& model, std::initializer_list<double> parameters) {
   for (std::uint32_t e = 0; e < s.edge_count(); ++e) {
     if (s.edge_is_flat[e] != 0) continue;
     const auto end = s.edge_vertices(e);
-    std::vector<PlaneId> planes;
-    for (const std::uint32_t h : s.edge_half_edges(e)) {
-      planes.push_back(s.facet_plane[s.facet_of_half_edge(h)]);
-    }
-    std::sort(planes.begin(), planes.end());
     for (const double t : parameters) {
       const VertexId v = model.points.add_on_segment(end[1], end[0], t);
-      model.points.set_supports(v, planes, {&e, 1});
+      model.points.set_supports(v, s.edge_planes(e), {&e, 1});
       model.input.on_edge[e].push_back(v);
       model.input.vertices.push_back(v);
     }

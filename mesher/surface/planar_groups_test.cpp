@@ -23,33 +23,6 @@ namespace {
 
 using namespace test_surfaces;
 
-// A convex polygon, counter-clockwise, extruded from z = 0 to `top` of its points; caps are fans.
-Surface prism(const std::vector<std::array<double, 2>>& polygon,
-              const std::function<double(double, double)>& top) {
-  Surface s;
-  const auto n = static_cast<std::uint32_t>(polygon.size());
-  for (const auto& [x, y] : polygon) s.vertices.push_back({x, y, 0});
-  for (const auto& [x, y] : polygon) s.vertices.push_back({x, y, top(x, y)});
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t j = (i + 1) % n;
-    s.triangles.push_back({i, j, n + j});
-    s.triangles.push_back({i, n + j, n + i});
-    if (i == 0 || j == 0) continue;
-    s.triangles.push_back({0, j, i});
-    s.triangles.push_back({n, n + i, n + j});
-  }
-  return s;
-}
-
-std::vector<std::array<double, 2>> circle(int n) {
-  std::vector<std::array<double, 2>> points;
-  for (int i = 0; i < n; ++i) {
-    const double angle = 2 * std::acos(-1.0) * i / n;
-    points.push_back({std::cos(angle), std::sin(angle)});
-  }
-  return points;
-}
-
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 // The corners of some triangles, and the directed edges that no two of them share.
@@ -169,7 +142,7 @@ TEST(PlanarGroups, AFlatRidgeStays) {
 }
 
 TEST(PlanarGroups, ACylinderKeepsItsFacets) {
-  const Surface s = prism(circle(1000), [](double, double) { return 1.0; });
+  const Surface s = prism(ellipse(1000), 1);
   for (const Surface& t : {s, rotated(s)}) EXPECT_EQ(grouped(t).facets(), 1002U);
   // Facets at a third of a degree, whose planes single precision knows to a hundredth of that.
   EXPECT_GE(grouped(in_single_precision(rotated(s))).facets(), 1002U);
@@ -200,7 +173,7 @@ TEST(PlanarGroups, ABendIsNoPlane) {
   arc.push_back({1, 1});
   arc.push_back({-1, 1});
   const double noise = 1e-8;
-  const Grouped g(rotated(prism(arc, [](double, double) { return 1.0; })), noise);
+  const Grouped g(rotated(prism(arc, 1)), noise);
   // Two caps, three flat sides, and the arc of height 1e-6 in pieces of at most 2e-8: at least
   // sqrt(1e-6 / 4e-8) = 5.
   EXPECT_GE(g.facets(), 10U);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "mesher/delmesher/surface.h"
@@ -55,6 +56,40 @@ inline Surface tetrahedron(const Point& a, const Point& b, const Point& c, const
   s.vertices = {a, b, c, d};
   s.triangles = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   return s;
+}
+
+using Polygon = std::vector<std::array<double, 2>>;
+
+// On the ellipse around the origin with semi-axes 1 and `width`.
+inline Polygon ellipse(std::uint32_t n, double width = 1) {
+  Polygon points;
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const double angle = 2 * std::acos(-1.0) * k / n;
+    points.push_back({std::cos(angle), width * std::sin(angle)});
+  }
+  return points;
+}
+
+// A convex polygon, counter-clockwise, extruded from z = 0 to `top` of its points. Its ends are
+// fans; with many corners their triangles are needles.
+inline Surface prism(const Polygon& polygon, const std::function<double(double, double)>& top) {
+  Surface s;
+  const auto n = static_cast<std::uint32_t>(polygon.size());
+  for (const auto& [x, y] : polygon) s.vertices.push_back({x, y, 0});
+  for (const auto& [x, y] : polygon) s.vertices.push_back({x, y, top(x, y)});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    s.triangles.push_back({i, j, n + j});
+    s.triangles.push_back({i, n + j, n + i});
+    if (i == 0 || j == 0) continue;
+    s.triangles.push_back({0, j, i});
+    s.triangles.push_back({n, n + i, n + j});
+  }
+  return s;
+}
+
+inline Surface prism(const Polygon& polygon, double height) {
+  return prism(polygon, [height](double, double) { return height; });
 }
 
 inline Surface reversed(Surface s) {

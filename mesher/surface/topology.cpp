@@ -205,6 +205,15 @@ SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predi
   return Builder(surface, stand_in, points, predicates).build();
 }
 
+std::vector<PlaneId> SurfaceTopology::edge_planes(std::uint32_t e) const {
+  std::vector<PlaneId> planes;
+  for (const std::uint32_t h : edge_half_edges(e)) {
+    planes.push_back(facet_plane[facet_of_half_edge(h)]);
+  }
+  sort_unique(planes);
+  return planes;
+}
+
 std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b) {
   const std::uint32_t first = topology.vertex_half_edge[a];
   for (std::uint32_t h = first; h != kNone;) {

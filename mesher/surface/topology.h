@@ -52,6 +52,8 @@ struct SurfaceTopology {
   std::array<std::uint32_t, 2> edge_half_edges(std::uint32_t e) const {
     return {edge_half_edge[e], opposite[edge_half_edge[e]]};
   }
+  // The planes of the facets on both sides of an edge, one or two: supports of points on it.
+  std::vector<PlaneId> edge_planes(std::uint32_t e) const;
 };
 
 // Adds the surface's vertices to an empty store, builds the adjacency and the facets (exactly), and

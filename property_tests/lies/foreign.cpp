@@ -210,43 +210,33 @@ const Lie kForeign[] = {
      }},
     {"two tetrahedra of --approximate made three, none of which was flat", "same-mesh",
      [](Told& t) {
-       Options options = honest_options();
-       options.approximate = true;
-       t = run_of(options);
+       run_approximate(t);
        make_three_of_two(t.sample.mesh);
      }},
     {"a final mesh where --approximate was promised", "promise",
      [](Told& t) { t.promise.approximate = true; }},
     {"a mesh before repairs, none after, for --approximate", "promise",
      [](Told& t) {
-       Options options = honest_options();
-       options.approximate = true;
-       t = run_of(options);
+       run_approximate(t);
        t.record.unrepaired = t.record.refined;
      },
      "passed"},
     {"nothing written of a refined mesh", "same-mesh",
      [](Told& t) {
-       Options options = honest_options();
-       options.approximate = true;
-       t = run_of(options);
+       run_approximate(t);
        t.sample.mesh = MeshFile{};
        t.sample.mesh.names_sides = true;
        t.record.mesh_vertices.clear();
      }},
     {"vertices without tetrahedra, of a refined mesh", "complex",
      [](Told& t) {
-       Options options = honest_options();
-       options.approximate = true;
-       t = run_of(options, Task::mesh, flat_wedge());
+       run_approximate(t, flat_wedge());
        t.sample.mesh.vertices.push_back({0, 0, 0});
        t.record.mesh_vertices.push_back(0);
      }},
     {"faces of a final mesh that is not there, for --approximate", "promise",
      [](Told& t) {
-       Options options = honest_options();
-       options.approximate = true;
-       t = run_of(options);
+       run_approximate(t);
        t.record.final_facets = t.record.refined_facets;
      },
      "passed"},

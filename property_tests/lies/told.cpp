@@ -52,6 +52,12 @@ void run_hull(Told& told, Task task) {
   told = run_of(options, task);
 }
 
+void run_approximate(Told& told, const delmesher::Surface& surface) {
+  Options options = honest_options();
+  options.approximate = true;
+  told = run_of(options, Task::mesh, surface);
+}
+
 void run_cdt(Told& told) {
   run_hull(told, Task::cdt);
 }

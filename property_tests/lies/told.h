@@ -36,6 +36,9 @@ std::size_t kept_facet(const delmesher::ExactRecord& r);
 // A run of the hull, told as it was.
 void run_hull(Told& told, oracles::Task task = oracles::Task::mesh);
 
+// A run of --approximate, told as it was.
+void run_approximate(Told& told, const delmesher::Surface& surface = samples::wedge_and_slab());
+
 // The constrained Delaunay tetrahedrization of the hull, told as it was.
 void run_cdt(Told& told);
 
