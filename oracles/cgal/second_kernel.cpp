@@ -1,6 +1,5 @@
 #include "oracles/cgal/second_kernel.h"
 
-#include <CGAL/Gmpzf.h>
 #include <CGAL/Homogeneous.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Simple_cartesian.h>
@@ -10,13 +9,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <type_traits>
 #include <vector>
+
+#include "oracles/cgal/record_text.h"
+#include "oracles/cgal/residue.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -25,7 +24,6 @@ using delmesher::ExactPoint;
 using delmesher::ExactRecord;
 using Rough = CGAL::Simple_cartesian<CGAL::Interval_nt<false>>;
 
-using Number = CGAL::Gmpzf;
 using Whole = CGAL::Simple_cartesian<Number>;
 using Fractions = CGAL::Homogeneous<Number>;
 
@@ -105,107 +103,6 @@ CGAL::Sign between_normals(const Point<K>& a, const Point<K>& b, const Point<K>&
       a, b, c, p, q, r);
 }
 
-// --- the text
-
-// "-0x1.8p+3", "0x0p+0", also decimal integers. Exact: at most 53 bits are written.
-bool parse_hexadecimal(const std::string& word, double& value) {
-  std::size_t at = 0;
-  const bool negative = word.starts_with("-");
-  if (negative || word.starts_with("+")) ++at;
-  if (word.compare(at, 2, "0x") != 0 && word.compare(at, 2, "0X") != 0) return false;
-  at += 2;
-  double mantissa = 0;
-  int exponent = 0, digits = 0;
-  bool point = false;
-  for (; at < word.size() && word[at] != 'p' && word[at] != 'P'; ++at) {
-    if (word[at] == '.' && !point) {
-      point = true;
-      continue;
-    }
-    const std::string all = "0123456789abcdef";
-    const auto digit = all.find(static_cast<char>(std::tolower(word[at])));
-    if (digit == std::string::npos) return false;
-    mantissa = mantissa * 16 + static_cast<double>(digit);
-    if (point) exponent -= 4;
-    ++digits;
-  }
-  if (digits == 0 || digits > 14) return false;
-  if (at < word.size()) {
-    try {
-      exponent += std::stoi(word.substr(at + 1));
-    } catch (const std::exception&) {
-      return false;
-    }
-  }
-  value = std::ldexp(negative ? -mantissa : mantissa, exponent);
-  return true;
-}
-
-struct Definitions {
-  std::vector<ExactPoint> points;
-  std::vector<ExactRecord::Plane> planes;
-};
-
-bool read_plane(std::istringstream& words, ExactRecord::Plane& plane) {
-  std::string kind;
-  words >> kind;
-  if (kind != "N" && kind != "T") return false;
-  plane.spanned = kind == "T";
-  std::vector<std::array<double, 3>*> wanted;
-  if (!plane.spanned) wanted.push_back(&plane.normal);
-  for (std::size_t i = 0; i < (plane.spanned ? 3U : 1U); ++i) wanted.push_back(&plane.through[i]);
-  for (std::array<double, 3>* numbers : wanted) {
-    for (double& x : *numbers) {
-      std::string word;
-      if (!(words >> word) || !parse_hexadecimal(word, x)) return false;
-    }
-  }
-  return true;
-}
-
-// Reads the definitions of planes and points, as written. False if the text is not in the format.
-bool read_definitions(const std::string& path, Definitions& definitions) {
-  std::vector<ExactPoint>& points = definitions.points;
-  std::ifstream in(path);
-  std::string line, word;
-  std::size_t count = 0, planes = 0;
-  while (std::getline(in, line)) {
-    std::istringstream words(line.substr(0, line.find('#')));
-    if (definitions.planes.size() < planes) {
-      if (!read_plane(words, definitions.planes.emplace_back())) return false;
-      continue;
-    }
-    if (!(words >> word)) continue;
-    if (word == "planes" && !(words >> planes)) return false;
-    if (word == "points" && words >> count) break;
-  }
-  while (points.size() < count && std::getline(in, line)) {
-    std::istringstream words(line.substr(0, line.find('#')));
-    std::string kind;
-    if (!(words >> kind)) continue;
-    ExactPoint p;
-    std::array<double*, 3> numbers = {&p.x, &p.y, &p.z};
-    std::size_t wanted = 3;
-    if (kind == "S" || kind == "T" || kind == "P") {
-      p.kind = kind == "S"   ? ExactPoint::Kind::on_segment
-               : kind == "T" ? ExactPoint::Kind::on_triangle
-                             : ExactPoint::Kind::on_planes;
-      words >> p.i >> p.j;
-      if (kind != "S") words >> p.k;
-      wanted = kind == "S" ? 1 : kind == "T" ? 2 : 0;
-    } else if (kind != "E") {
-      return false;
-    }
-    for (std::size_t n = 0; n < wanted; ++n) {
-      if (!(words >> word) || !parse_hexadecimal(word, *numbers[n])) return false;
-    }
-    points.push_back(p);
-  }
-  return count > 0 && points.size() == count;
-}
-
-// --- the mesh
-
 // 2^exponent, beyond the range of doubles as well.
 Number power_of_two(long exponent) {
   constexpr long kStep = 900;
@@ -225,64 +122,6 @@ bool is_number(const Number& x, const Number& w, const ExactNumber& value, const
   return value.is_integer() && w == Number(1) ? x == scaled
                                               : x * from_integer(value.denominator()) == scaled * w;
 }
-
-// Residues modulo the two primes below 2^61 that follow those of exact_sum.cpp.
-class Residue {
- public:
-  static constexpr std::array<std::uint64_t, 2> kPrimes = {(std::uint64_t{1} << 61) - 45,
-                                                           (std::uint64_t{1} << 61) - 229};
-  Residue() = default;
-  // Of x / w. False if a prime divides w.
-  static bool of(const Number& x, const Number& w, Residue& result) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::uint64_t below = reduced(w, kPrimes[i]);
-      if (below == 0) return false;
-      result.value_[i] =
-          times(reduced(x, kPrimes[i]), power(below, kPrimes[i] - 2, kPrimes[i]), kPrimes[i]);
-    }
-    return true;
-  }
-  friend Residue operator+(const Residue& a, const Residue& b) {
-    Residue r;
-    for (std::size_t i = 0; i < 2; ++i) r.value_[i] = (a.value_[i] + b.value_[i]) % kPrimes[i];
-    return r;
-  }
-  friend Residue operator-(const Residue& a, const Residue& b) {
-    Residue r;
-    for (std::size_t i = 0; i < 2; ++i) {
-      r.value_[i] = (a.value_[i] + (kPrimes[i] - b.value_[i])) % kPrimes[i];
-    }
-    return r;
-  }
-  friend Residue operator*(const Residue& a, const Residue& b) {
-    Residue r;
-    for (std::size_t i = 0; i < 2; ++i) r.value_[i] = times(a.value_[i], b.value_[i], kPrimes[i]);
-    return r;
-  }
-  friend bool operator==(const Residue&, const Residue&) = default;
-
- private:
-  __extension__ using Wide = unsigned __int128;
-
-  static std::uint64_t times(std::uint64_t a, std::uint64_t b, std::uint64_t prime) {
-    return static_cast<std::uint64_t>(static_cast<Wide>(a) * b % prime);
-  }
-  static std::uint64_t power(std::uint64_t a, std::uint64_t exponent, std::uint64_t prime) {
-    std::uint64_t result = 1;
-    for (; exponent > 0; exponent /= 2, a = times(a, a, prime)) {
-      if (exponent % 2 == 1) result = times(result, a, prime);
-    }
-    return result;
-  }
-  static std::uint64_t reduced(const Number& x, std::uint64_t prime) {
-    const std::uint64_t mantissa = mpz_fdiv_ui(x.man(), prime);
-    const auto exponent = static_cast<std::uint64_t>(std::llabs(x.exp()));
-    const std::uint64_t two = x.exp() >= 0 ? 2 : (prime + 1) / 2;
-    return times(mantissa, power(two, exponent, prime), prime);
-  }
-
-  std::array<std::uint64_t, 2> value_{};
-};
 
 template <class K>
 class SecondKernel {

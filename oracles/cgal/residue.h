@@ -1,0 +1,72 @@
+// CGAL's exact numbers modulo primes: sums of fractions that are to be equal need not be reduced.
+#pragma once
+
+#include <CGAL/Gmpzf.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+
+namespace tetproof::oracles {
+
+using Number = CGAL::Gmpzf;
+
+// Residues modulo the two primes below 2^61 that follow those of exact_sum.cpp.
+class Residue {
+ public:
+  static constexpr std::array<std::uint64_t, 2> kPrimes = {(std::uint64_t{1} << 61) - 45,
+                                                           (std::uint64_t{1} << 61) - 229};
+  Residue() = default;
+  // Of x / w. False if a prime divides w.
+  static bool of(const Number& x, const Number& w, Residue& result) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::uint64_t below = reduced(w, kPrimes[i]);
+      if (below == 0) return false;
+      result.value_[i] =
+          times(reduced(x, kPrimes[i]), power(below, kPrimes[i] - 2, kPrimes[i]), kPrimes[i]);
+    }
+    return true;
+  }
+  friend Residue operator+(const Residue& a, const Residue& b) {
+    Residue r;
+    for (std::size_t i = 0; i < 2; ++i) r.value_[i] = (a.value_[i] + b.value_[i]) % kPrimes[i];
+    return r;
+  }
+  friend Residue operator-(const Residue& a, const Residue& b) {
+    Residue r;
+    for (std::size_t i = 0; i < 2; ++i) {
+      r.value_[i] = (a.value_[i] + (kPrimes[i] - b.value_[i])) % kPrimes[i];
+    }
+    return r;
+  }
+  friend Residue operator*(const Residue& a, const Residue& b) {
+    Residue r;
+    for (std::size_t i = 0; i < 2; ++i) r.value_[i] = times(a.value_[i], b.value_[i], kPrimes[i]);
+    return r;
+  }
+  friend bool operator==(const Residue&, const Residue&) = default;
+
+ private:
+  __extension__ using Wide = unsigned __int128;
+
+  static std::uint64_t times(std::uint64_t a, std::uint64_t b, std::uint64_t prime) {
+    return static_cast<std::uint64_t>(static_cast<Wide>(a) * b % prime);
+  }
+  static std::uint64_t power(std::uint64_t a, std::uint64_t exponent, std::uint64_t prime) {
+    std::uint64_t result = 1;
+    for (; exponent > 0; exponent /= 2, a = times(a, a, prime)) {
+      if (exponent % 2 == 1) result = times(result, a, prime);
+    }
+    return result;
+  }
+  static std::uint64_t reduced(const Number& x, std::uint64_t prime) {
+    const std::uint64_t mantissa = mpz_fdiv_ui(x.man(), prime);
+    const auto exponent = static_cast<std::uint64_t>(std::llabs(x.exp()));
+    const std::uint64_t two = x.exp() >= 0 ? 2 : (prime + 1) / 2;
+    return times(mantissa, power(two, exponent, prime), prime);
+  }
+
+  std::array<std::uint64_t, 2> value_{};
+};
+
+}  // namespace tetproof::oracles
