@@ -291,7 +291,8 @@ class Entry {
     });
   }
 
-  // Splits the edge in the middle, or the one nearest to it that can be split.
+  // Splits the edge in the middle, or the next one behind it that can be split, then those before
+  // it.
   bool split_one() {
     const std::size_t n = crossings_.size();
     for (std::size_t k = 0; k < n; ++k) {

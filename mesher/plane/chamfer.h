@@ -34,7 +34,7 @@ struct Gap {
 struct Chamfered {
   std::vector<std::array<VertexId, 2>> ends;  // of each piece, from a to b; kNone: dropped
   std::vector<std::uint8_t> vertex_kept;      // per input vertex
-  std::vector<PlaneRecord::Corner> corners;   // radii in the units of the store
+  std::vector<PlaneRecord::Corner> corners;   // distances in the units of the store
   std::vector<Gap> gaps;
   std::uint64_t cut_pieces = 0, rounds = 0;
 };
