@@ -207,7 +207,9 @@ TEST(Tetrahedrization, FindsVerticesEdgesAndFaces) {
         EXPECT_EQ(corners, expected);
         EXPECT_EQ(dt.opposite(side), dt.vertex(side.tet(), side.face()));
         EXPECT_EQ(FaceHandle::at(side.index()), side);
+        EXPECT_NE(FaceHandle(side.tet(), (side.face() + 1) % 4), side);
       }
+      EXPECT_NE(dt.across(found), found);
       EXPECT_EQ(dt.across(dt.across(found)), found);
       ++faces;
     }
@@ -225,6 +227,7 @@ TEST(Tetrahedrization, FindsVerticesEdgesAndFaces) {
   }
   EXPECT_GT(faces, 100U);
   EXPECT_EQ(dt.find_edge(0, 63), kNone);  // opposite corners of the cube
+  EXPECT_FALSE(dt.find_face(0, 1, 63).exists());
 }
 
 TEST(Tetrahedrization, RefusesDuplicatesAndFlatInput) {
