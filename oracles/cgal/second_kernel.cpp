@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <type_traits>
+#include <unordered_map>
 #include <vector>
 
 #include "oracles/cgal/record_text.h"
@@ -31,11 +32,14 @@ using Fractions = CGAL::Homogeneous<Number>;
 // points are on three planes, coordinates are homogeneous: fractions would be reduced again and
 // again, which takes most of the time of a verification.
 template <class K>
-struct Point {
-  typename K::Point_3 exact;
+class Point {
+ public:
   Rough::Point_3 rough;
 
-  explicit Point(const typename K::Point_3& p) : exact(p), rough(enclosure(p)) {}
+  Point() = default;
+  explicit Point(const typename K::Point_3& p) : rough(enclosure(p)), exact_(p) {}
+
+  const typename K::Point_3& exact() const { return exact_; }
 
  private:
   static Rough::Point_3 enclosure(const typename K::Point_3& p) {
@@ -54,7 +58,20 @@ struct Point {
     constexpr double kLeast = std::numeric_limits<double>::denorm_min();
     return {low - kLeast, high + kLeast};
   }
+
+  typename K::Point_3 exact_;
 };
+
+// A point that few signs need exactly: `make` makes it each time.
+template <class Make>
+struct RarelyExact {
+  Rough::Point_3 rough;
+  Make make;
+
+  auto exact() const { return make(); }
+};
+template <class Make>
+RarelyExact(Rough::Point_3, Make) -> RarelyExact<Make>;
 
 template <class K>
 typename K::Point_3 place(const Number& x, const Number& y, const Number& z, const Number& w) {
@@ -73,18 +90,17 @@ CGAL::Sign decide(const Predicate& predicate, const Points&... points) {
     const auto rough = predicate(points.rough...);
     if (CGAL::is_certain(rough)) return CGAL::get_certain(rough);
   }
-  return CGAL::make_certain(predicate(points.exact...));
+  return CGAL::make_certain(predicate(points.exact()...));
 }
 
-template <class K>
-CGAL::Sign orientation(const Point<K>& a, const Point<K>& b, const Point<K>& c, const Point<K>& d) {
+template <class A, class B, class C, class D>
+CGAL::Sign orientation(const A& a, const B& b, const C& c, const D& d) {
   return decide([](const auto&... p) { return CGAL::orientation(p...); }, a, b, c, d);
 }
 
 // The sign of the cosine of the angle between the normal of abc and the direction from p to q.
-template <class K>
-CGAL::Sign along_normal(const Point<K>& a, const Point<K>& b, const Point<K>& c, const Point<K>& p,
-                        const Point<K>& q) {
+template <class Corner, class P, class Q>
+CGAL::Sign along_normal(const Corner& a, const Corner& b, const Corner& c, const P& p, const Q& q) {
   return decide(
       [](const auto& u, const auto& v, const auto& w, const auto& from, const auto& to) {
         return CGAL::sign(CGAL::cross_product(v - u, w - u) * (to - from));
@@ -193,7 +209,21 @@ class SecondKernel {
     if (CGAL::sign(p.hw()) != CGAL::NEGATIVE) return p;
     return oracles::place<K>(-p.hx(), -p.hy(), -p.hz(), -p.hw());
   }
-  Point expand(Index v) const {
+  // The points that were asked for last, each in the slot that its number names: tetrahedra and
+  // faces that follow each other have most of their corners in common.
+  const Point& expand(Index v) {
+    constexpr std::size_t kMost = 4096;
+    if (recent_.empty()) {
+      recent_.assign(std::min(kMost, definitions_.points.size()), {kNone, Point()});
+    }
+    auto& [number, point] = recent_[v % recent_.size()];
+    if (number != v) {
+      point = place_exactly(v);
+      number = v;
+    }
+    return point;
+  }
+  Point place_exactly(Index v) const {
     const ExactPoint& p = definitions_.points[v];
     if (p.kind == ExactPoint::Kind::explicit_point || p.kind == ExactPoint::Kind::on_planes) {
       return Point(corner(v));
@@ -225,7 +255,7 @@ class SecondKernel {
     std::size_t asked = 0;
     for (std::size_t v = 0; v < definitions_.points.size();
          v += step(definitions_.points.size(), kMost), ++asked) {
-      const Place p = expand(static_cast<Index>(v)).exact;
+      const Place p = expand(static_cast<Index>(v)).exact();
       const ExactVector other = points_.exact(static_cast<Index>(v));
       if (!is_number(p.hx(), p.hw(), other[0], unit) ||
           !is_number(p.hy(), p.hw(), other[1], unit) ||
@@ -254,7 +284,7 @@ class SecondKernel {
       }
       if (t % every_ray != 0) continue;
       ++cast;
-      const int side = parity(centroid(p));
+      const int side = parity(RarelyExact{rough_centroid(p), [&p] { return centroid(p); }});
       if (side != (tet.inside ? 1 : 0)) {
         report_.fail("tetrahedron " + std::to_string(t) + " is said to be " +
                      (tet.inside ? "inside" : "outside") + ", and is not");
@@ -265,10 +295,18 @@ class SecondKernel {
     report_.figures.emplace_back("rays", static_cast<double>(cast));
   }
 
-  static Point centroid(const std::array<Point, 4>& p) {
+  static Place centroid(const std::array<Point, 4>& p) {
     const Number quarter(0.25);
-    return Point(combined(std::array{p[0].exact, p[1].exact, p[2].exact, p[3].exact},
-                          std::array{quarter, quarter, quarter, quarter}));
+    return combined(std::array{p[0].exact(), p[1].exact(), p[2].exact(), p[3].exact()},
+                    std::array{quarter, quarter, quarter, quarter});
+  }
+  static Rough::Point_3 rough_centroid(const std::array<Point, 4>& p) {
+    const CGAL::Protect_FPU_rounding<true> protection;
+    const auto mean = [&p](int axis) {
+      return (p[0].rough[axis] + p[1].rough[axis] + p[2].rough[axis] + p[3].rough[axis]) *
+             CGAL::Interval_nt<false>(0.25);
+    };
+    return {mean(0), mean(1), mean(2)};
   }
 
   // A direction of rays, and the shadows that the triangles cast along it into the plane z = 0.
@@ -279,8 +317,13 @@ class SecondKernel {
     explicit Direction(int attempt)
         : x(0.2718281828 + 0.37 * attempt), y(0.5772156649 - 0.11 * attempt) {}
     // Rounding has to be set upwards.
-    Shadow of(const Point& p) const {
-      return {p.rough.x() - Interval(x) * p.rough.z(), p.rough.y() - Interval(y) * p.rough.z()};
+    Shadow of(const Rough::Point_3& p) const {
+      return {p.x() - Interval(x) * p.z(), p.y() - Interval(y) * p.z()};
+    }
+    // Another point of the line through a point.
+    Rough::Point_3 beyond(const Rough::Point_3& p) const {
+      const CGAL::Protect_FPU_rounding<true> protection;
+      return {p.x() + Interval(x), p.y() + Interval(y), p.z() + Interval(1)};
     }
 
     double x, y;
@@ -292,7 +335,8 @@ class SecondKernel {
     while (directions_.size() <= attempt) {
       Direction d(static_cast<int>(directions_.size()));
       for (const auto& [i, j, k] : triangles_) {
-        const std::array corners = {d.of(corners_[i]), d.of(corners_[j]), d.of(corners_[k])};
+        const std::array corners = {d.of(corners_[i].rough), d.of(corners_[j].rough),
+                                    d.of(corners_[k].rough)};
         auto& shadow = d.shadows.emplace_back();
         for (std::size_t axis = 0; axis < 2; ++axis) {
           const auto &a = corners[0][axis], &b = corners[1][axis], &c = corners[2][axis];
@@ -306,7 +350,7 @@ class SecondKernel {
   }
 
   // The triangles that a line from the point may meet.
-  std::vector<Index> near_line(const Direction& d, const Point& from) const {
+  std::vector<Index> near_line(const Direction& d, const Rough::Point_3& from) const {
     const CGAL::Protect_FPU_rounding<true> protection;
     const auto [x, y] = d.of(from);
     std::vector<Index> found;
@@ -321,13 +365,17 @@ class SecondKernel {
 
   // The parity along a ray. Tries rays in several directions until one meets no edge. -1: the point
   // is on the surface, or no ray was found.
-  int parity(const Point& from) {
+  template <class Make>
+  int parity(const RarelyExact<Make>& from) {
     for (std::size_t attempt = 0; attempt < 16; ++attempt) {
       const Direction& d = direction(attempt);
-      const Point to(from.exact + Vector(Number(d.x), Number(d.y), Number(1)));
+      const RarelyExact to{
+          d.beyond(from.rough), [&from, &d] {
+            return Place(from.exact() + Vector(Number(d.x), Number(d.y), Number(1)));
+          }};
       int crossings = 0;
       bool sure = true;
-      for (const Index t : near_line(d, from)) {
+      for (const Index t : near_line(d, from.rough)) {
         const auto& [i, j, k] = triangles_[t];
         const Point &a = corners_[i], &b = corners_[j], &c = corners_[k];
         const CGAL::Sign ab = orientation(from, to, a, b), bc = orientation(from, to, b, c);
@@ -369,6 +417,8 @@ class SecondKernel {
     for (const ExactRecord::Facet& facet : facets_) facets[facet.id] = &facet;
     const std::size_t every = step(record_.final_facets.size(), kMost);
     std::size_t asked = 0;
+    enum class Where : std::uint8_t { on_facet, beside, off_plane };
+    std::unordered_map<std::uint64_t, Where> known;  // of a vertex and a facet
     for (std::size_t n = 0; n < record_.final_facets.size(); n += every, ++asked) {
       const auto& [i, j, k, id] = record_.final_facets[n];
       const std::string name = "face " + std::to_string(n) + " on facet " + std::to_string(id);
@@ -385,11 +435,15 @@ class SecondKernel {
       }
       for (const auto& [v, corner] : {std::pair(i, p[0]), std::pair(j, p[1]), std::pair(k, p[2])}) {
         if (std::find(t.begin(), t.end(), v) != t.end()) continue;
-        if (orientation(a, b, c, corner) != CGAL::ZERO) {
-          report_.fail(name + " is off its plane");
-        } else if (!on_facet(corner, *facet->second)) {
-          report_.fail(name + " has a corner beside it");
+        const auto [where, fresh] =
+            known.try_emplace(static_cast<std::uint64_t>(id) << 32 | v, Where::on_facet);
+        if (fresh && orientation(a, b, c, corner) != CGAL::ZERO) {
+          where->second = Where::off_plane;
+        } else if (fresh && !on_facet(corner, *facet->second)) {
+          where->second = Where::beside;
         }
+        if (where->second == Where::off_plane) report_.fail(name + " is off its plane");
+        if (where->second == Where::beside) report_.fail(name + " has a corner beside it");
       }
     }
     report_.checked += asked;
@@ -433,11 +487,11 @@ class SecondKernel {
     report_.figures.emplace_back("volumes and areas", (faces ? 1 : 0) + (tetrahedra ? 1 : 0));
     if (!faces && !tetrahedra) return;
     std::vector<Terms> corners;
-    for (const Point& corner : corners_) corners.push_back(terms(corner.exact));
+    for (const Point& corner : corners_) corners.push_back(terms(corner.exact()));
     std::map<Index, Terms> known;
     const auto at = [&](Index v) -> const Terms& {
       const auto [found, fresh] = known.try_emplace(v);
-      if (fresh) found->second = terms(expand(v).exact);
+      if (fresh) found->second = terms(expand(v).exact());
       return found->second;
     };
     Term solid{};
@@ -485,8 +539,9 @@ class SecondKernel {
   const std::vector<ExactRecord::Facet> facets_;
   const ExactPoints& points_;
   const Definitions definitions_;
-  std::vector<Place> input_places_;  // by the definitions
-  std::vector<Point> corners_;       // of the surface whose facets are meshed
+  std::vector<Place> input_places_;              // by the definitions
+  std::vector<Point> corners_;                   // of the surface whose facets are meshed
+  std::vector<std::pair<Index, Point>> recent_;  // see expand; kNone: none yet
   std::vector<Direction> directions_;
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
 };
