@@ -482,7 +482,7 @@ void Conformity::check_facet(Index facet, std::span<const Index> triangles,
   make_unique(edges);
   for (const Index v : vertices) {
     if (input.side(points_, v) == 0) continue;
-    const ExactVector normal = input.normal(points_);
+    const ExactVector normal = input.area2(points_);
     const ExactNumber off = exact::dot(normal, exact::difference(points_, input.span[0], v));
     const double distance =
         std::fabs(to_double(off, 3 * points_.exponent())) / length(normal, 2 * points_.exponent());

@@ -1,5 +1,6 @@
 #include "oracles/exact_points.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -155,6 +156,16 @@ std::optional<Rational> meeting_point(const Equation& p, const Equation& q, cons
   return x;
 }
 
+// For coordinates times 2^-exponent. The numbers of a plane are multiples of powers of two.
+ExactPoints::IntegerPlane integer_plane(const Equation& plane, long exponent) {
+  std::array<mpq_class, 4> numbers = {plane.normal[0], plane.normal[1], plane.normal[2],
+                                      times_power_of_two(plane.offset, -exponent)};
+  mpz_class common = 1;
+  for (const mpq_class& x : numbers) common = lcm(common, mpz_class(x.get_den()));
+  for (mpq_class& x : numbers) x *= common;
+  return {{numbers[0].get_num(), numbers[1].get_num(), numbers[2].get_num()}, numbers[3].get_num()};
+}
+
 constexpr long kNoExponent = std::numeric_limits<int>::max();
 
 // The exponent at which every coordinate of every corner is an integer, over an odd denominator for
@@ -247,6 +258,75 @@ std::string ExactPoints::assign(std::span<const Position> positions) {
   return assign(explicit_points(positions));
 }
 
+std::span<const Index> ExactPoints::corners_of(const Index& v) const {
+  if (is_double(v)) return {&v, 1};
+  const Defined& p = defined_[implicit_[v]];
+  if (p.corners[0] == kNone) return {&v, 1};
+  return {p.corners.data(), p.corners[2] == kNone ? 2U : 3U};
+}
+
+Index ExactPoints::common_plane(std::span<const Index> vertices) const {
+  if (planes_.empty() || vertices.empty()) return kNone;
+  const Index first = corners_of(vertices[0])[0];
+  if (is_double(first)) return kNone;
+  for (const Index plane : planes_of_[defined_[implicit_[first]].placed]) {
+    if (plane != kNone && std::all_of(vertices.begin(), vertices.end(),
+                                      [&](Index v) { return is_defined_on(v, plane); })) {
+      return plane;
+    }
+  }
+  return kNone;
+}
+
+bool ExactPoints::surely_coplanar(std::span<const Index> vertices) const {
+  std::array<Index, 3> all;
+  std::size_t count = 0;
+  for (const Index& v : vertices) {
+    for (const Index corner : corners_of(v)) {
+      if (std::find(all.begin(), all.begin() + count, corner) != all.begin() + count) continue;
+      if (count == 3) return common_plane(vertices) != kNone;
+      all[count++] = corner;
+    }
+  }
+  return true;
+}
+
+bool ExactPoints::is_defined_on(Index v, Index plane) const {
+  const std::span<const Index> corners = corners_of(v);
+  return std::all_of(corners.begin(), corners.end(), [&](Index corner) {
+    if (is_double(corner)) return false;
+    const auto& planes = planes_of_[defined_[implicit_[corner]].placed];
+    return std::find(planes.begin(), planes.end(), plane) != planes.end();
+  });
+}
+
+int ExactPoints::side_of(Index plane, Index v) const {
+  return cmp(exact::dot(normal_of(plane), exact(v)), ExactNumber(planes_[plane].offset));
+}
+
+ExactVector ExactPoints::normal_of(Index plane) const {
+  const auto& normal = planes_[plane].normal;
+  return {ExactNumber(normal[0]), ExactNumber(normal[1]), ExactNumber(normal[2])};
+}
+
+// Those of at least three points: a plane of fewer has no facet.
+void ExactPoints::keep_planes(std::span<const ExactPoint> points, std::size_t planes,
+                              const std::function<IntegerPlane(std::size_t)>& plane) {
+  std::vector<Index> uses(planes), number(planes, kNone);
+  for (const ExactPoint& p : points) {
+    if (p.kind != Kind::on_planes) continue;
+    for (const Index n : {p.i, p.j, p.k}) ++uses[n];
+  }
+  for (std::size_t n = 0; n < planes; ++n) {
+    if (uses[n] < 3) continue;
+    number[n] = static_cast<Index>(planes_.size());
+    planes_.push_back(plane(n));
+  }
+  for (const ExactPoint& p : points) {
+    if (p.kind == Kind::on_planes) planes_of_.push_back({number[p.i], number[p.j], number[p.k]});
+  }
+}
+
 std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Planes planes) {
   std::vector<Equation> equations;
   for (std::size_t n = 0; n < planes.size(); ++n) {
@@ -280,18 +360,18 @@ std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Pla
     defined_.emplace_back().placed = static_cast<Index>(placed_.size());
     placed_.push_back(ExactNumber::over(std::move(numerators), std::move(common)));
   }
+  keep_planes(points, planes.size(),
+              [&](std::size_t n) { return integer_plane(equations[n], exponent_); });
   return {};
 }
 
 void ExactPoints::define(Index i, const ExactPoint& p) {
   Defined point{};
-  point.i = p.i;
-  point.j = p.j;
-  point.k = p.kind == Kind::on_triangle ? p.k : kNone;
+  point.corners = {p.i, p.j, p.kind == Kind::on_triangle ? p.k : kNone};
   point.u = p.x;
   point.v = p.y;
-  const bool integers =
-      is_integer(p.i) && is_integer(p.j) && (point.k == kNone || is_integer(point.k));
+  const bool integers = is_integer(p.i) && is_integer(p.j) &&
+                        (point.corners[2] == kNone || is_integer(point.corners[2]));
   if (!integers) {
     point.placed = static_cast<Index>(placed_.size());
     placed_.push_back(combined(point));
@@ -302,27 +382,29 @@ void ExactPoints::define(Index i, const ExactPoint& p) {
 
 void ExactPoints::combine_integers(const Defined& point, std::array<mpz_class, 3>& x) const {
   thread_local std::array<mpz_class, 3> other, base;
-  integers(point.k == kNone ? point.j : point.k, base);
-  integers(point.i, other);
+  const auto [i, j, k] = point.corners;
+  integers(k == kNone ? j : k, base);
+  integers(i, other);
   x = base;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     add_multiple(x[axis], point.u, base[axis], other[axis]);
   }
-  if (point.k == kNone) return;
-  integers(point.j, other);
+  if (k == kNone) return;
+  integers(j, other);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     add_multiple(x[axis], point.v, base[axis], other[axis]);
   }
 }
 
 ExactVector ExactPoints::combined(const Defined& point) const {
-  const ExactVector base = exact(point.k == kNone ? point.j : point.k), first = exact(point.i);
+  const auto [i, j, k] = point.corners;
+  const ExactVector base = exact(k == kNone ? j : k), first = exact(i);
   ExactVector x = base;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     add_multiple(x[axis], point.u, base[axis], first[axis]);
   }
-  if (point.k == kNone) return x;
-  const ExactVector second = exact(point.j);
+  if (k == kNone) return x;
+  const ExactVector second = exact(j);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     add_multiple(x[axis], point.v, base[axis], second[axis]);
   }
@@ -531,6 +613,7 @@ Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& te
 int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d) {
   const int sign = rough_volume6(points, {a, b, c, d}).sign();
   if (sign != 2) return sign;
+  if (points.surely_coplanar(std::array{a, b, c, d})) return 0;
   thread_local Volume6 volume6;
   return sgn(volume6(points, {a, b, c, d}));
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,8 +55,21 @@ class ExactPoints {
     const auto among = [&corners](Index i) {
       return i == corners[0] || i == corners[1] || i == corners[2];
     };
-    return among(p.i) && among(p.j) && (p.k == kNone || among(p.k));
+    return among(p.corners[0]) && among(p.corners[1]) &&
+           (p.corners[2] == kNone || among(p.corners[2]));
   }
+  // A plane of the record that contains all of these points by their definitions, or kNone: then
+  // their being in one plane needs no arithmetic. The plane must be one of at least three of the
+  // record's points, which are given on it.
+  Index common_plane(std::span<const Index> vertices) const;
+  // Are these points in one plane by their definitions? If not, they may be so all the same.
+  bool surely_coplanar(std::span<const Index> vertices) const;
+  // Is the point on that plane by its definition?
+  bool is_defined_on(Index v, Index plane) const;
+  // The sign of normal_of(plane) . (v - p) for any p on the plane.
+  int side_of(Index plane, Index v) const;
+  // Has far smaller numbers than an area vector of points on planes, and another length.
+  ExactVector normal_of(Index plane) const;
   long exponent() const { return exponent_; }
   // Encloses the coordinates (in true units); a single point if they are doubles.
   IntervalVector enclosure(Index i) const {
@@ -72,6 +86,12 @@ class ExactPoints {
   double largest_coordinate() const { return largest_coordinate_; }
   // The largest error of a difference of two such doubles, before that is rounded.
   double difference_error() const { return difference_error_; }
+
+  // normal . x = offset, for coordinates times 2^-exponent().
+  struct IntegerPlane {
+    std::array<mpz_class, 3> normal;
+    mpz_class offset;
+  };
 
  private:
   static Interval around(double x, double rest) {
@@ -93,8 +113,9 @@ class ExactPoints {
   // A point that is not explicit.
   struct Defined {
     Position rest;
-    // On a segment or a triangle of these, by these shares; k is kNone on a segment.
-    Index i = kNone, j = kNone, k = kNone;
+    // On a segment or a triangle of these, by these shares; the last is kNone on a segment, and all
+    // are on planes.
+    std::array<Index, 3> corners = {kNone, kNone, kNone};
     // Coordinates with denominators: where in placed_ they are.
     Index placed = kNone;
     double u = 0, v = 0;
@@ -105,6 +126,10 @@ class ExactPoints {
     return is_double(i) ? kExact : defined_[implicit_[i]].rest;
   }
   std::string place_on_planes(std::span<const delmesher::ExactPoint> points, Planes planes);
+  void keep_planes(std::span<const delmesher::ExactPoint> points, std::size_t planes,
+                   const std::function<IntegerPlane(std::size_t)>& plane);
+  // The corners by which a point is given; itself if it is one.
+  std::span<const Index> corners_of(const Index& v) const;
   void define(Index i, const delmesher::ExactPoint& p);
   // From their corners, which are defined.
   void combine_integers(const Defined& point, std::array<mpz_class, 3>& x) const;
@@ -113,7 +138,9 @@ class ExactPoints {
   std::vector<Position> nearest_;
   std::vector<Index> implicit_;  // per point: where in defined_ it is, kNone if it is explicit
   std::vector<Defined> defined_;
-  std::vector<ExactVector> placed_;
+  std::vector<ExactVector> placed_;  // those on planes first
+  std::vector<IntegerPlane> planes_;
+  std::vector<std::array<Index, 3>> planes_of_;  // of points on planes; kNone: of too few points
   bool all_integers_ = true;
   long exponent_ = 0;
   double largest_coordinate_ = 0, difference_error_ = 0;

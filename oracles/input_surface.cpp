@@ -56,7 +56,7 @@ IntervalVector rough_normal_of(const InputSurface::Facet& facet, const ExactPoin
     }
     if (width <= 0x1p-48 * size) return area;
   }
-  const ExactVector normal = facet.normal(points);
+  const ExactVector normal = facet.area2(points);
   IntervalVector result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double x = to_double(normal[axis], 2 * points.exponent());
@@ -67,7 +67,27 @@ IntervalVector rough_normal_of(const InputSurface::Facet& facet, const ExactPoin
 
 }  // namespace
 
+std::pair<Index, int> InputSurface::Facet::plane_of(const ExactPoints& points) const {
+  const Index plane = sum ? kNone : points.common_plane(span);
+  if (plane == kNone) return {kNone, 0};
+  const ExactVector normal = points.normal_of(plane);
+  IntervalVector rough;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double x = to_double(normal[axis], 0);
+    rough[axis] = Interval::around(x, x);
+  }
+  const int turned = exact::dot(rough, rough_normal).sign();
+  return {plane, turned == 2 ? 0 : turned};
+}
+
 ExactVector InputSurface::Facet::normal(const ExactPoints& points) const {
+  const auto [plane, turned] = plane_of(points);
+  if (turned == 0) return area2(points);
+  const ExactVector normal = points.normal_of(plane);
+  return turned > 0 ? normal : ExactVector{-normal[0], -normal[1], -normal[2]};
+}
+
+ExactVector InputSurface::Facet::area2(const ExactPoints& points) const {
   return sum ? *sum : exact::area2(points, span[0], span[1], span[2]);
 }
 
@@ -77,6 +97,9 @@ int InputSurface::Facet::side(const ExactPoints& points, Index v) const {
   if (rough != 2) return rough;
   if (sum) return sgn(exact::dot(*sum, exact::difference(points, span[0], v)));
   if (v == span[1] || v == span[2] || points.is_combination(v, span)) return 0;
+  if (const auto [plane, turned] = plane_of(points); turned != 0) {
+    return points.is_defined_on(v, plane) ? 0 : turned * points.side_of(plane, v);
+  }
   return exact::orient3d(points, span[0], span[1], span[2], v);
 }
 
@@ -404,7 +427,7 @@ double InputSurface::widest_slab(const std::vector<std::uint8_t>& asked, double 
   for (Index f = 0; f < facets_.size(); ++f) {
     if (asked[f] == 0) continue;
     const Facet& facet = facets_[f];
-    const ExactVector normal = facet.normal(points);
+    const ExactVector normal = facet.area2(points);
     const double unit = length(normal, 2 * points.exponent());
     if (unit == 0) return HUGE_VAL;
     if (all.of(f).size() == 1) continue;  // in one plane

@@ -74,12 +74,20 @@ class InputSurface {
     // numbers of all facets would take more memory than all the rest.
     std::shared_ptr<const ExactVector> sum{};
 
-    // Outwards; exact.
+    // Outwards; exact, and of any length: where the record has a plane through the facet's corners,
+    // that plane's normal, whose numbers are far smaller.
     ExactVector normal(const ExactPoints& points) const;
+    // Its area vector, or that of its largest triangle, twice; exact, in squares of units.
+    ExactVector area2(const ExactPoints& points) const;
     // The side of the plane through span[0] on which a vertex lies: 1 outside, 0 on it, -1 inside.
     int side(const ExactPoints& points, Index v) const;
     // The sign of the cosine of the angle between the normals of a triangle and of this facet.
     int facing(const ExactPoints& points, const std::array<Index, 3>& triangle) const;
+
+   private:
+    // A plane of the record through the corners, and whether its normal points outwards (1) or
+    // inwards (-1); 0 if there is none or intervals do not tell.
+    std::pair<Index, int> plane_of(const ExactPoints& points) const;
   };
 
   // Empty on success, else why the polyhedron bounds no solid (open, not orientable, no volume).

@@ -428,5 +428,84 @@ TEST(ExactPoints, OnPlanesAreWhereThesePlanesMeet) {
   }
 }
 
+ExactPoint given(ExactPoint::Kind kind, Index i, Index j, Index k, double x = 0, double y = 0) {
+  ExactPoint p;
+  p.kind = kind;
+  p.i = i;
+  p.j = j;
+  p.k = k;
+  p.x = x;
+  p.y = y;
+  return p;
+}
+
+// normal . (v - p) for a point p of a plane that is not spanned.
+mpq_class height_over(const ExactPoints& points, const ExactRecord::Plane& plane, Index v) {
+  mpq_class height = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    height += mpq_class(plane.normal[axis]) *
+              (coordinate(points, v, axis) - mpq_class(plane.through[0][axis]));
+  }
+  return height;
+}
+
+// Points 0 to 3 are on plane 0, and so are 5 to 7, which are given by these; 4, 8 and 9 are not.
+TEST(ExactPoints, AreInOnePlaneByTheirDefinitionsOnlyWhereTheyAreInOne) {
+  using Kind = ExactPoint::Kind;
+  std::mt19937 random(12);
+  const auto unit = [&] { return static_cast<double>(random()) * 0x1p-31 - 1; };
+  for (int round = 0; round < 100; ++round) {
+    std::vector<ExactRecord::Plane> planes(7);
+    for (auto& plane : planes) {
+      plane.normal = {unit(), unit(), unit()};
+      plane.through[0] = {unit(), unit(), unit()};
+    }
+    const std::vector<ExactPoint> list = {given(Kind::on_planes, 0, 1, 2),
+                                          given(Kind::on_planes, 3, 0, 2),
+                                          given(Kind::on_planes, 4, 5, 0),
+                                          given(Kind::on_planes, 0, 6, 1),
+                                          given(Kind::on_planes, 1, 2, 3),
+                                          given(Kind::on_segment, 0, 1, 0, 0.375),
+                                          given(Kind::on_triangle, 1, 2, 3, 0.25, unit()),
+                                          given(Kind::on_triangle, 0, 1, 2, unit(), 0.5),
+                                          given(Kind::on_segment, 0, 4, 0, 0.5),
+                                          given(Kind::explicit_point, 0, 0, 0, unit(), unit())};
+    ExactPoints points;
+    ASSERT_EQ(points.assign(list, planes), "");
+    const Index plane = points.common_plane(std::array<Index, 3>{0, 6, 7});
+    ASSERT_NE(plane, kNone);
+    const ExactVector normal = points.normal_of(plane);
+    const mpq_class scale = normal[0].rational() / mpq_class(planes[0].normal[0]);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(normal[axis].rational(), scale * mpq_class(planes[0].normal[axis]));
+    }
+    for (Index v = 0; v < list.size(); ++v) {
+      const mpq_class height = height_over(points, planes[0], v);
+      EXPECT_EQ(points.side_of(plane, v), sgn(height) * sgn(scale)) << v;
+      EXPECT_EQ(points.is_defined_on(v, plane), v != 4 && v < 8) << v;
+      EXPECT_EQ(height == 0, v != 4 && v < 8) << v;
+    }
+    // Planes of two points are of no use.
+    EXPECT_EQ(points.common_plane(std::array<Index, 2>{2, 9}), kNone);
+    EXPECT_EQ(points.common_plane(std::array<Index, 3>{2, 3, 4}), kNone);
+    int flat = 0;
+    for (Index v = 0; v < list.size(); ++v) {
+      const std::array<Index, 4> all = {v, (v + 1) % 10, (v + 3) % 10, (v + 6) % 10};
+      const bool zero = exact::volume6(points, all[0], all[1], all[2], all[3]) == 0;
+      const bool surely = points.surely_coplanar(all);
+      if (surely) {
+        EXPECT_TRUE(zero) << v;
+      }
+      EXPECT_EQ(exact::orient3d(points, all[0], all[1], all[2], all[3]) == 0, zero) << v;
+      flat += surely ? 1 : 0;
+    }
+    EXPECT_TRUE(points.surely_coplanar(std::array<Index, 4>{0, 5, 6, 7}));
+    EXPECT_TRUE(points.surely_coplanar(std::array<Index, 4>{0, 4, 8, 9}));
+    EXPECT_FALSE(points.surely_coplanar(std::array<Index, 4>{0, 1, 4, 9}));
+    EXPECT_TRUE(points.surely_coplanar(std::array<Index, 3>{0, 4, 9}));
+    EXPECT_LT(flat, 10);
+  }
+}
+
 }  // namespace
 }  // namespace tetproof
