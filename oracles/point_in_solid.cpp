@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "oracles/input_surface.h"
 
@@ -106,37 +107,9 @@ double middle(const Interval& x) {
   return x.low / 2 + x.high / 2;
 }
 
-// A point of a clipped polygon by its four determinants against the faces of a tetrahedron, up to a
-// common factor.
-using FaceSides = std::array<ExactNumber, 4>;
-
-void drop_denominators(FaceSides& sides) {
-  mpz_class common = 1;
-  for (const ExactNumber& side : sides) common = lcm(common, side.denominator());
-  if (common == 1) return;
-  for (ExactNumber& side : sides) {
-    side = ExactNumber(mpz_class(side.numerator() * (common / side.denominator())));
-  }
-}
-
-std::vector<FaceSides> clip(const std::vector<FaceSides>& polygon, int face) {
-  std::vector<FaceSides> result;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const FaceSides &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    if (p[face] >= 0) result.push_back(p);
-    if (sgn(p[face]) * sgn(q[face]) >= 0) continue;
-    const FaceSides& in = p[face] > 0 ? p : q;
-    const FaceSides& out = p[face] > 0 ? q : p;
-    FaceSides cut;
-    for (int j = 0; j < 4; ++j) cut[j] = in[face] * out[j] - out[face] * in[j];
-    result.push_back(std::move(cut));
-  }
-  return result;
-}
-
 // A cheap proof that the triangle enters: a point of it that is strictly inside the tetrahedron.
-// Doubles look for one as `meets` does; a sum of the triangle's corners with shares that are not
-// negative is one, up to a common factor, if intervals say so for each face.
+// Doubles look for one by clipping the triangle; a sum of the triangle's corners with shares that
+// are not negative is one, up to a common factor, if intervals say so for each face.
 bool surely_meets(const ExactPoints& points, const std::array<Index, 3>& triangle,
                   const std::array<Index, 4>& tetrahedron) {
   struct Corner {
@@ -186,36 +159,9 @@ bool surely_meets(const ExactPoints& points, const std::array<Index, 3>& triangl
   return true;
 }
 
-// Does the triangle contain a point strictly inside the tetrahedron? The clipped polygon does
-// exactly if it has, for each face, a vertex strictly on the inner side: then the mean of its
-// vertices is such a point.
-bool meets(const ExactPoints& points, const std::array<Index, 3>& triangle,
-           const std::array<Index, 4>& tetrahedron) {
-  std::vector<FaceSides> polygon(3);
-  for (int corner = 0; corner < 3; ++corner) {
-    for (int face = 0; face < 4; ++face) {
-      std::array<Index, 4> replaced = tetrahedron;
-      replaced[face] = triangle[corner];
-      polygon[corner][face] =
-          exact::volume6(points, replaced[0], replaced[1], replaced[2], replaced[3]);
-    }
-    drop_denominators(polygon[corner]);
-  }
-  const auto strictly_inside = [&](int face) {
-    return std::any_of(polygon.begin(), polygon.end(),
-                       [face](const FaceSides& sides) { return sides[face] > 0; });
-  };
-  for (int face = 0; face < 4; ++face) {
-    polygon = clip(polygon, face);
-    if (!strictly_inside(face)) return false;
-  }
-  return strictly_inside(0) && strictly_inside(1) && strictly_inside(2) && strictly_inside(3);
-}
-
-// A cheap proof that the triangle stays out: all its corners are on the outer side of one face, or
-// on it.
-bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
-               const std::array<Index, 4>& tetrahedron) {
+// Are all corners of the triangle on the outer side of one face, or on it?
+bool faces_separate(const ExactPoints& points, const std::array<Index, 3>& triangle,
+                    const std::array<Index, 4>& tetrahedron) {
   for (int face = 0; face < 4; ++face) {
     const auto outside = [&](Index v) {
       // A corner of the tetrahedron needs no arithmetic: it lies on this face or is its apex.
@@ -228,6 +174,69 @@ bool separated(const ExactPoints& points, const std::array<Index, 3>& triangle,
     if (std::all_of(triangle.begin(), triangle.end(), outside)) return true;
   }
   return false;
+}
+
+// The planes parallel to an edge of the tetrahedron, from p to q, and to a side of the triangle,
+// from a to b. Exact only where intervals do not tell.
+class ParallelPlanes {
+ public:
+  ParallelPlanes(const ExactPoints& points, Index p, Index q, Index a, Index b)
+      : points_(points),
+        defining_{p, q, a, b},
+        rough_normal_(exact::cross(points.rough_difference(p, q), points.rough_difference(a, b))) {}
+
+  // The side of the plane through p on which a point lies.
+  int side(Index v) {
+    const auto& [p, q, a, b] = defining_;
+    if (v == p || v == q) return 0;
+    const int rough = exact::dot(rough_normal_, points_.rough_difference(p, v)).sign();
+    if (rough != 2) return rough;
+    if (points_.surely_coplanar(std::array{p, q, a, b, v})) return 0;
+    if (!normal_) {
+      normal_ = exact::cross(exact::difference(points_, p, q), exact::difference(points_, a, b));
+    }
+    return sgn(exact::dot(*normal_, exact::difference(points_, p, v)));
+  }
+
+ private:
+  const ExactPoints& points_;
+  std::array<Index, 4> defining_;
+  IntervalVector rough_normal_;
+  std::optional<ExactVector> normal_;
+};
+
+// Does a plane parallel to an edge of the tetrahedron and to a side of the triangle have the two on
+// different sides, or touch them?
+bool edges_separate(const ExactPoints& points, const std::array<Index, 3>& triangle,
+                    const std::array<Index, 4>& tetrahedron) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::size_t k = i == 3 ? (j == 2 ? 1 : 2) : 3, l = 6 - i - j - k;
+      for (std::size_t n = 0; n < 3; ++n) {
+        const Index a = triangle[n], b = triangle[(n + 1) % 3], c = triangle[(n + 2) % 3];
+        ParallelPlanes planes(points, tetrahedron[i], tetrahedron[j], a, b);
+        const int first = planes.side(tetrahedron[k]);
+        const int second = planes.side(tetrahedron[l]);
+        const int side = first != 0 ? first : second;
+        if (side == 0 || first * second < 0) continue;
+        if (side * planes.side(a) <= 0 && side * planes.side(c) <= 0) return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Has the plane of the triangle the tetrahedron on one side?
+bool triangle_separates(const ExactPoints& points, const std::array<Index, 3>& triangle,
+                        const std::array<Index, 4>& tetrahedron) {
+  const auto& [a, b, c] = triangle;
+  int lowest = 0, highest = 0;
+  for (const Index v : tetrahedron) {
+    const int side = v == a || v == b || v == c ? 0 : exact::orient3d(points, a, b, c, v);
+    lowest = std::min(lowest, side);
+    highest = std::max(highest, side);
+  }
+  return lowest * highest == 0 && lowest != highest;
 }
 
 // A cheap proof that the tetrahedron stays out, above all for large triangles: it lies beyond one
@@ -435,14 +444,18 @@ InputSurface::Contact InputSurface::contact(const ExactPoints& points,
     }
     return has(1) && has(-1);
   };
+  // The triangle has no point strictly inside exactly if a plane separates it from the tetrahedron.
+  // Such planes are parallel to a face of one of the two or to an edge of each: those are the
+  // directions of the faces of all differences of their points.
   contact.enters = std::any_of(found.begin(), found.end(), [&](Index t) {
     return plane_enters(t) &&
            !beyond_edge(points, triangles_[t], facets_[facet_of_triangle_[t]].rough_normal,
                         tetrahedron) &&
-           !separated(points, triangles_[t], tetrahedron) &&
+           !faces_separate(points, triangles_[t], tetrahedron) &&
            (surely_meets(points, triangles_[t], tetrahedron) ||
             (!apart(points, triangles_[t], tetrahedron) &&
-             meets(points, triangles_[t], tetrahedron)));
+             !triangle_separates(points, triangles_[t], tetrahedron) &&
+             !edges_separate(points, triangles_[t], tetrahedron)));
   });
   return contact;
 }

@@ -17,24 +17,25 @@ namespace {
 
 using namespace oracles;  // NOLINT
 
+using Rational = std::array<mpq_class, 3>;
+
 // The part of a polygon on the inner side of the plane through three points.
-std::vector<std::array<mpq_class, 3>> clipped(const std::vector<std::array<mpq_class, 3>>& polygon,
-                                              const std::array<std::array<int, 3>, 4>& tet,
-                                              int face, bool& touches_inside) {
-  const auto height = [&](const std::array<mpq_class, 3>& x) {
+std::vector<Rational> clipped(const std::vector<Rational>& polygon,
+                              const std::array<Rational, 4>& tet, int face, bool& touches_inside) {
+  const auto height = [&](const Rational& x) {
     const auto &a = tet[(face + 1) % 4], &b = tet[(face + 2) % 4], &c = tet[(face + 3) % 4];
     const auto at = [&](const auto& p) {
       mpq_class sum = 0;
       for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
-        const int n = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
-        sum += n * (mpq_class(p[i]) - a[i]);
+        const mpq_class n = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
+        sum += n * (p[i] - a[i]);
       }
       return sum;
     };
     return mpq_class(at(x) * sgn(at(tet[face])));
   };
-  std::vector<std::array<mpq_class, 3>> result;
+  std::vector<Rational> result;
   touches_inside = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const auto &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
@@ -42,32 +43,36 @@ std::vector<std::array<mpq_class, 3>> clipped(const std::vector<std::array<mpq_c
     touches_inside = touches_inside || s > 0;
     if (s >= 0) result.push_back(p);
     if (sgn(s) * sgn(t) >= 0) continue;
-    std::array<mpq_class, 3> cut;
+    Rational cut;
     for (int k = 0; k < 3; ++k) cut[k] = (s * q[k] - t * p[k]) / (s - t);
     result.push_back(cut);
   }
   return result;
 }
 
-// Triangles that are larger than tetrahedra, and pass by them at all distances, 0 among them;
-// against clipping in rational coordinates.
+// Triangles that are larger than tetrahedra, and pass by them at all distances, 0 and such that
+// doubles do not tell from 0 among them; against clipping in rational coordinates.
 TEST(InputSurface, EntersWhatRationalClippingSaysItEnters) {
   std::mt19937_64 random(11);
   std::array<int, 2> counts{};
   for (int round = 0; round < 3000; ++round) {
-    std::array<std::array<int, 3>, 4> solid, tet;
-    for (auto& x : solid) {
-      for (int& c : x) c = static_cast<int>(random() % 19) - 9;
+    std::array<Position, 4> solid, tet;
+    for (Position& x : solid) {
+      for (double& c : x) c = static_cast<int>(random() % 19) - 9;
     }
-    for (auto& x : tet) {
-      for (int& c : x) c = static_cast<int>(random() % 4);
+    for (Position& x : tet) {
+      for (double& c : x) {
+        c = static_cast<int>(random() % 4);
+        if (round % 2 == 0) c += (static_cast<int>(random() % 3) - 1) * 0x1p-51;
+      }
     }
     if (round % 3 == 0) tet[0] = solid[0];
     std::vector<Position> positions;
-    for (const auto& x : {solid, tet}) {
-      for (const auto& c : x) {
-        positions.push_back({1.0 * c[0], 1.0 * c[1], 1.0 * c[2]});
-      }
+    std::array<Rational, 4> exact_tet;
+    positions.insert(positions.end(), solid.begin(), solid.end());
+    positions.insert(positions.end(), tet.begin(), tet.end());
+    for (std::size_t v = 0; v < 4; ++v) {
+      exact_tet[v] = {mpq_class(tet[v][0]), mpq_class(tet[v][1]), mpq_class(tet[v][2])};
     }
     const ExactPoints points = points_of(positions);
     if (exact::orient3d(points, 0, 1, 2, 3) == 0) continue;
@@ -83,18 +88,19 @@ TEST(InputSurface, EntersWhatRationalClippingSaysItEnters) {
     ASSERT_EQ(surface.assign(polyhedron, points), "");
     bool entered = false;
     for (int without = 0; without < 4; ++without) {
-      std::vector<std::array<mpq_class, 3>> polygon;
+      std::vector<Rational> polygon;
       for (int v = 0; v < 4; ++v) {
-        if (v != without) polygon.push_back({solid[v][0], solid[v][1], solid[v][2]});
+        if (v == without) continue;
+        polygon.push_back({mpq_class(solid[v][0]), mpq_class(solid[v][1]), mpq_class(solid[v][2])});
       }
       bool inside = true;
       for (int face = 0; face < 4; ++face) {
         bool ignored = false;
-        polygon = clipped(polygon, tet, face, ignored);
+        polygon = clipped(polygon, exact_tet, face, ignored);
       }
       for (int face = 0; face < 4; ++face) {
         bool touches = false;
-        clipped(polygon, tet, face, touches);
+        clipped(polygon, exact_tet, face, touches);
         inside = inside && touches;
       }
       entered = entered || inside;
