@@ -94,7 +94,7 @@ struct MeshReadResult {
 };
 
 // A tetrahedral mesh, by the extension: .mesh (MEDIT), .msh (Gmsh 4.1 or 2.2), .vtu, .node or .ele
-// (TetGen, which stand together, and a .face if there is one), .tet; as text. Vertices of cells are
+// (TetGen, which stand together, and a .face if there is one), .tet. Vertices of cells are
 // in range and coordinates are finite; improve_mesh() decides whether the mesh is conforming.
 // `go_on`: ReadOptions::go_on.
 MeshReadResult read_mesh(const std::string& path, const std::function<bool()>& go_on = {});
@@ -128,6 +128,8 @@ struct WriteOptions {
   // 2: ten-node tetrahedra and six-node triangles with straight edges, whose further nodes are in
   // the middle of the edges as written; in .mesh, .msh, .vtu, .vtk, .inp and .bdf. Else 1.
   int order = 1;
+  // As text where a format has both, .msh and .vtu; else as bytes.
+  bool ascii = false;
 };
 
 // Each file, or set of files, is complete or what it was before. The format is that of the

@@ -64,8 +64,27 @@ class GmshReader {
     if (text_.version != 4.1 && !(text_.version >= 2 && text_.version < 3)) {
       reader_.fail("neither version 4.1 nor 2.2");
     }
-    if (reader_.integer() != 0) reader_.fail("binary .msh files are not read");
-    reader_.integer();
+    binary_ = reader_.index(0, 2) == 1;
+    if (reader_.integer() != 8) reader_.fail("numbers that have not 8 bytes");
+    if (!binary_) return;
+    if (text_.version < 4) reader_.fail("binary .msh files are read of version 4.1 alone");
+    reader_.begin_bytes();
+    if (integer() != 1) reader_.fail("bytes in another order");
+  }
+
+  // What has four bytes in a binary file: tags of entities and groups, dimensions, types.
+  std::int64_t integer() { return binary_ ? reader_.bytes<std::int32_t>() : reader_.integer(); }
+  // What has eight: tags of nodes and elements.
+  std::int64_t large() { return binary_ ? reader_.bytes<std::int64_t>() : reader_.integer(); }
+  double number() { return binary_ ? reader_.bytes<double>() : reader_.number(); }
+  std::uint64_t count() {
+    if (!binary_) return reader_.count();
+    return reader_.possible(reader_.bytes<std::uint64_t>());
+  }
+  std::uint32_t index(std::uint32_t end) {
+    const std::int64_t value = integer();
+    if (value < 0 || value >= end) reader_.fail(std::to_string(value) + " is out of range");
+    return static_cast<std::uint32_t>(value);
   }
 
   void need_format() {
@@ -94,34 +113,36 @@ class GmshReader {
   void read_entities() {
     need_format();
     if (seen_.contains("$Elements")) reader_.fail("entities after the elements that need them");
+    if (binary_) reader_.begin_bytes();
     std::uint64_t counts[4];
-    for (std::uint64_t& count : counts) count = reader_.count();
+    for (std::uint64_t& number : counts) number = count();
     for (int dimension = 0; dimension < 4; ++dimension) {
       for (std::uint64_t i = 0; i < counts[dimension]; ++i) {
-        const std::int64_t tag = reader_.integer();
-        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) reader_.number();
+        const std::int64_t tag = integer();
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) number();
         std::int64_t group = tag;
-        const std::uint64_t tags = reader_.count();
+        const std::uint64_t tags = count();
         for (std::uint64_t k = 0; k < tags; ++k) {
-          const std::int64_t value = reader_.integer();
+          const std::int64_t value = integer();
           if (k == 0) group = value;
         }
         if (!group_.emplace(std::pair(dimension, tag), group).second) {
           reader_.fail("entity " + std::to_string(tag) + " is there twice");
         }
         if (dimension == 0) continue;
-        const std::uint64_t bounding = reader_.count();
-        for (std::uint64_t k = 0; k < bounding; ++k) reader_.integer();
+        const std::uint64_t bounding = count();
+        for (std::uint64_t k = 0; k < bounding; ++k) integer();
       }
     }
   }
 
   Announced announced() {
+    if (binary_) reader_.begin_bytes();
     Announced a;
-    a.blocks = reader_.count();
-    a.total = reader_.count();
-    a.least = reader_.integer();
-    a.largest = reader_.integer();
+    a.blocks = count();
+    a.total = count();
+    a.least = large();
+    a.largest = large();
     return a;
   }
 
@@ -134,18 +155,18 @@ class GmshReader {
   void read_nodes_4() {
     const Announced a = announced();
     for (std::uint64_t block = 0; block < a.blocks; ++block) {
-      const std::uint32_t dimension = reader_.index(0, 4);
-      reader_.integer();
-      const bool parametric = reader_.index(0, 2) != 0;
-      const std::uint64_t count = reader_.count();
-      for (std::uint64_t i = 0; i < count; ++i) {
-        const std::int64_t tag = reader_.integer();
+      const std::uint32_t dimension = index(4);
+      integer();
+      const bool parametric = index(2) != 0;
+      const std::uint64_t nodes = count();
+      for (std::uint64_t i = 0; i < nodes; ++i) {
+        const std::int64_t tag = large();
         tag_within(tag, a);
         add_node_tag(tag);
       }
-      for (std::uint64_t i = 0; i < count; ++i) {
+      for (std::uint64_t i = 0; i < nodes; ++i) {
         read_position();
-        for (std::uint32_t k = 0; parametric && k < dimension; ++k) reader_.number();
+        for (std::uint32_t k = 0; parametric && k < dimension; ++k) number();
       }
     }
     if (text_.nodes.size() != a.total) reader_.fail("another number of nodes was announced");
@@ -164,8 +185,8 @@ class GmshReader {
     const Announced a = announced();
     GmshElement element;
     for (std::uint64_t block = 0; block < a.blocks; ++block) {
-      const int dimension = static_cast<int>(reader_.index(0, 4));
-      element.entity = reader_.integer();
+      const int dimension = static_cast<int>(index(4));
+      element.entity = integer();
       element.type = type();
       if (dimension != kind(element.type).dimension) {
         reader_.fail("elements of another dimension than their entity");
@@ -173,8 +194,8 @@ class GmshReader {
       const auto found = group_.find({dimension, element.entity});
       // Some programs list no entities, or not all of them.
       element.group = found == group_.end() ? element.entity : found->second;
-      for (std::uint64_t left = reader_.count(); left > 0; --left) {
-        tags_.push_back(reader_.integer());
+      for (std::uint64_t left = count(); left > 0; --left) {
+        tags_.push_back(large());
         tag_within(tags_.back(), a);
         take(element);
       }
@@ -221,7 +242,7 @@ class GmshReader {
   }
 
   int type() {
-    const std::int64_t type = reader_.integer();
+    const std::int64_t type = integer();
     if (&kind(type) == std::end(kKinds)) {
       reader_.fail("an element of type " + std::to_string(type) + ", which is not read");
     }
@@ -230,7 +251,7 @@ class GmshReader {
 
   void take(GmshElement& element) {
     for (int i = 0; i < kind(element.type).nodes; ++i) {
-      const std::int64_t tag = reader_.integer();
+      const std::int64_t tag = large();
       const auto found = number_.find(tag);
       if (found == number_.end()) reader_.fail("there is no node " + std::to_string(tag));
       element.nodes[static_cast<std::size_t>(i)] = found->second;
@@ -245,13 +266,14 @@ class GmshReader {
   }
 
   void read_position() {
-    const double x = reader_.number(), y = reader_.number(), z = reader_.number();
+    const double x = number(), y = number(), z = number();
     text_.nodes.push_back({x, y, z});
   }
 
   TextReader reader_;
   const std::function<void(const GmshElement&)>& take_;
   GmshText text_;
+  bool binary_ = false;
   std::set<std::string> seen_;
   std::map<std::pair<int, std::int64_t>, std::int64_t> group_;  // of an entity
   std::map<std::int64_t, Index> number_;                        // of a node

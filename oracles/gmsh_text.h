@@ -1,4 +1,5 @@
-// The text of a Gmsh file (.msh, 4.1 and 2.2), of a mesh in space or in the plane.
+// The contents of a Gmsh file (.msh, 4.1 as bytes or text, and 2.2 as text), of a mesh in space or
+// in the plane.
 #pragma once
 
 #include <array>

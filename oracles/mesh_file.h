@@ -1,5 +1,5 @@
-// Reads the files that meshers write: MEDIT .mesh, Gmsh .msh (4.1 and 2.2, text), .vtu (text),
-// TetGen's .node/.ele/.face, and .tet.
+// Reads the files that meshers write: MEDIT .mesh, Gmsh .msh (4.1, and 2.2 as text), .vtu (text or
+// base 64, not compressed), TetGen's .node/.ele/.face, and .tet.
 #pragma once
 
 #include <string>

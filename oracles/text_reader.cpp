@@ -1,6 +1,7 @@
 #include "oracles/text_reader.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
@@ -121,6 +122,22 @@ void TextReader::expect_line_end() {
   }
 }
 
+void TextReader::begin_bytes() {
+  expect_line_end();
+  if (at_its_end()) fail("the file ends where bytes should begin");
+  ++at_;
+  ++line_;
+}
+
+void TextReader::read_bytes(char* target, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    kept_ = at_;
+    if (at_its_end()) fail("the file ends within its bytes");
+    target[std::endian::native == std::endian::little ? i : count - 1 - i] = text_[at_++];
+  }
+  kept_ = at_;
+}
+
 bool TextReader::at_end() {
   skip_blanks(true);
   return at_its_end();
@@ -214,10 +231,15 @@ std::uint32_t TextReader::index(std::int64_t first, std::uint64_t count) {
 
 std::uint64_t TextReader::count() {
   const std::int64_t value = integer();
-  if (value < 0 || static_cast<std::uint64_t>(value) > size_ / 2 + 1) {
-    fail("count " + std::to_string(value) + " is more than the file can hold");
+  if (value < 0) fail("count " + std::to_string(value) + " is negative");
+  return possible(static_cast<std::uint64_t>(value));
+}
+
+std::uint64_t TextReader::possible(std::uint64_t count) const {
+  if (count > size_ / 2 + 1) {
+    fail("count " + std::to_string(count) + " is more than the file can hold");
   }
-  return static_cast<std::uint64_t>(value);
+  return count;
 }
 
 }  // namespace tetproof::oracles

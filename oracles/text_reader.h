@@ -56,6 +56,16 @@ class TextReader {
     for (Item& item : items) read_item(item);
   }
 
+  // The rest of this line is blank; bytes begin after it.
+  void begin_bytes();
+  // The number that the next bytes are, the least significant first.
+  template <class T>
+  T bytes() {
+    T value;
+    read_bytes(reinterpret_cast<char*>(&value), sizeof(T));
+    return value;
+  }
+
   double number();  // decimal or hexadecimal ("0x1.8p3"), exact to the nearest
   std::int64_t integer();
   std::int32_t integer32();  // as labels are
@@ -63,6 +73,8 @@ class TextReader {
   std::uint32_t index(std::int64_t first, std::uint64_t count);
   // A count of things that take at least two characters each, so that no lie can exhaust memory.
   std::uint64_t count();
+  // The same of a number that is known.
+  std::uint64_t possible(std::uint64_t count) const;
 
   [[noreturn]] void fail(const std::string& reason) const;
   std::uint64_t line() const { return line_; }
@@ -74,6 +86,7 @@ class TextReader {
   bool at_its_end() { return at_ >= text_.size() && !refill(); }
   bool refill();
   void skip_blanks(bool over_lines);
+  void read_bytes(char* target, std::size_t count);
 
   std::string name_;
   std::string_view text_;  // the piece that is there

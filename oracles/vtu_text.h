@@ -1,4 +1,4 @@
-// The arrays of a .vtu file written as text.
+// The arrays of a .vtu file written as text, or in base 64.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +33,7 @@ class VtuText {
  private:
   void remove_comments();
   std::size_t count(const std::string& name) const;
+  std::vector<double> binary_values(const std::string& type, std::string_view text) const;
   std::vector<double> values(std::string_view tag, std::size_t start) const;
 
   std::string path_;

@@ -85,14 +85,16 @@ class Meshed {
   std::map<std::string, std::string> files_;
 };
 
-// An L of two boxes with a label for each side, and what is outside: the mesh of its hull.
+// An L of two boxes with a label for each side.
+const char* const kL =
+    "12 3\n0 0 0 0\n1 2 0 0\n2 2 1 0\n3 1 1 0\n4 1 2 0\n5 0 2 0\n6 0 0 1\n7 2 0 1\n8 2 1 1\n"
+    "9 1 1 1\n10 1 2 1\n11 0 2 1\n8 1\n6 5 4 3 2 1 0 11\n6 6 7 8 9 10 11 12\n4 0 1 7 6 13\n"
+    "4 1 2 8 7 14\n4 2 3 9 8 15\n4 3 4 10 9 16\n4 4 5 11 10 17\n4 5 0 6 11 18\n0\n0\n";
+
+// What is outside, too: the mesh of its hull.
 const Meshed& in_space() {
-  static const Meshed meshed(
-      "l.smesh",
-      "12 3\n0 0 0 0\n1 2 0 0\n2 2 1 0\n3 1 1 0\n4 1 2 0\n5 0 2 0\n6 0 0 1\n7 2 0 1\n8 2 1 1\n"
-      "9 1 1 1\n10 1 2 1\n11 0 2 1\n8 1\n6 5 4 3 2 1 0 11\n6 6 7 8 9 10 11 12\n4 0 1 7 6 13\n"
-      "4 1 2 8 7 14\n4 2 3 9 8 15\n4 3 4 10 9 16\n4 4 5 11 10 17\n4 5 0 6 11 18\n0\n0\n",
-      "mesh --region hull", {{"mesh"}, {"msh"}, {"vtu"}, {"tet"}, {"node", "ele", "face"}});
+  static const Meshed meshed("l.smesh", kL, "mesh --region hull --ascii",
+                             {{"mesh"}, {"msh"}, {"vtu"}, {"tet"}, {"node", "ele", "face"}});
   return meshed;
 }
 
@@ -102,7 +104,13 @@ const Meshed& of_second_order() {
       "box.off",
       "OFF\n8 6 0\n0 0 0\n4 0 0\n4 4 0\n0 4 0\n0 0 1\n4 0 1\n4 4 1\n0 4 1\n4 0 3 2 1\n"
       "4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n",
-      "mesh --order 2 --region hull", {{"mesh"}, {"msh"}, {"vtu"}});
+      "mesh --order 2 --region hull --ascii", {{"mesh"}, {"msh"}, {"vtu"}});
+  return meshed;
+}
+
+// The same L as bytes.
+const Meshed& of_bytes() {
+  static const Meshed meshed("l_bytes.smesh", kL, "mesh --region hull", {{"msh"}, {"vtu"}});
   return meshed;
 }
 
@@ -305,9 +313,62 @@ TEST(FileLies, AreRefused) {
   for (const Lie& lie : kPlaneLies) tell(in_the_plane(), lie);
 }
 
+std::string bytes_of(std::uint64_t number, std::size_t count) {
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes += static_cast<char>(number >> 8 * i & 255);
+  return bytes;
+}
+
+// Numbers of elements and nodes that are announced, references, and bytes after the end.
+TEST(FileLies, OfBytesAreRefused) {
+  const std::string &gmsh = of_bytes().files().at("msh"), &vtu = of_bytes().files().at("vtu");
+  for (const auto& [extension, text] : of_bytes().files()) {
+    for (const bool with_record : {false, true}) {
+      EXPECT_EQ(of_bytes().verify(extension, text, with_record), 0) << extension;
+    }
+  }
+  const auto changed = [&](std::string text, std::size_t at, const std::string& bytes) {
+    EXPECT_NE(text.substr(at, bytes.size()), bytes);
+    return text.replace(at, bytes.size(), bytes);
+  };
+  const std::size_t nodes = gmsh.find("$Nodes\n") + 7, elements = gmsh.find("$Elements\n") + 10;
+  const std::string gmsh_lies[] = {
+      changed(gmsh, gmsh.find("4.1 1 8"), "4.1 1 4"),
+      changed(gmsh, gmsh.find("4.1 1 8"), "4.1 2 8"),
+      changed(gmsh, gmsh.find("4.1 1 8"), "2.2 1 8"),
+      changed(gmsh, gmsh.find("4.1 1 8") + 8, std::string("\0\0\0\1", 4)),
+      changed(gmsh, nodes + 8, bytes_of(10, 8)),             // as many nodes in all
+      changed(gmsh, nodes, bytes_of(~std::uint64_t{0}, 8)),  // as many blocks
+      changed(gmsh, nodes + 32 + 12, bytes_of(11, 8)),       // as many in the block
+      changed(gmsh, nodes + 32 + 20, bytes_of(2, 8)),        // the first one's tag
+      changed(gmsh, elements + 8, bytes_of(9, 8)),
+      changed(gmsh, elements + 32, bytes_of(3, 4)),        // the dimension of the first
+      changed(gmsh, elements + 32 + 8, bytes_of(3, 4)),    // its type
+      changed(gmsh, elements + 32 + 28, bytes_of(99, 8)),  // its first node
+      gmsh + "x"};
+  for (const std::string& lie : gmsh_lies) {
+    EXPECT_EQ(of_bytes().verify("msh", lie, true), 3) << &lie - gmsh_lies;
+  }
+  const auto in_array = [&](const char* name) {
+    return vtu.find('\n', vtu.find("Name=\"" + std::string(name) + "\"")) + 1;
+  };
+  const std::string vtu_lies[] = {changed(vtu, in_array("types"), "A"),  // the number of bytes
+                                  changed(vtu, in_array("types") + 12, "////"),
+                                  changed(vtu, in_array("connectivity") + 12, "////"),
+                                  changed(vtu, in_array("offsets") + 12, "////"),
+                                  changed(vtu, in_array("connectivity") + 12, "****"),
+                                  changed(vtu, vtu.find("UInt64"), "UInt32"),
+                                  changed(vtu, vtu.find("LittleEndian"), "BiggerEndian"),
+                                  changed(vtu, vtu.find(" header_type"), " compressor "),
+                                  changed(vtu, vtu.find("Int32"), "Int99")};
+  for (const std::string& lie : vtu_lies) {
+    EXPECT_EQ(of_bytes().verify("vtu", lie, true), 3) << &lie - vtu_lies;
+  }
+}
+
 // Of a file cut short nothing is believed, wherever that is.
 TEST(FileLies, CutShortAreRefused) {
-  for (const Meshed* model : {&in_space(), &of_second_order(), &in_the_plane()}) {
+  for (const Meshed* model : {&in_space(), &of_second_order(), &of_bytes(), &in_the_plane()}) {
     for (const auto& [extension, text] : model->files()) {
       // A .poly may end after its segments; that the holes are missing is seen with the input.
       for (std::size_t size = 1; size + 8 < text.size(); size += 1 + size / 16) {

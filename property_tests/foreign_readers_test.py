@@ -84,6 +84,8 @@ class Read(unittest.TestCase):
         subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", *outputs], check=True)
         outputs = [word for e in SECOND_ORDER for word in ("-o", path("ten." + e))]
         subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", "--order", "2", *outputs], check=True)
+        subprocess.run([DELMESHER, "mesh", path("box.obj"), "-q", "--max-edge", "0.5", "--ascii", "-o", path("text.msh"), "-o", path("text.vtu")],
+                       check=True)
         cls.expected = mesh_of("mesh")  # which the tests of the writer hold to the bytes
         cls.points = cls.expected.points
         cls.tetrahedra = cells(cls.expected, "tetra")
@@ -237,6 +239,19 @@ class Read(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""), extension)
             with self.subTest(extension):
                 self.straight_elements(meshio.read(out), exactly=False, same_numbers=False)
+
+    def test_bytes_and_text_are_one_mesh(self):
+        for extension in ("msh", "vtu"):
+            with open(path("box." + extension), "rb") as file:
+                self.assertTrue(b"\n4.1 1 8\n" in file.read(200) if extension == "msh" else b'"Float64" Name="Points" NumberOfComponents="3" format="binary"' in file.read())
+            bytes_, text = mesh_of(extension), meshio.read(path("text." + extension))
+            self.assertTrue(numpy.array_equal(bytes_.points, text.points))
+            for kind in ("tetra", "triangle"):
+                self.assertTrue(numpy.array_equal(cells(bytes_, kind), cells(text, kind)))
+            self.assertEqual(set(bytes_.cell_data), set(text.cell_data))
+            for name, blocks in bytes_.cell_data.items():
+                for one, other in zip(blocks, text.cell_data[name]):
+                    self.assertTrue(numpy.array_equal(one, other))
 
     def test_gmsh_knows_what_bounds_the_volume(self):
         geo = path("boundary.geo")

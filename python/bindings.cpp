@@ -344,8 +344,9 @@ py::dict read_mesh_file(const std::string& path) {
 }
 
 void write_mesh_file(const std::string& path, const py::dict& given, const io::LabelNames& names,
-                     int order) {
-  const io::WriteStatus status = io::write_mesh(path, mesh_of(given), names, {.order = order});
+                     int order, bool ascii) {
+  const io::WriteStatus status =
+      io::write_mesh(path, mesh_of(given), names, {.order = order, .ascii = ascii});
   ok_or_throw(status);
 }
 

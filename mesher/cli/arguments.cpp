@@ -172,6 +172,7 @@ void add_writing(CLI::App& app, Command& command) {
                  "1, or 2: ten-node tetrahedra with straight edges (1)")
       ->check(CLI::IsMember({1, 2}))
       ->type_name("N");
+  app.add_flag("--ascii", command.write.ascii, ".msh and .vtu as text, not as bytes");
 }
 
 void add_mesh(CLI::App& app, Command& command, Given& given) {

@@ -292,6 +292,11 @@ TEST(Arguments, MistakesAreTwo) {
   expect_usage_error({"in.off", "-o", "a.mesh", "-q", "-v"});
 }
 
+TEST(Arguments, Ascii) {
+  EXPECT_FALSE(parse({"in.off", "-o", "a.msh"}).command.write.ascii);
+  EXPECT_TRUE(parse({"improve", "a.mesh", "-o", "b.vtu", "--ascii"}).command.write.ascii);
+}
+
 TEST(Arguments, SecondOrder) {
   EXPECT_EQ(parse({"in.off", "-o", "a.msh"}).command.write.order, 1);
   for (const char* job : {"mesh", "cdt"}) {

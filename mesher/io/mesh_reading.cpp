@@ -51,8 +51,21 @@ std::array<double, 3> MeshText::point() {
   return p;
 }
 
+std::string_view MeshText::bytes(std::size_t count, const char* what) {
+  polling_.poll();
+  std::string_view bytes;
+  if (!lines_.take_bytes(count, bytes)) {
+    fail("the file ends where " + std::string(what) + " is expected");
+  }
+  return bytes;
+}
+
 std::uint64_t MeshText::count(const char* what, std::uint64_t most, std::uint64_t bytes) {
-  const auto n = integer<std::uint64_t>(what);
+  return count(integer<std::uint64_t>(what), what, most, bytes);
+}
+
+std::uint64_t MeshText::count(std::uint64_t n, const char* what, std::uint64_t most,
+                              std::uint64_t bytes) {
   if (n > most) fail(std::to_string(n) + " is too large a " + what);
   // The last item need have no line end; the rest of this line counts, too.
   if (n > (lines_.remaining() + lines_.rest_of_line().size() + 1) / bytes) {

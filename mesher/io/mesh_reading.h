@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesher/delmesher_files.h"
+#include "mesher/io/binary.h"
 #include "mesher/io/polling.h"
 #include "mesher/io/reading.h"
 #include "mesher/io/text.h"
@@ -47,6 +48,12 @@ class MeshText {
   T integer(const char* what) {
     return parsed<T>(need(what), what);
   }
+  // A number as bytes, after this line or the bytes before it.
+  template <class T>
+  T binary(const char* what) {
+    return number_from<T>(bytes(sizeof(T), what));
+  }
+  std::string_view bytes(std::size_t count, const char* what);
   template <class T>
   T parsed(std::string_view token, const char* what) const {
     T value{};
@@ -58,6 +65,8 @@ class MeshText {
   std::array<double, 3> point();
   // How many items follow, of at least `bytes` bytes each; no more than `most`.
   std::uint64_t count(const char* what, std::uint64_t most, std::uint64_t bytes);
+  // The same of a number that is known.
+  std::uint64_t count(std::uint64_t n, const char* what, std::uint64_t most, std::uint64_t bytes);
   // The number, from 0, of a vertex that the file counts from `first`.
   std::uint32_t vertex(std::string_view token, std::uint64_t first, std::uint64_t vertices) const;
   template <std::size_t N>

@@ -29,6 +29,7 @@ struct NamedMesh {
   const TetMesh& mesh;
   const LabelNames& names;
   const EdgeNodes* edge_nodes = nullptr;  // of elements of second order
+  bool ascii = true;                      // else bytes, in formats that have both
 
   bool second_order() const { return edge_nodes != nullptr; }
   // All nodes: the vertices, then those of the edges.

@@ -1,6 +1,7 @@
-// Gmsh MSH 4.1 and 2.2, ASCII (Gmsh reference manual, "MSH file format").
+// Gmsh MSH 4.1, binary or ASCII, and 2.2, ASCII (Gmsh reference manual, "MSH file format").
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 #include <vector>
@@ -81,8 +82,41 @@ class GmshReader {
       in_.fail("version " + in_quotes(version) + " is not read, only 4.1 and 2.2");
     }
     const auto type = in_.integer<std::int64_t>("file type");
-    if (type != 0) in_.fail("binary .msh files are not read: save as text (gmsh -bin 0)");
-    in_.integer<std::int64_t>("data size");
+    const auto size = in_.integer<std::int64_t>("data size");
+    binary_ = type != 0;
+    if (!binary_) return;
+    if (version_ == Version::two) {
+      in_.fail("binary .msh files are read of version 4.1 alone: save as text (gmsh -bin 0)");
+    }
+    if (size != 8) in_.fail("counts of " + std::to_string(size) + " bytes, not 8");
+    if (in_.binary<std::int32_t>("the order of bytes") != 1) {
+      in_.fail("bytes in big-endian order are not read: save as text (gmsh -bin 0)");
+    }
+  }
+
+  // Numbers of version 4.1: an int, a size_t, doubles; or text.
+  std::int64_t tag(const char* what) {
+    return binary_ ? in_.binary<std::int32_t>(what) : in_.integer<std::int64_t>(what);
+  }
+  std::uint64_t size(const char* what) {
+    return binary_ ? in_.binary<std::uint64_t>(what) : in_.integer<std::uint64_t>(what);
+  }
+  // A size_t that says how many things follow, of at least `bytes` bytes each.
+  std::uint64_t count(const char* what, std::uint64_t most, std::uint64_t bytes) {
+    return in_.count(size(what), what, most, bytes);
+  }
+  std::array<double, 3> point() {
+    if (!binary_) return in_.point();
+    std::array<double, 3> p;
+    for (double& x : p) {
+      x = in_.binary<double>("a coordinate");
+      if (!std::isfinite(x)) in_.fail("non-finite coordinate");
+    }
+    return p;
+  }
+  // Passes over numbers, of so many bytes each in a binary file.
+  void skip(std::uint64_t numbers, std::size_t bytes) {
+    binary_ ? void(in_.bytes(numbers * bytes, "a number")) : in_.skip(numbers);
   }
 
   // "label L" and "region R" are delmesher's own names of groups whose number need not be theirs.
@@ -118,34 +152,35 @@ class GmshReader {
     const std::array<const char*, 4> names = {"number of points", "number of curves",
                                               "number of surfaces", "number of volumes"};
     std::array<std::uint64_t, 4> counts;
-    for (std::size_t d = 0; d < 4; ++d) counts[d] = in_.count(names[d], kMostCells, 2);
+    for (std::size_t d = 0; d < 4; ++d) counts[d] = count(names[d], kMostCells, 2);
     for (int d = 0; d < 4; ++d) {
       for (std::uint64_t n = 0; n < counts[static_cast<std::size_t>(d)]; ++n) {
-        const auto entity = in_.integer<std::int64_t>("entity tag");
-        in_.skip(d == 0 ? 3 : 6);  // the box
-        const auto groups = in_.count("number of physical groups", kMostCells, 2);
+        const std::int64_t entity = tag("entity tag");
+        skip(d == 0 ? 3 : 6, sizeof(double));  // the box
+        const auto groups = count("number of physical groups", kMostCells, 2);
         for (std::uint64_t k = 0; k < groups; ++k) {
-          const auto tag = in_.integer<std::int64_t>("physical tag");
-          if (k == 0) physical_[{d, entity}] = tag_from(tag);
+          const std::int64_t group = tag("physical tag");
+          if (k == 0) physical_[{d, entity}] = tag_from(group);
         }
-        if (d > 0) in_.skip(in_.count("number of boundary entities", kMostCells, 2));
+        if (d > 0) skip(count("number of boundary entities", kMostCells, 2), sizeof(std::int32_t));
       }
     }
   }
 
   void read_nodes_4() {
-    const auto blocks = in_.count("number of blocks", kMostCells, 2);
-    const auto nodes = in_.count("number of nodes", kMostVertices, 8);
-    in_.skip(2);
+    const auto blocks = count("number of blocks", kMostCells, 2);
+    const auto nodes = count("number of nodes", kMostVertices, 8);
+    skip(2, sizeof(std::uint64_t));
     for (std::uint64_t b = 0; b < blocks; ++b) {
-      const int dimension = in_.integer<int>("dimension");
-      in_.integer<std::int64_t>("entity tag");
-      const auto parametric = in_.integer<int>("flag");
-      const auto n = in_.count("number of nodes", nodes - tags_.size(), 8);
-      for (std::uint64_t i = 0; i < n; ++i) tags_.push_back(in_.integer<std::uint64_t>("node tag"));
+      const std::int64_t dimension = tag("dimension");
+      tag("entity tag");
+      const std::int64_t parametric = tag("flag");
+      const auto n = count("number of nodes", nodes - tags_.size(), 8);
+      for (std::uint64_t i = 0; i < n; ++i) tags_.push_back(size("node tag"));
       for (std::uint64_t i = 0; i < n; ++i) {
-        builder_.add_vertex(in_.point());
-        if (parametric != 0) in_.skip(static_cast<std::uint64_t>(std::clamp(dimension, 0, 3)));
+        builder_.add_vertex(point());
+        if (parametric == 0) continue;
+        skip(static_cast<std::uint64_t>(std::clamp<std::int64_t>(dimension, 0, 3)), sizeof(double));
       }
     }
   }
@@ -172,7 +207,7 @@ class GmshReader {
   }
 
   std::uint32_t vertex() {
-    const auto tag = in_.integer<std::uint64_t>("node tag");
+    const std::uint64_t tag = size("node tag");
     if (in_order_) {
       if (tag >= 1 && tag <= tags_.size()) return static_cast<std::uint32_t>(tag - 1);
     } else {
@@ -209,17 +244,17 @@ class GmshReader {
           t, group.number,
           is_facet ? std::optional(static_cast<std::uint32_t>(entity - 1)) : std::nullopt);
     } else {
-      in_.skip(static_cast<std::uint64_t>(nodes_of(type)));
+      skip(static_cast<std::uint64_t>(nodes_of(type)), sizeof(std::uint64_t));
     }
   }
 
   int need_type() {
-    const int type = in_.integer<int>("element type");
-    if (nodes_of(type) == 0) {
+    const std::int64_t type = tag("element type");
+    if (type != static_cast<int>(type) || nodes_of(static_cast<int>(type)) == 0) {
       in_.fail("elements of type " + std::to_string(type) +
                ": a mesh of tetrahedra of first order is expected");
     }
-    return type;
+    return static_cast<int>(type);
   }
 
   Group group_of_type(int type, std::int64_t entity, std::int64_t physical) const {
@@ -228,20 +263,20 @@ class GmshReader {
   }
 
   void read_elements_4() {
-    const auto blocks = in_.count("number of blocks", kMostCells, 2);
-    const auto elements = in_.count("number of elements", kMostCells, 4);
-    in_.skip(2);
+    const auto blocks = count("number of blocks", kMostCells, 2);
+    const auto elements = count("number of elements", kMostCells, 4);
+    skip(2, sizeof(std::uint64_t));
     std::uint64_t left = elements;
     for (std::uint64_t b = 0; b < blocks; ++b) {
-      const int dimension = in_.integer<int>("dimension");
-      const auto entity = in_.integer<std::int64_t>("entity tag");
+      const std::int64_t dimension = tag("dimension");
+      const std::int64_t entity = tag("entity tag");
       const int type = need_type();
-      const auto n = in_.count("number of elements", left, 4);
+      const auto n = count("number of elements", left, 4);
       left -= n;
-      const auto found = physical_.find({dimension, entity});
+      const auto found = physical_.find({static_cast<int>(dimension), entity});
       const Group group = group_of_type(type, entity, found == physical_.end() ? 0 : found->second);
       for (std::uint64_t i = 0; i < n; ++i) {
-        in_.integer<std::uint64_t>("element tag");
+        size("element tag");
         read_element(type, entity, group);
       }
     }
@@ -265,6 +300,7 @@ class GmshReader {
   MeshText in_;
   MeshBuilder& builder_;
   Version version_ = Version::none;
+  bool binary_ = false;
   std::map<std::pair<int, std::int64_t>, Group> groups_;           // by dimension and tag
   std::map<std::pair<int, std::int64_t>, std::int64_t> physical_;  // of an entity, its first
   std::vector<std::uint64_t> tags_;                                // of the nodes

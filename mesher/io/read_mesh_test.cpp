@@ -44,11 +44,22 @@ class Files : public testing::Test {
 
   // As it is when it has been written and read.
   TetMesh again(const TetMesh& mesh, const std::string& extension) const {
-    const WriteStatus status = write_mesh(path("a" + extension), mesh);
-    EXPECT_TRUE(status.ok()) << status.error;
-    MeshReadResult result = read_mesh(path("a" + extension));
-    EXPECT_TRUE(result.ok()) << result.error;
-    return std::move(result.mesh);
+    MeshReadResult as[2];
+    for (const bool ascii : {false, true}) {
+      const WriteStatus status = write_mesh(path("a" + extension), mesh, {}, {.ascii = ascii});
+      EXPECT_TRUE(status.ok()) << status.error;
+      as[ascii ? 1 : 0] = read_mesh(path("a" + extension));
+      EXPECT_TRUE(as[ascii ? 1 : 0].ok()) << as[ascii ? 1 : 0].error;
+    }
+    const TetMesh &bytes = as[0].mesh, &text = as[1].mesh;
+    EXPECT_EQ(bytes.vertices, text.vertices);
+    EXPECT_EQ(bytes.tetrahedra, text.tetrahedra);
+    EXPECT_EQ(bytes.inside, text.inside);
+    EXPECT_EQ(bytes.regions, text.regions);
+    EXPECT_EQ(bytes.boundary, text.boundary);
+    EXPECT_EQ(bytes.boundary_labels, text.boundary_labels);
+    EXPECT_EQ(bytes.boundary_facets, text.boundary_facets);
+    return std::move(as[0].mesh);
   }
 
   fs::path folder_;
@@ -253,7 +264,9 @@ const Garbage kGarbage[] = {
     {"EleOutOfRange", "a.node", kNode,
      "a.ele:2: vertex index out of range: 9 of 4 (numbered from 0)"},
     {"GmshBinary", "a.msh", replaced(kGmsh4, "4.1 0 8", "4.1 1 8"),
-     "a.msh:2: binary .msh files are not read: save as text (gmsh -bin 0)"},
+     "a.msh:2: bytes in big-endian order are not read: save as text (gmsh -bin 0)"},
+    {"GmshBinary2", "a.msh", replaced(kGmsh2, "2.2 0 8", "2.2 1 8"),
+     "a.msh:2: binary .msh files are read of version 4.1 alone: save as text (gmsh -bin 0)"},
     {"GmshVersion", "a.msh", replaced(kGmsh4, "4.1 0", "4.0 0"),
      "a.msh:2: version '4.0' is not read, only 4.1 and 2.2"},
     {"GmshWithoutFormat", "a.msh", "$Nodes\n0\n$EndNodes\n",
@@ -270,9 +283,21 @@ const Garbage kGarbage[] = {
     {"VtuWithoutFile", "a.vtu", "<xml>", "a.vtu:1: no VTKFile: not a file of VTK"},
     {"VtuOfPolygons", "a.vtu", "\n<VTKFile type=\"PolyData\">",
      "a.vtu:2: not an unstructured grid"},
-    {"VtuBinary", "a.vtu",
-     "<VTKFile type=\"UnstructuredGrid\">\n<Piece>\n<Points>\n<DataArray format=\"binary\">",
-     "a.vtu:4: binary data are not read: save as text (ascii)"},
+    {"VtuCompressed", "a.vtu",
+     "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkZLibDataCompressor\">\n<Piece>\n<Points>\n"
+     "<DataArray format=\"binary\">",
+     "a.vtu:4: compressed data are not read: save as text (ascii)"},
+    {"VtuAppended", "a.vtu",
+     "<VTKFile type=\"UnstructuredGrid\">\n<AppendedData encoding=\"raw\">_",
+     "a.vtu:2: appended data are not read: save as text (ascii) or in base 64 (binary)"},
+    {"VtuShort", "a.vtu",
+     "<VTKFile type=\"UnstructuredGrid\">\n<Piece>\n<Points>\n"
+     "<DataArray type=\"Float64\" format=\"binary\">CAAAAAAAAAA=</DataArray>",
+     "a.vtu:4: an array of 4 bytes, but 8 were announced"},
+    {"VtuNoBase64", "a.vtu",
+     "<VTKFile type=\"UnstructuredGrid\">\n<Piece>\n<Points>\n"
+     "<DataArray type=\"Float64\" format=\"binary\">1 2</DataArray>",
+     "a.vtu:4: an array that is not in base 64"},
 };
 
 INSTANTIATE_TEST_SUITE_P(ReadMesh, BadMeshes, testing::ValuesIn(kGarbage),
@@ -281,9 +306,12 @@ INSTANTIATE_TEST_SUITE_P(ReadMesh, BadMeshes, testing::ValuesIn(kGarbage),
 // Of every format: cut anywhere, or with a byte changed, it is a mesh in range or one line.
 TEST_F(Files, DamagedAnywhereAreRefusedOrRead) {
   std::size_t refused = 0;
-  for (const char* extension : {".mesh", ".msh", ".vtu", ".node", ".tet"}) {
-    ASSERT_TRUE(write_mesh(path(std::string("a") + extension), pair()).ok());
-    const std::string whole = text(std::string("a") + extension);
+  for (const std::string name :
+       {".mesh", ".msh", ".vtu", ".node", ".tet", ".msh ascii", ".vtu ascii"}) {
+    const std::string extension = name.substr(0, name.find(' '));
+    const WriteOptions options = {.ascii = extension != name};
+    ASSERT_TRUE(write_mesh(path("a" + extension), pair(), {}, options).ok());
+    const std::string whole = text("a" + extension);
     const FileBeside beside = [&](const char* other) {
       return std::optional(text(std::string("a") + other));
     };

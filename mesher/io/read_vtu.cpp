@@ -1,8 +1,14 @@
-// VTK's XML for unstructured grids, as text ("ascii"): points, tetrahedra, triangles, and the cell
-// data that write_vtu writes.
+// VTK's XML for unstructured grids, as text ("ascii") or in base 64 ("binary"): points, tetrahedra,
+// triangles, and the cell data that write_vtu writes.
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "mesher/io/binary.h"
 
 #include "mesher/io/mesh_reading.h"
 
@@ -54,22 +60,31 @@ class VtuReader {
       if (name == "VTKFile") {
         found = true;
         if (attribute(tag, "type") != "UnstructuredGrid") fail(at, "not an unstructured grid");
+        if (!attribute(tag, "compressor").empty()) compressed_ = true;
+        if (attribute(tag, "byte_order") == "BigEndian") big_endian_ = true;
+        if (attribute(tag, "header_type") == "UInt64") header_size_ = sizeof(std::uint64_t);
       } else if (name == "Piece") {
         ++pieces_;
       } else if (name == "Points" || name == "Cells" || name == "CellData" || name == "PointData" ||
                  name == "FieldData") {
         section = name;
       } else if (name == "AppendedData") {
-        fail(at, "appended data are not read: save as text (ascii)");
+        fail(at, "appended data are not read: save as text (ascii) or in base 64 (binary)");
       } else if (name == "DataArray" && wanted(section, attribute(tag, "Name"))) {
-        if (attribute(tag, "format") != "ascii") {
-          fail(at, "binary data are not read: save as text (ascii)");
+        const bool binary = attribute(tag, "format") == "binary";
+        if (!binary && attribute(tag, "format") != "ascii") {
+          fail(at, "an array that is neither text (ascii) nor in base 64 (binary)");
+        }
+        if (binary && (compressed_ || big_endian_)) {
+          fail(at, compressed_ ? "compressed data are not read: save as text (ascii)"
+                               : "bytes in big-endian order are not read: save as text (ascii)");
         }
         const std::size_t close = text_.find('<', end);
         if (close == std::string_view::npos) fail(at, "an array without an end");
         const std::string key =
             section == "Points" ? section : section + " " + std::string(attribute(tag, "Name"));
-        if (!arrays_.try_emplace(key, Array{end + 1, close}).second) {
+        if (!arrays_.try_emplace(key, Array{end + 1, close, binary, attribute(tag, "type")})
+                 .second) {
           fail(at, "a second array " + in_quotes(key));
         }
       }
@@ -88,10 +103,47 @@ class VtuReader {
 
   struct Array {
     std::size_t begin, end;
+    bool binary;
+    std::string_view type;
   };
   MeshText text_of(const Array& array) const {
     return {text_.substr(array.begin, array.end - array.begin), path_, Comments::none, polling_,
             line_at(array.begin)};
+  }
+
+  // Calls take(value) with each number of an array in base 64, as its type has them.
+  template <class Take>
+  void each_number(const Array& array, const Take& take) const {
+    if (array.type == "Float64") return each<double>(array, take);
+    if (array.type == "Float32") return each<float>(array, take);
+    if (array.type == "Int64") return each<std::int64_t>(array, take);
+    if (array.type == "UInt64") return each<std::uint64_t>(array, take);
+    if (array.type == "Int32") return each<std::int32_t>(array, take);
+    if (array.type == "UInt32") return each<std::uint32_t>(array, take);
+    if (array.type == "Int16") return each<std::int16_t>(array, take);
+    if (array.type == "UInt16") return each<std::uint16_t>(array, take);
+    if (array.type == "Int8") return each<std::int8_t>(array, take);
+    if (array.type == "UInt8") return each<std::uint8_t>(array, take);
+    fail(array.begin, "an array of type " + in_quotes(array.type));
+  }
+  template <class T, class Take>
+  void each(const Array& array, const Take& take) const {
+    const auto decoded = from_base64(text_.substr(array.begin, array.end - array.begin));
+    if (!decoded) fail(array.begin, "an array that is not in base 64");
+    std::string_view bytes = *decoded;
+    if (bytes.size() < header_size_) fail(array.begin, "an array without its size");
+    const std::uint64_t size = header_size_ == sizeof(std::uint64_t)
+                                   ? number_from<std::uint64_t>(bytes)
+                                   : number_from<std::uint32_t>(bytes);
+    bytes.remove_prefix(header_size_);
+    if (size != bytes.size() || size % sizeof(T) != 0) {
+      fail(array.begin, "an array of " + std::to_string(bytes.size()) + " bytes, but " +
+                            std::to_string(size) + " were announced");
+    }
+    for (; !bytes.empty(); bytes.remove_prefix(sizeof(T))) {
+      polling_.poll(8);
+      take(number_from<T>(bytes));
+    }
   }
 
   template <class T>
@@ -101,8 +153,22 @@ class VtuReader {
       if (!optional) fail(0, "there is no array " + in_quotes(key));
       return {};
     }
-    MeshText in = text_of(found->second);
     std::vector<T> values;
+    if (found->second.binary) {
+      each_number(found->second, [&](auto value) {
+        using Value = decltype(value);
+        if constexpr (std::is_floating_point_v<Value>) {
+          fail(found->second.begin, in_quotes(key) + " is no array of integers");
+        } else {
+          if (!std::in_range<T>(value)) {
+            fail(found->second.begin, "bad number '" + std::to_string(value) + "'");
+          }
+          values.push_back(static_cast<T>(value));
+        }
+      });
+      return values;
+    }
+    MeshText in = text_of(found->second);
     for (auto token = in.word(); !token.empty(); token = in.word()) {
       values.push_back(in.parsed<T>(token, "number"));
     }
@@ -112,6 +178,7 @@ class VtuReader {
   void read_points() {
     const auto found = arrays_.find("Points");
     if (found == arrays_.end()) fail(0, "there are no points");
+    if (found->second.binary) return read_binary_points(found->second);
     MeshText in = text_of(found->second);
     std::vector<double> x;
     for (auto token = in.word(); !token.empty(); token = in.word()) {
@@ -122,6 +189,19 @@ class VtuReader {
       x.clear();
     }
     if (!x.empty()) in.fail("the last point has fewer than 3 coordinates");
+  }
+
+  void read_binary_points(const Array& array) {
+    std::vector<double> x;
+    each_number(array, [&](auto value) {
+      x.push_back(static_cast<double>(value));
+      if (!std::isfinite(x.back())) fail(array.begin, "non-finite coordinate");
+      if (x.size() < 3) return;
+      if (builder_.vertices() >= kMostVertices) fail(array.begin, "too many points");
+      builder_.add_vertex({x[0], x[1], x[2]});
+      x.clear();
+    });
+    if (!x.empty()) fail(array.begin, "the last point has fewer than 3 coordinates");
   }
 
   void read_cells() {
@@ -189,6 +269,8 @@ class VtuReader {
   Polling& polling_;
   MeshBuilder& builder_;
   std::uint64_t pieces_ = 0;
+  bool compressed_ = false, big_endian_ = false;
+  std::size_t header_size_ = sizeof(std::uint32_t);  // before each array in base 64
   std::map<std::string, Array> arrays_;
 };
 

@@ -132,6 +132,14 @@ bool TextLines::next_raw_line() {
   return true;
 }
 
+bool TextLines::take_bytes(std::size_t count, std::string_view& bytes) {
+  if (text_.size() - next_ < count) return false;
+  bytes = text_.substr(next_, count);
+  next_ += count;
+  position_ = end_ = next_;
+  return true;
+}
+
 bool TextLines::next_line() {
   while (next_raw_line()) {
     for (std::size_t i = position_; i < end_; ++i) {

@@ -57,6 +57,9 @@ class TextLines {
   bool next_token(std::string_view& token);
   // Takes the next token, on a later line if need be; false at the end of the text.
   bool next_token_anywhere(std::string_view& token);
+  // Takes bytes that follow the current line, or the bytes taken last; false if there are not so
+  // many.
+  bool take_bytes(std::size_t count, std::string_view& bytes);
   // The rest of the current line, trimmed.
   std::string_view rest_of_line() const;
 

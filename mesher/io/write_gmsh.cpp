@@ -1,5 +1,5 @@
-// Gmsh MSH 4.1, ASCII (Gmsh reference manual, "MSH file format"). One surface entity per facet, one
-// volume entity per region; physical groups carry the labels.
+// Gmsh MSH 4.1, binary or ASCII (Gmsh reference manual, "MSH file format"). One surface entity per
+// facet, one volume entity per region; physical groups carry the labels.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/io/binary.h"
 #include "mesher/io/write_formats.h"
 
 namespace delmesher::io {
@@ -27,25 +28,76 @@ struct Box {
   }
 };
 
+// Numbers as MSH 4.1 has them: as text with blanks and lines, or as bytes without.
+class GmshNumbers {
+ public:
+  GmshNumbers(TextSink& out, bool ascii) : out_(out), ascii_(ascii) {}
+
+  bool ascii() const { return ascii_; }
+  // Of entities, groups, dimensions, types: an int of C.
+  void tag(std::int64_t value) {
+    ascii_ ? text([&] { out_.integer(value); }) : bytes(static_cast<std::int32_t>(value));
+  }
+  // Counts, nodes and elements: a size_t.
+  void size(std::uint64_t value) {
+    ascii_ ? text([&] { out_.integer(value); }) : bytes(value);
+  }
+  void point(const std::array<double, 3>& p) {
+    for (const double x : p) ascii_ ? text([&] { out_.number(x); }) : bytes(x);
+  }
+  void end_line() {
+    if (ascii_) out_.text("\n");
+    line_is_empty_ = true;
+  }
+
+ private:
+  template <class Write>
+  void text(const Write& write) {
+    if (!line_is_empty_) out_.text(" ");
+    line_is_empty_ = false;
+    write();
+  }
+  template <class T>
+  void bytes(T value) {
+    const auto all = bytes_of(value);
+    out_.text({all.data(), all.size()});
+  }
+
+  TextSink& out_;
+  bool ascii_, line_is_empty_ = true;
+};
+
 class GmshWriter {
  public:
   GmshWriter(TextSink& out, const NamedMesh& named)
-      : out_(out), named_(named), mesh_(named.mesh), names_(named.names) {
+      : out_(out),
+        named_(named),
+        mesh_(named.mesh),
+        names_(named.names),
+        numbers_(out, named.ascii || !fits_bytes(named)) {
     physical_ = tags_of({mesh_.boundary_labels.begin(), mesh_.boundary_labels.end()});
     number_regions();
     order_triangles();
   }
 
   void write() {
-    out_.text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
+    write_format();
     write_physical_names();
-    write_entities();
-    write_nodes();
-    write_elements();
+    in_section("Entities", [&] { write_entities(); });
+    in_section("Nodes", [&] { write_nodes(); });
+    in_section("Elements", [&] { write_elements(); });
   }
 
  private:
   static std::map<std::int32_t, std::int64_t> tags_of(const std::set<std::int32_t>& numbers);
+  static bool fits_bytes(const NamedMesh& named);
+  void write_format();
+  template <class Write>
+  void in_section(const std::string& name, const Write& write) {
+    out_.text("$" + name + "\n");
+    write();
+    out_.text((numbers_.ascii() ? "$End" : "\n$End") + name + "\n");
+  }
   void number_regions();
   void order_triangles();
   std::string group_name(std::int32_t label) const;
@@ -56,10 +108,8 @@ class GmshWriter {
   void write_nodes();
   void write_elements();
   void box(const Box& b) {
-    out_.point(b.low);
-    out_.text(" ");
-    out_.point(b.high);
-    out_.text(" ");
+    numbers_.point(b.low);
+    numbers_.point(b.high);
   }
   std::uint64_t facet_tag(std::size_t triangle) const {
     return std::uint64_t{mesh_.boundary_facets[triangle]} + 1;  // tags begin at 1
@@ -73,21 +123,35 @@ class GmshWriter {
     }
   }
 
+  // How many blocks follow, of how many things, which are numbered from 1.
+  void announce(std::size_t blocks, std::size_t total) {
+    numbers_.size(blocks);
+    numbers_.size(total);
+    numbers_.size(total == 0 ? 0 : 1);
+    numbers_.size(total);
+    numbers_.end_line();
+  }
+  // Elements of an entity; the type is Gmsh's number.
+  void begin_block(int dimension, std::int64_t entity, int type, std::size_t count) {
+    numbers_.tag(dimension);
+    numbers_.tag(entity);
+    numbers_.tag(type);
+    numbers_.size(count);
+    numbers_.end_line();
+  }
   // An element, with its nodes in Gmsh's order.
   void element(std::size_t tag, CellNodes nodes) {
     if (nodes.count == 10) std::swap(nodes.node[8], nodes.node[9]);  // the edges 23 13
-    out_.integer(tag);
-    for (const std::uint32_t v : nodes) {
-      out_.text(" ");
-      out_.integer(v + 1);
-    }
-    out_.text("\n");
+    numbers_.size(tag);
+    for (const std::uint32_t v : nodes) numbers_.size(v + 1ULL);
+    numbers_.end_line();
   }
 
   TextSink& out_;
   const NamedMesh& named_;
   const TetMesh& mesh_;
   const LabelNames& names_;
+  GmshNumbers numbers_;
   std::map<std::int32_t, std::int64_t> physical_;  // of a label
   std::map<std::int32_t, std::int64_t> volume_;    // of a region, entity and group
   Members tetrahedra_;                             // of a region
@@ -102,6 +166,28 @@ std::map<std::int32_t, std::int64_t> GmshWriter::tags_of(const std::set<std::int
   std::int64_t next = numbers.empty() ? 1 : std::max(*numbers.rbegin(), 0) + 1LL;
   for (auto n = numbers.rbegin(); n != numbers.rend(); ++n) tags[*n] = *n > 0 ? *n : next++;
   return tags;
+}
+
+// Tags of entities and groups have four bytes; whatever has larger ones is written as text.
+bool GmshWriter::fits_bytes(const NamedMesh& named) {
+  const auto below = [](const auto& numbers, std::int64_t bound) {
+    return std::all_of(numbers.begin(), numbers.end(), [&](auto n) { return n < bound; });
+  };
+  // The tags of labels and regions that are not positive follow the largest.
+  constexpr std::int64_t kInts = std::numeric_limits<std::int32_t>::max();
+  const auto most = static_cast<std::int64_t>(named.mesh.boundary.size());
+  const auto all = static_cast<std::int64_t>(named.mesh.tetrahedra.size());
+  return below(named.mesh.boundary_facets, kInts) &&
+         below(named.mesh.boundary_labels, kInts - most) && below(named.mesh.regions, kInts - all);
+}
+
+void GmshWriter::write_format() {
+  out_.text(numbers_.ascii() ? "$MeshFormat\n4.1 0 8\n" : "$MeshFormat\n4.1 1 8\n");
+  if (!numbers_.ascii()) {
+    numbers_.tag(1);  // tells the order of bytes
+    out_.text("\n");
+  }
+  out_.text("$EndMeshFormat\n");
 }
 
 void GmshWriter::number_regions() {
@@ -167,85 +253,69 @@ void GmshWriter::write_volume(std::int32_t number, const std::set<std::int64_t>&
   for (const std::size_t t : tetrahedra_.at(number)) {
     for (const std::uint32_t v : mesh_.tetrahedra[t]) volume.add(mesh_.vertices[v]);
   }
-  out_.integers(volume_.at(number));
+  numbers_.tag(volume_.at(number));
   box(volume);
-  out_.integers(1, volume_.at(number));
-  out_.integer(surfaces.size());
-  for (const std::int64_t tag : surfaces) {
-    out_.text(" ");
-    out_.integer(tag);
-  }
-  out_.text("\n");
+  numbers_.size(1);
+  numbers_.tag(volume_.at(number));
+  numbers_.size(surfaces.size());
+  for (const std::int64_t tag : surfaces) numbers_.tag(tag);
+  numbers_.end_line();
 }
 
 void GmshWriter::write_entities() {
-  out_.text("$Entities\n0 0 ");
-  out_.integers(facets_);
-  out_.integer(volume_.size());
-  out_.text("\n");
+  for (const std::size_t count : {std::size_t{0}, std::size_t{0}, facets_, volume_.size()}) {
+    numbers_.size(count);
+  }
+  numbers_.end_line();
   each_facet([&](std::size_t begin, std::size_t end) {
     Box facet;
     for (std::size_t i = begin; i < end; ++i) {
       for (std::uint32_t v : mesh_.boundary[order_[i]]) facet.add(mesh_.vertices[v]);
     }
-    out_.integers(facet_tag(order_[begin]));
+    numbers_.tag(static_cast<std::int64_t>(facet_tag(order_[begin])));
     box(facet);
-    out_.integers(1, physical_.at(mesh_.boundary_labels[order_[begin]]));
-    out_.text("0\n");
+    numbers_.size(1);
+    numbers_.tag(physical_.at(mesh_.boundary_labels[order_[begin]]));
+    numbers_.size(0);
+    numbers_.end_line();
   });
   auto surfaces = surfaces_of_regions();
   for (const auto& [number, tag] : volume_) write_volume(number, surfaces[number]);
-  out_.text("$EndEntities\n");
 }
 
 void GmshWriter::write_nodes() {
   const std::size_t n = named_.nodes();
-  out_.text("$Nodes\n");
-  out_.integers(n == 0 ? 0 : 1, n, n == 0 ? 0 : 1);
-  out_.integer(n);
-  out_.text("\n");
-  if (n != 0) {  // all of them in the first volume
-    out_.text("3 ");
-    out_.integer(volume_.empty() ? 1 : volume_.begin()->second);
-    out_.text(" 0 ");
-    out_.integer(n);
-    out_.text("\n");
+  announce(n == 0 ? 0 : 1, n);
+  if (n != 0) {  // all of them in the first volume, without parameters
+    numbers_.tag(3);
+    numbers_.tag(volume_.empty() ? 1 : volume_.begin()->second);
+    numbers_.tag(0);
+    numbers_.size(n);
+    numbers_.end_line();
   }
   for (std::size_t i = 1; i <= n; ++i) {
-    out_.integer(i);
-    out_.text("\n");
+    numbers_.size(i);
+    numbers_.end_line();
   }
   for (std::size_t i = 0; i < n; ++i) {
-    out_.point(named_.node(i));
-    out_.text("\n");
+    numbers_.point(named_.node(i));
+    numbers_.end_line();
   }
-  out_.text("$EndNodes\n");
 }
 
 void GmshWriter::write_elements() {
   const std::size_t total = mesh_.boundary.size() + mesh_.tetrahedra.size();
-  out_.text("$Elements\n");
-  out_.integers(facets_ + tetrahedra_.size(), total, total == 0 ? 0 : 1);
-  out_.integer(total);
-  out_.text("\n");
+  announce(facets_ + tetrahedra_.size(), total);
   std::size_t tag = 1;
   each_facet([&](std::size_t begin, std::size_t end) {
-    out_.text("2 ");
-    out_.integers(facet_tag(order_[begin]));
-    out_.text(named_.second_order() ? "9 " : "2 ");  // Gmsh's number of the type
-    out_.integer(end - begin);
-    out_.text("\n");
+    begin_block(2, static_cast<std::int64_t>(facet_tag(order_[begin])),
+                named_.second_order() ? 9 : 2, end - begin);
     for (std::size_t i = begin; i < end; ++i) element(tag++, named_.triangle(order_[i]));
   });
   for (const auto& [number, tetrahedra] : tetrahedra_) {
-    out_.text("3 ");
-    out_.integers(volume_.at(number));
-    out_.text(named_.second_order() ? "11 " : "4 ");
-    out_.integer(tetrahedra.size());
-    out_.text("\n");
+    begin_block(3, volume_.at(number), named_.second_order() ? 11 : 4, tetrahedra.size());
     for (const std::size_t i : tetrahedra) element(tag++, named_.tetrahedron(i));
   }
-  out_.text("$EndElements\n");
 }
 
 }  // namespace

@@ -53,11 +53,10 @@ constexpr std::array<FileFormat<NamedMesh>, 12> kFormats = {
 constexpr std::array<std::string_view, 6> kSecondOrder = {".mesh", ".msh", ".vtu",
                                                           ".vtk",  ".inp", ".bdf"};
 
-WriteStatus write_second_order(OutputSet& outputs, const std::string& path, const TetMesh& mesh,
-                               const LabelNames& names) {
+WriteStatus write_second_order(OutputSet& outputs, const std::string& path, NamedMesh named) {
   if (const std::string error = second_order_error(path); !error.empty()) return {error};
-  const EdgeNodes edge_nodes(mesh);
-  const NamedMesh named{mesh, names, &edge_nodes};
+  const EdgeNodes edge_nodes(named.mesh);
+  named.edge_nodes = &edge_nodes;
   if (named.nodes() > kMostNodes) return {path + ": too many nodes for --order 2"};
   return write_by_extension(kFormats, outputs, path, named);
 }
@@ -96,8 +95,9 @@ WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMes
   const char* reason = mesh_files_of(path).empty() ? nullptr : inconsistency(mesh);
   if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
   if (options.order != 1 && options.order != 2) return {path + ": the order is neither 1 nor 2"};
-  if (options.order == 2) return write_second_order(outputs, path, mesh, names);
-  return write_by_extension(kFormats, outputs, path, NamedMesh{mesh, names});
+  const NamedMesh named{mesh, names, nullptr, options.ascii};
+  return options.order == 2 ? write_second_order(outputs, path, named)
+                            : write_by_extension(kFormats, outputs, path, named);
 }
 
 WriteStatus write_surface(OutputSet& outputs, const std::string& path, const Surface& surface,

@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 
+#include "mesher/io/binary.h"
 #include "mesher/io/named_sets.h"
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/text.h"
@@ -60,6 +62,8 @@ class WriteMesh : public testing::Test {
   fs::path folder_;
 };
 
+constexpr WriteOptions kAscii = {.order = 1, .ascii = true};
+
 const char* const kPoints =
     "0.1 1e-310 -0\n1.7976931348623157e+308 0 0\n0 0.3333333333333333 0\n0 0 1e+22\n"
     "-1e+300 -5e-324 -1\n";
@@ -94,7 +98,7 @@ TEST_F(WriteMesh, Medit) {
 
 TEST_F(WriteMesh, Gmsh) {
   OutputSet outputs;
-  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), sample()).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), sample(), {}, kAscii).ok());
   ASSERT_TRUE(outputs.commit().ok());
   const std::string text = content(path("a.msh"));
   EXPECT_NE(text.find("$PhysicalNames\n5\n2 9 \"label -2\"\n2 8 \"label 0\"\n2 7 \"label 7\"\n"),
@@ -115,11 +119,11 @@ TEST_F(WriteMesh, GmshVolumesKnowTheirSurfaces) {
   OutputSet outputs;
   TetMesh mesh = sample();
   mesh.tetrahedra[0] = {0, 2, 1, 4};  // positive, as in any mesh but that of a writer's test
-  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), mesh).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), mesh, {}, kAscii).ok());
   TetMesh inside = sample();
   inside.tetrahedra.erase(inside.tetrahedra.begin());
   inside.inside.erase(inside.inside.begin());
-  ASSERT_TRUE(write_mesh(outputs, path("b.msh"), inside).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("b.msh"), inside, {}, kAscii).ok());
   ASSERT_TRUE(outputs.commit().ok());
   const std::string both = content(path("a.msh")), one = content(path("b.msh"));
   EXPECT_NE(both.find(" 1 1 3 5 6 10\n"), std::string::npos) << both;
@@ -194,7 +198,7 @@ TEST(Identifiers, AreDifferentAndPlain) {
 
 TEST_F(WriteMesh, VtuAndTetgen) {
   OutputSet outputs;
-  ASSERT_TRUE(write_mesh(outputs, path("a.vtu"), sample()).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("a.vtu"), sample(), {}, kAscii).ok());
   ASSERT_TRUE(write_mesh(outputs, path("a.node"), sample()).ok());
   EXPECT_FALSE(fs::exists(path("a.vtu")));
   ASSERT_TRUE(outputs.commit().ok());
@@ -216,7 +220,7 @@ TEST_F(WriteMesh, SecondOrder) {
   TetMesh mesh = sample();
   mesh.vertices[2][0] = std::numeric_limits<double>::max();
   OutputSet outputs;
-  const WriteOptions second{.order = 2};
+  const WriteOptions second{.order = 2, .ascii = true};
   ASSERT_TRUE(write_mesh(outputs, path("a.mesh"), mesh, {}, second).ok());
   ASSERT_TRUE(write_mesh(outputs, path("a.msh"), mesh, {}, second).ok());
   for (const char* name : {"a.node", "a.tet", "a.xdmf", "a.stl", "a.ply", "a.off"}) {
@@ -236,6 +240,75 @@ TEST_F(WriteMesh, SecondOrder) {
       std::string::npos)
       << medit;
   EXPECT_NE(gmsh.find("\n3 1 11 1\n4 1 2 3 4 6 10 7 8 13 11\n"), std::string::npos) << gmsh;
+}
+
+// Sizes and numbers as the formats have them, least significant bytes first.
+TEST_F(WriteMesh, Bytes) {
+  OutputSet outputs;
+  ASSERT_TRUE(write_mesh(outputs, path("a.msh"), sample()).ok());
+  ASSERT_TRUE(write_mesh(outputs, path("a.vtu"), sample()).ok());
+  ASSERT_TRUE(outputs.commit().ok());
+  const std::string gmsh = content(path("a.msh")), vtu = content(path("a.vtu"));
+  EXPECT_TRUE(
+      gmsh.starts_with(std::string("$MeshFormat\n4.1 1 8\n\1\0\0\0\n$EndMeshFormat\n", 40)));
+  const auto is_there = [&](const std::string& bytes) {
+    return gmsh.find(bytes) != std::string::npos;
+  };
+  const auto size = [](char low) { return std::string(1, low) + std::string(7, '\0'); };
+  const auto tag = [](char low) { return std::string(1, low) + std::string(3, '\0'); };
+  EXPECT_TRUE(is_there("$Elements\n" + size(5) + size(5) + size(1) + size(5) + tag(2) + tag(5) +
+                       tag(2) + size(1) + size(1) + size(1) + size(2) + size(4)));
+  EXPECT_TRUE(is_there("$Nodes\n" + size(1) + size(5) + size(1) + size(5) + tag(3) + tag(1) +
+                       tag(0) + size(5)));
+  EXPECT_TRUE(is_there(std::string("\x9a\x99\x99\x99\x99\x99\xb9\x3f", 8)));  // 0.1
+  EXPECT_TRUE(gmsh.ends_with("\n$EndElements\n"));
+  // The numbers of bytes, 5, 20 and 20, then the cells' types, labels and facets.
+  for (const char* array :
+       {"type=\"UInt8\" Name=\"types\" format=\"binary\">\nBQAAAAAAAAAKCgUFBQ==\n</",
+        "type=\"Int32\" Name=\"label\" format=\"binary\">\n"
+        "FAAAAAAAAAAAAAAAAAAAAAcAAAAAAAAA/v///w==\n</",
+        "type=\"Int32\" Name=\"facet\" format=\"binary\">\n"
+        "FAAAAAAAAAD//////////wkAAAAEAAAABQAAAA==\n</"}) {
+    EXPECT_NE(vtu.find(array), std::string::npos) << array << "\n" << vtu;
+  }
+}
+
+// Tags have four bytes: larger ones are written as text, and facets in .vtu with eight.
+TEST_F(WriteMesh, WhatDoesNotFitBytesIsText) {
+  for (const bool facet : {true, false}) {
+    TetMesh mesh = sample();
+    (facet ? mesh.boundary_facets[0] = 0xffffff00U
+           : static_cast<std::uint32_t>(mesh.boundary_labels[0] = 0x7fffffff));
+    ASSERT_TRUE(write_mesh(path("a.msh"), mesh).ok());
+    EXPECT_NE(content(path("a.msh")).find("\n4.1 0 8\n"), std::string::npos);
+    ASSERT_TRUE(write_mesh(path("a.vtu"), mesh).ok());
+    for (const char* name : {"a.msh", "a.vtu"}) {
+      const MeshReadResult back = read_mesh(path(name));
+      ASSERT_TRUE(back.ok()) << back.error;
+      EXPECT_EQ(std::set(back.mesh.boundary_facets.begin(), back.mesh.boundary_facets.end()),
+                std::set(mesh.boundary_facets.begin(), mesh.boundary_facets.end()));
+      EXPECT_EQ(std::set(back.mesh.boundary_labels.begin(), back.mesh.boundary_labels.end()),
+                std::set(mesh.boundary_labels.begin(), mesh.boundary_labels.end()));
+    }
+  }
+}
+
+// The examples of RFC 4648.
+TEST(Base64, OfTheStandard) {
+  const std::pair<const char*, const char*> kExamples[] = {{"", ""},
+                                                           {"f", "Zg=="},
+                                                           {"fo", "Zm8="},
+                                                           {"foo", "Zm9v"},
+                                                           {"foob", "Zm9vYg=="},
+                                                           {"fooba", "Zm9vYmE="},
+                                                           {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : kExamples) {
+    EXPECT_EQ(from_base64(text), bytes);
+    EXPECT_EQ(from_base64(std::string("\n ") + text + " \n"), bytes);
+  }
+  for (const char* bad : {"Z", "Zg=", "Zg==Zg==", "Z===", "====", "Zm9*", "Zm 9v", "Zm8=\n="}) {
+    EXPECT_FALSE(from_base64(bad)) << bad;
+  }
 }
 
 TEST_F(WriteMesh, OffRoundTrip) {

@@ -143,9 +143,9 @@ class Mesh:
         a, b, c, d = (self.points[self.tetrahedra[:, k]] for k in range(4))
         return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
 
-    def write(self, path: "Union[str, os.PathLike[str]]", *, order: int = 1) -> None:
+    def write(self, path: "Union[str, os.PathLike[str]]", *, order: int = 1, ascii: bool = False) -> None:
         """Write a file, see `write`."""
-        write(path, self, order=order)
+        write(path, self, order=order, ascii=ascii)
 
     def to_meshio(self) -> Any:
         """A `meshio.Mesh` of the tetrahedra and the boundary, with cell data ``label`` and ``inside``."""
@@ -436,7 +436,7 @@ def read(path: "Union[str, os.PathLike[str]]") -> Surface:
 
 
 def read_mesh(path: "Union[str, os.PathLike[str]]") -> Mesh:
-    """Read a mesh of tetrahedra: .mesh, .msh, .vtu, .node, .ele or .tet, as text."""
+    """Read a mesh of tetrahedra: .mesh, .msh, .vtu, .node, .ele or .tet, with linear elements."""
     return _mesh(_core.read_mesh(os.fspath(path)))
 
 
@@ -449,11 +449,12 @@ def _fields(mesh: Mesh) -> Dict[str, np.ndarray]:
             "labels": np.ascontiguousarray(mesh.labels, np.int32), "facets": _indices(mesh.facets, "facets")}
 
 
-def write(path: "Union[str, os.PathLike[str]]", mesh: Mesh, names: Optional[Mapping[int, str]] = None, *, order: int = 1) -> None:
+def write(path: "Union[str, os.PathLike[str]]", mesh: Mesh, names: Optional[Mapping[int, str]] = None, *, order: int = 1,
+          ascii: bool = False) -> None:
     """Write a mesh in the format of the extension; labels are called by `names` (of the mesh).
 
     .mesh, .msh, .vtu, .vtk, .xdmf, .inp, .bdf, .node, .tet; .stl, .ply and .off hold the boundary alone. ValueError says why a file
     could not be written; it is complete or not there. With ``order=2`` the elements have a node in the middle of every edge, too
-    (.mesh, .msh, .vtu, .vtk, .inp, .bdf).
+    (.mesh, .msh, .vtu, .vtk, .inp, .bdf). .msh and .vtu hold bytes, with ``ascii=True`` text.
     """
-    _core.write_mesh(os.fspath(path), _fields(mesh), dict(mesh.names if names is None else names), order)
+    _core.write_mesh(os.fspath(path), _fields(mesh), dict(mesh.names if names is None else names), order, ascii)
