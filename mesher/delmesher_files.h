@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "delmesher.h"
@@ -40,11 +42,16 @@ struct ReadResult {
   bool ok() const { return code == ReadCode::ok; }
 };
 
+// Unpacks the bytes of a file of gzip; nullopt if they are damaged, or would be more than `limit`.
+using Gunzip = std::function<std::optional<std::string>(std::string_view bytes, std::size_t limit)>;
+
 struct ReadOptions {
   // OBJ vertices may have two coordinates, and polylines are read; there may be no faces then.
   bool planar = false;
   // Asked many times a second while a file is read; reading stops when it answers no.
   std::function<bool()> go_on;
+  // This library needs none that unpacks; without this, compressed files are refused.
+  Gunzip gunzip = nullptr;
 };
 
 // A surface from OFF, OBJ, STL, PLY, or TetGen's .smesh and .poly, by content and extension. Faces
@@ -96,7 +103,8 @@ struct MeshReadResult {
 // A tetrahedral mesh, by the extension: .mesh (MEDIT), .msh (Gmsh 4.1 or 2.2), .vtu, .node or .ele
 // (TetGen, which stand together, and a .face if there is one), .tet. Vertices of cells are
 // in range and coordinates are finite; improve_mesh() decides whether the mesh is conforming.
-// `go_on`: ReadOptions::go_on.
+// "-" is standard input, known by its content: of these all but TetGen's. `go_on`:
+// ReadOptions::go_on.
 MeshReadResult read_mesh(const std::string& path, const std::function<bool()>& go_on = {});
 
 struct NamesResult {

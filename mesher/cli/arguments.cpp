@@ -11,6 +11,7 @@
 #include <system_error>
 #include <thread>
 
+#include "mesher/cli/defects.h"
 #include "mesher/cli/nearest.h"
 #include "mesher/io/output.h"
 #include "mesher/io/read_mesh.h"
@@ -214,7 +215,8 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
 }
 
 void add_improve(CLI::App& app, Command& command, Given& given) {
-  const std::string input = "mesh of tetrahedra: " + io::read_mesh_extensions();
+  const std::string input =
+      "mesh of tetrahedra: " + io::read_mesh_extensions() + ", - is standard input";
   add_common(app, command, given, input.c_str());
   add_outputs(app, command, given, io::mesh_extensions());
   add_writing(app, command);
@@ -341,6 +343,10 @@ std::string output_error(const Command& command, std::vector<std::filesystem::pa
   if (std::count_if(files.begin() + 1, files.end(), io::is_standard_stream) > 1) {
     return "standard output can take one file";
   }
+  if (!command.defects_file.empty() &&
+      defects_format(command.defects_file) == DefectsFormat::none) {
+    return command.defects_file + ": defects are written as .ply or .vtu";
+  }
   const auto where = [](const std::string& file) {
     std::error_code error;
     std::filesystem::path path =
@@ -461,8 +467,10 @@ void add_check(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
   add_planar(app, given);
   app.add_flag("--json", command.json, "report as JSON");
-  app.add_option("--defects", command.defects_file,
-                 "write the surface as .ply, its triangles coloured by what is wrong at them");
+  app.add_option(
+      "--defects", command.defects_file,
+      "write the surface as .ply, its triangles coloured by what is wrong at them, or as "
+      ".vtu with numbers for that");
   add_number(app, given, "acute", "corners below this angle are acute, degrees (60)",
              kBounds.acute);
   add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",

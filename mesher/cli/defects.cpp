@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,7 +32,7 @@ std::string counted(std::uint64_t count, const std::string& name) {
   if (name == "inconsistent orientation")
     return std::to_string(count) + " inconsistent orientations";
   return std::to_string(count) + " " +
-         (name.ends_with("x") ? name.substr(0, name.size() - 1) + "ces" : name + "s");
+         (name.ends_with("ex") ? name.substr(0, name.size() - 2) + "ices" : name + "s");
 }
 
 std::uint64_t count_of(const SurfaceReport& report, Kind kind) {
@@ -60,9 +62,9 @@ Colour colour_of(Kind kind) {
   }
 }
 
-// The worst comes last, so that its colour is the one that is seen.
-std::vector<Colour> colours(const Surface& surface, const SurfaceReport& report) {
-  std::vector<Colour> colour(surface.triangles.size(), kGrey);
+// What is wrong at each triangle, if anything is. The worst comes last, so that it is what is seen.
+std::vector<std::optional<Kind>> kinds_at(const Surface& surface, const SurfaceReport& report) {
+  std::vector<std::optional<Kind>> kinds(surface.triangles.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges;
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& corners = surface.triangles[t];
@@ -74,15 +76,31 @@ std::vector<Colour> colours(const Surface& surface, const SurfaceReport& report)
   for (const auto& [edge, triangles] : edges) {
     if (triangles.size() == 2) continue;
     for (const std::uint32_t t : triangles) {
-      colour[t] = triangles.size() == 1 ? kOrange : kViolet;
+      kinds[t] = triangles.size() == 1 ? Kind::open_edge : Kind::non_manifold_edge;
     }
   }
   for (const Defect& defect : report.defects) {
     for (const std::uint32_t t : defect.triangles) {
-      if (t < colour.size()) colour[t] = colour_of(defect.kind);
+      if (t < kinds.size()) kinds[t] = defect.kind;
     }
   }
-  return colour;
+  return kinds;
+}
+
+template <class Value>
+void vtu_array(std::string& out, const char* attributes, std::size_t count, const Value& value) {
+  out += std::string("<DataArray ") + attributes + " format=\"ascii\">\n";
+  for (std::size_t i = 0; i < count; ++i) out += value(i) + "\n";
+  out += "</DataArray>\n";
+}
+
+std::string coordinates(const std::array<double, 3>& p) {
+  std::string text;
+  for (const double x : p) {
+    if (!text.empty()) text += ' ';
+    io::append_double(text, x);
+  }
+  return text;
 }
 
 }  // namespace
@@ -159,21 +177,53 @@ std::string coloured_ply(const Surface& surface, const SurfaceReport& report) {
       std::to_string(surface.triangles.size()) +
       "\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
       "property uchar blue\nend_header\n";
-  for (const auto& p : surface.vertices) {
-    for (const double x : p) {
-      io::append_double(out, x);
-      out += ' ';
-    }
-    out.back() = '\n';
-  }
-  const std::vector<Colour> colour = colours(surface, report);
-  for (std::size_t t = 0; t < colour.size(); ++t) {
+  for (const auto& p : surface.vertices) out += coordinates(p) + "\n";
+  const std::vector<std::optional<Kind>> kinds = kinds_at(surface, report);
+  for (std::size_t t = 0; t < kinds.size(); ++t) {
     out += "3";
     for (const std::uint32_t v : surface.triangles[t]) out += " " + std::to_string(v);
-    for (const int c : colour[t]) out += " " + std::to_string(c);
+    for (const int c : kinds[t] ? colour_of(*kinds[t]) : kGrey) out += " " + std::to_string(c);
     out += "\n";
   }
   return out;
+}
+
+std::string defects_vtu(const Surface& surface, const SurfaceReport& report) {
+  const std::vector<std::optional<Kind>> kinds = kinds_at(surface, report);
+  const std::size_t triangles = kinds.size();
+  std::string out = "<?xml version=\"1.0\"?>\n<!-- delmesher, defect: 0 none";
+  for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
+    out += ", " + std::to_string(kind + 1) + " " + defect_name(static_cast<Kind>(kind));
+  }
+  out +=
+      " -->\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+      std::to_string(surface.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(triangles) +
+      "\">\n<Points>\n";
+  vtu_array(out, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"",
+            surface.vertices.size(),
+            [&](std::size_t i) { return coordinates(surface.vertices[i]); });
+  out += "</Points>\n<Cells>\n";
+  vtu_array(out, "type=\"Int64\" Name=\"connectivity\"", triangles, [&](std::size_t t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    return std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c);
+  });
+  vtu_array(out, "type=\"Int64\" Name=\"offsets\"", triangles,
+            [](std::size_t t) { return std::to_string(3 * (t + 1)); });
+  vtu_array(out, "type=\"UInt8\" Name=\"types\"", triangles,
+            [](std::size_t) { return std::string("5"); });
+  out += "</Cells>\n<CellData Scalars=\"defect\">\n";
+  vtu_array(out, "type=\"UInt8\" Name=\"defect\"", triangles, [&](std::size_t t) {
+    return std::to_string(kinds[t] ? static_cast<int>(*kinds[t]) + 1 : 0);
+  });
+  return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+DefectsFormat defects_format(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return io::equal_ignoring_case(extension, ".ply")   ? DefectsFormat::ply
+         : io::equal_ignoring_case(extension, ".vtu") ? DefectsFormat::vtu
+                                                      : DefectsFormat::none;
 }
 
 }  // namespace delmesher::cli

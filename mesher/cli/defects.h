@@ -1,6 +1,7 @@
 // The defects of a surface: in a line, with advice, and as a coloured surface.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,10 @@ std::vector<std::string> advice(const Surface& surface, const SurfaceReport& rep
 // grey nothing. All triangles at open or non-manifold edges are coloured; of other kinds only the
 // triangles that the report lists.
 std::string coloured_ply(const Surface& surface, const SurfaceReport& report);
+// The same as .vtu: a number for the kind of defect at each triangle, 0 where there is none.
+std::string defects_vtu(const Surface& surface, const SurfaceReport& report);
+// By the extension of a path.
+enum class DefectsFormat : std::uint8_t { none, ply, vtu };
+DefectsFormat defects_format(const std::string& path);
 
 }  // namespace delmesher::cli

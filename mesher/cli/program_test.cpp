@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -396,6 +397,27 @@ TEST_F(Program, ATornSurfaceIsShownAndMended) {
   EXPECT_NE(ply.find("element face 11\n"), std::string::npos);
   EXPECT_NE(ply.find("3 4 8 6 220 40 40\n"), std::string::npos) << ply;
   EXPECT_NE(ply.find("3 0 2 3 190 190 190\n"), std::string::npos) << ply;
+  EXPECT_EQ(run("check in.off --defects in.vtu"), 4);
+  const std::string vtu = text("in.vtu");
+  EXPECT_NE(vtu.find("NumberOfCells=\"11\""), std::string::npos) << vtu;
+  const auto kind = [&](const std::string& name) {  // its number, from the comment
+    const std::string head = vtu.substr(0, vtu.find(" " + name));
+    return head.substr(head.rfind(' ') + 1);
+  };
+  // In their order, of the triangles as they are in in.ply.
+  const std::map<std::string, std::string> names = {
+      {" 190 190 190", "none"}, {" 220 40 40", "self-intersection"}, {" 250 150 30", "open edge"}};
+  std::string numbers;
+  for (std::size_t at = ply.find("\n3 "); at != std::string::npos; at = ply.find("\n3 ", at + 1)) {
+    const std::string line = ply.substr(at + 1, ply.find('\n', at + 1) - at - 1);
+    for (const auto& [colour, name] : names) {
+      if (line.ends_with(colour)) numbers += kind(name) + "\n";
+    }
+  }
+  EXPECT_NE(vtu.find("Name=\"defect\" format=\"ascii\">\n" + numbers + "</DataArray>"),
+            std::string::npos)
+      << numbers << vtu;
+  EXPECT_EQ(run("check in.off --defects in.stl"), 2);
   EXPECT_EQ(run("repair in.off -o in.welded.off --weld 2e-6"), 1);
   EXPECT_NE(text("err.txt").find("3 open edges left, see --fill"), std::string::npos)
       << text("err.txt");
@@ -419,6 +441,55 @@ TEST_F(Program, StandardInputAndOutput) {
   EXPECT_EQ(run("check -", "echo nothing |"), 3);
   expect_error("-", "not a known format");
   EXPECT_FALSE(fs::exists(path("-.vtu")));
+}
+
+// Known by its first bytes, whatever it is called; of two files one after the other.
+TEST_F(Program, GzipIsUnpacked) {
+  write("in.off", cube());
+  ASSERT_EQ(run("in.off -o mesh.tet -q"), 0);
+  const std::string plain = text("mesh.tet");
+  const auto sh = [&](const std::string& command) {
+    return std::system(("cd " + path("") + " && " + command).c_str());
+  };
+  ASSERT_EQ(sh("gzip -c in.off > in.off.gz && cp in.off.gz named.off && head -c 40 in.off | gzip > "
+               "two.off.gz && "
+               "tail -c +41 in.off | gzip >> two.off.gz && head -c 60 in.off.gz > cut.off.gz && "
+               "(cat in.off.gz; echo x) > more.off.gz"),
+            0);
+#ifdef DELMESHER_ZLIB
+  for (const char* name : {"in.off.gz", "named.off", "two.off.gz"}) {
+    fs::remove(path("mesh.tet"));
+    EXPECT_EQ(run(std::string(name) + " -o mesh.tet -q"), 0) << text("err.txt");
+    EXPECT_EQ(text("mesh.tet"), plain);
+  }
+  EXPECT_EQ(run("- -o mesh.tet -q", "cat in.off.gz |"), 0) << text("err.txt");
+  EXPECT_EQ(run("repair in.off.gz -o mended.off -q"), 0);
+  for (const char* name : {"cut.off.gz", "more.off.gz"}) {
+    EXPECT_EQ(run(std::string(name) + " -o mesh.tet -q"), 3);
+    expect_error(name, "cannot be unpacked with gzip: damaged, or larger than 8 GiB");
+  }
+#else
+  EXPECT_EQ(run("in.off.gz -o mesh.tet -q"), 3);
+  expect_error("in.off.gz", "compressed with gzip: unpack it first");
+#endif
+}
+
+// What it is, its first bytes tell.
+TEST_F(Program, ImproveReadsStandardInput) {
+  write("in.off", cube());
+  ASSERT_EQ(run("in.off -q --improve off --max-edge 0.5 -o in.mesh -o in.msh -o in.vtu -o in.tet"),
+            0);
+  ASSERT_EQ(run("improve in.mesh -q -o from_file.tet"), 0) << text("err.txt");
+  for (const char* extension : {"mesh", "msh", "vtu", "tet"}) {
+    const std::string file = std::string("in.") + extension;
+    EXPECT_EQ(run("improve - -q -o better.tet < " + file), 0) << text("err.txt");
+    EXPECT_EQ(run("improve - -q -o piped.tet", "cat " + file + " |"), 0) << text("err.txt");
+    EXPECT_EQ(text("piped.tet"), text("better.tet"));
+    ASSERT_EQ(run("improve " + file + " -q -o from_file.tet"), 0) << text("err.txt");
+    EXPECT_EQ(text("better.tet"), text("from_file.tet")) << extension;
+  }
+  EXPECT_EQ(run("improve - -q -o better.tet < in.off"), 3);
+  expect_error("-", "not a known mesh format");
 }
 
 TEST_F(Program, AWholeFolder) {

@@ -9,8 +9,9 @@
 
 namespace delmesher::cli {
 
-// "refine   45 %  123456 vertices". Unknown numbers are left out.
-std::string progress_text(const Progress& progress);
+// "refine   about 45 %, 12 s left  123456 vertices", `seconds` after the phase began. Unknown
+// numbers are left out, and while refining the share comes from the prediction.
+std::string progress_text(const Progress& progress, double seconds = 0);
 
 class ProgressLine {
  public:
@@ -31,7 +32,7 @@ class ProgressLine {
   bool enabled_, escapes_;
   std::size_t width_ = 0;  // of the text on the line
   Phase phase_ = Phase::read;
-  std::chrono::steady_clock::time_point last_{};
+  std::chrono::steady_clock::time_point last_{}, phase_began_{};
 };
 
 // Whether standard error is a terminal, and one that takes escape sequences (NO_COLOR, TERM=dumb).

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "mesher/cli/defects.h"
+#include "mesher/cli/gunzip.h"
 #include "mesher/cli/improve_run.h"
 #include "mesher/cli/plane_run.h"
 #include "mesher/cli/quality.h"
@@ -37,6 +38,7 @@ class Runner : RunSteps {
 int Runner::read() {
   io::ReadOptions options;
   options.go_on = goes_on();
+  options.gunzip = gunzip(options.go_on);
   io::ReadResult input = io::read_surface(command_.input, options);
   if (!input.ok()) return fail_reading(input.code, input.error);
   for (const std::string& warning : input.warnings) warn(warning);
@@ -69,7 +71,8 @@ int Runner::write_defects(const SurfaceReport& report) const {
   io::WriteStatus status;
   io::TextSink* sink = outputs.open(command_.defects_file, status);
   if (sink == nullptr) return fail(kUnreadable, status.error);
-  sink->text(coloured_ply(surface_, report));
+  const bool vtu = defects_format(command_.defects_file) == DefectsFormat::vtu;
+  sink->text(vtu ? defects_vtu(surface_, report) : coloured_ply(surface_, report));
   const Deferring deferring;
   status = outputs.commit();
   return status.ok() ? kDone : fail(kUnreadable, status.error);

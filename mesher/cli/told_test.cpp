@@ -1,6 +1,7 @@
 // The messages of a run: its progress, its end, and its statistics.
 #include <nlohmann/json.hpp>
 
+#include "mesher/cli/defects.h"
 #include "mesher/cli/progress.h"
 #include "mesher/cli/reports.h"
 #include "mesher/cli/test_run.h"
@@ -14,8 +15,34 @@ TEST(ProgressText, SaysWhatIsKnown) {
   EXPECT_EQ(progress_text({Phase::refine, 0.456, 123}), "refine    45 %  123 vertices");
   EXPECT_EQ(progress_text({Phase::check, -1, 0}), "check");
   EXPECT_EQ(progress_text({Phase::refine, -1, 7, 123456}),
-            "refine  7 vertices  (about 120000 tetrahedra predicted)");
+            "refine    about 0 %  7 vertices  (about 120000 tetrahedra predicted)");
+  EXPECT_EQ(progress_text({Phase::filter, -1, 7, 123456}),
+            "filter  7 vertices  (about 120000 tetrahedra predicted)");
   EXPECT_EQ(progress_text({Phase::check, 7, 0}), "check     100 %");
+}
+
+TEST(ProgressText, TellsTheRestOfThePhase) {
+  EXPECT_EQ(progress_text({Phase::improve, 0.25, 0}, 30), "improve   25 %, 90 s left");
+  EXPECT_EQ(progress_text({Phase::improve, 0.25, 0}, 60), "improve   25 %, 3 min left");
+  EXPECT_EQ(progress_text({Phase::improve, 0.5, 0}, 10000), "improve   50 %, 3 h left");
+  EXPECT_EQ(progress_text({Phase::refine, -1, 5000, 21000}, 7),
+            "refine    about 50 %, 7 s left  5000 vertices  (about 21000 tetrahedra predicted)");
+  // Too soon, too little, and beyond the prediction.
+  EXPECT_EQ(progress_text({Phase::improve, 0.25, 0}, 1), "improve   25 %");
+  EXPECT_EQ(progress_text({Phase::improve, 0.04, 0}, 30), "improve   4 %");
+  EXPECT_EQ(progress_text({Phase::refine, -1, 20000, 21000}, 7),
+            "refine    about 99 %  20000 vertices  (about 21000 tetrahedra predicted)");
+}
+
+TEST(Reports, DefectsAreCountedInWords) {
+  SurfaceReport report;
+  const auto count = [&](Defect::Kind kind) -> std::uint64_t& {
+    return report.defect_counts[static_cast<std::size_t>(kind)];
+  };
+  count(Defect::Kind::non_manifold_vertex) = 2;
+  EXPECT_EQ(defects_line(report), "2 non-manifold vertices");
+  count(Defect::Kind::open_edge) = 1;
+  EXPECT_EQ(defects_line(report), "3 defects of 2 kinds (1 open edge, 2 non-manifold vertices)");
 }
 
 TEST(Reports, LimitsThatStruckHaveALineEach) {

@@ -1,5 +1,7 @@
 #include "mesher/io/read_mesh.h"
 
+#include <algorithm>
+
 #include "mesher/io/file_formats.h"
 #include "mesher/io/foreign_content.h"
 
@@ -29,9 +31,27 @@ constexpr std::array<MeshFormat, 6> kFormats = {{{{".mesh"}, "MEDIT", alone<read
                                                  {{".ele"}, "TetGen", read_tetgen_mesh},
                                                  {{".tet"}, "tet", alone<read_tet>}}};
 
+// What a file from standard input is, by its first bytes; null if it is none of these.
+const MeshFormat* format_of_content(std::string_view bytes) {
+  TextLines lines(bytes, Comments::at_token_start);
+  std::string_view first, second;
+  lines.next_token_anywhere(first);
+  lines.next_token_anywhere(second);
+  const char* const name = first == "MeshVersionFormatted" ? "MEDIT"
+                           : first.starts_with("$")        ? "Gmsh"
+                           : first.starts_with("<")        ? "VTU"
+                           : second == "vertices"          ? "tet"
+                                                           : "";
+  const auto* found = std::find_if(kFormats.begin(), kFormats.end(), [&](const MeshFormat& f) {
+    return f.name == std::string(name);
+  });
+  return found == kFormats.end() ? nullptr : found;
+}
+
 void parse(std::string_view bytes, const std::string& path, const FileBeside& beside,
            const std::function<bool()>& go_on, MeshReadResult& result) {
   const MeshFormat* format = format_of(kFormats, path);
+  if (format == nullptr && is_standard_stream(path)) format = format_of_content(bytes);
   if (format == nullptr) {
     throw FileError{path + ": not a known mesh format (" + read_mesh_extensions() + ")"};
   }
