@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -37,6 +38,57 @@ std::string counted(std::uint64_t count, const std::string& name) {
 
 std::uint64_t count_of(const SurfaceReport& report, Kind kind) {
   return report.defect_counts[static_cast<std::size_t>(kind)];
+}
+
+// Is the ring so thin that it is no hole: do vertices on one side lie on an edge of the other?
+bool is_slit(const Surface& surface, const io::Hole& hole) {
+  std::array<double, 3> normal = {0, 0, 0};
+  const auto& origin = surface.vertices[hole.corners[0]];
+  for (std::size_t i = 1; i + 1 < hole.corners.size(); ++i) {
+    std::array<double, 3> u, v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      u[k] = surface.vertices[hole.corners[i]][k] - origin[k];
+      v[k] = surface.vertices[hole.corners[i + 1]][k] - origin[k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      normal[k] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+    }
+  }
+  const double area2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  return std::sqrt(area2) <= 1e-9 * hole.width * hole.width;
+}
+
+std::string list_of(const Surface& surface, const std::vector<const io::Hole*>& holes,
+                    const char* name) {
+  std::string line = counted(holes.size(), name) + (holes.size() == 1 ? ": " : ", the widest: ");
+  for (std::size_t i = 0; i < holes.size() && i < 3; ++i) {
+    const io::Hole& hole = *holes[i];
+    line += (i > 0 ? "; " : "") + std::to_string(hole.corners.size()) + " edges, " +
+            number(hole.width) + " wide, at " + point(surface.vertices[hole.corners[0]]);
+  }
+  return line;
+}
+
+std::vector<std::string> advice_on_holes(const Surface& surface) {
+  const io::Holes all = io::holes_of(surface);
+  std::vector<const io::Hole*> holes, slits;
+  for (const io::Hole& hole : all.holes) {
+    (is_slit(surface, hole) ? slits : holes).push_back(&hole);
+  }
+  for (auto* list : {&holes, &slits}) {
+    std::stable_sort(list->begin(), list->end(),
+                     [](const io::Hole* a, const io::Hole* b) { return a->width > b->width; });
+  }
+  std::vector<std::string> lines;
+  if (!holes.empty()) {
+    lines.push_back(list_of(surface, holes, "hole") +
+                    "; repair --fill closes planar and small ones");
+  }
+  if (!slits.empty()) {
+    lines.push_back(list_of(surface, slits, "slit") +
+                    "; vertices of one side lie on an edge of the other: split the triangle there");
+  }
+  return lines;
 }
 
 using Colour = std::array<int, 3>;
@@ -130,21 +182,7 @@ std::vector<std::string> advice(const Surface& surface, const SurfaceReport& rep
                       " would close " + std::to_string(hint.closed) + " of " +
                       std::to_string(count_of(report, Kind::open_edge)) + " open edges");
     }
-    const io::Holes holes = io::holes_of(surface);
-    if (!holes.holes.empty()) {
-      std::vector<const io::Hole*> by_width;
-      for (const io::Hole& hole : holes.holes) by_width.push_back(&hole);
-      std::stable_sort(by_width.begin(), by_width.end(),
-                       [](const io::Hole* a, const io::Hole* b) { return a->width > b->width; });
-      std::string line = std::to_string(by_width.size()) +
-                         (by_width.size() == 1 ? " hole: " : " holes, the widest: ");
-      for (std::size_t i = 0; i < by_width.size() && i < 3; ++i) {
-        const io::Hole& hole = *by_width[i];
-        line += (i > 0 ? "; " : "") + std::to_string(hole.corners.size()) + " edges, " +
-                number(hole.width) + " wide, at " + point(surface.vertices[hole.corners[0]]);
-      }
-      lines.push_back(line + "; repair --fill closes planar and small ones");
-    }
+    for (std::string& line : advice_on_holes(surface)) lines.push_back(std::move(line));
   }
   for (const Kind kind :
        {Kind::degenerate_triangle, Kind::duplicate_triangle, Kind::inconsistent_orientation}) {
@@ -152,7 +190,12 @@ std::vector<std::string> advice(const Surface& surface, const SurfaceReport& rep
     lines.push_back("delmesher repair mends triangles without area, duplicates and orientation");
     break;
   }
-  if (count_of(report, Kind::non_manifold_edge) > 0) {
+  // Triangles without area, and doubled ones, make such edges themselves: first things first.
+  const bool more_first = count_of(report, Kind::degenerate_triangle) > 0 ||
+                          count_of(report, Kind::duplicate_triangle) > 0;
+  if (count_of(report, Kind::non_manifold_edge) > 0 && more_first) {
+    lines.push_back("that may make the edges manifold as well: check the mended surface");
+  } else if (count_of(report, Kind::non_manifold_edge) > 0) {
     lines.push_back(
         "more than two triangles at an edge: an inner wall, or bodies that share an edge; only "
         "surfaces "
@@ -163,6 +206,10 @@ std::vector<std::string> advice(const Surface& surface, const SurfaceReport& rep
             ? "triangles meet: if bodies touch or overlap, unite them first, or mesh them one by "
               "one"
             : "triangles meet: repair does not move them; the modeller that made them has to");
+  } else if (count_of(report, Kind::non_manifold_vertex) > 0 &&
+             count_of(report, Kind::open_edge) == 0) {
+    lines.push_back(
+        "bodies or parts of one that touch at a vertex: move them apart, or mesh them one by one");
   }
   return lines;
 }

@@ -429,6 +429,35 @@ TEST_F(Program, ATornSurfaceIsShownAndMended) {
   EXPECT_EQ(run("repair in.off -o mesh.msh"), 2);
 }
 
+// What the hints say, and what they must not say.
+TEST_F(Program, CheckHintsAtWhatIsTheMatter) {
+  const auto hints = [&](const std::string& off) {
+    write("in.off", off);
+    EXPECT_EQ(run("check in.off"), 4);
+    return text("out.txt");
+  };
+  const auto says = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
+  // A vertex in the middle of an edge, on one side only.
+  std::string slit = replaced(replaced(cube(), "8 12", "9 13"), "1 1 1\n", "1 1 1\n1 0.5 0.5\n");
+  slit = replaced(slit, "3 1 7 5\n", "3 1 8 5\n3 8 7 5\n");
+  const std::string of_slit = hints(slit);
+  EXPECT_TRUE(says(of_slit, "hint: 1 slit: 3 edges")) << of_slit;
+  EXPECT_FALSE(says(of_slit, "--fill")) << of_slit;
+  const std::string of_hole = hints(replaced(replaced(cube(), "8 12", "8 11"), "3 1 7 5\n", ""));
+  EXPECT_TRUE(says(of_hole, "hint: 1 hole: 3 edges")) << of_hole;
+  EXPECT_FALSE(says(of_hole, "slit")) << of_hole;
+  const std::string of_double =
+      hints(replaced(replaced(cube(), "8 12", "8 13"), "3 1 7 5\n", "3 1 7 5\n3 1 7 5\n"));
+  EXPECT_TRUE(says(of_double, "hint: that may make the edges manifold as well")) << of_double;
+  EXPECT_FALSE(says(of_double, "inner wall")) << of_double;
+  const std::string of_touch = hints(
+      "OFF\n7 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n"
+      "3 0 3 2\n3 0 4 5\n3 0 6 4\n3 4 6 5\n3 0 5 6\n");
+  EXPECT_TRUE(says(of_touch, "touch at a vertex: move them apart")) << of_touch;
+}
+
 // A file from a pipe to a pipe is the same as from a file to a file.
 TEST_F(Program, StandardInputAndOutput) {
   write("in.off", cube());
