@@ -13,6 +13,7 @@
 namespace tetproof::oracles {
 
 class ExactNumber {
+ public:
   // Odd, above 1; null: 1. Every coordinate has one, so an empty one is as small as possible.
   // Numbers share theirs, so most comparisons are of pointers.
   class Denominator {
@@ -50,7 +51,6 @@ class ExactNumber {
     Shared* shared_ = nullptr;
   };
 
- public:
   ExactNumber() = default;
   ExactNumber(long value) : numerator_(value) {}  // NOLINT: an integer is such a number
   ExactNumber(int value) : numerator_(value) {}   // NOLINT
@@ -60,8 +60,7 @@ class ExactNumber {
       : numerator_(value.get_num()), denominator_(mpz_class(value.get_den())) {}
   // Numbers over one denominator, which must be odd.
   static std::array<ExactNumber, 3> over(std::array<mpz_class, 3> numerators,
-                                         mpz_class denominator) {
-    const Denominator shared(std::move(denominator));
+                                         const Denominator& shared) {
     return {ExactNumber(std::move(numerators[0]), shared),
             ExactNumber(std::move(numerators[1]), shared),
             ExactNumber(std::move(numerators[2]), shared)};
@@ -69,6 +68,7 @@ class ExactNumber {
 
   bool is_integer() const { return !denominator_; }
   const mpz_class& numerator() const { return numerator_; }
+  const Denominator& shared_denominator() const { return denominator_; }
   mpz_class denominator() const { return denominator_ ? *denominator_ : mpz_class(1); }
   mpq_class rational() const {
     if (!denominator_) return mpq_class(numerator_);

@@ -213,11 +213,6 @@ void add_multiple(mpz_class& sum, double parameter, const mpz_class& from, const
   }
   mpz_add(sum.get_mpz_t(), sum.get_mpz_t(), step.get_mpz_t());
 }
-void add_multiple(ExactNumber& sum, double parameter, const ExactNumber& from,
-                  const ExactNumber& to) {
-  const Dyadic t = dyadic(parameter);
-  sum += ((to - from) * ExactNumber(static_cast<long>(t.mantissa))).shifted(t.exponent);
-}
 
 }  // namespace
 
@@ -358,14 +353,15 @@ std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Pla
     all_integers_ = all_integers_ && common == 1;
     implicit_[i] = static_cast<Index>(defined_.size());
     defined_.emplace_back().placed = static_cast<Index>(placed_.size());
-    placed_.push_back(ExactNumber::over(std::move(numerators), std::move(common)));
+    placed_.push_back(
+        ExactNumber::over(std::move(numerators), ExactNumber::Denominator(std::move(common))));
   }
   keep_planes(points, planes.size(),
               [&](std::size_t n) { return integer_plane(equations[n], exponent_); });
   return {};
 }
 
-void ExactPoints::define(Index i, const ExactPoint& p) {
+void ExactPoints::define(Index i, const ExactPoint& p, Denominators& known) {
   Defined point{};
   point.corners = {p.i, p.j, p.kind == Kind::on_triangle ? p.k : kNone};
   point.u = p.x;
@@ -374,7 +370,7 @@ void ExactPoints::define(Index i, const ExactPoint& p) {
                         (point.corners[2] == kNone || is_integer(point.corners[2]));
   if (!integers) {
     point.placed = static_cast<Index>(placed_.size());
-    placed_.push_back(combined(point));
+    placed_.push_back(combined(point, known));
   }
   implicit_[i] = static_cast<Index>(defined_.size());
   defined_.push_back(point);
@@ -396,19 +392,37 @@ void ExactPoints::combine_integers(const Defined& point, std::array<mpz_class, 3
   }
 }
 
-ExactVector ExactPoints::combined(const Defined& point) const {
-  const auto [i, j, k] = point.corners;
-  const ExactVector base = exact(k == kNone ? j : k), first = exact(i);
-  ExactVector x = base;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    add_multiple(x[axis], point.u, base[axis], first[axis]);
+// A point is the sum of its corners, each times its share. All points of a segment or triangle have
+// one denominator, the product of those of the corners, so that their differences need none.
+ExactVector ExactPoints::combined(const Defined& point, Denominators& known) const {
+  const bool segment = point.corners[2] == kNone;
+  const mpq_class u(point.u), v(segment ? 0 : point.v);
+  const std::array<mpq_class, 3> shares = {u, segment ? mpq_class(1 - u) : v, mpq_class(1 - u - v)};
+  const std::size_t count = segment ? 2 : 3;
+  std::array<ExactVector, 3> corners;
+  std::array<mpz_class, 3> denominator;
+  mpz_class shift = 1, common = 1;
+  for (std::size_t c = 0; c < count; ++c) {
+    corners[c] = exact(point.corners[c]);
+    denominator[c] = corners[c][0].denominator();
+    common *= denominator[c];
+    shift = lcm(shift, mpz_class(shares[c].get_den()));
   }
-  if (k == kNone) return x;
-  const ExactVector second = exact(j);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    add_multiple(x[axis], point.v, base[axis], second[axis]);
+  std::array<mpz_class, 3> sum;
+  for (std::size_t c = 0; c < count; ++c) {
+    mpz_class factor = mpq_class(shares[c] * shift).get_num();
+    for (std::size_t other = 0; other < count; ++other) {
+      if (other != c) factor *= denominator[other];
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      mpz_addmul(sum[axis].get_mpz_t(), corners[c][axis].numerator().get_mpz_t(),
+                 factor.get_mpz_t());
+    }
   }
-  return x;
+  for (mpz_class& x : sum) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), shift.get_mpz_t());
+  const auto [at, fresh] = known.try_emplace(point.corners);
+  if (fresh) at->second = ExactNumber::Denominator(std::move(common));
+  return ExactNumber::over(std::move(sum), at->second);
 }
 
 void ExactPoints::integers(Index i, std::array<mpz_class, 3>& x) const {
@@ -447,8 +461,9 @@ std::string ExactPoints::assign(std::span<const ExactPoint> points, Planes plane
     if (points[i].kind == Kind::explicit_point)
       nearest_[i] = {points[i].x, points[i].y, points[i].z};
   }
+  Denominators known;
   for (Index i = 0; i < points.size(); ++i) {
-    if (!is_corner(points[i])) define(i, points[i]);
+    if (!is_corner(points[i])) define(i, points[i], known);
   }
   for (Index i = 0; i < points.size(); ++i) {
     if (implicit_[i] == kNone) continue;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -130,10 +131,12 @@ class ExactPoints {
                    const std::function<IntegerPlane(std::size_t)>& plane);
   // The corners by which a point is given; itself if it is one.
   std::span<const Index> corners_of(const Index& v) const;
-  void define(Index i, const delmesher::ExactPoint& p);
+  // By the corners of the points that have them.
+  using Denominators = std::map<std::array<Index, 3>, ExactNumber::Denominator>;
+  void define(Index i, const delmesher::ExactPoint& p, Denominators& known);
   // From their corners, which are defined.
   void combine_integers(const Defined& point, std::array<mpz_class, 3>& x) const;
-  ExactVector combined(const Defined& point) const;
+  ExactVector combined(const Defined& point, Denominators& known) const;
 
   std::vector<Position> nearest_;
   std::vector<Index> implicit_;  // per point: where in defined_ it is, kNone if it is explicit

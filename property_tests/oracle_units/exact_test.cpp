@@ -485,6 +485,11 @@ TEST(ExactPoints, AreInOnePlaneByTheirDefinitionsOnlyWhereTheyAreInOne) {
       EXPECT_EQ(points.is_defined_on(v, plane), v != 4 && v < 8) << v;
       EXPECT_EQ(height == 0, v != 4 && v < 8) << v;
     }
+    const mpq_class s(list[7].x), t(list[7].y);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = [&](Index corner) { return coordinate(points, corner, axis); };
+      EXPECT_EQ(at(7), s * at(0) + t * at(1) + (1 - s - t) * at(2));
+    }
     // Planes of two points are of no use.
     EXPECT_EQ(points.common_plane(std::array<Index, 2>{2, 9}), kNone);
     EXPECT_EQ(points.common_plane(std::array<Index, 3>{2, 3, 4}), kNone);
