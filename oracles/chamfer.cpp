@@ -379,6 +379,7 @@ class ChamferExtent {
   void check_chain(const ExactRecord::Chain& chain);
   bool contains_midpoint(Index facet, Index a, Index b);
   bool crosses_border(Index facet, Index a, Index b);
+  bool is_whole(std::span<const Index> triangles, const std::vector<Face>& faces) const;
   void check_areas();
 
   const ExactRecord& record_;
@@ -485,24 +486,37 @@ bool ChamferExtent::crosses_border(Index facet, Index a, Index b) {
   });
 }
 
+// Is a facet one triangle, and that the only face on it?
+bool ChamferExtent::is_whole(std::span<const Index> triangles,
+                             const std::vector<Face>& faces) const {
+  if (triangles.size() != 1 || faces.size() != 1) return false;
+  Face corners = surface_.triangles()[triangles[0]];
+  for (int turn = 0; turn < 3; ++turn) {
+    if (corners == faces[0]) return true;
+    std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+  }
+  return false;
+}
+
 void ChamferExtent::check_areas() {
-  std::vector<std::array<ExactSum, 3>> area(surface_.facets().size());
+  std::vector<std::vector<Face>> faces(surface_.facets().size());
   for (const auto& [a, b, c, id] : record_.refined_facets) {
     const Index f = facets_.find(id);
-    if (f == kNone) continue;
-    const ExactVector n = exact::area2(points_, a, b, c);
-    for (int axis = 0; axis < 3; ++axis) area[f][axis] += n[axis];
+    if (f != kNone) faces[f].push_back({a, b, c});
   }
   const InputSurface::Members members = surface_.members();
-  for (Index f = 0; f < area.size(); ++f) {
+  for (Index f = 0; f < faces.size(); ++f) {
+    // A facet of which nothing is left, or all as it was, takes no arithmetic.
+    if (faces[f].empty() || is_whole(members.of(f), faces[f])) continue;
     const InputSurface::Facet& facet = surface_.facets()[f];
-    const std::array<ExactSum, 3> whole = surface_.area2(points_, members.of(f));
+    const std::array<ExactSum, 3> area = sum_of_areas2(points_, faces[f]),
+                                  whole = surface_.area2(points_, members.of(f));
     const ExactVector normal = facet.normal(points_);
     // All areas are multiples of one vector, so one component of it that is not zero decides.
     std::size_t axis = 0;
     while (axis < 2 && sgn(normal[axis]) == 0) ++axis;
-    if (area[f][axis] == whole[axis]) continue;
-    if (difference(area[f][axis], whole[axis], 0) * sgn(normal[axis]) > 0) {
+    if (area[axis] == whole[axis]) continue;
+    if (difference(area[axis], whole[axis], 0) * sgn(normal[axis]) > 0) {
       report_.fail("the faces on facet " + std::to_string(facet.id) + " cover more than the facet");
     }
   }

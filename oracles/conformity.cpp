@@ -244,10 +244,10 @@ double Conformity::progress(const InputSurface::Edge& edge, Index v, double& dis
 
 // Exactly: is `next` on the line of the edge, beyond `here` and not beyond the edge's end?
 bool Conformity::advances(const InputSurface::Edge& edge, Index here, Index next) const {
-  if (!exact::collinear(points_, edge.from, edge.to, next)) return false;
-  const ExactVector direction = exact::difference(points_, edge.from, edge.to);
-  return exact::dot(direction, exact::difference(points_, here, next)) > 0 &&
-         exact::dot(direction, exact::difference(points_, next, edge.to)) >= 0;
+  const bool on = points_.is_combination(next, {edge.from, edge.to, edge.to}) ||
+                  exact::collinear(points_, edge.from, edge.to, next);
+  return on && exact::dot_sign(points_, edge.from, edge.to, here, next) > 0 &&
+         exact::dot_sign(points_, edge.from, edge.to, next, edge.to) >= 0;
 }
 
 // A chain of boundary edges from one end of the input edge to the other that stays on it, always
@@ -453,16 +453,13 @@ void Conformity::check_facet(Index facet, std::span<const Index> triangles,
   const InputSurface::Facet& input = surface_.facets()[facet];
   const std::string name = "facet " + std::to_string(input.id);
   if (faces.empty()) return fail_facet(facet, name + " has no boundary faces");
-  std::array<ExactSum, 3> area;
+  std::vector<Face> corners;
   std::vector<Index> vertices;
   std::vector<std::uint64_t> edges;
   std::uint64_t folded = 0;
   for (const Index f : faces) {
     const Face& face = result_.faces[f];
-    if (options_.exact) {  // rounded vertices change the area
-      const ExactVector normal = exact::area2(points_, face[0], face[1], face[2]);
-      for (std::size_t i = 0; i < 3; ++i) area[i] += normal[i];
-    }
+    corners.push_back(face);
     for (std::size_t i = 0; i < 3; ++i) {
       vertices.push_back(face[i]);
       edges.push_back(
@@ -494,7 +491,8 @@ void Conformity::check_facet(Index facet, std::span<const Index> triangles,
       deviate(distance);
     }
   }
-  if (options_.exact && !(area == surface_.area2(points_, triangles)))
+  // Rounded vertices change the area.
+  if (options_.exact && !(sum_of_areas2(points_, corners) == surface_.area2(points_, triangles)))
     fail_facet(facet, "the faces on " + name + " do not add up to it");
   const std::int64_t euler = static_cast<std::int64_t>(vertices.size() + faces.size()) -
                              static_cast<std::int64_t>(edges.size());

@@ -572,7 +572,17 @@ bool equal(const ExactPoints& points, Index a, Index b) {
   return a == b || points.exact(a) == points.exact(b);
 }
 
+// By intervals where these are narrow.
 double distance(const ExactPoints& points, Index a, Index b) {
+  const IntervalVector rough = points.rough_difference(a, b);
+  double width = 0;
+  Position middle;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    width = std::max(width, rough[axis].high - rough[axis].low);
+    middle[axis] = rough[axis].low / 2 + rough[axis].high / 2;
+  }
+  const double length_of_middle = std::hypot(middle[0], middle[1], middle[2]);
+  if (length_of_middle > 0x1p-900 && width < 0x1p-48 * length_of_middle) return length_of_middle;
   return length(difference(points, a, b), points.exponent());
 }
 
@@ -649,10 +659,13 @@ ExactNumber squared(const ExactVector& v) {
 }
 
 int dot_sign(const ExactPoints& points, Index apex, Index p, Index q) {
-  const IntervalVector u = rough_difference(points, apex, p), v = rough_difference(points, apex, q);
-  const int sign = (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]).sign();
+  return dot_sign(points, apex, p, apex, q);
+}
+
+int dot_sign(const ExactPoints& points, Index a, Index b, Index p, Index q) {
+  const int sign = dot(rough_difference(points, a, b), rough_difference(points, p, q)).sign();
   if (sign != 2) return sign;
-  return sgn(dot(difference(points, apex, p), difference(points, apex, q)));
+  return sgn(dot(difference(points, a, b), difference(points, p, q)));
 }
 
 bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Index d) {

@@ -189,6 +189,8 @@ int insphere(const ExactPoints& points, Index a, Index b, Index c, Index d, Inde
 // Sign of (p - apex) . (q - apex); negative exactly if the apex lies strictly inside the ball with
 // diameter pq.
 int dot_sign(const ExactPoints& points, Index apex, Index p, Index q);
+// Sign of (b - a) . (q - p).
+int dot_sign(const ExactPoints& points, Index a, Index b, Index p, Index q);
 // Does d lie strictly inside the smallest sphere through a, b, c?
 bool in_diametral_ball(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // (b - a) x (c - a): twice the area vector.

@@ -13,6 +13,27 @@ const std::array<mpz_class, 2>& primes() {
   return list;
 }
 
+// The inverses of a denominator modulo the primes. Terms that follow each other often have the same
+// one, as the components of vectors do.
+struct Inverses {
+  mpz_class denominator;
+  std::array<mpz_class, 2> values;
+  bool known = true;  // no prime divides it
+};
+
+const Inverses& inverses(const mpz_class& denominator) {
+  thread_local Inverses last;
+  if (last.denominator == denominator) return last;
+  last.denominator = denominator;
+  last.known = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    last.known = mpz_invert(last.values[i].get_mpz_t(), denominator.get_mpz_t(),
+                            primes()[i].get_mpz_t()) != 0 &&
+                 last.known;
+  }
+  return last;
+}
+
 mpz_class residue(const mpz_class& n, const mpz_class& p) {
   mpz_class r;
   mpz_fdiv_r(r.get_mpz_t(), n.get_mpz_t(), p.get_mpz_t());
@@ -29,12 +50,12 @@ void ExactSum::add_fraction(const ExactNumber& value) {
   mpz_fdiv_q(term.get_mpz_t(), term.get_mpz_t(), denominator.get_mpz_t());
   sum.fixed += term;
   ++sum.count;
+  const Inverses& inverse = inverses(denominator);
+  sum.known = inverse.known && sum.known;
   for (std::size_t i = 0; i < 2; ++i) {
     const mpz_class& p = primes()[i];
-    mpz_class inverse;
-    sum.known =
-        mpz_invert(inverse.get_mpz_t(), denominator.get_mpz_t(), p.get_mpz_t()) != 0 && sum.known;
-    sum.residues[i] = residue(sum.residues[i] + residue(value.numerator(), p) * inverse, p);
+    sum.residues[i] =
+        residue(sum.residues[i] + residue(value.numerator(), p) * inverse.values[i], p);
   }
 }
 

@@ -306,12 +306,9 @@ InputSurface::Members InputSurface::members() const {
 
 std::array<ExactSum, 3> InputSurface::area2(const ExactPoints& points,
                                             std::span<const Index> triangles) const {
-  std::array<ExactSum, 3> sum;
-  for (const Index t : triangles) {
-    const ExactVector area = area2(points, t);
-    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += area[axis];
-  }
-  return sum;
+  std::vector<std::array<Index, 3>> corners;
+  for (const Index t : triangles) corners.push_back(triangles_[t]);
+  return sum_of_areas2(points, corners);
 }
 
 ExactVector InputSurface::area2(const ExactPoints& points, Index t) const {
@@ -461,6 +458,36 @@ void InputSurface::build_edges() {
       }
     }
   }
+}
+
+std::array<ExactSum, 3> sum_of_areas2(const ExactPoints& points,
+                                      std::span<const std::array<Index, 3>> triangles) {
+  // The vertices of the input come first, and have the smallest numbers.
+  Index origin = kNone;
+  std::vector<std::array<Index, 2>> sides;
+  for (const auto& corners : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      sides.push_back({corners[i], corners[(i + 1) % 3]});
+      origin = std::min(origin, corners[i]);
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) {
+    return std::pair(std::minmax(a[0], a[1]), a[0]) < std::pair(std::minmax(b[0], b[1]), b[0]);
+  });
+  std::array<ExactSum, 3> sum;
+  for (std::size_t first = 0; first < sides.size();) {
+    const auto [low, high] = std::minmax(sides[first][0], sides[first][1]);
+    long times = 0;
+    for (; first < sides.size() && std::minmax(sides[first][0], sides[first][1]) ==
+                                       std::pair<const Index&, const Index&>(low, high);
+         ++first) {
+      times += sides[first][0] == low ? 1 : -1;
+    }
+    if (times == 0 || low == origin) continue;
+    const ExactVector area = exact::area2(points, origin, low, high);
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += area[axis] * ExactNumber(times);
+  }
+  return sum;
 }
 
 BoxTree::Box enlarged(BoxTree::Box box, double by) {

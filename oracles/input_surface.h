@@ -194,6 +194,12 @@ class InputSurface {
   std::shared_ptr<const BoxTree> tree_;
 };
 
+// Twice the sum of the area vectors of some triangles; exactly, in squares of integer units. That
+// of a triangle is the sum over its sides of those between side and origin. Sides that two
+// triangles share in opposite directions cancel, so that only the others take arithmetic.
+std::array<ExactSum, 3> sum_of_areas2(const ExactPoints& points,
+                                      std::span<const std::array<Index, 3>> triangles);
+
 // The smallest box that certainly contains the points.
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners);
 BoxTree::Box enlarged(BoxTree::Box box, double by);

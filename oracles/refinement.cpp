@@ -439,11 +439,7 @@ Index InputEdges::of_chain(const ExactRecord& record, const std::vector<Index>& 
 int along_edge(const ExactPoints& points, const InputSurface::Edge& edge, Index p, Index q) {
   if (p == q) return 0;
   if (p == edge.from && q == edge.to) return 1;
-  const int rough =
-      exact::dot(points.rough_difference(edge.from, edge.to), points.rough_difference(p, q)).sign();
-  if (rough != 2) return rough;
-  return sgn(
-      exact::dot(exact::difference(points, edge.from, edge.to), exact::difference(points, p, q)));
+  return exact::dot_sign(points, edge.from, edge.to, p, q);
 }
 
 OracleReport check_segments(const RefinedMesh& mesh) {

@@ -113,6 +113,27 @@ TEST(InputSurface, EntersWhatRationalClippingSaysItEnters) {
   EXPECT_GT(counts[1], 300);
 }
 
+// Also where triangles occur twice, or have sides in common in either direction.
+TEST(SumOfAreas, IsThatOfTheTrianglesOneByOne) {
+  std::mt19937 random(13);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Position> positions(6);
+    for (Position& p : positions) {
+      for (double& x : p) x = static_cast<int>(random() % 19) - 9;
+    }
+    const ExactPoints points = points_of(positions);
+    std::vector<std::array<Index, 3>> triangles(1 + random() % 8);
+    std::array<ExactSum, 3> sum;
+    for (auto& corners : triangles) {
+      const auto first = static_cast<Index>(random() % 6);
+      corners = {first, (first + 1 + static_cast<Index>(random() % 2)) % 6, (first + 4) % 6};
+      const ExactVector area = exact::area2(points, corners[0], corners[1], corners[2]);
+      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += area[axis];
+    }
+    EXPECT_TRUE(sum_of_areas2(points, triangles) == sum) << round;
+  }
+}
+
 TEST(BoxTree, FindsWhatMeetsTheQueryAndNothingFarInAHalfSpace) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> real(-1, 1);
