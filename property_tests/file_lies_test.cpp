@@ -32,7 +32,8 @@ class Meshed {
  public:
   Meshed(const char* name, const char* input, const char* promise,
          std::vector<std::vector<std::string>> sets)
-      : folder_(fs::path(TETPROOF_SCRATCH) / "file_lies"),
+      : folder_(fs::path(TETPROOF_SCRATCH) / "file_lies" /
+                testing::UnitTest::GetInstance()->current_test_info()->name()),
         input_((folder_ / name).string()),
         promise_(promise),
         sets_(std::move(sets)) {
