@@ -82,6 +82,12 @@ TEST(Envelope, AMeshWithinItPasses) {
   EXPECT_LE(report.deviation, 1.01 * kAllowed);
 }
 
+TEST(Envelope, ASurfaceInsideOutBoundsTheSameSolid) {
+  Polyhedron inside_out = cube();
+  for (auto& triangle : inside_out.triangles) std::swap(triangle[1], triangle[2]);
+  EXPECT_EQ(failed_first(judged(cube_mesh(), inside_out)), "");
+}
+
 TEST(Envelope, WhatEachOracleIsFor) {
   MeshFile far = cube_mesh();
   for (Position& p : far.vertices) p[0] += 1.1 * kAllowed;
