@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
+#include <exception>
 #include <fstream>
+#include <new>
 #include <utility>
 
 #include "mesher/delmesher_files.h"
@@ -69,6 +72,31 @@ void deliver(const Call& call, const delmesher::Surface& surface, const delmeshe
   if (!status.ok()) finish(call, 3, call.output, status.error);
   write_statistics(call.stats, surface, mesh, reading, meshing, writing.seconds());
   finish(call, 0, call.input, "");
+}
+
+int run(const Peer& peer, int argc, char** argv) {
+  if (argc == 2 && std::strcmp(argv[1], "--version") == 0) {
+    std::printf("%s %s\n", peer.name, peer.version);
+    return 0;
+  }
+  const std::string switches = argc == 5 ? argv[1] : "";
+  if (switches != "-" && switches != "raw") {
+    std::fprintf(stderr, "usage: %s -|raw INPUT OUT.mesh STATS.json\n", peer.program);
+    return 2;
+  }
+  const Call call = {peer.program, switches, argv[2], argv[3], argv[4]};
+  const Stopwatch reading;
+  const delmesher::Surface surface = read(call);
+  const double read_seconds = reading.seconds();
+  const Stopwatch meshing;
+  try {
+    const delmesher::TetMesh mesh = peer.mesh(surface, switches == "raw");
+    deliver(call, surface, mesh, read_seconds, meshing.seconds());
+  } catch (const std::bad_alloc&) {
+    finish(call, 5, call.input, "out of memory");
+  } catch (const std::exception& error) {
+    finish(call, 4, call.input, std::string(peer.name) + ": " + error.what());
+  }
 }
 
 }  // namespace tetproof::adapter

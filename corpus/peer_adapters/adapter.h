@@ -42,4 +42,16 @@ void orient(delmesher::TetMesh& mesh);
 [[noreturn]] void deliver(const Call& call, const delmesher::Surface& surface,
                           const delmesher::TetMesh& mesh, double reading, double meshing);
 
+// A peer that has two ways: its defaults, and without its steps of optimization.
+struct Peer {
+  const char* program;  // the name of the program that calls it
+  const char* name;     // of the peer, for messages
+  const char* version;
+  // Fills the surface. A std::exception is a refusal with that reason, but std::bad_alloc.
+  delmesher::TetMesh (*mesh)(const delmesher::Surface& surface, bool raw);
+};
+
+// The whole program for such a peer, whose SWITCHES are "-" or "raw".
+int run(const Peer& peer, int argc, char** argv);
+
 }  // namespace tetproof::adapter

@@ -12,22 +12,15 @@
 #include <CGAL/make_mesh_3.h>
 #include <CGAL/version.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <exception>
-#include <new>
-#include <string>
+#include <stdexcept>
 #include <unordered_map>
 #include <vector>
 
 #include "corpus/peer_adapters/adapter.h"
 
 namespace {
-
-using tetproof::adapter::Call;
-using tetproof::adapter::finish;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Polyhedron = CGAL::Mesh_polyhedron_3<Kernel>::type;
@@ -61,7 +54,7 @@ double diagonal_of(const Polyhedron& polyhedron) {
   return std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
 }
 
-Complex mesh(const Polyhedron& polyhedron, bool optimize) {
+Complex complex_in(const Polyhedron& polyhedron, bool optimize) {
   Domain domain(polyhedron);
   domain.detect_features();  // edges of at least 60 degrees, its default
   const double size = diagonal_of(polyhedron);
@@ -100,33 +93,15 @@ delmesher::TetMesh take(const Complex& complex) {
   return taken;
 }
 
-[[noreturn]] void run(const Call& call) {
-  const tetproof::adapter::Stopwatch reading;
-  const delmesher::Surface surface = tetproof::adapter::read(call);
-  const double read_seconds = reading.seconds();
-  const tetproof::adapter::Stopwatch meshing;
-  try {
-    const delmesher::TetMesh taken = take(mesh(polyhedron_of(surface), call.switches != "raw"));
-    if (taken.tetrahedra.empty()) finish(call, 4, call.input, "CGAL: no tetrahedron inside");
-    tetproof::adapter::deliver(call, surface, taken, read_seconds, meshing.seconds());
-  } catch (const std::bad_alloc&) {
-    finish(call, 5, call.input, "out of memory");
-  } catch (const std::exception& error) {
-    finish(call, 4, call.input, std::string("CGAL: ") + error.what());
-  }
+delmesher::TetMesh mesh(const delmesher::Surface& surface, bool raw) {
+  delmesher::TetMesh taken = take(complex_in(polyhedron_of(surface), !raw));
+  if (taken.tetrahedra.empty()) throw std::runtime_error("no tetrahedron inside");
+  return taken;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::strcmp(argv[1], "--version") == 0) {
-    std::puts("CGAL " CGAL_VERSION_STR);
-    return 0;
-  }
-  const std::string switches = argc == 5 ? argv[1] : "";
-  if (switches != "-" && switches != "raw") {
-    std::fputs("usage: tetproof-cgal-mesh3 -|raw INPUT OUT.mesh STATS.json\n", stderr);
-    return 2;
-  }
-  run({"tetproof-cgal-mesh3", switches, argv[2], argv[3], argv[4]});
+  return tetproof::adapter::run({"tetproof-cgal-mesh3", "CGAL", CGAL_VERSION_STR, mesh}, argc,
+                                argv);
 }

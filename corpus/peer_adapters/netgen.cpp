@@ -7,19 +7,11 @@ namespace nglib {
 }
 
 #include <array>
-#include <cstdio>
-#include <cstring>
-#include <exception>
-#include <new>
-#include <string>
-#include <vector>
+#include <stdexcept>
 
 #include "corpus/peer_adapters/adapter.h"
 
 namespace {
-
-using tetproof::adapter::Call;
-using tetproof::adapter::finish;
 
 void fill(nglib::Ng_Mesh* mesh, const delmesher::Surface& surface) {
   for (std::array<double, 3> vertex : surface.vertices) nglib::Ng_AddPoint(mesh, vertex.data());
@@ -52,48 +44,28 @@ delmesher::TetMesh take(nglib::Ng_Mesh* mesh) {
 const char* meaning(nglib::Ng_Result result) {
   switch (result) {
     case nglib::NG_SURFACE_INPUT_ERROR:
-      return "Netgen: error in the surface";
+      return "error in the surface";
     case nglib::NG_VOLUME_FAILURE:
-      return "Netgen: volume meshing failed";
+      return "volume meshing failed";
     default:
-      return "Netgen: error";
+      return "error";
   }
 }
 
-[[noreturn]] void run(const Call& call) {
-  const tetproof::adapter::Stopwatch reading;
-  const delmesher::Surface surface = tetproof::adapter::read(call);
-  const double read_seconds = reading.seconds();
-  const tetproof::adapter::Stopwatch meshing;
-  try {
-    nglib::Ng_Init();
-    nglib::Ng_Mesh* mesh = nglib::Ng_NewMesh();
-    fill(mesh, surface);
-    nglib::Ng_Meshing_Parameters parameters;
-    parameters.maxh = 1e6;
-    if (call.switches == "raw") parameters.optsteps_3d = 0;
-    const nglib::Ng_Result result = nglib::Ng_GenerateVolumeMesh(mesh, &parameters);
-    if (result != nglib::NG_OK) finish(call, 4, call.input, meaning(result));
-    const delmesher::TetMesh taken = take(mesh);
-    tetproof::adapter::deliver(call, surface, taken, read_seconds, meshing.seconds());
-  } catch (const std::bad_alloc&) {
-    finish(call, 5, call.input, "out of memory");
-  } catch (const std::exception& error) {
-    finish(call, 4, call.input, std::string("Netgen: ") + error.what());
-  }
+delmesher::TetMesh mesh(const delmesher::Surface& surface, bool raw) {
+  nglib::Ng_Init();
+  nglib::Ng_Mesh* mesh = nglib::Ng_NewMesh();
+  fill(mesh, surface);
+  nglib::Ng_Meshing_Parameters parameters;
+  parameters.maxh = 1e6;
+  if (raw) parameters.optsteps_3d = 0;
+  const nglib::Ng_Result result = nglib::Ng_GenerateVolumeMesh(mesh, &parameters);
+  if (result != nglib::NG_OK) throw std::runtime_error(meaning(result));
+  return take(mesh);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::strcmp(argv[1], "--version") == 0) {
-    std::puts("Netgen " NETGEN_VERSION);
-    return 0;
-  }
-  const std::string switches = argc == 5 ? argv[1] : "";
-  if (switches != "-" && switches != "raw") {
-    std::fputs("usage: tetproof-netgen -|raw INPUT OUT.mesh STATS.json\n", stderr);
-    return 2;
-  }
-  run({"tetproof-netgen", switches, argv[2], argv[3], argv[4]});
+  return tetproof::adapter::run({"tetproof-netgen", "Netgen", NETGEN_VERSION, mesh}, argc, argv);
 }
