@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "mesher/arithmetic/bounded.h"
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
+#include "mesher/predicates/stages.h"
 #include "mesher/predicates/vector.h"
 
 namespace delmesher::predicates {
@@ -51,30 +51,12 @@ struct PlaneCoordinates {
   double u, v;
 };
 
-BoundedPair pair_of(double x) {
-  return {x, 0, 0};
-}
-
-using PairVector = std::array<BoundedPair, 3>;
-
-PairVector pairs(const Vec3& a) {
-  return {pair_of(a[0]), pair_of(a[1]), pair_of(a[2])};
-}
-
-PairVector cross(const PairVector& a, const PairVector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const PairVector& a, const PairVector& b) {
-  const BoundedPair sum = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  return sum.high;
-}
-
 PlaneCoordinates solve(const Vec3& e, const Vec3& f, const Vec3& w) {
-  const PairVector n = cross(pairs(e), pairs(f));
-  const double nn = dot(n, n);
+  const auto e2 = stages::exact_pairs(e), f2 = stages::exact_pairs(f), w2 = stages::exact_pairs(w);
+  const auto n = cross(e2, f2);
+  const double nn = dot(n, n).high;
   if (!(nn > 0)) return {0, 0};
-  return {dot(cross(pairs(w), pairs(f)), n) / nn, dot(cross(pairs(e), pairs(w)), n) / nn};
+  return {dot(cross(w2, f2), n).high / nn, dot(cross(e2, w2), n).high / nn};
 }
 
 // What lies beyond the nearest doubles of points, relative to that of the anchor, in local

@@ -52,6 +52,11 @@ inline Triple<BoundedPair> bounded_pair_point(const PointStore& points, VertexId
   return {{a.x, r.x, r.error}, {a.y, r.y, r.error}, {a.z, r.z, r.error}};
 }
 
+// Doubles, exactly.
+inline Triple<BoundedPair> exact_pairs(const Vec3& a) {
+  return {{a[0], 0, 0}, {a[1], 0, 0}, {a[2], 0, 0}};
+}
+
 // Doubles with running error bounds.
 template <class Polynomial>
 int filter(const PointStore& points, const Polynomial& polynomial, const VertexId* ids) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesher/predicates/placement.h"
+#include "mesher/predicates/polynomials.h"
 #include "mesher/predicates/vector.h"
 #include "mesher/refine/test_complexes.h"
 #include "mesher/refine/tetrahedron_shape.h"
@@ -121,26 +122,17 @@ TEST(SteinerPoints, TetrahedraAreSplitInsideTheirCircumball) {
 
 // The circumcentre relative to the first vertex, in numbers of 64 bits at least.
 Vec3 reference_center(const PointStore& points, const std::array<VertexId, 4>& v) {
-  using Long = std::array<long double, 3>;
-  const auto edge = [&](int i) {
-    const Vec3 a = points.nearest(v[0]), b = points.nearest(v[i]);
-    return Long{static_cast<long double>(b[0]) - a[0], static_cast<long double>(b[1]) - a[1],
-                static_cast<long double>(b[2]) - a[2]};
+  using Long = polynomials::Triple<long double>;
+  const auto at = [&](int i) {
+    const Vec3 p = points.nearest(v[i]);
+    return Long{p[0], p[1], p[2]};
   };
-  const auto dot = [](const Long& a, const Long& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  };
-  const auto cross = [](const Long& a, const Long& b) {
-    return Long{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
-  const Long a = edge(1), b = edge(2), c = edge(3);
+  const Long a = at(1) - at(0), b = at(2) - at(0), c = at(3) - at(0);
   const Long bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
-  Vec3 center{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const long double sum = dot(a, a) * bc[k] + dot(b, b) * ca[k] + dot(c, c) * ab[k];
-    center[k] = static_cast<double>(sum / (2 * dot(a, bc)));
-  }
-  return center;
+  const long double aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), scale = 2 * dot(a, bc);
+  return {static_cast<double>((aa * bc.x + bb * ca.x + cc * ab.x) / scale),
+          static_cast<double>((aa * bc.y + bb * ca.y + cc * ab.y) / scale),
+          static_cast<double>((aa * bc.z + bb * ca.z + cc * ab.z) / scale)};
 }
 
 // The fourth vertex is above a point of the other three's plane, so that the circumcentre is about

@@ -2,42 +2,13 @@
 
 #include <cmath>
 
-#include "mesher/arithmetic/bounded.h"
 #include "mesher/predicates/placement.h"
+#include "mesher/predicates/stages.h"
 
 namespace delmesher::refine {
 namespace {
 
-using arithmetic::BoundedPair;
-using Triple = std::array<BoundedPair, 3>;
-
-Triple pairs(const Vec3& a) {
-  return {{{a[0], 0, 0}, {a[1], 0, 0}, {a[2], 0, 0}}};
-}
-
-// A point of the store, with the digits of its remainder.
-Triple pairs(const PointStore& points, VertexId v) {
-  const Approximation left = points.remainder(v);
-  Triple sum = pairs(points.nearest(v));
-  const Triple rest = pairs({left.x, left.y, left.z});
-  for (std::size_t k = 0; k < 3; ++k) {
-    sum[k] = sum[k] + rest[k];
-    sum[k].error += left.error;
-  }
-  return sum;
-}
-
-Triple operator-(const Triple& a, const Triple& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-BoundedPair dot(const Triple& a, const Triple& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Triple cross(const Triple& a, const Triple& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using Pairs = predicates::polynomials::Triple<BoundedPair>;
 
 double bound(const BoundedPair& a) {
   return std::fabs(a.high) + std::fabs(a.low) + a.error;
@@ -47,25 +18,29 @@ double bound(const BoundedPair& a) {
 
 std::optional<Vec3> certain_circumcentre(const PointStore& points, const VertexId* v, double grid,
                                          double fraction) {
-  const Triple origin = pairs(points, v[0]);
-  const Triple a = pairs(points, v[1]) - origin, b = pairs(points, v[2]) - origin,
-               c = pairs(points, v[3]) - origin;
-  const Triple bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+  const Pairs origin = stages::bounded_pair_point(points, v[0]);
+  const auto from_origin = [&](VertexId w) {
+    return stages::bounded_pair_point(points, w) - origin;
+  };
+  const Pairs a = from_origin(v[1]), b = from_origin(v[2]), c = from_origin(v[3]);
+  const Pairs bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
   const BoundedPair aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), volume6 = dot(a, bc),
                     divisor = volume6 + volume6;
-  if (divisor.sign() == 0 || divisor.sign() == arithmetic::kUnknownSign) return std::nullopt;
-  Triple dividend;
+  if (divisor.sign() == 0 || divisor.sign() == kUnknownSign) return std::nullopt;
+  constexpr std::array kAxes = {&Pairs::x, &Pairs::y, &Pairs::z};
+  Pairs dividend;
   Vec3 target = points.nearest(v[0]);
   for (std::size_t k = 0; k < 3; ++k) {
-    dividend[k] = aa * bc[k] + bb * ca[k] + cc * ab[k];
-    target[k] += dividend[k].high / divisor.high;
+    const auto axis = kAxes[k];
+    dividend.*axis = aa * bc.*axis + bb * ca.*axis + cc * ab.*axis;
+    target[k] += (dividend.*axis).high / divisor.high;
   }
   const Vec3 center = snap_to_grid(target, grid);
   // What is left of center - origin - dividend / divisor, times the divisor.
-  const Triple reached = pairs(center) - origin;
+  const Pairs reached = stages::exact_pairs(center) - origin;
   double left2 = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double left = bound(reached[k] * divisor - dividend[k]);
+  for (const auto axis : kAxes) {
+    const double left = bound(reached.*axis * divisor - dividend.*axis);
     left2 += left * left;
   }
   const double scale = fraction * (std::fabs(divisor.high) - divisor.error);
