@@ -6,28 +6,37 @@ namespace {
 constexpr std::string_view kDigits =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 constexpr std::uint32_t kSixBits = 63;
+constexpr std::uint8_t kNoDigit = 255;
+
+// What each character means.
+constexpr std::array<std::uint8_t, 256> kValues = [] {
+  std::array<std::uint8_t, 256> values{};
+  values.fill(kNoDigit);
+  for (std::size_t i = 0; i < kDigits.size(); ++i) {
+    values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::uint8_t>(i);
+  }
+  return values;
+}();
+
+// Of three bytes.
+std::array<char, 4> digits_of(std::uint32_t group) {
+  return {kDigits[group >> 18U & kSixBits], kDigits[group >> 12U & kSixBits],
+          kDigits[group >> 6U & kSixBits], kDigits[group & kSixBits]};
+}
 
 }  // namespace
 
 void Base64Writer::write_group() {
-  const std::array<char, 4> digits = {kDigits[group_ >> 18U & kSixBits],
-                                      kDigits[group_ >> 12U & kSixBits],
-                                      kDigits[group_ >> 6U & kSixBits], kDigits[group_ & kSixBits]};
+  const int missing = 3 - bytes_;
+  std::array<char, 4> digits = digits_of(group_ << 8U * static_cast<unsigned>(missing));
+  for (int i = 0; i < missing; ++i) digits[static_cast<std::size_t>(3 - i)] = '=';
   out_.text({digits.data(), digits.size()});
   group_ = 0;
   bytes_ = 0;
 }
 
 void Base64Writer::finish() {
-  if (bytes_ == 0) return;
-  const int present = bytes_;
-  const std::uint32_t group = group_ << 8U * static_cast<unsigned>(3 - present);
-  std::array<char, 4> digits = {kDigits[group >> 18U & kSixBits], kDigits[group >> 12U & kSixBits],
-                                kDigits[group >> 6U & kSixBits], '='};
-  if (present == 1) digits[2] = '=';
-  out_.text({digits.data(), digits.size()});
-  group_ = 0;
-  bytes_ = 0;
+  if (bytes_ > 0) write_group();
 }
 
 std::optional<std::string> from_base64(std::string_view text) {
@@ -43,9 +52,9 @@ std::optional<std::string> from_base64(std::string_view text) {
   std::uint32_t group = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool padded = i + padding >= text.size();
-    const std::size_t digit = padded ? 0 : kDigits.find(text[i]);
-    if (digit == std::string_view::npos) return {};
-    group = group << 6U | static_cast<std::uint32_t>(digit);
+    const std::uint8_t digit = padded ? 0 : kValues[static_cast<unsigned char>(text[i])];
+    if (digit == kNoDigit) return {};
+    group = group << 6U | digit;
     if (i % 4 != 3) continue;
     for (const unsigned shift : {16U, 8U, 0U}) bytes += static_cast<char>(group >> shift & 255U);
     group = 0;

@@ -46,6 +46,7 @@ class Base64Writer {
     group_ = group_ << 8U | static_cast<unsigned char>(byte);
     if (++bytes_ == 3) write_group();
   }
+  // With padding in place of missing bytes.
   void write_group();
 
   TextSink& out_;
