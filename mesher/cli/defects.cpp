@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/io/projected_face.h"
 #include "mesher/io/repair.h"
 #include "mesher/io/text.h"
 
@@ -42,18 +43,7 @@ std::uint64_t count_of(const SurfaceReport& report, Kind kind) {
 
 // Is the ring so thin that it is no hole: do vertices on one side lie on an edge of the other?
 bool is_slit(const Surface& surface, const io::Hole& hole) {
-  std::array<double, 3> normal = {0, 0, 0};
-  const auto& origin = surface.vertices[hole.corners[0]];
-  for (std::size_t i = 1; i + 1 < hole.corners.size(); ++i) {
-    std::array<double, 3> u, v;
-    for (std::size_t k = 0; k < 3; ++k) {
-      u[k] = surface.vertices[hole.corners[i]][k] - origin[k];
-      v[k] = surface.vertices[hole.corners[i + 1]][k] - origin[k];
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      normal[k] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
-    }
-  }
+  const io::Point3 normal = io::doubled_area(surface.vertices, hole.corners);
   const double area2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
   return std::sqrt(area2) <= 1e-9 * hole.width * hole.width;
 }

@@ -29,16 +29,19 @@ Point2 project(const Point3& p, int axis) {
   return {p[(i + 1) % 3], p[(i + 2) % 3]};
 }
 
-int dominating_axis(const std::vector<Point3>& vertices, std::span<const std::uint32_t> loop) {
-  // Twice the area vector, from the first corner. Of equals the first axis.
-  Point3 normal = {0, 0, 0};
+Point3 doubled_area(const std::vector<Point3>& vertices, std::span<const std::uint32_t> loop) {
+  Point3 sum = {0, 0, 0};
   const Point3& origin = vertices[loop[0]];
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const Point3 part =
-        cross(subtract(vertices[loop[i]], origin), subtract(vertices[loop[i + 1]], origin));
-    for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
+    sum = add(sum,
+              cross(subtract(vertices[loop[i]], origin), subtract(vertices[loop[i + 1]], origin)));
   }
-  int axis = 0;
+  return sum;
+}
+
+int dominating_axis(const std::vector<Point3>& vertices, std::span<const std::uint32_t> loop) {
+  const Point3 normal = doubled_area(vertices, loop);
+  int axis = 0;  // of equals the first
   for (int k = 1; k < 3; ++k) {
     if (std::fabs(normal[static_cast<std::size_t>(k)]) >
         std::fabs(normal[static_cast<std::size_t>(axis)])) {

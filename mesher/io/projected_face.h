@@ -12,6 +12,9 @@ using Point2 = std::array<double, 2>;
 using Point3 = std::array<double, 3>;
 using Loop = std::vector<std::uint32_t>;  // corners, by their numbers
 
+// Twice the polygon's area vector, in doubles, summed from its first corner.
+Point3 doubled_area(const std::vector<Point3>& vertices, std::span<const std::uint32_t> loop);
+
 // The coordinate axis along which the polygon's area vector, in doubles, has its largest component.
 // formats.md promises this axis: which solid a face that is not planar means depends on it.
 int dominating_axis(const std::vector<Point3>& vertices, std::span<const std::uint32_t> loop);
