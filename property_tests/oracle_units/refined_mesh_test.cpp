@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,26 @@ namespace {
 
 using namespace oracles;  // NOLINT
 
+// The acute corners of a surface, those below 60 degrees, and the features of their chamfers.
+class Sharp {
+ public:
+  explicit Sharp(const Polyhedron& solid) : points_(points_of(solid.vertices)) {
+    EXPECT_EQ(surface_.assign(solid, points_), "");
+    corners_.emplace(points_, surface_);
+  }
+  double smallest_feature(Index vertex, const ChamferShape& shape = {}) const {
+    const auto sixty = [](Index) { return 60.0; };
+    const CornerThresholds thresholds = {sixty, sixty};
+    return ChamferFeatures(points_, surface_, *corners_, thresholds, shape)
+        .smallest(vertex, [](Index) { return true; });
+  }
+
+ private:
+  ExactPoints points_;
+  InputSurface surface_;
+  std::optional<AcuteCorners> corners_;
+};
+
 // A prism over a triangle whose corner at vertex 0 has the half angle a, tan a = 1 / 4, and whose
 // opposite side is 12 away, so that the chamfer distance is 4 at most. Smallest is the side of the
 // bridge in that corner, sin a / (cos a + 1 / 2) of the chamfer distance (Figure 4).
@@ -32,24 +53,14 @@ void expect_features_of_a_sharp_prism(double bottom) {
   }
   prism.triangles = {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3},
                      {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}};
-  const ExactPoints points = points_of(prism.vertices);
-  InputSurface surface;
-  ASSERT_EQ(surface.assign(prism, points), "");
-  const AcuteCorners corners(points, surface);
-  const auto sixty = [](Index) { return 60.0; };
-  const CornerThresholds thresholds = {sixty, sixty};
-  const auto all = [](Index) { return true; };
+  const Sharp sharp(prism);
   const double side = 1 / (4 + std::sqrt(17.0) / 2);
   for (const Index v : {0U, 3U}) {
-    EXPECT_NEAR(ChamferFeatures(points, surface, corners, thresholds, {}).smallest(v, all),
-                4 * side, 1e-12);
-    EXPECT_NEAR(
-        ChamferFeatures(points, surface, corners, thresholds, {.limit = 1}).smallest(v, all), side,
-        1e-12);
+    EXPECT_NEAR(sharp.smallest_feature(v), 4 * side, 1e-12);
+    EXPECT_NEAR(sharp.smallest_feature(v, {.limit = 1}), side, 1e-12);
   }
   for (const Index v : {1U, 2U, 4U, 5U}) {  // no angle below 60 degrees
-    EXPECT_EQ(ChamferFeatures(points, surface, corners, thresholds, {}).smallest(v, all),
-              kInfinity);
+    EXPECT_EQ(sharp.smallest_feature(v), kInfinity);
   }
 }
 
@@ -83,15 +94,7 @@ TEST(ChamferFeatures, AVertexNearTheMiddleOfAnEdgeNarrowsItsStrip) {
     notched.triangles.push_back({a, c, b});
     notched.triangles.push_back({a + 5, b + 5, c + 5});
   }
-  const ExactPoints points = points_of(notched.vertices);
-  InputSurface surface;
-  ASSERT_EQ(surface.assign(notched, points), "");
-  const AcuteCorners corners(points, surface);
-  const auto sixty = [](Index) { return 60.0; };
-  const CornerThresholds thresholds = {sixty, sixty};
-  const ChamferFeatures features(points, surface, corners, thresholds, {});
-  EXPECT_NEAR(features.smallest(0, [](Index) { return true; }),
-              2.0 / 3 * std::sin(std::atan(0.5) / 2), 1e-12);
+  EXPECT_NEAR(Sharp(notched).smallest_feature(0), 2.0 / 3 * std::sin(std::atan(0.5) / 2), 1e-12);
 }
 
 // One edge after another of 16 is encroached by a corner of its own tetrahedron. With that many
