@@ -1,9 +1,6 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -11,6 +8,7 @@
 #include "corpus/generate/generate.h"
 #include "fuzz/plain_files.h"
 #include "fuzz/properties.h"
+#include "fuzz/scratch.h"
 #include "mesher/cli/run.h"
 #include "mesher/io/output.h"
 #include "mesher/io/parse_surface.h"
@@ -34,27 +32,6 @@ Leniency not_conforming("read-and-not-conforming", 0.999);
 Leniency no_boundary("boundary-not-in-format", 0.5);
 Leniency no_labels("labels-not-in-format", 0.5);
 Leniency not_run("ends-with-its-parsing", 0.999);
-
-// A folder of this process, removed at its end.
-const fs::path& scratch() {
-  static const struct Folder {
-    Folder() {
-      // In memory where there is such a folder: a campaign writes millions of files.
-      const bool memory = access("/dev/shm", W_OK) == 0;
-      std::string name =
-          (fs::path(memory ? "/dev/shm" : fs::temp_directory_path()) / "tetproof-fuzz-XXXXXX")
-              .string();
-      if (mkdtemp(name.data()) == nullptr) std::abort();
-      path = name;
-    }
-    ~Folder() {
-      std::error_code ignored;
-      fs::remove_all(path, ignored);
-    }
-    fs::path path;
-  } folder;
-  return folder.path;
-}
 
 bool is_one_line(const std::string& text) {
   return !text.empty() && text.find_first_of("\r\n") == std::string::npos;

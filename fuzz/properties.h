@@ -67,6 +67,9 @@ Finding plane_holds(Bytes bytes);
 // format by its extension.
 Finding plane_reader_holds(const std::string& text, const std::string& name);
 
+// Calls of the library, in any order and several at once, answer what each of them answers.
+Finding sequences_hold(Bytes bytes);
+
 // Every format reads back the mesh that was written.
 Finding writers_hold(Bytes bytes);
 
