@@ -72,13 +72,20 @@ std::vector<Chart> joined(std::vector<Chart> first, const std::vector<Chart>& se
 }
 
 std::vector<Section> sections_of(const Selection& selection, const std::string& model,
-                                 const Families& families) {
+                                 const ReportOptions& options) {
+  const Families& families = options.families;
   std::vector<Section> sections;
   const auto add = [&](std::string id, std::string title, std::string text,
                        std::vector<Table> tables, std::vector<Chart> charts) -> Section& {
     return sections.emplace_back(Section{std::move(id), std::move(title), std::move(text),
                                          std::move(tables), std::move(charts), false, false});
   };
+  if (!options.history.empty()) {
+    add("history", "History",
+        "Campaigns in the order given. All other sections speak of the last one.",
+        {history_table(options.history), history_changes(options.history)},
+        {history_size_chart(options.history), history_time_chart(options.history)});
+  }
   add("tables", "Tables 1 and 2",
       "Laid out as the paper's Tables 1 and 2, with every mesher of this campaign on its models.",
       {table_1(selection), table_2(selection)}, {})
@@ -184,7 +191,7 @@ ReportFiles write_report(const Selection& selection, const std::filesystem::path
   Page page;
   page.title = "Meshing campaign";
   page.headline = headline_of(selection);
-  page.sections = sections_of(selection, model, options.families);
+  page.sections = sections_of(selection, model, options);
   page.notes = {
       "CSV files of every table and figure, LaTeX (tables.tex) and Markdown (report.md) "
       "stand beside this page."};

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "reports/history.h"
 #include "reports/league.h"
 #include "reports/selection.h"
 #include "reports/views.h"
@@ -16,6 +18,8 @@ struct ReportOptions {
   std::string model;
   ViewOptions views;
   Families families = {};  // of the models, for the league
+  // Campaigns in the order of time, for the section on what changed; the last is the selection.
+  std::vector<HistoryStep> history = {};
 };
 
 struct ReportFiles {

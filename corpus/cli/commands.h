@@ -53,7 +53,7 @@ struct ReportArguments {
   std::vector<std::string> databases, base, show;
   std::string folder, model, families;
   std::size_t views = 10;
-  bool processor_time = false;
+  bool processor_time = false, history = false;
 };
 
 struct MeasureArguments {

@@ -6,10 +6,15 @@
 namespace tetproof {
 
 int report_command(const ReportArguments& arguments) {
-  Selection selection = load_runs({arguments.databases.begin(), arguments.databases.end()},
-                                  {arguments.base.begin(), arguments.base.end()});
-  if (arguments.processor_time) use_processor_time(selection);
   ReportOptions options;
+  std::vector<std::filesystem::path> databases(arguments.databases.begin(),
+                                               arguments.databases.end());
+  if (arguments.history) {
+    options.history = load_history(databases);
+    databases = {databases.back()};
+  }
+  Selection selection = load_runs(databases, {arguments.base.begin(), arguments.base.end()});
+  if (arguments.processor_time) use_processor_time(selection);
   options.model = arguments.model;
   options.views.models = arguments.views;
   options.views.wanted = arguments.show;

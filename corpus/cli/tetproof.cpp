@@ -72,6 +72,10 @@ CLI::App* declare_report(CLI::App& tetproof, ReportArguments& a) {
   app->add_option("--families", a.families,
                   "Lines PATTERN,FAMILY: which models the league puts together")
       ->check(CLI::ExistingFile);
+  app->add_flag(
+      "--history", a.history,
+      "The databases are campaigns in the order of time: what changed, and with which; the "
+      "rest of the report is of the last");
   app->add_flag("--processor-time", a.processor_time,
                 "All times are processor seconds: for campaigns on a busy machine");
   app->add_option("--views", a.views,
