@@ -190,11 +190,9 @@ RoundingResult round_mesh(RoundingInput input, Control& control, const RepairLim
   // Which repairs are possible depends on those done before: where one order of the tetrahedra ends
   // in a dead end, another may not.
   constexpr int kOrders = 4;
-  // Where more than this is left, the mesh itself has to change, not the order of repairs.
-  constexpr std::uint64_t kFew = 1000;
   const auto round = [&](Strategy s) { return round_once(input, s, control, limits.most); };
   RoundingResult best = round(Strategy::descend);
-  if (!limits.thoroughly || !best.tried || defects(best).first > kFew) return best;
+  if (limits.thorough == 0 || !best.tried || defects(best).first > limits.thorough) return best;
   std::uint32_t state = 1;
   for (int order = 1; order < kOrders && defects(best).first > 0; ++order) {
     shuffle_tetrahedra(input, state);

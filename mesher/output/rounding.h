@@ -60,9 +60,9 @@ inline std::pair<std::uint64_t, std::uint64_t> defects(const RoundingResult& res
 inline constexpr std::pair<std::uint64_t, std::uint64_t> kNoDefects;
 
 struct RepairLimits {
-  // Where the first repairs leave a few defects, others are tried, which may take a hundred times
-  // as long.
-  bool thoroughly = true;
+  // Where the first repairs leave at most so many defects, others are tried, which may take a
+  // hundred times as long. 0: nowhere.
+  std::size_t thorough = 1000;
   // Nothing is repaired where more tetrahedra than this are not positive.
   std::size_t most = std::numeric_limits<std::size_t>::max();
 };

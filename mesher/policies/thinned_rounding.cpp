@@ -9,6 +9,9 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
   // Repairing takes milliseconds for each tetrahedron, and where so many are not positive, they are
   // of features below roundings: taking points out there leaves few to repair.
   constexpr std::size_t kMostRepairs = 1000;
+  // Other repairs, which take seconds, get rid of what the first ones leave where that is at most
+  // this much, and of little more than half of what is beyond (measured on degenerate solids).
+  constexpr std::size_t kFew = 8;
   Control& control = session.control;
   const auto to_write = [&] {
     return conforming_mesh(cdt, session.topology, session.points, session.given,
@@ -16,17 +19,18 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
   };
   MeshToWrite exact = to_write();
   output::RoundingResult rounded =
-      output::round_mesh(std::move(exact.rounding), control, {.most = kMostRepairs});
+      output::round_mesh(std::move(exact.rounding), control, {kFew, kMostRepairs});
   std::uint64_t thinned = 0;
   for (int rings = 0; rings <= kMostRings && defects(rounded) != output::kNoDefects; ++rings) {
     const std::size_t gone = thin_out(rounded.disturbed, rings, session.input_vertices(),
                                       session.points, session.predicates, control, cdt);
     thinned += gone;
     const bool last = rings == kMostRings;
-    if (gone == 0 && (!last || rounded.tried)) continue;
+    const bool all_tried = thinned == 0 && defects(rounded).first <= kFew;
+    if (gone == 0 && (!last || all_tried)) continue;
     MeshToWrite thinner = to_write();
     const output::RepairLimits limits =
-        last ? output::RepairLimits{} : output::RepairLimits{false, kMostRepairs};
+        last ? output::RepairLimits{} : output::RepairLimits{0, kMostRepairs};
     output::RoundingResult other = output::round_mesh(std::move(thinner.rounding), control, limits);
     if (!(defects(other) < defects(rounded))) continue;
     rounded = std::move(other);

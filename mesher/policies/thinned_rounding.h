@@ -10,7 +10,8 @@ namespace delmesher::policies {
 // Rounds a final mesh and records it as written. If tetrahedra are left inverted or flat, their
 // Steiner points are taken out (thin_out), then those up to one, two and three edges away. Of these
 // meshes the one with the fewest defects is written. Where more than a thousand are left by plain
-// rounding, points are taken out before anything is repaired.
+// rounding, points are taken out before anything is repaired, and where the first repairs leave
+// more than a few, before others are tried.
 void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder);
 
 }  // namespace delmesher::policies
