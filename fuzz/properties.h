@@ -60,6 +60,10 @@ Finding pipeline_holds(const delmesher::Surface& surface);
 // The same with the default options: the surface is meshed and passes all oracles.
 Finding default_pipeline_holds(const delmesher::Surface& surface);
 
+// Meshing takes no more work per triangle of the input and tetrahedron of the result than other
+// surfaces do, by counters.
+Finding complexity_holds(const delmesher::Surface& surface);
+
 // A planar graph is refused exactly if it is invalid; else its mesh passes the oracles.
 Finding plane_holds(Bytes bytes);
 

@@ -196,6 +196,7 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
                      {"in_final_mesh", s.enriched}};
   json["rounding"] = rounding_json(s);
   json["rounding"]["inexact"] = s.rounding_inexact;
+  json["rounding"]["signs"] = s.rounding_signs;
   json["rounding"]["thinned"] = s.rounding_thinned;
   json["rounding"]["max_surface_deviation"] = s.max_surface_deviation;
   json["predicates"] = {{"filter", s.predicate_filter},

@@ -252,7 +252,7 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_EQ(keys(json["limits"]), "guard_stops refinement_capped cdt_restarts thinned ");
   EXPECT_EQ(keys(json["steiner"]), "on_segments on_facets in_volume in_final_mesh ");
   EXPECT_EQ(keys(json["rounding"]),
-            "inverted flat repaired inexact thinned max_surface_deviation ");
+            "inverted flat repaired inexact signs thinned max_surface_deviation ");
   EXPECT_EQ(json["status"], "ok");
   EXPECT_EQ(json["final"]["tetrahedra"], 42);
   EXPECT_EQ(json["input"]["triangles"], 4);

@@ -77,6 +77,8 @@ struct Statistics {
   std::uint64_t rounding_inexact = 0;
   // Points of the last step taken out again where doubles are too coarse for them.
   std::uint64_t rounding_thinned = 0;
+  // Signs of tetrahedra in doubles that rounding and its repairs decided: their work.
+  std::uint64_t rounding_signs = 0;
   double max_surface_deviation = 0;  // input units
   std::uint64_t predicate_filter = 0, predicate_extended = 0, predicate_exact = 0;
   std::uint64_t predicate_symbolic = 0, predicate_by_support = 0;

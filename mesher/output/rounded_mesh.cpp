@@ -61,12 +61,14 @@ void RoundedMesh::set_sign(std::uint32_t t, int sign) {
 }
 
 int RoundedMesh::sign_of(const Tet& t) {
+  ++signs_;
   return orient3d_sign(position_[t[0]], position_[t[1]], position_[t[2]], position_[t[3]]);
 }
 
 int RoundedMesh::sign_at(std::uint32_t t, std::uint32_t v, const Vec3& p) {
   const Vec3* x[4];
   for (int i = 0; i < 4; ++i) x[i] = tet_[t][i] == v ? &p : &position_[tet_[t][i]];
+  ++signs_;
   return orient3d_sign(*x[0], *x[1], *x[2], *x[3]);
 }
 

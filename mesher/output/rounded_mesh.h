@@ -64,6 +64,8 @@ class RoundedMesh {
   // The sign that t would have with its vertex v at p, and that of any four vertices.
   int sign_at(std::uint32_t t, std::uint32_t v, const Vec3& p);
   int sign_of(const Tet& vertices);
+  // How many signs of these two kinds have been decided.
+  std::uint64_t signs() const { return signs_; }
   void move(std::uint32_t v, const Vec3& p);
   // To be told when a move is there to stay.
   void note_change(std::uint32_t v);
@@ -102,6 +104,7 @@ class RoundedMesh {
   std::vector<std::array<std::uint32_t, 3>> boundary_;  // each sorted, sorted
   std::vector<std::uint32_t> by_position_;              // vertices sorted by home
   std::uint32_t clock_ = 0;
+  std::uint64_t signs_ = 0;
   std::vector<std::uint32_t> changed_at_;   // per vertex: when its star last changed
   std::map<Vec3, std::uint32_t> moved_to_;  // how many moved vertices are there
 };

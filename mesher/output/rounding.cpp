@@ -169,6 +169,7 @@ RoundingResult round_once(RoundingInput& input, Strategy strategy, Control& cont
   }
   for (const std::uint32_t t : mesh.bad()) ++(mesh.sign(t) < 0 ? result.inverted : result.flat);
   result.repaired = bad_before - mesh.bad().size();
+  result.signs = mesh.signs();
   for (const auto& group : mesh.coincident()) result.coincident += group.size() - 1;
   export_mesh(mesh, input, result);
   return result;
@@ -184,13 +185,17 @@ void shuffle_tetrahedra(RoundingInput& input, std::uint32_t& state) {
   }
 }
 
-}  // namespace
-
-RoundingResult round_mesh(RoundingInput input, Control& control, const RepairLimits& limits) {
+// The best of several attempts; `signs` counts those of all.
+RoundingResult best_rounding(RoundingInput& input, Control& control, const RepairLimits& limits,
+                             std::uint64_t& signs) {
   // Which repairs are possible depends on those done before: where one order of the tetrahedra ends
   // in a dead end, another may not.
   constexpr int kOrders = 4;
-  const auto round = [&](Strategy s) { return round_once(input, s, control, limits.most); };
+  const auto round = [&](Strategy s) {
+    RoundingResult result = round_once(input, s, control, limits.most);
+    signs += result.signs;
+    return result;
+  };
   RoundingResult best = round(Strategy::descend);
   if (limits.thorough == 0 || !best.tried || defects(best).first > limits.thorough) return best;
   std::uint32_t state = 1;
@@ -208,6 +213,15 @@ RoundingResult round_mesh(RoundingInput input, Control& control, const RepairLim
     shuffle_tetrahedra(input, state);
   }
   return best;
+}
+
+}  // namespace
+
+RoundingResult round_mesh(RoundingInput input, Control& control, const RepairLimits& limits) {
+  std::uint64_t signs = 0;
+  RoundingResult result = best_rounding(input, control, limits, signs);
+  result.signs = signs;
+  return result;
 }
 
 }  // namespace delmesher::output

@@ -42,6 +42,7 @@ struct RoundingResult {
   std::uint64_t inverted = 0, flat = 0;                // left in the result, by exact sign
   std::uint64_t repaired = 0;    // were not positive after plain rounding, and are now
   std::uint64_t coincident = 0;  // vertices left with the coordinates of an earlier one
+  std::uint64_t signs = 0;       // of tetrahedra in doubles that were decided, in all attempts
   bool tried = true;             // false: there was too much to repair (RepairLimits::most)
   // Points of the store at the tetrahedra that plain rounding left not positive.
   std::vector<VertexId> disturbed;

@@ -20,7 +20,7 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
   MeshToWrite exact = to_write();
   output::RoundingResult rounded =
       output::round_mesh(std::move(exact.rounding), control, {kFew, kMostRepairs});
-  std::uint64_t thinned = 0;
+  std::uint64_t thinned = 0, signs = rounded.signs;
   for (int rings = 0; rings <= kMostRings && defects(rounded) != output::kNoDefects; ++rings) {
     const std::size_t gone = thin_out(rounded.disturbed, rings, session.input_vertices(),
                                       session.points, session.predicates, control, cdt);
@@ -32,11 +32,13 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
     const output::RepairLimits limits =
         last ? output::RepairLimits{} : output::RepairLimits{0, kMostRepairs};
     output::RoundingResult other = output::round_mesh(std::move(thinner.rounding), control, limits);
+    signs += other.signs;
     if (!(defects(other) < defects(rounded))) continue;
     rounded = std::move(other);
     exact = std::move(thinner);
     recorder.thinned(cdt, thinned);
   }
+  rounded.signs = signs;
   recorder.written(exact, std::move(rounded));
 }
 

@@ -122,6 +122,7 @@ void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) 
   s.rounding_flat = rounded.flat;
   s.rounding_repaired = rounded.repaired;
   s.rounding_inexact = rounded.inexact_operations;
+  s.rounding_signs = rounded.signs;
   s.max_surface_deviation = rounded.max_surface_deviation;
   std::uint64_t interior = 0;
   for (const std::uint8_t inside : rounded.inside) interior += inside;
