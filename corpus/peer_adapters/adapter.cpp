@@ -40,14 +40,20 @@ void write_statistics(const std::string& path, const delmesher::Surface& surface
       << "}}\n";
 }
 
+// Without the end of static objects: what a library of a peer leaves behind is not to be judged
+// here.
+[[noreturn]] void end(int code) {
+  std::fflush(nullptr);
+  _exit(code);
+}
+
 }  // namespace
 
 void finish(const Call& call, int code, const std::string& file, const std::string& reason) {
   if (code != 0) {
     std::fprintf(stderr, "%s: %s: %s\n", call.program.c_str(), file.c_str(), reason.c_str());
   }
-  std::fflush(nullptr);
-  _exit(code);
+  end(code);
 }
 
 delmesher::Surface read(const Call& call) {
@@ -77,7 +83,7 @@ void deliver(const Call& call, const delmesher::Surface& surface, const delmeshe
 int run(const Peer& peer, int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], "--version") == 0) {
     std::printf("%s %s\n", peer.name, peer.version);
-    return 0;
+    end(0);
   }
   const std::string switches = argc == 5 ? argv[1] : "";
   if (switches != "-" && switches != "raw") {
