@@ -136,32 +136,40 @@ double ChamferFeatures::strip(Index e, Index facet, const AcuteCorners::Present&
   return shape_.limit > 0 ? std::min(height, shape_.limit) : height;
 }
 
-double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) const {
-  if (corners_.why_acute(v, present, thresholds_, Doubt::acute).empty()) return kInfinite;
-  const double d = distance(v, present);
-  double smallest = d;
-  for (const Sector& sector : sectors(v, present)) {
-    smallest = std::min(smallest, d * step_of(sector.angle));
+// The borders run from one end's cut points to the other's.
+void ChamferFeatures::add_strips(Index e, const AcuteCorners::Present& present,
+                                 std::vector<Feature>& list) const {
+  const InputSurface::Edge& edge = surface_.edges()[e];
+  const double length = exact::distance(points_, edge.from, edge.to) -
+                        distance(edge.from, present) - distance(edge.to, present);
+  const double wedge =
+      std::numbers::pi - angle_between(surface_.facets()[edge.left].normal(points_),
+                                       surface_.facets()[edge.right].normal(points_));
+  for (const Index f : {edge.left, edge.right}) {
+    const double height = strip(e, f, present);
+    const double gap = std::min(height, 2 * height * std::sin(wedge / 2));
+    list.push_back({gap, length / gap});
   }
+}
+
+// The edges at a vertex from their cut points on: how near they are to each other, and to facets.
+void ChamferFeatures::add_edges(Index v, const AcuteCorners::Present& present,
+                                std::vector<Feature>& list) const {
+  const double d = distance(v, present);
   std::vector<Index> spokes;
   for (const Index e : corners_.edges_at(v)) {
     const InputSurface::Edge& edge = surface_.edges()[e];
     if (!AcuteCorners::edge_present(edge, present)) continue;
     spokes.push_back(edge.from == v ? edge.to : edge.from);
-    if (!corners_.edge_is_acute(e, present, thresholds_, Doubt::acute)) continue;
-    const double wedge =
-        std::numbers::pi - angle_between(surface_.facets()[edge.left].normal(points_),
-                                         surface_.facets()[edge.right].normal(points_));
-    for (const Index f : {edge.left, edge.right}) {
-      const double height = strip(e, f, present);
-      smallest = std::min({smallest, height, 2 * height * std::sin(wedge / 2)});
-    }
   }
   for (std::size_t i = 0; i < spokes.size(); ++i) {
     const ExactVector a = exact::difference(points_, v, spokes[i]);
+    const double length = exact::distance(points_, v, spokes[i]);
     for (std::size_t j = 0; j < i; ++j) {
       const double angle = angle_between(a, exact::difference(points_, v, spokes[j]));
-      smallest = std::min(smallest, 2 * d * std::sin(angle / 2));
+      const double both = std::min(length, exact::distance(points_, v, spokes[j]));
+      const double widening = std::sin(std::min(angle, std::numbers::pi / 2));
+      list.push_back({2 * d * std::sin(angle / 2), std::log(both / d) / widening});
     }
     // The distance from a facet that the edge does not bound, if it projects into a triangle of it.
     for (const Index t : corners_.triangles_at(v)) {
@@ -179,10 +187,25 @@ double ChamferFeatures::smallest(Index v, const AcuteCorners::Present& present) 
         continue;
       }
       const double angle = std::fabs(std::numbers::pi / 2 - angle_between(a, n));
-      smallest = std::min(smallest, d * std::sin(angle));
+      list.push_back({d * std::sin(angle), std::log(length / d) / std::sin(angle)});
     }
   }
-  return smallest;
+}
+
+std::vector<ChamferFeatures::Feature> ChamferFeatures::at(
+    Index v, const AcuteCorners::Present& present) const {
+  if (corners_.why_acute(v, present, thresholds_, Doubt::acute).empty()) return {};
+  const double d = distance(v, present);
+  std::vector<Feature> list = {{d, 0}};
+  for (const Sector& sector : sectors(v, present)) list.push_back({d * step_of(sector.angle), 0});
+  for (const Index e : corners_.edges_at(v)) {
+    if (AcuteCorners::edge_present(surface_.edges()[e], present) &&
+        corners_.edge_is_acute(e, present, thresholds_, Doubt::acute)) {
+      add_strips(e, present, list);
+    }
+  }
+  add_edges(v, present, list);
+  return list;
 }
 
 }  // namespace tetproof::oracles

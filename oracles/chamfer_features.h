@@ -26,17 +26,25 @@ class ChamferFeatures {
         thresholds_(thresholds),
         shape_(shape) {}
 
-  // The smallest feature that chamfering makes at a vertex: the shortest distance between two
-  // points, edges or facets that it separates. These are the sides of a bridge, cut points of two
-  // edges, a cut point and a facet, and the borders of the strips cut off on both sides of an acute
-  // edge. Infinite if the vertex is not acute.
-  double smallest(Index v, const AcuteCorners::Present& present) const;
+  // Two points, edges or facets that chamfering separates.
+  struct Feature {
+    double size;  // the shortest distance between them
+    // How often a gap of their distance fits along them, at most: the integral of ds / distance.
+    // 0 if only points, or edges as short as the distance, are so close.
+    double times;
+  };
+  // The features that chamfering makes at a vertex: the sides of a bridge, cut points of two edges
+  // and the rest of these edges, a cut point and a facet, and the borders of the strips cut off on
+  // both sides of an acute edge. None if the vertex is not acute.
+  std::vector<Feature> at(Index v, const AcuteCorners::Present& present) const;
 
  private:
   struct Sector {
     Index facet;
     double angle;
   };
+  void add_edges(Index v, const AcuteCorners::Present& present, std::vector<Feature>& list) const;
+  void add_strips(Index e, const AcuteCorners::Present& present, std::vector<Feature>& list) const;
   double distance(Index v, const AcuteCorners::Present& present) const;
   double step_of(double sector) const;
   std::vector<Sector> sectors(Index v, const AcuteCorners::Present& present) const;

@@ -342,19 +342,28 @@ class FilterCheck {
     }
   }
 
+  // The mesher drops facets whose chamfers are smaller than a sixteenth of the tolerance, and those
+  // at gaps narrower than the tolerance that fit 500 times along both edges. As the paper does it,
+  // chamfers may be as small as the tolerance. Simplified bridges and the placement of points
+  // change a distance by less than a factor of 2.
+  bool is_too_small(const ChamferFeatures::Feature& feature, double tolerance) const {
+    constexpr double kShare = 1.0 / 16, kLongGap = 500;
+    if (feature.size < 2 * tolerance * (both_sides_ ? 1 : kShare)) return true;
+    return feature.size < 2 * tolerance && feature.times >= kLongGap / 2;
+  }
+
   // The second step, read backwards: the facet dropped last was dropped from the present surface,
   // so chamfering has to make too small a feature at that facet, and so on.
   void check_second_step(std::vector<Index> dropped, double tolerance) {
-    // The mesher drops facets whose chamfers are smaller than a sixteenth of the tolerance.
-    // Simplified bridges and the placement of points change a distance by less than a factor of 2.
-    // As the paper does it, they may be as small as the tolerance.
-    const double fraction = both_sides_ ? 2 : 1.0 / 8;
     const AcuteCorners::Present present = [this](Index f) { return features_.present(f); };
     const auto put_back = [&](Index f) {
       features_.set_present(f, true);
       for (const Index v : features_.vertices_around(f)) {
-        const double smallest = chamfers_.smallest(v, present);
-        if (smallest < fraction * tolerance) return true;
+        const auto features = chamfers_.at(v, present);
+        if (std::any_of(features.begin(), features.end(),
+                        [&](const auto& feature) { return is_too_small(feature, tolerance); })) {
+          return true;
+        }
       }
       features_.set_present(f, false);
       return false;

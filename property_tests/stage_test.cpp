@@ -311,6 +311,32 @@ TEST(FilterStage, DropsWhatIsCloserThanTheToleranceAndNothingElse) {
   }
 }
 
+// A sharp wedge loses a side, since the gap between its chamfers is long; its oracle sees why.
+TEST(FilterStage, DropsWhatIsBesideALongGap) {
+  for (const double length : {2000.0, 300.0}) {
+    const Surface wedge =
+        samples::triangular_prism({{{0, 0}, {length, 0}, {length, 3}}}, 0, length);
+    Options options;
+    options.want_exact = true;
+    options.tau = 2 / std::hypot(length, length, 3);
+    const Result result = delmesher::tetrahedralize(wedge, options);
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_EQ(result.statistics.dropped_triangles > 0, length == 2000) << length;
+    VerifyReport report;
+    EXPECT_EQ(
+        oracles::verify(samples::to_polyhedron(wedge), samples::to_mesh(result.mesh), &result.exact,
+                        {.stage = oracles::Stage::both, .promised = oracles::promise_of(options)},
+                        report),
+        "");
+    EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+    ASSERT_NE(report.find("refined-filter"), nullptr);
+    EXPECT_EQ(
+        figure(*report.find("refined-filter"), "dropped for what chamfering made of them") > 0,
+        length == 2000)
+        << length;
+  }
+}
+
 // ------------------------------------------------------------------------------------------ CDT
 
 // Schoenhardt's polyhedron, a prism twisted so that the diagonals of its sides are reflex, has no

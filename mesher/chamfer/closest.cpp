@@ -1,5 +1,7 @@
 #include "mesher/chamfer/closest.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace delmesher::chamfer {
@@ -41,6 +43,25 @@ ClosestOfSegments closest_of_segments(const Vec3& a, const Vec3& b, const Vec3& 
     }
   }
   return best;
+}
+
+// From the narrowest place to both ends, in steps of half the gap there.
+double length_of_gap(const Vec3& a, const Vec3& b, double s, const Vec3& c, const Vec3& d,
+                     double most) {
+  const Vec3 direction = subtract(b, a);
+  const double length = norm(direction);
+  double sum = 0;
+  for (const bool forward : {false, true}) {
+    const double end = length * (forward ? 1 - s : s);
+    for (double gone = 0; gone < end && sum < most;) {
+      const Vec3 p = add_scaled(a, s + (forward ? gone : -gone) / length, direction);
+      const double gap = std::sqrt(closest_on_segment(p, c, d).squared_distance);
+      const double step = std::min(gap / 2, end - gone);
+      sum += step / gap;
+      gone += step;
+    }
+  }
+  return sum;
 }
 
 ClosestOnTriangle closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {

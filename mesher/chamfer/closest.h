@@ -21,6 +21,12 @@ struct ClosestOfSegments {
 
 ClosestOfSegments closest_of_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+// How many times the gap between the segments ab and cd fits along ab: the integral of ds /
+// distance over ab. `s` is where ab is closest to cd; not more than about `most`. The segments do
+// not touch.
+double length_of_gap(const Vec3& a, const Vec3& b, double s, const Vec3& c, const Vec3& d,
+                     double most);
+
 struct ClosestOnTriangle {
   double squared_distance;
   // 0..2: corner k; 3..5: inside edge k - 3 (from corner k - 3 to the next); 6: inside.

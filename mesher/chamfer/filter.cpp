@@ -329,9 +329,10 @@ bool FilteredSurface::drop_small() {
   if (!(filter_.tolerance > 0)) return false;
   if (!kept_) kept_.emplace(topology_, points_, options_.facet_kept);
   FacetSet facets(*kept_);
-  const double smallest = filter_.chamfered_fraction * filter_.tolerance * kept_->scale();
+  const double tolerance = filter_.tolerance * kept_->scale();
+  const TooSmall too_small{filter_.chamfered_fraction * tolerance, tolerance, kLongGap};
   const std::vector<FacetId> dropped = drop_for_chamfered_features(
-      *kept_, points_, result_.chamfer, smallest, changed_, filter_.both_sides, facets, control_);
+      *kept_, points_, result_.chamfer, too_small, changed_, filter_.both_sides, facets, control_);
   if (dropped.empty()) return false;
   mark_changed(dropped);
   FilterResult& filter = result_.filter;

@@ -35,6 +35,12 @@ FilterResult filter_all_pairs(const SurfaceTopology& topology, const PointStore&
 // average, with 1/16 79 %, with 1 71 %.
 inline constexpr double kChamferedFraction = 1.0 / 16;
 
+// So many times a gap between two chamfered edges that is narrower than the tolerance may fit along
+// them. The refinement makes elements as small as the gap all along it, 4 or 5 tetrahedra each time
+// it fits. The facets that it is left out for get some dozens of bad tetrahedra in the last step,
+// however long it is, so that only the longest are worth it (docs/paper.md has the measurements).
+inline constexpr double kLongGap = 500;
+
 struct FilterOptions {
   double tolerance = 0;     // an absolute distance; 0: nothing is dropped
   bool all_pairs = false;   // first step: filter_all_pairs()
@@ -62,8 +68,9 @@ class FilteredSurface {
   // Chamfers the kept facets: at first all, later only the places that drop_small() has changed.
   void chamfer();
   // The second step: drops facets that are responsible for edges of the chamfered surface shorter
-  // than chamfered_fraction * tolerance, or for elements of it that are closer than that. Of two
-  // elements one side is dropped, or both (FilterOptions). False if there was nothing to drop.
+  // than chamfered_fraction * tolerance, for elements of it that are closer than that, or for a gap
+  // narrower than the tolerance that fits kLongGap times along both of its edges. Of two elements
+  // one side is dropped, or both (FilterOptions). False if there was nothing to drop.
   bool drop_small();
   // Chamfers all that is kept, unless chamfer() just did. The object is empty then.
   ChamferedSurface result();

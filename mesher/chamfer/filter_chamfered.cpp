@@ -25,14 +25,16 @@ struct Violation {
 class FeatureFinder {
  public:
   FeatureFinder(const KeptSurface& surface, const PointStore& points,
-                const ChamferResult& chamfered, double tolerance, const FacetSet& facets,
+                const ChamferResult& chamfered, const TooSmall& too_small, const FacetSet& facets,
                 const std::vector<std::uint8_t>& changed)
       : surface_(surface),
         topology_(surface.topology()),
         points_(points),
         chamfered_(chamfered),
         plc_(chamfered.plc),
-        bound_(tolerance * tolerance),
+        bound_(too_small.tolerance * too_small.tolerance),
+        gap_bound_(std::max(bound_, too_small.gap_tolerance * too_small.gap_tolerance)),
+        long_gap_(too_small.long_gap),
         facets_(facets),
         changed_(changed),
         facet_of_segment_(plc_.segments.size(), kNone),
@@ -130,7 +132,7 @@ class FeatureFinder {
     const std::array<Vec3, 2> here = ends(segment);
     const double length = squared_norm(subtract(here[0], here[1]));
     if (length < bound_) found.push_back({length, segment_culprit(s), {}});
-    segment_tree_.for_each_within(Box::around(here), bound_, [&](std::uint32_t other) {
+    segment_tree_.for_each_within(Box::around(here), gap_bound_, [&](std::uint32_t other) {
       const auto [a, b] = segment.vertex;
       const auto [c, d] = plc_.segments[other].vertex;
       if (a == c || a == d || b == c || b == d) return;
@@ -138,10 +140,19 @@ class FeatureFinder {
       if (other < s && is_changed(segment_vertices(other))) return;
       const std::array<Vec3, 2> there = ends(plc_.segments[other]);
       const ClosestOfSegments closest = closest_of_segments(here[0], here[1], there[0], there[1]);
-      if (!(closest.squared_distance < bound_)) return;
+      if (!(closest.squared_distance < bound_) && !is_long_gap(here, there, closest)) return;
       found.push_back(
           {closest.squared_distance, side_culprit(s, closest.s), side_culprit(other, closest.t)});
     });
+  }
+
+  bool is_long_gap(const std::array<Vec3, 2>& here, const std::array<Vec3, 2>& there,
+                   const ClosestOfSegments& at) const {
+    const auto [a, b] = here;
+    const auto [c, d] = there;
+    return at.squared_distance < gap_bound_ &&
+           length_of_gap(a, b, at.s, c, d, long_gap_) >= long_gap_ &&
+           length_of_gap(c, d, at.t, a, b, long_gap_) >= long_gap_;
   }
 
   // An end of a segment, or the segment, whichever needs more to disappear.
@@ -190,7 +201,7 @@ class FeatureFinder {
   const PointStore& points_;
   const ChamferResult& chamfered_;
   const Plc& plc_;
-  double bound_;
+  double bound_, gap_bound_, long_gap_;  // the bounds are squares
   const FacetSet& facets_;
   const std::vector<std::uint8_t>& changed_;
   std::vector<FacetId> facet_of_segment_;  // of artificial segments
@@ -202,15 +213,13 @@ class FeatureFinder {
 
 }  // namespace
 
-std::vector<FacetId> drop_for_chamfered_features(const KeptSurface& surface,
-                                                 const PointStore& points,
-                                                 const ChamferResult& chamfered, double tolerance,
-                                                 const std::vector<std::uint8_t>& changed,
-                                                 bool both_sides, FacetSet& facets,
-                                                 Control& control) {
+std::vector<FacetId> drop_for_chamfered_features(
+    const KeptSurface& surface, const PointStore& points, const ChamferResult& chamfered,
+    const TooSmall& too_small, const std::vector<std::uint8_t>& changed, bool both_sides,
+    FacetSet& facets, Control& control) {
   const SurfaceTopology& topology = surface.topology();
   const std::vector<Violation> found =
-      FeatureFinder(surface, points, chamfered, tolerance, facets, changed).run(control);
+      FeatureFinder(surface, points, chamfered, too_small, facets, changed).run(control);
   std::vector<FacetId> dropped;
   std::vector<std::uint8_t> touched(surface.vertex_count());
   const auto is_touched = [&](const Culprit& culprit) {

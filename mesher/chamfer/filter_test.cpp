@@ -202,6 +202,25 @@ double smallest_segment_feature(const Plc& plc, const PointStore& points) {
   return best;
 }
 
+// A wedge whose sides are nowhere closer than the tolerance. The gap between the strips cut off
+// along its edge is half as wide as that; it fits 2000 times along the edge, or 300 times.
+TEST(Filter, OnlyLongGapsBelowTheToleranceGo) {
+  constexpr double kTolerance = 2;
+  for (const std::int64_t length : {2000, 300}) {
+    Model model(test_polyhedra::prism({{0, 0}, {length, 0}, {length, 3}}, length));
+    const FilterResult first =
+        filter_input(model.topology, model.points, kTolerance, model.control);
+    EXPECT_EQ(first.dropped_triangles, 0U);
+    const ChamferedSurface chamfered = filter_and_chamfer(model, kTolerance);
+    if (length == 2000) {
+      EXPECT_GT(chamfered.filter.dropped_triangles, 0U);
+    } else {
+      EXPECT_EQ(chamfered.filter.dropped_triangles, 0U);
+      EXPECT_LT(smallest_segment_feature(chamfered.chamfer.plc, model.points), kTolerance / 1.5);
+    }
+  }
+}
+
 // Both sides of the gap, and the sides of both blocks around it.
 TEST(FilterAsPaper, AllSidesOfAClosePairGo) {
   Model slab(block(1000, 1000, 3));
@@ -363,6 +382,17 @@ TEST(Filter, NoToleranceNoFilter) {
   const FilterResult result = filter_and_chamfer(model, 0).filter;
   EXPECT_EQ(result.dropped_triangles, 0U);
   EXPECT_EQ(result.facet_kept, std::vector<std::uint8_t>(6, 1));
+}
+
+// Over parallel segments the length divided by the distance; from the tip of a wedge a logarithm.
+TEST(Closest, GapsAreMeasuredInTheirOwnWidth) {
+  const Vec3 a = {0, 0.5, 0}, b = {100, 0.5, 0}, c = {-10, 0, 0}, d = {110, 0, 0};
+  EXPECT_NEAR(length_of_gap(a, b, 0.3, c, d, 1e9), 200, 1e-9);
+  EXPECT_NEAR(length_of_gap(a, b, 0.3, c, d, 50), 50, 1);
+  const Vec3 near = {1, 0.01, 0}, far = {10, 0.1, 0};
+  const double whole = 100 * std::hypot(1, 0.01) * std::log(10);
+  EXPECT_NEAR(length_of_gap(near, far, 0, c, d, 1e9), whole, 0.01 * whole);
+  EXPECT_NEAR(length_of_gap(far, near, 1, c, d, 1e9), whole, 0.01 * whole);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct AsPaper {
   // by pair, the side that costs less.
   bool filter_pairs = false;
   // Section 7, second step: features that chamfering made smaller than tau, and both sides of them.
-  // Otherwise smaller than a 16th of tau, and the side that costs less.
+  // Otherwise below a 16th of tau, or in long gaps below tau, and the side that costs less.
   bool filter_chamfered = false;
   // Sections 4 and 5 as the options say, even where the refinement may not end; without limits it
   // may then run for ever. Otherwise a guard makes them stricter there.

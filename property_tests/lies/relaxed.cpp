@@ -137,6 +137,15 @@ const Lie kRelaxed[] = {
        t = run_of(options);
        t.promise.filter_chamfered = false;
      }},
+    {"dropped for a gap that is not long", "refined-filter",
+     [](Told& t) {
+       Options options = honest_options();
+       options.tau = 2 / std::hypot(200, 200, 3);
+       options.as_paper.filter_chamfered = true;
+       t = run_of(options, oracles::Task::mesh,
+                  samples::triangular_prism({{{0, 0}, {200, 0}, {200, 3}}}, 0, 200));
+       t.promise.filter_chamfered = false;
+     }},
     {"left as it was, though it was to be enriched", "enrichment",
      [](Told& t) {
        t = run_of(honest_options(), oracles::Task::mesh,

@@ -1,6 +1,7 @@
 // What is promised of the refined mesh: features of chamfers, encroachment, Delaunay.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -28,11 +29,28 @@ class Sharp {
     EXPECT_EQ(surface_.assign(solid, points_), "");
     corners_.emplace(points_, surface_);
   }
-  double smallest_feature(Index vertex, const ChamferShape& shape = {}) const {
+  std::vector<ChamferFeatures::Feature> features(Index vertex,
+                                                 const ChamferShape& shape = {}) const {
     const auto sixty = [](Index) { return 60.0; };
     const CornerThresholds thresholds = {sixty, sixty};
-    return ChamferFeatures(points_, surface_, *corners_, thresholds, shape)
-        .smallest(vertex, [](Index) { return true; });
+    return ChamferFeatures(points_, surface_, *corners_, thresholds, shape).at(vertex, [](Index) {
+      return true;
+    });
+  }
+  double smallest_feature(Index vertex, const ChamferShape& shape = {}) const {
+    double smallest = kInfinity;
+    for (const auto& feature : features(vertex, shape)) {
+      smallest = std::min(smallest, feature.size);
+    }
+    return smallest;
+  }
+  // Of the features of that size, the one that fits most often.
+  double times(Index vertex, double size) const {
+    double most = -1;
+    for (const auto& feature : features(vertex)) {
+      if (std::fabs(feature.size - size) < 1e-12) most = std::max(most, feature.times);
+    }
+    return most;
   }
 
  private:
@@ -59,6 +77,11 @@ void expect_features_of_a_sharp_prism(double bottom) {
     EXPECT_NEAR(sharp.smallest_feature(v), 4 * side, 1e-12);
     EXPECT_NEAR(sharp.smallest_feature(v, {.limit = 1}), side, 1e-12);
   }
+  // How often gaps fit: between the two long edges of the triangle, from 4 on to their ends; and
+  // between the strips of the edge between the triangles, from 4 on to 4 before its other end.
+  const double sine = 1 / std::sqrt(17.0), strip = 4 * std::sqrt(0.5) / (std::sqrt(0.5) + 0.5);
+  EXPECT_NEAR(sharp.times(0, 8 * sine), std::log(std::sqrt(153.0) / 4) * 17 / 8, 1e-12);
+  EXPECT_NEAR(sharp.times(0, 2 * strip * sine), (92 - bottom) / (2 * strip * sine), 1e-12);
   for (const Index v : {1U, 2U, 4U, 5U}) {  // no angle below 60 degrees
     EXPECT_EQ(sharp.smallest_feature(v), kInfinity);
   }
