@@ -42,9 +42,9 @@ double opposite_edges_distance2(const TetrahedronShape& s) {
   return smallest;
 }
 
-// The level of a squared radius-edge ratio, kLevels = 2^kLevelBits per doubling: within a level the
-// last queued goes first, so that successive insertions share the contents of the processor's
-// caches.
+// The level of a squared radius-edge ratio, 2^kLevelBits levels per doubling. Within a level the
+// last queued goes first (BadTetrahedra), so that successive insertions share the contents of the
+// processor's caches.
 constexpr int kLevelBits = 2;
 std::uint8_t level_of(double ratio2) {
   const auto bits = std::bit_cast<std::uint64_t>(ratio2) >> (52 - kLevelBits);

@@ -16,8 +16,8 @@ class Goal {
   // Levels of badness grow with the squared radius-edge ratio, by a few per doubling.
   static constexpr std::uint8_t kWorst = 254;
 
-  // 1 to kWorst, or 0 if the tetrahedron is not bad. Judged in doubles; when in doubt a tetrahedron
-  // is bad, which costs at most a split.
+  // 1 to kWorst, or 0 if the tetrahedron is not bad. Judged in doubles; in doubt about a face
+  // angle a tetrahedron is bad, which costs at most a split.
   std::uint8_t badness(const PointStore& points, const VertexId* v) const;
 
   // Squared height, per squared base, of an isosceles triangle whose angle opposite its base is

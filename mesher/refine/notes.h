@@ -7,7 +7,7 @@
 namespace delmesher::refine {
 
 enum class Note : std::uint8_t {
-  edges,   // Subsegments: bit e: kEdge[e] is a subsegment
+  edges,   // Subsegments: bit e: kEdge[e] is a subsegment, or was one
   faces,   // SubfacetMarks: bit i: face i has a mark
   side,    // Sides
   waiting  // BadTetrahedra

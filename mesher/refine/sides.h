@@ -28,7 +28,7 @@ class Sides {
 
   // Requires every subfacet to be a face of the tetrahedrization.
   Side of(TetId t);
-  // The side as of() found it before, or as the tetrahedron inherited it.
+  // Is it the side that of() found before, or that the tetrahedron inherited?
   bool known_outside(TetId t) const { return state(t) == State::outside; }
   bool known_inside(TetId t) const { return state(t) == State::inside; }
 

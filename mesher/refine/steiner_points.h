@@ -40,14 +40,14 @@ class SteinerPoints {
                 const RefineOptions& options);
 
   // The point at which the subsegment ab is to be split: its middle, or where it crosses a shell of
-  // an apex. On an artificial segment the point may be off the line by kBendTolerance. Throws
-  // Runaway if ab is too short.
+  // an apex. On an artificial segment the point may be off the line, by a share of ab's length
+  // (kBendTolerance). Throws Runaway if ab is too short.
   VertexId on_segment(std::uint32_t segment, VertexId a, VertexId b);
 
-  // Near the circumcentre of a subfacet.
+  // A point near the circumcentre of a subfacet.
   VertexId in_facet(std::uint32_t facet, const std::array<VertexId, 3>& subfacet);
 
-  // Throws Runaway if the shortest edge is too short.
+  // Where a bad tetrahedron may be split. Throws Runaway if its shortest edge is too short.
   VolumeTargets in_tetrahedron(const VertexId* v, const Goal& goal) const;
   VertexId in_volume(const Vec3& target, double grid);
 

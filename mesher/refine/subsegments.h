@@ -1,5 +1,5 @@
 // The subsegments of a refinement: the parts into which the segments of the complex are split
-// (section 5.2). One never dies: when it is split, its first part keeps its number.
+// (section 5.2). A subsegment never dies: when it is split, its first part keeps its number.
 //
 // Invariants at any time:
 //  - the subsegments of a segment follow each other from its first vertex to its second;
