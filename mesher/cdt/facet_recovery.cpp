@@ -104,8 +104,8 @@ bool FacetRecovery::seed(const std::array<VertexId, 2>& edge) {
     const int s0 = side(other[0]), s1 = side(other[1]);
     if (s0 * s1 >= 0) continue;
     const VertexId above = s0 > 0 ? other[0] : other[1], below = s0 > 0 ? other[1] : other[0];
-    // Seen along the edge the patch leaves to the right, "above" is up: the angle from below to
-    // above must open to the right.
+    // Seen along the edge, with "above" up, the patch leaves to the left: the tetrahedron has to be
+    // on that side, too.
     if (predicates_.orient3d(a, b, below, above) > 0) {
       add_to_cavity(t);
       return true;

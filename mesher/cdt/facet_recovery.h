@@ -33,7 +33,7 @@ class FacetRecovery {
 
   // Makes all triangles of the facet appear. False if that failed, which the theory excludes; the
   // mesh is still consistent then. Appends to `found` for each triangle the face of the mesh
-  // that it was before, none if it was missing.
+  // that it was before, or none if it was missing.
   bool recover(FacetId facet, const FacetTriangles& triangles, std::vector<FaceHandle>& found);
 
   const CdtCounters& counters() const { return counters_; }
@@ -89,7 +89,7 @@ class FacetRecovery {
   std::vector<SkinFace> upper_skin_, lower_skin_;
   std::vector<VertexId> upper_isolated_, lower_isolated_;
   std::vector<std::uint32_t> skin_mark_;  // per point: cavity whose skin it is known to be on
-  std::vector<VertexId> local_;           // vertices of the cavity, ascending
+  std::vector<VertexId> local_;           // vertices of the cavity and the patch, ascending
 };
 
 }  // namespace delmesher::cdt

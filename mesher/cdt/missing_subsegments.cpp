@@ -58,7 +58,7 @@ void MissingSubsegments::follow_split(std::uint32_t first, std::uint32_t second)
   queue_destroyed(chains_.node(second).vertex);
 }
 
-// Those that are edges of the last cavity, but not of its skin.
+// Queues the subsegments that are edges of the last cavity, but not of its skin.
 void MissingSubsegments::queue_destroyed(VertexId v) {
   kept_.clear();
   for (const TetId t : mesh_.created()) {

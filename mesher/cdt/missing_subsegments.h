@@ -30,7 +30,7 @@ class MissingSubsegments {
   std::uint32_t take();
 
   // When a vertex has been put between two subsegments that were one, and into the
-  // tetrahedrization: queues both of them, and those that the insertion has destroyed.
+  // tetrahedrization: queues both of them, and all others that the insertion has destroyed.
   void follow_split(std::uint32_t first, std::uint32_t second);
 
   // Throws InternalError at the first broken invariant. Looks every subsegment up in the mesh.

@@ -32,7 +32,8 @@ class DelaunayPart {
 
   std::uint64_t blocked() const { return blocked_; }
 
-  // The tetrahedra found so far, and the faces of the polyhedron that is still empty.
+  // The tetrahedra found so far, and the faces of the polyhedron that is still empty. False if the
+  // tetrahedra reach beyond the hull: then the faces enclose nothing.
   bool collect(std::vector<Tetrahedron>& tetrahedra, std::vector<Triangle>& rest) const {
     for (std::uint32_t n = 0; n < faces_.size(); ++n) {
       if (!inner_[n].exists() || state_[inner_[n].tet()] != kInside) rest.push_back(faces_[n]);
@@ -59,7 +60,8 @@ class DelaunayPart {
       const Triangle& f = faces_[n];
       const FaceHandle found = mesh_.find_face(f[0], f[1], f[2]);
       if (!found.exists()) continue;
-      // Listed from outside its tetrahedron in the same sense: then that is on the inner side.
+      // f is counter-clockwise seen from outside the polyhedron; seen from outside the tetrahedron
+      // on its inner side it is so, too.
       const FaceHandle beyond = mesh_.across(found);
       inner_[n] = corner_after(found, f[0]) == f[1] ? found : beyond;
       wall_[found.index()] = wall_[beyond.index()] = 1;

@@ -170,8 +170,8 @@ double SplitRule::distance_from_apex(VertexId apex, VertexId v) const {
 // At angles below 2^-40 a radius of 53 bits is not enough for two points to be on the same sphere
 // up to less than their distance d. An edge of length L between two others that run along it
 // (shells inside each other) even needs it up to d^2 / L: a sphere through its ends that keeps
-// clear of the one point meets the other. Then the target gets twice as many bits, by exact
-// Newton steps for |apex + t (end - apex)| = |reference - apex|.
+// clear of the one point meets the other. So from an angle of 2^-10 down the target gets twice as
+// many bits, by exact Newton steps for |apex + t (end - apex)| = |reference - apex|.
 void SplitRule::sharpen(SplitTarget& target, std::uint32_t edge, VertexId reference) {
   const std::array<VertexId, 2> end = chains_.topology().edge_vertices(edge);
   const VertexId apex = end[target.anchor], other = end[1 - target.anchor];
@@ -182,8 +182,9 @@ void SplitRule::sharpen(SplitTarget& target, std::uint32_t edge, VertexId refere
       scaled_difference(points_.nearest(reference), points_.nearest(apex), fraction * length);
   const double squared_sine = dot(cross(d, f), cross(d, f));
   if (!(squared_sine < 0x1p-20)) return;
-  // Below that no two points can be matched by the parameters a point has, and splitting goes on
-  // for ever. Edges of doubles of about the same size never come so close to each other.
+  // At a smaller sine than 2^-106 no two points can be matched by the parameters that a point has,
+  // and splitting goes on for ever. Edges of doubles of about the same size never come so close to
+  // each other.
   if (squared_sine < 0x1p-212) ++hopeless_;
   if (hopeless_ == kMostHopeless) stop_beside(chains_, edge);
   const Dyadic squared_radius = squared_distance(apex, reference);
