@@ -34,12 +34,12 @@ class Thresholds {
 };
 
 struct Acuteness {
-  std::vector<std::uint8_t> vertex, edge;  // per input vertex, per undirected input edge
+  std::vector<std::uint8_t> vertex, edge;  // 1: acute; per input vertex, per undirected input edge
   // Per input vertex: acute by at_vertex(), but not by at_corner() and therefore not in `vertex`.
   std::vector<std::uint8_t> apex;
 };
 
-// If `active` is not empty, only vertices v with active[v] != 0, and edges between such.
+// Asks only vertices v with active[v] != 0 and edges between such, or all if `active` is empty.
 Acuteness find_acute(const KeptSurface& surface, Predicates& predicates,
                      const Thresholds& thresholds, const std::vector<std::uint8_t>& active,
                      Control& control);

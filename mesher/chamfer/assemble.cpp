@@ -70,7 +70,8 @@ class Assembler {
   std::vector<std::uint32_t> segment_of_edge_;
 };
 
-// The flat vertices inside a facet. Vertices too near to a chamfer are left out.
+// The flat vertices inside a facet. Left out are those too near to a chamfer and, with a clearance,
+// those too near to the boundary or to each other.
 class IsolatedVertices {
  public:
   IsolatedVertices(const KeptSurface& surface, const Cuts& cuts, const ChamferResult& result,

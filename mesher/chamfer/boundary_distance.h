@@ -27,7 +27,7 @@ class BoundaryDistance {
   // In a facet with fewer corners all boundary edges are looked at, without a tree.
   static constexpr std::uint32_t kSearchSize = 32;
 
-  // measure(half-edge, from, to) returns a squared distance; gives the smallest one.
+  // measure(half-edge, from, to) returns a squared distance; gives the root of the smallest one.
   template <class Measure>
   double smallest(FacetId f, const Box& query, Measure measure);
 

@@ -129,9 +129,9 @@ class Cutter {
     }
   }
 
-  // The step is that of the lower of the two bridges, so that the strip is a rectangle, and a third
-  // of the distance to the boundary beyond in the same facet. With a bridge per triangle the
-  // rectangle is inside the edge's own.
+  // The height is the step of the lower of the two bridges, so that the strip is a rectangle, but
+  // at most a third of the distance to the boundary beyond in the same facet. With a bridge per
+  // triangle that is not asked for: the rectangle is inside the edge's own triangle.
   double strip_height(std::uint32_t h) {
     const std::uint32_t tail = surface_.corner_of_outgoing(h);
     const std::uint32_t head = surface_.corners()[tail].next;

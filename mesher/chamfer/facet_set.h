@@ -40,7 +40,7 @@ class FacetSet {
     }
   }
 
-  // The cost of dropping a facet.
+  // What dropping a facet costs: its area, in the scaled coordinates of the surface.
   double cost(FacetId f) const { return cost_[f]; }
   double cost(const std::vector<FacetId>& facets) const {
     double sum = 0;

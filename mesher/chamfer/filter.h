@@ -14,7 +14,7 @@ struct FilterResult {
   std::vector<std::uint8_t> facet_kept;     // per facet
   std::vector<std::uint8_t> kept_at_first;  // the same after the first step
   std::uint64_t dropped_triangles = 0;
-  std::uint64_t rounds = 0;
+  std::uint64_t rounds = 0;  // how often something was dropped
 };
 
 // First step: drops facets until no two kept facets, edges or vertices that do not touch are closer

@@ -24,7 +24,7 @@ struct Corner {
 // Orthonormal coordinates in the plane of a facet, counter-clockwise seen from outside.
 struct FacetFrame {
   Vec3 x_axis, y_axis;
-  std::uint32_t triangle;  // the triangle of the facet that is least thin
+  std::uint32_t triangle;  // the one whose height above its longest side is the largest
 };
 
 class KeptSurface {

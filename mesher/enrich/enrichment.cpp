@@ -24,9 +24,10 @@ std::vector<double> spacings(const refine::RefineResult& refined, const PointSto
   return spacing;
 }
 
-// Points on artificial segments, but not on input edges. Beside the edges of the corner that was
-// cut off, inside their diametral balls, they have these edges split once more, next to the corner,
-// and three of four small angles come from there.
+// Adds the points on artificial segments, but not on input edges, as the paper does. By default
+// they are left out: beside the edges of the corner that was cut off, inside their diametral balls,
+// they have these edges split once more, next to the corner, and three of four small angles come
+// from there.
 void add_artificial_points(const chamfer::ChamferResult& chamfered,
                            const refine::RefineResult& refined, const PointStore& points,
                            cdt::CdtInput& input) {
@@ -48,8 +49,8 @@ void add_artificial_points(const chamfer::ChamferResult& chamfered,
   }
 }
 
-// Points of the refined complex on input edges and inside input facets; everything else on the
-// complex (the box) goes to `vertices`.
+// Adds the points of the refined complex on input edges and inside input facets; what else there is
+// on the complex, the box, goes to `vertices` alone.
 void add_complex_points(const chamfer::ChamferResult& chamfered,
                         const refine::RefineResult& refined, const SurfaceTopology& topology,
                         const PointStore& points, Predicates& predicates, cdt::CdtInput& input) {

@@ -11,10 +11,10 @@ namespace delmesher::enrich {
 // The input surface alone.
 cdt::CdtInput plain_input(const SurfaceTopology& topology);
 
-// The input surface with the vertices of the refined mesh, without those on artificial segments,
-// volume vertices too near to removed parts of the surface (RemovedSurface), and points that
-// coincide with input vertices. `keep_all`: leaves out only the volume vertices inside chamfers or
-// within 2^-20 of that distance from removed parts, and the points that coincide.
+// The input surface with the vertices of the refined mesh, but without the points on artificial
+// segments, volume vertices too near to removed parts of the surface (RemovedSurface), and points
+// that coincide with input vertices. `keep_all`: leaves out only the volume vertices inside
+// chamfers or within 2^-20 of that distance from dropped facets, and the points that coincide.
 cdt::CdtInput enriched_input(const chamfer::ChamferResult& chamfered,
                              const std::vector<std::uint8_t>& facet_kept,
                              const refine::RefineResult& refined, const SurfaceTopology& topology,
