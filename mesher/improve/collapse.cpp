@@ -62,7 +62,7 @@ void Collapse::find_edges_on_surface(VertexId v) {
   }
 }
 
-// To where v may go: within its facet, or between its two facets.
+// May v go to w? Within its facet, or along the edge between its two facets.
 bool Collapse::stays_on_surface(VertexId v, VertexId w) const {
   FacetId first = kNone;
   for (const auto& [x, facet] : edges_) {

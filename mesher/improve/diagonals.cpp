@@ -22,7 +22,8 @@ class FacetCorners {
   explicit FacetCorners(const SurfaceTopology& topology)
       : topology_(topology), corners_(topology.facet_triangles.size()) {}
 
-  // Is a Steiner point on the surface one of this facet, wherever the vertices are?
+  // Is a Steiner point of the surface given by corners of this facet, so that it is in its plane
+  // wherever these are?
   bool have(const PointDefinition& d, FacetId facet) {
     std::vector<VertexId>& corners = corners_[facet];
     if (corners.empty()) {
@@ -200,7 +201,7 @@ class Entry {
     return kNone;
   }
 
-  // A crossing less.
+  // Leaves a crossing less. False if that cannot be.
   bool uncross(VertexId at) { return flip_one(at) || snap_one() || split_one(); }
 
   // Moves vertices to where the tetrahedra are thicker at the edges across. False if none moves.
@@ -226,8 +227,8 @@ class Entry {
                          [&](TetId t) { return state_.mesh.index_of(t, edge[1]) >= 0; });
   }
 
-  // Removes an edge whose two vertices beside it are not on either side of the diagonal: what
-  // replaces it does not cross.
+  // Removes an edge whose two vertices beside it are not on different sides of the diagonal: what
+  // replaces it does not cross that.
   bool flip_one(VertexId at) {
     return std::ranges::any_of(crossings_, [&](const Crossing& c) {
       if (side(at, to_, c.before) * side(at, to_, c.after) < 0) return false;

@@ -20,14 +20,16 @@ namespace delmesher::improve {
 struct DiagonalsResult {
   ImproveMesh mesh;             // faces have the facets of the surface as given
   std::uint64_t diagonals = 0;  // edges of the surface as given within a facet of the stand-in
-  std::uint64_t missing = 0;    // of them, those that find no place; then there is no mesh
+  // How many of them find no place; all if a point finds none in its facet. Unless it is 0, the
+  // mesh is empty or of no use.
+  std::uint64_t missing = 0;
 };
 
 // `stand_in` and `as_given` have the same triangles; `given`: the vertices as given. On success
-// every vertex on a diagonal is a point on that segment, and every other one inside a facet one of
-// a triangle of that facet, so that moving the vertices of the surface to where they were given
-// puts the faces onto the surface as given. Quality is not asked for. New points are appended to
-// the store. Deterministic; throws Stopped when the control says so.
+// every vertex on a diagonal is a point on that segment, and every other one inside a facet is
+// given by a triangle of that facet, so that moving the vertices of the surface to where they were
+// given puts the faces onto the surface as given. Quality is not asked for. New points are appended
+// to the store. Deterministic; throws Stopped when the control says so.
 DiagonalsResult enter_diagonals(ImproveMesh mesh, const SurfaceTopology& stand_in,
                                 const SurfaceTopology& as_given, std::span<const Vec3> given,
                                 const ImproveOptions& options, PointStore& points,

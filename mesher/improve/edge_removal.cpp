@@ -67,7 +67,7 @@ bool EdgeRemoval::refill(double least_roundness) {
   return true;
 }
 
-// Finds the ring around the edge. False if there is too much, or if the edge may not go or has been
+// Finds the ring around the edge. False if it is too long, or if the edge may not go or has been
 // tried.
 bool EdgeRemoval::find_ring(TetId t, std::span<const std::uint32_t> failed) {
   if (!collect_ring(t, failed)) return false;
@@ -150,7 +150,7 @@ bool EdgeRemoval::split_ring() {
   return true;
 }
 
-// Tetrahedra that are rounder than this raise the mean, others are better fewer.
+// Above 0 for tetrahedra rounder than kMean, which raise the mean; of the others, fewer are better.
 double EdgeRemoval::roundness(const Quality& q) {
   constexpr double kMean = 0.65;
   return std::sqrt(q.gamma) - kMean;

@@ -20,7 +20,8 @@ struct GivenMesh {
 
 struct CheckedMesh {
   // Why it is no conforming mesh, with numbers counted from 0; empty if it is one. It is one if
-  //  - all coordinates are finite, and each tetrahedron and triangle has different vertices;
+  //  - all coordinates are finite, and each tetrahedron and triangle has different, existing
+  //  vertices;
   //  - tetrahedra are of one orientation, by exact signs, but for flat ones;
   //  - a face has one tetrahedron, or two on both sides; each triangle is a face;
   //  - the tetrahedra at a vertex that is on no kept face are connected by faces.

@@ -101,8 +101,8 @@ class Improvement {
       spare(0);
     } while (state_.mesh.tetrahedra() < before - before / kLeastGain);
   }
-  // Those whose removal leaves tetrahedra of this score at least; then other vertices go and
-  // tetrahedra are repaired once more, as in run().
+  // Takes out the points whose removal leaves tetrahedra of this score at least; then other
+  // vertices go and tetrahedra are repaired once more, as in run().
   void spare(float score) {
     if (!is_too_much()) return;
     begin(0);

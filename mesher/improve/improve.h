@@ -21,7 +21,7 @@ inline constexpr double kFlattestDihedral = 17;
 
 // Points that go, whatever becomes of the quality, while a mesh has more tetrahedra than wanted.
 struct Sparing {
-  std::span<const std::uint8_t> edges = {};  // per edge of the topology: those on it; empty: none
+  std::span<const std::uint8_t> edges = {};  // per edge: 1 if points on it may go; empty: none
   std::size_t tetrahedra = 0;                // wanted at most
 };
 

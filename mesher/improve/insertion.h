@@ -13,8 +13,8 @@ class Insertion {
  public:
   explicit Insertion(State& state) : state_(state) {}
 
-  // Replaces t and tetrahedra around it by the star of a new point, if its worst is clearly better
-  // than t.
+  // Replaces t and tetrahedra around it by the star of a new point, if the worst of that is clearly
+  // better than the worst of these.
   bool run(TetId t);
 
  private:

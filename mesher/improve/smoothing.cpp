@@ -97,7 +97,7 @@ Vec3 Smoothing::towards_best_apexes(const Vec3& x) const {
   return {sum[0] / count, sum[1] / count, sum[2] / count};
 }
 
-// The worst of the star with v at x; incomplete if it does not reach `least`.
+// The worst of the star with v at x; all 0 if it does not reach `least`.
 Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
   Quality worst = kNotCounted;
   for (std::size_t n = 0; n < star_.size(); ++n) {

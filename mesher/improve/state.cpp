@@ -40,7 +40,7 @@ State::State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopol
 }
 
 // A Steiner point of the surface is on a segment or on a triangle; explicit points there are of the
-// input.
+// input. A point on an edge that is given by two parameters (SplitTarget::low) stays where it is.
 void State::find_mobility() {
   for (TetId t = 0; t < mesh.slots(); ++t) {
     for (int i = 0; i < 4; ++i) {

@@ -20,7 +20,7 @@ namespace delmesher::improve {
 
 // Where a vertex may go.
 enum class Mobility : std::uint8_t {
-  fixed,     // nowhere: a vertex of the input or of the hull
+  fixed,     // nowhere: a vertex of the input or of the hull, or on an edge with two parameters
   on_line,   // along its edge of the input
   in_plane,  // within its facet
   free       // anywhere in its star
