@@ -18,7 +18,7 @@ class LocalOperations {
   // Removes the bad tetrahedron t by an operation whose new tetrahedra are all positive on the
   // rounded coordinates; with `exact_too`, also on the exact ones, so that the result is valid in
   // both senses. Tries, in this order: removing one of its edges (3-2, 4-4 and longer rings), one
-  // of its faces (2-3), collapsing one of its volume vertices.
+  // of its faces (2-3), collapsing one of its volume vertices. False if none of these can be done.
   bool fix(std::uint32_t t, bool exact_too);
 
  private:

@@ -73,7 +73,8 @@ int RoundedMesh::sign_at(std::uint32_t t, std::uint32_t v, const Vec3& p) {
 }
 
 std::vector<std::vector<std::uint32_t>> RoundedMesh::coincident() const {
-  // Moved vertices never meet others, so only vertices that have not moved can coincide.
+  // Moves never end at other vertices (occupied), so only vertices that have not moved can
+  // coincide.
   std::vector<std::vector<std::uint32_t>> groups;
   std::vector<std::uint32_t> group;
   const auto close = [&] {

@@ -15,7 +15,7 @@ namespace delmesher::output {
 using Tet = std::array<std::uint32_t, 4>;
 
 // How bad some tetrahedra are: first how many are not positive, then how many of these are
-// inverted. Every repair decreases it, so repairing ends, and never makes more of them.
+// inverted. Repairs decrease it, so they end; separating may keep it, untangling has a budget.
 using Badness = std::int64_t;
 inline constexpr Badness kOneBad = Badness{1} << 32;
 inline Badness badness(int sign) {
@@ -33,7 +33,7 @@ class RoundedMesh {
   std::size_t vertices() const { return store_id_.size(); }
   VertexId store_id(std::uint32_t v) const { return store_id_[v]; }
   const Vec3& position(std::uint32_t v) const { return position_[v]; }
-  // Nearest doubles of the exact position, and the bound of their error.
+  // Nearest doubles of the exact position (or RoundingInput::place), and the bound of their error.
   Vec3 home(std::uint32_t v) const { return placed(store_id_[v]); }
   double home_error(std::uint32_t v) const { return approximation(v).error; }
   bool fixed(std::uint32_t v) const { return input_.fixed[store_id_[v]] != 0; }
@@ -47,7 +47,7 @@ class RoundedMesh {
   int sign(std::uint32_t t) const { return sign_[t]; }
   // Slots of the tetrahedra that are not positive.
   const std::set<std::uint32_t>& bad() const { return bad_; }
-  // Groups of vertices with equal coordinates, in the order of the vertices.
+  // Groups of vertices with equal coordinates, in their order. Moved vertices are in none.
   std::vector<std::vector<std::uint32_t>> coincident() const;
 
   // Must be called before anything below. Costs memory, so a mesh with nothing to repair skips it.

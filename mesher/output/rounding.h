@@ -40,11 +40,11 @@ struct RoundingResult {
   std::vector<std::uint8_t> inside;
   std::vector<std::array<std::uint32_t, 3>> boundary;  // in the order of RoundingInput::boundary
   std::uint64_t inverted = 0, flat = 0;                // left in the result, by exact sign
-  std::uint64_t repaired = 0;    // were not positive after plain rounding, and are now
+  std::uint64_t repaired = 0;    // how many fewer are not positive than after plain rounding
   std::uint64_t coincident = 0;  // vertices left with the coordinates of an earlier one
   std::uint64_t signs = 0;       // of tetrahedra in doubles that were decided, in all attempts
   bool tried = true;             // false: there was too much to repair (RepairLimits::most)
-  // Points of the store at the tetrahedra that plain rounding left not positive.
+  // Points of the store at the tetrahedra that plain rounding left not positive; may be repeated.
   std::vector<VertexId> disturbed;
   // Local operations done: if not 0, the tetrahedra are not those given. They are positive on the
   // exact coordinates as well, except where `inexact_operations` had no other choice.

@@ -21,12 +21,12 @@ struct Shape {
   bool comparable;  // common scale, and products of four lengths are in range
 };
 
-// Edge vectors at a common power-of-two scale, the longest around 1; or, if their lengths are not
-// comparable, each at its own.
+// Edge vectors at a common power-of-two scale: half of what they are or, if the longest is extreme,
+// with the longest around 1. If their lengths are not comparable, each at a scale of its own.
 Shape make_shape(std::span<const Vec3> coordinates,
                  const std::array<std::uint32_t, 4>& tetrahedron);
 
-// Six times the volume, negative if the tetrahedron is inverted.
+// Six times the volume at the scale of the shape, negative if the tetrahedron is inverted.
 double volume_term(const Shape& shape);
 
 // In degrees, at the corners of a face in the order of kFaces; and at the edges.

@@ -159,8 +159,8 @@ bool VertexMoves::allowed(std::uint32_t v, const Vec3& p) const {
 }
 
 // Neighbouring doubles in each coordinate, then steps of the unit of the vertex's largest
-// coordinate; if `wide`, also steps of the unit of the surface's largest coordinate (and, for
-// vertices in the volume, some multiples of it).
+// coordinate; if `wide`, instead of these, steps of the unit of the surface's largest coordinate
+// (and, for vertices that may move far, some multiples of it).
 void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
   candidates_.clear();
   const Vec3 p = mesh_.position(v);

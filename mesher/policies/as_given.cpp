@@ -10,8 +10,8 @@
 namespace delmesher::policies {
 namespace {
 
-// Of the vertices of the surface `as_given`, of the points that the mesh has on it, and of those on
-// the outer box, whose planes are numbered after those of the surface.
+// Gives supports to the vertices of the surface `as_given`, to the points that the mesh has on it,
+// and to the points on the outer box, whose planes are numbered after the planes of the surface.
 void set_supports(const cdt::CdtResult& mesh, const Session& session,
                   const SurfaceTopology& as_given, const PointStore& vertices, PointStore& points) {
   std::vector<std::vector<PlaneId>> planes(points.size());

@@ -7,8 +7,9 @@
 
 namespace delmesher::policies {
 
-// Rounds a final mesh and records it as written. If tetrahedra are left inverted or flat, their
-// Steiner points are taken out (thin_out), then those up to one, two and three edges away. Of these
+// Rounds a final mesh and records it as written. If it is left with defects (output::defects),
+// Steiner points are taken out (thin_out): of the tetrahedra that rounding made inverted or flat,
+// then those up to one, two and three edges away. Of these
 // meshes the one with the fewest defects is written. Where more than a thousand are left by plain
 // rounding, points are taken out before anything is repaired, and where the first repairs leave
 // more than a few, before others are tried.
