@@ -258,8 +258,8 @@ class Chamferer {
     }
   }
 
-  // Drops one of the two pieces along every channel that is too narrow, the narrowest first; false
-  // if there was none.
+  // Drops the longer of the two pieces along every channel that is too narrow, the narrowest first;
+  // false if there was none.
   bool drop_narrow() {
     struct Pair {
       double narrowness;

@@ -13,7 +13,7 @@ namespace delmesher::plane {
 struct ChamferOptions {
   double cosine_squared = 0.25;  // of the angle below which a corner is acute
   double max_radius = 0;         // in the units of the store; 0: no bound
-  // Channels narrower than this fraction of the length over which they are narrow; 0: off.
+  // A channel narrower than this fraction of its length loses one of its sides; 0: none does.
   double tau = 1e-4;
   bool everywhere = false;  // also corners whose acute side is outside
 };

@@ -16,7 +16,7 @@ class Goal {
 
   // The badness of a bad triangle; none for a good one. Below 1 it is the squared sine of the
   // smallest angle, which is too small; 1 means that only an edge is too long. Judged in doubles;
-  // when in doubt a triangle is bad, which costs at most a point.
+  // in doubt about an angle a triangle is bad, which costs at most a point.
   std::optional<double> badness(const Shape& shape) const {
     if (angle_is_small(shape)) return shape.sine_squared;
     const double longest = max_edge_ * shape.scale;

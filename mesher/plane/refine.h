@@ -27,7 +27,7 @@ struct RefineOptions {
   double delta = kProvenDelta;
   double max_edge = 0;      // in the units of the store; 0: no bound
   bool everywhere = false;  // triangles outside count as well
-  // A piece that is split more often counts as crowded; 0: no bound.
+  // A piece that is split so often counts as crowded, and the refinement stops; 0: no bound.
   std::uint64_t most_splits = 0;
   std::function<void(RefineStep)> on_step;  // told when a step begins; empty: nobody asks
   bool validate = kValidating;  // check the invariants after each step (Refiner::validate)
@@ -39,11 +39,11 @@ struct RefinedMesh {
   std::vector<PieceId> carrier;  // per vertex id: the piece of an on-segment point, or kNone
   std::uint64_t on_segments = 0, in_faces = 0;
   double delta = 0;  // that is kept: less than asked for if that did not end
-  // Pieces and vertices without room between doubles, to be spared in another attempt. If they are
-  // empty, every triangle in the region keeps the bound.
+  // Pieces and vertices of the input without room between doubles, to be spared in another attempt.
+  // There may be none, although there was no room, if that was far from all of the input.
   std::vector<PieceId> crowded_pieces;
   std::vector<VertexId> crowded_vertices;
-  bool crowded = false;
+  bool crowded = false;  // if not, every triangle in the region keeps the bound
   // Only for a bound beyond the proven one: refine() then begins anew without that.
   bool crowded_beyond = false;
 };

@@ -151,7 +151,7 @@ class Triangulation {
   void flip(EdgeId e);
   bool convex(EdgeId e);
   void legalize(std::vector<TriangleId>& stack);
-  Location locate_here(VertexId p, TriangleId t);
+  Location locate_here(VertexId p, TriangleId t);  // not in t: kNone, an edge that it is beyond
   EdgeId first_crossing(VertexId a, VertexId b, VertexId& on_line, EdgeId& along);
   Obstacle cross(VertexId a, VertexId b, EdgeId first, VertexId& end);
 

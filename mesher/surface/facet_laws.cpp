@@ -12,7 +12,7 @@ namespace {
 
 struct Outline {
   std::vector<VertexId> corners;
-  std::vector<std::pair<VertexId, VertexId>> sides;  // directed, those without an opposite inside
+  std::vector<std::pair<VertexId, VertexId>> sides;  // half-edges without an opposite one inside
   bool operator==(const Outline&) const = default;
 };
 

@@ -281,8 +281,8 @@ class StandInBuilder {
   }
 
   // The facets that the stand-in will have are groups, groups that share a plane, parts of groups
-  // that gave up the triangles between them, and whatever lies in the same one. All promises about
-  // them are checked once more, exactly.
+  // that gave up the triangles between them, each with whatever else lies in its plane beside it.
+  // All promises about them are checked once more, exactly.
   bool facets_keep_laws(PointStore& points, Predicates& predicates) {
     const ChangedSurface changed{given_, surface_.opposite(), flat_, twin_};
     std::vector<std::uint32_t> against;

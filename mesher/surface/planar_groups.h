@@ -26,12 +26,12 @@ struct StandIn {
   std::vector<PlaneEquation> planes;
   // Per vertex: the numbers of its three planes, or kNone where it stays as it is.
   std::vector<std::array<std::uint32_t, 3>> planes_of;
-  // Those of the surface, in another triangulation of some groups; empty: the same.
+  // The triangles of the surface, with some groups in another triangulation; empty: the same.
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::uint64_t groups = 0;        // of more than one triangle, some not on the plane as given
   std::uint64_t given_facets = 0;  // of the surface as given
-  double deviation = 0;            // largest distance of a vertex from the plane of a group of it
-  double displacement = 0;         // largest distance of a vertex from its stand-in
+  double deviation = 0;     // largest distance of a vertex from the plane of one of its groups
+  double displacement = 0;  // largest distance of a vertex from its stand-in
 };
 
 // May groups have another triangulation? With the same one a mesh of the stand-in can go back to

@@ -270,8 +270,8 @@ class PlanarGrowth::Growing {
   Group& group_;
   PlaneFit sum_;  // of the members
   std::vector<std::uint32_t> heap_, refused_;
-  std::size_t verified_ = 1;  // so many members fit the plane of all of them, which is
-  Fit verified_plane_;
+  std::size_t verified_ = 1;  // so many members, the first ones, fit the plane of all of these
+  Fit verified_plane_;        // that plane
   bool bent_ = false;
 };
 

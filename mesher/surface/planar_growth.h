@@ -90,7 +90,7 @@ class PlanarGrowth {
   void grow_all();
   // Would taking it apart leave one group, of all triangles but these (in any order)?
   bool stays_whole(std::uint32_t group, const std::vector<std::uint32_t>& without) const;
-  // In groups of smaller bounds; false if it is of the smallest already.
+  // Into groups of smaller bounds; false if its bound is the smallest already.
   bool take_apart(std::uint32_t group);
   // Takes a triangle out of its group: it is a facet of its own from now on.
   void detach(std::uint32_t triangle);

@@ -13,8 +13,8 @@ namespace delmesher::surface {
 // A straight constraint between two points.
 struct PlcSegment {
   std::array<VertexId, 2> vertex;
-  // Input edge that contains it (undirected edge of SurfaceTopology), or kNone for an artificial
-  // edge created by chamfering; those lie inside one facet.
+  // Input edge that contains it (undirected edge of SurfaceTopology). kNone for an edge of the
+  // outer box, and for an artificial segment, which chamfering makes inside one facet.
   std::uint32_t input_edge = kNone;
 };
 
@@ -22,7 +22,7 @@ struct PlcSegment {
 // plane of an input facet (or of the outer box).
 struct PlcFacet {
   FacetId input_facet = kNone;  // kNone for the outer box
-  // A triangle of corners of the surface that spans the plane, counter-clockwise seen from outside.
+  // Corners of the surface (or the box) that span the plane, counter-clockwise seen from outside.
   std::array<VertexId, 3> frame;
   int axis = 0;       // projection axis for orient2d
   int axis_sign = 1;  // sign of the frame's normal along it

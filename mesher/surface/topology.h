@@ -31,7 +31,7 @@ struct SurfaceTopology {
   std::vector<std::vector<std::uint32_t>> facet_triangles;  // ascending
   std::vector<PlaneId> facet_plane;  // facets in the same plane (either orientation) share the id
   std::size_t plane_count = 0;
-  std::vector<int> facet_axis;  // coordinate axis along which the normal has its largest component
+  std::vector<int> facet_axis;       // coordinate axis along which the normal has a large component
   std::vector<int> facet_axis_sign;  // exact sign of that component (of the outward normal)
   // Constrained (non-flat) edges: between different facets.
   std::vector<std::uint8_t> edge_is_flat;  // per undirected edge
@@ -59,7 +59,7 @@ struct SurfaceTopology {
 // Adds the surface's vertices to an empty store, builds the adjacency and the facets (exactly), and
 // records as supports of every vertex the planes of its facets and the lines of its non-flat edges
 // (both the edge itself and edge_line of it are ids of the line that contains an edge). The surface
-// must have passed check_surface and be oriented outwards. With a stand-in, its vertices are those
+// must have passed check_validity and be oriented outwards. With a stand-in, its vertices are those
 // of the topology.
 SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predicates& predicates,
                                const StandIn& stand_in = {});

@@ -1,4 +1,4 @@
-// Exact tests between closed triangles with explicit corners.
+// Exact tests of closed triangles, whose corners are points of any kind.
 #pragma once
 
 #include <array>
