@@ -257,10 +257,6 @@ class InputFilter {
   std::priority_queue<ClosePair, std::vector<ClosePair>, Later> queue_;
 };
 
-}  // namespace
-
-namespace {
-
 FilterResult nothing_dropped(const SurfaceTopology& topology) {
   const std::vector<std::uint8_t> all(topology.facet_triangles.size(), 1);
   return {all, all, 0, 0};

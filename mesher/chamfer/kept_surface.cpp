@@ -29,7 +29,7 @@ FacetFrame frame_of_triangle(std::uint32_t triangle, const std::array<Vec3, 3>& 
 constexpr double kFewDigits = 0x1p-36;
 
 // The square of the smallest height.
-double shape(const std::array<Vec3, 3>& corner) {
+double least_height2(const std::array<Vec3, 3>& corner) {
   double longest = 0;
   for (int k = 0; k < 3; ++k) {
     longest = std::max(longest, squared_norm(subtract(corner[(k + 1) % 3], corner[k])));
@@ -96,9 +96,9 @@ void KeptSurface::find_frames() {
     for (std::uint32_t t : topology_.facet_triangles[f]) {
       std::array<Vec3, 3> corner;
       for (int k = 0; k < 3; ++k) corner[k] = position_[topology_.triangles[t][k]];
-      const double quality = shape(corner);
-      if (!(quality > best)) continue;
-      best = quality;
+      const double height2 = least_height2(corner);
+      if (!(height2 > best)) continue;
+      best = height2;
       best_corner = corner;
       best_triangle = t;
     }
