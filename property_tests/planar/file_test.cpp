@@ -1,0 +1,145 @@
+// Which triangles count as one planar facet when a file is judged: what was promised decides, and a
+// record that says more does not help.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+#include "property_tests/planar/runs.h"
+
+namespace tetproof::planar {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::ExactRecord;
+using delmesher::Surface;
+
+// The mesh bends the box at its waist, so that edges between its walls are missing. United, the
+// walls around the box would be one facet, whose normals cancel: none at all.
+TEST(PlanarFile, WallsAroundABoxAreNoFacet) {
+  samples::Sample stretched = samples::cube();
+  const auto stretch = [](std::vector<Position>& vertices) {
+    for (Position& p : vertices) p[2] *= 4;
+  };
+  stretch(stretched.input.vertices);
+  stretch(stretched.mesh.vertices);
+  samples::Sample bent = stretched;
+  for (Position& p : bent.mesh.vertices) {
+    if (p[2] == 2) p[0] += 0.125;
+  }
+  VerifyReport report;
+  ASSERT_EQ(verify(stretched.input, stretched.mesh, nullptr, {}, report), "");
+  EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
+  ASSERT_EQ(verify(bent.input, bent.mesh, nullptr, {.promised = {.planar = Promise::kPlanarAuto}},
+                   report),
+            "");
+  EXPECT_EQ(report.verdict, Verdict::broken) << to_text(report);
+}
+
+// A vertex inside a face is 1e-6 off its plane. No planar facet explains that, since the face is
+// planar as given: it is a deviation.
+TEST(PlanarFile, AVertexOffItsFacetIsNoPlanarFacet) {
+  samples::Sample sample = samples::cube();
+  for (Position& p : sample.mesh.vertices) {
+    if (p == Position{0.5, 0.5, 1}) p[2] += 1e-6;
+  }
+  VerifyReport report;
+  const VerifyOptions options{.promised = {.planar = Promise::kPlanarAuto}};
+  ASSERT_EQ(verify(sample.input, sample.mesh, nullptr, options, report), "");
+  EXPECT_EQ(report.verdict, Verdict::deviating);
+  EXPECT_TRUE(failed(report, options));
+}
+
+// A box with all faces bent along their diagonals: two triangles are one facet wherever the mesh
+// has the other diagonal.
+TEST(PlanarFile, FacetsThatWereUnitedAreCounted) {
+  Surface box = samples::to_surface(samples::cube().input);
+  std::mt19937 random(5);
+  for (auto& p : box.vertices) {
+    for (double& x : p) x += static_cast<double>(random() % 1024) * 0x1p-36;
+  }
+  ASSERT_EQ(box.triangles.size(), 12U);
+  const Told told = run_of(box);
+  ASSERT_EQ(told.statistics.given_facets, 12U);
+  ASSERT_EQ(told.sample.mesh.vertices.size(), 8U);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> missing;
+  for (const auto& [a, b, c] : box.triangles) {
+    for (const auto& edge : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)}) {
+      missing.emplace(edge.first, edge.second);
+    }
+  }
+  for (const auto& t : told.sample.mesh.tetrahedra) {
+    for (const std::uint32_t a : t) {
+      for (const std::uint32_t b : t) missing.erase({a, b});
+    }
+  }
+  ASSERT_FALSE(missing.empty());
+  const VerifyReport report = verdict_on(told, false);
+  const OracleReport* conformity = report.find("conformity");
+  ASSERT_NE(conformity, nullptr);
+  EXPECT_TRUE(std::ranges::any_of(conformity->figures, [&](const auto& figure) {
+    return figure.first == "facets united" && figure.second == static_cast<double>(missing.size());
+  })) << to_text(report);
+}
+
+// A plate of the width 2 and the length 4 whose top has a ridge along the middle.
+Surface ridge(double height) {
+  Surface s;
+  for (const double y : {0.0, 4.0}) {
+    for (const auto& [x, z] :
+         {std::pair(-1.0, 0.0), {1.0, 0.0}, {1.0, 1.0}, {0.0, 1 + height}, {-1.0, 1.0}}) {
+      s.vertices.push_back({x, y, z});
+    }
+  }
+  for (std::uint32_t i = 0; i < 5; ++i) {
+    const std::uint32_t j = (i + 1) % 5;
+    s.triangles.push_back({i, j + 5, j});
+    s.triangles.push_back({i, i + 5, j + 5});
+  }
+  for (std::uint32_t i = 1; i < 4; ++i) {
+    s.triangles.push_back({0, i, i + 1});
+    s.triangles.push_back({5, i + 6, i + 5});
+  }
+  return s;
+}
+
+// A ridge that the mesh does not have, in a file without record: the promise decides.
+TEST(PlanarFile, ARidgeAboveTheBoundIsMissed) {
+  Told told = run_of(ridge(1e-3), 1e-3);
+  ASSERT_GT(told.statistics.planar_groups, 0U);
+  const VerifyReport good = verdict_on(told, false);
+  EXPECT_FALSE(failed(good, {.promised = told.promise})) << to_text(good);
+  EXPECT_EQ(good.verdict, Verdict::deviating);
+  EXPECT_GE(good.deviation, 4e-4);
+  told.promise.planar = 1e-5;
+  const VerifyReport report = verdict_on(told, false);
+  EXPECT_TRUE(failed(report, {.promised = told.promise})) << to_text(report);
+  // Nor does it help that a record names the two sides of the ridge as one facet.
+  const VerifyReport named = verdict_on(told, true);
+  ASSERT_NE(named.find("conformity"), nullptr);
+  EXPECT_FALSE(named.find("conformity")->passed()) << to_text(named);
+}
+
+// A ridge that the mesh has elsewhere is off the surface, though a record names all triangles as
+// one facet.
+TEST(PlanarFile, ARecordMakesNoFacetOfABody) {
+  Told told = run_of(ridge(1e-3), 0);
+  ASSERT_TRUE(samples::exact_or_rounded(verdict_on(told)));
+  for (Position& p : told.sample.mesh.vertices) {
+    if (p[2] == 1 + 1e-3 && p[1] > 0) p[0] += 1e-3;
+  }
+  ExactRecord::Facet all = told.record.facets.front();
+  for (const ExactRecord::Facet& facet : told.record.facets) {
+    if (facet.id == all.id) continue;
+    all.triangles.insert(all.triangles.end(), facet.triangles.begin(), facet.triangles.end());
+  }
+  told.record.facets = {all};
+  told.promise.planar = 0.01;
+  const VerifyReport report = verdict_on(told);
+  EXPECT_EQ(report.slab, 0);
+  EXPECT_TRUE(failed(report, {.promised = told.promise}));
+}
+
+}  // namespace
+}  // namespace tetproof::planar

@@ -1,0 +1,301 @@
+// Lies about the planes of a record, each caught by the oracle meant for it.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <set>
+
+#include "property_tests/planar/runs.h"
+#include "property_tests/score_table.h"
+
+namespace tetproof::planar {
+namespace {
+
+using namespace oracles;  // NOLINT
+using delmesher::ExactPoint;
+using delmesher::ExactRecord;
+
+const Told& honest() {
+  static const Told told = run_of(rotated(stairs(), to_single));
+  return told;
+}
+
+const Told& as_given() {
+  static const Told told = run_of(rotated(stairs(), to_single), 0);
+  return told;
+}
+
+std::size_t moved_vertex(const ExactRecord& record) {
+  for (std::size_t v = 0; v < record.points.size(); ++v) {
+    if (record.points[v].kind == ExactPoint::Kind::on_planes) return v;
+  }
+  ADD_FAILURE() << "no vertex was moved";
+  return 0;
+}
+
+// Puts a point before others; all numbers of points follow.
+void insert_point(ExactRecord& r, Index at, const ExactPoint& point) {
+  const auto move = [at](auto& list) {
+    for (Index& v : list) v += v >= at ? 1 : 0;
+  };
+  for (ExactPoint& p : r.points) {
+    if (p.kind == ExactPoint::Kind::explicit_point || p.kind == ExactPoint::Kind::on_planes)
+      continue;
+    std::array<Index, 3> corners = {p.i, p.j, p.k};
+    move(corners);
+    p.i = corners[0];
+    p.j = corners[1];
+    p.k = corners[2];
+  }
+  r.points.insert(r.points.begin() + at, point);
+  for (auto& chain : r.segments) move(chain.vertices);
+  for (auto& made : r.chamfer_points) move(made);
+  for (auto* tets : {&r.refined, &r.final, &r.unrepaired}) {
+    for (auto& tet : *tets) move(tet.vertices);
+  }
+  for (auto* faces : {&r.refined_facets, &r.final_facets, &r.unrepaired_facets}) {
+    for (auto& face : *faces) {
+      for (int i = 0; i < 3; ++i) face[i] += face[i] >= at ? 1 : 0;
+    }
+  }
+  for (auto& ball : r.balls) {
+    ball.vertex += ball.vertex >= at ? 1 : 0;
+    move(ball.tetrahedron);
+  }
+  move(r.mesh_vertices);
+}
+
+// The first point on an edge of the surface as given that the mesh before the edges came back did
+// not use.
+ExactPoint& point_that_came_with_an_edge(ExactRecord& r) {
+  std::set<Index> before;
+  for (const auto& tet : r.unrepaired) before.insert(tet.vertices.begin(), tet.vertices.end());
+  for (const auto& face : r.final_facets) {
+    for (int k = 0; k < 3; ++k) {
+      ExactPoint& p = r.points[face[k]];
+      if (p.kind == ExactPoint::Kind::on_segment && !before.contains(face[k])) return p;
+    }
+  }
+  ADD_FAILURE() << "no edge needed a point";
+  return r.points.back();
+}
+
+struct Lie {
+  const char* name;
+  const char* oracle;  // the one meant to catch it
+  void (*tell)(Told&);
+  const char* before = "";  // for the table: its fate before its row was there
+};
+void PrintTo(const Lie& lie, std::ostream* out) {
+  *out << lie.name;
+}
+
+const Lie kLies[] = {
+    {"facets are planar, promised was the surface as given", "exact-conformity",
+     [](Told& t) { t.promise.planar = 0; }},
+    {"the surface as given, refined as one of a larger bound", "promise",
+     [](Told& t) {
+       t = as_given();
+       t.record.parameters.planar *= 1000;
+     }},
+    {"the surface as given, a face on a facet of the refined one", "exact-facets",
+     [](Told& t) {
+       t = as_given();
+       std::set<std::uint32_t> listed;
+       for (const auto& facet : t.record.facets) listed.insert(facet.id);
+       for (auto& face : t.record.final_facets) {
+         if (!listed.contains(face[3])) face[3] = *listed.begin();
+       }
+     }},
+    {"the surface as given, its mesh before the edges came back", "exact-conformity",
+     [](Told& t) {
+       t = as_given();
+       t.record.final = t.record.unrepaired;
+       t.record.final_facets = t.record.unrepaired_facets;
+     }},
+    {"the surface as given, no bound for its refinement", "promise",
+     [](Told& t) {
+       t = as_given();
+       t.record.parameters.planar = 0;
+     }},
+    {"the surface as given, a point of an edge that came back on another one", "exact-conformity",
+     [](Told& t) {
+       t = as_given();
+       ExactPoint& p = point_that_came_with_an_edge(t.record);
+       for (p.j = 0; p.j == p.i || t.record.points[p.j].kind != ExactPoint::Kind::on_planes;) ++p.j;
+     }},
+    {"the surface as given, a tetrahedron left out beside an edge that came back", "exact-volume",
+     [](Told& t) {
+       t = as_given();
+       t.record.final.pop_back();
+     }},
+    {"the surface as given, the facets of that told to be the refined ones", "facet-list",
+     [](Told& t) {
+       t = as_given();
+       std::set<std::uint32_t> listed;
+       for (auto& facet : t.record.facets) {
+         listed.insert(facet.id);
+         facet.triangles.resize(1);
+       }
+       for (const auto& face : t.record.final_facets) {
+         if (listed.insert(face[3]).second) t.record.facets.push_back({face[3], 0, 0, {face[3]}});
+       }
+     }},
+    {"the surface as given, its stand-in farther away than told", "stand-in",
+     [](Told& t) {
+       t = as_given();
+       t.record.parameters.planar *= 0x1p-20;
+     }},
+    {"the surface as given in all of the hull, which is not there", "exact-hull",
+     [](Told& t) {
+       t = as_given();
+       t.promise.region = delmesher::Region::hull;
+     }},
+    {"the surface as given, told as version 4", "promise",
+     [](Told& t) {
+       t = as_given();
+       t.version = 4;
+     }},
+    {"planar facets, and nothing outside them", "exact-hull",
+     [](Told& t) { std::erase_if(t.record.final, [](const auto& tet) { return !tet.inside; }); }},
+    {"a bound a thousand times as large", "promise",
+     [](Told& t) { t.record.parameters.planar *= 1000; }},
+    {"no bound for the planes", "promise", [](Told& t) { t.record.parameters.planar = 0; }},
+    {"an infinite bound", "sidecar", [](Told& t) { t.record.parameters.planar = HUGE_VAL; }},
+    {"a bound that is no number", "sidecar",
+     [](Told& t) { t.record.parameters.planar = std::nan(""); }},
+    {"a bound smaller than what was done", "stand-in",
+     [](Told& t) { t.record.parameters.planar *= 0x1p-20; }},
+    {"version 3, which has no planes", "promise", [](Told& t) { t.version = 3; }},
+    {"a plane moved along its normal", "stand-in",
+     [](Told& t) {
+       for (int axis = 0; axis < 3; ++axis) {
+         t.record.planes[0].through[0][axis] += 1e-3 * t.record.planes[0].normal[axis];
+       }
+     }},
+    {"a plane tilted", "stand-in", [](Told& t) { t.record.planes[0].normal[0] += 1e-3; }},
+    {"all planes gone", "sidecar", [](Told& t) { t.record.planes.clear(); }},
+    {"a plane without a normal", "sidecar",
+     [](Told& t) {
+       t.record.planes[0].spanned = false;
+       t.record.planes[0].normal = {0, 0, 0};
+     }},
+    {"a plane that is not finite", "sidecar",
+     [](Told& t) { t.record.planes[0].through[0][1] = HUGE_VAL; }},
+    {"a vertex on one plane thrice", "sidecar",
+     [](Told& t) {
+       ExactPoint& p = t.record.points[moved_vertex(t.record)];
+       p.j = p.k = p.i;
+     }},
+    {"a vertex moved away as plain numbers", "sidecar",
+     [](Told& t) {
+       const std::size_t v = moved_vertex(t.record);
+       ExactPoint& p = t.record.points[v];
+       const Position& x = t.sample.input.vertices[v];
+       p = {ExactPoint::Kind::explicit_point, 0, 0, 0, x[0] + 1e-9, x[1], x[2]};
+     }},
+    {"a vertex that is another's meeting point", "stand-in",
+     [](Told& t) {
+       const std::size_t v = moved_vertex(t.record);
+       std::size_t w = v + 1;
+       while (t.record.points[w].kind != ExactPoint::Kind::on_planes) ++w;
+       t.record.points[v] = t.record.points[w];
+     }},
+    {"another triangulation across a sharp edge", "stand-in",
+     [](Told& t) {
+       t.record.triangles = t.sample.input.triangles;
+       std::swap(t.record.triangles.front(), t.record.triangles.back());
+     }},
+    {"a point on planes that is no vertex", "sidecar",
+     [](Told& t) { t.record.points.push_back(t.record.points[moved_vertex(t.record)]); }},
+    {"too few triangles", "sidecar",
+     [](Told& t) {
+       t.record.triangles = t.sample.input.triangles;
+       t.record.triangles.pop_back();
+     }},
+    {"the moved vertices written", "rounding",
+     [](Told& t) {
+       ExactPoints points;
+       points.assign(t.record.points, t.record.planes);
+       for (std::size_t i = 0; i < t.record.mesh_vertices.size(); ++i) {
+         t.sample.mesh.vertices[i] = points.nearest(t.record.mesh_vertices[i]);
+       }
+     }},
+    {"a vertex on a plane that does not exist", "sidecar",
+     [](Told& t) { t.record.points[moved_vertex(t.record)].k = 4294967295U; }},
+    {"a moved vertex told to be as given", "facet-list",
+     [](Told& t) {
+       const std::size_t v = moved_vertex(t.record);
+       const Position& x = t.sample.input.vertices[v];
+       t.record.points[v] = {ExactPoint::Kind::explicit_point, 0, 0, 0, x[0], x[1], x[2]};
+     }},
+    {"planes of two facets exchanged", "sidecar",
+     [](Told& t) { std::swap(t.record.planes.front(), t.record.planes.back()); }},
+    {"facets made planar within less than promised now", "promise",
+     [](Told& t) { t.promise.planar = 1e-12; }},
+    {"two facets told to be one", "facet-list",
+     [](Told& t) {
+       auto& facets = t.record.facets;
+       auto& first = facets.front().triangles;
+       first.insert(first.end(), facets.back().triangles.begin(), facets.back().triangles.end());
+       facets.pop_back();
+     }},
+    {"a vertex of no triangle moved", "stand-in",
+     [](Told& t) {
+       const auto v = static_cast<Index>(t.sample.input.vertices.size());
+       t.sample.input.vertices.push_back({0, 0, 0});
+       ExactPoint moved = t.record.points[moved_vertex(t.record)];
+       insert_point(t.record, v, moved);
+     },
+     "passed"},
+    {"a vertex moved none of whose facets has two triangles", "stand-in",
+     [](Told& t) {
+       delmesher::Surface s;
+       s.vertices = {{1, 1, 1}, {3, 1, 1}, {1, 3, 1}, {1, 1, 3}};
+       s.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+       t = run_of(s);
+       ExactRecord& r = t.record;
+       const auto first = static_cast<Index>(r.planes.size());
+       for (std::size_t axis = 0; axis < 3; ++axis) {
+         ExactRecord::Plane plane;
+         plane.normal[axis] = 1;
+         plane.through[0] = {1 - 0x1p-12, 1 - 0x1p-12, 1 - 0x1p-12};
+         r.planes.push_back(plane);
+       }
+       r.points[0] = {ExactPoint::Kind::on_planes, first, first + 1, first + 2, 0, 0, 0};
+       r.parameters.planar = 0x1p-19;
+     },
+     "passed"},
+    {"moved triangles that bound nothing", "sidecar",
+     [](Told& t) {
+       t.record.triangles = t.sample.input.triangles;
+       t.record.triangles.back()[0] = 4294967295U;
+     },
+     "called an invalid input"},
+    {"labels merged", "boundary-list",
+     [](Told& t) {
+       t.sample.input.labels.assign(t.sample.input.triangles.size(), 1);
+       t.sample.input.labels[0] = 2;
+     }},
+};
+
+class PlanarLies : public testing::TestWithParam<Lie> {};
+
+TEST_P(PlanarLies, AreCaughtByTheOracleMeantForThem) {
+  static const VerifyReport good = verdict_on(honest());
+  ASSERT_TRUE(samples::as_promised(good, honest().promise)) << to_text(good);
+  ASSERT_EQ(good.verdict, Verdict::deviating);
+  Told told = honest();
+  GetParam().tell(told);
+  judge("rotated stairs", GetParam().name, GetParam().oracle, verdict_on(told), GetParam().before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Planes, PlanarLies, testing::ValuesIn(kLies), [](const auto& tested) {
+  std::string name = tested.param.name;
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+  }
+  return name;
+});
+
+}  // namespace
+}  // namespace tetproof::planar
