@@ -82,11 +82,13 @@ void BoxTree::build(std::size_t node, Index first, Index last, int depth) {
 }
 
 void BoxTree::query(const Box& query, std::vector<Index>& found,
-                    std::span<const HalfSpace> but_in) const {
+                    const std::function<std::vector<HalfSpace>()>& but_in) const {
   if (boxes_.empty()) return;
+  std::vector<HalfSpace> half_spaces;
+  bool asked = !but_in;
   const auto wanted = [&](const Box& box) {
     return meet(box, query) &&
-           std::none_of(but_in.begin(), but_in.end(),
+           std::none_of(half_spaces.begin(), half_spaces.end(),
                         [&](const HalfSpace& half) { return half.contains(box); });
   };
   std::array<std::size_t, 2 * kMaxDepth + 4> stack;
@@ -101,6 +103,10 @@ void BoxTree::query(const Box& query, std::vector<Index>& found,
       continue;
     }
     for (Index i = node.first; i < node.first + node.count; ++i) {
+      if (!asked && meet(boxes_[i], query)) {
+        half_spaces = but_in();
+        asked = true;
+      }
       if (wanted(boxes_[i])) found.push_back(order_[i]);
     }
   }

@@ -260,6 +260,16 @@ std::span<const Index> ExactPoints::corners_of(const Index& v) const {
   return {p.corners.data(), p.corners[2] == kNone ? 2U : 3U};
 }
 
+Index ExactPoints::corner_of_segment(Index a, Index b) const {
+  for (const auto& [given, other] : {std::pair(a, b), std::pair(b, a)}) {
+    if (is_double(given)) continue;
+    const auto [i, j, k] = defined_[implicit_[given]].corners;
+    if (i == kNone || k != kNone) continue;
+    if (other == i || other == j || is_combination(other, {i, j, j})) return std::min(i, j);
+  }
+  return kNone;
+}
+
 Index ExactPoints::common_plane(std::span<const Index> vertices) const {
   if (planes_.empty() || vertices.empty()) return kNone;
   const Index first = corners_of(vertices[0])[0];
@@ -396,21 +406,24 @@ void ExactPoints::combine_integers(const Defined& point, std::array<mpz_class, 3
 // one denominator, the product of those of the corners, so that their differences need none.
 ExactVector ExactPoints::combined(const Defined& point, Denominators& known) const {
   const bool segment = point.corners[2] == kNone;
-  const mpq_class u(point.u), v(segment ? 0 : point.v);
-  const std::array<mpq_class, 3> shares = {u, segment ? mpq_class(1 - u) : v, mpq_class(1 - u - v)};
+  const Dyadic u = dyadic(point.u), v = segment ? Dyadic{} : dyadic(point.v);
+  const auto shift = static_cast<unsigned long>(std::max({0, -u.exponent, -v.exponent}));
+  const long unit = -static_cast<long>(shift);
+  std::array<mpz_class, 3> shares = {scaled(u, unit), scaled(v, unit), mpz_class(1) << shift};
+  shares[2] -= shares[0] + shares[1];
+  if (segment) shares[1] = shares[2];
   const std::size_t count = segment ? 2 : 3;
   std::array<ExactVector, 3> corners;
   std::array<mpz_class, 3> denominator;
-  mpz_class shift = 1, common = 1;
+  mpz_class common = 1;
   for (std::size_t c = 0; c < count; ++c) {
     corners[c] = exact(point.corners[c]);
     denominator[c] = corners[c][0].denominator();
     common *= denominator[c];
-    shift = lcm(shift, mpz_class(shares[c].get_den()));
   }
   std::array<mpz_class, 3> sum;
   for (std::size_t c = 0; c < count; ++c) {
-    mpz_class factor = mpq_class(shares[c] * shift).get_num();
+    mpz_class factor = shares[c];
     for (std::size_t other = 0; other < count; ++other) {
       if (other != c) factor *= denominator[other];
     }
@@ -419,7 +432,7 @@ ExactVector ExactPoints::combined(const Defined& point, Denominators& known) con
                  factor.get_mpz_t());
     }
   }
-  for (mpz_class& x : sum) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), shift.get_mpz_t());
+  for (mpz_class& x : sum) mpz_tdiv_q_2exp(x.get_mpz_t(), x.get_mpz_t(), shift);  // no rest
   const auto [at, fresh] = known.try_emplace(point.corners);
   if (fresh) at->second = ExactNumber::Denominator(std::move(common));
   return ExactNumber::over(std::move(sum), at->second);
@@ -635,7 +648,30 @@ Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& te
                       rough_difference(points, a, d));
 }
 
+// The bound is explained in ball_side.cpp: 6 monomials of degree 3.
+Interval quick_volume6(const ExactPoints& points, const std::array<Index, 4>& tetrahedron) {
+  const Position& origin = points.nearest(tetrahedron[0]);
+  std::array<Position, 3> rows;
+  double size = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Position& p = points.nearest(tetrahedron[i + 1]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      rows[i][axis] = p[axis] - origin[axis];
+      size = std::max(size, std::fabs(rows[i][axis]));
+    }
+  }
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  // Else something could over- or underflow.
+  if (!(size > 0x1p-100 && size < 0x1p100)) return {-kInfinite, kInfinite};
+  const double value = determinant3(rows[0], rows[1], rows[2]);
+  const double error =
+      2 * (16 * 6 + 3 * 6) * size * size * (size * 0x1p-53 + points.difference_error());
+  return {value - error, value + error};
+}
+
 int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  const int quick = quick_volume6(points, {a, b, c, d}).sign();
+  if (quick != 2) return quick;
   const int sign = rough_volume6(points, {a, b, c, d}).sign();
   if (sign != 2) return sign;
   if (points.surely_coplanar(std::array{a, b, c, d})) return 0;

@@ -59,6 +59,9 @@ class ExactPoints {
     return among(p.corners[0]) && among(p.corners[1]) &&
            (p.corners[2] == kNone || among(p.corners[2]));
   }
+  // The corner of least number of a segment on which both points are by their definitions, one of
+  // them given on it; or kNone.
+  Index corner_of_segment(Index a, Index b) const;
   // A plane of the record that contains all of these points by their definitions, or kNone: then
   // their being in one plane needs no arithmetic. The plane must be one of at least three of the
   // record's points, which are given on it.
@@ -168,6 +171,9 @@ int orient3d(const ExactPoints& points, Index a, Index b, Index c, Index d);
 ExactNumber volume6(const ExactPoints& points, Index a, Index b, Index c, Index d);
 // An enclosure of it, in true units.
 Interval rough_volume6(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
+// The same far less narrowly, in a fraction of the time: by rounded values and one bound on their
+// error.
+Interval quick_volume6(const ExactPoints& points, const std::array<Index, 4>& tetrahedron);
 // The same for many tetrahedra, without allocating anew for each.
 class Volume6 {
  public:

@@ -37,12 +37,56 @@ class UnionFind {
   std::vector<Index> parent_;
 };
 
+// Sides of triangles, each with the number of times that it is there in one direction more often
+// than in the other.
+class Sides {
+ public:
+  struct Side {
+    Index from, to;
+    long times;
+  };
+
+  void add(Index from, Index to, long times) {
+    if (from == to) return;
+    sides_.push_back(from < to ? Side{from, to, times} : Side{to, from, -times});
+  }
+  // Leaves every side once, and those that are there as often in both directions out.
+  void cancel() {
+    const auto ends = [](const Side& side) { return std::pair(side.from, side.to); };
+    std::ranges::sort(sides_, {}, ends);
+    std::size_t kept = 0;
+    for (std::size_t first = 0; first < sides_.size();) {
+      Side sum = sides_[first];
+      while (++first < sides_.size() && ends(sides_[first]) == ends(sum)) {
+        sum.times += sides_[first].times;
+      }
+      if (sum.times != 0) sides_[kept++] = sum;
+    }
+    sides_.resize(kept);
+  }
+  const std::vector<Side>& all() const { return sides_; }
+
+ private:
+  std::vector<Side> sides_;
+};
+
 std::string edge_name(Index a, Index b) {
   return "edge " + std::to_string(a) + "-" + std::to_string(b);
 }
 
 double middle(const Interval& x) {
   return x.low / 2 + x.high / 2;
+}
+
+// Is the angle between the normals of two triangles acute?
+bool same_way(const ExactPoints& points, const std::array<Index, 3>& s,
+              const std::array<Index, 3>& t) {
+  const int rough = exact::dot(exact::rough_area2(points, s[0], s[1], s[2]),
+                               exact::rough_area2(points, t[0], t[1], t[2]))
+                        .sign();
+  if (rough != 2) return rough > 0;
+  return exact::dot(exact::area2(points, s[0], s[1], s[2]),
+                    exact::area2(points, t[0], t[1], t[2])) > 0;
 }
 
 // By intervals where these are narrow, as they are unless the largest triangle is a needle.
@@ -233,7 +277,7 @@ void InputSurface::build_facets(const Polyhedron& polyhedron, const ExactPoints&
       const bool flat = std::all_of(corners.begin(), corners.end(), [&](Index v) {
         return v == a || v == b || v == c || exact::orient3d(points, a, b, c, v) == 0;
       });
-      if (flat && exact::dot(area2(points, t), area2(points, n)) > 0) groups.unite(t, n);
+      if (flat && same_way(points, triangles_[t], corners)) groups.unite(t, n);
     }
   }
   number_facets([&](Index t) { return groups.find(t); }, label, true, points);
@@ -464,27 +508,31 @@ std::array<ExactSum, 3> sum_of_areas2(const ExactPoints& points,
                                       std::span<const std::array<Index, 3>> triangles) {
   // The vertices of the input come first, and have the smallest numbers.
   Index origin = kNone;
-  std::vector<std::array<Index, 2>> sides;
+  Sides sides;
   for (const auto& corners : triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
-      sides.push_back({corners[i], corners[(i + 1) % 3]});
+      sides.add(corners[i], corners[(i + 1) % 3], 1);
       origin = std::min(origin, corners[i]);
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) {
-    return std::pair(std::minmax(a[0], a[1]), a[0]) < std::pair(std::minmax(b[0], b[1]), b[0]);
-  });
-  std::array<ExactSum, 3> sum;
-  for (std::size_t first = 0; first < sides.size();) {
-    const auto [low, high] = std::minmax(sides[first][0], sides[first][1]);
-    long times = 0;
-    for (; first < sides.size() && std::minmax(sides[first][0], sides[first][1]) ==
-                                       std::pair<const Index&, const Index&>(low, high);
-         ++first) {
-      times += sides[first][0] == low ? 1 : -1;
+  sides.cancel();
+  // From a to b on a segment is from its first corner to b less from there to a: of all sides on
+  // one segment few are left.
+  Sides from_corners;
+  for (const auto& [from, to, times] : sides.all()) {
+    const Index corner = points.corner_of_segment(from, to);
+    if (corner == kNone) {
+      from_corners.add(from, to, times);
+    } else {
+      from_corners.add(corner, to, times);
+      from_corners.add(corner, from, -times);
     }
-    if (times == 0 || low == origin) continue;
-    const ExactVector area = exact::area2(points, origin, low, high);
+  }
+  from_corners.cancel();
+  std::array<ExactSum, 3> sum;
+  for (const auto& [from, to, times] : from_corners.all()) {
+    if (from == origin) continue;
+    const ExactVector area = exact::area2(points, origin, from, to);
     for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += area[axis] * ExactNumber(times);
   }
   return sum;

@@ -40,9 +40,10 @@ class BoxTree {
     bool contains(const Box& box) const;
   };
   // Appends to `found` the indices of the boxes that meet the query, in no particular order. Boxes
-  // that are certainly in one of the half-spaces may be left out.
+  // that are certainly in one of the half-spaces are left out. These are asked for once a box meets
+  // the query: most queries of some callers find none.
   void query(const Box& query, std::vector<Index>& found,
-             std::span<const HalfSpace> but_in = {}) const;
+             const std::function<std::vector<HalfSpace>()>& but_in = {}) const;
 
  private:
   struct Node {

@@ -117,25 +117,28 @@ bool surely_meets(const ExactPoints& points, const std::array<Index, 3>& triangl
     std::array<double, 4> sides;
   };
   std::array<std::array<Interval, 4>, 3> rough;
-  std::vector<Corner> polygon(3), cut;
+  // Each face adds at most half as many corners as there are, even where rounding makes a polygon
+  // that is not convex: 3, 4, 6, 9 and 13 are the most.
+  std::array<Corner, 13> polygon{}, cut{};
+  std::size_t size = 3;
   for (std::size_t corner = 0; corner < 3; ++corner) {
     for (std::size_t face = 0; face < 4; ++face) {
       std::array<Index, 4> replaced = tetrahedron;
       replaced[face] = triangle[corner];
-      rough[corner][face] = exact::rough_volume6(points, replaced);
+      rough[corner][face] = exact::quick_volume6(points, replaced);
       polygon[corner].sides[face] = middle(rough[corner][face]);
     }
     polygon[corner].shares[corner] = 1;
   }
   for (std::size_t face = 0; face < 4; ++face) {
-    cut.clear();
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Corner &a = polygon[i], &b = polygon[(i + 1) % size];
       const double at_a = a.sides[face], at_b = b.sides[face];
-      if (at_a >= 0) cut.push_back(a);
+      if (at_a >= 0) cut[count++] = a;
       if (!(at_a * at_b < 0)) continue;
       const double share = at_a / (at_a - at_b);
-      Corner& between = cut.emplace_back();
+      Corner& between = cut[count++];
       for (std::size_t j = 0; j < 3; ++j) {
         between.shares[j] = a.shares[j] * (1 - share) + b.shares[j] * share;
       }
@@ -144,9 +147,10 @@ bool surely_meets(const ExactPoints& points, const std::array<Index, 3>& triangl
       }
     }
     polygon.swap(cut);
+    size = count;
   }
   Position shares = {};
-  for (const Corner& corner : polygon) {
+  for (const Corner& corner : std::span(polygon).first(size)) {
     for (std::size_t j = 0; j < 3; ++j) shares[j] += corner.shares[j];
   }
   if (!(shares[0] >= 0 && shares[1] >= 0 && shares[2] >= 0)) return false;
@@ -268,9 +272,9 @@ bool beyond_edge(const ExactPoints& points, const std::array<Index, 3>& triangle
 
 // The half-spaces beyond the faces of a tetrahedron. Their normals may be rounded, as long as the
 // whole tetrahedron is short of the offset.
-std::array<BoxTree::HalfSpace, 4> beyond_faces(const ExactPoints& points,
-                                               const std::array<Index, 4>& tetrahedron) {
-  std::array<BoxTree::HalfSpace, 4> result;
+std::vector<BoxTree::HalfSpace> beyond_faces(const ExactPoints& points,
+                                             const std::array<Index, 4>& tetrahedron) {
+  std::vector<BoxTree::HalfSpace> result(4);
   for (int i = 0; i < 4; ++i) {
     const Index a = tetrahedron[(i + 1) % 4], b = tetrahedron[(i + 2) % 4],
                 c = tetrahedron[(i + 3) % 4];
@@ -331,14 +335,13 @@ bool apart(const ExactPoints& points, const std::array<Index, 3>& triangle,
 }  // namespace
 
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners) {
-  BoxTree::Box box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::numeric_limits<double>::infinity();
-    box.high[axis] = -box.low[axis];
-    for (const Index v : corners) {
-      const Interval x = points.enclosure(v)[axis];
-      box.low[axis] = std::min(box.low[axis], x.low);
-      box.high[axis] = std::max(box.high[axis], x.high);
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  BoxTree::Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  for (const Index v : corners) {
+    const IntervalVector x = points.enclosure(v);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], x[axis].low);
+      box.high[axis] = std::max(box.high[axis], x[axis].high);
     }
   }
   return box;
@@ -411,7 +414,9 @@ InputSurface::Contact InputSurface::contact(const ExactPoints& points,
                                             const BoxTree& parts, std::span<const Index> triangles,
                                             PlaneSides& known) const {
   std::vector<Index> found;
-  parts.query(box_around(points, tetrahedron), found, beyond_faces(points, tetrahedron));
+  parts.query(box_around(points, tetrahedron), found,
+              [&] { return beyond_faces(points, tetrahedron); });
+  if (found.empty()) return {};  // as for most tetrahedra of a refined mesh
   if (!triangles.empty()) {
     for (Index& t : found) t = triangles[t];
     std::sort(found.begin(), found.end());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "oracles/ball_side.h"
+#include "oracles/distances.h"
 #include "oracles/exact_points.h"
 #include "oracles/exact_sum.h"
 #include "oracles/interval.h"
@@ -270,6 +271,38 @@ TEST(ExactSigns, AgreeWithMachineIntegersOnALattice) {
   for (const auto& of_predicate : counts) {
     for (const int count : of_predicate) EXPECT_GT(count, 100);
   }
+}
+
+// Of small tetrahedra far from the origin, most of them nearly flat, with corners that doubles do
+// not hold: at most one of two volumes of opposite signs fits into a bound.
+TEST(ExactSigns, QuickVolumesEncloseTheVolume) {
+  std::mt19937_64 random(19);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int certain = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const double size = std::ldexp(1, -int(random() % 40)), far = round % 2 == 0 ? 0 : 1000;
+    std::vector<ExactPoint> definitions;
+    for (int v = 0; v < 6; ++v) {
+      const double height = round % 3 == 0 ? 0x1p-45 : 1;
+      definitions.push_back({ExactPoint::Kind::explicit_point, 0, 0, 0, far + size * unit(random),
+                             far + size * unit(random), far + height * size * unit(random)});
+    }
+    definitions.push_back({ExactPoint::Kind::on_segment, 0, 1, 0, 1 / 3.0, 0, 0});
+    definitions.push_back({ExactPoint::Kind::on_triangle, 2, 3, 4, 1 / 3.0, 1 / 7.0, 0});
+    ExactPoints points;
+    ASSERT_EQ(points.assign(definitions), "");
+    const std::array<Index, 4> tet = {5, 6, 7, static_cast<Index>(random() % 5)};
+    const Interval quick = exact::quick_volume6(points, tet);
+    const mpq_class volume = exact::volume6(points, tet[0], tet[1], tet[2], tet[3]).rational();
+    const auto scaled = [&](double x) {
+      return times_power_of_two(mpq_class(x), -3 * points.exponent());
+    };
+    ASSERT_LE(scaled(quick.low), volume) << round;
+    ASSERT_GE(scaled(quick.high), volume) << round;
+    certain += quick.sign() != 2 ? 1 : 0;
+  }
+  EXPECT_GT(certain, 1000);
+  EXPECT_LT(certain, 2900);
 }
 
 TEST(ExactSigns, LengthsAndDoubles) {

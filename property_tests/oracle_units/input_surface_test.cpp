@@ -16,6 +16,7 @@ namespace tetproof {
 namespace {
 
 using namespace oracles;  // NOLINT
+using delmesher::ExactPoint;
 
 using Rational = std::array<mpq_class, 3>;
 
@@ -134,6 +135,35 @@ TEST(SumOfAreas, IsThatOfTheTrianglesOneByOne) {
   }
 }
 
+// Sides on segments are taken together. Two segments have a corner in common, and each has points
+// beyond its ends; one has its corners in descending order in a definition.
+TEST(SumOfAreas, IsThatOfTheTrianglesOneByOneOnSegments) {
+  std::mt19937 random(17);
+  std::vector<ExactPoint> definitions;
+  for (const Position& p : {Position{3, 1, 4}, {1, 5, 9}, {2, 6, 5}, {3, 5, 8}}) {
+    definitions.push_back({ExactPoint::Kind::explicit_point, 0, 0, 0, p[0], p[1], p[2]});
+  }
+  for (const double share : {-0.25, 0.125, 0.7, 1.5}) {
+    definitions.push_back({ExactPoint::Kind::on_segment, 0, 1, 0, share, 0, 0});
+    definitions.push_back({ExactPoint::Kind::on_segment, 2, 1, 0, share, 0, 0});
+  }
+  definitions.push_back({ExactPoint::Kind::on_segment, 1, 0, 0, 0.3, 0, 0});
+  definitions.push_back({ExactPoint::Kind::on_triangle, 0, 1, 2, 0.3, 0.1, 0});
+  ExactPoints points;
+  ASSERT_EQ(points.assign(definitions), "");
+  const auto any = [&] { return static_cast<Index>(random() % points.size()); };
+  for (int round = 0; round < 500; ++round) {
+    std::vector<std::array<Index, 3>> triangles(1 + random() % 8);
+    std::array<ExactSum, 3> sum;
+    for (auto& corners : triangles) {
+      corners = {any(), any(), any()};
+      const ExactVector area = exact::area2(points, corners[0], corners[1], corners[2]);
+      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += area[axis];
+    }
+    ASSERT_TRUE(sum_of_areas2(points, triangles) == sum) << round;
+  }
+}
+
 TEST(BoxTree, FindsWhatMeetsTheQueryAndNothingFarInAHalfSpace) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> real(-1, 1);
@@ -152,11 +182,11 @@ TEST(BoxTree, FindsWhatMeetsTheQueryAndNothingFarInAHalfSpace) {
       query.low[axis] = real(random);
       query.high[axis] = query.low[axis] + std::fabs(real(random));
     }
-    const std::array<BoxTree::HalfSpace, 2> but_in = {
+    const std::vector<BoxTree::HalfSpace> but_in = {
         {{{real(random), real(random), real(random)}, 0.5 * real(random)},
          {{real(random), real(random), real(random)}, 0.5 * real(random)}}};
     std::vector<Index> found;
-    tree.query(query, found, but_in);
+    tree.query(query, found, [&but_in] { return but_in; });
     std::sort(found.begin(), found.end());
     for (Index i = 0; i < boxes.size(); ++i) {
       bool meets = true;
