@@ -132,13 +132,6 @@ Number from_integer(const mpz_class& value) {
   return Number(CGAL::Gmpz(value.get_mpz_t()));
 }
 
-// Is x / w the number in these units?
-bool is_number(const Number& x, const Number& w, const ExactNumber& value, const Number& unit) {
-  const Number scaled = from_integer(value.numerator()) * unit;
-  return value.is_integer() && w == Number(1) ? x == scaled
-                                              : x * from_integer(value.denominator()) == scaled * w;
-}
-
 template <class K>
 class SecondKernel {
   using Point = oracles::Point<K>;
@@ -148,12 +141,12 @@ class SecondKernel {
  public:
   // The facets are those of the surface of the final mesh.
   SecondKernel(const Polyhedron& input, const InputSurface& surface, const ExactRecord& record,
-               std::vector<ExactRecord::Facet> facets, const ExactPoints& points,
+               const std::vector<ExactRecord::Facet>& facets, const ExactPoints& points,
                Definitions definitions)
       : input_(input),
         triangles_(surface.triangles()),
         record_(record),
-        facets_(std::move(facets)),
+        facets_(facets),
         points_(points),
         definitions_(std::move(definitions)) {}
 
@@ -166,11 +159,13 @@ class SecondKernel {
       const Position& p = input_.vertices[v];
       const ExactPoint& own = definitions_.points[v];
       const bool moved = own.kind == ExactPoint::Kind::on_planes;
-      if (!moved && (own.kind != ExactPoint::Kind::explicit_point || own.x != p[0] ||
-                     own.y != p[1] || own.z != p[2])) {
+      const bool given = own.kind == ExactPoint::Kind::explicit_point && own.x == p[0] &&
+                         own.y == p[1] && own.z == p[2];
+      if (!moved && !given) {
         report_.fail("point " + std::to_string(v) + " is not the input's vertex");
       }
-      corners_.push_back(moved ? expand(static_cast<Index>(v)) : Point(place(p)));
+      corners_.push_back(moved ? expand(static_cast<Index>(v))
+                               : Point(given ? input_places_[v] : place(p)));
     }
     check_tetrahedra();
     check_faces();
@@ -237,8 +232,10 @@ class SecondKernel {
   // The sum of points times shares that add up to 1.
   template <std::size_t N>
   static Place combined(const std::array<Place, N>& points, const std::array<Number, N>& shares) {
-    Number x(0), y(0), z(0), w(1);
-    for (std::size_t i = 0; i < N; ++i) {
+    const Place& first = points[0];
+    Number x = first.hx() * shares[0], y = first.hy() * shares[0], z = first.hz() * shares[0];
+    Number w = first.hw();
+    for (std::size_t i = 1; i < N; ++i) {
       const Place& p = points[i];
       const Number share = shares[i] * w;
       x = x * p.hw() + p.hx() * share;
@@ -251,20 +248,34 @@ class SecondKernel {
 
   void compare_points() {
     constexpr std::size_t kMost = 20000;
+    const std::size_t every = step(definitions_.points.size(), kMost);
+    const bool kept = every == 1 && (sums_faces() || sums_tetrahedra());
     const Number unit = power_of_two(points_.exponent());
     std::size_t asked = 0;
-    for (std::size_t v = 0; v < definitions_.points.size();
-         v += step(definitions_.points.size(), kMost), ++asked) {
+    for (std::size_t v = 0; v < definitions_.points.size(); v += every, ++asked) {
       const Place p = expand(static_cast<Index>(v)).exact();
-      const ExactVector other = points_.exact(static_cast<Index>(v));
-      if (!is_number(p.hx(), p.hw(), other[0], unit) ||
-          !is_number(p.hy(), p.hw(), other[1], unit) ||
-          !is_number(p.hz(), p.hw(), other[2], unit)) {
+      if (!is_at(p, points_.exact(static_cast<Index>(v)), unit)) {
         report_.fail("point " + std::to_string(v) + " is elsewhere to CGAL's kernel");
       }
+      if (kept) terms_.push_back(terms(p));
     }
     report_.checked += asked;
     report_.figures.emplace_back("points", static_cast<double>(asked));
+  }
+
+  // Are these the coordinates of a point, in these units?
+  static bool is_at(const Place& p, const ExactVector& x, const Number& unit) {
+    const Number scaled = p.hw() * unit;
+    const auto is = [&scaled](const Number& own, const ExactNumber& other, const Number& below) {
+      return own * below == from_integer(other.numerator()) * scaled;
+    };
+    if (ExactNumber::uniform(x)) {
+      const Number below = from_integer(x[0].denominator());
+      return is(p.hx(), x[0], below) && is(p.hy(), x[1], below) && is(p.hz(), x[2], below);
+    }
+    return is(p.hx(), x[0], from_integer(x[0].denominator())) &&
+           is(p.hy(), x[1], from_integer(x[1].denominator())) &&
+           is(p.hz(), x[2], from_integer(x[2].denominator()));
   }
 
   void check_tetrahedra() {
@@ -399,16 +410,61 @@ class SecondKernel {
     return -1;
   }
 
-  bool on_facet(const Point& p, const ExactRecord::Facet& facet) const {
-    for (const Index t : facet.triangles) {
-      const auto& [i, j, k] = triangles_[t];
-      const Point &a = corners_[i], &b = corners_[j], &c = corners_[k];
-      const auto left = [&](const Point& from, const Point& to) {
-        return between_normals(a, b, c, from, to, p) != CGAL::NEGATIVE;
-      };
-      if (left(a, b) && left(b, c) && left(c, a)) return true;
+  // What is in a plane or on a line by its definition needs no arithmetic: all others that are need
+  // exact numbers to tell.
+  bool is_on_line(Index v, Index a, Index b) const {
+    const ExactPoint& p = definitions_.points[v];
+    return v == a || v == b ||
+           (p.kind == ExactPoint::Kind::on_segment && std::minmax(p.i, p.j) == std::minmax(a, b));
+  }
+  // Are a point and a triangle of the surface given by the corners of that alone, or on one plane?
+  bool is_defined_in_plane(Index v, const std::array<Index, 3>& triangle) const {
+    const ExactPoint& p = definitions_.points[v];
+    std::array<Index, 3> by = {v, v, v};
+    if (p.kind == ExactPoint::Kind::on_segment) by = {p.i, p.j, p.j};
+    if (p.kind == ExactPoint::Kind::on_triangle) by = {p.i, p.j, p.k};
+    const auto is_corner = [&triangle](Index c) {
+      return std::find(triangle.begin(), triangle.end(), c) != triangle.end();
+    };
+    if (std::all_of(by.begin(), by.end(), is_corner)) return true;
+    const ExactPoint& first = definitions_.points[triangle[0]];
+    if (first.kind != ExactPoint::Kind::on_planes) return false;
+    const std::array<Index, 3> planes = {first.i, first.j, first.k};
+    return std::any_of(planes.begin(), planes.end(), [&](Index plane) {
+      const auto on = [&](Index c) { return is_given_on(c, plane); };
+      return std::all_of(by.begin(), by.end(), on) &&
+             std::all_of(triangle.begin(), triangle.end(), on);
+    });
+  }
+  bool is_given_on(Index v, Index plane) const {
+    const ExactPoint& p = definitions_.points[v];
+    return p.kind == ExactPoint::Kind::on_planes && (p.i == plane || p.j == plane || p.k == plane);
+  }
+
+  // Is the point certainly outside the box around a triangle?
+  static bool is_beside(const Point& p, const std::array<const Point*, 3>& triangle) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto x = p.rough[axis];
+      const auto above = [&](const Point* q) { return q->rough[axis].inf() > x.sup(); };
+      const auto below = [&](const Point* q) { return q->rough[axis].sup() < x.inf(); };
+      if (std::all_of(triangle.begin(), triangle.end(), above)) return true;
+      if (std::all_of(triangle.begin(), triangle.end(), below)) return true;
     }
     return false;
+  }
+
+  // Is a point of the facet's plane on one of its triangles?
+  bool on_facet(Index v, const Point& p, const ExactRecord::Facet& facet) const {
+    return std::any_of(facet.triangles.begin(), facet.triangles.end(), [&](Index t) {
+      const auto& [i, j, k] = triangles_[t];
+      const Point &a = corners_[i], &b = corners_[j], &c = corners_[k];
+      if (is_beside(p, {&a, &b, &c})) return false;
+      const auto left = [&](Index from, Index to) {
+        return is_on_line(v, from, to) ||
+               between_normals(a, b, c, corners_[from], corners_[to], p) != CGAL::NEGATIVE;
+      };
+      return left(i, j) && left(j, k) && left(k, i);
+    });
   }
 
   void check_faces() {
@@ -437,9 +493,11 @@ class SecondKernel {
         if (std::find(t.begin(), t.end(), v) != t.end()) continue;
         const auto [where, fresh] =
             known.try_emplace(static_cast<std::uint64_t>(id) << 32 | v, Where::on_facet);
-        if (fresh && orientation(a, b, c, corner) != CGAL::ZERO) {
+        if (!fresh) {
+          // decided before
+        } else if (!is_defined_in_plane(v, t) && orientation(a, b, c, corner) != CGAL::ZERO) {
           where->second = Where::off_plane;
-        } else if (fresh && !on_facet(corner, *facet->second)) {
+        } else if (!on_facet(v, corner, *facet->second)) {
           where->second = Where::beside;
         }
         if (where->second == Where::off_plane) report_.fail(name + " is off its plane");
@@ -460,9 +518,7 @@ class SecondKernel {
       return {p.hx(), p.hy(), p.hz()};
     } else {
       Terms result;
-      const bool known = Residue::of(p.hx(), p.hw(), result[0]) &&
-                         Residue::of(p.hy(), p.hw(), result[1]) &&
-                         Residue::of(p.hz(), p.hw(), result[2]);
+      const bool known = Residue::of({p.hx(), p.hy(), p.hz()}, p.hw(), result);
       if (!known) report_.fail("a prime divides a denominator");  // a chance of 2^-60
       return result;
     }
@@ -479,10 +535,12 @@ class SecondKernel {
     return u[0] * n[0] + u[1] * n[1] + u[2] * n[2];
   }
 
+  static constexpr std::size_t kMostSummed = 20000;
+  bool sums_faces() const { return record_.final_facets.size() <= kMostSummed; }
+  bool sums_tetrahedra() const { return record_.final.size() <= kMostSummed; }
+
   void check_volumes() {
-    constexpr std::size_t kMostTetrahedra = 20000, kMostFaces = 20000;
-    const bool faces = record_.final_facets.size() <= kMostFaces;
-    const bool tetrahedra = record_.final.size() <= kMostTetrahedra;
+    const bool faces = sums_faces(), tetrahedra = sums_tetrahedra();
     report_.checked += (faces ? 1 : 0) + (tetrahedra ? 1 : 0);
     report_.figures.emplace_back("volumes and areas", (faces ? 1 : 0) + (tetrahedra ? 1 : 0));
     if (!faces && !tetrahedra) return;
@@ -490,6 +548,7 @@ class SecondKernel {
     for (const Point& corner : corners_) corners.push_back(terms(corner.exact()));
     std::map<Index, Terms> known;
     const auto at = [&](Index v) -> const Terms& {
+      if (!terms_.empty()) return terms_[v];
       const auto [found, fresh] = known.try_emplace(v);
       if (fresh) found->second = terms(expand(v).exact());
       return found->second;
@@ -536,13 +595,14 @@ class SecondKernel {
   const Polyhedron& input_;
   const std::vector<std::array<Index, 3>>& triangles_;
   const ExactRecord& record_;
-  const std::vector<ExactRecord::Facet> facets_;
+  const std::vector<ExactRecord::Facet>& facets_;
   const ExactPoints& points_;
   const Definitions definitions_;
   std::vector<Place> input_places_;              // by the definitions
   std::vector<Point> corners_;                   // of the surface whose facets are meshed
   std::vector<std::pair<Index, Point>> recent_;  // see expand; kNone: none yet
   std::vector<Direction> directions_;
+  std::vector<Terms> terms_;  // of all points, if all were compared and sums are asked for
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
 };
 
@@ -582,14 +642,14 @@ OracleReport check_second_kernel(const Polyhedron& input, const InputSurface& su
     }
     definitions.planes.clear();
   }
-  std::vector<ExactRecord::Facet> facets = as_given ? facets_of(surface) : record.facets;
+  std::vector<ExactRecord::Facet> made;
+  if (as_given) made = facets_of(surface);
+  const std::vector<ExactRecord::Facet>& facets = as_given ? made : record.facets;
   if (definitions.planes.empty()) {
-    return SecondKernel<Whole>(input, surface, record, std::move(facets), points,
-                               std::move(definitions))
+    return SecondKernel<Whole>(input, surface, record, facets, points, std::move(definitions))
         .run();
   }
-  return SecondKernel<Fractions>(input, surface, record, std::move(facets), points,
-                                 std::move(definitions))
+  return SecondKernel<Fractions>(input, surface, record, facets, points, std::move(definitions))
       .run();
 }
 
