@@ -71,6 +71,10 @@ class Conformity {
   bool is_triangle(Index facet, std::span<const Index> triangles,
                    const std::vector<Index>& faces) const;
   void check_facet(Index facet, std::span<const Index> triangles, const std::vector<Index>& faces);
+  // Is a point certainly no farther from the line of an edge, or the plane of a facet, than the
+  // largest deviation so far? Then its distance need not be known.
+  bool surely_seen(const InputSurface::Edge& edge, Index v) const;
+  bool surely_seen(const InputSurface::Facet& facet, Index v) const;
   void deviate(double distance) {
     // The few roundings of measuring stay below this factor.
     result_.deviation = std::max(result_.deviation, distance * (1 + 1e-12));
@@ -319,6 +323,22 @@ bool Conformity::find_chain(const InputSurface::Edge& edge, std::vector<Index>& 
   return false;
 }
 
+// The square of a height times a length is at most the square of the deviation so far times the
+// square of the length, with far more room than the roundings of measuring take.
+bool Conformity::surely_seen(const InputSurface::Edge& edge, Index v) const {
+  const IntervalVector along = points_.rough_difference(edge.from, edge.to);
+  const IntervalVector off = exact::cross(along, points_.rough_difference(edge.from, v));
+  const double most = result_.deviation * (1 - 1e-9);
+  return exact::dot(off, off).high <= most * most * exact::dot(along, along).low;
+}
+
+bool Conformity::surely_seen(const InputSurface::Facet& facet, Index v) const {
+  const IntervalVector& normal = facet.rough_normal;
+  const Interval off = exact::dot(normal, points_.rough_difference(facet.span[0], v));
+  const double most = result_.deviation * (1 - 1e-9);
+  return (off * off).high <= most * most * exact::dot(normal, normal).low;
+}
+
 // Says that a facet is to the left of a directed edge; false if that was said before. An edge of no
 // face is left to check_borders.
 bool Conformity::put_in_chain(Index a, Index b, Index facet) {
@@ -350,7 +370,8 @@ void Conformity::follow_edges() {
                             complex_.vertex_name(chain[i]) + " with another input edge");
       }
       ++result_.chain_edges;
-      if (options_.exact || exact::equal(points_, chain[i], edge.to)) continue;
+      if (options_.exact || surely_seen(edge, chain[i])) continue;
+      if (exact::equal(points_, chain[i], edge.to)) continue;
       const ExactVector direction = exact::difference(points_, edge.from, edge.to);
       const ExactVector off =
           exact::cross(direction, exact::difference(points_, edge.from, chain[i]));
@@ -478,6 +499,7 @@ void Conformity::check_facet(Index facet, std::span<const Index> triangles,
   make_unique(vertices);
   make_unique(edges);
   for (const Index v : vertices) {
+    if (!options_.exact && surely_seen(input, v)) continue;
     if (input.side(points_, v) == 0) continue;
     const ExactVector normal = input.area2(points_);
     const ExactNumber off = exact::dot(normal, exact::difference(points_, input.span[0], v));

@@ -167,11 +167,15 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   ConformityResult result =
       check_conformity(complex, neighbours, surface, {.exact = true, .first_failure_ends = true});
   if (result.report.passed()) return result;
+  // What fails by positions alone is judged by the record's chains, if there is one.
+  const bool recorded = exact_ != nullptr && !exact_->final.empty();
   const auto check = [&](const InputSurface& on, ConformityOptions options) {
+    options.first_failure_ends = recorded;
     ConformityResult r = check_conformity(complex, neighbours, on, options);
-    if (r.report.passed() || exact_ == nullptr || exact_->final.empty()) return r;
+    if (r.report.passed() || !recorded) return r;
     const auto chains = recorded_chains(on);
     options.chains = &chains;
+    options.first_failure_ends = false;
     return check_conformity(complex, neighbours, on, options);
   };
   const double rounding = kRoundedUlps * ulp_ / diagonal_;
