@@ -377,8 +377,9 @@ class ChamferExtent {
  private:
   void check_point(Index p, Index vertex);
   void check_chain(const ExactRecord::Chain& chain);
-  bool contains_midpoint(Index facet, Index a, Index b);
-  bool crosses_border(Index facet, Index a, Index b);
+  int side_of_midpoint(const InputSurface::Facet& facet, Index p, Index q, Index a, Index b) const;
+  bool contains_midpoint(Index facet, Index a, Index b) const;
+  bool crosses_border(Index facet, Index a, Index b) const;
   bool is_whole(std::span<const Index> triangles, const std::vector<Face>& faces) const;
   void check_areas();
 
@@ -453,27 +454,41 @@ void ChamferExtent::check_chain(const ExactRecord::Chain& chain) {
   }
 }
 
+// The side of p -> q on which the midpoint of two points of the facet's plane lies: 1 inside of the
+// facet where that is to the left.
+int ChamferExtent::side_of_midpoint(const InputSurface::Facet& facet, Index p, Index q, Index a,
+                                    Index b) const {
+  const auto on_line = [&](Index v) {
+    return v == p || v == q || points_.is_combination(v, {p, q, q});
+  };
+  if (on_line(a) && on_line(b)) return 0;
+  if (a == b) return facet.facing(points_, {p, q, a});
+  const IntervalVector s = exact::rough_area2(points_, p, q, a),
+                       t = exact::rough_area2(points_, p, q, b);
+  const int rough =
+      exact::dot(facet.rough_normal, IntervalVector{s[0] + t[0], s[1] + t[1], s[2] + t[2]}).sign();
+  if (rough != 2) return rough;
+  const ExactVector u = exact::area2(points_, p, q, a), v = exact::area2(points_, p, q, b);
+  const ExactVector sum = {ExactNumber(u[0] + v[0]), ExactNumber(u[1] + v[1]),
+                           ExactNumber(u[2] + v[2])};
+  return sgn(exact::dot(facet.normal(points_), sum));
+}
+
 // Is the midpoint in the closed facet, that is, in one of its closed triangles?
-bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) {
-  const ExactVector normal = surface_.facets()[facet].normal(points_);
+bool ChamferExtent::contains_midpoint(Index facet, Index a, Index b) const {
   return std::any_of(found_.begin(), found_.end(), [&](Index t) {
     if (surface_.facet_of_triangle()[t] != facet) return false;
-    for (int i = 0; i < 3; ++i) {
-      const Index p = surface_.triangles()[t][i], q = surface_.triangles()[t][(i + 1) % 3];
-      const ExactVector u = exact::difference(points_, p, a), v = exact::difference(points_, p, b);
-      const ExactVector sum = {ExactNumber(u[0] + v[0]), ExactNumber(u[1] + v[1]),
-                               ExactNumber(u[2] + v[2])};
-      if (exact::dot(normal, exact::cross(exact::difference(points_, p, q), sum)) < 0) return false;
-    }
-    return true;
+    const auto& [p, q, r] = surface_.triangles()[t];
+    const InputSurface::Facet& plane = surface_.facets()[facet];
+    return side_of_midpoint(plane, p, q, a, b) >= 0 && side_of_midpoint(plane, q, r, a, b) >= 0 &&
+           side_of_midpoint(plane, r, p, a, b) >= 0;
   });
 }
 
 // Does the edge cross the facet's border properly, through the inside of both?
-bool ChamferExtent::crosses_border(Index facet, Index a, Index b) {
-  const ExactVector normal = surface_.facets()[facet].normal(points_);
+bool ChamferExtent::crosses_border(Index facet, Index a, Index b) const {
   const auto side = [&](Index p, Index q, Index r) {
-    return sgn(exact::dot(normal, exact::area2(points_, p, q, r)));
+    return side_of_midpoint(surface_.facets()[facet], p, q, r, r);
   };
   return std::any_of(found_.begin(), found_.end(), [&](Index t) {
     if (surface_.facet_of_triangle()[t] != facet) return false;

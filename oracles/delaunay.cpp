@@ -123,21 +123,37 @@ class Sight {
     }
     return sum;
   }
+  IntervalVector rough_towards_centroid(Index from, const Tet& tet) const {
+    IntervalVector sum;
+    for (const Index c : tet) {
+      const IntervalVector d = points_.rough_difference(from, c);
+      for (int axis = 0; axis < 3; ++axis) sum[axis] = sum[axis] + d[axis];
+    }
+    return sum;
+  }
+
+  // The side of a triangle on which the centroid lies.
+  int side_of_centroid(const std::array<Index, 3>& triangle, const Tet& tet) const {
+    const auto& [a, b, c] = triangle;
+    const int rough =
+        exact::dot(exact::rough_area2(points_, a, b, c), rough_towards_centroid(a, tet)).sign();
+    if (rough != 2) return rough;
+    return sgn(exact::dot(exact::area2(points_, a, b, c), towards_centroid(a, tet)));
+  }
+
+  // How the line from v to the centroid passes the line from a to b.
+  int passes(Index a, Index b, const Tet& tet, Index v) const {
+    const int rough =
+        exact::dot(rough_towards_centroid(v, tet), exact::rough_area2(points_, v, a, b)).sign();
+    if (rough != 2) return rough;
+    return sgn(exact::dot(towards_centroid(v, tet), exact::area2(points_, v, a, b)));
+  }
 
   bool crosses(const std::array<Index, 3>& triangle, const Tet& tet, Index v) const {
     const auto& [a, b, c] = triangle;
-    const ExactVector normal = exact::area2(points_, a, b, c);
-    const int near = sgn(exact::dot(normal, towards_centroid(a, tet)));
-    const int far = sgn(exact::dot(normal, exact::difference(points_, a, v)));
-    if (near * far >= 0) return false;
+    if (exact::orient3d(points_, a, b, c, v) * side_of_centroid(triangle, tet) >= 0) return false;
     // The line from v to the centroid passes the three sides on the same side, or meets them.
-    const ExactVector line = towards_centroid(v, tet);
-    int sides[3];
-    for (int i = 0; i < 3; ++i) {
-      sides[i] =
-          sgn(exact::dot(line, exact::cross(exact::difference(points_, v, triangle[i]),
-                                            exact::difference(points_, v, triangle[(i + 1) % 3]))));
-    }
+    const int sides[3] = {passes(a, b, tet, v), passes(b, c, tet, v), passes(c, a, tet, v)};
     const auto [low, high] = std::minmax({sides[0], sides[1], sides[2]});
     return low * high >= 0;
   }

@@ -37,6 +37,22 @@ mpq_class squared_distance_to_face(const ExactPoints& points, Index v,
   return ratio(height * height, exact::squared(n));
 }
 
+bool lies_on_face(const ExactPoints& points, Index v, const std::array<Index, 3>& triangle) {
+  const Index a = triangle[0], b = triangle[1], c = triangle[2];
+  if (exact::orient3d(points, a, b, c, v) != 0) return false;
+  const IntervalVector rough = exact::rough_area2(points, a, b, c);
+  if (exact::dot(rough, rough).sign() != 1 && exact::is_zero(exact::area2(points, a, b, c))) {
+    return false;
+  }
+  const auto left = [&](Index p, Index q) {
+    if (v == p || v == q || points.is_combination(v, {p, q, q})) return true;
+    const int sign = exact::dot(rough, exact::rough_area2(points, p, q, v)).sign();
+    if (sign != 2) return sign >= 0;
+    return exact::dot(exact::area2(points, a, b, c), exact::area2(points, p, q, v)) >= 0;
+  };
+  return left(a, b) && left(b, c) && left(c, a);
+}
+
 mpq_class squared_distance_to_triangle(const ExactPoints& points, Index v,
                                        const std::array<Index, 3>& triangle) {
   const mpq_class face = squared_distance_to_face(points, v, triangle);

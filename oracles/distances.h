@@ -17,6 +17,8 @@ mpq_class squared_distance_inside(const ExactPoints& points, Index a, Index b, I
 // outside, or the triangle is flat.
 mpq_class squared_distance_to_face(const ExactPoints& points, Index v,
                                    const std::array<Index, 3>& triangle);
+// Is that distance zero?
+bool lies_on_face(const ExactPoints& points, Index v, const std::array<Index, 3>& triangle);
 // The distance from the closed triangle, wherever the foot lies.
 mpq_class squared_distance_to_triangle(const ExactPoints& points, Index v,
                                        const std::array<Index, 3>& triangle);

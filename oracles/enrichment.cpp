@@ -17,9 +17,8 @@ using delmesher::ExactRecord;
 bool lies_on_surface(const ExactPoints& points, const InputSurface& surface, Index v) {
   std::vector<Index> found;
   surface.triangles_near(box_around(points, std::array{v}), found);
-  return std::any_of(found.begin(), found.end(), [&](Index t) {
-    return squared_distance_to_face(points, v, surface.triangles()[t]) == 0;
-  });
+  return std::any_of(found.begin(), found.end(),
+                     [&](Index t) { return lies_on_face(points, v, surface.triangles()[t]); });
 }
 
 class Enrichment {

@@ -65,7 +65,10 @@ bool terms_in_doubles(const ExactPoints& points, const Tet& tet, Terms& terms) {
 constexpr mp_bitcnt_t kBits = 256;
 
 mpf_class rounded(const ExactNumber& x) {
-  return mpf_class(x.rational(), kBits);
+  mpq_class fraction;  // not in lowest terms, which take longer to find than all the rest
+  fraction.get_num() = x.numerator();
+  fraction.get_den() = x.denominator();
+  return mpf_class(fraction, kBits);
 }
 
 TetShape exact_shape(const ExactPoints& points, const Tet& tet) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 namespace tetproof::oracles {
@@ -60,6 +61,33 @@ TEST(Distances, ToAFaceCountWhereTheFootIsOnIt) {
   EXPECT_LT(squared_distance_to_face(points, 3, {0, 1, 7}), 0);
   EXPECT_EQ(length_of(squared_distance_to_triangle(points, 6, {0, 1, 7}), points),
             length_of(squared_distance_to_segment(points, 6, 0, 1), points));
+}
+
+// On a lattice, where many points are on faces, their edges and their corners, and of points that
+// are given on a side, beyond its ends as well.
+TEST(Distances, AreZeroOnTheFaceAlone) {
+  std::vector<delmesher::ExactPoint> definitions;
+  for (int n = 0; n < 64; ++n) {
+    definitions.push_back({delmesher::ExactPoint::Kind::explicit_point, 0, 0, 0,
+                           static_cast<double>(n % 4), static_cast<double>(n / 4 % 4),
+                           static_cast<double>(n / 16)});
+  }
+  for (const double share : {-0.25, 0.3, 1.25}) {
+    definitions.push_back({delmesher::ExactPoint::Kind::on_segment, 5, 43, 0, share, 0, 0});
+  }
+  ExactPoints points;
+  ASSERT_EQ(points.assign(definitions), "");
+  std::array<int, 2> counts{};
+  for (const std::array<Index, 3>& face : std::vector<std::array<Index, 3>>{
+           {5, 43, 48}, {43, 5, 3}, {0, 3, 15}, {0, 63, 12}, {0, 21, 42}, {1, 54, 27}}) {
+    for (Index v = 0; v < points.size(); ++v) {
+      const bool on = squared_distance_to_face(points, v, face) == 0;
+      EXPECT_EQ(lies_on_face(points, v, face), on) << v;
+      ++counts[on ? 1 : 0];
+    }
+  }
+  EXPECT_GT(counts[0], 300);
+  EXPECT_GT(counts[1], 20);
 }
 
 }  // namespace
