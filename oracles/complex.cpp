@@ -7,10 +7,17 @@
 namespace tetproof::oracles {
 namespace {
 
-// A face, listed among the faces with the same lowest corner.
+// A face, listed among the faces with the same lowest corner. The other two corners are one number,
+// as most of the time goes into comparing them.
 struct FaceRecord {
-  Index middle, high, opposite;  // the other corners, and the tetrahedron's fourth
+  std::uint64_t corners;
+  Index opposite;  // the tetrahedron's fourth corner
   Index packed;
+  static std::uint64_t pack(const Face& sorted) {
+    return static_cast<std::uint64_t>(sorted[1]) << 32 | sorted[2];
+  }
+  Index middle() const { return static_cast<Index>(corners >> 32); }
+  Index high() const { return static_cast<Index>(corners); }
   Index tet_face() const { return packed & ~kEven; }
   bool even() const { return (packed & kEven) != 0; }
   // Set if the face sorted is an even permutation of the face seen from outside.
@@ -197,15 +204,20 @@ void match_face(const TetComplex& complex, const Face& sorted, std::span<const F
 // sorting the faces themselves takes four times the memory and most of the time.
 std::uint64_t match_faces(const TetComplex& complex, Neighbours& neighbours,
                           std::vector<Face>& boundary, OracleReport& report) {
-  const auto lowest = [&complex](Index tet_face) {
-    const Face face = face_of(complex.tetrahedra[tet_face / 4], static_cast<int>(tet_face % 4));
-    return std::min({face[0], face[1], face[2]});
+  // The lowest corner of a face is that of the tetrahedron, or else the second one.
+  const auto for_each_face = [&complex](const auto& visit) {
+    for (Index t = 0; t < complex.tetrahedra.size(); ++t) {
+      const Tet& tet = complex.tetrahedra[t];
+      const auto [a, b] = std::minmax(tet[0], tet[1]);
+      const auto [c, d] = std::minmax(tet[2], tet[3]);
+      const Index lowest = std::min(a, c), second = a < c ? std::min(b, c) : std::min(a, d);
+      for (Index i = 0; i < 4; ++i) visit(tet[i] == lowest ? second : lowest, 4 * t + i);
+    }
   };
-  const auto count = static_cast<Index>(4 * complex.tetrahedra.size());
   Buckets by_lowest(complex.points->size());
-  for (Index i = 0; i < count; ++i) by_lowest.count(lowest(i));
+  for_each_face([&](Index lowest, Index) { by_lowest.count(lowest); });
   by_lowest.allot();
-  for (Index i = 0; i < count; ++i) by_lowest.put(lowest(i), i);
+  for_each_face([&](Index lowest, Index tet_face) { by_lowest.put(lowest, tet_face); });
   std::vector<FaceRecord> faces;
   std::uint64_t distinct = 0;
   for (Index v = 0; v < complex.points->size(); ++v) {
@@ -214,17 +226,14 @@ std::uint64_t match_faces(const TetComplex& complex, Neighbours& neighbours,
       const Tet& tet = complex.tetrahedra[i / 4];
       Face face = face_of(tet, static_cast<int>(i % 4));
       const bool even = sort_face(face);
-      faces.push_back({face[1], face[2], tet[i % 4], i | (even ? FaceRecord::kEven : 0)});
+      faces.push_back({FaceRecord::pack(face), tet[i % 4], i | (even ? FaceRecord::kEven : 0)});
     }
     std::sort(faces.begin(), faces.end());
     for (std::size_t i = 0; i < faces.size(); ++distinct) {
       std::size_t j = i + 1;
-      while (j < faces.size() && faces[j].middle == faces[i].middle &&
-             faces[j].high == faces[i].high) {
-        ++j;
-      }
-      match_face(complex, {v, faces[i].middle, faces[i].high}, std::span(faces).subspan(i, j - i),
-                 neighbours, boundary, report);
+      while (j < faces.size() && faces[j].corners == faces[i].corners) ++j;
+      match_face(complex, {v, faces[i].middle(), faces[i].high()},
+                 std::span(faces).subspan(i, j - i), neighbours, boundary, report);
       i = j;
     }
   }
