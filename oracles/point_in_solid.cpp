@@ -271,25 +271,37 @@ bool beyond_edge(const ExactPoints& points, const std::array<Index, 3>& triangle
 }
 
 // The half-spaces beyond the faces of a tetrahedron. Their normals may be rounded, as long as the
-// whole tetrahedron is short of the offset.
+// whole tetrahedron is short of the offset: the roundings of a height, those of the point among
+// them, are below 2^-49 of the sum of the sizes of its terms, unless these underflow.
 std::vector<BoxTree::HalfSpace> beyond_faces(const ExactPoints& points,
                                              const std::array<Index, 4>& tetrahedron) {
   std::vector<BoxTree::HalfSpace> result(4);
-  for (int i = 0; i < 4; ++i) {
-    const Index a = tetrahedron[(i + 1) % 4], b = tetrahedron[(i + 2) % 4],
-                c = tetrahedron[(i + 3) % 4];
-    const IntervalVector area = exact::rough_area2(points, a, b, c);
-    Position normal = {middle(area[0]), middle(area[1]), middle(area[2])};
-    const auto height = [&](Index v) {
-      const IntervalVector x = points.enclosure(v);
-      return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2];
-    };
-    const Index apex = tetrahedron[i];
-    if (middle(height(apex)) > middle(height(a))) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Position &a = points.nearest(tetrahedron[(i + 1) % 4]),
+                   &b = points.nearest(tetrahedron[(i + 2) % 4]),
+                   &c = points.nearest(tetrahedron[(i + 3) % 4]),
+                   &apex = points.nearest(tetrahedron[i]);
+    Position u, v, w;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      u[axis] = b[axis] - a[axis];
+      v[axis] = c[axis] - a[axis];
+      w[axis] = apex[axis] - a[axis];
+    }
+    Position normal = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                       u[0] * v[1] - u[1] * v[0]};
+    if (normal[0] * w[0] + normal[1] * w[1] + normal[2] * w[2] > 0) {
       for (double& x : normal) x = -x;
     }
-    result[i] = {normal,
-                 std::max({height(a).high, height(b).high, height(c).high, height(apex).high})};
+    const auto height = [&normal](const Position& p) {
+      double sum = 0, size = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double term = normal[axis] * p[axis];
+        sum += term;
+        size += std::fabs(term);
+      }
+      return sum + size * 0x1p-49 + 0x1p-1000;
+    };
+    result[i] = {normal, std::max({height(a), height(b), height(c), height(apex)})};
   }
   return result;
 }
