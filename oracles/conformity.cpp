@@ -248,9 +248,8 @@ double Conformity::progress(const InputSurface::Edge& edge, Index v, double& dis
 
 // Exactly: is `next` on the line of the edge, beyond `here` and not beyond the edge's end?
 bool Conformity::advances(const InputSurface::Edge& edge, Index here, Index next) const {
-  const bool on = points_.is_combination(next, {edge.from, edge.to, edge.to}) ||
-                  exact::collinear(points_, edge.from, edge.to, next);
-  return on && exact::dot_sign(points_, edge.from, edge.to, here, next) > 0 &&
+  return exact::collinear(points_, edge.from, edge.to, next) &&
+         exact::dot_sign(points_, edge.from, edge.to, here, next) > 0 &&
          exact::dot_sign(points_, edge.from, edge.to, next, edge.to) >= 0;
 }
 

@@ -13,7 +13,26 @@ mpq_class squared_distance_to_segment(const ExactPoints& points, Index v, Index 
   return ratio(exact::squared(exact::cross(d, w)), exact::squared(d));
 }
 
+namespace {
+
+// Is a share certainly not between 0 and 1, for it and 1 times something positive?
+bool surely_outside(const Interval& share, const Interval& whole) {
+  return share.sign() == -1 || (share - whole).sign() == 1;
+}
+
+// As in squared_distance_inside.
+bool surely_not_inside(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  const IntervalVector u = points.rough_difference(a, b), v = points.rough_difference(c, d),
+                       w = points.rough_difference(a, c), n = exact::cross(u, v);
+  const Interval nn = exact::dot(n, n);
+  return surely_outside(exact::dot(exact::cross(w, v), n), nn) ||
+         surely_outside(exact::dot(exact::cross(w, u), n), nn);
+}
+
+}  // namespace
+
 mpq_class squared_distance_inside(const ExactPoints& points, Index a, Index b, Index c, Index d) {
+  if (surely_not_inside(points, a, b, c, d)) return -1;
   const ExactVector u = exact::difference(points, a, b), v = exact::difference(points, c, d),
                     w = exact::difference(points, a, c), n = exact::cross(u, v);
   const ExactNumber nn = exact::squared(n);
@@ -27,6 +46,11 @@ mpq_class squared_distance_inside(const ExactPoints& points, Index a, Index b, I
 
 mpq_class squared_distance_to_face(const ExactPoints& points, Index v,
                                    const std::array<Index, 3>& triangle) {
+  const IntervalVector rough = exact::rough_area2(points, triangle[0], triangle[1], triangle[2]);
+  for (int i = 0; i < 3; ++i) {
+    const Index p = triangle[i], q = triangle[(i + 1) % 3];
+    if (exact::dot(rough, exact::rough_area2(points, p, q, v)).sign() == -1) return -1;
+  }
   const ExactVector n = exact::area2(points, triangle[0], triangle[1], triangle[2]);
   if (exact::is_zero(n)) return -1;
   for (int i = 0; i < 3; ++i) {

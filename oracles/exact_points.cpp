@@ -90,16 +90,18 @@ std::string check_point(std::span<const ExactPoint> points, std::size_t planes, 
   return {};
 }
 
-// normal . x = offset
+using Integers = std::array<mpz_class, 3>;
+
+// normal . x = offset * 2^exponent, of any length. Integers, because the fractions that rational
+// numbers reduce again and again take most of the time that points on planes take.
 struct Equation {
-  std::array<mpq_class, 3> normal;
-  mpq_class offset;
+  Integers normal;
+  mpz_class offset;
+  long exponent;
 };
 
-using Rational = std::array<mpq_class, 3>;
-
-Rational cross(const Rational& u, const Rational& v) {
-  Rational n;
+Integers cross(const Integers& u, const Integers& v) {
+  Integers n;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     n[i] = u[j] * v[k] - u[k] * v[j];
@@ -107,25 +109,38 @@ Rational cross(const Rational& u, const Rational& v) {
   return n;
 }
 
-mpq_class dot(const Rational& u, const Rational& v) {
+mpz_class dot(const Integers& u, const Integers& v) {
   return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
+// The exponent at which all numbers are integers.
+long common_exponent(std::span<const std::array<double, 3>> vectors) {
+  long exponent = std::numeric_limits<int>::max();
+  for (const auto& x : vectors) {
+    for (const double value : x) lower(exponent, value, 0);
+  }
+  return exponent == std::numeric_limits<int>::max() ? 0 : exponent;
+}
+
+Integers scaled(const std::array<double, 3>& x, long exponent) {
+  return {scaled(dyadic(x[0]), exponent), scaled(dyadic(x[1]), exponent),
+          scaled(dyadic(x[2]), exponent)};
+}
+
 Equation equation(const delmesher::ExactRecord::Plane& plane) {
-  const auto vector = [](const std::array<double, 3>& x) {
-    return Rational{mpq_class(x[0]), mpq_class(x[1]), mpq_class(x[2])};
-  };
-  const Rational a = vector(plane.through[0]);
+  const std::span through(plane.through);
   Equation result;
+  result.exponent = common_exponent(plane.spanned ? through : through.first(1));
+  const Integers a = scaled(through[0], result.exponent);
   if (plane.spanned) {
-    Rational u = vector(plane.through[1]), v = vector(plane.through[2]);
+    Integers u = scaled(through[1], result.exponent), v = scaled(through[2], result.exponent);
     for (int i = 0; i < 3; ++i) {
       u[i] -= a[i];
       v[i] -= a[i];
     }
     result.normal = cross(u, v);
   } else {
-    result.normal = vector(plane.normal);
+    result.normal = scaled(plane.normal, common_exponent({&plane.normal, 1}));
   }
   result.offset = dot(result.normal, a);
   return result;
@@ -143,27 +158,38 @@ bool is_finite(const delmesher::ExactRecord::Plane& plane) {
   return true;
 }
 
+mpz_class shifted(const mpz_class& value, long exponent) {
+  return value << static_cast<unsigned long>(exponent);
+}
+
+using Rational = std::array<mpq_class, 3>;
+
 // The point where three planes meet (Cramer's rule); nothing if they do not meet in one point.
 std::optional<Rational> meeting_point(const Equation& p, const Equation& q, const Equation& r) {
-  const Rational qr = cross(q.normal, r.normal), rp = cross(r.normal, p.normal),
+  const Integers qr = cross(q.normal, r.normal), rp = cross(r.normal, p.normal),
                  pq = cross(p.normal, q.normal);
-  const mpq_class determinant = dot(p.normal, qr);
+  const mpz_class determinant = dot(p.normal, qr);
   if (determinant == 0) return std::nullopt;
+  const long exponent = std::min({p.exponent, q.exponent, r.exponent});
+  const Integers offsets = {shifted(p.offset, p.exponent - exponent),
+                            shifted(q.offset, q.exponent - exponent),
+                            shifted(r.offset, r.exponent - exponent)};
   Rational x;
   for (int i = 0; i < 3; ++i) {
-    x[i] = (p.offset * qr[i] + q.offset * rp[i] + r.offset * pq[i]) / determinant;
+    const mpz_class sum = offsets[0] * qr[i] + offsets[1] * rp[i] + offsets[2] * pq[i];
+    x[i] = mpq_class(shifted(sum, std::max(0L, exponent)),
+                     shifted(determinant, std::max(0L, -exponent)));
+    x[i].canonicalize();
   }
   return x;
 }
 
-// For coordinates times 2^-exponent. The numbers of a plane are multiples of powers of two.
+// For coordinates times 2^-exponent.
 ExactPoints::IntegerPlane integer_plane(const Equation& plane, long exponent) {
-  std::array<mpq_class, 4> numbers = {plane.normal[0], plane.normal[1], plane.normal[2],
-                                      times_power_of_two(plane.offset, -exponent)};
-  mpz_class common = 1;
-  for (const mpq_class& x : numbers) common = lcm(common, mpz_class(x.get_den()));
-  for (mpq_class& x : numbers) x *= common;
-  return {{numbers[0].get_num(), numbers[1].get_num(), numbers[2].get_num()}, numbers[3].get_num()};
+  const long larger = plane.exponent - exponent, shift = std::max(0L, -larger);
+  return {{shifted(plane.normal[0], shift), shifted(plane.normal[1], shift),
+           shifted(plane.normal[2], shift)},
+          shifted(plane.offset, std::max(0L, larger))};
 }
 
 constexpr long kNoExponent = std::numeric_limits<int>::max();
@@ -531,6 +557,22 @@ Number diametral(const std::array<Number, 3>& u, const std::array<Number, 3>& v,
   return sum;
 }
 
+// Encloses (b - a) . (q - p) by rounded values and a bound, explained in ball_side.cpp: 3 monomials
+// of degree 2.
+Interval quick_dot(const ExactPoints& points, Index a, Index b, Index p, Index q) {
+  double value = 0, size = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double u = points.nearest(b)[axis] - points.nearest(a)[axis];
+    const double v = points.nearest(q)[axis] - points.nearest(p)[axis];
+    value += u * v;
+    size = std::max({size, std::fabs(u), std::fabs(v)});
+  }
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  if (!(size > 0x1p-100 && size < 0x1p100)) return {-kInfinite, kInfinite};
+  const double error = 2 * (16 * 3 + 2 * 3) * size * (size * 0x1p-53 + points.difference_error());
+  return {value - error, value + error};
+}
+
 bool uniform(const ExactVector& u, const ExactVector& v) {
   return ExactNumber::uniform(u) && ExactNumber::uniform(v);
 }
@@ -699,6 +741,8 @@ int dot_sign(const ExactPoints& points, Index apex, Index p, Index q) {
 }
 
 int dot_sign(const ExactPoints& points, Index a, Index b, Index p, Index q) {
+  const int quick = quick_dot(points, a, b, p, q).sign();
+  if (quick != 2) return quick;
   const int sign = dot(rough_difference(points, a, b), rough_difference(points, p, q)).sign();
   if (sign != 2) return sign;
   return sgn(dot(difference(points, a, b), difference(points, p, q)));
@@ -723,6 +767,7 @@ IntervalVector rough_area2(const ExactPoints& points, Index a, Index b, Index c)
 }
 
 bool collinear(const ExactPoints& points, Index a, Index b, Index c) {
+  if (c == a || c == b || points.is_combination(c, {a, b, b})) return true;
   const IntervalVector u = rough_difference(points, a, b), v = rough_difference(points, a, c);
   for (int axis = 0; axis < 3; ++axis) {
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;

@@ -191,8 +191,7 @@ void Segments::check_input(std::size_t n, const ExactRecord::Chain& chain) {
   }
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     const Index v = ordered[i];
-    const bool on = points_.is_combination(v, {edge.from, edge.to, edge.to}) ||
-                    exact::collinear(points_, edge.from, edge.to, v);
+    const bool on = exact::collinear(points_, edge.from, edge.to, v);
     if (!on) report_.fail(name + ": " + complex_.vertex_name(v) + " is off " + edge_name(edge));
     const bool on_way = i == 0 ? along_edge(points_, edge, edge.from, v) >= 0
                                : along_edge(points_, edge, ordered[i - 1], v) > 0;
