@@ -218,17 +218,51 @@ class SecondKernel {
     }
     return point;
   }
-  Point place_exactly(Index v) const {
+  Point place_exactly(Index v) {
     const ExactPoint& p = definitions_.points[v];
     if (p.kind == ExactPoint::Kind::explicit_point || p.kind == ExactPoint::Kind::on_planes) {
       return Point(corner(v));
     }
     const bool triangle = p.kind == ExactPoint::Kind::on_triangle;
-    const std::array<Place, 3> at = {corner(p.i), corner(p.j),
-                                     triangle ? corner(p.k) : corner(p.j)};
-    const Number first(p.x), second(triangle ? p.y : 0);
-    return Point(combined(at, std::array{first, second, Number(1) - first - second}));
+    const Corners& at = of_equal_weight({p.i, triangle ? p.j : kNone, triangle ? p.k : p.j});
+    const Number first(p.x), second(triangle ? p.y : 0), third = Number(1) - first - second;
+    const auto sum = [&](std::size_t axis) {
+      const Number ends = at.places[0][axis] * first + at.places[2][axis] * third;
+      return triangle ? ends + at.places[1][axis] * second : ends;
+    };
+    return Point(oracles::place<K>(sum(0), sum(1), sum(2), at.weight));
   }
+
+  // The corners of a triangle or, without the second one, of a segment; their homogeneous
+  // coordinates are multiplied so that they have one weight. A point given on them is a sum of
+  // products with short numbers then, and most have their corners in common with others.
+  struct Corners {
+    std::array<Index, 3> vertices = {kNone, kNone, kNone};
+    std::array<std::array<Number, 3>, 3> places;
+    Number weight;
+  };
+  const Corners& of_equal_weight(const std::array<Index, 3>& vertices) {
+    constexpr std::size_t kMost = 1024;
+    if (recent_corners_.empty()) {
+      recent_corners_.resize(std::min(kMost, definitions_.points.size()));
+    }
+    const auto& [i, j, k] = vertices;
+    Corners& slot =
+        recent_corners_[(i + 31 * std::size_t{j} + 1009 * std::size_t{k}) % recent_corners_.size()];
+    if (slot.vertices == vertices) return slot;
+    slot = {.vertices = vertices, .places = {}, .weight = Number(1)};
+    for (std::size_t n = 0; n < 3; ++n) {
+      if (vertices[n] == kNone) continue;
+      const Place p = corner(vertices[n]);
+      for (std::size_t m = 0; m < n; ++m) {
+        for (Number& x : slot.places[m]) x = x * p.hw();
+      }
+      slot.places[n] = {p.hx() * slot.weight, p.hy() * slot.weight, p.hz() * slot.weight};
+      slot.weight = slot.weight * p.hw();
+    }
+    return slot;
+  }
+
   // The sum of points times shares that add up to 1.
   template <std::size_t N>
   static Place combined(const std::array<Place, N>& points, const std::array<Number, N>& shares) {
@@ -601,6 +635,7 @@ class SecondKernel {
   std::vector<Place> input_places_;              // by the definitions
   std::vector<Point> corners_;                   // of the surface whose facets are meshed
   std::vector<std::pair<Index, Point>> recent_;  // see expand; kNone: none yet
+  std::vector<Corners> recent_corners_;          // see of_equal_weight
   std::vector<Direction> directions_;
   std::vector<Terms> terms_;  // of all points, if all were compared and sums are asked for
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
