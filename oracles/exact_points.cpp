@@ -49,6 +49,31 @@ void lower(long& exponent, double value, long offset) {
   exponent = std::min(exponent, dyadic(value).exponent + offset);
 }
 
+// numerator / denominator * 2^exponent, rounded towards zero, to 64 bits and then to an ulp;
+// without a denominator, it is 1. Allocating takes longer than the arithmetic.
+double quotient(const mpz_class& numerator, const mpz_class* denominator, long exponent) {
+  thread_local mpz_class scaled;
+  const mpz_class* value = &numerator;
+  if (denominator != nullptr) {
+    const auto bits = [](const mpz_class& n) {
+      return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
+    };
+    const long missing = std::max(0L, 64 + bits(*denominator) - bits(numerator));
+    mpz_mul_2exp(scaled.get_mpz_t(), numerator.get_mpz_t(), static_cast<unsigned long>(missing));
+    mpz_tdiv_q(scaled.get_mpz_t(), scaled.get_mpz_t(), denominator->get_mpz_t());
+    value = &scaled;
+    exponent -= missing;
+  }
+  long shift = 0;
+  const double fraction = mpz_get_d_2exp(&shift, value->get_mpz_t());
+  const long e = shift + exponent;
+  return std::ldexp(fraction, static_cast<int>(std::clamp(e, -5000L, 5000L)));
+}
+
+const mpz_class* denominator_of(const ExactNumber& value) {
+  return value.is_integer() ? nullptr : &*value.shared_denominator();
+}
+
 // The rest of value * 2^exponent beyond its double `nearest`, to 2^-52 of itself. The rest is 0
 // only if the double is exact, and NaN, which decides nothing, where the rest cannot be had.
 double rest(const ExactNumber& value, long exponent, double nearest) {
@@ -60,7 +85,14 @@ double rest(const ExactNumber& value, long exponent, double nearest) {
   // The double of a rational need not be a multiple of the unit.
   const Dyadic d = dyadic(nearest);
   const long lowest = std::min<long>(exponent, d.exponent);
-  return to_double(value.shifted(exponent - lowest) - ExactNumber(scaled(d, lowest)), lowest);
+  thread_local mpz_class exact, rounded;
+  mpz_mul_2exp(exact.get_mpz_t(), value.numerator().get_mpz_t(),
+               static_cast<unsigned long>(exponent - lowest));
+  set_scaled(d, lowest, rounded);
+  const mpz_class* denominator = denominator_of(value);
+  if (denominator != nullptr) rounded *= *denominator;
+  exact -= rounded;
+  return quotient(exact, denominator, lowest);
 }
 
 bool is_corner(const ExactPoint& p) {
@@ -243,21 +275,7 @@ void add_multiple(mpz_class& sum, double parameter, const mpz_class& from, const
 }  // namespace
 
 double to_double(const ExactNumber& value, long exponent) {
-  mpz_class quotient;
-  if (!value.is_integer()) {  // to 64 bits
-    const mpz_class denominator = value.denominator();
-    const auto bits = [](const mpz_class& n) {
-      return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
-    };
-    const long missing = std::max(0L, 64 + bits(denominator) - bits(value.numerator()));
-    quotient = (value.numerator() << static_cast<unsigned long>(missing)) / denominator;
-    exponent -= missing;
-  }
-  long shift = 0;
-  const double fraction =
-      mpz_get_d_2exp(&shift, (value.is_integer() ? value.numerator() : quotient).get_mpz_t());
-  const long e = shift + exponent;
-  return std::ldexp(fraction, static_cast<int>(std::clamp(e, -5000L, 5000L)));
+  return quotient(value.numerator(), denominator_of(value), exponent);
 }
 
 double length(const ExactVector& vector, long exponent) {
