@@ -107,27 +107,6 @@ double between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
   return std::min(best, norm(subtract(p, q)));
 }
 
-// Distance from the triangle to the point where the segment crosses its plane, if it does.
-double to_crossing(const Vec3& p, const Vec3& q, const std::array<Vec3, 3>& t, const Normal& n) {
-  const double hp = n.height(p), hq = n.height(q);
-  if (!(n.length > 0) || !(hp * hq < 0)) return std::numeric_limits<double>::infinity();
-  return to_triangle(add_scaled(p, hp / (hp - hq), subtract(q, p)), t, n);
-}
-
-double between_triangles(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t) {
-  const Normal ns(s), nt(t);
-  double best = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    best = std::min({best, to_triangle(s[i], t, nt), to_triangle(t[i], s, ns),
-                     to_crossing(s[i], s[j], t, nt), to_crossing(t[i], t[j], s, ns)});
-    for (std::size_t k = 0; k < 3; ++k) {
-      best = std::min(best, between_segments(s[i], s[j], t[k], t[(k + 1) % 3]));
-    }
-  }
-  return best;
-}
-
 // Closest non-incident elements: the minimum is attained by a vertex and a vertex, edge or facet,
 // or by two edges, because a facet's closest point to an element that it does not touch is such a
 // point or on one of its edges.
@@ -256,12 +235,6 @@ double point_triangle_distance(const Vec3& p, const std::array<Vec3, 3>& t) {
 double segment_segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return in_safe_range<4>({a, b, c, d},
                           [](const auto& x) { return between_segments(x[0], x[1], x[2], x[3]); });
-}
-
-double triangle_triangle_distance(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t) {
-  return in_safe_range<6>({s[0], s[1], s[2], t[0], t[1], t[2]}, [](const auto& x) {
-    return between_triangles({x[0], x[1], x[2]}, {x[3], x[4], x[5]});
-  });
 }
 
 double smallest_local_feature_size(const SurfaceTopology& topology, const PointStore& points,

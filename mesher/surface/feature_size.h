@@ -12,7 +12,6 @@ namespace delmesher::surface {
 double point_segment_distance(const Vec3& p, const Vec3& a, const Vec3& b);
 double point_triangle_distance(const Vec3& p, const std::array<Vec3, 3>& t);
 double segment_segment_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-double triangle_triangle_distance(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t);
 
 // The smallest distance between two input elements (vertices, non-flat edges, facets) that share no
 // point.
