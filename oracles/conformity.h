@@ -59,7 +59,7 @@ ConformityResult check_conformity(const TetComplex& complex, const Neighbours& n
 // Each edge that failed, and some edge of each facet that failed, has a vertex of the boundary
 // within `distance` of it, not at its ends, that is as near to another edge of the input.
 bool undecidable(const TetComplex& complex, const InputSurface& surface,
-                 const ConformityResult& conformity, double distance);
+                 const ConformityResult& conformity, double distance);  // undecidable.cpp
 
 // The triangles that a file lists as the boundary are exactly conformity.faces, in any order and
 // orientation, and each carries the label of its facet (labels may be empty). Faces of the hull may
@@ -67,6 +67,6 @@ bool undecidable(const TetComplex& complex, const InputSurface& surface,
 OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& neighbours,
                                  const InputSurface& surface, const ConformityResult& conformity,
                                  const std::vector<Face>& listed,
-                                 const std::vector<std::int32_t>& labels);
+                                 const std::vector<std::int32_t>& labels);  // boundary_list.cpp
 
 }  // namespace tetproof::oracles
