@@ -4,7 +4,7 @@
 
 #include "oracles/input_surface.h"
 #include "oracles/promise.h"
-#include "oracles/simplex_set.h"
+#include "oracles/refined_index.h"
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -20,58 +20,24 @@ struct RefinedMesh {
   Index input_vertices = 0;
 };
 
-// Finds facets of the surface by id, and says which of them the filter kept. The surface must
-// outlive this.
-class FacetIndex {
- public:
-  FacetIndex(const InputSurface& surface, const delmesher::ExactRecord& record);
-  Index find(Index id) const;  // kNone if there is no such facet
-  bool kept(Index facet) const { return kept_[facet] != 0; }
-  // Why the record's list of facets is not that of the surface; empty if it is, or if there is
-  // none.
-  const std::string& defect() const { return defect_; }
-
- private:
-  const InputSurface& surface_;
-  std::vector<std::uint8_t> kept_;
-  std::string defect_;
-};
-
-// Finds edges of the input between two facets, and the one on which a chain of the record lies.
-class InputEdges {
- public:
-  explicit InputEdges(const InputSurface& surface);
-  Index find(Index a, Index b) const;  // index into surface.edges(), or kNone
-  // Judged by the chain's points alone: its first point on a segment names the edge, else its ends
-  // do. kNone if there is no such edge.
-  Index of_chain(const delmesher::ExactRecord& record, const std::vector<Index>& chain) const;
-
- private:
-  SimplexSet<2> ends_;
-  std::vector<Index> edge_;  // per pair of ends
-};
-
-// The sign of the cosine of the angle between an input edge and the way from p to q.
-int along_edge(const ExactPoints& points, const InputSurface::Edge& edge, Index p, Index q);
-
 // Chains on input edges: straight, on their edge, made of mesh edges and disjoint. Nothing of an
 // edge is missing but at chamfered corners, and the whole of acute edges. Artificial chains:
 // simple, exactly in the plane of a kept facet, within 2^-20 of their length of the straight line.
-OracleReport check_segments(const RefinedMesh& mesh);
+OracleReport check_segments(const RefinedMesh& mesh);  // segments.cpp
 
 // The faces on a facet are faces of the mesh, exactly in its plane, not folded, and bounded by
 // exactly the chains of that facet.
-OracleReport check_refined_facets(const RefinedMesh& mesh);
+OracleReport check_refined_facets(const RefinedMesh& mesh);  // refined_facets.cpp
 
 // No vertex lies strictly inside the diametral ball of an edge of a chain or of a face on a facet.
 // In a Delaunay mesh, an element whose ball holds any vertex has one in the ball that shares a
 // tetrahedron with it. A sample is tried against all vertices none the less. Violations are
 // counted, not failed, where the record does not promise empty balls.
-OracleReport check_encroachment(const RefinedMesh& mesh);
+OracleReport check_encroachment(const RefinedMesh& mesh);  // encroachment.cpp
 
 // Every volume Steiner point has exactly one circumball for which it was made (section 5.6), and
 // lies strictly inside it. If circumcentres are promised, the point is at the ball's centre, or at
 // the centroid of its tetrahedron, which is counted: the centre of a flat one cannot be computed.
-OracleReport check_balls(const RefinedMesh& mesh);
+OracleReport check_balls(const RefinedMesh& mesh);  // steiner_balls.cpp
 
 }  // namespace tetproof::oracles

@@ -1,0 +1,143 @@
+#include "oracles/refinement.h"
+
+#include <algorithm>
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactRecord;
+
+std::uint64_t directed_key(Index a, Index b) {
+  return static_cast<std::uint64_t>(a) << 32 | b;
+}
+std::uint64_t edge_key(Index a, Index b) {
+  return directed_key(std::min(a, b), std::max(a, b));
+}
+
+class RefinedFacets {
+ public:
+  explicit RefinedFacets(const RefinedMesh& mesh)
+      : record_(*mesh.record),
+        points_(*mesh.points),
+        surface_(*mesh.surface),
+        complex_(*mesh.complex),
+        facets_(surface_, record_),
+        faces_(faces_on_facets(record_)),
+        in_mesh_(faces_.size()) {}
+
+  OracleReport run() {
+    find_mesh_faces();
+    for (const auto& [a, b, c, id] : record_.refined_facets) check_face({a, b, c}, id);
+    report_.checked += surface_.facets().size();
+    collect_chains();
+    check_borders();
+    return std::move(report_);
+  }
+
+ private:
+  void find_mesh_faces();
+  void check_face(Face face, Index id);
+  void collect_chains();
+  void check_borders();
+
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  const InputSurface& surface_;
+  const TetComplex& complex_;
+  const FacetIndex facets_;
+  const SimplexSet<3> faces_;
+  std::vector<std::uint8_t> in_mesh_;                     // per face
+  std::vector<std::pair<Index, std::uint64_t>> sides_;    // facet, directed edge of a face
+  std::vector<std::pair<Index, std::uint64_t>> chained_;  // facet, edge of a chain
+  OracleReport report_{"facets", "facets and faces"};
+};
+
+void RefinedFacets::find_mesh_faces() {
+  for (const Tet& tet : complex_.tetrahedra) {
+    for (int i = 0; i < 4; ++i) {
+      if (const std::size_t f = faces_.find(face_of(tet, i)); f < faces_.size()) in_mesh_[f] = 1;
+    }
+  }
+}
+
+void RefinedFacets::check_face(Face face, Index id) {
+  ++report_.checked;
+  if (in_mesh_[faces_.find(face)] == 0) {
+    return report_.fail(complex_.face_name(face) + " is no face of the refined mesh");
+  }
+  const Index f = facets_.find(id);
+  if (f == kNone) {
+    return report_.fail(complex_.face_name(face) + ": there is no facet " + std::to_string(id));
+  }
+  const InputSurface::Facet& facet = surface_.facets()[f];
+  for (const Index v : face) {
+    if (facet.side(points_, v) != 0) {
+      report_.fail(complex_.vertex_name(v) + " is off the plane of facet " + std::to_string(id));
+    }
+  }
+  if (!facets_.kept(f)) report_.fail(complex_.face_name(face) + " lies on a filtered facet");
+  if (facet.facing(points_, face) <= 0) {
+    report_.fail(complex_.face_name(face) + " is folded over on facet " + std::to_string(id));
+  }
+  for (int i = 0; i < 3; ++i) sides_.emplace_back(f, directed_key(face[i], face[(i + 1) % 3]));
+}
+
+void RefinedFacets::collect_chains() {
+  const InputEdges input_edges(surface_);
+  for (const ExactRecord::Chain& chain : record_.segments) {
+    std::array<Index, 2> of = {kNone, kNone};
+    if (chain.artificial) {
+      of[0] = facets_.find(chain.facet);
+    } else if (const Index e = input_edges.of_chain(record_, chain.vertices); e != kNone) {
+      of = {surface_.edges()[e].left, surface_.edges()[e].right};
+    }
+    for (const Index f : of) {
+      if (f == kNone || !facets_.kept(f)) continue;
+      for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
+        chained_.emplace_back(f, edge_key(chain.vertices[i - 1], chain.vertices[i]));
+      }
+    }
+  }
+  std::sort(chained_.begin(), chained_.end());
+}
+
+// A side of a face has its opposite among the faces of the facet, or lies on a chain of the facet;
+// and on every edge of a chain there is exactly one side.
+void RefinedFacets::check_borders() {
+  std::sort(sides_.begin(), sides_.end());
+  const auto name = [&](const std::pair<Index, std::uint64_t>& side) {
+    return "edge " + complex_.vertex_name(static_cast<Index>(side.second >> 32)) + " - " +
+           complex_.vertex_name(static_cast<Index>(side.second)) + " of facet " +
+           std::to_string(surface_.facets()[side.first].id);
+  };
+  if (const auto twice = std::adjacent_find(sides_.begin(), sides_.end()); twice != sides_.end()) {
+    report_.fail(name(*twice) + " has two faces on one side");
+  }
+  std::vector<std::pair<Index, std::uint64_t>> open;
+  for (const auto& side : sides_) {
+    const auto a = static_cast<Index>(side.second >> 32), b = static_cast<Index>(side.second);
+    const bool pair =
+        std::binary_search(sides_.begin(), sides_.end(), std::pair(side.first, directed_key(b, a)));
+    if (!pair) open.emplace_back(side.first, edge_key(a, b));
+  }
+  std::sort(open.begin(), open.end());
+  for (const auto& side : open) {
+    if (!std::binary_search(chained_.begin(), chained_.end(), side)) {
+      report_.fail(name(side) + " has a face on one side only and is on no segment");
+    }
+  }
+  for (const auto& side : chained_) {
+    if (!std::binary_search(open.begin(), open.end(), side)) {
+      report_.fail(name(side) + " is on a segment but does not bound the faces");
+    }
+  }
+  report_.figures.emplace_back("edges on segments", chained_.size());
+}
+
+}  // namespace
+
+OracleReport check_refined_facets(const RefinedMesh& mesh) {
+  return RefinedFacets(mesh).run();
+}
+
+}  // namespace tetproof::oracles
