@@ -16,7 +16,6 @@
 namespace tetproof::fuzz {
 namespace {
 
-using delmesher::Limits;
 using delmesher::Options;
 using delmesher::Result;
 using delmesher::StatusCode;

@@ -6,6 +6,7 @@
 
 #include "oracles/angles.h"
 #include "oracles/corners.h"
+#include "oracles/edge_key.h"
 #include "oracles/enrichment.h"
 
 namespace tetproof::oracles {
@@ -113,7 +114,7 @@ void ChamferedSurface::collect_segments() {
   for (const auto& [a, b, c, id] : record_.refined_facets) {
     if (!any_artificial) break;
     for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-      sides.emplace_back(id, static_cast<std::uint64_t>(p) << 32 | q);
+      sides.emplace_back(id, directed_key(p, q));
     }
   }
   std::sort(sides.begin(), sides.end());
@@ -122,8 +123,7 @@ void ChamferedSurface::collect_segments() {
     if (chain.vertices.size() < 2) continue;  // the segment oracle reports it
     Segment s{chain.vertices.front(), chain.vertices.back(), chain.artificial, kNone, kNone, kNone};
     if (chain.artificial) {
-      const std::uint64_t first =
-          static_cast<std::uint64_t>(chain.vertices[0]) << 32 | chain.vertices[1];
+      const std::uint64_t first = directed_key(chain.vertices[0], chain.vertices[1]);
       const bool left =
           std::binary_search(sides.begin(), sides.end(), std::pair(chain.facet, first));
       (left ? s.left : s.right) = facets_.find(chain.facet);

@@ -8,6 +8,7 @@
 
 #include "oracles/chamfer.h"
 #include "oracles/corners.h"
+#include "oracles/edge_key.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -16,10 +17,6 @@ using delmesher::ExactRecord;
 
 // Cut points are placed with a relative accuracy of 2^-20.
 constexpr double kPlacement = 1 + 0x1p-16;
-
-std::uint64_t directed_key(Index a, Index b) {
-  return static_cast<std::uint64_t>(a) << 32 | b;
-}
 
 std::string corner_name(Index v) {
   return "input vertex " + std::to_string(v);

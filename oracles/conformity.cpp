@@ -7,13 +7,10 @@
 
 #include "oracles/distances.h"
 #include "oracles/edge_chains.h"
+#include "oracles/edge_key.h"
 
 namespace tetproof::oracles {
 namespace {
-
-std::uint64_t edge_key(Index a, Index b) {
-  return static_cast<std::uint64_t>(a) << 32 | b;
-}
 
 // The corners of two triangles are the same in this order, whichever comes first.
 bool same_cycle(const Face& a, const Face& b) {
@@ -294,8 +291,7 @@ void Conformity::check_facet(Index facet, std::span<const Index> triangles,
     corners.push_back(face);
     for (std::size_t i = 0; i < 3; ++i) {
       vertices.push_back(face[i]);
-      edges.push_back(
-          edge_key(std::min(face[i], face[(i + 1) % 3]), std::max(face[i], face[(i + 1) % 3])));
+      edges.push_back(edge_key(face[i], face[(i + 1) % 3]));
     }
   }
   make_unique(vertices);

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "oracles/angles.h"
+#include "oracles/edge_key.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -314,7 +315,7 @@ class Improvement {
         for (int j = 0; j < i; ++j) {
           const auto [v, w] = std::minmax(tet.vertices[i], tet.vertices[j]);
           if (exact::distance(doubles_, v, w) <= longest_ * (1 + 1e-9)) continue;
-          edges.push_back(static_cast<std::uint64_t>(v) << 32 | w);
+          edges.push_back(directed_key(v, w));
         }
       }
     }

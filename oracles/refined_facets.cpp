@@ -2,17 +2,12 @@
 
 #include <algorithm>
 
+#include "oracles/edge_key.h"
+
 namespace tetproof::oracles {
 namespace {
 
 using delmesher::ExactRecord;
-
-std::uint64_t directed_key(Index a, Index b) {
-  return static_cast<std::uint64_t>(a) << 32 | b;
-}
-std::uint64_t edge_key(Index a, Index b) {
-  return directed_key(std::min(a, b), std::max(a, b));
-}
 
 class RefinedFacets {
  public:
