@@ -236,7 +236,6 @@ void InputSurface::measure(const ExactPoints& points) {
 // A component is turned if the parity of the crossings above one of its triangles says that the
 // solid lies on its front side. Parity itself does not depend on orientations.
 void InputSurface::orient_components(const ExactPoints& points) {
-  flipped_ = 0;
   std::vector<bool> seen(triangles_.size(), false);
   for (Index seed = 0; seed < triangles_.size(); ++seed) {
     if (seen[seed]) continue;
@@ -255,7 +254,6 @@ void InputSurface::orient_components(const ExactPoints& points) {
       const int above = crossings_above(points, triangles_[t], t);
       if (above < 0) continue;
       if ((above % 2 == 0) != (up > 0)) {
-        ++flipped_;
         for (const Index f : component) std::swap(triangles_[f][1], triangles_[f][2]);
         for (const Index f : component) std::swap(neighbours_[f][0], neighbours_[f][2]);
       }

@@ -131,9 +131,6 @@ class InputSurface {
   void triangles_near(const BoxTree::Box& box, std::vector<Index>& found) const {
     tree_->query(box, found);
   }
-  // The number of components that were turned, so that all normals point out of the solid that
-  // parity defines.
-  std::uint64_t flipped_components() const { return flipped_; }
 
   // Is the centroid of these points (of any ExactPoints with the polyhedron's vertices first)
   // inside, by parity? 1 inside, 0 outside, -1 exactly on the surface.
@@ -191,7 +188,6 @@ class InputSurface {
   std::vector<Index> used_vertices_;
   ExactSum volume6_;
   double diagonal_ = 0, largest_coordinate_ = 0;
-  std::uint64_t flipped_ = 0;
   std::shared_ptr<const BoxTree> tree_;
 };
 

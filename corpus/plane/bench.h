@@ -19,7 +19,6 @@ struct Input {
 
 // A member of a family: "koch:4", "star:12", ... Throws std::invalid_argument.
 Input family(const std::string& what);
-const std::vector<std::string>& family_names();
 Input file(const std::string& path);
 
 // One mesher on one input. Plain data: it crosses a pipe.

@@ -6,12 +6,6 @@
 
 namespace tetproof::plane_bench {
 
-const std::vector<std::string>& family_names() {
-  static const std::vector<std::string> names = {"koch",  "star",   "comb",        "fan",
-                                                 "rough", "nested", "archipelago", "figure"};
-  return names;
-}
-
 Input family(const std::string& what) {
   const std::size_t colon = what.find(':');
   const std::string name = what.substr(0, colon);

@@ -62,7 +62,6 @@ class State {
 
   const PointStore& points() const { return points_; }
   VertexId point(VertexId v) const { return point_[v]; }
-  const Goals& goals() const { return goals_; }
   const Vec3& position(VertexId v) const { return position_[v]; }
   Mobility mobility(VertexId v) const { return mobility_[v]; }
 

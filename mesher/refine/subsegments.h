@@ -43,7 +43,6 @@ class Subsegments {
   // The vertices of a segment's subsegments, from end to end.
   std::vector<VertexId> chain(std::uint32_t segment) const;
 
-  bool any_on(TetId t) const { return note(dt_, t, Note::edges) != 0; }
   // visit(s) for each subsegment that is an edge of t.
   template <class Visit>
   void for_each_on(TetId t, Visit&& visit) const {
