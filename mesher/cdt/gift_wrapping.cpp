@@ -5,6 +5,7 @@
 #include "mesher/base/face_key.h"
 #include "mesher/base/flat_map.h"
 #include "mesher/cdt/separation.h"
+#include "mesher/surface/tetrahedron_contact.h"
 
 namespace delmesher::cdt {
 namespace {
@@ -102,7 +103,7 @@ class GiftWrapper {
   bool is_free(const Tetrahedron& t) {
     for (const Triangle& wall : walls_) {
       if (boxes_disjoint(predicates_.points(), t, wall)) continue;
-      if (interior_meets(predicates_, t, wall)) return false;
+      if (meets_interior(predicates_, t, wall)) return false;
     }
     return true;
   }

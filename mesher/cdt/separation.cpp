@@ -19,13 +19,13 @@ class Pair {
 
   int shared() const { return 7 - size_; }
 
-  // Is there a plane through three vertices that weakly separates the two? If `strict`, a plane
-  // that moreover meets them in nothing but the simplex of their common vertices.
-  bool separable(bool strict) {
+  // Is there a plane through three vertices that has the two on different sides, and meets them in
+  // nothing but the simplex of their common vertices?
+  bool separable() {
     for (int i = 0; i < size_; ++i) {
       for (int j = i + 1; j < size_; ++j) {
         for (int k = j + 1; k < size_; ++k) {
-          if (separates(i, j, k, strict)) return true;
+          if (separates(i, j, k)) return true;
         }
       }
     }
@@ -44,7 +44,7 @@ class Pair {
     where_[size_++] = where;
   }
 
-  bool separates(int i, int j, int k, bool strict) {
+  bool separates(int i, int j, int k) {
     int side = 0;  // of the tetrahedron, minus that of the triangle
     int on_plane = 3;
     unsigned on = 0;  // who has vertices on the plane that are not common to both
@@ -64,7 +64,7 @@ class Pair {
     }
     // All on the "plane": three collinear points, since the tetrahedron is not flat.
     if (on_plane == size_) return false;
-    return !strict || on_plane == 3 || on != kInBoth;
+    return on_plane == 3 || on != kInBoth;
   }
 
   Predicates& predicates_;
@@ -75,16 +75,10 @@ class Pair {
 
 }  // namespace
 
-bool interior_meets(Predicates& predicates, const std::array<VertexId, 4>& tetrahedron,
-                    const std::array<VertexId, 3>& triangle) {
-  Pair pair(predicates, tetrahedron, triangle);
-  return pair.shared() < 3 && !pair.separable(false);
-}
-
 bool may_meet_improperly(Predicates& predicates, const std::array<VertexId, 4>& tetrahedron,
                          const std::array<VertexId, 3>& triangle) {
   Pair pair(predicates, tetrahedron, triangle);
-  return pair.shared() < 3 && !pair.separable(true);
+  return pair.shared() < 3 && !pair.separable();
 }
 
 bool boxes_disjoint(const PointStore& points, const std::array<VertexId, 4>& tetrahedron,

@@ -8,6 +8,7 @@
 #include "mesher/cdt/cdt_reference.h"
 #include "mesher/cdt/gift_wrapping.h"
 #include "mesher/cdt/polyhedron.h"
+#include "mesher/surface/tetrahedron_contact.h"
 
 namespace delmesher::cdt {
 namespace {
@@ -84,7 +85,7 @@ TEST_F(SeparationTest, AgreesWithRationalClipping) {
                  sgn(rational::volume(t[kFace[i][0]], t[kFace[i][1]], t[kFace[i][2]], middle)) != 0;
       }
     }
-    ASSERT_EQ(interior_meets(*predicates_, tet, triangle), inside) << round;
+    ASSERT_EQ(meets_interior(*predicates_, tet, triangle), inside) << round;
     // Improper: the common part has a point that is not spanned by the common vertices. With at
     // most two common vertices this means: it has a corner that is none of them.
     bool improper = false;
@@ -151,7 +152,7 @@ TEST_F(SeparationTest, AFaceMeetsItsTetrahedronProperly) {
     std::array<VertexId, 4> tet = {0, 1, 2, 3};
     if (!usable(tet, {0, 1, 2})) continue;
     for (const auto& [a, b, c] : {std::array<VertexId, 3>{0, 1, 2}, {3, 1, 0}, {2, 3, 1}}) {
-      EXPECT_FALSE(interior_meets(*predicates_, tet, {a, b, c}));
+      EXPECT_FALSE(meets_interior(*predicates_, tet, {a, b, c}));
       EXPECT_FALSE(may_meet_improperly(*predicates_, tet, {a, b, c}));
       ++faces;
     }
