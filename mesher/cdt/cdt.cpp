@@ -44,7 +44,9 @@ class CdtBuilder {
       ++restarts_;
       split_boundary(failed);
     }
-    DELMESHER_CHECK(false, "facet recovery failed, which contradicts the theory");
+    DELMESHER_CHECK(
+        false,
+        "triangles of a facet are missing after as many attempts, which contradicts the theory");
     return {};
   }
 

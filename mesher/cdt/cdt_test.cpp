@@ -149,7 +149,7 @@ TEST(Cdt, ValidateLooksAtAllAndCountsNothing) {
   ASSERT_TRUE(mesh.alive(0));
   inside[0] = 2;
   EXPECT_EQ(complaint([&] { validate_facets(mesh, chains, surface, inside); }),
-            "a side outside the hull");
+            "a tetrahedron outside the hull is inside, or a side is neither 0 nor 1");
 }
 
 // Three edges of a box end at each corner; a point inside an edge has a part of it on both sides.

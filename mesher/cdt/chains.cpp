@@ -41,7 +41,7 @@ void Chains::append(std::uint32_t edge, VertexId v, const std::array<double, 2>&
 }
 
 void Chains::count(VertexId v, std::uint32_t node, bool inside) {
-  DELMESHER_CHECK(v < valence_.size(), "chain vertex out of range");
+  DELMESHER_CHECK(v < valence_.size(), "a chain has a vertex that its tables are too short for");
   valence_[v] += inside ? 2 : 1;
   if (inside) node_of_[v] = node;
 }

@@ -27,7 +27,7 @@ FacetTriangulator::FacetTriangulator(const CdtInput& input, const Chains& chains
     }
     if (tetrahedron_[3] != kNone) break;
   }
-  DELMESHER_CHECK(tetrahedron_[3] != kNone, "flat surface");
+  DELMESHER_CHECK(tetrahedron_[3] != kNone, "a valid surface has all of its vertices in one plane");
 }
 
 FacetTriangles FacetTriangulator::triangulate(FacetId facet) {

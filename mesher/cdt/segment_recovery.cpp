@@ -89,7 +89,8 @@ class SegmentRecovery {
     centre_.push_back(both ? Centre::end1 : centre);
     const VertexId v = chains_.node(m).vertex;
     added_.push_back(v);
-    DELMESHER_CHECK(mesh_.insert(v, mesh_.incident(a)), "a vertex lies on a constrained edge");
+    DELMESHER_CHECK(mesh_.insert(v, mesh_.incident(a)),
+                    "a vertex lies where a subsegment is split");
     missing_.follow_split(n, m);
   }
 

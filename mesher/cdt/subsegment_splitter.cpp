@@ -54,7 +54,8 @@ std::uint32_t SubsegmentSplitter::split(std::uint32_t node, const SplitTarget& t
   }
   // Parts of an edge become that short beside something nearer than doubles can say where.
   const double place = std::max(std::min(a.from[0], a.from[1]), std::min(b.from[0], b.from[1]));
-  DELMESHER_CHECK(width <= 0x1p-50 * place, "a subsegment cannot be split");
+  DELMESHER_CHECK(width <= 0x1p-50 * place,
+                  "no point is strictly inside a subsegment that is not too short for doubles");
   stop_beside(chains_, a.edge);
 }
 

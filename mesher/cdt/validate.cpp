@@ -42,7 +42,8 @@ void validate_facets(Tetrahedrization& mesh, const Chains& chains,
   for (TetId t = 0; t < mesh.capacity(); ++t) {
     if (!mesh.alive(t)) continue;
     const bool ghost = mesh.is_ghost(t);
-    DELMESHER_CHECK(inside[t] == 0 || (inside[t] == 1 && !ghost), "a side outside the hull");
+    DELMESHER_CHECK(inside[t] == 0 || (inside[t] == 1 && !ghost),
+                    "a tetrahedron outside the hull is inside, or a side is neither 0 nor 1");
     const VertexId* w = mesh.vertices(t);
     for (int i = 0; i < 4; ++i) {
       const TetId u = mesh.neighbor(t, i);

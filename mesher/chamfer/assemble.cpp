@@ -57,7 +57,7 @@ class Assembler {
   }
 
   void add_artificial(VertexId a, VertexId b, PlcFacet& facet) {
-    DELMESHER_CHECK(a != b, "a bridge has distinct points");
+    DELMESHER_CHECK(a != b, "two neighbouring points of a bridge are the same");
     facet.boundary.push_back({static_cast<std::uint32_t>(plc_.segments.size()), false});
     plc_.segments.push_back({{a, b}, kNone});
   }

@@ -90,7 +90,8 @@ class BridgeBuilder {
       return;
     }
     const double t = cuts_.fraction_at_tail(topology_, h);
-    DELMESHER_CHECK(t > 0 && t < 0.5, "an edge is cut near its end");
+    DELMESHER_CHECK(t > 0 && t < 0.5,
+                    "an edge is cut elsewhere than between its end and its middle");
     end = new_points_.add({{PointKind::on_segment, {w, v, kNone}, t, 0}, v, kNone, e});
   }
 

@@ -97,7 +97,7 @@ ChamferResult chamfer(const SurfaceTopology& topology, PointStore& points, Predi
                       const ChamferOptions& options, Control& control) {
   DELMESHER_CHECK(options.vertex_cosine_squared.empty() ||
                       options.vertex_cosine_squared.size() == topology.vertex_half_edge.size(),
-                  "one threshold per vertex");
+                  "there are not as many thresholds as vertices");
   const KeptSurface surface(topology, points, options.facet_kept);
   return chamfer_surface(surface, points, predicates, options, {}, control);
 }

@@ -44,7 +44,8 @@ KeptSurface::KeptSurface(const SurfaceTopology& topology, const PointStore& poin
                          const std::vector<std::uint8_t>& facet_kept)
     : topology_(topology), kept_(facet_kept) {
   if (kept_.empty()) kept_.assign(topology.facet_triangles.size(), 1);
-  DELMESHER_CHECK(kept_.size() == topology.facet_triangles.size(), "one flag per facet");
+  DELMESHER_CHECK(kept_.size() == topology.facet_triangles.size(),
+                  "there are not as many flags as facets");
   edge_is_live_.resize(topology.edge_count());
   for (std::uint32_t e = 0; e < topology.edge_count(); ++e) {
     const auto [h, g] = topology.edge_half_edges(e);

@@ -108,11 +108,11 @@ class PlanarBuilder {
 
   // One triangle and its three ghosts. Moves a third corner off the first two's line to order[2].
   void start(std::vector<Index>& order) {
-    DELMESHER_CHECK(order.size() >= 3, "planar triangulation of fewer than three points");
+    DELMESHER_CHECK(order.size() >= 3, "a planar triangulation of fewer than three points");
     std::size_t k = 2;
     int side = 0;
     while (k < order.size() && (side = orient(order[0], order[1], order[k])) == 0) ++k;
-    DELMESHER_CHECK(side != 0, "planar triangulation of collinear points");
+    DELMESHER_CHECK(side != 0, "a planar triangulation of collinear points");
     std::rotate(order.begin() + 2, order.begin() + static_cast<std::ptrdiff_t>(k),
                 order.begin() + static_cast<std::ptrdiff_t>(k) + 1);
     if (side < 0) std::swap(order[0], order[1]);
@@ -269,7 +269,7 @@ PlanarTriangulation triangulate_planar(Predicates& predicates, const FacetPlane&
     PlanarTriangulation out;
     const int side =
         plane.axis_sign * predicates.orient2d(plane.axis, vertices[0], vertices[1], vertices[2]);
-    DELMESHER_CHECK(side != 0, "planar triangulation of collinear points");
+    DELMESHER_CHECK(side != 0, "a planar triangulation of collinear points");
     out.triangles.push_back({vertices[0], vertices[1], vertices[2]});
     if (side < 0) std::swap(out.triangles[0][1], out.triangles[0][2]);
     out.neighbors.push_back({kNone, kNone, kNone});

@@ -48,7 +48,7 @@ void Tetrahedrization::remove(std::span<const VertexId> vertices, Control& contr
     for (const TetId t : cavity_) {
       for (int i = 0; i < 4; ++i) {
         const VertexId w = vertex(t, i);
-        DELMESHER_CHECK(w != kInfinite, "a vertex of the hull cannot be removed");
+        DELMESHER_CHECK(w != kInfinite, "a vertex of the hull is to be removed");
         if (goes[w] == 0) around.push_back(w);
       }
     }
@@ -57,7 +57,7 @@ void Tetrahedrization::remove(std::span<const VertexId> vertices, Control& contr
     patch.first_tetrahedron(around);
     for (std::size_t n = 4; n < around.size(); ++n) {
       DELMESHER_CHECK(patch.insert(around[n], patch.incident(around[n - 1])),
-                      "coincident vertices in a tetrahedrization");
+                      "two vertices around a removed one coincide");
     }
     fill_hole(patch);
     for (const TetId t : cavity_) {

@@ -33,7 +33,7 @@ std::vector<VertexId> Tetrahedrization::in_spatial_order(std::span<const VertexI
 }
 
 void Tetrahedrization::build(std::span<const VertexId> vertices, Control& control) {
-  DELMESHER_CHECK(cell_.empty(), "tetrahedrization built twice");
+  DELMESHER_CHECK(cell_.empty(), "a tetrahedrization is built that is not empty");
   std::vector<VertexId> order = in_spatial_order(vertices);
   cell_.reserve(order.size() * 7);
   first_tetrahedron(order);
@@ -45,7 +45,7 @@ void Tetrahedrization::insert_in_order(std::span<const VertexId> order, TetId hi
                                        Control& control) {
   for (std::size_t n = 0; n < order.size(); ++n) {
     control.poll(order.size(), static_cast<double>(n) / static_cast<double>(order.size()));
-    DELMESHER_CHECK(insert(order[n], hint), "coincident vertices in a tetrahedrization");
+    DELMESHER_CHECK(insert(order[n], hint), "two vertices of a tetrahedrization coincide");
     hint = incident_[order[n]];
   }
 }
@@ -76,7 +76,7 @@ void Tetrahedrization::first_tetrahedron(std::span<VertexId> order) {
             }) &&
       bring(3,
             [&](VertexId v) { return predicates_.orient3d(order[0], order[1], order[2], v) != 0; });
-  DELMESHER_CHECK(found, "fewer than four vertices that are not coplanar");
+  DELMESHER_CHECK(found, "all vertices of a tetrahedrization are in one plane");
   VertexId a = order[0];
   VertexId b = order[1];
   if (predicates_.orient3d(a, b, order[2], order[3]) < 0) std::swap(a, b);
@@ -379,12 +379,13 @@ void Tetrahedrization::validate(bool delaunay) {
     const VertexId* w = vertices(t);
     const bool ghost = is_ghost(t);
     DELMESHER_CHECK(ghost || predicates_.orient3d(w[0], w[1], w[2], w[3]) > 0,
-                    "tetrahedron not positively oriented");
+                    "a tetrahedron is not positively oriented");
     for (int i = 0; i < 4; ++i) {
       const TetId u = neighbor(t, i);
       const int j = mirror(t, i);
-      DELMESHER_CHECK(u < capacity() && alive(u), "neighbour is dead");
-      DELMESHER_CHECK(neighbor(u, j) == t && mirror(u, j) == i, "adjacency not symmetric");
+      DELMESHER_CHECK(u < capacity() && alive(u), "a neighbour is dead");
+      DELMESHER_CHECK(neighbor(u, j) == t && mirror(u, j) == i,
+                      "neighbours do not name each other");
       const VertexId beyond = vertex(u, j);
       DELMESHER_CHECK(index_of(t, beyond) < 0, "neighbours share all vertices");
       for (int k = 0; k < 4; ++k) {
@@ -392,14 +393,15 @@ void Tetrahedrization::validate(bool delaunay) {
       }
       if (w[i] != kInfinite) {
         const TetId s = incident(w[i]);
-        DELMESHER_CHECK(s != kNone && alive(s) && index_of(s, w[i]) >= 0, "incident() is stale");
+        DELMESHER_CHECK(s != kNone && alive(s) && index_of(s, w[i]) >= 0,
+                        "incident() names a tetrahedron that is dead or not at its vertex");
       }
       if (delaunay && !ghost && !is_ghost(u)) {
         DELMESHER_CHECK(predicates_.insphere_perturbed(w[0], w[1], w[2], w[3], beyond) < 0,
-                        "face not locally Delaunay");
+                        "a face is not locally Delaunay");
       }
       if (delaunay && ghost && beyond != kInfinite) {
-        DELMESHER_CHECK(!conflicts(t, beyond), "hull not convex");
+        DELMESHER_CHECK(!conflicts(t, beyond), "the hull is not convex");
       }
     }
   }

@@ -295,7 +295,7 @@ TEST(Tetrahedrization, ValidateReportsEveryDamage) {
   const std::pair<void (Breaker::*)() const, const char*> cases[] = {
       {&Breaker::turn_over, "not positively oriented"},
       {&Breaker::glue_wrongly, "neighbours"},
-      {&Breaker::forget_incident, "stale"},
+      {&Breaker::forget_incident, "dead or not at its vertex"},
       {&Breaker::lose_slot, "free slot"},
       {&Breaker::kill, "dead"},
   };

@@ -116,7 +116,7 @@ Place State::moved(VertexId v, const Vec3& offset, double tolerance) {
   const VertexId p = point_[v];
   const Vec3 target = add(points_.nearest(p), offset);
   if (mobility_[v] == Mobility::free) return new_place(target, tolerance);
-  DELMESHER_CHECK(mobility_[v] != Mobility::fixed, "a fixed vertex was to move");
+  DELMESHER_CHECK(mobility_[v] != Mobility::fixed, "a fixed vertex is to move");
   PointDefinition d = points_.definition(p);
   if (mobility_[v] == Mobility::on_line) {
     d = place_on_segment(points_, d.corner[0], d.corner[1], target, tolerance);
@@ -166,7 +166,8 @@ Place State::new_place(const Vec3& x, double tolerance) {
 }
 
 void State::forget(const Place& place) {
-  DELMESHER_CHECK(place.point + 1 == points_.size(), "only the last point can be forgotten");
+  DELMESHER_CHECK(place.point + 1 == points_.size(),
+                  "a point is to be forgotten that is not the last one");
   points_.pop_back();
   if (as_given_) as_given_->points.pop_back();
 }

@@ -64,7 +64,8 @@ void WorkMesh::link(std::span<const SurfaceFace> boundary) {
       while (next != last && next->middle == e->middle && next->largest == e->largest) ++next;
       const FacetId facet = (next - 1)->side == kNone ? (next - 1)->facet : kNone;
       const auto sides = (next - e) - (facet == kNone ? 0 : 1);
-      DELMESHER_CHECK(sides == 1 || sides == 2, "a face without two sides");
+      DELMESHER_CHECK(sides == 1 || sides == 2,
+                      "a face belongs to no tetrahedron, or to more than two");
       for (auto side = e; side != e + sides; ++side) {
         facet_[side->side / 4][side->side % 4] = facet;
         if (sides == 2) neighbor_[side->side / 4][side->side % 4] = (e + (side == e ? 1 : 0))->side;
@@ -184,7 +185,7 @@ void WorkMesh::replace(std::span<const TetId> removed, std::span<const CreatedTe
   }
   std::stable_sort(faces_.begin(), faces_.end(),
                    [](const FaceEntry& a, const FaceEntry& b) { return a.key < b.key; });
-  DELMESHER_CHECK(outer <= faces_.size(), "faces were lost");
+  DELMESHER_CHECK(outer <= faces_.size(), "fewer faces after a change than around it");
   for (std::size_t n = 0; n < faces_.size();) {
     const bool paired = n + 1 < faces_.size() && faces_[n + 1].key == faces_[n].key;
     const FaceEntry& first = faces_[n];
@@ -223,7 +224,8 @@ void WorkMesh::validate() const {
   }
   for (VertexId v = 0; v < incident_.size(); ++v) {
     const TetId t = incident_[v];
-    DELMESHER_CHECK(t == kNone || (alive(t) && index_of(t, v) >= 0), "incident() is wrong");
+    DELMESHER_CHECK(t == kNone || (alive(t) && index_of(t, v) >= 0),
+                    "incident() names a tetrahedron that is dead or not at its vertex");
   }
 }
 

@@ -12,7 +12,8 @@ namespace {
 template <typename T>
 void erase_sorted(std::vector<T>& sorted, T value) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
-  DELMESHER_CHECK(at != sorted.end() && *at == value, "a star lost a tetrahedron");
+  DELMESHER_CHECK(at != sorted.end() && *at == value,
+                  "a tetrahedron is not in the star of its vertex");
   sorted.erase(at);
 }
 
@@ -20,7 +21,8 @@ void erase_sorted(std::vector<T>& sorted, T value) {
 
 RoundedMesh::RoundedMesh(RoundingInput& input, Control& control)
     : input_(input), tet_(std::move(input.tetrahedra)), inside_(std::move(input.inside)) {
-  DELMESHER_CHECK(inside_.size() == tet_.size(), "one inside flag per tetrahedron");
+  DELMESHER_CHECK(inside_.size() == tet_.size(),
+                  "there are not as many inside flags as tetrahedra");
   number_vertices();
   certify(control);
 }

@@ -85,7 +85,7 @@ class BadTriangles {
                       "an entry below the lowest bucket");
       count += q.entries.size() - q.head;
     }
-    DELMESHER_CHECK(count == count_, "another number of entries than in the buckets");
+    DELMESHER_CHECK(count == count_, "the count of entries is not that of the buckets");
     for (const Item& item : later_) {
       DELMESHER_CHECK(item.bucket < kBuckets, "an entry for no bucket");
     }

@@ -23,7 +23,7 @@ void Crowding::count_split(PieceId piece) {
 
 void Crowding::validate() const {
   DELMESHER_CHECK(any_ || (pieces_.empty() && vertices_.empty() && !hopeless_),
-                  "a crowded place that is not told");
+                  "something is crowded, and any() denies it");
   for (const VertexId v : vertices_) {
     DELMESHER_CHECK(v < graph_.vertices, "a crowded vertex that is not of the input");
   }

@@ -22,7 +22,7 @@ void enrich(const InputGraph& graph, const Chamfered& chamfered, Triangulation& 
     control.poll(points.size());
     const VertexId there = mesh.insert(v, near[v] != kNone ? mesh.around(near[v]) : hint);
     if (there != v) {
-      DELMESHER_CHECK(there >= graph.vertices + 4, "input vertices coincide");
+      DELMESHER_CHECK(there >= graph.vertices + 4, "two vertices of a valid graph coincide");
       mesh.rename(there, v);  // a Steiner point happens to be there
     }
     hint = mesh.around(v);
@@ -32,7 +32,7 @@ void enrich(const InputGraph& graph, const Chamfered& chamfered, Triangulation& 
     control.poll(points.size());
     const auto obstacle = mesh.insert_segment(gap.a, gap.b, gap.piece, chain);
     DELMESHER_CHECK(obstacle.kind == Triangulation::Obstacle::Kind::none,
-                    "a segment of a valid graph cannot be entered");
+                    "a segment of a valid graph meets another one");
   }
 }
 

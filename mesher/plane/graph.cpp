@@ -196,7 +196,7 @@ class Builder {
     const auto obstacle = graph_.base.insert_segment(a, b, id, chain_);
     if (obstacle.kind != Triangulation::Obstacle::Kind::none) {
       const std::uint32_t other = graph_.pieces[obstacle.piece].segment;
-      DELMESHER_CHECK(other != kNone, "a segment meets the outer box");
+      DELMESHER_CHECK(other != kNone, "a segment meets the outer box, which contains the graph");
       if (obstacle.kind == Triangulation::Obstacle::Kind::crossing) {
         refuse(both("segments", i, other) + " cross: " + where(i, other) + kCounting);
       }

@@ -71,7 +71,7 @@ void Refiner::triangulate_graph() {
     control_.poll(points_.size());
     const auto obstacle = mesh_.insert_segment(a, b, id, chain);
     DELMESHER_CHECK(obstacle.kind == Triangulation::Obstacle::Kind::none && chain.size() == 2,
-                    "chamfered segments meet");
+                    "two chamfered segments meet outside their ends");
   }
 }
 

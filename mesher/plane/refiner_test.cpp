@@ -235,7 +235,7 @@ TEST(PlaneRefiner, ValidateReportsWhatIsBrokenOfTheSides) {
       {&Breaker::forget, "has no side"},
       {&Breaker::turn, "disagree"},
       {&Breaker::decide, "a triangle with gaps is not mixed"},
-      {&Breaker::empty_a_list, "a list has no gaps"},
+      {&Breaker::empty_a_list, "a list of gaps without any"},
       {&Breaker::list_another, "not where it is listed"},
       {&Breaker::lose_a_list, "a gap is not listed"},
       {&Breaker::free_a_list, "a free list has gaps"},
@@ -254,7 +254,7 @@ TEST(PlaneRefiner, ValidateReportsWhatIsBrokenOfTheSides) {
 TEST(PlaneRefiner, ValidateReportsWhatIsBrokenOfTheCrowding) {
   using Breaker = CrowdingBreaker;
   const std::pair<void (Breaker::*)() const, const char*> cases[] = {
-      {&Breaker::note_silently, "not told"},
+      {&Breaker::note_silently, "denies it"},
       {&Breaker::note_another_vertex, "not of the input"},
       {&Breaker::note_another_piece, "does not exist"},
       {&Breaker::count_the_box, "side of the box"},
@@ -286,7 +286,7 @@ TEST(BadTriangles, WorstFirstAndValidateReportsWhatIsBroken) {
   using Breaker = BadTrianglesBreaker;
   const std::pair<void (Breaker::*)() const, const char*> cases[] = {
       {&Breaker::raise_the_lowest, "below the lowest bucket"},
-      {&Breaker::miscount, "another number of entries"},
+      {&Breaker::miscount, "count of entries"},
       {&Breaker::take_too_many, "more was taken"},
       {&Breaker::wait_for_no_bucket, "no bucket"},
   };

@@ -262,7 +262,8 @@ std::span<const std::uint32_t> Sides::gaps_at(TriangleId t) const {
 void Sides::validate_gaps(TriangleId t) {
   const std::span<const std::uint32_t> here = gaps_at(t);
   DELMESHER_CHECK(here.empty() || side_[t] == kMixed, "a triangle with gaps is not mixed");
-  DELMESHER_CHECK(!here.empty() || list_of_.empty() || list_of_[t] == kNone, "a list has no gaps");
+  DELMESHER_CHECK(!here.empty() || list_of_.empty() || list_of_[t] == kNone,
+                  "a triangle has a list of gaps without any");
   for (const std::uint32_t g : here) {
     DELMESHER_CHECK(contact(t, gaps_[g]) == Contact::proper, "a gap is not where it is listed");
   }

@@ -26,7 +26,7 @@ class Fan {
     for (int i = 0; i < 3; ++i) {
       if (mesh[t].vertex[static_cast<std::size_t>(i)] == v) first_ = edge_of(t, i);
     }
-    DELMESHER_CHECK(first_ != kNone, "triangle not at its vertex");
+    DELMESHER_CHECK(first_ != kNone, "around() names a triangle that is not at its vertex");
     spoke_ = first_;
   }
   EdgeId spoke() const { return spoke_; }
@@ -169,7 +169,7 @@ Location Triangulation::locate(VertexId p, TriangleId from) {
       if (s == 0) zeros |= 1U << i;
       if (s >= 0) continue;
       entered = triangle.neighbor[static_cast<std::size_t>(i)];
-      DELMESHER_CHECK(entered != kNone, "a point outside the rectangle");
+      DELMESHER_CHECK(entered != kNone, "a point is located outside the rectangle");
       t = triangle_of(entered);
       moved = true;
     }
@@ -267,7 +267,7 @@ void Triangulation::fill_cavity(VertexId p) {
     created_.push_back(static_cast<TriangleId>(triangles_.size()));
     triangles_.emplace_back();
   }
-  DELMESHER_CHECK(created_.size() == n, "a cavity of the wrong size");
+  DELMESHER_CHECK(created_.size() == n, "a cavity has more triangles than its boundary has edges");
   if (triangles_.size() >= std::size_t{1} << 30) {  // edges have no more numbers
     stop_at_size(std::size_t{1} << 30, "triangles");
   }
@@ -379,7 +379,7 @@ EdgeId Triangulation::first_crossing(VertexId a, VertexId b, VertexId& on_line, 
       return e;
     }
   } while (fan.advance());
-  DELMESHER_CHECK(false, "no way from a vertex to another");
+  DELMESHER_CHECK(false, "no triangle around a vertex is on the way to another one");
   return kNone;
 }
 
@@ -432,7 +432,8 @@ Triangulation::Obstacle Triangulation::cross(VertexId a, VertexId b, EdgeId firs
     }
   }
   const EdgeId made = find_edge(a, end);
-  DELMESHER_CHECK(made != kNone, "flips did not make the edge");
+  DELMESHER_CHECK(made != kNone,
+                  "two vertices have no edge after all edges between them were flipped");
   set_piece(made, kNone - 1);  // fixed while its surroundings are made Delaunay
   legalize(strip);
   return {};
@@ -483,30 +484,30 @@ void Triangulation::validate(bool delaunay) const {
   constexpr std::size_t kRectangle = 2;
   for (TriangleId t = 0; t < triangles_.size(); ++t) {
     const auto& v = triangles_[t].vertex;
-    DELMESHER_CHECK(predicates_->orient(v[0], v[1], v[2]) > 0, "a triangle that is not positive");
+    DELMESHER_CHECK(predicates_->orient(v[0], v[1], v[2]) > 0,
+                    "a triangle is not positively oriented");
     for (int i = 0; i < 3; ++i) {
       const EdgeId e = edge_of(t, i);
       DELMESHER_CHECK(around_[v[static_cast<std::size_t>(i)]] != kNone,
-                      "a vertex without a triangle");
+                      "around() names no triangle at a vertex of one");
       const EdgeId f = twin(e);
       if (f == kNone) {
-        DELMESHER_CHECK(piece(e) != kNone, "a border without a piece");
+        DELMESHER_CHECK(piece(e) != kNone, "an edge of the border is on no piece");
         continue;
       }
-      DELMESHER_CHECK(twin(f) == e, "neighbours that do not agree");
-      DELMESHER_CHECK(origin(e) == target(f) && target(e) == origin(f),
-                      "neighbours without common edge");
-      DELMESHER_CHECK(piece(e) == piece(f), "an edge with two pieces");
+      DELMESHER_CHECK(twin(f) == e, "neighbours do not name each other");
+      DELMESHER_CHECK(origin(e) == target(f) && target(e) == origin(f), "neighbours share no edge");
+      DELMESHER_CHECK(piece(e) == piece(f), "the two sides of an edge name different pieces");
       if (!delaunay || triangles_.size() <= kRectangle || piece(e) != kNone) continue;
       DELMESHER_CHECK(predicates_->in_circle_perturbed(v[0], v[1], v[2], opposite(f)) <= 0,
-                      "an edge that is not Delaunay");
+                      "an edge is not locally Delaunay");
     }
   }
   for (VertexId v = 0; v < around_.size(); ++v) {
     if (around_[v] == kNone) continue;
     const auto& corners = triangles_[around_[v]].vertex;
     DELMESHER_CHECK(std::find(corners.begin(), corners.end(), v) != corners.end(),
-                    "a stray vertex");
+                    "around() names a triangle that is not at its vertex");
   }
 }
 

@@ -88,7 +88,7 @@ class Remainders {
 }  // namespace
 
 double shortest_dyadic(double lo, double hi) {
-  DELMESHER_CHECK(lo <= hi, "empty interval");
+  DELMESHER_CHECK(lo <= hi, "the bounds of an interval are in the wrong order");
   if (lo <= 0 && hi >= 0) return 0;
   if (hi < 0) return -shortest_dyadic(-hi, -lo);
   constexpr std::uint64_t kFraction = (std::uint64_t{1} << 52) - 1;
@@ -128,7 +128,7 @@ PointDefinition place_on_segment(const PointStore& points, VertexId p, VertexId 
   local[1] = add(local[1], remainders.relative(rest));
   const Vec3& edge = local[0];
   const double length = norm(edge);
-  DELMESHER_CHECK(length > 0, "segment of no length");
+  DELMESHER_CHECK(length > 0, "a point is placed on a segment of no length");
   const double t = dot(local[1], edge) / length / length;
   const double slack = tolerance / length;
   double lo = t - slack;

@@ -75,7 +75,7 @@ RationalPoint meeting_point(const std::array<PlaneEquation, 3>& planes) {
     for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] = sum[axis] + height * c[axis];
   }
   Dyadic determinant = dot(n[0], cross(n[1], n[2]));
-  DELMESHER_CHECK(determinant.sign() != 0, "planes that do not meet in a point");
+  DELMESHER_CHECK(determinant.sign() != 0, "the three planes of a point do not meet in one point");
   if (determinant.sign() < 0) {
     determinant.mantissa = -determinant.mantissa;
     for (Dyadic& x : sum) x.mantissa = -x.mantissa;
@@ -129,7 +129,8 @@ void PointStore::reserve(std::size_t n) {
 }
 
 VertexId PointStore::add_explicit(double x, double y, double z) {
-  DELMESHER_CHECK(std::isfinite(x) && std::isfinite(y) && std::isfinite(z), "point not finite");
+  DELMESHER_CHECK(std::isfinite(x) && std::isfinite(y) && std::isfinite(z),
+                  "a coordinate is not finite");
   // Adding zero turns -0 into +0: equal points then have equal representations.
   approximations_.push_back({x + 0.0, y + 0.0, z + 0.0, 0.0});
   detail_of_.push_back(kNone);
@@ -137,9 +138,9 @@ VertexId PointStore::add_explicit(double x, double y, double z) {
 }
 
 void PointStore::move_explicit(VertexId v, const Vec3& x) {
-  DELMESHER_CHECK(detail_of_[v] == kNone, "only a plain point can move");
+  DELMESHER_CHECK(detail_of_[v] == kNone, "a point is to move that has a definition or supports");
   DELMESHER_CHECK(std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]),
-                  "point not finite");
+                  "a coordinate is not finite");
   approximations_[v] = {x[0] + 0.0, x[1] + 0.0, x[2] + 0.0, 0.0};
 }
 
@@ -152,7 +153,7 @@ VertexId PointStore::add_on_triangle(VertexId p, VertexId q, VertexId r, double 
 }
 
 void PointStore::copy_corners(const PointStore& from, std::size_t count) {
-  DELMESHER_CHECK(size() == 0, "the store must be empty");
+  DELMESHER_CHECK(size() == 0, "corners are copied to a store that is not empty");
   equations_ = from.equations_;
   for (VertexId v = 0; v < count; ++v) {
     if (from.is_explicit(v)) {
@@ -165,7 +166,8 @@ void PointStore::copy_corners(const PointStore& from, std::size_t count) {
 }
 
 VertexId PointStore::add(const PointDefinition& implicit_point) {
-  DELMESHER_CHECK(implicit_point.kind != PointKind::explicit_point, "not an implicit point");
+  DELMESHER_CHECK(implicit_point.kind != PointKind::explicit_point,
+                  "an explicit point is added as an implicit one");
   return add_implicit(implicit_point);
 }
 
@@ -184,15 +186,17 @@ VertexId PointStore::add_implicit(const PointDefinition& definition) {
   if (definition.kind == PointKind::on_planes) {
     DELMESHER_CHECK(
         c[0] < equations_.size() && c[1] < equations_.size() && c[2] < equations_.size(),
-        "no such plane");
+        "a point is on a plane that is not in the store");
     exact = meeting_point({equations_[c[0]], equations_[c[1]], equations_[c[2]]});
   } else {
     const std::size_t corners = definition.kind == PointKind::on_segment ? 2 : 3;
     for (std::size_t i = 0; i < corners; ++i) {
-      DELMESHER_CHECK(c[i] < size() && is_corner(c[i]), "implicit points have given corners");
+      DELMESHER_CHECK(
+          c[i] < size() && is_corner(c[i]),
+          "a corner of an implicit point is not in the store, or neither explicit nor on planes");
     }
     DELMESHER_CHECK(std::isfinite(definition.u) && std::isfinite(definition.v),
-                    "parameter not finite");
+                    "a parameter is not finite");
     exact = combination(*this, definition);
   }
   append(definition, exact);
@@ -236,7 +240,7 @@ std::size_t PointStore::limb_count(const Detail& d) {
 }
 
 void PointStore::pop_back() {
-  DELMESHER_CHECK(size() > 0, "no point to remove");
+  DELMESHER_CHECK(size() > 0, "a point is removed from an empty store");
   const std::uint32_t index = detail_of_.back();
   if (index != kNone) {
     const Detail& d = details_[index];

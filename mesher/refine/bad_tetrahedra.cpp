@@ -107,14 +107,14 @@ void BadTetrahedra::validate() const {
     DELMESHER_CHECK(level_[n].empty() || (n > 0 && n <= worst_),
                     "a bad tetrahedron waits above the worst level");
     for (const TetId t : level_[n]) {
-      DELMESHER_CHECK(t < found.size(), "there is no such bad tetrahedron");
+      DELMESHER_CHECK(t < found.size(), "a tetrahedron waits that does not exist");
       if (note(dt_, t, Note::waiting) == n) found[t] = 1;
     }
   }
   DELMESHER_CHECK(!largest_ratio_first_ || worst_ == 0, "a level has entries beside the heap");
   DELMESHER_CHECK(std::is_heap(heap_.begin(), heap_.end()), "the largest ratio is not in front");
   for (const Ranked& ranked : heap_) {
-    DELMESHER_CHECK(ranked.t < found.size(), "there is no such bad tetrahedron");
+    DELMESHER_CHECK(ranked.t < found.size(), "a tetrahedron waits that does not exist");
     if (dt_.alive(ranked.t) && ratio2_of(ranked.t) == ranked.ratio2) found[ranked.t] = 1;
   }
   for (TetId t = 0; t < dt_.capacity(); ++t) {

@@ -167,7 +167,7 @@ TEST(BadTetrahedra, ValidateReportsEveryBrokenInvariant) {
   const std::pair<void (Breaker::*)() const, const char*> cases[] = {
       {&Breaker::lose_entries, "waits at no level"},
       {&Breaker::lower_the_worst, "above the worst level"},
-      {&Breaker::name_an_unknown, "no such bad tetrahedron"},
+      {&Breaker::name_an_unknown, "waits that does not exist"},
       {&Breaker::lose_fresh, "fresh tetrahedron"},
       {&Breaker::repeat_fresh, "judged twice"},
   };

@@ -44,11 +44,13 @@ std::vector<std::uint8_t> FacetBoundary::inside(const PlanarTriangulation& plana
       found += inward ? 1 : 0;
       const std::uint8_t here = inward ? kInside : kOutside;
       if (place[t] == kUndecided) stack.push_back(t);
-      DELMESHER_CHECK(place[t] == kUndecided || place[t] == here, "facet boundary not consistent");
+      DELMESHER_CHECK(place[t] == kUndecided || place[t] == here,
+                      "the sides of a facet disagree about what is inside");
       place[t] = here;
     }
   }
-  DELMESHER_CHECK(found == sides_.size(), "subsegment is no edge of its facet's triangulation");
+  DELMESHER_CHECK(found == sides_.size(),
+                  "a subsegment is no edge of the triangulation of its facet");
   while (!stack.empty()) {
     const std::uint32_t t = stack.back();
     stack.pop_back();

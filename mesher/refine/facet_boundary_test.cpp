@@ -88,7 +88,7 @@ TEST(FacetBoundary, WhatDoesNotSeparateIsRefused) {
   // One that leads backwards.
   std::vector<DirectedSide> turned = both(kOuter, kHole);
   std::swap(turned[4].from, turned[4].to);
-  EXPECT_NE(complaint(turned).find("not consistent"), std::string::npos);
+  EXPECT_NE(complaint(turned).find("disagree about what is inside"), std::string::npos);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ void FacetTriangulations::make_point_off_plane(std::uint32_t f) {
     points_.pop_back();
     point = kNone;
   }
-  DELMESHER_CHECK(point != kNone, "no point off a facet's plane");
+  DELMESHER_CHECK(point != kNone, "no double is off a facet's plane");
   planes_[f] = {facet.axis, facet.axis_sign, point};
 }
 
@@ -86,7 +86,8 @@ void FacetTriangulations::build_facet(std::uint32_t f) {
         continue;
       }
       const std::uint32_t next = planar.neighbors[t][i];
-      DELMESHER_CHECK(next != kNone && id[next / 3] != kNone, "facet boundary not closed");
+      DELMESHER_CHECK(next != kNone && id[next / 3] != kNone,
+                      "the boundary of a facet is not closed");
       list_[id[t]].neighbor[i] = {id[next / 3], next % 3};
     }
   }
@@ -150,7 +151,7 @@ void FacetTriangulations::fill_cavity(VertexId v, std::uint32_t half_a, std::uin
   std::sort(spokes_.begin(), spokes_.end(),
             [](const Spoke& a, const Spoke& b) { return a.from < b.from; });
   const auto attach_half = [&](std::uint32_t created, std::uint32_t edge, VertexId end) {
-    DELMESHER_CHECK(half_a != kNone, "planar cavity is open");
+    DELMESHER_CHECK(half_a != kNone, "a planar cavity is open");
     const bool first = subsegments_[half_a].a == end || subsegments_[half_a].b == end;
     link(created, edge, first ? half_a : half_b);
   };
@@ -231,7 +232,7 @@ void FacetTriangulations::validate_subfacet(std::uint32_t s) const {
     DELMESHER_CHECK(
         g.alive && g.facet == f.facet && g.neighbor[there.edge()] == here && ends(there) == back,
         "two subfacets disagree about their common edge");
-    DELMESHER_CHECK(!in_circle(s, g.v[there.edge()]), "a facet is not Delaunay");
+    DELMESHER_CHECK(!in_circle(s, g.v[there.edge()]), "an edge of a facet is not locally Delaunay");
   }
 }
 

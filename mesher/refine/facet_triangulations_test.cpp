@@ -193,7 +193,7 @@ TEST(FacetTriangulations, ValidateReportsEveryBrokenInvariant) {
       {&Breaker::unlink, "has no other side"},
       {&Breaker::link_to_no_edge, "no such neighbour"},
       {&Breaker::link_to_itself, "disagree about their common edge"},
-      {&Breaker::look_from_below, "not Delaunay"},
+      {&Breaker::look_from_below, "not locally Delaunay"},
       {&Breaker::kill, "disagree about their common edge"},
       {&Breaker::kill_uncounted, "are not counted"},
   };

@@ -27,7 +27,7 @@ void PlanarCavity::find(const FacetTriangulations& all, VertexId v, std::uint32_
       return all.orient(all[start].facet, from, to, v) <= 0;
     });
     if (behind == skin_.end()) return;
-    DELMESHER_CHECK(behind->subfacet() != start, "planar cavity is not star-shaped");
+    DELMESHER_CHECK(behind->subfacet() != start, "a planar cavity is not star-shaped");
     excluded_.push_back(behind->subfacet());
   }
 }

@@ -100,7 +100,7 @@ void Refiner::split_subsegment(std::uint32_t s) {
   const VertexId v = steiner_.on_segment(subsegments_[s].segment, a, b);
   VertexId duplicate = kNone;
   const TetId start = dt_.locate(v, dt_.incident(a), &duplicate);
-  DELMESHER_CHECK(duplicate == kNone, "split point of a subsegment coincides with a vertex");
+  DELMESHER_CHECK(duplicate == kNone, "the split point of a subsegment coincides with a vertex");
   ++result_.on_segments;
   find_cavity(v, start);
   if (options_.gabriel) {
@@ -131,7 +131,7 @@ void Refiner::split_subfacet(std::uint32_t s) {
   }
   VertexId duplicate = kNone;
   const TetId start = dt_.locate(v, dt_.incident(subfacets_[container].v[0]), &duplicate);
-  DELMESHER_CHECK(duplicate == kNone, "split point of a subfacet coincides with a vertex");
+  DELMESHER_CHECK(duplicate == kNone, "the split point of a subfacet coincides with a vertex");
   if (!find_free_cavity(v, start, false)) {
     points_.pop_back();
     subfacets_.queue(s);

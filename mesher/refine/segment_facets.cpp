@@ -10,7 +10,7 @@ SegmentFacets::SegmentFacets(const Plc& plc)
     for (const PlcFacet::Side& side : plc.facets[f].boundary) {
       auto& [first, second] = facets_[side.segment];
       std::uint32_t& use = first == kNone ? first : second;
-      DELMESHER_CHECK(use == kNone, "segment of three facets");
+      DELMESHER_CHECK(use == kNone, "a segment bounds more than two facets");
       use = f;
     }
   }

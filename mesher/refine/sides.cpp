@@ -183,7 +183,8 @@ void Sides::validate() const {
   for (TetId t = 0; t < dt_.capacity(); ++t) {
     if (!dt_.alive(t) || dt_.is_ghost(t)) continue;
     const State here = state(t);
-    DELMESHER_CHECK(here < State::asked, "a tetrahedron is being asked for its side");
+    DELMESHER_CHECK(here < State::asked,
+                    "a tetrahedron is still marked as being asked for its side");
     if (here != State::inside && here != State::outside) continue;
     for (int i = 0; i < 4; ++i) {
       const State seen = through(t, i);

@@ -116,7 +116,7 @@ VertexId SteinerPoints::in_facet(std::uint32_t facet, const std::array<VertexId,
       cross({aa * b[0] - bb * a[0], aa * b[1] - bb * a[1], aa * b[2] - bb * a[2]}, n);
   const Vec3 offset = scaled(towards, 0.5 / dot(n, n));
   const double radius = norm(offset);
-  DELMESHER_CHECK(std::isfinite(radius), "subfacet too flat for its circumcentre");
+  DELMESHER_CHECK(std::isfinite(radius), "a subfacet is too flat for its circumcentre");
   return in_plane(facet, origin, offset, radius * kCenterTolerance);
 }
 

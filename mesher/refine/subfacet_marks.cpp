@@ -23,7 +23,7 @@ void SubfacetMarks::validate(std::size_t subfacets) const {
     for (const int i : {0, 1, 2, 3}) {
       const std::uint32_t mark = of(t, i);
       if (mark == kNone) continue;
-      DELMESHER_CHECK(mark < subfacets, "a face is marked as no subfacet");
+      DELMESHER_CHECK(mark < subfacets, "a face is marked as a subfacet that does not exist");
       DELMESHER_CHECK(of(dt_.neighbor(t, i), dt_.mirror(t, i)) == mark,
                       "the two sides of a face have different marks");
     }

@@ -217,9 +217,9 @@ TEST(Subfacets, ValidateReportsEveryBrokenInvariant) {
       {&Breaker::forget_face, "does not know of its subfacet"},
       {&Breaker::misname_face, "does not know of its subfacet"},
       {&Breaker::keep_a_mark_on_one_side, "have different marks"},
-      {&Breaker::name_no_subfacet, "is marked as no subfacet"},
+      {&Breaker::name_no_subfacet, "a subfacet that does not exist"},
       {&Breaker::claim_to_wait, "waits in no queue"},
-      {&Breaker::wait_unknown, "is not queued"},
+      {&Breaker::wait_unknown, "not marked as waiting"},
       {&Breaker::ask_for_empty_balls, "is encroached"},
   };
   for (const auto& [damage, reason] : cases) {

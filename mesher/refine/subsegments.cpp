@@ -110,14 +110,17 @@ void Subsegments::validate_chains() const {
       DELMESHER_CHECK(s < list_.size(), "a chain of subsegments leads nowhere");
       const Subsegment& sub = list_[s];
       DELMESHER_CHECK(++chained <= list_.size(), "a chain of subsegments does not end");
-      DELMESHER_CHECK(sub.segment == n && sub.a == at, "a chain of subsegments broke");
+      DELMESHER_CHECK(sub.segment == n && sub.a == at,
+                      "a subsegment of a chain is of another segment, or begins elsewhere than the "
+                      "last one ends");
       DELMESHER_CHECK(find(sub.a, sub.b) == s, "a subsegment is not found by its ends");
       at = sub.b;
     }
     DELMESHER_CHECK(at == plc_.segments[n].vertex[1], "a chain of subsegments ends too soon");
   }
   DELMESHER_CHECK(chained == list_.size(), "a subsegment is in no chain");
-  DELMESHER_CHECK(by_ends_.size() == chained, "something is found that is no subsegment");
+  DELMESHER_CHECK(by_ends_.size() == chained,
+                  "ends are remembered that are those of no subsegment");
 }
 
 void Subsegments::validate_in_mesh(std::uint32_t s) {

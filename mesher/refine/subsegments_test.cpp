@@ -154,13 +154,13 @@ TEST(Subsegments, ValidateReportsEveryBrokenInvariant) {
       {&Breaker::forget_edge, "does not know of its subsegment"},
       {&Breaker::end_chain, "ends too soon"},
       {&Breaker::lead_nowhere, "leads nowhere"},
-      {&Breaker::go_round, "broke"},
-      {&Breaker::move_to_another_segment, "broke"},
+      {&Breaker::go_round, "begins elsewhere than the last one ends"},
+      {&Breaker::move_to_another_segment, "begins elsewhere than the last one ends"},
       {&Breaker::forget_ends, "not found by its ends"},
       {&Breaker::remember_the_split, "no subsegment"},
       {&Breaker::add_to_no_chain, "in no chain"},
       {&Breaker::claim_to_wait, "waits in no queue"},
-      {&Breaker::wait_unknown, "is not queued"},
+      {&Breaker::wait_unknown, "not marked as waiting"},
       {&Breaker::ask_for_empty_balls, "is encroached"},
   };
   for (const auto& [damage, reason] : cases) {

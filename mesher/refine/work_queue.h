@@ -51,7 +51,8 @@ class WorkQueue {
     for (const std::uint8_t waits : waits_) waiting += waits;
     DELMESHER_CHECK(waiting == queue_.size(), "an element waits in no queue, or twice");
     for (const std::uint32_t n : queue_) {
-      DELMESHER_CHECK(n < size && waits(n), "an element in the queue is not queued");
+      DELMESHER_CHECK(n < size && waits(n),
+                      "an element in the queue does not exist, or is not marked as waiting");
     }
   }
 

@@ -56,9 +56,9 @@ TEST(WorkQueue, ValidateReportsEveryBrokenInvariant) {
   expect("nothing", [](WorkQueueBreaker) {});
   expect("waits in no queue", [](WorkQueueBreaker b) { b.claim_to_wait(1); });
   expect("or twice", [](WorkQueueBreaker b) { b.put_in(2); });
-  expect("is not queued", [](WorkQueueBreaker b) { b.wait_instead(0, 1); });
+  expect("not marked as waiting", [](WorkQueueBreaker b) { b.wait_instead(0, 1); });
   expect(
-      "is not queued", [](WorkQueueBreaker) {}, 2);
+      "not marked as waiting", [](WorkQueueBreaker) {}, 2);
 }
 
 }  // namespace

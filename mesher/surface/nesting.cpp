@@ -129,7 +129,7 @@ std::vector<ComponentNesting> analyze_nesting(const Triangles& triangles,
   for (const auto& component : members) {
     control.poll();
     result.push_back(VolumeSum(predicates.points(), triangles, component).result());
-    DELMESHER_CHECK(result.back().volume_sign != 0, "a valid component has a volume");
+    DELMESHER_CHECK(result.back().volume_sign != 0, "a component of a valid surface has no volume");
     if (components > 1) {
       result.back().depth =
           nesting_depth(triangles, component_of, component[0], predicates, tree, crossed);

@@ -53,7 +53,7 @@ MeasuredSurface::MeasuredSurface(const Surface& surface)
   const HalfEdgeGroups edges(triangles(), vertices().size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto h = edges[e];
-    DELMESHER_CHECK(h.size() == 2, "the surface must be a manifold");
+    DELMESHER_CHECK(h.size() == 2, "an edge of a valid surface does not have two triangles");
     opposite_[h[0]] = h[1];
     opposite_[h[1]] = h[0];
   }

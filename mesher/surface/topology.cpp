@@ -51,7 +51,7 @@ class Builder {
 
  private:
   void add_points() {
-    DELMESHER_CHECK(points_.size() == 0, "the store must be empty");
+    DELMESHER_CHECK(points_.size() == 0, "a topology is built on a store that is not empty");
     add_vertices(surface_, stand_in_, points_);
     topology_.triangles = stand_in_.triangles.empty() ? surface_.triangles : stand_in_.triangles;
     topology_.labels = surface_.labels;
@@ -66,8 +66,9 @@ class Builder {
     s.edge_half_edge.reserve(groups.size());
     for (std::size_t e = 0; e < groups.size(); ++e) {
       const auto group = groups[e];
-      DELMESHER_CHECK(group.size() == 2 && s.from(group[0]) == s.to(group[1]),
-                      "the surface must be a closed oriented manifold");
+      DELMESHER_CHECK(
+          group.size() == 2 && s.from(group[0]) == s.to(group[1]),
+          "an edge of a valid surface does not have two triangles with opposite directions");
       s.opposite[group[0]] = group[1];
       s.opposite[group[1]] = group[0];
       s.edge_of[group[0]] = s.edge_of[group[1]] = static_cast<std::uint32_t>(e);
@@ -75,7 +76,7 @@ class Builder {
     }
     s.vertex_half_edge.assign(surface_.vertices.size(), kNone);
     for (std::uint32_t h = 0; h < s.opposite.size(); ++h) {
-      DELMESHER_CHECK(s.opposite[h] != kNone, "a triangle repeats a vertex");
+      DELMESHER_CHECK(s.opposite[h] != kNone, "a triangle of a valid surface repeats a vertex");
       if (s.vertex_half_edge[s.from(h)] == kNone) s.vertex_half_edge[s.from(h)] = h;
     }
   }
@@ -134,7 +135,7 @@ class Builder {
     SurfaceTopology& s = topology_;
     for (const auto& triangles : s.facet_triangles) {
       const Projection projection = find_projection(predicates_, s.triangles[triangles[0]]);
-      DELMESHER_CHECK(projection.sign != 0, "a triangle is degenerate");
+      DELMESHER_CHECK(projection.sign != 0, "a triangle of a valid surface is degenerate");
       s.facet_axis.push_back(projection.axis);
       s.facet_axis_sign.push_back(projection.sign);
     }
