@@ -16,9 +16,6 @@ class VtuText {
   VtuText(std::string path, std::string_view text);
   VtuText(const VtuText&) = delete;
 
-  // As the piece has them.
-  std::size_t points() const { return points_; }
-  std::size_t cells() const { return cells_; }
   // The values of the array of that name in a section ("Points", "Cells", "CellData"); of the only
   // one there if the name is empty. Three for each point, one for each cell but for "connectivity".
   // Empty if there is none.

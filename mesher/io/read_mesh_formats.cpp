@@ -104,7 +104,6 @@ class NumberedLines {
     what_ = what;
     count_ = in_.count(what, most, bytes);
   }
-  std::uint64_t size() const { return count_; }
   // A number of the header; `fallback` if the line has ended.
   template <class T>
   T header(T fallback, const char* what) {

@@ -121,8 +121,6 @@ class PlanePredicates {
  public:
   explicit PlanePredicates(const PointStore& points) : points_(points) {}
 
-  const PointStore& points() const { return points_; }
-
   // +1 if abc is a counter-clockwise triangle.
   int orient(VertexId a, VertexId b, VertexId c) {
     const int s = filters::orient2d(points_.approximation(a), points_.approximation(b),

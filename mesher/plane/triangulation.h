@@ -64,7 +64,6 @@ class Triangulation {
 
   std::size_t size() const { return triangles_.size(); }
   const Triangle& operator[](TriangleId t) const { return triangles_[t]; }
-  const std::vector<Triangle>& triangles() const { return triangles_; }
   bool has_vertex(VertexId v) const { return v < around_.size() && around_[v] != kNone; }
   // Some triangle at a vertex.
   TriangleId around(VertexId v) const { return around_[v]; }

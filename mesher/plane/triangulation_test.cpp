@@ -72,8 +72,8 @@ TEST(Triangulation, UniqueWhateverTheOrder) {
   }
   const auto triangles = [](const Triangulation& mesh) {
     std::set<std::array<VertexId, 3>> result;
-    for (const Triangle& t : mesh.triangles()) {
-      auto v = t.vertex;
+    for (TriangleId t = 0; t < mesh.size(); ++t) {
+      auto v = mesh[t].vertex;
       std::sort(v.begin(), v.end());
       result.insert(v);
     }

@@ -13,7 +13,6 @@ class Sparing {
  public:
   // The filter adds the segments that it drops.
   Spared& spared() { return spared_; }
-  const Spared& spared() const { return spared_; }
 
   // After a refinement that found no room: spares its crowded pieces and vertices. If these are
   // nothing new, or after several failures, spares all segments of the input; without them the
