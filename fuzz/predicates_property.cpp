@@ -184,10 +184,6 @@ class Call {
     }
   }
 
-  static int distance_sign(const reference::Point* p) {
-    const auto u = reference::minus(p[0], p[1]), v = reference::minus(p[2], p[3]);
-    return sgn(mpq_class(reference::dot(u, u) - reference::dot(v, v)));
-  }
   static int xyz_sign(const reference::Point* p) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (const int s = cmp(p[0][i], p[1][i]); s != 0) return s < 0 ? -1 : 1;
@@ -236,8 +232,6 @@ class Call {
                 reference::in_diametral_ball(p)};
       case 6:
         return {"dihedral", predicates_.dihedral_sign(a, b, c, d), reference::dihedral_sign(p)};
-      case 7:
-        return {"distance", predicates_.compare_distance(a, b, c, d), distance_sign(p)};
       case 8:
         return {"order", predicates_.compare_xyz(a, b), xyz_sign(p)};
       case 9:
@@ -250,7 +244,7 @@ class Call {
         if (reference::collinear(p[1], p[2], p[3])) break;  // there is no plane
         return {"edge and plane", predicates_.edge_plane_angle_below(a, b, c, d, cosine_squared_),
                 reference::edge_plane_angle_below(p, cosine_squared_)};
-      default:
+      default:  // 7 and 12: other numbers keep their meaning in corpora
         return {"dihedral below", predicates_.dihedral_below(a, b, c, d, cosine_squared_),
                 reference::dihedral_below(p, cosine_squared_)};
     }

@@ -105,18 +105,6 @@ struct DotDifference {
   }
 };
 
-// |a - b|^2 - |c - d|^2
-struct CompareDistance {
-  static constexpr int kPoints = 4;
-  static constexpr bool kFixedSize = true;
-  template <class T>
-  auto operator()(const Triple<T>* p) const {
-    const Triple<T> u = p[0] - p[1];
-    const Triple<T> v = p[2] - p[3];
-    return dot(u, u) - dot(v, v);
-  }
-};
-
 struct CompareCoordinate {
   static constexpr int kPoints = 2;
   static constexpr bool kFixedSize = true;

@@ -191,7 +191,6 @@ TEST(Signs, KnownCases) {
   EXPECT_EQ(p.in_diametral_ball(x, y, z, out), -1);
   EXPECT_EQ(p.dihedral_sign(in, y, o, x), 1);
   EXPECT_EQ(p.dihedral_sign(z, y, o, x), 0);
-  EXPECT_EQ(p.compare_distance(o, x, o, out), -1);
   EXPECT_EQ(p.compare_xyz(o, x), -1);
   EXPECT_TRUE(p.angle_below(y, x, o, cosine_squared(45.001)));
   EXPECT_FALSE(p.angle_below(y, x, o, cosine_squared(45)));

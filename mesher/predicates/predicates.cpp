@@ -175,11 +175,6 @@ int Predicates::dihedral_sign(VertexId a, VertexId b, VertexId c, VertexId d) {
   return sign(polynomials::Dihedral{}, v);
 }
 
-int Predicates::compare_distance(VertexId a, VertexId b, VertexId c, VertexId d) {
-  const VertexId v[] = {a, b, c, d};
-  return sign(polynomials::CompareDistance{}, v);
-}
-
 int Predicates::compare_coordinate(int axis, VertexId a, VertexId b) {
   const VertexId v[] = {a, b};
   return sign(polynomials::CompareCoordinate{axis}, v);

@@ -95,8 +95,6 @@ class Predicates {
   // and bcd at edge cd is acute (appendix A.2).
   int dihedral_sign(VertexId a, VertexId b, VertexId c, VertexId d);
 
-  // Sign of |a - b| - |c - d|.
-  int compare_distance(VertexId a, VertexId b, VertexId c, VertexId d);
   // Sign of the difference a - b of a coordinate.
   int compare_coordinate(int axis, VertexId a, VertexId b);
   // Lexicographic order of coordinates; 0 iff the points coincide.

@@ -40,8 +40,7 @@ TEST(Stages, EachSignIsDecidedByOne) {
           [&] { return p.dot_sign(v[0], v[1], v[2]); },
           [&] { return p.dot_difference_sign(v[0], v[1], v[2], v[3]); },
           [&] { return p.in_diametral_ball(v[0], v[1], v[2], v[3]); },
-          [&] { return p.dihedral_sign(v[0], v[1], v[2], v[3]); },
-          [&] { return p.compare_distance(v[0], v[1], v[2], v[3]); }};
+          [&] { return p.dihedral_sign(v[0], v[1], v[2], v[3]); }};
       for (const auto& sign : signs) {
         const PredicateCounters before = p.counters;
         const int s = sign();
