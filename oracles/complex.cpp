@@ -2,6 +2,7 @@
 #include <cmath>
 #include <span>
 
+#include "oracles/buckets.h"
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -39,29 +40,6 @@ bool sort_face(Face& face) {
   order(0, 1);
   return even;
 }
-
-// Lists by vertex, one after the other: entries are counted, then put where they belong.
-class Buckets {
- public:
-  explicit Buckets(std::size_t vertices) : ends_(vertices + 1, 0) {}
-
-  void count(Index vertex) { ++ends_[vertex + 1]; }
-  void allot() {
-    for (std::size_t v = 1; v < ends_.size(); ++v) ends_[v] += ends_[v - 1];
-    entries_.resize(ends_.back());
-  }
-  // Once for every entry counted; from the first one on, ends_[v] is the end of list v so far.
-  void put(Index vertex, Index entry) { entries_[ends_[vertex]++] = entry; }
-  // The list of a vertex; all of its entries, and those of the vertices before, must be there.
-  std::span<const Index> of(Index vertex) const {
-    const std::uint64_t first = vertex == 0 ? 0 : ends_[vertex - 1];
-    return std::span(entries_).subspan(first, ends_[vertex] - first);
-  }
-
- private:
-  std::vector<std::uint64_t> ends_;
-  std::vector<Index> entries_;
-};
 
 // Indices in range, four different corners. Returns false if faces make no sense.
 bool check_corners(const TetComplex& complex, OracleReport& report) {
@@ -131,35 +109,15 @@ std::int64_t check_closed(const TetComplex& complex, const std::vector<Face>& bo
   return distinct;
 }
 
-// The number of edges of the mesh, each listed at its lower vertex; an edge comes once for every
-// tetrahedron.
-std::int64_t count_edges(const TetComplex& complex) {
-  const auto for_each = [&complex](const auto& visit) {
-    for (const Tet& t : complex.tetrahedra) {
-      for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < i; ++j) visit(std::min(t[i], t[j]), std::max(t[i], t[j]));
-      }
-    }
-  };
-  Buckets higher(complex.points->size());
-  for_each([&higher](Index low, Index) { higher.count(low); });
-  higher.allot();
-  for_each([&higher](Index low, Index high) { higher.put(low, high); });
-  std::vector<Index> seen_from(complex.points->size(), kNone);
+struct Counts {
+  std::uint64_t faces = 0;
   std::int64_t edges = 0;
-  for (Index v = 0; v < seen_from.size(); ++v) {
-    for (const Index high : higher.of(v)) {
-      edges += seen_from[high] != v;
-      seen_from[high] = v;
-    }
-  }
-  return edges;
-}
+};
 
-void check_euler(const TetComplex& complex, std::uint64_t faces, const std::vector<Face>& boundary,
+void check_euler(const TetComplex& complex, const Counts& counts, const std::vector<Face>& boundary,
                  std::int64_t boundary_edges, bool is_part, OracleReport& report) {
-  const std::int64_t euler = count_used(complex, complex.tetrahedra) - count_edges(complex) +
-                             static_cast<std::int64_t>(faces) -
+  const std::int64_t euler = count_used(complex, complex.tetrahedra) - counts.edges +
+                             static_cast<std::int64_t>(counts.faces) -
                              static_cast<std::int64_t>(complex.tetrahedra.size());
   const std::int64_t of_boundary =
       count_used(complex, boundary) - boundary_edges + static_cast<std::int64_t>(boundary.size());
@@ -200,36 +158,69 @@ void match_face(const TetComplex& complex, const Face& sorted, std::span<const F
   neighbours.across[second] = first;
 }
 
-// Returns the number of faces. Only the numbers of faces are held all at once, by lowest corner:
-// sorting the faces themselves takes four times the memory and most of the time.
-std::uint64_t match_faces(const TetComplex& complex, Neighbours& neighbours,
-                          std::vector<Face>& boundary, OracleReport& report) {
+// The corners of a tetrahedron, ascending.
+Tet ascending(const Tet& tet) {
+  const auto [a, b] = std::minmax(tet[0], tet[1]);
+  const auto [c, d] = std::minmax(tet[2], tet[3]);
+  const auto [second, third] = std::minmax(std::max(a, c), std::min(b, d));
+  return {std::min(a, c), second, third, std::max(b, d)};
+}
+
+// Faces by their lowest corner. Only their numbers are held all at once: sorting the faces
+// themselves takes four times the memory and most of the time.
+Buckets faces_by_lowest(const TetComplex& complex) {
   // The lowest corner of a face is that of the tetrahedron, or else the second one.
   const auto for_each_face = [&complex](const auto& visit) {
     for (Index t = 0; t < complex.tetrahedra.size(); ++t) {
       const Tet& tet = complex.tetrahedra[t];
-      const auto [a, b] = std::minmax(tet[0], tet[1]);
-      const auto [c, d] = std::minmax(tet[2], tet[3]);
-      const Index lowest = std::min(a, c), second = a < c ? std::min(b, c) : std::min(a, d);
-      for (Index i = 0; i < 4; ++i) visit(tet[i] == lowest ? second : lowest, 4 * t + i);
+      const Tet sorted = ascending(tet);
+      for (Index i = 0; i < 4; ++i) visit(sorted[tet[i] == sorted[0] ? 1 : 0], 4 * t + i);
     }
   };
-  Buckets by_lowest(complex.points->size());
-  for_each_face([&](Index lowest, Index) { by_lowest.count(lowest); });
-  by_lowest.allot();
-  for_each_face([&](Index lowest, Index tet_face) { by_lowest.put(lowest, tet_face); });
+  Buckets faces(complex.points->size());
+  for_each_face([&faces](Index lowest, Index) { faces.count(lowest); });
+  faces.allot();
+  for_each_face([&faces](Index lowest, Index tet_face) { faces.put(lowest, tet_face); });
+  return faces;
+}
+
+// The edges between the two highest corners of tetrahedra, by the lower one.
+Buckets highest_edges(const TetComplex& complex) {
+  Buckets edges(complex.points->size());
+  for (const Tet& tet : complex.tetrahedra) edges.count(ascending(tet)[2]);
+  edges.allot();
+  for (const Tet& tet : complex.tetrahedra) {
+    const Tet sorted = ascending(tet);
+    edges.put(sorted[2], sorted[3]);
+  }
+  return edges;
+}
+
+// An edge of a tetrahedron is found at its lower end: from a face with that as its lowest corner,
+// unless the edge is between the two highest corners.
+Counts match_faces(const TetComplex& complex, Neighbours& neighbours, std::vector<Face>& boundary,
+                   OracleReport& report) {
+  const Buckets by_lowest = faces_by_lowest(complex), highest = highest_edges(complex);
   std::vector<FaceRecord> faces;
-  std::uint64_t distinct = 0;
+  std::vector<Index> seen_from(complex.points->size(), kNone);
+  Counts counts;
   for (Index v = 0; v < complex.points->size(); ++v) {
+    const auto see = [&](Index other) {
+      counts.edges += seen_from[other] != v;
+      seen_from[other] = v;
+    };
     faces.clear();
     for (const Index i : by_lowest.of(v)) {
       const Tet& tet = complex.tetrahedra[i / 4];
       Face face = face_of(tet, static_cast<int>(i % 4));
       const bool even = sort_face(face);
+      see(face[1]);
+      see(face[2]);
       faces.push_back({FaceRecord::pack(face), tet[i % 4], i | (even ? FaceRecord::kEven : 0)});
     }
+    for (const Index other : highest.of(v)) see(other);
     std::sort(faces.begin(), faces.end());
-    for (std::size_t i = 0; i < faces.size(); ++distinct) {
+    for (std::size_t i = 0; i < faces.size(); ++counts.faces) {
       std::size_t j = i + 1;
       while (j < faces.size() && faces[j].corners == faces[i].corners) ++j;
       match_face(complex, {v, faces[i].middle(), faces[i].high()},
@@ -237,7 +228,7 @@ std::uint64_t match_faces(const TetComplex& complex, Neighbours& neighbours,
       i = j;
     }
   }
-  return distinct;
+  return counts;
 }
 
 }  // namespace
@@ -279,10 +270,10 @@ OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours, bo
   check_used(complex, report);
 
   std::vector<Face> boundary;
-  const std::uint64_t distinct = match_faces(complex, neighbours, boundary, report);
+  const Counts counts = match_faces(complex, neighbours, boundary, report);
   const std::int64_t boundary_edges = check_closed(complex, boundary, report);
-  check_euler(complex, distinct, boundary, boundary_edges, is_part, report);
-  report.figures.emplace_back("faces", distinct);
+  check_euler(complex, counts, boundary, boundary_edges, is_part, report);
+  report.figures.emplace_back("faces", counts.faces);
   report.figures.emplace_back("boundary faces", boundary.size());
   return report;
 }

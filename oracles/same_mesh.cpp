@@ -6,7 +6,9 @@
 #include <numeric>
 #include <optional>
 
+#include "oracles/buckets.h"
 #include "oracles/distances.h"
+#include "oracles/simplex_set.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -122,42 +124,92 @@ class SameMesh {
   }
 
  private:
-  struct Written {
+  struct Sorted {
     Tet tet;
-    std::size_t index;
-    bool operator<(const Written& other) const { return tet < other.tet; }
+    Index index;
+    bool operator<(const Sorted& other) const { return tet < other.tet; }
+  };
+  // Numbers of tetrahedra by their lowest point. What is no point comes last.
+  class ByLowest {
+   public:
+    explicit ByLowest(std::size_t points)
+        : points_(static_cast<Index>(points)), numbers_(points + 1) {}
+
+    void count(const Tet& tet) { numbers_.count(lowest(tet)); }
+    void allot() { numbers_.allot(); }
+    void put(const Tet& tet, std::size_t t) { numbers_.put(lowest(tet), static_cast<Index>(t)); }
+    template <class Corners>
+    void get(Index v, const Corners& corners, std::vector<Sorted>& list) const {
+      list.clear();
+      for (const Index t : numbers_.of(v)) list.push_back({sorted(corners(t)), t});
+      std::sort(list.begin(), list.end());
+    }
+
+   private:
+    Index lowest(const Tet& tet) const {
+      return std::min(points_, *std::min_element(tet.begin(), tet.end()));
+    }
+
+    Index points_;
+    Buckets numbers_;
   };
 
+  // Only the numbers of tetrahedra are held all at once: sorting the tetrahedra themselves takes
+  // more memory than both meshes.
   void compare_tetrahedra() {
-    std::vector<Written> written, recorded;
-    written.reserve(mesh_.tetrahedra.size());
+    const std::size_t points = record_.points.size();
+    const auto corners_written = [this](Index t) { return points_of(mesh_.tetrahedra[t]); };
+    const auto corners_recorded = [this](Index t) { return tets_[t].vertices; };
+    ByLowest by_written(points), by_recorded(points);
+    const auto for_each_recorded = [this](const auto& visit) {
+      for (std::size_t t = 0; t < tets_.size(); ++t) {
+        if (all_ || tets_[t].inside) visit(tets_[t].vertices, t);
+      }
+    };
+    std::size_t recorded_count = 0;
+    for (const Tet& tet : mesh_.tetrahedra) by_written.count(points_of(tet));
+    for_each_recorded([&](const Tet& tet, std::size_t) {
+      by_recorded.count(tet);
+      ++recorded_count;
+    });
+    by_written.allot();
+    by_recorded.allot();
     for (std::size_t t = 0; t < mesh_.tetrahedra.size(); ++t) {
-      written.push_back({sorted(points_of(mesh_.tetrahedra[t])), t});
+      by_written.put(points_of(mesh_.tetrahedra[t]), t);
     }
-    for (std::size_t t = 0; t < tets_.size(); ++t) {
-      if (all_ || tets_[t].inside) recorded.push_back({sorted(tets_[t].vertices), t});
-    }
-    std::sort(written.begin(), written.end());
-    std::sort(recorded.begin(), recorded.end());
-    report_.checked = written.size();
-    if (written.empty() && recorded.empty() && approximate_) {
+    for_each_recorded([&](const Tet& tet, std::size_t t) { by_recorded.put(tet, t); });
+    report_.checked = mesh_.tetrahedra.size();
+    if (mesh_.tetrahedra.empty() && recorded_count == 0 && approximate_) {
       report_.checked = tets_.size();
       report_.notes.emplace_back("nothing of the refined mesh is to be written");
     }
     std::vector<Difference> differences;
+    std::vector<Sorted> written, recorded;
+    for (std::size_t v = 0; v <= points; ++v) {
+      by_written.get(static_cast<Index>(v), corners_written, written);
+      by_recorded.get(static_cast<Index>(v), corners_recorded, recorded);
+      compare_sorted(written, recorded, differences);
+    }
+    if (!differences.empty()) judge(differences);
+  }
+
+  void compare_sorted(const std::vector<Sorted>& written, const std::vector<Sorted>& recorded,
+                      std::vector<Difference>& differences) {
     std::size_t w = 0, r = 0;
     while (w < written.size() || r < recorded.size()) {
       if (r == recorded.size() || (w < written.size() && written[w] < recorded[r])) {
-        const std::size_t t = written[w++].index;
+        const Index t = written[w++].index;
         differences.push_back({points_of(mesh_.tetrahedra[t]), t, true});
       } else if (w == written.size() || recorded[r] < written[w]) {
-        const std::size_t t = recorded[r++].index;
+        const Index t = recorded[r++].index;
         differences.push_back({tets_[t].vertices, t, false});
       } else {
         compare_regions(written[w++].index, recorded[r++].index);
       }
     }
-    if (differences.empty()) return;
+  }
+
+  void judge(const std::vector<Difference>& differences) {
     for (Index v = 0; v < record_.mesh_vertices.size(); ++v) {
       written_as_.emplace(record_.mesh_vertices[v], v);
     }
@@ -259,46 +311,62 @@ class SameMesh {
     }
   }
 
-  std::map<Index, std::int32_t> labels_of_facets() const {
-    std::map<Index, std::int32_t> labels;
-    for (const ExactRecord::Facet& facet : record_.facets) labels[facet.id] = facet.label;
+  // By number; of those that are there more than once, the last one is right.
+  using Labels = std::vector<std::pair<Index, std::int32_t>>;
+  Labels labels_of_facets() const {
+    Labels labels;
+    if (!labelled_) return labels;
+    for (const ExactRecord::Facet& facet : record_.facets) {
+      labels.emplace_back(facet.id, facet.label);
+    }
+    std::ranges::stable_sort(labels, {}, &Labels::value_type::first);
     return labels;
   }
+  // 0 if there is no such facet.
+  static std::int32_t label_of(const Labels& labels, Index id) {
+    const auto next = std::ranges::upper_bound(labels, id, {}, &Labels::value_type::first);
+    return next == labels.begin() || std::prev(next)->first != id ? 0 : std::prev(next)->second;
+  }
 
-  // The faces of the tetrahedra inside (of a refined mesh: of all that are written), and how they
-  // are oriented seen from outside their tetrahedron.
-  std::vector<std::pair<Face, bool>> faces_of_tets() const {
-    std::vector<std::pair<Face, bool>> faces;
+  // Which of the faces on facets are faces of the tetrahedra inside (of a refined mesh: of all that
+  // are written), and how these are oriented seen from outside their tetrahedron.
+  enum class Turned : std::uint8_t { odd, even, no_face };
+  std::vector<Turned> turned_in_tets(const SimplexSet<3>& listed) const {
+    std::vector<Turned> turned(listed.size(), Turned::no_face);
     for (const ExactRecord::Tet& tet : tets_) {
       if (!tet.inside && !(all_ && record_.final.empty())) continue;
       for (int i = 0; i < 4; ++i) {
         Face face = face_of(tet.vertices, i);
         const bool even = sort_face(face);
-        faces.emplace_back(face, even);
+        const std::size_t n = listed.find(face);
+        if (n < turned.size()) turned[n] = std::min(turned[n], even ? Turned::even : Turned::odd);
       }
     }
-    std::sort(faces.begin(), faces.end());
-    return faces;
+    return turned;
   }
 
   // For a refined mesh only the faces on facets whose tetrahedra are written.
   std::vector<LabelledFace> recorded_faces() const {
-    const std::vector<std::pair<Face, bool>> of_tets = faces_of_tets();
-    const std::map<Index, std::int32_t> labels = labels_of_facets();
+    std::vector<Face> corners;
+    corners.reserve(faces_.size());
+    for (const auto& [a, b, c, id] : faces_) corners.push_back({a, b, c});
+    const SimplexSet<3> listed(corners);
+    corners = {};
+    const std::vector<Turned> turned = turned_in_tets(listed);
+    const Labels labels = labels_of_facets();
     std::vector<LabelledFace> faces;
+    faces.reserve(faces_.size());
     for (const auto& [a, b, c, id] : faces_) {
       Face face = {a, b, c};
       bool even = sort_face(face);
-      const auto at = std::lower_bound(of_tets.begin(), of_tets.end(), std::pair(face, false));
-      const bool found = at != of_tets.end() && at->first == face;
+      const Turned in_tets = turned[listed.find(face)];
       if (record_.final.empty()) {
         // Tetrahedra on both sides may be written: the faces oracle decides which way it is turned.
-        if (!found) continue;
-      } else if (found) {
-        even = at->second;
+        if (in_tets == Turned::no_face) continue;
+      } else if (in_tets != Turned::no_face) {
+        even = in_tets == Turned::even;
       }
-      const auto label = labels.find(id);
-      faces.push_back({face, labelled_ && label != labels.end() ? label->second : 0, id, even});
+      faces.push_back({face, label_of(labels, id), id, even});
     }
     std::sort(faces.begin(), faces.end());
     return faces;
