@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <unordered_map>
 
 #include "oracles/angles.h"
+#include "oracles/buckets.h"
 #include "oracles/corners.h"
 #include "oracles/edge_key.h"
 #include "oracles/enrichment.h"
@@ -56,13 +58,13 @@ class ChamferedSurface {
     }
     for (const auto& [point, vertex] : record_.chamfer_points) made_for_[point] = vertex;
     collect_segments();
-    collect_sectors();
   }
 
   const std::vector<Segment>& segments() const { return segments_; }
-  const std::vector<std::vector<Index>>& at() const { return at_; }  // segments per vertex slot
   const std::vector<Index>& vertices() const { return vertices_; }
-  const std::vector<Sector>& sectors(std::size_t slot) const { return sectors_[slot]; }
+  // The segments at a vertex, by its place among the vertices.
+  std::span<const Index> at(std::size_t slot) const { return at_.of(static_cast<Index>(slot)); }
+  std::vector<Sector> sectors(std::size_t slot) const;
 
   const Threshold& at_input_vertex(Index v) const {
     const auto corner = corner_.find(v);
@@ -89,8 +91,8 @@ class ChamferedSurface {
 
  private:
   void collect_segments();
-  void collect_sectors();
-  void pair_sides(std::size_t slot, Index facet, std::vector<Index>& outs, std::vector<Index>& ins);
+  void pair_sides(Index v, Index facet, const std::vector<Index>& outs,
+                  const std::vector<Index>& ins, std::vector<Sector>& sectors) const;
 
   const ExactRecord& record_;
   const ExactPoints& points_;
@@ -101,8 +103,7 @@ class ChamferedSurface {
   std::unordered_map<Index, Index> made_for_;
   std::vector<Segment> segments_;
   std::vector<Index> vertices_;  // ends of segments, ascending
-  std::vector<std::vector<Index>> at_;
-  std::vector<std::vector<Sector>> sectors_;
+  Buckets at_{0};
 };
 
 void ChamferedSurface::collect_segments() {
@@ -141,48 +142,55 @@ void ChamferedSurface::collect_segments() {
   }
   std::sort(vertices_.begin(), vertices_.end());
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-  at_.resize(vertices_.size());
+  at_ = Buckets(vertices_.size());
+  const auto slot = [this](Index v) {
+    return static_cast<Index>(std::lower_bound(vertices_.begin(), vertices_.end(), v) -
+                              vertices_.begin());
+  };
+  for (const Segment& s : segments_) {
+    at_.count(slot(s.from));
+    at_.count(slot(s.to));
+  }
+  at_.allot();
   for (Index n = 0; n < segments_.size(); ++n) {
-    for (const Index v : {segments_[n].from, segments_[n].to}) {
-      at_[std::lower_bound(vertices_.begin(), vertices_.end(), v) - vertices_.begin()].push_back(n);
-    }
+    at_.put(slot(segments_[n].from), n);
+    at_.put(slot(segments_[n].to), n);
   }
 }
 
-void ChamferedSurface::collect_sectors() {
-  sectors_.resize(vertices_.size());
-  for (std::size_t slot = 0; slot < vertices_.size(); ++slot) {
-    const Index v = vertices_[slot];
-    std::vector<Index> facets;
-    for (const Index n : at_[slot]) {
-      for (const Index f : {segments_[n].left, segments_[n].right}) {
-        if (f != kNone) facets.push_back(f);
-      }
-    }
-    std::sort(facets.begin(), facets.end());
-    facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
-    for (const Index f : facets) {
-      std::vector<Index> outs, ins;
-      for (const Index n : at_[slot]) {
-        const Segment& s = segments_[n];
-        const Index other = s.from == v ? s.to : s.from;
-        // The facet is on the left of the direction in which it traverses the segment.
-        if ((s.left == f) == (s.from == v) && (s.left == f || s.right == f)) outs.push_back(other);
-        if ((s.left == f) != (s.from == v) && (s.left == f || s.right == f)) ins.push_back(other);
-      }
-      pair_sides(slot, f, outs, ins);
+std::vector<Sector> ChamferedSurface::sectors(std::size_t slot) const {
+  const Index v = vertices_[slot];
+  std::vector<Index> facets;
+  for (const Index n : at(slot)) {
+    for (const Index f : {segments_[n].left, segments_[n].right}) {
+      if (f != kNone) facets.push_back(f);
     }
   }
+  std::sort(facets.begin(), facets.end());
+  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  std::vector<Sector> sectors;
+  for (const Index f : facets) {
+    std::vector<Index> outs, ins;
+    for (const Index n : at(slot)) {
+      const Segment& s = segments_[n];
+      const Index other = s.from == v ? s.to : s.from;
+      // The facet is on the left of the direction in which it traverses the segment.
+      if ((s.left == f) == (s.from == v) && (s.left == f || s.right == f)) outs.push_back(other);
+      if ((s.left == f) != (s.from == v) && (s.left == f || s.right == f)) ins.push_back(other);
+    }
+    pair_sides(v, f, outs, ins, sectors);
+  }
+  return sectors;
 }
 
 // Each outgoing side begins the sector that the next incoming one, counter-clockwise, ends.
-void ChamferedSurface::pair_sides(std::size_t slot, Index facet, std::vector<Index>& outs,
-                                  std::vector<Index>& ins) {
+void ChamferedSurface::pair_sides(Index v, Index facet, const std::vector<Index>& outs,
+                                  const std::vector<Index>& ins,
+                                  std::vector<Sector>& sectors) const {
   if (outs.size() == 1 && ins.size() == 1) {  // nothing to choose
-    if (ins[0] != outs[0]) sectors_[slot].push_back({facet, outs[0], ins[0]});
+    if (ins[0] != outs[0]) sectors.push_back({facet, outs[0], ins[0]});
     return;
   }
-  const Index v = vertices_[slot];
   const ExactVector normal = surface_.facets()[facet].normal(points_);
   const auto direction = [&](Index to) { return exact::difference(points_, v, to); };
   for (const Index out : outs) {
@@ -204,7 +212,7 @@ void ChamferedSurface::pair_sides(std::size_t slot, Index facet, std::vector<Ind
           half(d) != half(e) ? half(d) < half(e) : exact::dot(normal, exact::cross(d, e)) > 0;
       if (nearer) best = in;
     }
-    if (best != kNone) sectors_[slot].push_back({facet, out, best});
+    if (best != kNone) sectors.push_back({facet, out, best});
   }
 }
 
@@ -288,14 +296,15 @@ void ChamferAngles::check_dihedral(const Segment& s) {
 
 void ChamferAngles::check_vertex(std::size_t slot) {
   const Index v = chamfered_.vertices()[slot];
-  const std::vector<Index>& at = chamfered_.at()[slot];
+  const std::span<const Index> at = chamfered_.at(slot);
+  const std::vector<Sector> sectors = chamfered_.sectors(slot);
   const Threshold& threshold = chamfered_.at_vertex(v);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Segment& s = chamfered_.segments()[at[i]];
     for (std::size_t j = 0; j < i; ++j) {
       check_pair(v, s, chamfered_.segments()[at[j]]);
     }
-    for (const Sector& sector : chamfered_.sectors(slot)) {
+    for (const Sector& sector : sectors) {
       if (sector.facet != s.left && sector.facet != s.right) check_sector(v, s, sector, threshold);
     }
   }
@@ -354,7 +363,7 @@ class ChamferExtent {
   }
 
   OracleReport run() {
-    const std::vector<std::uint8_t> used = used_in(record_.refined, points_.size());
+    const std::vector<std::uint8_t> used = used_in(complex_);
     std::vector<std::uint8_t> made(points_.size());
     for (const auto& [point, vertex] : record_.chamfer_points) {
       check_point(point, vertex);
@@ -514,17 +523,27 @@ bool ChamferExtent::is_whole(std::span<const Index> triangles,
 }
 
 void ChamferExtent::check_areas() {
-  std::vector<std::vector<Face>> faces(surface_.facets().size());
-  for (const auto& [a, b, c, id] : record_.refined_facets) {
-    const Index f = facets_.find(id);
-    if (f != kNone) faces[f].push_back({a, b, c});
-  }
+  Buckets faces_of(surface_.facets().size());
+  const auto for_each_face = [this](const auto& visit) {
+    for (Index n = 0; n < record_.refined_facets.size(); ++n) {
+      if (const Index f = facets_.find(record_.refined_facets[n][3]); f != kNone) visit(f, n);
+    }
+  };
+  for_each_face([&faces_of](Index f, Index) { faces_of.count(f); });
+  faces_of.allot();
+  for_each_face([&faces_of](Index f, Index n) { faces_of.put(f, n); });
   const InputSurface::Members members = surface_.members();
-  for (Index f = 0; f < faces.size(); ++f) {
+  std::vector<Face> faces;
+  for (Index f = 0; f < surface_.facets().size(); ++f) {
+    faces.clear();
+    for (const Index n : faces_of.of(f)) {
+      const auto& [a, b, c, id] = record_.refined_facets[n];
+      faces.push_back({a, b, c});
+    }
     // A facet of which nothing is left, or all as it was, takes no arithmetic.
-    if (faces[f].empty() || is_whole(members.of(f), faces[f])) continue;
+    if (faces.empty() || is_whole(members.of(f), faces)) continue;
     const InputSurface::Facet& facet = surface_.facets()[f];
-    const std::array<ExactSum, 3> area = sum_of_areas2(points_, faces[f]),
+    const std::array<ExactSum, 3> area = sum_of_areas2(points_, faces),
                                   whole = surface_.area2(points_, members.of(f));
     const ExactVector normal = facet.normal(points_);
     // All areas are multiples of one vector, so one component of it that is not zero decides.

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <numeric>
 #include <span>
 #include <unordered_map>
 
@@ -155,7 +155,8 @@ class ChamferCuts {
         report_.fail(complex_.vertex_name(point) + " was made for two corners");
       }
     }
-    for (const ExactRecord::Corner& corner : record_.corners) corners_.insert(corner.vertex);
+    for (const ExactRecord::Corner& corner : record_.corners) corners_.push_back(corner.vertex);
+    std::sort(corners_.begin(), corners_.end());
   }
 
   OracleReport run() {
@@ -172,8 +173,12 @@ class ChamferCuts {
 
  private:
   struct Side {  // of a facet, seen from outside, on an input edge
-    Index from, to, edge;
-    std::size_t next;
+    Index from, to, edge, next;
+  };
+  // What is left of an input edge: a chain of the record.
+  struct Rest {
+    Index chain = kNone;
+    bool reversed = false;  // it runs from the edge's head to its tail
   };
   struct Link {  // an artificial chain, in the direction of the rest's boundary
     Index to;
@@ -184,29 +189,32 @@ class ChamferCuts {
   using Links = std::map<std::pair<Index, Index>, Link>;  // facet, from
   struct Walk {                                           // around one boundary of a facet
     Index facet;
-    std::size_t first;  // side
-    Index begin, at;    // points of the complex
+    Index first;      // side
+    Index begin, at;  // points of the complex
   };
 
   void collect_faces();
   void collect_chains();
   void collect_sides();
   void check_facet(Index f);
-  bool walk(Index f, std::size_t first);
+  bool walk(Index f, Index first);
   Index step(Index f, Index at);
-  Index start_of_strip(Index f, std::size_t s) const;
-  bool pass_side(Walk& walk, std::size_t s);
-  bool pass_corner(Walk& walk, std::size_t s);
-  bool is_behind_corner(const Walk& walk, std::size_t s) const;
-  // The chain of the edge that a side lies on; empty if the edge was cut off.
-  const std::vector<Index>& chain_of(std::size_t s) const { return on_edge_[sides_[s].edge]; }
-  bool is_along(std::size_t s) const {
-    return surface_.edges()[sides_[s].edge].from == sides_[s].from;
+  Index start_of_strip(Index f, Index s) const;
+  bool pass_side(Walk& walk, Index s);
+  bool pass_corner(Walk& walk, Index s);
+  bool is_behind_corner(const Walk& walk, Index s) const;
+  bool is_cut_off(Index s) const { return rest_[sides_[s].edge].chain == kNone; }
+  // The chain of the edge that a side lies on, which is not cut off.
+  const std::vector<Index>& chain_of(Index s) const {
+    return record_.segments[rest_[sides_[s].edge].chain].vertices;
   }
-  Index start(std::size_t s) const {
-    return is_along(s) ? chain_of(s).front() : chain_of(s).back();
+  // Does that chain run from the side's head to its tail?
+  bool is_reversed(Index s) const {
+    const bool along = surface_.edges()[sides_[s].edge].from == sides_[s].from;
+    return along == rest_[sides_[s].edge].reversed;
   }
-  Index end(std::size_t s) const { return is_along(s) ? chain_of(s).back() : chain_of(s).front(); }
+  Index start(Index s) const { return is_reversed(s) ? chain_of(s).back() : chain_of(s).front(); }
+  Index end(Index s) const { return is_reversed(s) ? chain_of(s).front() : chain_of(s).back(); }
   void add(const std::vector<Index>& chain, bool reversed);
   bool accounts_for(Index f);
   AreaSum area(Index f, std::span<const std::uint64_t> edges) const;
@@ -216,6 +224,10 @@ class ChamferCuts {
   bool refuse(Index f, const std::string& what) {
     fail(f, what);
     return false;
+  }
+  std::span<const std::uint64_t> face_sides(Index f) const {
+    return std::span(face_sides_)
+        .subspan(first_face_side_[f], first_face_side_[f + 1] - first_face_side_[f]);
   }
   Index made_for(Index v) const {
     const auto found = made_for_.find(v);
@@ -229,12 +241,14 @@ class ChamferCuts {
   const FacetIndex facets_;
   const InputEdges input_edges_;
   std::unordered_map<Index, Index> made_for_;
-  std::set<Index> corners_;
-  std::vector<std::pair<Index, std::uint64_t>> face_sides_;
-  std::vector<std::vector<Index>> on_edge_;  // the chain of each input edge, from -> to
+  std::vector<Index> corners_;  // ascending
+  // The directed edges of the faces on each facet, ascending.
+  std::vector<std::uint64_t> face_sides_;
+  std::vector<std::size_t> first_face_side_;  // per facet, and the end
+  std::vector<Rest> rest_;                    // per input edge
   Links links_;
-  std::vector<Side> sides_;
-  std::vector<std::vector<std::size_t>> sides_of_;  // per facet
+  std::vector<Side> sides_;        // one facet after another
+  std::vector<Index> first_side_;  // per facet, and the end
   std::vector<std::uint8_t> passed_;
   std::vector<std::uint64_t> walked_;  // the directed edges followed so far
   std::uint64_t detours_ = 0, strips_ = 0;
@@ -242,39 +256,43 @@ class ChamferCuts {
 };
 
 void ChamferCuts::collect_faces() {
-  face_sides_.reserve(3 * record_.refined_facets.size());
+  first_face_side_.assign(surface_.facets().size() + 1, 0);
+  for (const auto& [a, b, c, id] : record_.refined_facets) {
+    if (const Index f = facets_.find(id); f != kNone) first_face_side_[f + 1] += 3;
+  }
+  std::partial_sum(first_face_side_.begin(), first_face_side_.end(), first_face_side_.begin());
+  face_sides_.resize(first_face_side_.back());
+  std::vector<std::size_t> next(first_face_side_.begin(), first_face_side_.end() - 1);
   for (const auto& [a, b, c, id] : record_.refined_facets) {
     const Index f = facets_.find(id);
     if (f == kNone) continue;
     for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-      face_sides_.emplace_back(f, directed_key(p, q));
+      face_sides_[next[f]++] = directed_key(p, q);
     }
   }
-  std::sort(face_sides_.begin(), face_sides_.end());
+  for (std::size_t f = 0; f < next.size(); ++f) {
+    std::sort(face_sides_.begin() + static_cast<std::ptrdiff_t>(first_face_side_[f]),
+              face_sides_.begin() + static_cast<std::ptrdiff_t>(next[f]));
+  }
 }
 
 void ChamferCuts::collect_chains() {
-  on_edge_.resize(surface_.edges().size());
-  for (const ExactRecord::Chain& chain : record_.segments) {
+  rest_.resize(surface_.edges().size());
+  for (std::size_t n = 0; n < record_.segments.size(); ++n) {
+    const ExactRecord::Chain& chain = record_.segments[n];
     const std::vector<Index>& v = chain.vertices;
     if (v.size() < 2) continue;  // the segment oracle reports it
     if (!chain.artificial) {
       const Index e = input_edges_.of_chain(record_, v);
       if (e == kNone) continue;
       const InputSurface::Edge& edge = surface_.edges()[e];
-      on_edge_[e] = v;
-      if (along_edge(points_, edge, v.front(), v.back()) < 0) {
-        std::reverse(on_edge_[e].begin(), on_edge_[e].end());
-      }
+      rest_[e] = {static_cast<Index>(n), along_edge(points_, edge, v.front(), v.back()) < 0};
       continue;
     }
     const Index f = facets_.find(chain.facet);
     if (f == kNone) continue;
-    const auto is_side = [&](Index a, Index b) {
-      return std::binary_search(face_sides_.begin(), face_sides_.end(),
-                                std::pair(f, directed_key(a, b)));
-    };
-    const bool reversed = !is_side(v[0], v[1]);
+    const std::span<const std::uint64_t> sides = face_sides(f);
+    const bool reversed = !std::binary_search(sides.begin(), sides.end(), directed_key(v[0], v[1]));
     const Index from = reversed ? v.back() : v.front(), to = reversed ? v.front() : v.back();
     for (const Index end : {from, to}) {
       if (made_for(end) == kNone) {
@@ -291,19 +309,23 @@ void ChamferCuts::collect_chains() {
 void ChamferCuts::collect_sides() {
   const auto& triangles = surface_.triangles();
   const auto& facet_of = surface_.facet_of_triangle();
-  std::vector<std::size_t> number(3 * triangles.size(), kNone);  // per triangle * 3 + side
-  sides_of_.resize(surface_.facets().size());
-  for (Index t = 0; t < triangles.size(); ++t) {
-    for (int i = 0; i < 3; ++i) {
-      if (facet_of[surface_.neighbour(t, i)] == facet_of[t]) continue;
-      const Index a = triangles[t][i], b = triangles[t][(i + 1) % 3];
-      number[3 * std::size_t{t} + i] = sides_.size();
-      sides_of_[facet_of[t]].push_back(sides_.size());
-      sides_.push_back({a, b, input_edges_.find(a, b), 0});
+  const InputSurface::Members members = surface_.members();
+  std::vector<Index> number(3 * triangles.size(), kNone);  // per triangle * 3 + side
+  sides_.reserve(2 * surface_.edges().size());
+  for (Index f = 0; f < surface_.facets().size(); ++f) {
+    first_side_.push_back(static_cast<Index>(sides_.size()));
+    for (const Index t : members.of(f)) {
+      for (int i = 0; i < 3; ++i) {
+        if (facet_of[surface_.neighbour(t, i)] == f) continue;
+        const Index a = triangles[t][i], b = triangles[t][(i + 1) % 3];
+        number[3 * std::size_t{t} + i] = static_cast<Index>(sides_.size());
+        sides_.push_back({a, b, input_edges_.find(a, b), 0});
+      }
     }
   }
+  first_side_.push_back(static_cast<Index>(sides_.size()));
   for (std::size_t key = 0; key < number.size(); ++key) {
-    const std::size_t side = number[key];
+    const Index side = number[key];
     if (side == kNone) continue;
     // Around the head, over the triangles of the facet, to the next side.
     auto t = static_cast<Index>(key / 3);
@@ -329,10 +351,8 @@ void ChamferCuts::add(const std::vector<Index>& chain, bool reversed) {
 // Is the area inside what has been followed that of the faces? It is, without any arithmetic, if
 // these are the directed edges that bound the faces.
 bool ChamferCuts::accounts_for(Index f) {
-  std::vector<std::uint64_t> sides, border;
-  const auto begin = std::lower_bound(face_sides_.begin(), face_sides_.end(), std::pair(f, 0UL)),
-             end = std::lower_bound(begin, face_sides_.end(), std::pair(f + 1, 0UL));
-  for (auto side = begin; side != end; ++side) sides.push_back(side->second);
+  const std::span<const std::uint64_t> sides = face_sides(f);
+  std::vector<std::uint64_t> border;
   for (const std::uint64_t side : sides) {
     const std::uint64_t back = side << 32 | side >> 32;
     if (!std::binary_search(sides.begin(), sides.end(), back)) border.push_back(side);
@@ -356,13 +376,13 @@ AreaSum ChamferCuts::area(Index f, std::span<const std::uint64_t> edges) const {
 void ChamferCuts::check_facet(Index f) {
   walked_.clear();
   bool followed = true;
-  for (const std::size_t s : sides_of_[f]) {
+  for (Index s = first_side_[f]; s < first_side_[f + 1]; ++s) {
     ++report_.checked;
     if (sides_[s].edge == kNone) return fail(f, "has a side on no input edge");
-    if (passed_[s] == 0 && !on_edge_[sides_[s].edge].empty()) followed = walk(f, s) && followed;
+    if (passed_[s] == 0 && !is_cut_off(s)) followed = walk(f, s) && followed;
   }
   // Where all edges of a boundary are acute, only strips are left of it.
-  for (const std::size_t s : sides_of_[f]) {
+  for (Index s = first_side_[f]; s < first_side_[f + 1]; ++s) {
     if (passed_[s] == 0 && followed) followed = walk(f, s);
   }
   if (!followed) return;
@@ -387,7 +407,7 @@ Index ChamferCuts::step(Index f, Index at) {
 
 // Where the strip beside a side whose edge was cut off begins: at a point made for its tail. kNone
 // if there is no strip.
-Index ChamferCuts::start_of_strip(Index f, std::size_t s) const {
+Index ChamferCuts::start_of_strip(Index f, Index s) const {
   Index start = kNone;
   for (auto link = links_.lower_bound({f, 0}); link != links_.end() && link->first.first == f;
        ++link) {
@@ -400,9 +420,9 @@ Index ChamferCuts::start_of_strip(Index f, std::size_t s) const {
 }
 
 // Over what is left of a side: its chain, or the strip beside it.
-bool ChamferCuts::pass_side(Walk& walk, std::size_t s) {
-  if (!chain_of(s).empty()) {
-    add(chain_of(s), !is_along(s));
+bool ChamferCuts::pass_side(Walk& walk, Index s) {
+  if (!is_cut_off(s)) {
+    add(chain_of(s), is_reversed(s));
     walk.at = end(s);
     return true;
   }
@@ -414,11 +434,11 @@ bool ChamferCuts::pass_side(Walk& walk, std::size_t s) {
 
 // From the end of a side to the beginning of the next one: nowhere, or around the chamfered corner
 // between them.
-bool ChamferCuts::pass_corner(Walk& walk, std::size_t s) {
+bool ChamferCuts::pass_corner(Walk& walk, Index s) {
   const Index corner = sides_[s].to;
-  if (!corners_.contains(corner)) {
-    const std::size_t next = sides_[s].next;
-    const bool joined = !chain_of(next).empty() && walk.at == corner && start(next) == corner;
+  if (!std::binary_search(corners_.begin(), corners_.end(), corner)) {
+    const Index next = sides_[s].next;
+    const bool joined = !is_cut_off(next) && walk.at == corner && start(next) == corner;
     return joined || refuse(walk.facet, corner_name(corner) + " was cut off and is not chamfered");
   }
   ++detours_;
@@ -432,23 +452,23 @@ bool ChamferCuts::pass_corner(Walk& walk, std::size_t s) {
 }
 
 // Has the detour around the corner behind a side come to where the next side begins?
-bool ChamferCuts::is_behind_corner(const Walk& walk, std::size_t s) const {
-  const std::size_t next = sides_[s].next;
+bool ChamferCuts::is_behind_corner(const Walk& walk, Index s) const {
+  const Index next = sides_[s].next;
   if (next == walk.first) return walk.at == walk.begin;
-  if (!chain_of(next).empty()) return walk.at == start(next);
+  if (!is_cut_off(next)) return walk.at == start(next);
   const auto link = links_.find({walk.facet, walk.at});
   return link != links_.end() && made_for(link->second.to) == sides_[next].to &&
          sides_[next].to != sides_[s].to;
 }
 
 // Follows the boundary from a side, over all sides after it, back to it.
-bool ChamferCuts::walk(Index f, std::size_t first) {
-  const Index begin = chain_of(first).empty() ? start_of_strip(f, first) : start(first);
+bool ChamferCuts::walk(Index f, Index first) {
+  const Index begin = is_cut_off(first) ? start_of_strip(f, first) : start(first);
   if (begin == kNone) {
     return refuse(f, "nothing is left beside " + corner_name(sides_[first].from));
   }
   Walk walk{f, first, begin, begin};
-  std::size_t s = first;
+  Index s = first;
   do {
     if (passed_[s]++ != 0) return refuse(f, "its boundary is followed twice");
     if (!pass_side(walk, s) || !pass_corner(walk, s)) return false;

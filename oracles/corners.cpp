@@ -43,6 +43,11 @@ int surely_left(const ExactPoints& points, const IntervalVector& normal, Index v
   return value > error ? 1 : value < -error ? -1 : 0;
 }
 
+// For every vertex that is used.
+std::size_t slots(const InputSurface& surface) {
+  return surface.used_vertices().empty() ? 0 : std::size_t{surface.used_vertices().back()} + 1;
+}
+
 }  // namespace
 
 // get_d() truncates the bound, by at most an ulp.
@@ -61,17 +66,22 @@ int left_turn(const ExactPoints& points, const InputSurface::Facet& facet, Index
 }
 
 AcuteCorners::AcuteCorners(const ExactPoints& points, const InputSurface& surface)
-    : points_(points), surface_(surface) {
-  const Index vertices = surface.used_vertices().empty() ? 0 : surface.used_vertices().back() + 1;
-  edges_at_.resize(vertices);
-  triangles_at_.resize(vertices);
+    : points_(points), surface_(surface), edges_at_(slots(surface)), triangles_at_(slots(surface)) {
+  for (const InputSurface::Edge& edge : surface.edges()) {
+    edges_at_.count(edge.from);
+    edges_at_.count(edge.to);
+  }
+  for (const auto& triangle : surface.triangles()) {
+    for (const Index v : triangle) triangles_at_.count(v);
+  }
+  edges_at_.allot();
+  triangles_at_.allot();
   for (Index e = 0; e < surface.edges().size(); ++e) {
-    const InputSurface::Edge& edge = surface.edges()[e];
-    edges_at_[edge.from].push_back(e);
-    edges_at_[edge.to].push_back(e);
+    edges_at_.put(surface.edges()[e].from, e);
+    edges_at_.put(surface.edges()[e].to, e);
   }
   for (Index t = 0; t < surface.triangles().size(); ++t) {
-    for (const Index v : surface.triangles()[t]) triangles_at_[v].push_back(t);
+    for (const Index v : surface.triangles()[t]) triangles_at_.put(v, t);
   }
 }
 
@@ -105,7 +115,7 @@ bool AcuteCorners::edge_is_acute(Index e, const Present& present,
 std::string AcuteCorners::why_acute(Index v, const Present& present,
                                     const CornerThresholds& thresholds, Doubt doubt) const {
   std::vector<Index> spokes;  // far ends of the edges present
-  for (const Index e : edges_at_[v]) {
+  for (const Index e : edges_at_.of(v)) {
     const InputSurface::Edge& edge = surface_.edges()[e];
     if (!edge_present(edge, present)) continue;
     if (edge_is_acute(e, present, thresholds, doubt)) {
@@ -141,7 +151,7 @@ std::string AcuteCorners::why_acute(Index v, const Present& present,
 bool AcuteCorners::edge_meets_facet(Index v, Index to, const Present& present,
                                     const AngleBound& bound) const {
   const IntervalVector rough = points_.rough_difference(v, to);
-  for (const Index t : triangles_at_[v]) {
+  for (const Index t : triangles_at_.of(v)) {
     const Index f = surface_.facet_of_triangle()[t];
     if (!present(f)) continue;
     const auto& corner = surface_.triangles()[t];
@@ -181,7 +191,7 @@ template <class Visit>
 void AcuteCorners::boundary_near(Index v, double distance, const Present& present,
                                  Visit visit) const {
   std::vector<Index> facets;
-  for (const Index e : edges_at_[v]) {
+  for (const Index e : edges_at_.of(v)) {
     for (const Index f : {surface_.edges()[e].left, surface_.edges()[e].right}) {
       if (present(f)) facets.push_back(f);
     }
@@ -231,7 +241,7 @@ double AcuteCorners::distance_to_rest(Index e, Index facet, double most) const {
 
 double AcuteCorners::distance_to_link(Index v, const Present& present) const {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Index t : triangles_at_[v]) {
+  for (const Index t : triangles_at_.of(v)) {
     if (!present(surface_.facet_of_triangle()[t])) continue;
     const auto& corner = surface_.triangles()[t];
     const int i = static_cast<int>(std::find(corner.begin(), corner.end(), v) - corner.begin());

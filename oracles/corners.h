@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "oracles/buckets.h"
 #include "oracles/input_surface.h"
 #include "oracles/parallel.h"
 
@@ -63,9 +64,11 @@ class AcuteCorners {
   AcuteCorners(const ExactPoints& points, const InputSurface& surface);
 
   // Edges of the surface at a vertex, present or not.
-  const std::vector<Index>& edges_at(Index v) const { return edges_at_[v]; }
+  std::span<const Index> edges_at(Index v) const { return edges_at_.of(v); }
   // The triangles at a vertex.
-  const std::vector<Index>& triangles_at(Index v) const { return triangles_at_[v]; }
+  std::span<const Index> triangles_at(Index v) const { return triangles_at_.of(v); }
+  // Boxes around the edges of the surface.
+  const BoxTree& edge_tree() const;
   static bool edge_present(const InputSurface::Edge& edge, const Present& present) {
     return present(edge.left) || present(edge.right);
   }
@@ -100,7 +103,6 @@ class AcuteCorners {
   const IntervalVector& rough_normal(Index facet) const {
     return surface_.facets()[facet].rough_normal;
   }
-  const BoxTree& edge_tree() const;
   // Edges whose boxes meet the box of these vertices, widened by the distance.
   std::vector<Index> edges_near(std::span<const Index> vertices, double distance) const;
   template <class Visit>
@@ -108,7 +110,7 @@ class AcuteCorners {
 
   const ExactPoints& points_;
   const InputSurface& surface_;
-  std::vector<std::vector<Index>> edges_at_, triangles_at_;
+  Buckets edges_at_, triangles_at_;
   // Made by the first question about distances: most surfaces have no acute corner.
   mutable Once tree_once_;
   mutable std::unique_ptr<BoxTree> edge_tree_;

@@ -32,7 +32,7 @@ class Enrichment {
         facets_(surface_, record_),
         inputs_(mesh.input_vertices),
         enriched_(record_.unrepaired.empty() ? record_.final : record_.unrepaired),
-        refined_(used_in(record_.refined, points_.size())),
+        refined_(used_in(complex_)),
         final_(used_in(enriched_, points_.size())) {}
 
   OracleReport run() {
@@ -190,11 +190,11 @@ class Enrichment {
   // The distances of the missing vertices from their nearest neighbours.
   void collect_spacings(const std::vector<Index>& missing) {
     for (const Index v : missing) spacing_[v] = std::numeric_limits<double>::infinity();
-    for (const ExactRecord::Tet& tet : record_.refined) {
-      for (const Index v : tet.vertices) {
+    for (const Tet& tet : complex_.tetrahedra) {
+      for (const Index v : tet) {
         const auto at = spacing_.find(v);
         if (at == spacing_.end()) continue;
-        for (const Index w : tet.vertices) {
+        for (const Index w : tet) {
           if (w != v) at->second = std::min(at->second, exact::distance(points_, v, w));
         }
       }
@@ -247,6 +247,14 @@ std::vector<std::uint8_t> used_in(const std::vector<ExactRecord::Tet>& tets, std
   std::vector<std::uint8_t> used(points);
   for (const ExactRecord::Tet& tet : tets) {
     for (const Index v : tet.vertices) used[v] = 1;
+  }
+  return used;
+}
+
+std::vector<std::uint8_t> used_in(const TetComplex& complex) {
+  std::vector<std::uint8_t> used(complex.points->size());
+  for (const Tet& tet : complex.tetrahedra) {
+    for (const Index v : tet) used[v] = 1;
   }
   return used;
 }

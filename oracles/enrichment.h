@@ -22,6 +22,7 @@ OracleReport check_enrichment(const RefinedMesh& mesh);
 // Per point: is it a corner of some of these tetrahedra?
 std::vector<std::uint8_t> used_in(const std::vector<delmesher::ExactRecord::Tet>& tets,
                                   std::size_t points);
+std::vector<std::uint8_t> used_in(const TetComplex& complex);
 
 // Of a plain constrained Delaunay tetrahedrization: every vertex is an input vertex or exactly on
 // the surface. No other step gives it points, and none may widen the hull.

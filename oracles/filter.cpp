@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
+#include <span>
 
 #include "oracles/chamfer_features.h"
 #include "oracles/distances.h"
@@ -25,28 +26,15 @@ struct Element {
 // The constrained edges and facets of the input, some of them present.
 class Features {
  public:
-  Features(const ExactPoints& points, const InputSurface& surface, const FacetIndex& facets)
-      : points_(points), surface_(surface), present_(surface.facets().size()) {
+  // The arguments must outlive this.
+  Features(const ExactPoints& points, const InputSurface& surface, const FacetIndex& facets,
+           const AcuteCorners& corners)
+      : points_(points),
+        surface_(surface),
+        corners_(corners),
+        present_(surface.facets().size()),
+        triangles_(surface.members()) {
     for (Index f = 0; f < present_.size(); ++f) present_[f] = facets.kept(f);
-    std::vector<BoxTree::Box> boxes;
-    const Index vertices = surface.used_vertices().back() + 1;
-    edges_at_.resize(vertices);
-    facets_at_.resize(vertices);
-    for (Index e = 0; e < surface.edges().size(); ++e) {
-      const InputSurface::Edge& edge = surface.edges()[e];
-      boxes.push_back(box_around(points, std::array{edge.from, edge.to}));
-      edges_at_[edge.from].push_back(e);
-      edges_at_[edge.to].push_back(e);
-    }
-    edge_tree_ = std::make_unique<BoxTree>(std::move(boxes));
-    triangles_of_.resize(surface.facets().size());
-    for (Index t = 0; t < surface.triangles().size(); ++t) {
-      const Index f = surface.facet_of_triangle()[t];
-      triangles_of_[f].push_back(t);
-      for (const Index v : surface.triangles()[t]) {
-        if (!touches(v, f)) facets_at_[v].push_back(f);
-      }
-    }
   }
 
   bool present(Index facet) const { return present_[facet]; }
@@ -55,8 +43,8 @@ class Features {
     return present_[surface_.edges()[e].left] || present_[surface_.edges()[e].right];
   }
   bool vertex_present(Index v) const {
-    return std::any_of(edges_at_[v].begin(), edges_at_[v].end(),
-                       [&](Index e) { return edge_present(e); });
+    const std::span<const Index> edges = corners_.edges_at(v);
+    return std::any_of(edges.begin(), edges.end(), [&](Index e) { return edge_present(e); });
   }
 
   bool absent(const Element& element) const {
@@ -77,7 +65,9 @@ class Features {
 
  private:
   bool touches(Index v, Index facet) const {
-    return std::find(facets_at_[v].begin(), facets_at_[v].end(), facet) != facets_at_[v].end();
+    const std::span<const Index> triangles = corners_.triangles_at(v);
+    return std::any_of(triangles.begin(), triangles.end(),
+                       [&](Index t) { return surface_.facet_of_triangle()[t] == facet; });
   }
   std::string edge_name(Index e) const {
     return "edge " + std::to_string(surface_.edges()[e].from) + "-" +
@@ -93,17 +83,16 @@ class Features {
 
   const ExactPoints& points_;
   const InputSurface& surface_;
+  const AcuteCorners& corners_;
   std::vector<bool> present_;
-  std::vector<std::vector<Index>> edges_at_, facets_at_;
-  std::unique_ptr<BoxTree> edge_tree_;
+  const InputSurface::Members triangles_;  // of facets
   std::vector<Index> found_;
-  std::vector<std::vector<Index>> triangles_of_;
 };
 
 std::string Features::near_vertex(Index v, double reach, const mpq_class& bound) {
   const BoxTree::Box box = enlarged(box_around(points_, std::array{v}), reach);
   found_.clear();
-  edge_tree_->query(box, found_);
+  corners_.edge_tree().query(box, found_);
   for (const Index e : found_) {
     if (!edge_present(e)) continue;
     const InputSurface::Edge& edge = surface_.edges()[e];
@@ -132,7 +121,7 @@ std::string Features::near_vertex(Index v, double reach, const mpq_class& bound)
 std::string Features::near_edge(Index e, double reach, const mpq_class& bound) {
   const Index a = surface_.edges()[e].from, b = surface_.edges()[e].to;
   found_.clear();
-  edge_tree_->query(enlarged(box_around(points_, std::array{a, b}), reach), found_);
+  corners_.edge_tree().query(enlarged(box_around(points_, std::array{a, b}), reach), found_);
   for (const Index other : found_) {
     const Index c = surface_.edges()[other].from, d = surface_.edges()[other].to;
     if (!edge_present(other) || a == c || a == d || b == c || b == d) continue;
@@ -146,7 +135,7 @@ std::string Features::near_edge(Index e, double reach, const mpq_class& bound) {
 std::string Features::vertex_near_edge(Index e, double reach, const mpq_class& bound) {
   const Index a = surface_.edges()[e].from, b = surface_.edges()[e].to;
   found_.clear();
-  edge_tree_->query(enlarged(box_around(points_, std::array{a, b}), reach), found_);
+  corners_.edge_tree().query(enlarged(box_around(points_, std::array{a, b}), reach), found_);
   for (const Index other : found_) {
     if (!edge_present(other)) continue;
     for (const Index v : {surface_.edges()[other].from, surface_.edges()[other].to}) {
@@ -159,9 +148,10 @@ std::string Features::vertex_near_edge(Index e, double reach, const mpq_class& b
 
 // Names a vertex, on some present edge, that is too close above or below a triangle of the facet.
 std::string Features::near_facet(Index facet, double reach, const mpq_class& bound) {
-  for (const Index t : triangles_of_[facet]) {
+  for (const Index t : triangles_.of(facet)) {
     std::vector<Index> edges;
-    edge_tree_->query(enlarged(box_around(points_, surface_.triangles()[t]), reach), edges);
+    corners_.edge_tree().query(enlarged(box_around(points_, surface_.triangles()[t]), reach),
+                               edges);
     for (const Index e : edges) {
       if (!edge_present(e)) continue;
       for (const Index v : {surface_.edges()[e].from, surface_.edges()[e].to}) {
@@ -192,8 +182,14 @@ std::string Features::near(const Element& element, double reach, const mpq_class
 
 std::vector<Index> Features::facets_of(const Element& element) const {
   switch (element.kind) {
-    case Element::Kind::vertex:
-      return facets_at_[element.id];
+    case Element::Kind::vertex: {
+      std::vector<Index> facets;
+      for (const Index t : corners_.triangles_at(element.id)) {
+        const Index f = surface_.facet_of_triangle()[t];
+        if (std::find(facets.begin(), facets.end(), f) == facets.end()) facets.push_back(f);
+      }
+      return facets;
+    }
     case Element::Kind::edge:
       return {surface_.edges()[element.id].left, surface_.edges()[element.id].right};
     default:
@@ -203,11 +199,11 @@ std::vector<Index> Features::facets_of(const Element& element) const {
 
 std::vector<Element> Features::elements_of(Index facet) const {
   std::vector<Element> elements = {{Element::Kind::facet, facet}};
-  for (const Index t : triangles_of_[facet]) {
+  for (const Index t : triangles_.of(facet)) {
     for (const Index v : surface_.triangles()[t]) {
-      if (edges_at_[v].empty()) continue;
+      if (corners_.edges_at(v).empty()) continue;
       elements.push_back({Element::Kind::vertex, v});
-      for (const Index e : edges_at_[v]) {
+      for (const Index e : corners_.edges_at(v)) {
         const InputSurface::Edge& edge = surface_.edges()[e];
         if (edge.from == v && (edge.left == facet || edge.right == facet)) {
           elements.push_back({Element::Kind::edge, e});
@@ -222,9 +218,9 @@ std::vector<Element> Features::elements_of(Index facet) const {
 
 std::vector<Index> Features::vertices_around(Index facet) const {
   std::vector<Index> vertices;
-  for (const Index t : triangles_of_[facet]) {
+  for (const Index t : triangles_.of(facet)) {
     for (const Index v : surface_.triangles()[t]) {
-      for (const Index e : edges_at_[v]) {
+      for (const Index e : corners_.edges_at(v)) {
         if (!edge_present(e)) continue;
         vertices.push_back(surface_.edges()[e].from);
         vertices.push_back(surface_.edges()[e].to);
@@ -242,9 +238,9 @@ class FilterCheck {
       : record_(*mesh.record),
         surface_(*mesh.surface),
         facets_(surface_, record_),
-        features_(*mesh.points, surface_, facets_),
-        exponent_(mesh.points->exponent()),
         corners_(*mesh.points, surface_),
+        features_(*mesh.points, surface_, facets_, corners_),
+        exponent_(mesh.points->exponent()),
         chamfers_(*mesh.points, surface_, corners_, thresholds_,
                   {.limit = mesh.promise->chamfer_radius,
                    .to_link = mesh.promise->link || mesh.promise->bridges,
@@ -433,9 +429,9 @@ class FilterCheck {
   const ExactRecord& record_;
   const InputSurface& surface_;
   const FacetIndex facets_;
+  const AcuteCorners corners_;
   Features features_;
   long exponent_;
-  AcuteCorners corners_;
   CornerThresholds thresholds_;
   ChamferFeatures chamfers_;
   bool pairs_, both_sides_;

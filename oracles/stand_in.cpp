@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "oracles/distances.h"
 
@@ -30,19 +31,17 @@ class StandInCheck {
       report_.fail(why);
       return std::move(report_);
     }
-    std::vector<std::vector<Index>> members(surface_.facets().size());
-    for (Index t = 0; t < triangles_.size(); ++t) {
-      members[surface_.facet_of_triangle()[t]].push_back(t);
-    }
+    const InputSurface::Members members = surface_.members();
+    const auto facets = static_cast<Index>(surface_.facets().size());
     grouped_.assign(given_, 0);
-    for (const std::vector<Index>& facet : members) {
-      if (facet.size() < 2) continue;
-      for (const Index t : facet) {
+    for (Index facet = 0; facet < facets; ++facet) {
+      if (members.of(facet).size() < 2) continue;
+      for (const Index t : members.of(facet)) {
         for (const Index v : triangles_[t]) grouped_[v] = 1;
       }
     }
     check_vertices();
-    for (Index facet = 0; facet < members.size(); ++facet) check_facet(facet, members[facet]);
+    for (Index facet = 0; facet < facets; ++facet) check_facet(facet, members.of(facet));
     report_.figures.emplace_back("facets", surface_.facets().size());
     report_.figures.emplace_back("vertices moved", moved_);
     report_.figures.emplace_back("deviation", deviation_);
@@ -81,7 +80,7 @@ class StandInCheck {
     }
   }
 
-  void check_facet(Index facet, const std::vector<Index>& members) {
+  void check_facet(Index facet, std::span<const Index> members) {
     ++report_.checked;
     const std::string name = "facet " + std::to_string(surface_.facets()[facet].id);
     if (!record_.triangles.empty() && !same_outline(members)) {
@@ -113,7 +112,7 @@ class StandInCheck {
   }
 
   // All of a facet's triangles are in its plane; some may be degenerate.
-  ExactVector normal_of(const std::vector<Index>& members) const {
+  ExactVector normal_of(std::span<const Index> members) const {
     ExactVector normal;
     for (const Index t : members) {
       const auto& [a, b, c] = triangles_[t];
@@ -128,7 +127,7 @@ class StandInCheck {
     std::vector<std::pair<Index, Index>> sides;
     bool operator==(const Outline&) const = default;
   };
-  static Outline outline(const Triangles& triangles, const std::vector<Index>& members) {
+  static Outline outline(const Triangles& triangles, std::span<const Index> members) {
     Outline result;
     std::vector<std::pair<Index, Index>> all;
     for (const Index t : members) {
@@ -148,7 +147,7 @@ class StandInCheck {
                          result.corners.end());
     return result;
   }
-  bool same_outline(const std::vector<Index>& members) const {
+  bool same_outline(std::span<const Index> members) const {
     return outline(input_.triangles, members) == outline(triangles_, members);
   }
 
