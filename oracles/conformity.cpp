@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "oracles/buckets.h"
 #include "oracles/distances.h"
 #include "oracles/edge_chains.h"
 #include "oracles/edge_key.h"
@@ -64,8 +65,8 @@ class Conformity {
   void check_border(Index a, std::size_t edge);
   void check_facets();
   bool is_triangle(Index facet, std::span<const Index> triangles,
-                   const std::vector<Index>& faces) const;
-  void check_facet(Index facet, std::span<const Index> triangles, const std::vector<Index>& faces);
+                   std::span<const Index> faces) const;
+  void check_facet(Index facet, std::span<const Index> triangles, std::span<const Index> faces);
   std::uint64_t count_folded(Index facet, const std::vector<Face>& faces);
   void check_in_plane(Index facet, Index v);
   // Is a point certainly no farther from the line of an edge, or the plane of a facet, than the
@@ -134,18 +135,17 @@ void Conformity::match_vertices() {
 void Conformity::follow_edges() {
   const EdgeChains chains(points_, *edges_, surface_, *match_, options_);
   std::vector<Index> chain;
-  if (options_.want_chains) result_.chains.resize(surface_.edges().size());
   for (const InputSurface::Edge& edge : surface_.edges()) {
     if (ended()) return;
     const bool reported = match_->of(edge.from) == kNone || match_->of(edge.to) == kNone;
-    if (reported) continue;
-    if (!chains.find(edge, chain)) {
+    const bool found = !reported && chains.find(edge, chain);
+    if (options_.want_chains) result_.chains.add(std::span(chain).first(found ? chain.size() : 0));
+    if (found) {
+      put_in_chains(edge, chain);
+    } else if (!reported) {
       fail_edge(edge, input_edge_name(edge) + " is not a chain of boundary edges; it ends at " +
                           complex_.vertex_name(chain.back()));
-      continue;
     }
-    if (options_.want_chains) result_.chains[&edge - surface_.edges().data()] = chain;
-    put_in_chains(edge, chain);
   }
   result_.report.figures.emplace_back("edges of chains", result_.chain_edges);
 }
@@ -252,14 +252,18 @@ void Conformity::check_border(Index a, std::size_t edge) {
 }
 
 void Conformity::check_facets() {
-  std::vector<std::vector<Index>> patches(surface_.facets().size());
+  Buckets patches(surface_.facets().size());
+  for (const Index facet : result_.facets) {
+    if (facet != kNone) patches.count(facet);
+  }
+  patches.allot();
   for (Index f = 0; f < result_.faces.size(); ++f) {
-    if (result_.facets[f] != kNone) patches[result_.facets[f]].push_back(f);
+    if (result_.facets[f] != kNone) patches.put(result_.facets[f], f);
   }
   const InputSurface::Members members = surface_.members();
-  for (Index facet = 0; facet < patches.size() && !ended(); ++facet) {
-    if (!is_triangle(facet, members.of(facet), patches[facet])) {
-      check_facet(facet, members.of(facet), patches[facet]);
+  for (Index facet = 0; facet < surface_.facets().size() && !ended(); ++facet) {
+    if (!is_triangle(facet, members.of(facet), patches.of(facet))) {
+      check_facet(facet, members.of(facet), patches.of(facet));
     }
   }
 }
@@ -267,7 +271,7 @@ void Conformity::check_facets() {
 // Is the facet a triangle, and tiled by a face on the same three points, so that there is nothing
 // to decide?
 bool Conformity::is_triangle(Index facet, std::span<const Index> triangles,
-                             const std::vector<Index>& faces) const {
+                             std::span<const Index> faces) const {
   if (triangles.size() != 1 || faces.size() != 1) return false;
   Face corners = surface_.triangles()[triangles[0]];
   for (Index& v : corners) {
@@ -279,7 +283,7 @@ bool Conformity::is_triangle(Index facet, std::span<const Index> triangles,
 }
 
 void Conformity::check_facet(Index facet, std::span<const Index> triangles,
-                             const std::vector<Index>& faces) {
+                             std::span<const Index> faces) {
   const InputSurface::Facet& input = surface_.facets()[facet];
   const std::string name = facet_name(facet);
   if (faces.empty()) return fail_facet(facet, name + " has no boundary faces");

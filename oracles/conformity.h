@@ -8,12 +8,33 @@
 // face is turned over there is no overlap.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "oracles/input_surface.h"
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
+
+// Chains of vertices, one for each edge of a surface. They follow each other in one array: most are
+// of two vertices, and an array for each takes several times the memory.
+class Chains {
+ public:
+  void add(std::span<const Index> chain) {
+    vertices_.insert(vertices_.end(), chain.begin(), chain.end());
+    ends_.push_back(vertices_.size());
+  }
+  // Empty if none was added.
+  std::span<const Index> of(std::size_t edge) const {
+    if (edge >= ends_.size()) return {};
+    const std::size_t first = edge == 0 ? 0 : ends_[edge - 1];
+    return std::span(vertices_).subspan(first, ends_[edge] - first);
+  }
+
+ private:
+  std::vector<Index> vertices_;
+  std::vector<std::size_t> ends_;
+};
 
 struct ConformityOptions {
   // If false, there is a tolerance: vertices may be off their facets and edges, as in files whose
@@ -29,7 +50,7 @@ struct ConformityOptions {
   // With a tolerance: chains to try first, one per edge of the surface, from a record. Where edges
   // are less than the tolerance apart, positions alone do not tell to which of them a mesh edge
   // belongs. Given chains prove no less than found ones, because their structure is checked.
-  const std::vector<std::vector<Index>>* chains = nullptr;
+  const Chains* chains = nullptr;
 };
 
 struct ConformityResult {
@@ -41,7 +62,7 @@ struct ConformityResult {
   std::vector<Face> faces;    // boundary faces of the solid, counter-clockwise from outside
   std::vector<Index> facets;  // per face: the input facet that it tiles, or kNone
   std::uint64_t chain_edges = 0;
-  std::vector<std::vector<Index>> chains;  // per edge of the surface, if wanted; empty: not found
+  Chains chains;  // per edge of the surface, if wanted; empty: not found
   // Where the check failed: at which edges of the surface, at which facets, and how often at
   // neither.
   std::vector<Index> failed_edges, failed_facets;

@@ -143,7 +143,7 @@ bool EdgeChains::follow(const InputSurface::Edge& edge, double tolerance,
 }
 
 // Has a given chain the structure of a chain of the edge?
-bool EdgeChains::is_chain(const InputSurface::Edge& edge, const std::vector<Index>& chain) const {
+bool EdgeChains::is_chain(const InputSurface::Edge& edge, std::span<const Index> chain) const {
   if (chain.size() < 2 || chain.front() != match_.of(edge.from) ||
       chain.back() != match_.of(edge.to)) {
     return false;
@@ -159,9 +159,10 @@ bool EdgeChains::is_chain(const InputSurface::Edge& edge, const std::vector<Inde
 bool EdgeChains::find(const InputSurface::Edge& edge, std::vector<Index>& chain) const {
   if (options_.exact) return follow(edge, 0, chain);
   if (options_.chains != nullptr) {
-    const auto& given = (*options_.chains)[&edge - surface_.edges().data()];
+    const std::span<const Index> given =
+        options_.chains->of(static_cast<std::size_t>(&edge - surface_.edges().data()));
     if (is_chain(edge, given)) {
-      chain = given;
+      chain.assign(given.begin(), given.end());
       return true;
     }
   }

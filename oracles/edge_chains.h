@@ -58,7 +58,7 @@ class EdgeChains {
 
  private:
   bool follow(const InputSurface::Edge& edge, double tolerance, std::vector<Index>& chain) const;
-  bool is_chain(const InputSurface::Edge& edge, const std::vector<Index>& chain) const;
+  bool is_chain(const InputSurface::Edge& edge, std::span<const Index> chain) const;
   double progress(const InputSurface::Edge& edge, Index v, double& distance) const;
   bool advances(const InputSurface::Edge& edge, Index here, Index next) const;
 

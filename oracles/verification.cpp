@@ -5,21 +5,35 @@
 
 namespace tetproof::oracles {
 
-std::vector<Verification::Check> Verification::checks(const delmesher::ExactRecord* exact,
-                                                      Stage stage) {
-  std::vector<Check> list;
+// The file comes last, since the record is all but gone then.
+std::vector<Verification::Part> Verification::parts(const delmesher::ExactRecord* exact,
+                                                    Stage stage) {
+  std::vector<Part> list;
   // The file of a run that had a final stage is not the refined mesh.
   const bool other_file = stage == Stage::refined && exact != nullptr && !exact->final.empty();
-  if (!other_file) list.push_back(&Verification::check_file);
-  list.push_back(&Verification::check_input);
-  if (exact == nullptr) return list;
-  list.push_back(&Verification::check_sidecar);
-  if (stage != Stage::refined) list.push_back(&Verification::check_exact_final);
-  if (stage != Stage::final) {
-    list.insert(list.end(),
-                {&Verification::check_refined_complex, &Verification::check_refined_angles,
-                 &Verification::check_refined_inside, &Verification::check_refined_promises});
+  if (!other_file) {
+    list.push_back({&Verification::check_file, 3, {Bulk::file}, {Bulk::file_tetrahedra}});
   }
+  list.push_back({&Verification::check_input, 4, {}, {}});
+  if (exact == nullptr) return list;
+  list.push_back({&Verification::check_sidecar,
+                  0,
+                  {Bulk::file, Bulk::file_tetrahedra, Bulk::refined_tetrahedra,
+                   Bulk::refined_elements, Bulk::final_meshes},
+                  {}});
+  if (stage != Stage::refined) {
+    list.push_back({&Verification::check_exact_final, 2, {Bulk::final_meshes}, {}});
+  }
+  if (stage == Stage::final) return list;
+  const std::vector<Bulk> needs = {Bulk::refined_elements, Bulk::refined_complex};
+  // The first that asks makes the complex, out of the tetrahedra.
+  list.push_back({&Verification::check_refined_complex, 1, needs, {Bulk::refined_tetrahedra}});
+  list.push_back({&Verification::check_refined_angles, 1, needs, {}});
+  list.push_back({&Verification::check_refined_inside, 1, needs, {}});
+  list.push_back({&Verification::check_refined_promises,
+                  1,
+                  {Bulk::refined_elements, Bulk::refined_complex, Bulk::final_meshes},
+                  {}});
   return list;
 }
 

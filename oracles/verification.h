@@ -16,14 +16,22 @@ namespace tetproof::oracles {
 class Verification {
  public:
   using Check = std::string (Verification::*)();
+  struct Part {
+    Check check;
+    // Parts begin in this order, so that what the first ones need is given up before others need
+    // much; they are reported in the order of the list.
+    int turn;
+    std::vector<Bulk> needs;  // up to its end
+    std::vector<Bulk> tells;  // needs, and tells itself when it is done with them
+  };
   using FaceOnFacet = std::array<std::uint32_t, 4>;  // of the record
 
   Verification(const Polyhedron& input, const MeshFile& mesh, const delmesher::ExactRecord* exact,
                const VerifyOptions& options, SharedData& shared)
       : input_(input), mesh_(mesh), exact_(exact), options_(options), shared_(shared) {}
 
-  // The checks of a verification, in the order of their reports.
-  static std::vector<Check> checks(const delmesher::ExactRecord* exact, Stage stage);
+  // The parts of a verification, in the order of their reports.
+  static std::vector<Part> parts(const delmesher::ExactRecord* exact, Stage stage);
   // Appends this part's report; the last part that knows them tells the measures of the input.
   void move_to(VerifyReport& report, double& ulp, double& diagonal);
 
@@ -33,7 +41,7 @@ class Verification {
   void check_edge_nodes();
   bool check_empty();
   std::string check_file();
-  std::vector<std::vector<Index>> recorded_chains(const InputSurface& surface);
+  Chains recorded_chains(const InputSurface& surface);
   std::vector<Index> recorded_facets() const;
   ConformityResult conformity_of_file(const TetComplex& complex, const Neighbours& neighbours,
                                       const InputSurface& surface,

@@ -1,7 +1,9 @@
 #include "oracles/verify.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 
 #include "oracles/ordinary_units.h"
 #include "oracles/parallel.h"
@@ -11,14 +13,46 @@
 namespace tetproof::oracles {
 namespace {
 
+// Runs all parts in the order of their turns.
+std::string run_parts(const Polyhedron& input, const MeshFile& mesh,
+                      const delmesher::ExactRecord* exact, const VerifyOptions& options,
+                      const Expendable& expendable, VerifyReport& report) {
+  SharedData shared(input, exact, options.promised, expendable);
+  const std::vector<Verification::Part> list = Verification::parts(exact, options.stage);
+  std::vector<Verification> parts(list.size(), {input, mesh, exact, options, shared});
+  std::vector<std::size_t> order(list.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&list](std::size_t n) { return list[n].turn; });
+  for (const Verification::Part& part : list) {
+    for (const Bulk bulk : part.needs) shared.need(bulk);
+    for (const Bulk bulk : part.tells) shared.need(bulk);
+  }
+  std::vector<std::string> why(list.size());
+  std::atomic<bool> no_solid = false;
+  run_tasks(options.threads, order.size(), [&](std::size_t turn) {
+    if (no_solid) return;
+    const std::size_t n = order[turn];
+    why[n] = (parts[n].*list[n].check)();
+    if (!why[n].empty()) no_solid = true;
+    for (const Bulk bulk : list[n].needs) shared.done_with(bulk);
+  });
+  for (const std::string& reason : why) {
+    if (!reason.empty()) return reason;
+  }
+  double ulp = 0, diagonal = 0;
+  for (Verification& part : parts) part.move_to(report, ulp, diagonal);
+  conclude(ulp, diagonal, report);
+  return {};
+}
+
 // Of which every deviation is in input units again; other figures of lengths are not.
-std::string verify_scaled(const InOrdinaryUnits& task, VerifyOptions options,
-                          VerifyReport& report) {
+std::string verify_scaled(InOrdinaryUnits& task, VerifyOptions options, VerifyReport& report) {
   options.promised = task.promise;
   const bool text_skipped = task.record.has_value() && !options.sidecar.empty();
   options.sidecar.clear();  // its text is in the other units
+  delmesher::ExactRecord* record = task.record ? &*task.record : nullptr;
   std::string refusal =
-      verify(task.input, task.mesh, task.record ? &*task.record : nullptr, options, report);
+      run_parts(task.input, task.mesh, record, options, {&task.mesh, record}, report);
   report.deviation = std::ldexp(report.deviation, task.exponent);
   report.slab = std::ldexp(report.slab, task.exponent);
   for (OracleReport& oracle : report.oracles) {
@@ -30,32 +64,28 @@ std::string verify_scaled(const InOrdinaryUnits& task, VerifyOptions options,
   return refusal;
 }
 
+std::string verify_in_units(const Polyhedron& input, const MeshFile& mesh,
+                            const delmesher::ExactRecord* exact, const VerifyOptions& options,
+                            const Expendable& expendable, VerifyReport& report) {
+  report = {};
+  if (auto scaled = in_ordinary_units(input, mesh, exact, options.promised)) {
+    return verify_scaled(*scaled, options, report);
+  }
+  return run_parts(input, mesh, exact, options, expendable, report);
+}
+
 }  // namespace
 
 std::string verify(const Polyhedron& input, const MeshFile& mesh,
                    const delmesher::ExactRecord* exact, const VerifyOptions& options,
                    VerifyReport& report) {
-  report = {};
-  if (const auto scaled = in_ordinary_units(input, mesh, exact, options.promised)) {
-    return verify_scaled(*scaled, options, report);
-  }
-  SharedData shared(input, exact, options.promised);
-  const std::vector<Verification::Check> checks = Verification::checks(exact, options.stage);
-  std::vector<Verification> parts(checks.size(), {input, mesh, exact, options, shared});
-  std::vector<std::string> why(checks.size());
-  std::atomic<bool> no_solid = false;
-  run_tasks(options.threads, checks.size(), [&](std::size_t n) {
-    if (no_solid) return;
-    why[n] = (parts[n].*checks[n])();
-    if (!why[n].empty()) no_solid = true;
-  });
-  for (const std::string& reason : why) {
-    if (!reason.empty()) return reason;
-  }
-  double ulp = 0, diagonal = 0;
-  for (Verification& part : parts) part.move_to(report, ulp, diagonal);
-  conclude(ulp, diagonal, report);
-  return {};
+  return verify_in_units(input, mesh, exact, options, {}, report);
+}
+
+std::string verify_and_discard(const Polyhedron& input, MeshFile& mesh,
+                               delmesher::ExactRecord* exact, const VerifyOptions& options,
+                               VerifyReport& report) {
+  return verify_in_units(input, mesh, exact, options, {&mesh, exact}, report);
 }
 
 }  // namespace tetproof::oracles

@@ -44,6 +44,12 @@ std::string verify(const Polyhedron& input, const MeshFile& mesh,
                    const delmesher::ExactRecord* exact, const VerifyOptions& options,
                    VerifyReport& report);
 
+// The same for a mesh and a record that the caller does not need any more: each part of them is
+// given up as soon as no oracle needs it, for less memory. `exact` may be null.
+std::string verify_and_discard(const Polyhedron& input, MeshFile& mesh,
+                               delmesher::ExactRecord* exact, const VerifyOptions& options,
+                               VerifyReport& report);
+
 // A verification fails if the mesh is broken or deviates more than declared.
 bool failed(const VerifyReport& report, const VerifyOptions& options);
 

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "oracles/envelope.h"
+#include "oracles/heap.h"
 #include "oracles/plane_verify.h"
 #include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
@@ -133,7 +134,7 @@ std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   Terminal terminal;
   terminal.say("reading " + arguments.mesh);
   const Polyhedron input = read_surface(arguments.input);
-  const MeshFile mesh = read_mesh(arguments.mesh);
+  MeshFile mesh = read_mesh(arguments.mesh);
   if (arguments.envelope > 0) {
     return verify_envelope(input, mesh, arguments.envelope, arguments.options, report);
   }
@@ -146,7 +147,8 @@ std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   options.progress = [&](const OracleReport& oracle) {
     terminal.say(oracle.name + ": " + std::to_string(oracle.checked) + " " + oracle.checked_what);
   };
-  return verify(input, mesh, arguments.exact.empty() ? nullptr : &record, options, report);
+  return verify_and_discard(input, mesh, arguments.exact.empty() ? nullptr : &record, options,
+                            report);
 }
 
 // The same in the plane.
@@ -224,6 +226,7 @@ int run_verify(int argc, char** argv) {
                stderr);
     return kUsage;
   }
+  return_large_blocks();
   try {
     return verify_files(arguments);
   } catch (const ReadError& error) {

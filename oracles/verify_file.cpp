@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "oracles/delaunay.h"
 #include "oracles/hull.h"
 #include "oracles/places.h"
+#include "oracles/refined_index.h"
 #include "oracles/regions.h"
 #include "oracles/surface_validity.h"
 #include "oracles/verdict.h"
@@ -95,11 +95,13 @@ void Verification::check_edge_nodes() {
 
 std::string Verification::check_file() {
   if (!check_finite() || check_empty()) return {};
-  std::vector<Position> positions = input_.vertices;
-  positions.insert(positions.end(), mesh_.vertices.begin(), mesh_.vertices.end());
   ExactPoints points;
   InputSurface surface;
-  if (std::string why = points.assign(positions); !why.empty()) return why;
+  {
+    std::vector<Position> positions = input_.vertices;
+    positions.insert(positions.end(), mesh_.vertices.begin(), mesh_.vertices.end());
+    if (std::string why = points.assign(positions); !why.empty()) return why;
+  }
   if (std::string why = surface.assign(input_, points); !why.empty()) return why;
   ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
   diagonal_ = surface.diagonal();
@@ -107,6 +109,7 @@ std::string Verification::check_file() {
 
   const auto offset = static_cast<Index>(input_.vertices.size());
   TetComplex complex{&points, mesh_.tetrahedra, {}, offset, static_cast<Index>(points.size())};
+  shared_.done_with(Bulk::file_tetrahedra);
   for (Tet& tet : complex.tetrahedra) {
     for (Index& v : tet) v = v < mesh_.vertices.size() ? v + offset : kNone;
   }
@@ -128,11 +131,12 @@ std::string Verification::check_file() {
                      before_writing()));
     return {};
   }
-  std::vector<std::int64_t> given = mesh_.regions;
   const bool solid_only =
       fills(complex, surface,
             std::max(kRoundedUlps * ulp_, options_.promised.planar_share() * diagonal_));
-  if (given.empty() && solid_only) given.assign(complex.tetrahedra.size(), 0);
+  std::vector<std::int64_t> one_region;
+  if (mesh_.regions.empty() && solid_only) one_region.assign(complex.tetrahedra.size(), 0);
+  const std::vector<std::int64_t>& given = mesh_.regions.empty() ? one_region : mesh_.regions;
   if (given.empty()) {  // the hull: parity alone decides
     check_file_surface(complex, neighbours, surface);
     check_file_hull(complex, neighbours);
@@ -168,12 +172,12 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
       check_conformity(complex, neighbours, surface, {.exact = true, .first_failure_ends = true});
   if (result.report.passed()) return result;
   // What fails by positions alone is judged by the record's chains, if there is one.
-  const bool recorded = exact_ != nullptr && !exact_->final.empty();
+  const bool recorded = shared_.has_final();
   const auto check = [&](const InputSurface& on, ConformityOptions options) {
     options.first_failure_ends = recorded;
     ConformityResult r = check_conformity(complex, neighbours, on, options);
     if (r.report.passed() || !recorded) return r;
-    const auto chains = recorded_chains(on);
+    const Chains chains = recorded_chains(on);
     options.chains = &chains;
     options.first_failure_ends = false;
     return check_conformity(complex, neighbours, on, options);
@@ -263,13 +267,10 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
 
 // The chain of mesh edges on which each edge of the surface lies by the record's exact coordinates,
 // in vertices of the file.
-std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface& surface) {
-  std::vector<std::vector<Index>> chains(surface.edges().size());
+Chains Verification::recorded_chains(const InputSurface& surface) {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
-  if (!sidecar.usable) return chains;
-  const std::shared_ptr<const SharedData::Final> final = shared_.final();
-  if (!final->shape.passed()) return chains;
-  const ConformityResult& exact = final->conformity;
+  if (!sidecar.usable) return {};
+  const Chains& exact = shared_.final_chains();
   std::vector<Index> written(sidecar.points.size(), kNone);
   for (std::size_t i = 0; i < exact_->mesh_vertices.size(); ++i) {
     const Index v = exact_->mesh_vertices[i];
@@ -277,20 +278,24 @@ std::vector<std::vector<Index>> Verification::recorded_chains(const InputSurface
     written[v] = static_cast<Index>(input_.vertices.size() + i);
   }
   // The surface that was meshed may have fewer edges than the input, or in another direction.
-  std::map<std::pair<Index, Index>, Index> number;
-  for (Index e = 0; e < surface.edges().size(); ++e) {
-    number[{surface.edges()[e].from, surface.edges()[e].to}] = e;
+  const std::vector<InputSurface::Edge>& meshed = sidecar.final_surface().edges();
+  const InputEdges number(surface);
+  std::vector<Index> recorded(surface.edges().size(), kNone);
+  for (Index e = 0; e < meshed.size(); ++e) {
+    const Index on = number.find(meshed[e].from, meshed[e].to);
+    if (on != kNone) recorded[on] = e;
   }
-  for (Index e = 0; e < exact.chains.size(); ++e) {
-    std::vector<Index> chain = exact.chains[e];
-    for (Index& v : chain) v = written[v];
-    const auto& [from, to, left, right] = sidecar.final_surface().edges()[e];
-    auto found = number.find({from, to});
-    if (found == number.end()) {
-      found = number.find({to, from});
-      std::reverse(chain.begin(), chain.end());
+  Chains chains;
+  std::vector<Index> chain;
+  for (std::size_t e = 0; e < recorded.size(); ++e) {
+    chain.clear();
+    if (recorded[e] != kNone) {
+      for (const Index v : exact.of(recorded[e])) chain.push_back(written[v]);
+      if (meshed[recorded[e]].from != surface.edges()[e].from) {
+        std::reverse(chain.begin(), chain.end());
+      }
     }
-    if (found != number.end()) chains[found->second] = std::move(chain);
+    chains.add(chain);
   }
   return chains;
 }

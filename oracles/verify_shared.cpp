@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+
+#include "oracles/heap.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -97,10 +100,34 @@ TetComplex complex_of(const std::vector<ExactRecord::Tet>& tets, const ExactPoin
   return complex;
 }
 
-std::shared_ptr<const SharedData::Final> SharedData::final() {
+// Of a vector, assigning nothing would keep the memory.
+void SharedData::give_up(Bulk bulk) {
+  delmesher::ExactRecord* record = expendable_.record;
+  const auto empty = [](auto&... lists) { ((lists = std::decay_t<decltype(lists)>()), ...); };
+  if (bulk == Bulk::file && expendable_.mesh != nullptr) *expendable_.mesh = MeshFile();
+  if (bulk == Bulk::file_tetrahedra && expendable_.mesh != nullptr) {
+    empty(expendable_.mesh->tetrahedra);
+  }
+  if (bulk == Bulk::refined_complex) refined_ = Refined();
+  if (record == nullptr) return;
+  if (bulk == Bulk::refined_tetrahedra) empty(record->refined);
+  if (bulk == Bulk::refined_elements) {
+    empty(record->segments, record->chamfer_points, record->refined_facets, record->balls);
+  }
+  if (bulk == Bulk::final_meshes) {
+    empty(record->final, record->final_facets, record->unrepaired, record->unrepaired_facets);
+  }
+}
+
+void SharedData::done_with(Bulk bulk) {
+  if (--needs_[static_cast<std::size_t>(bulk)] > 0) return;
+  give_up(bulk);
+  return_free_pages();
+}
+
+void SharedData::make_final() {
+  if (final_) return;
   const Sidecar& s = sidecar();
-  const std::lock_guard<std::mutex> lock(final_mutex_);
-  if (final_) return final_;
   const auto made = std::make_shared<Final>();
   made->complex = complex_of(exact_->final, s.final_points());
   made->shape = check_complex(made->complex, made->neighbours);
@@ -108,8 +135,10 @@ std::shared_ptr<const SharedData::Final> SharedData::final() {
     made->conformity = check_conformity(made->complex, made->neighbours, s.final_surface(),
                                         {.exact = true, .want_chains = true});
   }
+  if (!final_chains_known_) final_chains_ = std::move(made->conformity.chains);
+  made->conformity.chains = {};
+  final_chains_known_ = true;
   final_ = made;
-  return final_;
 }
 
 void SharedData::read_sidecar() {

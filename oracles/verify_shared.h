@@ -1,6 +1,8 @@
 // What several parts of a verification need of the record.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -10,6 +12,7 @@
 #include "oracles/chamfer.h"
 #include "oracles/conformity.h"
 #include "oracles/input_surface.h"
+#include "oracles/mesh_file.h"
 #include "oracles/parallel.h"
 #include "oracles/places.h"
 #include "oracles/promise.h"
@@ -21,7 +24,30 @@ namespace tetproof::oracles {
 TetComplex complex_of(const std::vector<delmesher::ExactRecord::Tet>& tets,
                       const ExactPoints& points);
 
+// What takes most of the memory of a verification, and is given up when the last part that needs it
+// is done: of the file, all of it or its tetrahedra; of the record, the tetrahedra of the refined
+// mesh, its other elements, and the meshes after it; and the complex made of the refined mesh.
+enum class Bulk : std::uint8_t {
+  file,
+  file_tetrahedra,
+  refined_tetrahedra,
+  refined_elements,
+  final_meshes,
+  refined_complex
+};
+inline constexpr std::size_t kBulks = 6;
+
+// A file and a record that may be emptied, because the caller does not need them any more; or none.
+struct Expendable {
+  MeshFile* mesh = nullptr;
+  delmesher::ExactRecord* record = nullptr;
+};
+
 // Data that several parts of a verification need, made by the first that asks.
+//
+// Laws:
+//  - what is given up, nobody asks for again: each need is announced before the first part begins,
+//    and told to be over once.
 class SharedData {
  public:
   struct Sidecar {
@@ -46,7 +72,7 @@ class SharedData {
     TetComplex complex;
     Neighbours neighbours;
     OracleReport shape{"complex"};
-    ConformityResult conformity;  // with chains; empty unless the shape passed
+    ConformityResult conformity;  // empty unless the shape passed; without its chains
   };
   struct Refined {
     TetComplex complex;
@@ -55,15 +81,36 @@ class SharedData {
     std::unique_ptr<const Places> places;
   };
 
-  SharedData(const Polyhedron& input, const delmesher::ExactRecord* exact, const Promise& promise)
-      : input_(input), exact_(exact), promise_(promise) {}
+  SharedData(const Polyhedron& input, const delmesher::ExactRecord* exact, const Promise& promise,
+             const Expendable& expendable = {})
+      : input_(input),
+        exact_(exact),
+        promise_(promise),
+        expendable_(expendable),
+        has_final_(exact != nullptr && !exact->final.empty()) {}
+
+  void need(Bulk bulk) { ++needs_[static_cast<std::size_t>(bulk)]; }
+  void done_with(Bulk bulk);
+  // Had the record a final mesh?
+  bool has_final() const { return has_final_; }
 
   const Sidecar& sidecar() {
     sidecar_once_([this] { read_sidecar(); });
     return sidecar_;
   }
   // The final mesh of the record. Only for a usable sidecar.
-  std::shared_ptr<const Final> final();
+  std::shared_ptr<const Final> final() {
+    const std::lock_guard<std::mutex> lock(final_mutex_);
+    make_final();
+    return final_;
+  }
+  // The chain of mesh edges on each edge of its surface; none if it is no complex. They stay when
+  // the mesh is forgotten.
+  const Chains& final_chains() {
+    const std::lock_guard<std::mutex> lock(final_mutex_);
+    if (!final_chains_known_) make_final();
+    return final_chains_;
+  }
   // Its memory, once its own oracles are done.
   void forget_final() {
     const std::lock_guard<std::mutex> lock(final_mutex_);
@@ -83,6 +130,7 @@ class SharedData {
   const Refined& refined() {
     refined_once_([this] {
       refined_.complex = complex_of(exact_->refined, sidecar().points);
+      done_with(Bulk::refined_tetrahedra);
       refined_.shape = check_complex(refined_.complex, refined_.neighbours);
       refined_.places = std::make_unique<const Places>(refined_mesh());
     });
@@ -92,13 +140,20 @@ class SharedData {
 
  private:
   void read_sidecar();
+  void make_final();
+  void give_up(Bulk bulk);
 
   const Polyhedron& input_;
   const delmesher::ExactRecord* exact_;
   const Promise& promise_;
+  const Expendable expendable_;
+  const bool has_final_;
+  std::array<std::atomic<unsigned>, kBulks> needs_{};
   Once sidecar_once_, refined_once_;
   std::mutex final_mutex_;
   std::shared_ptr<const Final> final_;
+  Chains final_chains_;
+  bool final_chains_known_ = false;
   Sidecar sidecar_;
   Refined refined_;
 };

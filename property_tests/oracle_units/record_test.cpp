@@ -291,5 +291,50 @@ TEST(Units, TheVerdictIsTheSameInAll) {
   }
 }
 
+// What is given up during a verification is what no oracle needs any more, whatever the number of
+// threads: the report is the same.
+void expect_the_same_report(const delmesher::Surface& surface, delmesher::Options options) {
+  options.want_exact = true;
+  const delmesher::Result result = delmesher::tetrahedralize(surface, options);
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  const Polyhedron input = samples::to_polyhedron(surface);
+  VerifyOptions wanted;
+  wanted.promised = promise_of(options);
+  wanted.stage = options.approximate ? Stage::refined : Stage::both;
+  VerifyReport kept;
+  ASSERT_EQ(verify(input, samples::to_mesh(result.mesh), &result.exact, wanted, kept), "");
+  for (const unsigned threads : {1U, 4U}) {
+    wanted.threads = threads;
+    MeshFile mesh = samples::to_mesh(result.mesh);
+    delmesher::ExactRecord record = result.exact;
+    VerifyReport discarded;
+    ASSERT_EQ(verify_and_discard(input, mesh, &record, wanted, discarded), "");
+    EXPECT_EQ(to_text(discarded), to_text(kept));
+    EXPECT_TRUE(mesh.tetrahedra.empty() && mesh.vertices.empty());
+    EXPECT_TRUE(record.refined.empty() && record.refined_facets.empty());
+    EXPECT_TRUE(record.segments.empty() && record.balls.empty());
+    EXPECT_TRUE(record.final.empty() && record.final_facets.empty());
+    EXPECT_TRUE(record.unrepaired.empty());
+  }
+}
+
+// A surface that is made planar, with chamfers.
+TEST(Discarded, TheReportIsTheSame) {
+  delmesher::Surface turned = samples::to_surface(samples::l_shape().input);
+  for (auto& p : turned.vertices) {
+    p = {p[0] * 0.8 - p[1] * 0.6, p[0] * 0.6 + p[1] * 0.8, p[2] + 0.1 * p[0]};
+  }
+  delmesher::Options hull, unimproved, approximate, as_given;
+  hull.region = delmesher::Region::hull;
+  unimproved.improve = false;
+  approximate.approximate = true;
+  as_given.planar = 0;
+  as_given.acute = as_given.corner = 90;
+  for (const delmesher::Options& options :
+       {delmesher::Options{}, hull, unimproved, approximate, as_given}) {
+    expect_the_same_report(turned, options);
+  }
+}
+
 }  // namespace
 }  // namespace tetproof
