@@ -1,3 +1,5 @@
+#include <zlib.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -10,9 +12,11 @@
 #include "fuzz/properties.h"
 #include "fuzz/scratch.h"
 #include "mesher/cli/run.h"
+#include "mesher/io/inflate.h"
 #include "mesher/io/output.h"
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/read_mesh.h"
+#include "mesher/io/reading.h"
 #include "mesher/io/write_mesh.h"
 #include "oracles/mesh_file.h"
 #include "oracles/text_reader.h"
@@ -31,6 +35,7 @@ Leniency mesh_refused("mesh-refused-in-one-line", 0.999);
 Leniency not_conforming("read-and-not-conforming", 0.999);
 Leniency no_boundary("boundary-not-in-format", 0.5);
 Leniency no_labels("labels-not-in-format", 0.5);
+Leniency not_unpacked("refused-by-zlib-too", 0.999);
 Leniency not_run("ends-with-its-parsing", 0.999);
 
 bool is_one_line(const std::string& text) {
@@ -104,6 +109,32 @@ delmesher::TetMesh read_mesh(Bytes& bytes) {
   return mesh;
 }
 
+constexpr std::size_t kMostUnpacked = std::size_t{1} << 20;
+
+// What zlib makes of all the bytes, of gzip of all members; nullopt if it refuses them, or if they
+// are too many.
+std::optional<std::string> unpacked_by_zlib(std::string packed, int window_bits) {
+  std::string out(kMostUnpacked, '\0');
+  z_stream stream{};
+  if (inflateInit2(&stream, window_bits) != Z_OK) return {};
+  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_in = static_cast<uInt>(packed.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  int code = inflate(&stream, Z_FINISH);
+  std::size_t size = stream.total_out;
+  while (code == Z_STREAM_END && stream.avail_in >= 2 && window_bits > MAX_WBITS &&
+         stream.next_in[0] == 0x1f && stream.next_in[1] == 0x8b) {
+    inflateReset(&stream);
+    code = inflate(&stream, Z_FINISH);
+    size += stream.total_out;
+  }
+  const bool all = code == Z_STREAM_END && stream.avail_in == 0;
+  inflateEnd(&stream);
+  out.resize(size);
+  return all ? std::optional(out) : std::nullopt;
+}
+
 Finding written_and_read(const delmesher::TetMesh& mesh, const std::string& extension) {
   const std::string path = (scratch() / ("mesh" + extension)).string();
   delmesher::io::OutputSet outputs;
@@ -173,6 +204,26 @@ Finding reader_holds(const std::string& text, const std::string& name) {
   const auto again = delmesher::io::parse_surface(to_off(unlabelled), "again.off");
   if (!again.ok()) return "reader round trip: " + again.error;
   return same_bits(unlabelled, again.surface) ? "" : "reader round trip: differs";
+}
+
+Finding unpacking_agrees(const std::string& bytes) {
+  judging({&not_unpacked});
+  if (bytes.empty()) return {};
+  using delmesher::io::Wrapping;
+  static constexpr std::pair<Wrapping, int> kWrappings[] = {
+      {Wrapping::none, -MAX_WBITS}, {Wrapping::zlib, MAX_WBITS}, {Wrapping::gzip, MAX_WBITS + 16}};
+  const auto [wrapping, window] = kWrappings[static_cast<unsigned char>(bytes[0]) % 3];
+  const std::string packed = bytes.substr(1);
+  const std::optional<std::string> theirs = unpacked_by_zlib(packed, window);
+  std::optional<std::string> ours;
+  try {
+    delmesher::io::Polling polling;
+    ours = delmesher::io::unpacked(packed, wrapping, kMostUnpacked, polling);
+  } catch (const delmesher::io::ParseError& error) {
+    if (!is_one_line(error.reason)) return "unpacking error: not one line";
+  }
+  if (!theirs) not_unpacked.take();
+  return ours == theirs ? "" : "unpacking: zlib disagrees";
 }
 
 Finding mesh_reader_holds(const std::string& text, const std::string& name) {

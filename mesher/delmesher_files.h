@@ -2,6 +2,7 @@
 // them: library delmesher::io, which needs the standard library alone. mesher/io/formats.md and
 // mesher/io/exact_format.md describe the formats.
 //
+// Files that are compressed with gzip are read as well, ".gz" after their name or not.
 // Nothing is thrown but std::bad_alloc. An error is one line that names the file, and the line or
 // byte where there is one.
 #pragma once
@@ -10,9 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "delmesher.h"
@@ -42,16 +41,11 @@ struct ReadResult {
   bool ok() const { return code == ReadCode::ok; }
 };
 
-// Unpacks the bytes of a file of gzip; nullopt if they are damaged, or would be more than `limit`.
-using Gunzip = std::function<std::optional<std::string>(std::string_view bytes, std::size_t limit)>;
-
 struct ReadOptions {
   // OBJ vertices may have two coordinates, and polylines are read; there may be no faces then.
   bool planar = false;
   // Asked many times a second while a file is read; reading stops when it answers no.
   std::function<bool()> go_on;
-  // This library needs none that unpacks; without this, compressed files are refused.
-  Gunzip gunzip = nullptr;
 };
 
 // A surface from OFF, OBJ, STL, PLY, or TetGen's .smesh and .poly, by content and extension. Faces

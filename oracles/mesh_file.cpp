@@ -441,16 +441,17 @@ void read_tetgen_faces(const std::string& path, std::int64_t first, MeshFile& me
 MeshFile read_tetgen(const std::string& stem) {
   MeshFile mesh;
   mesh.either_orientation = true;
-  const std::int64_t first = read_tetgen_nodes(stem + ".node", mesh.vertices);
-  read_tetgen_elements(stem + ".ele", first, mesh);
-  if (std::filesystem::exists(stem + ".face")) read_tetgen_faces(stem + ".face", first, mesh);
+  const std::int64_t first = read_tetgen_nodes(maybe_with_gz(stem + ".node"), mesh.vertices);
+  read_tetgen_elements(maybe_with_gz(stem + ".ele"), first, mesh);
+  const std::string faces = maybe_with_gz(stem + ".face");
+  if (std::filesystem::exists(faces)) read_tetgen_faces(faces, first, mesh);
   return mesh;
 }
 
 }  // namespace
 
 MeshFile read_mesh(const std::string& path) {
-  const std::filesystem::path file(path);
+  const std::filesystem::path file(without_gz(path));
   const std::string extension = file.extension().string();
   if (extension == ".tet") return read_tet(path);
   const bool tetgen = extension == ".node" || extension == ".ele" || extension == ".face";

@@ -21,13 +21,14 @@ using Point = std::array<double, 2>;
 using Edge = std::array<std::uint32_t, 2>;
 
 std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
+  std::string extension = std::filesystem::path(without_gz(path)).extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return extension;
 }
 
 std::string beside(const std::string& path, const char* extension) {
-  return std::filesystem::path(path).replace_extension(extension).string();
+  const std::filesystem::path plain(without_gz(path));
+  return maybe_with_gz(std::filesystem::path(plain).replace_extension(extension).string());
 }
 
 Point point(TextReader& reader) {

@@ -316,7 +316,7 @@ Polyhedron read_tetgen(const std::string& path, std::string_view text, bool poly
   if (own > 0) {
     read_nodes(reader, own);
   } else {
-    const std::string node_path = path.substr(0, path.rfind('.')) + ".node";
+    const std::string node_path = maybe_with_gz(path.substr(0, path.rfind('.')) + ".node");
     const std::string node_text = read_whole_file(node_path);
     TextReader nodes(node_path, node_text);
     const std::uint64_t count = nodes.count();
@@ -355,8 +355,8 @@ bool is_binary_stl(std::string_view text) {
 }
 
 // Faces of more than three corners are fans.
-Polyhedron read_any(const std::string& path) {
-  const std::string text = read_whole_file(path);
+Polyhedron read_any(const std::string& file) {
+  const std::string text = read_whole_file(file), path = without_gz(file);
   const std::string_view start = std::string_view(text).substr(0, 200);
   std::string extension = path.substr(std::min(path.size(), path.rfind('.') + 1));
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {

@@ -1,40 +1,88 @@
 #include "oracles/text_reader.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <charconv>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
+#include <new>
 
 namespace tetproof::oracles {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 18;
+constexpr std::string_view kGzip = ".gz";
+
+// A file in pieces; what is compressed with gzip unpacked, which its first bytes tell.
+class FileStream {
+ public:
+  explicit FileStream(const std::string& path) : path_(path), file_(::gzopen(path.c_str(), "rb")) {
+    if (file_ == nullptr && errno == ENOMEM) throw std::bad_alloc();
+    if (file_ == nullptr) throw ReadError(path + ": cannot be opened");
+    ::gzbuffer(file_, kPiece);
+  }
+  ~FileStream() { ::gzclose(file_); }
+  FileStream(const FileStream&) = delete;
+  FileStream& operator=(const FileStream&) = delete;
+
+  // Fills as much of the piece as there is left, and returns how much that is.
+  std::size_t read(char* piece, std::size_t size) {
+    const int got = ::gzread(file_, piece, static_cast<unsigned>(size));
+    int error = Z_OK;
+    ::gzerror(file_, &error);
+    if (error == Z_MEM_ERROR) throw std::bad_alloc();
+    if (got < 0 || error != Z_OK) throw ReadError(path_ + ": cannot be read, or is cut");
+    return static_cast<std::size_t>(got);
+  }
+
+  bool is_plain() { return ::gzdirect(file_) != 0; }
+  // As many bytes as there are in all, or more. DEFLATE makes a file 1032 times smaller at most.
+  std::uint64_t most_bytes() {
+    std::error_code unknown;  // set if it is no regular file
+    const std::uintmax_t size = std::filesystem::file_size(path_, unknown);
+    if (unknown) return std::numeric_limits<std::uint64_t>::max();
+    return is_plain() ? size : 1032 * size;
+  }
+
+ private:
+  std::string path_;
+  gzFile file_;
+};
 
 }  // namespace
 
 std::string read_whole_file(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw ReadError(path + ": cannot be opened");
+  FileStream stream(path);
+  std::string contents;
   std::error_code unknown;  // set if it is no regular file
   const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  std::string contents;
-  if (!unknown) contents.reserve(size + kPiece);
-  // Not into a stream of strings, which would take lack of memory for the end of the file.
-  while (stream) {
+  if (!unknown && stream.is_plain()) contents.reserve(size + kPiece);
+  for (std::size_t got = kPiece; got == kPiece;) {
     const std::size_t before = contents.size();
     contents.resize(before + kPiece);
-    stream.read(contents.data() + before, kPiece);
-    contents.resize(before + static_cast<std::size_t>(stream.gcount()));
+    got = stream.read(contents.data() + before, kPiece);
+    contents.resize(before + got);
   }
-  if (stream.bad() || contents.empty()) throw ReadError(path + ": cannot be read, or is empty");
+  if (contents.empty()) throw ReadError(path + ": cannot be read, or is empty");
   return contents;
 }
 
+std::string without_gz(const std::string& path) {
+  return path.ends_with(kGzip) ? path.substr(0, path.size() - kGzip.size()) : path;
+}
+
+std::string maybe_with_gz(const std::string& path) {
+  std::string packed = path + std::string(kGzip);
+  return !std::filesystem::exists(path) && std::filesystem::exists(packed) ? packed : path;
+}
+
 struct TextReader::Source {
-  std::ifstream stream;
+  explicit Source(const std::string& path) : stream(path) {}
+  FileStream stream;
   std::vector<char> piece;
 };
 
@@ -47,12 +95,8 @@ TextReader::~TextReader() = default;
 
 TextReader TextReader::of_file(const std::string& path, char comment) {
   TextReader reader(path, {}, comment);
-  reader.source_ = std::make_unique<Source>();
-  reader.source_->stream.open(path, std::ios::binary);
-  if (!reader.source_->stream) throw ReadError(path + ": cannot be opened");
-  std::error_code unknown;  // set if it is no regular file
-  reader.size_ = std::filesystem::file_size(path, unknown);
-  if (unknown) reader.size_ = std::numeric_limits<std::uint64_t>::max();
+  reader.source_ = std::make_unique<Source>(path);
+  reader.size_ = reader.source_->stream.most_bytes();
   if (!reader.refill()) throw ReadError(path + ": cannot be read, or is empty");
   return reader;
 }
@@ -63,8 +107,7 @@ bool TextReader::refill() {
   const std::size_t left = text_.size() - kept_;
   if (left > 0) std::memmove(piece.data(), piece.data() + kept_, left);
   piece.resize(left + kPiece);
-  source_->stream.read(piece.data() + left, kPiece);
-  const auto got = static_cast<std::size_t>(source_->stream.gcount());
+  const std::size_t got = source_->stream.read(piece.data() + left, kPiece);
   text_ = std::string_view(piece.data(), left + got);
   at_ -= kept_;
   kept_ = 0;

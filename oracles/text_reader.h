@@ -16,16 +16,22 @@ struct ReadError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The whole contents of a file. Throws ReadError, also if it is empty.
+// The whole contents of a file, unpacked if it is compressed with gzip. Throws ReadError, also if
+// it is empty.
 std::string read_whole_file(const std::string& path);
+
+// What a file that may be compressed with gzip is called without that: "part.stl" of "part.stl.gz".
+std::string without_gz(const std::string& path);
+// The path, with ".gz" after it where only such a file exists.
+std::string maybe_with_gz(const std::string& path);
 
 // A word that was returned lasts until the next one is asked for.
 class TextReader {
  public:
   // The text must outlive the reader. A comment sign ends its line; '\0' if there are no comments.
   TextReader(std::string name, std::string_view text, char comment = '#');
-  // Reads a file, and holds a piece of it at a time. Throws ReadError if it cannot be read, or is
-  // empty.
+  // Reads a file as read_whole_file() does, and holds a piece of it at a time. Throws ReadError if
+  // it cannot be read, or is empty.
   static TextReader of_file(const std::string& path, char comment = '#');
   TextReader(TextReader&&) noexcept;
   TextReader& operator=(TextReader&&) noexcept;

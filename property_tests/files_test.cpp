@@ -103,6 +103,29 @@ TEST_F(Files, AllFormatsAndTheSidecarAreVerified) {
   }
 }
 
+TEST_F(Files, WhatIsCompressedWithGzipIsVerified) {
+  write_off("in.off", samples::l_shape().input);
+  write("in.poly", "4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
+  std::string outputs;
+  for (const char* format : kFormats) outputs += " -o " + path(std::string("out.") + format);
+  ASSERT_EQ(run("mesh -q " + path("in.off") + outputs), 0);
+  ASSERT_EQ(run("plane -q " + path("in.poly") + " -o " + path("flat.node") + " -o " +
+                path("flat.vtu") + " -o " + path("flat.msh")),
+            0);
+  ASSERT_EQ(
+      std::system(("gzip " + path("in.*") + " " + path("out.*") + " " + path("flat.*")).c_str()),
+      0);
+  for (const char* format : kFormats) {
+    EXPECT_EQ(verify({path("in.off.gz"), path(std::string("out.") + format + ".gz")}), 0) << format;
+  }
+  for (const char* format : {"node", "vtu", "msh"}) {
+    EXPECT_EQ(verify({path("in.poly.gz"), path(std::string("flat.") + format + ".gz"), "--promised",
+                      "plane"}),
+              0)
+        << format;
+  }
+}
+
 TEST_F(Files, WhatSaysNothingIsRefused) {
   write_off("in.off", samples::l_shape().input);
   ASSERT_EQ(run("mesh -q --ascii " + path("in.off") + " -o " + path("out.mesh") + " -o " +

@@ -485,7 +485,6 @@ TEST_F(Program, GzipIsUnpacked) {
                "tail -c +41 in.off | gzip >> two.off.gz && head -c 60 in.off.gz > cut.off.gz && "
                "(cat in.off.gz; echo x) > more.off.gz"),
             0);
-#ifdef DELMESHER_ZLIB
   for (const char* name : {"in.off.gz", "named.off", "two.off.gz"}) {
     fs::remove(path("mesh.tet"));
     EXPECT_EQ(run(std::string(name) + " -o mesh.tet -q"), 0) << text("err.txt");
@@ -493,14 +492,29 @@ TEST_F(Program, GzipIsUnpacked) {
   }
   EXPECT_EQ(run("- -o mesh.tet -q", "cat in.off.gz |"), 0) << text("err.txt");
   EXPECT_EQ(run("repair in.off.gz -o mended.off -q"), 0);
-  for (const char* name : {"cut.off.gz", "more.off.gz"}) {
-    EXPECT_EQ(run(std::string(name) + " -o mesh.tet -q"), 3);
-    expect_error(name, "cannot be unpacked with gzip: damaged, or larger than 8 GiB");
+  EXPECT_EQ(run("cut.off.gz -o mesh.tet -q"), 3);
+  expect_error("cut.off.gz", "byte 60: the compressed data end early");
+  EXPECT_EQ(run("more.off.gz -o mesh.tet -q"), 3);
+  expect_error("more.off.gz", "the compressed data are followed by something else");
+}
+
+// Of TetGen's files each may be compressed or not.
+TEST_F(Program, GzipIsUnpackedForImproveAndInThePlane) {
+  write("in.off", cube());
+  write("in.txt", "0 0\n4 0\n1 1\n0 4\n");
+  ASSERT_EQ(run("in.off -q --improve off --max-edge 0.5 -o in.msh -o in.node"), 0);
+  ASSERT_EQ(run("improve in.msh -q -o better.tet"), 0) << text("err.txt");
+  ASSERT_EQ(run("plane in.txt -q -o plane.node"), 0) << text("err.txt");
+  ASSERT_EQ(std::system(("cd " + path("") + " && gzip in.msh in.node in.face in.txt").c_str()), 0);
+  for (const char* input : {"in.msh.gz", "in.node.gz", "in.ele"}) {
+    EXPECT_EQ(run(std::string("improve ") + input + " -q -o again.tet"), 0) << text("err.txt");
+    EXPECT_EQ(text("again.tet"), text("better.tet")) << input;
   }
-#else
-  EXPECT_EQ(run("in.off.gz -o mesh.tet -q"), 3);
-  expect_error("in.off.gz", "compressed with gzip: unpack it first");
-#endif
+  EXPECT_EQ(run("improve - -q -o again.tet < in.msh.gz"), 0) << text("err.txt");
+  EXPECT_EQ(text("again.tet"), text("better.tet"));
+  EXPECT_EQ(run("improve in.ele -q -o in.node"), 2) << "would overwrite in.ele";
+  EXPECT_EQ(run("plane in.txt.gz -q -o again.node"), 0) << text("err.txt");
+  EXPECT_EQ(text("again.node"), text("plane.node"));
 }
 
 // What it is, its first bytes tell.

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "mesher/cli/defects.h"
-#include "mesher/cli/gunzip.h"
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/repair.h"
 #include "mesher/io/write_mesh.h"
@@ -30,7 +29,6 @@ class RepairRunner : RunSteps {
 int RepairRunner::read() {
   io::ReadOptions options;
   options.go_on = goes_on();
-  options.gunzip = gunzip(options.go_on);
   io::ReadResult input = io::read_surface(command_.input, options);
   if (!input.ok()) return fail_reading(input.code, input.error);
   names_ = std::move(input.names);

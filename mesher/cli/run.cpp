@@ -3,7 +3,6 @@
 #include <new>
 
 #include "mesher/cli/defects.h"
-#include "mesher/cli/gunzip.h"
 #include "mesher/cli/improve_run.h"
 #include "mesher/cli/plane_run.h"
 #include "mesher/cli/quality.h"
@@ -38,7 +37,6 @@ class Runner : RunSteps {
 int Runner::read() {
   io::ReadOptions options;
   options.go_on = goes_on();
-  options.gunzip = gunzip(options.go_on);
   io::ReadResult input = io::read_surface(command_.input, options);
   if (!input.ok()) return fail_reading(input.code, input.error);
   for (const std::string& warning : input.warnings) warn(warning);

@@ -15,9 +15,8 @@ struct Signature {
 constexpr std::string_view kUtf16 = "text in UTF-16: convert it first (iconv -f UTF-16 -t UTF-8)";
 constexpr std::string_view kPage = "a web page: the download did not give the file itself";
 
-constexpr std::array<Signature, 10> kSignatures = {
-    {{"\x1f\x8b", "compressed with gzip: unpack it first (gunzip)"},
-     {"BZh", "compressed with bzip2: unpack it first (bunzip2)"},
+constexpr std::array<Signature, 9> kSignatures = {
+    {{"BZh", "compressed with bzip2: unpack it first (bunzip2)"},
      {"\xfd"
       "7zXZ",
       "compressed with xz: unpack it first (unxz)"},

@@ -5,7 +5,7 @@
 
 namespace delmesher::io {
 
-// The kind of the file and a way to read it ("compressed with gzip: unpack it first"); empty if
+// The kind of the file and a way to read it ("compressed with xz: unpack it first"); empty if
 // nothing is known.
 std::string_view foreign_content(std::string_view bytes);
 

@@ -70,16 +70,6 @@ void parse(std::string_view bytes, const std::string& path, const NodeFile& node
   result.names = builder.names();
 }
 
-constexpr std::string_view kGzip = "\x1f\x8b";
-
-std::string unpacked(std::string_view bytes, const std::string& path, const ReadOptions& options) {
-  std::optional<std::string> all = options.gunzip(bytes, kMaxFileBytes);
-  if (options.go_on && !options.go_on()) throw ReadingStopped();
-  if (all) return std::move(*all);
-  throw FileError{path + ": cannot be unpacked with gzip: damaged, or larger than " +
-                  std::to_string(kMaxFileBytes >> 30) + " GiB"};
-}
-
 }  // namespace
 
 ReadResult parse_surface(std::string_view bytes, const std::string& path,
@@ -90,14 +80,10 @@ ReadResult parse_surface(std::string_view bytes, const std::string& path,
 
 ReadResult read_surface(const std::string& path, const ReadOptions& options) {
   return caught<ReadResult>(path, [&](ReadResult& result) {
-    std::string bytes = read_file(path, options.go_on);
-    std::string name = path;  // which tells the format
-    if (options.gunzip && bytes.starts_with(kGzip)) {
-      bytes = unpacked(bytes, path, options);
-      if (lower_extension(path) == ".gz") name.resize(name.size() - 3);
-    }
+    const std::string bytes = read_file(path, options.go_on);
     parse(
-        bytes, name, [&] { return read_beside(path, ".node", options.go_on); }, options, result);
+        bytes, without_gz(path), [&] { return read_beside(path, ".node", options.go_on); }, options,
+        result);
   });
 }
 

@@ -50,7 +50,7 @@ const MeshFormat* format_of_content(std::string_view bytes) {
 
 void parse(std::string_view bytes, const std::string& path, const FileBeside& beside,
            const std::function<bool()>& go_on, MeshReadResult& result) {
-  const MeshFormat* format = format_of(kFormats, path);
+  const MeshFormat* format = format_of(kFormats, without_gz(path));
   if (format == nullptr && is_standard_stream(path)) format = format_of_content(bytes);
   if (format == nullptr) {
     throw FileError{path + ": not a known mesh format (" + read_mesh_extensions() + ")"};
@@ -74,9 +74,9 @@ std::string read_mesh_extensions() {
 }
 
 std::vector<std::string> mesh_files_read(const std::string& path) {
-  const MeshFormat* format = format_of(kFormats, path);
+  const MeshFormat* format = format_of(kFormats, without_gz(path));
   if (format == nullptr || format->read != read_tetgen_mesh) return {path};
-  return {name_beside(path, ".node"), name_beside(path, ".ele"), name_beside(path, ".face")};
+  return {file_beside(path, ".node"), file_beside(path, ".ele"), file_beside(path, ".face")};
 }
 
 MeshReadResult parse_mesh(std::string_view bytes, const std::string& path, const FileBeside& beside,
@@ -88,9 +88,9 @@ MeshReadResult parse_mesh(std::string_view bytes, const std::string& path, const
 MeshReadResult read_mesh(const std::string& path, const std::function<bool()>& go_on) {
   return caught<MeshReadResult>(path, [&](MeshReadResult& result) {
     // An .ele stands for the .node beside it.
-    const MeshFormat* format = format_of(kFormats, path);
+    const MeshFormat* format = format_of(kFormats, without_gz(path));
     const bool is_ele = format != nullptr && format->extensions[0] == ".ele";
-    const std::string first = is_ele ? name_beside(path, ".node") : path;
+    const std::string first = is_ele ? file_beside(path, ".node") : path;
     const std::string bytes = read_file(first, go_on);
     const FileBeside beside = [&](const char* extension) {
       return read_beside(path, extension, go_on);

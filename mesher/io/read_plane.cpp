@@ -348,7 +348,7 @@ PlaneReadResult read_plane(const std::string& path, const std::function<bool()>&
   return caught<PlaneReadResult>(path, [&](PlaneReadResult& result) {
     const std::string bytes = read_file(path, go_on);
     read_by_format(
-        bytes, path, [&] { return read_beside(path, ".node", go_on); }, go_on, result);
+        bytes, without_gz(path), [&] { return read_beside(path, ".node", go_on); }, go_on, result);
   });
 }
 

@@ -12,7 +12,9 @@
 #include <new>
 #include <stdexcept>
 
+#include "mesher/io/inflate.h"
 #include "mesher/io/output.h"
+#include "mesher/io/text.h"
 
 namespace delmesher::io {
 namespace {
@@ -44,7 +46,10 @@ void fail(Position position, std::string reason) {
   throw ParseError{position, std::move(reason)};
 }
 
-std::string read_file(const std::string& path, const std::function<bool()>& go_on) {
+namespace {
+
+// The bytes as they stand.
+std::string bytes_of_file(const std::string& path, const std::function<bool()>& go_on) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw FileError{path + ": is a directory"};
   const std::unique_ptr<std::FILE, Closer> file(is_standard_stream(path)
@@ -73,13 +78,39 @@ std::string read_file(const std::string& path, const std::function<bool()>& go_o
   return bytes;
 }
 
+constexpr std::string_view kGzipExtension = ".gz";
+
+}  // namespace
+
+std::string read_file(const std::string& path, const std::function<bool()>& go_on) {
+  std::string bytes = bytes_of_file(path, go_on);
+  if (!is_gzip(bytes)) return bytes;
+  Polling polling(go_on);
+  try {
+    return unpacked(bytes, Wrapping::gzip, kMaxFileBytes, polling);
+  } catch (const ParseError& error) {
+    throw FileError{located(path, error)};
+  }
+}
+
+std::string without_gz(const std::string& path) {
+  const std::size_t size = path.size() - std::min(path.size(), kGzipExtension.size());
+  return equal_ignoring_case(path.substr(size), kGzipExtension) ? path.substr(0, size) : path;
+}
+
 std::string name_beside(const std::string& path, const char* extension) {
-  return std::filesystem::path(path).replace_extension(extension).string();
+  return std::filesystem::path(without_gz(path)).replace_extension(extension).string();
+}
+
+std::string file_beside(const std::string& path, const char* extension) {
+  std::string plain = name_beside(path, extension);
+  std::string packed = plain + std::string(kGzipExtension);
+  return !std::filesystem::exists(plain) && std::filesystem::exists(packed) ? packed : plain;
 }
 
 std::optional<std::string> read_beside(const std::string& path, const char* extension,
                                        const std::function<bool()>& go_on) {
-  const std::string file = name_beside(path, extension);
+  const std::string file = file_beside(path, extension);
   if (!std::filesystem::exists(file)) return std::nullopt;
   return read_file(file, go_on);
 }

@@ -43,11 +43,18 @@ struct FileError {
 // Larger files are refused.
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{8} << 30;
 
-// A whole file as bytes. Throws FileError and, if `go_on` says no, ReadingStopped.
+// A whole file as bytes, unpacked if they are compressed with gzip. Throws FileError and, if
+// `go_on` says no, ReadingStopped.
 std::string read_file(const std::string& path, const std::function<bool()>& go_on = {});
+
+// The path that tells the format: "part.stl" of "part.stl.gz".
+std::string without_gz(const std::string& path);
 
 // The name of the file beside another one, with its own extension.
 std::string name_beside(const std::string& path, const char* extension);
+
+// That, with ".gz" after it where only such a file exists.
+std::string file_beside(const std::string& path, const char* extension);
 
 // The bytes of that file; nullopt if there is none. Throws as read_file() does.
 std::optional<std::string> read_beside(const std::string& path, const char* extension,

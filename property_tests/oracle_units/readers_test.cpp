@@ -1,10 +1,12 @@
 // The readers of the oracles: text by words, STL, PLY.
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <random>
@@ -137,6 +139,32 @@ TEST(TextReader, ReadsAFilePieceByPieceAsItReadsTheWhole) {
   EXPECT_THROW(TextReader::of_file(path + ".none"), ReadError);
   std::ofstream(path, std::ios::binary | std::ios::trunc).flush();
   EXPECT_THROW(TextReader::of_file(path), ReadError);
+}
+
+// Compressed or not, in one member or in several, a file is read as the same text; a part of one is
+// refused.
+TEST(TextReader, ReadsWhatIsCompressedWithGzip) {
+  std::string text;
+  for (std::uint64_t i = 0; i < 300000; ++i) text += std::to_string(i * 7919 % 100003) + ' ';
+  const std::string path = testing::TempDir() + "numbers.txt.gz";
+  const auto pack = [&](const char* mode, const std::string& part) {
+    const gzFile file = gzopen(path.c_str(), mode);
+    gzwrite(file, part.data(), static_cast<unsigned>(part.size()));
+    gzclose(file);
+  };
+  pack("wb", text.substr(0, 1000));
+  pack("ab", text.substr(1000));
+  EXPECT_TRUE(oracles::read_whole_file(path) == text);
+  TextReader whole(path, text), pieces = TextReader::of_file(path);
+  while (!whole.at_end()) ASSERT_EQ(pieces.integer(), whole.integer());
+  EXPECT_TRUE(pieces.at_end());
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  EXPECT_THROW(oracles::read_whole_file(path), ReadError);
+  TextReader cut = TextReader::of_file(path);
+  EXPECT_THROW(while (!cut.at_end()) cut.integer(), ReadError);
+  std::filesystem::remove(path);
+  EXPECT_EQ(without_gz("a.b.gz"), "a.b");
+  EXPECT_EQ(without_gz("gz"), "gz");
 }
 
 TEST(TextReader, ACommentMayEndTheText) {

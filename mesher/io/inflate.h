@@ -1,0 +1,27 @@
+// Compressed data: DEFLATE (RFC 1951), alone as in archives of zip, or wrapped by gzip (RFC 1952)
+// or zlib (RFC 1950).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "mesher/io/polling.h"
+
+namespace delmesher::io {
+
+enum class Wrapping : std::uint8_t { none, zlib, gzip };
+
+// What the compressed bytes unpack to; of gzip all members, one after the other. All of the bytes
+// have to belong to it. Throws ParseError, with the place in `bytes`, if they are damaged, and
+// without a place if there would be more than `limit` bytes.
+std::string unpacked(std::string_view bytes, Wrapping wrapping, std::uint64_t limit,
+                     Polling& polling);
+
+bool is_gzip(std::string_view bytes);
+
+// CRC-32 as gzip and zip have it.
+std::uint32_t crc32_of(std::string_view bytes);
+
+}  // namespace delmesher::io
