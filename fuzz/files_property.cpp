@@ -230,7 +230,7 @@ Finding mesh_reader_holds(const std::string& text, const std::string& name) {
   judging({&mesh_refused, &not_conforming});
   std::vector<std::string> parts(1);
   for (const char c : text) {
-    if (c == '\f') {
+    if (c == '\f' && name.ends_with(".node")) {
       parts.emplace_back();
     } else {
       parts.back() += c;

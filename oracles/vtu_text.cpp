@@ -1,5 +1,7 @@
 #include "oracles/vtu_text.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -21,6 +23,7 @@ std::string attribute(std::string_view tag, const std::string& name) {
 }  // namespace
 
 VtuText::VtuText(std::string path, std::string_view text) : path_(std::move(path)), text_(text) {
+  cut_out_appended();
   remove_comments();
   for (const std::string tag : {"<VTKFile", "<Piece", "<Points", "<Cells", "<CellData"}) {
     if (text_.find(tag) != text_.rfind(tag)) fail(tag.substr(1) + " is there twice");
@@ -36,6 +39,24 @@ VtuText::VtuText(std::string path, std::string_view text) : path_(std::move(path
   }
   points_ = count("NumberOfPoints");
   cells_ = count("NumberOfCells");
+}
+
+// Bytes, which may look like anything: from the first '_' of their element to the last end of one.
+void VtuText::cut_out_appended() {
+  const std::string kEnd = "</AppendedData>";
+  const std::size_t begin = text_.find("<AppendedData");
+  if (begin == std::string_view::npos) return;
+  const std::size_t close = text_.find('>', begin), end = text_.rfind(kEnd);
+  const std::size_t mark = text_.find('_', std::min(close, text_.size()));
+  if (mark == std::string_view::npos || end == std::string_view::npos || end < mark) {
+    fail("appended data without a beginning or an end");
+  }
+  const std::string encoding = attribute(text_.substr(begin, close - begin), "encoding");
+  if (encoding != "raw" && encoding != "base64") fail("appended data in no known encoding");
+  appended_raw_ = encoding == "raw";
+  appended_ = text_.substr(mark + 1, end - mark - 1);
+  without_appended_.append(text_.substr(0, begin)).append(text_.substr(end + kEnd.size()));
+  text_ = without_appended_;
 }
 
 // What is in them is not there. Marked sections, which could hold arrays as well, are refused.
@@ -80,33 +101,30 @@ std::int32_t VtuText::integer32(double value) const {
 
 namespace {
 
-// The bytes that a text in base 64 means; false if it is none.
+// What a character of base 64 means; 64 for '=', which fills up a group, and 65 for any other.
+std::uint32_t digit_of(char c) {
+  if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
+  if (c >= 'a' && c <= 'z') return static_cast<std::uint32_t>(c - 'a') + 26;
+  if (c >= '0' && c <= '9') return static_cast<std::uint32_t>(c - '0') + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : c == '=' ? 64 : 65;
+}
+
+// The bytes that a text in base 64 means, or several, one after the other, each filled up to a
+// group of four; false if it is none.
 bool decode(std::string_view text, std::string& bytes) {
   std::uint32_t bits = 0;
   int digits = 0, padding = 0;
   for (const char c : text) {
     if (c == ' ' || c == '\t' || c == '\r' || c == '\n') continue;
-    std::uint32_t value = 0;
-    if (c >= 'A' && c <= 'Z') {
-      value = static_cast<std::uint32_t>(c - 'A');
-    } else if (c >= 'a' && c <= 'z') {
-      value = static_cast<std::uint32_t>(c - 'a') + 26;
-    } else if (c >= '0' && c <= '9') {
-      value = static_cast<std::uint32_t>(c - '0') + 52;
-    } else if (c == '+' || c == '/') {
-      value = c == '+' ? 62 : 63;
-    } else if (c != '=') {
-      return false;
-    }
-    padding += c == '=' ? 1 : 0;
-    if (padding > 0 && c != '=') return false;
-    bits = bits << 6U | value;
-    if (++digits % 4 != 0) continue;
-    for (const unsigned shift : {16U, 8U, 0U}) bytes += static_cast<char>(bits >> shift & 255U);
+    const std::uint32_t digit = digit_of(c);
+    padding += digit == 64 ? 1 : 0;
+    if (digit > 64 || (padding > 0 && digit < 64) || padding > 2) return false;
+    bits = bits << 6U | (digit & 63U);
+    if (++digits < 4) continue;
+    for (int i = 0; i < 3 - padding; ++i) bytes += static_cast<char>(bits >> (16 - 8 * i) & 255U);
+    digits = padding = 0;
   }
-  if (digits % 4 != 0 || padding > 2) return false;
-  bytes.resize(bytes.size() - static_cast<std::size_t>(padding));
-  return true;
+  return digits == 0;
 }
 
 template <class T>
@@ -142,41 +160,112 @@ std::vector<double> numbers_of(const std::string& type, std::string_view bytes) 
 
 }  // namespace
 
-// Of an array in base 64: first the number of its bytes.
-std::vector<double> VtuText::binary_values(const std::string& type, std::string_view text) const {
-  static_assert(std::endian::native == std::endian::little);
+std::string VtuText::attribute_of_file(const std::string& name) const {
   const std::string_view head = text_.substr(0, text_.find("<Piece"));
   const std::string_view file = head.substr(head.find("<VTKFile"));
-  const std::string_view tag = file.substr(0, file.find('>'));
-  if (attribute(tag, "byte_order") != "LittleEndian" || !attribute(tag, "compressor").empty()) {
-    fail("bytes that are compressed, or in another order");
-  }
-  const std::size_t header = attribute(tag, "header_type") == "UInt64" ? 8 : 4;
-  std::string bytes;
-  if (!decode(text, bytes)) fail("an array that is not in base 64");
-  if (bytes.size() < header) fail("an array without the number of its bytes");
+  return attribute(file.substr(0, file.find('>')), name);
+}
+
+// Takes one of the numbers before an array's bytes.
+std::uint64_t VtuText::size_at(std::string_view& bytes) const {
+  const bool wide = attribute_of_file("header_type") == "UInt64";
+  const std::size_t width = wide ? 8 : 4;
+  if (bytes.size() < width) fail("an array without the number of its bytes");
   const std::uint64_t size =
-      header == 8 ? number_at<std::uint64_t>(bytes, 0) : number_at<std::uint32_t>(bytes, 0);
-  if (size != bytes.size() - header) fail("an array has another number of bytes than announced");
-  const std::vector<double> values = numbers_of(type, std::string_view(bytes).substr(header));
-  if (values.empty() && size > 0) fail("an array of type " + type + ", or of half a number");
+      wide ? number_at<std::uint64_t>(bytes, 0) : number_at<std::uint32_t>(bytes, 0);
+  bytes.remove_prefix(width);
+  return size;
+}
+
+// First the number of blocks, how large they are, how large the last one is if it is smaller, and
+// what they take here.
+std::string VtuText::unpacked(std::string_view bytes) const {
+  const std::uint64_t blocks = size_at(bytes), size = size_at(bytes), last = size_at(bytes);
+  if (blocks > bytes.size() / 4) fail("more blocks of an array than there can be");
+  std::vector<std::uint64_t> packed;
+  for (std::uint64_t b = 0; b < blocks; ++b) packed.push_back(size_at(bytes));
+  std::string all;
+  for (std::uint64_t b = 0; b < blocks; ++b) {
+    const std::uint64_t wanted = b + 1 == blocks && last != 0 ? last : size;
+    // No block becomes more than 1032 times as large.
+    if (packed[b] > bytes.size() || wanted / 1032 > packed[b]) fail("blocks that are not there");
+    std::string block(wanted, '\0');
+    uLongf got = wanted;
+    const int code = ::uncompress(reinterpret_cast<Bytef*>(block.data()), &got,
+                                  reinterpret_cast<const Bytef*>(bytes.data()), packed[b]);
+    if (code != Z_OK || got != wanted) fail("a block of an array that cannot be unpacked");
+    all += block;
+    bytes.remove_prefix(packed[b]);
+  }
+  return all;
+}
+
+// Of an array as bytes, from the number of its bytes on; something may follow it if it is appended.
+std::vector<double> VtuText::binary_values(const std::string& type, std::string_view bytes,
+                                           bool appended) const {
+  static_assert(std::endian::native == std::endian::little);
+  const std::string compressor = attribute_of_file("compressor");
+  if (attribute_of_file("byte_order") != "LittleEndian") fail("bytes in another order");
+  if (!compressor.empty() && compressor != "vtkZLibDataCompressor") {
+    fail("bytes compressed by " + compressor);
+  }
+  std::string made;
+  if (compressor.empty()) {
+    const std::uint64_t size = size_at(bytes);
+    if (appended ? size > bytes.size() : size != bytes.size()) {
+      fail("an array has another number of bytes than announced");
+    }
+    bytes = bytes.substr(0, size);
+  } else {
+    made = unpacked(bytes);
+    bytes = made;
+  }
+  const std::vector<double> values = numbers_of(type, bytes);
+  if (values.empty() && !bytes.empty()) fail("an array of type " + type + ", or of half a number");
   return values;
+}
+
+// From there to the next array, or to the end.
+std::string_view VtuText::appended_at(std::uint64_t offset) const {
+  if (offset > appended_.size()) fail("an array that is beyond the appended data");
+  std::uint64_t end = appended_.size();
+  constexpr std::string_view kOffset = " offset=\"";
+  for (std::size_t at = text_.find(kOffset); at != std::string_view::npos;
+       at = text_.find(kOffset, at + 1)) {
+    const std::size_t begin = at + kOffset.size();
+    const std::uint64_t other = offset_in(text_.substr(begin, text_.find('"', begin) - begin));
+    if (other > offset) end = std::min(end, other);
+  }
+  return appended_.substr(offset, end - offset);
+}
+
+std::uint64_t VtuText::offset_in(std::string_view text) const {
+  return static_cast<std::uint64_t>(
+      TextReader(path_, text, '\0').index(0, std::uint64_t{1} << 32U));
 }
 
 // The text of an array from there to the end of its element.
 std::vector<double> VtuText::values(std::string_view tag, std::size_t start) const {
   std::vector<double> values;
+  const std::string format = attribute(tag, "format"), type = attribute(tag, "type");
+  if (format == "appended") {
+    const std::string_view stored = appended_at(offset_in(attribute(tag, "offset")));
+    std::string bytes;
+    if (!appended_raw_ && !decode(stored, bytes)) fail("an array that is not in base 64");
+    return binary_values(type, appended_raw_ ? stored : bytes, true);
+  }
   if (tag.ends_with('/')) return values;
-  const std::string format = attribute(tag, "format");
-  if (format != "ascii" && format != "binary") fail("arrays are read as text or in base 64 alone");
+  if (format != "ascii" && format != "binary") fail("an array in no known format");
   const std::size_t stop = std::min(text_.find('<', start), text_.size());
   if (!text_.substr(stop).starts_with("</DataArray>")) fail("an array does not end as it should");
   if (format == "binary") {
-    return binary_values(attribute(tag, "type"), text_.substr(start, stop - start));
+    std::string bytes;
+    if (!decode(text_.substr(start, stop - start), bytes)) fail("an array that is not in base 64");
+    return binary_values(type, bytes, false);
   }
   TextReader reader(path_, text_.substr(start, stop - start), '\0');
   while (!reader.at_end()) values.push_back(reader.number());
-  if (attribute(tag, "type") == "Float32") {  // which is what readers make of them
+  if (type == "Float32") {  // which is what readers make of them
     for (double& value : values) value = static_cast<float>(value);
   }
   return values;

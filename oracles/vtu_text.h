@@ -1,4 +1,5 @@
-// The arrays of a .vtu file written as text, or in base 64.
+// The arrays of a .vtu file, written as text or as bytes: in base 64 or raw, in their place or
+// appended, compressed with zlib or not.
 #pragma once
 
 #include <cstdint>
@@ -28,13 +29,22 @@ class VtuText {
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
+  void cut_out_appended();
   void remove_comments();
   std::size_t count(const std::string& name) const;
-  std::vector<double> binary_values(const std::string& type, std::string_view text) const;
+  std::string attribute_of_file(const std::string& name) const;
+  std::uint64_t size_at(std::string_view& bytes) const;
+  std::string unpacked(std::string_view bytes) const;
+  std::vector<double> binary_values(const std::string& type, std::string_view bytes,
+                                    bool appended) const;
+  std::string_view appended_at(std::uint64_t offset) const;
+  std::uint64_t offset_in(std::string_view text) const;
   std::vector<double> values(std::string_view tag, std::size_t start) const;
 
   std::string path_;
-  std::string without_comments_;  // empty if there are none
+  std::string without_appended_, without_comments_;  // empty if there are none
+  std::string_view appended_;                        // after the '_'
+  bool appended_raw_ = false;
   std::string_view text_;
   std::size_t points_ = 0, cells_ = 0;
 };

@@ -17,6 +17,7 @@
 #include "mesher/delmesher_files.h"
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/read_plane.h"
+#include "mesher/io/test_vtu_ways.h"
 #include "oracles/mesh_file.h"
 #include "oracles/plane_file.h"
 #include "oracles/sidecar.h"
@@ -123,6 +124,21 @@ TEST_F(Files, WhatIsCompressedWithGzipIsVerified) {
                       "plane"}),
               0)
         << format;
+  }
+}
+
+// What the mesher's reader and the oracles' own make of the same file.
+TEST_F(Files, ArraysInAllPlacesAreTheSameToBothReaders) {
+  for (const delmesher::io::Way& way : delmesher::io::kWays) {
+    write("a.vtu", delmesher::io::grid(way));
+    const delmesher::io::MeshReadResult ours = delmesher::io::read_mesh(path("a.vtu"));
+    ASSERT_TRUE(ours.ok()) << ours.error;
+    const oracles::MeshFile theirs = oracles::read_mesh(path("a.vtu"));
+    EXPECT_EQ(theirs.vertices, ours.mesh.vertices) << way.name;
+    EXPECT_EQ(theirs.tetrahedra, ours.mesh.tetrahedra) << way.name;
+    EXPECT_EQ(theirs.boundary, ours.mesh.boundary) << way.name;
+    EXPECT_EQ(theirs.labels, ours.mesh.boundary_labels) << way.name;
+    EXPECT_EQ(theirs.regions, (std::vector<std::int64_t>{3, -4})) << way.name;
   }
 }
 

@@ -39,27 +39,29 @@ void Base64Writer::finish() {
   if (bytes_ > 0) write_group();
 }
 
-std::optional<std::string> from_base64(std::string_view text) {
+std::optional<std::string> from_base64(std::string_view text, bool several) {
   constexpr const char* kSpace = " \t\r\n";
   const std::size_t first = text.find_first_not_of(kSpace);
   if (first == std::string_view::npos) return std::string();
   text = text.substr(first, text.find_last_not_of(kSpace) + 1 - first);
   if (text.size() % 4 != 0) return {};
-  std::size_t padding = 0;
-  while (padding < 2 && text[text.size() - 1 - padding] == '=') ++padding;
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3);
-  std::uint32_t group = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool padded = i + padding >= text.size();
-    const std::uint8_t digit = padded ? 0 : kValues[static_cast<unsigned char>(text[i])];
-    if (digit == kNoDigit) return {};
-    group = group << 6U | digit;
-    if (i % 4 != 3) continue;
-    for (const unsigned shift : {16U, 8U, 0U}) bytes += static_cast<char>(group >> shift & 255U);
-    group = 0;
+  for (; !text.empty(); text.remove_prefix(4)) {
+    const std::string_view digits = text.substr(0, 4);
+    const std::size_t padding = digits.ends_with("==") ? 2 : digits.ends_with('=') ? 1 : 0;
+    if (padding > 0 && text.size() > 4 && !several) return {};
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const bool padded = i + padding >= 4;
+      const std::uint8_t digit = padded ? 0 : kValues[static_cast<unsigned char>(digits[i])];
+      if (digit == kNoDigit) return {};
+      group = group << 6U | digit;
+    }
+    for (std::size_t i = 0; i < 3 - padding; ++i) {
+      bytes += static_cast<char>(group >> (16 - 8 * i) & 255U);
+    }
   }
-  bytes.resize(bytes.size() - padding);
   return bytes;
 }
 

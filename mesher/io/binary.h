@@ -55,7 +55,7 @@ class Base64Writer {
 };
 
 // The bytes that a text in base 64 means, white space before and after it left out; nullopt if it
-// is none.
-std::optional<std::string> from_base64(std::string_view text);
+// is none. `several`: it may be several texts, each with its padding, one after the other.
+std::optional<std::string> from_base64(std::string_view text, bool several = false);
 
 }  // namespace delmesher::io

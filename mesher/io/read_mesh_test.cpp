@@ -283,13 +283,6 @@ const Garbage kGarbage[] = {
     {"VtuWithoutFile", "a.vtu", "<xml>", "a.vtu:1: no VTKFile: not a file of VTK"},
     {"VtuOfPolygons", "a.vtu", "\n<VTKFile type=\"PolyData\">",
      "a.vtu:2: not an unstructured grid"},
-    {"VtuCompressed", "a.vtu",
-     "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkZLibDataCompressor\">\n<Piece>\n<Points>\n"
-     "<DataArray format=\"binary\">",
-     "a.vtu:4: compressed data are not read: save as text (ascii)"},
-    {"VtuAppended", "a.vtu",
-     "<VTKFile type=\"UnstructuredGrid\">\n<AppendedData encoding=\"raw\">_",
-     "a.vtu:2: appended data are not read: save as text (ascii) or in base 64 (binary)"},
     {"VtuShort", "a.vtu",
      "<VTKFile type=\"UnstructuredGrid\">\n<Piece>\n<Points>\n"
      "<DataArray type=\"Float64\" format=\"binary\">CAAAAAAAAAA=</DataArray>",

@@ -309,6 +309,8 @@ TEST(Base64, OfTheStandard) {
   for (const char* bad : {"Z", "Zg=", "Zg==Zg==", "Z===", "====", "Zm9*", "Zm 9v", "Zm8=\n="}) {
     EXPECT_FALSE(from_base64(bad)) << bad;
   }
+  EXPECT_EQ(from_base64(" Zg==Zm8=Zm9v", true), "ffofoo");
+  EXPECT_FALSE(from_base64("Zg=Zm9v", true));
 }
 
 TEST_F(WriteMesh, OffRoundTrip) {

@@ -1,0 +1,89 @@
+// One grid in all the ways in which VTK writes arrays; zlib compresses them.
+#include "mesher/io/vtu_arrays.h"
+
+#include <gtest/gtest.h>
+
+#include "mesher/io/read_mesh.h"
+#include "mesher/io/test_vtu_ways.h"
+
+namespace delmesher::io {
+namespace {
+
+class Ways : public testing::TestWithParam<Way> {};
+
+TEST_P(Ways, AreReadAsTheSameGrid) {
+  const MeshReadResult read = parse_mesh(grid(GetParam()), "a.vtu");
+  ASSERT_TRUE(read.ok()) << read.error;
+  EXPECT_EQ(read.mesh.vertices,
+            (std::vector<std::array<double, 3>>{
+                {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.1, 0.2, 1e300}, {-0.0, 1e-320, -1.25}}));
+  EXPECT_EQ(read.mesh.tetrahedra,
+            (std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}, {0, 2, 1, 4}}));
+  EXPECT_EQ(read.mesh.regions, (std::vector<std::int32_t>{3, -4}));
+  EXPECT_EQ(read.mesh.boundary_labels, (std::vector<std::int32_t>{-7}));
+}
+
+// Cut anywhere or with a byte changed: refused in one line, or a grid whose indices are in range.
+TEST_P(Ways, AreRefusedInOneLineWhenDamaged) {
+  const std::string all = grid(GetParam());
+  std::size_t refused = 0;
+  for (std::size_t at = 0; at < all.size(); ++at) {
+    std::string changed = all;
+    changed[at] = static_cast<char>(changed[at] ^ (at % 2 == 0 ? 1 : 64));
+    for (const std::string& bytes : {all.substr(0, at), changed}) {
+      const MeshReadResult read = parse_mesh(bytes, "a.vtu");
+      refused += read.ok() ? 0 : 1;
+      EXPECT_EQ(read.ok(), read.error.empty());
+      EXPECT_EQ(read.error.find_first_of("\r\n"), std::string::npos);
+      for (const auto& t : read.mesh.tetrahedra) {
+        for (const std::uint32_t v : t) EXPECT_LT(v, read.mesh.vertices.size());
+      }
+    }
+  }
+  EXPECT_GT(refused, all.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Vtu, Ways, testing::ValuesIn(kWays),
+                         [](const auto& way) { return std::string(way.param.name); });
+
+std::string error_of(std::string text, const std::string& what, const std::string& by) {
+  text.replace(text.find(what), what.size(), by);
+  return parse_mesh(text, "a.vtu").error;
+}
+
+TEST(Vtu, SaysWhatIsNotReadAndWhere) {
+  const std::string packed = grid(kWays[2]), raw = grid(kWays[4]);
+  EXPECT_EQ(error_of(packed, "vtkZLib", "vtkLZ4"),
+            "a.vtu:10: data compressed with 'vtkLZ4DataCompressor' are not read: save without "
+            "compression, or with zlib");
+  EXPECT_EQ(error_of(packed, "LittleEndian", "BigEndian"),
+            "a.vtu:10: bytes in big-endian order are not read: save as text (ascii)");
+  EXPECT_EQ(error_of(raw, "offset=\"24\"", "offset=\"99999\""),
+            "a.vtu:8: the appended data end before the offset of 'Points'");
+  EXPECT_EQ(error_of(raw, "offset=\"24\"", "offset=\"23\""),
+            "a.vtu:8: an array of 121 bytes, but 30784 were announced");
+  EXPECT_EQ(error_of(raw, "offset=\"24\"", ""), "a.vtu:8: an array without its offset");
+  EXPECT_EQ(error_of(raw, "\n _", "\n "), "a.vtu:17: appended data do not begin with '_'");
+  EXPECT_EQ(error_of(raw, "\"Int16\"", "\"Float64\""), "a.vtu:15: an array of half a number");
+  std::string other = grid(kWays[5]);
+  other.replace(other.find("Float32", other.find("region") - 30), 7, "Int32  ");
+  EXPECT_EQ(parse_mesh(other, "a.vtu").error, "a.vtu:14: an array of type 'Int32  '");
+}
+
+TEST(Vtu, ABlockThatIsDamagedIsRefused) {
+  const std::string packed = grid(kWays[6]);
+  const std::string mark = "offset=\"";
+  const std::size_t offset = packed.find(mark, packed.find("Name=\"Points\"")) + mark.size();
+  // Four blocks of points, behind seven numbers of four bytes.
+  const std::size_t block =
+      packed.find("\n _") + 3 + std::stoul(packed.substr(offset)) + std::size_t{7} * 4;
+  for (const std::size_t at : {block, block + 5}) {
+    std::string changed = packed;
+    changed[at] = static_cast<char>(changed[at] ^ 4);
+    const std::string error = parse_mesh(changed, "a.vtu").error;
+    EXPECT_TRUE(error.starts_with("a.vtu:8: an array that cannot be unpacked: ")) << error;
+  }
+}
+
+}  // namespace
+}  // namespace delmesher::io
