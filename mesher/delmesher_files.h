@@ -91,6 +91,10 @@ struct MeshReadResult {
   TetMesh mesh;
   LabelNames names;    // of physical groups, in .msh
   std::string format;  // "MEDIT", "Gmsh", "VTU", "TetGen", "tet"
+  // 2: there are elements of second order. Their corners are the mesh; nodes in the middle of edges
+  // are left out, and a warning says how far off the middle they are.
+  int order = 1;
+  std::vector<std::string> warnings;
   bool ok() const { return code == ReadCode::ok; }
 };
 

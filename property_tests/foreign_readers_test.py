@@ -253,6 +253,32 @@ class Read(unittest.TestCase):
                 for one, other in zip(blocks, text.cell_data[name]):
                     self.assertTrue(numpy.array_equal(one, other))
 
+    def improved(self, name):
+        """The tetrahedra that `improve` makes of a file, as bytes: the same mesh is improved in the same way."""
+        out = path("improved.tet")
+        done = subprocess.run([DELMESHER, "improve", path(name), "-q", "-o", out], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+        with open(out, "rb") as file:
+            return file.read()
+
+    def test_what_meshio_and_gmsh_write_is_read(self):
+        expected = self.improved("box.mesh")
+        given = meshio.Mesh(self.points, [("tetra", self.tetrahedra), ("triangle", self.triangles)],
+                            cell_data={"label": [numpy.zeros(len(self.tetrahedra), numpy.int32), self.labels.astype(numpy.int32)]})
+        for name, options in {"zlib": dict(compression="zlib"), "bytes": dict(compression=None),
+                              "wide": dict(compression="zlib", header_type="UInt64")}.items():
+            meshio.write(path("theirs.vtu"), given, file_format="vtu", **options)
+            with open(path("theirs.vtu"), "rb") as file:
+                self.assertEqual(b"vtkZLibDataCompressor" in file.read(), name in ("zlib", "wide"))
+            self.assertEqual(self.improved("theirs.vtu"), expected, name)
+        # Ten nodes, from meshio and from Gmsh; compressed again, with gzip.
+        second = meshio.read(path("ten.vtu"))
+        meshio.write(path("ten_theirs.vtu"), second, compression="zlib")
+        subprocess.run(["gmsh", "-0", path("ten.msh"), "-o", path("ten_theirs.msh"), "-bin", "-save_all", "-v", "2"], check=True)
+        subprocess.run(["gzip", "-kf", path("ten_theirs.vtu")], check=True)
+        for name in ("ten.vtu", "ten.mesh", "ten.msh", "ten_theirs.vtu", "ten_theirs.msh", "ten_theirs.vtu.gz"):
+            self.assertEqual(self.improved(name), expected, name)
+
     def test_gmsh_knows_what_bounds_the_volume(self):
         geo = path("boundary.geo")
         with open(geo, "w") as file:

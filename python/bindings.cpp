@@ -339,6 +339,7 @@ py::dict read_mesh_file(const std::string& path) {
   ok_or_throw(read);
   py::dict d;
   d["names"] = read.names;
+  d["warnings"] = read.warnings;
   put_mesh(d, std::move(read.mesh));
   return d;
 }

@@ -32,6 +32,10 @@ class ImproveRunner : RunSteps {
 int ImproveRunner::read() {
   io::MeshReadResult input = io::read_mesh(command_.input, goes_on());
   if (!input.ok()) return fail_reading(input.code, input.error);
+  for (const std::string& warning : input.warnings) warn(warning);
+  if (input.order == 2 && command_.write.order == 1) {
+    warn("its elements are of second order, those written are not (--order 2)");
+  }
   mesh_ = std::move(input.mesh);
   names_ = std::move(input.names);
   note_input(input.format, mesh_.vertices.size(), mesh_.tetrahedra.size(), "tetrahedra");

@@ -1,6 +1,9 @@
 #include "mesher/io/mesh_reading.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -108,12 +111,90 @@ void MeshBuilder::set_facets(std::vector<std::uint32_t> facets) {
   all_facets_ = true;
 }
 
+namespace {
+
+using Point = std::array<double, 3>;
+
+// How far a point is from the middle between two others, as a fraction of their distance; both in
+// the largest coordinate.
+double off_the_middle(const Point& p, const Point& a, const Point& b) {
+  double off = 0, length = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    off = std::max(off, std::fabs(p[i] - (a[i] / 2 + b[i] / 2)));
+    length = std::max(length, std::fabs(a[i] - b[i]));
+  }
+  return off == 0 ? 0 : off / length;
+}
+
+// Below this, programs that write few digits mean the middle.
+constexpr double kStraight = 1e-6;
+
+}  // namespace
+
+// Formats number edges in different orders, and corners are all that is used: the nearest edge it
+// is.
+void MeshBuilder::add_edge_nodes(std::span<const std::uint32_t> corners,
+                                 std::span<const std::uint32_t> nodes) {
+  if (nodes.empty()) return;
+  is_edge_node_.resize(mesh_.vertices.size());
+  double worst = 0;
+  for (const std::uint32_t node : nodes) {
+    is_edge_node_[node] = true;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        nearest = std::min(nearest, off_the_middle(mesh_.vertices[node], mesh_.vertices[corners[i]],
+                                                   mesh_.vertices[corners[j]]));
+      }
+    }
+    worst = std::max(worst, nearest);
+  }
+  if (worst <= kStraight) return;
+  ++curved_;
+  farthest_ = std::max(farthest_, worst);
+}
+
+void MeshBuilder::take_out_edge_nodes() {
+  std::vector<std::uint32_t> number(mesh_.vertices.size());
+  std::vector<Point> vertices;
+  is_edge_node_.resize(number.size());
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    number[v] = static_cast<std::uint32_t>(vertices.size());
+    if (!is_edge_node_[v]) vertices.push_back(mesh_.vertices[v]);
+  }
+  const auto renumber = [&](auto& cells) {
+    for (auto& cell : cells) {
+      for (std::uint32_t& v : cell) {
+        if (is_edge_node_[v]) {
+          fail({}, "node " + std::to_string(v) + " (numbered from 0) is a corner of an element, " +
+                       "and of another one in the middle of an edge");
+        }
+        v = number[v];
+      }
+    }
+  };
+  renumber(mesh_.tetrahedra);
+  renumber(mesh_.boundary);
+  mesh_.vertices = std::move(vertices);
+  if (curved_ == 0) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.3g", farthest_);
+  warnings_.push_back(std::to_string(curved_) + " curved elements: nodes are up to " + share +
+                      " of an edge's length off its middle, and the edges are taken as straight");
+}
+
 TetMesh MeshBuilder::finish() {
+  if (order() == 2) take_out_edge_nodes();
   bool told = false;
   for (std::size_t t = 0; t < mesh_.regions.size(); ++t) {
     told |= mesh_.regions[t] != (mesh_.inside[t] != 0 ? kRegionInside : kRegionOutside);
   }
   if (!told) mesh_.regions.clear();
+  choose_facets();
+  return std::move(mesh_);
+}
+
+void MeshBuilder::choose_facets() {
   std::map<std::uint32_t, std::int32_t> label_of;
   bool one_label = all_facets_;
   std::map<std::int32_t, std::uint32_t> number;
@@ -128,6 +209,6 @@ TetMesh MeshBuilder::finish() {
       mesh_.boundary_facets[n] = number.at(mesh_.boundary_labels[n]);
     }
   }
-  return std::move(mesh_);
 }
+
 }  // namespace delmesher::io

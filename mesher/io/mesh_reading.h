@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -98,6 +99,9 @@ class MeshBuilder {
                        bool inside = true);
   void add_triangle(const std::array<std::uint32_t, 3>& t, std::int32_t label,
                     std::optional<std::uint32_t> facet);
+  // Nodes that an element of second order has besides its corners, each of which is meant to be in
+  // the middle of an edge. They are no vertices of the mesh.
+  void add_edge_nodes(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> nodes);
   // For the formats that tell them at the end of a file; of the number of triangles.
   void set_facets(std::vector<std::uint32_t> facets);
   std::size_t triangles() const { return mesh_.boundary.size(); }
@@ -106,13 +110,24 @@ class MeshBuilder {
     if (!name.empty()) names_[label] = name;
   }
   const LabelNames& names() const { return names_; }
+  // 2 if there are elements of second order, else 1.
+  int order() const { return is_edge_node_.empty() ? 1 : 2; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
+  // Throws ParseError, without a place.
   TetMesh finish();
 
  private:
+  void take_out_edge_nodes();
+  void choose_facets();
+
   TetMesh mesh_;
   LabelNames names_;
   bool all_facets_ = true;
+  std::vector<bool> is_edge_node_;  // of the vertices; empty if all elements are of first order
+  std::uint64_t curved_ = 0;        // elements with a node that is not in the middle of an edge
+  double farthest_ = 0;             // of these nodes, as a fraction of the edge
+  std::vector<std::string> warnings_;
 };
 
 // The text of the file beside, with this extension; nullopt if there is none.

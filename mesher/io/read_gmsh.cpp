@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -14,20 +15,32 @@ namespace {
 
 constexpr int kSurface = 2, kVolume = 3;  // dimensions of entities
 
-// Number of nodes of an element of first order; 0 for elements of other kinds.
-int nodes_of(int type) {
+// Number of nodes of an element of first or second order; 0 for elements of other kinds.
+std::size_t nodes_of(int type) {
   switch (type) {
     case 1:  // line
       return 2;
     case 2:  // triangle
+    case 8:  // line of second order
       return 3;
     case 4:  // tetrahedron
       return 4;
+    case 9:  // triangle of second order
+      return 6;
+    case 11:  // tetrahedron of second order
+      return 10;
     case 15:  // point
       return 1;
     default:
       return 0;
   }
+}
+
+bool is_tetrahedron(int type) {
+  return type == 4 || type == 11;
+}
+bool is_triangle(int type) {
+  return type == 2 || type == 9;
 }
 
 class GmshReader {
@@ -232,34 +245,35 @@ class GmshReader {
   }
 
   void read_element(int type, std::int64_t entity, const Group& group) {
-    if (type == 4) {
-      std::array<std::uint32_t, 4> t;
-      for (std::uint32_t& v : t) v = vertex();
-      builder_.add_tetrahedron(t, group.number, group.inside);
-    } else if (type == 2) {
-      std::array<std::uint32_t, 3> t;
-      for (std::uint32_t& v : t) v = vertex();
+    const std::size_t size = nodes_of(type);
+    if (!is_tetrahedron(type) && !is_triangle(type)) return skip(size, sizeof(std::uint64_t));
+    std::array<std::uint32_t, 10> node{};
+    const std::span nodes = std::span(node).first(size);
+    for (std::uint32_t& v : nodes) v = vertex();
+    const std::size_t corners = is_triangle(type) ? 3 : 4;
+    if (is_tetrahedron(type)) {
+      builder_.add_tetrahedron({node[0], node[1], node[2], node[3]}, group.number, group.inside);
+    } else {
       const bool is_facet = entity >= 1 && entity <= 0xffffffffLL;
       builder_.add_triangle(
-          t, group.number,
+          {node[0], node[1], node[2]}, group.number,
           is_facet ? std::optional(static_cast<std::uint32_t>(entity - 1)) : std::nullopt);
-    } else {
-      skip(static_cast<std::uint64_t>(nodes_of(type)), sizeof(std::uint64_t));
     }
+    builder_.add_edge_nodes(nodes.first(corners), nodes.subspan(corners));
   }
 
   int need_type() {
     const std::int64_t type = tag("element type");
     if (type != static_cast<int>(type) || nodes_of(static_cast<int>(type)) == 0) {
       in_.fail("elements of type " + std::to_string(type) +
-               ": a mesh of tetrahedra of first order is expected");
+               ": a mesh of tetrahedra of first or second order is expected");
     }
     return static_cast<int>(type);
   }
 
   Group group_of_type(int type, std::int64_t entity, std::int64_t physical) const {
-    if (type == 2) return group_of(kSurface, entity, physical);
-    return type == 4 ? group_of(kVolume, entity, physical) : Group();
+    if (is_triangle(type)) return group_of(kSurface, entity, physical);
+    return is_tetrahedron(type) ? group_of(kVolume, entity, physical) : Group();
   }
 
   void read_elements_4() {

@@ -65,6 +65,8 @@ void parse(std::string_view bytes, const std::string& path, const FileBeside& be
   if (builder.tetrahedra() == 0) throw FileError{path + ": no tetrahedra"};
   result.mesh = builder.finish();
   result.names = builder.names();
+  result.order = builder.order();
+  result.warnings = builder.warnings();
 }
 
 }  // namespace

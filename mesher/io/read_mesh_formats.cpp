@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "mesher/io/mesh_reading.h"
 
@@ -13,12 +14,32 @@ namespace {
 
 // Sections that are not kept, with how many numbers an item has.
 int numbers_skipped(std::string_view section) {
-  static const std::map<std::string_view, int> kNumbers = {
-      {"Edges", 3},         {"Corners", 1},           {"Ridges", 1},  {"RequiredVertices", 1},
-      {"RequiredEdges", 1}, {"RequiredTriangles", 1}, {"Normals", 3}, {"NormalAtVertices", 2},
-      {"Tangents", 3},      {"TangentAtVertices", 2}};
+  static const std::map<std::string_view, int> kNumbers = {{"Edges", 3},
+                                                           {"EdgesP2", 4},
+                                                           {"Corners", 1},
+                                                           {"Ridges", 1},
+                                                           {"RequiredVertices", 1},
+                                                           {"RequiredEdges", 1},
+                                                           {"RequiredTriangles", 1},
+                                                           {"Normals", 3},
+                                                           {"NormalAtVertices", 2},
+                                                           {"Tangents", 3},
+                                                           {"TangentAtVertices", 2}};
   const auto found = kNumbers.find(section);
   return found == kNumbers.end() ? 0 : found->second;
+}
+
+// An element with `nodes` nodes besides its corners.
+template <std::size_t corners, std::size_t nodes>
+void add_medit_element(MeshText& in, MeshBuilder& builder) {
+  const auto node = in.cell<corners + nodes>(1, builder.vertices());
+  const auto reference = in.integer<std::int32_t>("reference");
+  if constexpr (corners == 3) {
+    builder.add_triangle({node[0], node[1], node[2]}, reference, std::nullopt);
+  } else {
+    builder.add_tetrahedron({node[0], node[1], node[2], node[3]}, reference);
+  }
+  builder.add_edge_nodes(std::span(node).first(corners), std::span(node).subspan(corners));
 }
 
 void read_medit_section(std::string_view section, MeshText& in, MeshBuilder& builder) {
@@ -31,15 +52,15 @@ void read_medit_section(std::string_view section, MeshText& in, MeshBuilder& bui
       builder.add_vertex(in.point());
       in.integer<std::int64_t>("reference");
     }
-  } else if (section == "Triangles") {
-    for (auto n = in.count("number of triangles", kMostCells, 8); n > 0; --n) {
-      const auto triangle = in.cell<3>(1, builder.vertices());
-      builder.add_triangle(triangle, in.integer<std::int32_t>("reference"), std::nullopt);
+  } else if (section == "Triangles" || section == "TrianglesP2") {
+    const bool second = section == "TrianglesP2";
+    for (auto n = in.count("number of triangles", kMostCells, second ? 14 : 8); n > 0; --n) {
+      second ? add_medit_element<3, 3>(in, builder) : add_medit_element<3, 0>(in, builder);
     }
-  } else if (section == "Tetrahedra") {
-    for (auto n = in.count("number of tetrahedra", kMostCells, 10); n > 0; --n) {
-      const auto tetrahedron = in.cell<4>(1, builder.vertices());
-      builder.add_tetrahedron(tetrahedron, in.integer<std::int32_t>("reference"));
+  } else if (section == "Tetrahedra" || section == "TetrahedraP2") {
+    const bool second = section == "TetrahedraP2";
+    for (auto n = in.count("number of tetrahedra", kMostCells, second ? 22 : 10); n > 0; --n) {
+      second ? add_medit_element<4, 6>(in, builder) : add_medit_element<4, 0>(in, builder);
     }
   } else if (const int numbers = numbers_skipped(section); numbers > 0) {
     const auto per_item = static_cast<std::uint64_t>(numbers);
@@ -191,14 +212,17 @@ void read_elements(std::string_view text, const std::string& file, std::uint64_t
   NumberedLines lines(text, file, polling);
   lines.begin("number of tetrahedra", kMostCells, 10);
   const auto corners = lines.header<std::int64_t>(4, "number of corners");
-  if (corners != 4) {
-    lines.text().fail("tetrahedra of " + std::to_string(corners) + " points, not 4");
+  if (corners != 4 && corners != 10) {
+    lines.text().fail("tetrahedra of " + std::to_string(corners) + " points, not 4 or 10");
   }
   const auto attributes = lines.header<std::int64_t>(0, "number of attributes");
   while (lines.next()) {
     const auto tetrahedron = cell<4>(lines, first, builder.vertices());
+    std::array<std::uint32_t, 6> nodes{};
+    if (corners == 10) nodes = cell<6>(lines, first, builder.vertices());
     builder.add_tetrahedron(tetrahedron,
                             attributes > 0 ? std::optional(region(lines)) : std::nullopt);
+    builder.add_edge_nodes(tetrahedron, std::span(nodes).first(corners == 10 ? 6 : 0));
   }
 }
 

@@ -276,8 +276,12 @@ const Garbage kGarbage[] = {
      "a.msh:20: there is no node with the tag 8"},
     {"GmshNodeTwice", "a.msh", replaced(kGmsh2, "\n20 1", "\n10 1"),
      "a.msh:13: two nodes have the tag 10"},
-    {"GmshQuadratic", "a.msh", replaced(kGmsh2, "4 4 2 7", "4 11 2 7"),
-     "a.msh:20: elements of type 11: a mesh of tetrahedra of first order is expected"},
+    {"GmshPrism", "a.msh", replaced(kGmsh2, "4 4 2 7", "4 6 2 7"),
+     "a.msh:20: elements of type 6: a mesh of tetrahedra of first or second order is expected"},
+    {"GmshCornerOnAnEdge", "a.msh",
+     replaced(kGmsh2, "4 4 2 7 1 10 20 5 7", "4 11 2 7 1 10 20 5 7 10 20 5 7 10 20"),
+     "a.msh: node 0 (numbered from 0) is a corner of an element, and of another one in the middle "
+     "of an edge"},
     {"GmshCut", "a.msh", replaced(kGmsh2, "$EndElements\n", ""),
      "a.msh:20: the file ends where $EndElements is expected"},
     {"VtuWithoutFile", "a.vtu", "<xml>", "a.vtu:1: no VTKFile: not a file of VTK"},
@@ -328,6 +332,42 @@ TEST_F(Files, DamagedAnywhereAreRefusedOrRead) {
     }
   }
   EXPECT_GT(refused, 2500U);
+}
+
+// With --order 2 each edge has a node in its middle, which is none of the mesh.
+TEST_F(Files, OfSecondOrderAreReadByTheirCorners) {
+  for (const char* extension : {".mesh", ".msh", ".vtu"}) {
+    for (const bool ascii : {false, true}) {
+      const std::string file = path(std::string("a") + extension);
+      ASSERT_TRUE(write_mesh(file, pair(), {}, {.order = 2, .ascii = ascii}).ok());
+      const MeshReadResult read = read_mesh(file);
+      ASSERT_TRUE(read.ok()) << read.error;
+      EXPECT_EQ(read.order, 2);
+      EXPECT_EQ(read.warnings, std::vector<std::string>());
+      EXPECT_EQ(read.mesh.vertices, pair().vertices);
+      EXPECT_EQ(tetrahedra(read.mesh), tetrahedra(pair())) << extension;
+      EXPECT_EQ(triangles(read.mesh), triangles(pair())) << extension;
+    }
+  }
+  ASSERT_TRUE(write_mesh(path("a.mesh"), pair()).ok());
+  EXPECT_EQ(read_mesh(path("a.mesh")).order, 1);
+}
+
+// Those of TetGen's -o2, with nodes before corners; one is off the middle of its edge.
+TEST_F(Files, ACurvedEdgeIsTakenAsStraight) {
+  write("a.node",
+        "10 3 0 0\n1 0.5 0 0\n2 0 0.5 0\n3 0 0 0.5\n4 0 0 0\n5 1 0 0\n6 0.5 0.5 0.25\n"
+        "7 0.5 0 0.5\n8 0 0.5 0.5\n9 0 1 0\n10 0 0 1\n");
+  write("a.ele", "1 10 0\n1 4 5 9 10 6 8 7 1 2 3\n");
+  const MeshReadResult read = read_mesh(path("a.node"));
+  ASSERT_TRUE(read.ok()) << read.error;
+  EXPECT_EQ(read.order, 2);
+  EXPECT_EQ(read.warnings,
+            std::vector<std::string>{"1 curved elements: nodes are up to 0.25 of an edge's length "
+                                     "off its middle, and the edges are taken as straight"});
+  EXPECT_EQ(read.mesh.tetrahedra, (std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}}));
+  EXPECT_EQ(read.mesh.vertices,
+            (std::vector<std::array<double, 3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
 }
 
 TEST_F(Files, ReadingStopsWhenAsked) {

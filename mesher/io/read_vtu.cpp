@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "mesher/io/mesh_reading.h"
@@ -18,10 +19,15 @@ std::uint64_t nodes_of(int type) {
       return 1;
     case 3:  // line
       return 2;
-    case 5:  // triangle
+    case 5:   // triangle
+    case 21:  // line of second order
       return 3;
     case 10:  // tetrahedron
       return 4;
+    case 22:  // triangle of second order
+      return 6;
+    case 24:  // tetrahedron of second order
+      return 10;
     default:
       return 0;
   }
@@ -94,7 +100,7 @@ class VtuReader {
     if (offsets_[n] > corners_.size() || offsets_[n] < begin || offsets_[n] - begin != size) {
       refuse("cell " + std::to_string(n) + ": bad offset " + std::to_string(offsets_[n]));
     }
-    std::array<std::uint32_t, 4> node{};
+    std::array<std::uint32_t, 10> node{};
     for (std::uint64_t i = 0; i < size; ++i) {
       const std::uint64_t v = corners_[begin + i];
       if (v >= builder_.vertices()) {
@@ -103,15 +109,17 @@ class VtuReader {
       }
       node[i] = static_cast<std::uint32_t>(v);
     }
-    if (types_[n] == 10) {
+    if (types_[n] == 10 || types_[n] == 24) {
       builder_.add_tetrahedron({node[0], node[1], node[2], node[3]},
                                region_.empty() ? std::nullopt : std::optional(region_[n]),
                                inside_.empty() || inside_[n] != 0);
-    } else if (types_[n] == 5) {
+      builder_.add_edge_nodes(std::span(node).first(4), std::span(node).subspan(4, size - 4));
+    } else if (types_[n] == 5 || types_[n] == 22) {
       const bool is_facet = !facet_.empty() && facet_[n] >= 0 && facet_[n] <= 0xffffffffLL;
       builder_.add_triangle(
           {node[0], node[1], node[2]}, label_.empty() ? 0 : label_[n],
           is_facet ? std::optional(static_cast<std::uint32_t>(facet_[n])) : std::nullopt);
+      builder_.add_edge_nodes(std::span(node).first(3), std::span(node).subspan(3, size - 3));
     }
   }
 

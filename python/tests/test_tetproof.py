@@ -1,4 +1,5 @@
 """The package as users see it. Run with pytest where tetproof is installed."""
+import gzip
 import os
 import signal
 import threading
@@ -155,6 +156,20 @@ def test_plane():
     area = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]) / 2
     assert area.min() > 0 and area.sum() == pytest.approx(15)
     assert set(mesh.markers) == {1, 2} and mesh.stats["min_angle"] >= 20.7
+
+
+def test_compressed_files_and_second_order(tmp_path):
+    mesh = tetproof.mesh(POINTS, TRIANGLES, labels=LABELS)
+    mesh.write(tmp_path / "cube.vtu", order=2)
+    mesh.write(tmp_path / "cube.off")
+    for name in ("cube.vtu", "cube.off"):
+        (tmp_path / (name + ".gz")).write_bytes(gzip.compress((tmp_path / name).read_bytes()))
+    back = tetproof.read_mesh(tmp_path / "cube.vtu.gz")
+    assert np.array_equal(back.points, mesh.points) and np.array_equal(back.tetrahedra, mesh.tetrahedra) and back.warnings == []
+    assert np.array_equal(tetproof.read(tmp_path / "cube.off.gz").triangles, tetproof.read(tmp_path / "cube.off").triangles)
+    (tmp_path / "cut.off.gz").write_bytes((tmp_path / "cube.off.gz").read_bytes()[:50])
+    with pytest.raises(ValueError, match="byte 50: the compressed data end early"):
+        tetproof.read(tmp_path / "cut.off.gz")
 
 
 def test_files(tmp_path):

@@ -436,7 +436,10 @@ def read(path: "Union[str, os.PathLike[str]]") -> Surface:
 
 
 def read_mesh(path: "Union[str, os.PathLike[str]]") -> Mesh:
-    """Read a mesh of tetrahedra: .mesh, .msh, .vtu, .node, .ele or .tet, with linear elements."""
+    """Read a mesh of tetrahedra: .mesh, .msh, .vtu, .node, .ele or .tet, compressed with gzip or not.
+
+    Of elements of second order the corners are read; `warnings` of the mesh say how far off the middle of their edges the other nodes are.
+    """
     return _mesh(_core.read_mesh(os.fspath(path)))
 
 
