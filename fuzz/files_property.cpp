@@ -8,6 +8,7 @@
 #include <set>
 
 #include "corpus/generate/generate.h"
+#include "fuzz/packages.h"
 #include "fuzz/plain_files.h"
 #include "fuzz/properties.h"
 #include "fuzz/scratch.h"
@@ -178,7 +179,8 @@ Finding plain_is_read(const delmesher::io::ReadResult& read, const TriangleSoup&
 
 Finding reader_holds(const std::string& text, const std::string& name) {
   judging({&refused, &no_triangles});
-  const auto first = delmesher::io::parse_surface(text, name);
+  const bool model = name.ends_with(".3mf") && !text.starts_with("PK");
+  const auto first = delmesher::io::parse_surface(model ? package_of(text) : text, name);
   const auto plain = plain_triangles(text, name);
   if (plain && !first.ok()) return plain_is_read(first, *plain);
   if (!first.ok()) {

@@ -17,7 +17,7 @@ Finding predicates_agree(Bytes bytes);
 Finding predicates_on_planes_agree(Bytes bytes);
 
 // A reader refuses in one line or delivers a surface that can be written and read back unchanged.
-// `name` gives the format by its extension.
+// `name` gives the format by its extension; of 3MF the text is the model, or the whole archive.
 Finding reader_holds(const std::string& text, const std::string& name);
 
 // The same of a reader of meshes of tetrahedra; a mesh that is read is improved or refused. The

@@ -36,6 +36,7 @@ class Writer {
     if (format == "stl") return random_.chance(0.5) ? stl() : binary_stl();
     if (format == "ply") return ply();
     if (format == "smesh" || format == "poly") return tetgen(format == "poly");
+    if (format == "3mf") return model();
     return off();
   }
 
@@ -87,6 +88,31 @@ class Writer {
     const std::string facets = std::to_string(surface_.triangles.size());
     return std::to_string(surface_.vertices.size()) + " 3 0 0\n" + vertices("", true, base) +
            facets + " 0\n" + faces(poly ? "1\n3" : "3", base) + "0\n0\n";
+  }
+
+  std::string model() {
+    std::string text =
+        "<model unit='inch' requiredextensions='p' "
+        "xmlns:p='http://schemas.microsoft.com/3dmanufacturing/production/2015/06' >\n"
+        "<resources>\n<object id='1' name='a &#65; b' >\n<mesh>\n<vertices>\n";
+    for (const auto& [x, y, z] : surface_.vertices) {
+      text += "<vertex x='" + std::to_string(x) + "' y='" + std::to_string(y) + "' z='" +
+              std::to_string(z) + "' />\n";
+    }
+    text += "</vertices>\n<triangles>\n";
+    for (const auto& [a, b, c] : surface_.triangles) {
+      text += "<triangle v1='" + std::to_string(a) + "' v2='" + std::to_string(b) + "' v3='" +
+              std::to_string(c) + "' />\n";
+    }
+    text +=
+        "</triangles>\n</mesh>\n</object>\n<object id='2' >\n<components>\n"
+        "<component objectid='1' />\n";
+    if (random_.chance(0.5)) {
+      text += "<component objectid='1' transform=' 1 0 0 0 -1 0 0 0 1 4 0 0 ' />\n";
+    }
+    return text +
+           "</components>\n</object>\n</resources>\n<build>\n<item objectid='2' />\n</build>\n"
+           "</model>\n";
   }
 
   template <class Number>

@@ -33,8 +33,8 @@ struct ReadResult {
   ReadCode code = ReadCode::ok;
   std::string error;  // "file:line: reason", "file: byte N: reason" or "file: reason"
   Surface surface;
-  LabelNames names;    // solids of an STL, materials, groups or objects of an OBJ, if several
-  std::string format;  // "OFF", "OBJ", "STL", "PLY", "smesh", "poly"
+  LabelNames names;    // solids of an STL, objects of a 3MF, materials, groups or objects of an OBJ
+  std::string format;  // "OFF", "OBJ", "STL", "PLY", "3MF", "smesh", "poly"
   std::vector<std::string> warnings;                // what the user should know
   std::vector<std::string> notes;                   // what a log may tell
   std::vector<std::array<std::uint32_t, 2>> lines;  // ReadOptions::planar: edges of polylines
@@ -48,8 +48,8 @@ struct ReadOptions {
   std::function<bool()> go_on;
 };
 
-// A surface from OFF, OBJ, STL, PLY, or TetGen's .smesh and .poly, by content and extension. Faces
-// of more than three corners are cut by the rule of formats.md; check_surface() and
+// A surface from OFF, OBJ, STL, PLY, 3MF, or TetGen's .smesh and .poly, by content and extension.
+// Faces of more than three corners are cut by the rule of formats.md; check_surface() and
 // tetrahedralize() decide whether the surface is valid.
 ReadResult read_surface(const std::string& path, const ReadOptions& options = {});
 

@@ -7,6 +7,7 @@
 
 #include "oracles/polygon.h"
 #include "oracles/text_reader.h"
+#include "oracles/three_mf.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -362,6 +363,7 @@ Polyhedron read_any(const std::string& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
+  if (is_zip(start)) return read_three_mf(path, text);
   if (start.starts_with("ply")) return PlyReader(path, text).read();
   if (extension == "obj") return read_obj(path, text);
   if (extension == "smesh" || extension == "poly") {

@@ -1,5 +1,5 @@
-// Reads input surfaces: OFF, OBJ, STL and PLY (text and binary), TetGen's .smesh and .poly.
-// Coordinates are rounded to the nearest double.
+// Reads input surfaces: OFF, OBJ, STL and PLY (text and binary), 3MF, TetGen's .smesh and
+// .poly; compressed with gzip or not. Coordinates are rounded to the nearest double.
 #pragma once
 
 #include <string>

@@ -50,7 +50,7 @@ CLI::Validator one_of(const std::map<std::string, Choice>& choices) {
 
 void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("INPUT", arguments.input,
-                 "surface: OFF, OBJ, STL or PLY; in the plane .poly, OFF, OBJ or rings")
+                 "surface: OFF, OBJ, STL, PLY or 3MF; in the plane .poly, OFF, OBJ or rings")
       ->required();
   app.add_option("MESH", arguments.mesh,
                  "mesh: .mesh, .msh, .vtu, .node or .ele, .tet; in the plane .node or .ele, .msh, "

@@ -17,6 +17,7 @@
 #include "mesher/delmesher_files.h"
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/read_plane.h"
+#include "mesher/io/test_archives.h"
 #include "mesher/io/test_vtu_ways.h"
 #include "oracles/mesh_file.h"
 #include "oracles/plane_file.h"
@@ -140,6 +141,39 @@ TEST_F(Files, ArraysInAllPlacesAreTheSameToBothReaders) {
     EXPECT_EQ(theirs.labels, ours.mesh.boundary_labels) << way.name;
     EXPECT_EQ(theirs.regions, (std::vector<std::int64_t>{3, -4})) << way.name;
   }
+}
+
+TEST_F(Files, PackagesAreTheSameToBothReaders) {
+  using delmesher::io::kTet, delmesher::io::model, delmesher::io::package;
+  std::mt19937 random(3);
+  const auto transform = [&] {
+    std::string text = " transform='";
+    for (int i = 0; i < 12; ++i) {
+      text += std::to_string(static_cast<int>(random() % 2001) - 1000) + "e-3 ";
+    }
+    return text + "'";
+  };
+  for (int i = 0; i < 20; ++i) {
+    const std::string bytes = package(
+        model("<object id='1' name='a'>" + kTet + "</object><object id='2' type='support'>" + kTet +
+                  "</object><object id='3'><components><component objectid='1'" + transform() +
+                  "/><component objectid='2'/><component objectid='1'/></components></object>" +
+                  "<object id='4'>" + kTet + "</object>",
+              "<item objectid='3'" + transform() + "/><item objectid='4'" + transform() + "/>"));
+    write("a.3mf", bytes);
+    const auto ours = delmesher::io::read_surface(path("a.3mf"));
+    ASSERT_TRUE(ours.ok()) << ours.error;
+    const oracles::Polyhedron theirs = oracles::read_surface(path("a.3mf"));
+    EXPECT_EQ(theirs.vertices, ours.surface.vertices);
+    EXPECT_EQ(theirs.triangles, ours.surface.triangles);
+    EXPECT_EQ(theirs.labels, ours.surface.labels);
+  }
+  // One that can be meshed, and is verified.
+  write("a.3mf", package(model("<object id='1'>" + kTet + "</object>",
+                               "<item objectid='1'/><item objectid='1' "
+                               "transform='0 1 0 1 0 0 0 0 3 5 0 0'/>")));
+  ASSERT_EQ(run("mesh -q " + path("a.3mf") + " -o " + path("a.msh")), 0);
+  EXPECT_EQ(verify({path("a.3mf"), path("a.msh")}), 0);
 }
 
 TEST_F(Files, WhatSaysNothingIsRefused) {

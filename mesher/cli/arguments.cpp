@@ -83,7 +83,7 @@ void add_planar(CLI::App& app, Given& given) {
 }
 
 constexpr const char* kSurfaces =
-    "surface: OFF, OBJ, STL, PLY, .smesh or .poly, - is standard input";
+    "surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, - is standard input";
 void add_common(CLI::App& app, Command& command, Given& given, const char* input = kSurfaces) {
   app.add_option("input", given.inputs, std::string(input) + "; may be several")->required();
   add_number(app, given, "jobs", "how many of several inputs at a time, 0: one per core (1)",

@@ -21,7 +21,7 @@ constexpr std::array<Signature, 9> kSignatures = {
       "7zXZ",
       "compressed with xz: unpack it first (unxz)"},
      {"\x28\xb5\x2f\xfd", "compressed with zstd: unpack it first (unzstd)"},
-     {"PK\x03\x04", "a zip archive, as 3MF files are: unpack it, or export STL, OBJ or PLY"},
+     {"PK\x03\x04", "a zip archive: unpack it first (unzip)"},
      {"ISO-10303-21",
       "a STEP file, of curved faces: make triangles of it first (gmsh -2 -o OUT.stl)"},
      {"glTF", "a binary glTF file: export STL, OBJ or PLY"},

@@ -8,9 +8,9 @@
 namespace delmesher::io {
 namespace {
 
-enum class Format : std::uint8_t { off, obj, stl, ply, smesh, poly, unknown, foreign };
+enum class Format : std::uint8_t { off, obj, stl, ply, smesh, poly, three_mf, unknown, foreign };
 
-constexpr const char* kNames[] = {"OFF", "OBJ", "STL", "PLY", "smesh", "poly", "", ""};
+constexpr const char* kNames[] = {"OFF", "OBJ", "STL", "PLY", "smesh", "poly", "3MF", "", ""};
 
 std::string lower_extension(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -24,6 +24,7 @@ Format detect(std::string_view bytes, const std::string& path) {
   if (looks_like_off(bytes)) return Format::off;
   const std::string extension = lower_extension(path);
   if (looks_like_stl(bytes)) return Format::stl;
+  if (looks_like_3mf(bytes) || extension == ".3mf") return Format::three_mf;
   if (!foreign_content(bytes).empty()) return Format::foreign;
   if (extension == ".off") return Format::off;
   if (extension == ".obj") return Format::obj;
@@ -49,12 +50,16 @@ void read(std::string_view bytes, Format format, const NodeFile& node_file,
       return read_tetgen(bytes, TetgenKind::smesh, node_file, builder);
     case Format::poly:
       return read_tetgen(bytes, TetgenKind::poly, node_file, builder);
+    case Format::three_mf: {
+      Polling polling(options.go_on);
+      return read_3mf(bytes, polling, builder);
+    }
     case Format::foreign:
       fail({}, std::string(foreign_content(bytes)));
     case Format::unknown:
       break;
   }
-  fail({}, "not a known format (OFF, OBJ, STL, PLY, .smesh, .poly)");
+  fail({}, "not a known format (OFF, OBJ, STL, PLY, 3MF, .smesh, .poly)");
 }
 
 void parse(std::string_view bytes, const std::string& path, const NodeFile& node_file,

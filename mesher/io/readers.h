@@ -15,6 +15,7 @@ void read_off(std::string_view text, SurfaceBuilder& builder);
 void read_obj(std::string_view text, bool planar, SurfaceBuilder& builder);
 void read_stl(std::string_view data, SurfaceBuilder& builder);
 void read_ply(std::string_view data, SurfaceBuilder& builder);
+void read_3mf(std::string_view data, Polling& polling, SurfaceBuilder& builder);
 
 enum class TetgenKind : std::uint8_t { smesh, poly };
 // `node_file` returns the text of the .node file that stands beside one without points.
@@ -22,10 +23,12 @@ using NodeFile = std::function<std::optional<std::string>()>;
 void read_tetgen(std::string_view text, TetgenKind kind, const NodeFile& node_file,
                  SurfaceBuilder& builder);
 
-// By content: an OFF header keyword, the PLY magic, an STL's exact binary size or "solid".
+// By content: an OFF header keyword, the PLY magic, an STL's exact binary size or "solid", an
+// archive of zip with a model in it.
 bool looks_like_off(std::string_view data);
 bool looks_like_ply(std::string_view data);
 bool looks_like_stl(std::string_view data);
+bool looks_like_3mf(std::string_view data);
 bool looks_like_obj(std::string_view data);
 
 }  // namespace delmesher::io

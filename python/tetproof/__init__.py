@@ -428,7 +428,10 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
 
 
 def read(path: "Union[str, os.PathLike[str]]") -> Surface:
-    """Read a surface: OFF, OBJ, STL, PLY, .smesh or .poly. ValueError says what is wrong with the file, and in which line."""
+    """Read a surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, compressed with gzip or not.
+
+    ValueError says what is wrong with the file, and in which line.
+    """
     result = _core.read_surface(os.fspath(path))
     if not len(result["labels"]):
         result["labels"] = np.zeros(len(result["triangles"]), np.int32)

@@ -1,0 +1,412 @@
+#include "oracles/three_mf.h"
+
+#include <gmpxx.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "oracles/text_reader.h"
+
+namespace tetproof::oracles {
+namespace {
+
+// ---------------------------------------------------------------------------------------- the zip
+
+class Archive {
+ public:
+  Archive(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {
+    // Behind it there is a comment, which could look like it.
+    std::size_t end = bytes_.rfind("PK\x05\x06");
+    while (end != std::string_view::npos && bytes_.size() - end < 22) {
+      end = end == 0 ? std::string_view::npos : bytes_.rfind("PK\x05\x06", end - 1);
+    }
+    if (end == std::string_view::npos) fail("an archive without a directory");
+    std::uint64_t at = number(end + 16, 4), count = number(end + 10, 2);
+    if (at == 0xffffffffU || count == 0xffff) {  // the numbers of 64 bits are in front of it
+      if (end < 20) fail("an archive without a directory");
+      const std::uint64_t wide = number(end - 12, 8);
+      count = number(wide + 32, 8);
+      at = number(wide + 48, 8);
+    }
+    for (; count > 0; --count) at = read_entry(at);
+  }
+
+  bool contains(const std::string& name) const { return entries_.contains(key_of(name)); }
+
+  std::string contents(const std::string& name) const {
+    const auto found = entries_.find(key_of(name));
+    if (found == entries_.end()) fail("there is no " + name + " in the archive");
+    const Entry& entry = found->second;
+    const std::uint64_t begin =
+        entry.header + 30 + number(entry.header + 26, 2) + number(entry.header + 28, 2);
+    const std::string_view packed = part(begin, entry.packed);
+    std::string text = entry.method == 0 ? std::string(packed) : inflated(packed, entry.size);
+    const auto sum =
+        crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<z_size_t>(text.size()));
+    if (text.size() != entry.size || sum != entry.sum) fail(name + " is damaged");
+    return text;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t method = 0, sum = 0, packed = 0, size = 0, header = 0;
+  };
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw ReadError(path_ + ": " + reason);
+  }
+  std::string_view part(std::uint64_t at, std::uint64_t size) const {
+    if (at > bytes_.size() || size > bytes_.size() - at) fail("an archive that is cut");
+    return bytes_.substr(at, size);
+  }
+  std::uint64_t number(std::uint64_t at, std::size_t size) const {
+    const std::string_view raw = part(at, size);
+    std::uint64_t value = 0;
+    for (std::size_t i = size; i > 0; --i) {
+      value = value << 8U | static_cast<unsigned char>(raw[i - 1]);
+    }
+    return value;
+  }
+  // Without regard to case, and to a slash in front.
+  static std::string key_of(const std::string& name) {
+    std::string key = name.substr(name.starts_with('/') ? 1 : 0);
+    std::transform(key.begin(), key.end(), key.begin(), [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return key;
+  }
+
+  // Returns where the next one is.
+  std::uint64_t read_entry(std::uint64_t at) {
+    if (number(at, 4) != 0x02014b50) fail("a damaged directory of the archive");
+    if ((number(at + 8, 2) & 1U) != 0) fail("an encrypted archive");
+    Entry entry;
+    entry.method = number(at + 10, 2);
+    entry.sum = number(at + 16, 4);
+    if (entry.method != 0 && entry.method != Z_DEFLATED) fail("an unknown compression");
+    const std::uint64_t name = number(at + 28, 2), extra = number(at + 30, 2);
+    std::uint64_t wide = wide_numbers(at + 46 + name, extra);
+    const auto size_at = [&](std::uint64_t place) {
+      const std::uint64_t value = number(place, 4);
+      if (value != 0xffffffffU || wide == 0) return value;
+      wide += 8;
+      return number(wide - 8, 8);
+    };
+    entry.size = size_at(at + 24);
+    entry.packed = size_at(at + 20);
+    entry.header = size_at(at + 42);
+    if (!entries_.emplace(key_of(std::string(part(at + 46, name))), entry).second) {
+      fail("a name that is twice in the archive");
+    }
+    return at + 46 + name + extra + number(at + 32, 2);
+  }
+  // Where they are; 0 if there are none.
+  std::uint64_t wide_numbers(std::uint64_t at, std::uint64_t size) const {
+    const std::uint64_t end = at + size;
+    while (at + 4 <= end) {
+      if (number(at, 2) == 1) return at + 4;
+      at += 4 + number(at + 2, 2);
+    }
+    return 0;
+  }
+
+  std::string inflated(std::string_view packed, std::uint64_t size) const {
+    if (size / 1032 > packed.size()) fail("a size that cannot be");
+    std::string text(size, '\0');
+    z_stream stream{};
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+    stream.avail_in = static_cast<uInt>(packed.size());
+    stream.next_out = reinterpret_cast<Bytef*>(text.data());
+    stream.avail_out = static_cast<uInt>(size);
+    const bool whole = stream.avail_in == packed.size() && stream.avail_out == size;
+    const bool good = whole && inflateInit2(&stream, -MAX_WBITS) == Z_OK &&
+                      inflate(&stream, Z_FINISH) == Z_STREAM_END && stream.avail_in == 0;
+    inflateEnd(&stream);
+    if (!good) fail("a file of the archive that cannot be unpacked");
+    return text;
+  }
+
+  const std::string& path_;
+  std::string_view bytes_;
+  std::map<std::string, Entry> entries_;
+};
+
+// ---------------------------------------------------------------------------------------- the XML
+
+struct Element {
+  std::string name;
+  std::map<std::string, std::string> attributes;
+  std::vector<std::unique_ptr<Element>> children;
+
+  const std::string* attribute(const std::string& key) const {
+    const auto found = attributes.find(key);
+    return found == attributes.end() ? nullptr : &found->second;
+  }
+  // Those of that name.
+  std::vector<const Element*> all(const std::string& wanted) const {
+    std::vector<const Element*> found;
+    for (const auto& child : children) {
+      if (child->name == wanted) found.push_back(child.get());
+    }
+    return found;
+  }
+};
+
+// Elements and attributes; text is nothing here. References to characters stay as they are.
+class XmlReader {
+ public:
+  XmlReader(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
+
+  std::unique_ptr<Element> read() {
+    auto top = std::make_unique<Element>();
+    std::vector<Element*> open = {top.get()};
+    for (at_ = text_.find('<'); at_ < text_.size(); at_ = text_.find('<', at_)) {
+      if (skipped("<!--", "-->") || skipped("<?", "?>") || skipped("<![CDATA[", "]]>")) continue;
+      if (text_.substr(at_, 2) == "<!") fail("a declaration");
+      ++at_;
+      const bool end = text_.substr(at_, 1) == "/";
+      if (end) ++at_;
+      const std::string name(word("/> \t\r\n"));
+      if (end) {
+        if (open.back()->name != name || open.size() == 1) fail("</" + name + "> of nothing");
+        open.pop_back();
+        continue;
+      }
+      open.back()->children.push_back(std::make_unique<Element>());
+      Element& element = *open.back()->children.back();
+      element.name = name;
+      if (!read_attributes(element)) open.push_back(&element);
+    }
+    if (open.size() != 1 || top->children.size() != 1) fail("not one element, with its end");
+    return std::move(top->children.front());
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw ReadError(name_ + ": " + reason.substr(0, 80));
+  }
+  bool skipped(std::string_view begin, std::string_view end) {
+    if (!text_.substr(at_).starts_with(begin)) return false;
+    at_ = std::min(text_.find(end, at_ + begin.size()), text_.size());
+    return true;
+  }
+  std::string_view word(std::string_view ends) {
+    const std::size_t end = std::min(text_.find_first_of(ends, at_), text_.size());
+    const std::string_view found = text_.substr(at_, end - at_);
+    at_ = end;
+    return found;
+  }
+  void skip_blanks() { at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()); }
+
+  // True if the element ends with them.
+  bool read_attributes(Element& element) {
+    for (;;) {
+      skip_blanks();
+      if (at_ >= text_.size()) fail("an element without an end");
+      if (text_[at_] == '>') return false;
+      if (text_[at_] == '/') return true;
+      const std::string name(word("=/> \t\r\n"));
+      skip_blanks();
+      if (text_.substr(at_, 1) != "=") fail("an attribute without a value");
+      ++at_;
+      skip_blanks();
+      const std::string quote(text_.substr(at_, 1));
+      if (quote != "\"" && quote != "'") fail("a value without quotation marks");
+      ++at_;
+      if (!element.attributes.emplace(name, word(quote)).second) fail(name + " is there twice");
+      ++at_;
+    }
+  }
+
+  std::string name_;
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+// -------------------------------------------------------------------------------------- the model
+
+using Matrix = std::array<double, 12>;
+
+class ModelReader {
+ public:
+  ModelReader(const std::string& path, std::string_view bytes)
+      : path_(path), archive_(path, bytes) {}
+
+  Polyhedron read() {
+    const std::string root = root_name();
+    for (const Element* build : part(root).all(prefix(root) + "build")) {
+      for (const Element* item : build->all(prefix(root) + "item")) place(root, *item, {});
+    }
+    if (labels_.size() < 2) surface_.labels.clear();
+    return std::move(surface_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw ReadError(path_ + ": " + reason);
+  }
+
+  std::string root_name() const {
+    if (archive_.contains("_rels/.rels")) {
+      const std::string text = archive_.contents("_rels/.rels");
+      const auto relations = XmlReader(path_, text).read();
+      for (const auto& relation : relations->children) {
+        const std::string *type = relation->attribute("Type"),
+                          *target = relation->attribute("Target");
+        if (type != nullptr && target != nullptr && type->ends_with("/3dmodel")) return *target;
+      }
+    }
+    return "3D/3dmodel.model";
+  }
+
+  const Element& part(const std::string& name) {
+    std::unique_ptr<Element>& model = parts_[name];
+    if (model == nullptr) {
+      const std::string text = archive_.contents(name);
+      model = XmlReader(path_ + ", " + name, text).read();
+    }
+    return *model;
+  }
+  // Of the names in a part, up to the colon.
+  std::string prefix(const std::string& name) {
+    const std::string& root = part(name).name;
+    const std::size_t colon = root.find(':');
+    return colon == std::string::npos ? "" : root.substr(0, colon + 1);
+  }
+
+  const std::string& needed(const Element& element, const std::string& name) const {
+    const std::string* value = element.attribute(name);
+    if (value == nullptr) fail(element.name + " without " + name);
+    return *value;
+  }
+  double real(const Element& element, const char* name) const {
+    return TextReader(path_, needed(element, name), '\0').number();
+  }
+
+  std::optional<Matrix> matrix_of(const Element& element) const {
+    const std::string* text = element.attribute("transform");
+    if (text == nullptr) return {};
+    TextReader reader(path_, *text, '\0');
+    Matrix matrix;
+    for (double& x : matrix) x = reader.number();
+    reader.expect_nothing();
+    return matrix;
+  }
+
+  // The object that an item or a component names; `matrices` are those around it.
+  void place(const std::string& from, const Element& user, std::vector<Matrix> matrices) {
+    if (matrices_deep_ > 40 || ++placed_ > 1100000) fail("components without an end");
+    std::string name = from;
+    for (const auto& [key, value] : user.attributes) {
+      if (key.ends_with(":path")) name = value;
+    }
+    if (const auto matrix = matrix_of(user)) matrices.push_back(*matrix);
+    const std::string& id = needed(user, "objectid");
+    const Element& object = find_object(name, id);
+    const std::string* type = object.attribute("type");
+    if (type != nullptr && *type != "model" && *type != "surface") return;
+    ++matrices_deep_;
+    for (const Element* components : object.all(prefix(name) + "components")) {
+      for (const Element* component : components->all(prefix(name) + "component")) {
+        place(name, *component, matrices);
+      }
+    }
+    --matrices_deep_;
+    for (const Element* mesh : object.all(prefix(name) + "mesh")) {
+      add_mesh(name, id, *mesh, matrices);
+    }
+  }
+
+  const Element& find_object(const std::string& name, const std::string& id) {
+    for (const Element* resources : part(name).all(prefix(name) + "resources")) {
+      for (const Element* object : resources->all(prefix(name) + "object")) {
+        if (needed(*object, "id") == id) return *object;
+      }
+    }
+    fail("there is no object " + id + " in " + name);
+  }
+
+  void add_mesh(const std::string& name, const std::string& id, const Element& mesh,
+                const std::vector<Matrix>& matrices) {
+    const auto first = static_cast<std::int64_t>(surface_.vertices.size());
+    for (const Element* list : mesh.all(prefix(name) + "vertices")) {
+      for (const Element* vertex : list->all(prefix(name) + "vertex")) {
+        Position p = {real(*vertex, "x"), real(*vertex, "y"), real(*vertex, "z")};
+        for (auto m = matrices.rbegin(); m != matrices.rend(); ++m) p = moved(p, *m);
+        surface_.vertices.push_back(p);
+      }
+    }
+    const std::uint64_t count = surface_.vertices.size() - static_cast<std::size_t>(first);
+    const bool turned = mirrored(matrices);
+    std::int32_t label = 0;
+    for (const Element* list : mesh.all(prefix(name) + "triangles")) {
+      for (const Element* triangle : list->all(prefix(name) + "triangle")) {
+        std::array<Index, 3> corners;
+        for (int k = 0; k < 3; ++k) {
+          const std::string key = std::string("v") + "123"[k];
+          corners[k] = static_cast<Index>(
+              TextReader(path_, needed(*triangle, key), '\0').index(0, count) + first);
+        }
+        if (turned) std::swap(corners[1], corners[2]);
+        if (label == 0) {
+          const auto next = static_cast<std::int32_t>(labels_.size() + 1);
+          label = labels_.emplace(std::pair(name, id), next).first->second;
+        }
+        surface_.triangles.push_back(corners);
+        surface_.polygons.push_back(static_cast<Index>(surface_.polygons.size()));
+        surface_.labels.push_back(label);
+      }
+    }
+  }
+
+  // Row vectors, from the left; products and sums are rounded one after the other, as formats.md
+  // says.
+  static Position moved(const Position& p, const Matrix& m) {
+    Position q{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      double sum = p[0] * m[i];
+      for (std::size_t k = 1; k < 3; ++k) sum += p[k] * m[3 * k + i];
+      q[i] = sum + m[9 + i];
+    }
+    return q;
+  }
+
+  static bool mirrored(const std::vector<Matrix>& matrices) {
+    bool result = false;
+    for (const Matrix& m : matrices) {
+      std::array<mpq_class, 9> a;
+      for (std::size_t i = 0; i < 9; ++i) a[i] = m[i];
+      const mpq_class determinant = a[0] * (a[4] * a[8] - a[5] * a[7]) -
+                                    a[1] * (a[3] * a[8] - a[5] * a[6]) +
+                                    a[2] * (a[3] * a[7] - a[4] * a[6]);
+      result = result != (determinant < 0);
+    }
+    return result;
+  }
+
+  const std::string path_;
+  Archive archive_;
+  std::map<std::string, std::unique_ptr<Element>> parts_;
+  std::map<std::pair<std::string, std::string>, std::int32_t> labels_;
+  int matrices_deep_ = 0, placed_ = 0;
+  Polyhedron surface_;
+};
+
+}  // namespace
+
+bool is_zip(std::string_view bytes) {
+  return bytes.starts_with("PK\x03\x04");
+}
+
+Polyhedron read_three_mf(const std::string& path, std::string_view bytes) {
+  return ModelReader(path, bytes).read();
+}
+
+}  // namespace tetproof::oracles
