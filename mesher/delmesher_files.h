@@ -147,9 +147,9 @@ WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const Label
 // OFF; labels are not kept, as the format has none.
 WriteStatus write_off(const std::string& path, const Surface& surface);
 // .node (Triangle, with .ele and .poly), .vtu, .off, .msh, .svg. The holes and regions of `graph`,
-// if any, go into a .poly, so that it means the same as the input.
+// if any, go into a .poly, so that it means the same as the input. Elements are of first order.
 WriteStatus write_plane(const std::string& path, const PlaneMesh& mesh,
-                        const PlanarGraph* graph = nullptr);
+                        const PlanarGraph* graph = nullptr, const WriteOptions& options = {});
 // The sidecars of --exact.
 WriteStatus write_exact(const std::string& path, const ExactRecord& record);
 WriteStatus write_plane_exact(const std::string& path, const PlaneRecord& record);

@@ -82,7 +82,7 @@ constexpr Word kSwitches[] = {{"-q", kAll},
                               {"-v", kAll},
                               {"--verbose", kAll},
                               {"--no-bridge-simplification", kMesh},
-                              {"--ascii", kSpace},
+                              {"--ascii", kAll},
                               {"--gabriel", kMesh},
                               {"--approximate", kMesh | kPlane}};
 constexpr Word kChosen[] = {{"--preset", kMesh | kPlane},

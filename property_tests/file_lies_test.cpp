@@ -121,7 +121,7 @@ const Meshed& in_the_plane() {
       "square.poly",
       "8 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n5 1 1\n6 3 1\n7 3 3\n8 1 3\n8 1\n1 1 2 5\n2 2 3 5\n"
       "3 3 4 5\n4 4 1 5\n5 5 6 9\n6 6 7 9\n7 7 8 9\n8 8 5 9\n1\n1 2 2\n",
-      "plane --region hull", {{"msh"}, {"vtu"}, {"off"}, {"node", "ele", "poly"}});
+      "plane --region hull --ascii", {{"msh"}, {"vtu"}, {"off"}, {"node", "ele", "poly"}});
   return meshed;
 }
 

@@ -279,6 +279,29 @@ class Read(unittest.TestCase):
         for name in ("ten.vtu", "ten.mesh", "ten.msh", "ten_theirs.vtu", "ten_theirs.msh", "ten_theirs.vtu.gz"):
             self.assertEqual(self.improved(name), expected, name)
 
+    def test_the_plane(self):
+        with open(path("flat.txt"), "w") as file:
+            file.write("0 0\n4 0\n1 1\n0 4\n")
+        for name, options in (("flat", []), ("flat_text", ["--ascii"])):
+            subprocess.run([DELMESHER, "plane", path("flat.txt"), "-q", "--max-edge", "0.5", *options, "-o", path(name + ".msh"),
+                            "-o", path(name + ".vtu")], check=True)
+        text = meshio.read(path("flat_text.vtu"))
+        out = path("flat_gmsh.msh")
+        done = subprocess.run(["gmsh", "-0", path("flat.msh"), "-o", out, "-save_all", "-v", "2"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertAlmostEqual(sum(areas(text.points, cells(text, "triangle"), numpy.zeros(10**6)).values()), 4, places=12)
+        opened = meshio.read(out)
+        self.assertEqual([len(cells(opened, kind)) for kind in ("triangle", "line")], [len(cells(text, kind)) for kind in ("triangle", "line")])
+        for name in ("flat.vtu", "flat.msh", "flat_text.msh"):
+            mesh = meshio.read(path(name))
+            self.assertTrue(numpy.array_equal(mesh.points, text.points), name)
+            for kind in ("triangle", "line"):
+                self.assertTrue(numpy.array_equal(cells(mesh, kind), cells(text, kind)), (name, kind))
+        self.assertEqual({name: tuple(tag) for name, tag in meshio.read(path("flat.msh")).field_data.items()},
+                         {"marker 0": (1, 1), "inside": (1, 2)})
+        with open(path("flat.msh"), "rb") as file:
+            self.assertIn(b"\n4.1 1 8\n", file.read(200))
+
     def test_gmsh_knows_what_bounds_the_volume(self):
         geo = path("boundary.geo")
         with open(geo, "w") as file:

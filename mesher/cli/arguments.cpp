@@ -166,6 +166,10 @@ void add_names(CLI::App& app, Command& command) {
   app.add_option("--names", command.names_file, "file of lines LABEL NAME: what labels are called");
 }
 
+void add_ascii(CLI::App& app, Command& command) {
+  app.add_flag("--ascii", command.write.ascii, ".msh and .vtu as text, not as bytes");
+}
+
 // How a mesh in space is written.
 void add_writing(CLI::App& app, Command& command) {
   add_names(app, command);
@@ -173,7 +177,7 @@ void add_writing(CLI::App& app, Command& command) {
                  "1, or 2: ten-node tetrahedra with straight edges (1)")
       ->check(CLI::IsMember({1, 2}))
       ->type_name("N");
-  app.add_flag("--ascii", command.write.ascii, ".msh and .vtu as text, not as bytes");
+  add_ascii(app, command);
 }
 
 void add_mesh(CLI::App& app, Command& command, Given& given) {
@@ -229,6 +233,7 @@ void add_plane(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given,
              "planar graph: .poly, OFF or OBJ with z = 0, or rings of x y lines");
   add_run(app, command, given, io::plane_extensions());
+  add_ascii(app, command);
   add_number(app, given, "delta", "smallest angle, degrees (20.7)", kPlaneBounds.delta);
   add_number(app, given, "tau", "narrowest channel refined, width over length, 0 is off (1e-4)",
              kPlaneBounds.tau);

@@ -295,6 +295,7 @@ TEST(Arguments, MistakesAreTwo) {
 TEST(Arguments, Ascii) {
   EXPECT_FALSE(parse({"in.off", "-o", "a.msh"}).command.write.ascii);
   EXPECT_TRUE(parse({"improve", "a.mesh", "-o", "b.vtu", "--ascii"}).command.write.ascii);
+  EXPECT_TRUE(parse({"plane", "a.poly", "-o", "b.vtu", "--ascii"}).command.write.ascii);
 }
 
 TEST(Arguments, SecondOrder) {

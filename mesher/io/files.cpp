@@ -27,8 +27,10 @@ WriteStatus write_off(const std::string& path, const Surface& surface) {
   return written([&](OutputSet& outputs) { return write_off(outputs, path, surface); });
 }
 
-WriteStatus write_plane(const std::string& path, const PlaneMesh& mesh, const PlanarGraph* graph) {
-  return written([&](OutputSet& outputs) { return write_plane(outputs, path, mesh, graph); });
+WriteStatus write_plane(const std::string& path, const PlaneMesh& mesh, const PlanarGraph* graph,
+                        const WriteOptions& options) {
+  return written(
+      [&](OutputSet& outputs) { return write_plane(outputs, path, mesh, graph, options); });
 }
 
 WriteStatus write_exact(const std::string& path, const ExactRecord& record) {

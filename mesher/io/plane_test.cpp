@@ -161,9 +161,10 @@ class WritePlane : public testing::Test {
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string written(const PlaneMesh& mesh, const std::string& name) {
+  std::string written(const PlaneMesh& mesh, const std::string& name, bool ascii = true) {
     OutputSet outputs;
-    const WriteStatus status = write_plane(outputs, (folder_ / name).string(), mesh);
+    const WriteStatus status =
+        write_plane(outputs, (folder_ / name).string(), mesh, nullptr, {.ascii = ascii});
     EXPECT_TRUE(status.ok()) << status.error;
     EXPECT_FALSE(std::filesystem::exists(folder_ / name));  // not before
     EXPECT_TRUE(outputs.commit().ok());
@@ -216,6 +217,12 @@ TEST_F(WritePlane, OtherFormats) {
   const std::string gmsh = written(two_triangles(), "m.msh");
   EXPECT_NE(gmsh.find("$Elements\n3 4 1 4\n"), std::string::npos);
   EXPECT_NE(gmsh.find("1 1 \"marker 3\""), std::string::npos);
+  // As bytes: the version says so, and a node is its number of 8 bytes.
+  const std::string bytes = written(two_triangles(), "b.msh", false);
+  EXPECT_NE(bytes.find(std::string("\n4.1 1 8\n\1\0\0\0\n", 14)), std::string::npos);
+  EXPECT_NE(bytes.find(std::string("\4\0\0\0\0\0\0\0\1\0\0\0\0\0\0\0", 16)), std::string::npos);
+  EXPECT_NE(written(two_triangles(), "b.vtu", false).find("format=\"binary\""), std::string::npos);
+  EXPECT_EQ(vtu.find("format=\"binary\""), std::string::npos);
   OutputSet outputs;
   PlaneMesh bad = two_triangles();
   bad.triangles[0][0] = 9;

@@ -1,4 +1,4 @@
-// Gmsh MSH 4.1, binary or ASCII (Gmsh reference manual, "MSH file format"). One surface entity per
+// Gmsh MSH 4.1, binary or ASCII. One surface entity per
 // facet, one volume entity per region; physical groups carry the labels.
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/io/binary.h"
+#include "mesher/io/gmsh_numbers.h"
 #include "mesher/io/write_formats.h"
 
 namespace delmesher::io {
@@ -28,45 +28,6 @@ struct Box {
   }
 };
 
-// Numbers as MSH 4.1 has them: as text with blanks and lines, or as bytes without.
-class GmshNumbers {
- public:
-  GmshNumbers(TextSink& out, bool ascii) : out_(out), ascii_(ascii) {}
-
-  bool ascii() const { return ascii_; }
-  // Of entities, groups, dimensions, types: an int of C.
-  void tag(std::int64_t value) {
-    ascii_ ? text([&] { out_.integer(value); }) : bytes(static_cast<std::int32_t>(value));
-  }
-  // Counts, nodes and elements: a size_t.
-  void size(std::uint64_t value) {
-    ascii_ ? text([&] { out_.integer(value); }) : bytes(value);
-  }
-  void point(const std::array<double, 3>& p) {
-    for (const double x : p) ascii_ ? text([&] { out_.number(x); }) : bytes(x);
-  }
-  void end_line() {
-    if (ascii_) out_.text("\n");
-    line_is_empty_ = true;
-  }
-
- private:
-  template <class Write>
-  void text(const Write& write) {
-    if (!line_is_empty_) out_.text(" ");
-    line_is_empty_ = false;
-    write();
-  }
-  template <class T>
-  void bytes(T value) {
-    const auto all = bytes_of(value);
-    out_.text({all.data(), all.size()});
-  }
-
-  TextSink& out_;
-  bool ascii_, line_is_empty_ = true;
-};
-
 class GmshWriter {
  public:
   GmshWriter(TextSink& out, const NamedMesh& named)
@@ -81,23 +42,16 @@ class GmshWriter {
   }
 
   void write() {
-    write_format();
+    numbers_.format();
     write_physical_names();
-    in_section("Entities", [&] { write_entities(); });
-    in_section("Nodes", [&] { write_nodes(); });
-    in_section("Elements", [&] { write_elements(); });
+    numbers_.in_section("Entities", [&] { write_entities(); });
+    numbers_.in_section("Nodes", [&] { write_nodes(); });
+    numbers_.in_section("Elements", [&] { write_elements(); });
   }
 
  private:
   static std::map<std::int32_t, std::int64_t> tags_of(const std::set<std::int32_t>& numbers);
   static bool fits_bytes(const NamedMesh& named);
-  void write_format();
-  template <class Write>
-  void in_section(const std::string& name, const Write& write) {
-    out_.text("$" + name + "\n");
-    write();
-    out_.text((numbers_.ascii() ? "$End" : "\n$End") + name + "\n");
-  }
   void number_regions();
   void order_triangles();
   std::string group_name(std::int32_t label) const;
@@ -123,22 +77,6 @@ class GmshWriter {
     }
   }
 
-  // How many blocks follow, of how many things, which are numbered from 1.
-  void announce(std::size_t blocks, std::size_t total) {
-    numbers_.size(blocks);
-    numbers_.size(total);
-    numbers_.size(total == 0 ? 0 : 1);
-    numbers_.size(total);
-    numbers_.end_line();
-  }
-  // Elements of an entity; the type is Gmsh's number.
-  void begin_block(int dimension, std::int64_t entity, int type, std::size_t count) {
-    numbers_.tag(dimension);
-    numbers_.tag(entity);
-    numbers_.tag(type);
-    numbers_.size(count);
-    numbers_.end_line();
-  }
   // An element, with its nodes in Gmsh's order.
   void element(std::size_t tag, CellNodes nodes) {
     if (nodes.count == 10) std::swap(nodes.node[8], nodes.node[9]);  // the edges 23 13
@@ -179,15 +117,6 @@ bool GmshWriter::fits_bytes(const NamedMesh& named) {
   const auto all = static_cast<std::int64_t>(named.mesh.tetrahedra.size());
   return below(named.mesh.boundary_facets, kInts) &&
          below(named.mesh.boundary_labels, kInts - most) && below(named.mesh.regions, kInts - all);
-}
-
-void GmshWriter::write_format() {
-  out_.text(numbers_.ascii() ? "$MeshFormat\n4.1 0 8\n" : "$MeshFormat\n4.1 1 8\n");
-  if (!numbers_.ascii()) {
-    numbers_.tag(1);  // tells the order of bytes
-    out_.text("\n");
-  }
-  out_.text("$EndMeshFormat\n");
 }
 
 void GmshWriter::number_regions() {
@@ -285,7 +214,7 @@ void GmshWriter::write_entities() {
 
 void GmshWriter::write_nodes() {
   const std::size_t n = named_.nodes();
-  announce(n == 0 ? 0 : 1, n);
+  numbers_.announce(n == 0 ? 0 : 1, n);
   if (n != 0) {  // all of them in the first volume, without parameters
     numbers_.tag(3);
     numbers_.tag(volume_.empty() ? 1 : volume_.begin()->second);
@@ -305,15 +234,15 @@ void GmshWriter::write_nodes() {
 
 void GmshWriter::write_elements() {
   const std::size_t total = mesh_.boundary.size() + mesh_.tetrahedra.size();
-  announce(facets_ + tetrahedra_.size(), total);
+  numbers_.announce(facets_ + tetrahedra_.size(), total);
   std::size_t tag = 1;
   each_facet([&](std::size_t begin, std::size_t end) {
-    begin_block(2, static_cast<std::int64_t>(facet_tag(order_[begin])),
-                named_.second_order() ? 9 : 2, end - begin);
+    numbers_.begin_block(2, static_cast<std::int64_t>(facet_tag(order_[begin])),
+                         named_.second_order() ? 9 : 2, end - begin);
     for (std::size_t i = begin; i < end; ++i) element(tag++, named_.triangle(order_[i]));
   });
   for (const auto& [number, tetrahedra] : tetrahedra_) {
-    begin_block(3, volume_.at(number), named_.second_order() ? 11 : 4, tetrahedra.size());
+    numbers_.begin_block(3, volume_.at(number), named_.second_order() ? 11 : 4, tetrahedra.size());
     for (const std::size_t i : tetrahedra) element(tag++, named_.tetrahedron(i));
   }
 }

@@ -16,9 +16,10 @@ std::string plane_extensions();
 std::vector<std::string> plane_files_of(const std::string& path);
 
 // Adds the mesh to a set of outputs; nothing is in place before its commit(). The holes and regions
-// of `graph`, if any, go into a .poly, so that it means the same as the input.
+// of `graph`, if any, go into a .poly, so that it means the same as the input. The elements are of
+// first order whatever the options say.
 WriteStatus write_plane(OutputSet& outputs, const std::string& path, const PlaneMesh& mesh,
-                        const PlanarGraph* graph = nullptr);
+                        const PlanarGraph* graph = nullptr, const WriteOptions& options = {});
 
 // A .poly file (Shewchuk's Triangle).
 WriteStatus write_poly(OutputSet& outputs, const std::string& path, const PlanarGraph& graph);

@@ -27,8 +27,9 @@ inline void line(TextSink& out) {
   out.text("\n");
 }
 
-void write_plane_gmsh(TextSink& out, const PlaneMesh& mesh);
-void write_plane_vtu(TextSink& out, const PlaneMesh& mesh);
+// As text, or as bytes.
+void write_plane_gmsh(TextSink& out, const PlaneMesh& mesh, bool ascii);
+void write_plane_vtu(TextSink& out, const PlaneMesh& mesh, bool ascii);
 void write_svg(TextSink& out, const PlaneMesh& mesh);
 
 }  // namespace delmesher::io

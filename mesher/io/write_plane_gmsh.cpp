@@ -1,8 +1,9 @@
-// Gmsh MSH 4.1, ASCII, of the plane.
+// Gmsh MSH 4.1, binary or ASCII, of the plane.
 #include <algorithm>
 #include <map>
 #include <vector>
 
+#include "mesher/io/gmsh_numbers.h"
 #include "mesher/io/write_plane_formats.h"
 
 namespace delmesher::io {
@@ -11,7 +12,8 @@ namespace {
 // One curve per marker, one surface per side.
 class PlaneGmshWriter {
  public:
-  PlaneGmshWriter(TextSink& out, const PlaneMesh& mesh) : out_(out), mesh_(mesh) {
+  PlaneGmshWriter(TextSink& out, const PlaneMesh& mesh, bool ascii)
+      : out_(out), numbers_(out, ascii), mesh_(mesh) {
     for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
       curves_[mesh.edge_markers[e]].push_back(e);
     }
@@ -21,11 +23,11 @@ class PlaneGmshWriter {
   }
 
   void write() {
-    out_.text("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
+    numbers_.format();
     write_names();
-    write_entities();
-    write_nodes();
-    write_elements();
+    numbers_.in_section("Entities", [&] { write_entities(); });
+    numbers_.in_section("Nodes", [&] { write_nodes(); });
+    numbers_.in_section("Elements", [&] { write_elements(); });
   }
 
  private:
@@ -48,13 +50,12 @@ class PlaneGmshWriter {
   }
 
   void write_entity(int tag) {
-    out_.integers(tag);
-    for (const Point2& p : {low_, high_}) {
-      point(out_, p);
-      out_.text(" 0 ");
-    }
-    out_.integers(1, tag);
-    out_.text("0\n");
+    numbers_.tag(tag);
+    for (const auto& [x, y] : {low_, high_}) numbers_.point({x, y, 0});
+    numbers_.size(1);
+    numbers_.tag(tag);
+    numbers_.size(0);
+    numbers_.end_line();
   }
 
   void write_entities() {
@@ -65,65 +66,58 @@ class PlaneGmshWriter {
         high_[k] = std::max(high_[k], p[k]);
       }
     }
-    out_.text("$Entities\n0 ");
-    out_.integers(curves_.size(), surfaces_.size());
-    out_.text("0\n");
+    for (const std::size_t count :
+         {std::size_t{0}, curves_.size(), surfaces_.size(), std::size_t{0}}) {
+      numbers_.size(count);
+    }
+    numbers_.end_line();
     for (std::size_t k = 0; k < curves_.size(); ++k) write_entity(static_cast<int>(k) + 1);
     for (const auto& [side, triangles] : surfaces_) write_entity(side);
-    out_.text("$EndEntities\n");
   }
 
   void write_nodes() {
     const std::size_t n = mesh_.vertices.size();
-    const int side = surfaces_.empty() ? 1 : surfaces_.begin()->first;
-    out_.text("$Nodes\n");
-    out_.integers(n == 0 ? 0 : 1, n, n == 0 ? 0 : 1);
-    out_.integer(n);
-    line(out_);
-    if (n != 0) {
-      out_.integers(2, side, 0);
-      out_.integer(n);
-      line(out_);
+    numbers_.announce(n == 0 ? 0 : 1, n);
+    if (n != 0) {  // all of them in the first surface, without parameters
+      numbers_.tag(2);
+      numbers_.tag(surfaces_.empty() ? 1 : surfaces_.begin()->first);
+      numbers_.tag(0);
+      numbers_.size(n);
+      numbers_.end_line();
     }
     for (std::size_t i = 1; i <= n; ++i) {
-      out_.integer(i);
-      line(out_);
+      numbers_.size(i);
+      numbers_.end_line();
     }
-    for (const Point2& p : mesh_.vertices) {
-      point(out_, p);
-      out_.text(" 0\n");
+    for (const auto& [x, y] : mesh_.vertices) {
+      numbers_.point({x, y, 0});
+      numbers_.end_line();
     }
-    out_.text("$EndNodes\n");
   }
 
   template <class Cells>
   void write_block(int dimension, int tag, int type, const std::vector<std::size_t>& members,
                    const Cells& cells) {
-    out_.integers(dimension, tag, type);
-    out_.integer(members.size());
-    line(out_);
+    numbers_.begin_block(dimension, tag, type, members.size());
     for (const std::size_t i : members) {
-      out_.integers(++element_);
-      for (const std::uint32_t v : cells[i]) out_.integers(v + 1);
-      line(out_);
+      numbers_.size(++element_);
+      for (const std::uint32_t v : cells[i]) numbers_.size(v + 1ULL);
+      numbers_.end_line();
     }
   }
 
   void write_elements() {
-    const std::size_t total = mesh_.edges.size() + mesh_.triangles.size();
-    out_.text("$Elements\n");
-    out_.integers(curves_.size() + surfaces_.size(), total, total == 0 ? 0 : 1);
-    out_.integer(total);
-    line(out_);
+    numbers_.announce(curves_.size() + surfaces_.size(),
+                      mesh_.edges.size() + mesh_.triangles.size());
     int tag = 0;
     for (const auto& [marker, edges] : curves_) write_block(1, ++tag, 1, edges, mesh_.edges);
     for (const auto& [side, triangles] : surfaces_) {
       write_block(2, side, 2, triangles, mesh_.triangles);
     }
-    out_.text("$EndElements\n");
   }
 
   TextSink& out_;
+  GmshNumbers numbers_;
   const PlaneMesh& mesh_;
   std::map<std::int32_t, std::vector<std::size_t>> curves_;
   std::map<int, std::vector<std::size_t>> surfaces_;
@@ -133,8 +127,8 @@ class PlaneGmshWriter {
 
 }  // namespace
 
-void write_plane_gmsh(TextSink& out, const PlaneMesh& mesh) {
-  PlaneGmshWriter(out, mesh).write();
+void write_plane_gmsh(TextSink& out, const PlaneMesh& mesh, bool ascii) {
+  PlaneGmshWriter(out, mesh, ascii).write();
 }
 
 }  // namespace delmesher::io

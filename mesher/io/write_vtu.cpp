@@ -211,29 +211,39 @@ void write_vtu(TextSink& out, const NamedMesh& named) {
   end_file(out);
 }
 
-void write_plane_vtu(TextSink& out, const PlaneMesh& mesh) {
+namespace {
+
+template <class T>
+void write_plane_cells(CellArrays& arrays, const PlaneMesh& mesh) {
   const std::size_t triangles = mesh.triangles.size();
-  begin_file(out, {}, mesh.vertices.size(), triangles + mesh.edges.size());
-  DataArray<double> points(out, true, "Points", 3 * mesh.vertices.size(), 3);
+  const auto add = [](DataArray<T>& array, const auto& cell) {
+    for (const std::uint32_t v : cell) array.add(static_cast<T>(v));
+  };
+  arrays.rows<T>(
+      "connectivity", 3 * triangles + 2 * mesh.edges.size(),
+      [&](DataArray<T>& array, std::size_t t) { add(array, mesh.triangles[t]); },
+      [&](DataArray<T>& array, std::size_t e) { add(array, mesh.edges[e]); });
+  arrays.numbers<T>(
+      "offsets", [](std::size_t t) { return 3 * (t + 1); },
+      [&](std::size_t e) { return 3 * triangles + 2 * (e + 1); });
+}
+
+}  // namespace
+
+void write_plane_vtu(TextSink& out, const PlaneMesh& mesh, bool ascii) {
+  const std::size_t triangles = mesh.triangles.size(), edges = mesh.edges.size();
+  begin_file(out, {}, mesh.vertices.size(), triangles + edges);
+  DataArray<double> points(out, ascii, "Points", 3 * mesh.vertices.size(), 3);
   for (const Point2& p : mesh.vertices) {
     for (const double x : {p[0], p[1], 0.0}) points.add(x);
     points.end_row();
   }
   points.end();
   begin_cells(out);
-  CellArrays arrays(out, true, triangles, mesh.edges.size());
-  using Integers = DataArray<std::int64_t>;
-  arrays.rows<std::int64_t>(
-      "connectivity", 3 * triangles + 2 * mesh.edges.size(),
-      [&](Integers& array, std::size_t t) {
-        for (const std::uint32_t v : mesh.triangles[t]) array.add(v);
-      },
-      [&](Integers& array, std::size_t e) {
-        for (const std::uint32_t v : mesh.edges[e]) array.add(v);
-      });
-  arrays.numbers<std::int64_t>(
-      "offsets", [](std::size_t t) { return 3 * (t + 1); },
-      [&](std::size_t e) { return 3 * triangles + 2 * (e + 1); });
+  CellArrays arrays(out, ascii, triangles, edges);
+  fits_four_bytes(std::max(3 * triangles + 2 * edges, mesh.vertices.size()), ascii)
+      ? write_plane_cells<std::int32_t>(arrays, mesh)
+      : write_plane_cells<std::int64_t>(arrays, mesh);
   arrays.numbers<std::uint8_t>(
       "types", [](std::size_t) { return 5; }, [](std::size_t) { return 3; });
   begin_cell_data(out);
