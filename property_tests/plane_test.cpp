@@ -430,6 +430,19 @@ TEST(Plane, SubnormalSizes) {
   EXPECT_GT(dropped, 0);
 }
 
+// Half of the extent, added to a coordinate, may be rounded to the coordinate itself.
+TEST(Plane, TheOuterBoxIsBeyondAGraphOfAnUlp) {
+  constexpr double kUlp = 0x1p-53;  // below 1
+  for (const double sign : {1.0, -1.0}) {
+    PlanarGraph graph;
+    graph.vertices = {{sign, sign}, {sign, sign * (1 - kUlp)}, {sign * (1 - kUlp), sign}};
+    graph.segments = {{0, 1}, {1, 2}, {2, 0}};
+    const PlaneResult result = triangulate_polygon(graph, plane_options());
+    ASSERT_TRUE(result.status.ok()) << result.status.message;
+    EXPECT_EQ(result.mesh.triangles.size(), 1U);
+  }
+}
+
 TEST(Plane, LimitsAndOptions) {
   Options options = plane_options();
   options.max_vertices = 3;

@@ -143,7 +143,13 @@ class Builder {
       refuse("the extent of the graph is below 5.3e-315, where doubles leave no room for a mesh");
     }
     if (extent == 0) extent = std::max({std::fabs(low[0]), std::fabs(low[1]), 0x1p-1000});
-    const auto grown = [&](double x, double by) { return to_unit(graph_, x + by); };
+    const auto grown = [&](double x, double by) {
+      double result = to_unit(graph_, x + by);
+      // Where doubles are wider apart than that, the sum may be x itself.
+      while (std::fabs(result - x) < std::fabs(by) / 2)
+        result = std::nextafter(result, std::copysign(HUGE_VAL, by));
+      return result;
+    };
     const std::array<double, 2> l = {grown(low[0], -extent / 2), grown(low[1], -extent / 2)};
     const std::array<double, 2> h = {grown(high[0], extent / 2), grown(high[1], extent / 2)};
     std::array<VertexId, 4> corner;
