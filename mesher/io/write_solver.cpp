@@ -173,8 +173,8 @@ class NastranWriter {
   std::uint64_t element_ = 1;
 };
 
-// Shells and solids number their properties together: a positive label is its own, and so are
-// regions of a mesh from elsewhere where they are free; the others follow the largest.
+// Shells and solids number their properties together: a positive label is its own, the others and
+// the regions follow the largest.
 void NastranWriter::write() {
   const Members regions = tetrahedra_of_regions(mesh_), labels = triangles_of_labels(mesh_);
   std::uint64_t next =
