@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "mesher/base/check.h"
+#include "mesher/base/moved_away.h"
 #include "mesher/plane/spatial_order.h"
 
 namespace delmesher::plane {
@@ -144,11 +145,7 @@ class Builder {
     }
     if (extent == 0) extent = std::max({std::fabs(low[0]), std::fabs(low[1]), 0x1p-1000});
     const auto grown = [&](double x, double by) {
-      double result = to_unit(graph_, x + by);
-      // Where doubles are wider apart than that, the sum may be x itself.
-      while (std::fabs(result - x) < std::fabs(by) / 2)
-        result = std::nextafter(result, std::copysign(HUGE_VAL, by));
-      return result;
+      return moved_away(to_unit(graph_, x + by), x, by / 2);
     };
     const std::array<double, 2> l = {grown(low[0], -extent / 2), grown(low[1], -extent / 2)};
     const std::array<double, 2> h = {grown(high[0], extent / 2), grown(high[1], extent / 2)};

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mesher/base/check.h"
+#include "mesher/base/moved_away.h"
 #include "mesher/refine/refine.h"
 
 namespace delmesher::refine {
@@ -44,10 +45,9 @@ std::array<Interval, 3> box_of(const SurfaceTopology& topology, const PointStore
     const Interval inner = axis;
     axis.low = std::floor((inner.low - margin) / grid) * grid;
     axis.high = std::ceil((inner.high + margin) / grid) * grid;
-    // Where doubles are wider apart than the margin, the sums above may be equal to their larger
-    // terms, and a side of the box on the solid would be refined for ever.
-    while (inner.low - axis.low < margin / 2) axis.low = std::nextafter(axis.low, -HUGE_VAL);
-    while (axis.high - inner.high < margin / 2) axis.high = std::nextafter(axis.high, HUGE_VAL);
+    // A side of the box on the solid would be refined for ever.
+    axis.low = moved_away(axis.low, inner.low, -margin / 2);
+    axis.high = moved_away(axis.high, inner.high, margin / 2);
   }
   return box;
 }
