@@ -57,6 +57,22 @@ class GmshNumbers {
     size(total);
     end_line();
   }
+  // The beginning of a section of nodes: all of them in one entity, without parameters, and their
+  // numbers. Their points follow.
+  void number_nodes(int dimension, std::int64_t entity, std::size_t count) {
+    announce(count == 0 ? 0 : 1, count);
+    if (count != 0) {
+      tag(dimension);
+      tag(entity);
+      tag(0);
+      size(count);
+      end_line();
+    }
+    for (std::size_t i = 1; i <= count; ++i) {
+      size(i);
+      end_line();
+    }
+  }
   // Elements of an entity; the type is Gmsh's number.
   void begin_block(int dimension, std::int64_t entity, int type, std::size_t count) {
     tag(dimension);

@@ -214,18 +214,7 @@ void GmshWriter::write_entities() {
 
 void GmshWriter::write_nodes() {
   const std::size_t n = named_.nodes();
-  numbers_.announce(n == 0 ? 0 : 1, n);
-  if (n != 0) {  // all of them in the first volume, without parameters
-    numbers_.tag(3);
-    numbers_.tag(volume_.empty() ? 1 : volume_.begin()->second);
-    numbers_.tag(0);
-    numbers_.size(n);
-    numbers_.end_line();
-  }
-  for (std::size_t i = 1; i <= n; ++i) {
-    numbers_.size(i);
-    numbers_.end_line();
-  }
+  numbers_.number_nodes(3, volume_.empty() ? 1 : volume_.begin()->second, n);  // the first volume
   for (std::size_t i = 0; i < n; ++i) {
     numbers_.point(named_.node(i));
     numbers_.end_line();

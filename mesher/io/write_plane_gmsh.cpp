@@ -76,19 +76,8 @@ class PlaneGmshWriter {
   }
 
   void write_nodes() {
-    const std::size_t n = mesh_.vertices.size();
-    numbers_.announce(n == 0 ? 0 : 1, n);
-    if (n != 0) {  // all of them in the first surface, without parameters
-      numbers_.tag(2);
-      numbers_.tag(surfaces_.empty() ? 1 : surfaces_.begin()->first);
-      numbers_.tag(0);
-      numbers_.size(n);
-      numbers_.end_line();
-    }
-    for (std::size_t i = 1; i <= n; ++i) {
-      numbers_.size(i);
-      numbers_.end_line();
-    }
+    const int first = surfaces_.empty() ? 1 : surfaces_.begin()->first;
+    numbers_.number_nodes(2, first, mesh_.vertices.size());
     for (const auto& [x, y] : mesh_.vertices) {
       numbers_.point({x, y, 0});
       numbers_.end_line();
