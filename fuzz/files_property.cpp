@@ -1,5 +1,3 @@
-#include <zlib.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -8,7 +6,6 @@
 #include <set>
 
 #include "corpus/generate/generate.h"
-#include "fuzz/packages.h"
 #include "fuzz/plain_files.h"
 #include "fuzz/properties.h"
 #include "fuzz/scratch.h"
@@ -18,6 +15,8 @@
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/read_mesh.h"
 #include "mesher/io/reading.h"
+#include "mesher/io/test_archives.h"
+#include "mesher/io/test_zlib.h"
 #include "mesher/io/write_mesh.h"
 #include "oracles/mesh_file.h"
 #include "oracles/text_reader.h"
@@ -112,28 +111,9 @@ delmesher::TetMesh read_mesh(Bytes& bytes) {
 
 constexpr std::size_t kMostUnpacked = std::size_t{1} << 20;
 
-// What zlib makes of all the bytes, of gzip of all members; nullopt if it refuses them, or if they
-// are too many.
-std::optional<std::string> unpacked_by_zlib(std::string packed, int window_bits) {
-  std::string out(kMostUnpacked, '\0');
-  z_stream stream{};
-  if (inflateInit2(&stream, window_bits) != Z_OK) return {};
-  stream.next_in = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_in = static_cast<uInt>(packed.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  int code = inflate(&stream, Z_FINISH);
-  std::size_t size = stream.total_out;
-  while (code == Z_STREAM_END && stream.avail_in >= 2 && window_bits > MAX_WBITS &&
-         stream.next_in[0] == 0x1f && stream.next_in[1] == 0x8b) {
-    inflateReset(&stream);
-    code = inflate(&stream, Z_FINISH);
-    size += stream.total_out;
-  }
-  const bool all = code == Z_STREAM_END && stream.avail_in == 0;
-  inflateEnd(&stream);
-  out.resize(size);
-  return all ? std::optional(out) : std::nullopt;
+// A package of 3MF with this model, so that a fuzzer need not find checksums.
+std::string package_of(const std::string& model) {
+  return delmesher::io::Zip().add("3D/3dmodel.model", model, false).finish();
 }
 
 Finding written_and_read(const delmesher::TetMesh& mesh, const std::string& extension) {
@@ -211,12 +191,11 @@ Finding reader_holds(const std::string& text, const std::string& name) {
 Finding unpacking_agrees(const std::string& bytes) {
   judging({&not_unpacked});
   if (bytes.empty()) return {};
-  using delmesher::io::Wrapping;
-  static constexpr std::pair<Wrapping, int> kWrappings[] = {
-      {Wrapping::none, -MAX_WBITS}, {Wrapping::zlib, MAX_WBITS}, {Wrapping::gzip, MAX_WBITS + 16}};
-  const auto [wrapping, window] = kWrappings[static_cast<unsigned char>(bytes[0]) % 3];
+  const auto wrapping =
+      static_cast<delmesher::io::Wrapping>(static_cast<unsigned char>(bytes[0]) % 3);
   const std::string packed = bytes.substr(1);
-  const std::optional<std::string> theirs = unpacked_by_zlib(packed, window);
+  const std::optional<std::string> theirs =
+      delmesher::io::unpacked_by_zlib(packed, wrapping, kMostUnpacked);
   std::optional<std::string> ours;
   try {
     delmesher::io::Polling polling;

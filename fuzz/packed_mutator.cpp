@@ -1,11 +1,10 @@
 // Mutation of compressed bytes: now and then all of them are what zlib makes of some text, and
 // otherwise they are changed as they are. Deterministic in the seed.
-#include <zlib.h>
-
 #include <algorithm>
 #include <string>
 
 #include "corpus/generate/random.h"
+#include "mesher/io/test_zlib.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
@@ -25,20 +24,12 @@ std::string some_text(tetproof::Random& random) {
 
 // With the byte before that chooses the wrapping.
 std::string packed(const std::string& text, tetproof::Random& random) {
-  static constexpr int kWindows[] = {-MAX_WBITS, MAX_WBITS, MAX_WBITS + 16};
   const std::uint64_t wrapping = random.below(3);
-  z_stream stream{};
-  deflateInit2(&stream, static_cast<int>(random.below(10)), Z_DEFLATED, kWindows[wrapping], 8,
-               static_cast<int>(random.below(5)));
-  std::string in = text, out(deflateBound(&stream, in.size()) + 100, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(in.data());
-  stream.avail_in = static_cast<uInt>(in.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return static_cast<char>(wrapping) + out;
+  const int level = static_cast<int>(random.below(10)),
+            strategy = static_cast<int>(random.below(5));
+  return static_cast<char>(wrapping) +
+         delmesher::io::packed_by_zlib(text, static_cast<delmesher::io::Wrapping>(wrapping), level,
+                                       strategy);
 }
 
 }  // namespace

@@ -7,22 +7,9 @@
 #include <string>
 
 #include "mesher/io/binary.h"
+#include "mesher/io/test_zlib.h"
 
 namespace delmesher::io {
-
-inline std::string deflated(const std::string& text) {
-  z_stream stream{};
-  deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-  std::string in = text, out(deflateBound(&stream, text.size()) + 100, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(in.data());
-  stream.avail_in = static_cast<uInt>(in.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  deflate(&stream, Z_FINISH);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
-}
 
 // As APPNOTE has it; `wide`: with the fields of 64 bits.
 class Zip {
@@ -31,7 +18,7 @@ class Zip {
 
   Zip& add(const std::string& name, const std::string& text, bool compress = true,
            std::uint16_t flags = 0) {
-    const std::string packed = compress ? deflated(text) : text;
+    const std::string packed = compress ? packed_by_zlib(text, Wrapping::none) : text;
     const auto sum = static_cast<std::uint32_t>(
         crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size())));
     const std::uint64_t at = bytes_.size();

@@ -1,8 +1,6 @@
 // One grid in all the ways in which VTK writes arrays; zlib compresses them.
 #pragma once
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
@@ -11,6 +9,7 @@
 #include <string_view>
 
 #include "mesher/io/binary.h"
+#include "mesher/io/test_zlib.h"
 
 namespace delmesher::io {
 
@@ -42,15 +41,6 @@ inline std::string base64(std::string_view bytes) {
     }
   }
   return text;
-}
-
-inline std::string zlib_packed(std::string_view bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-           reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
-  packed.resize(size);
-  return packed;
 }
 
 class WayWriter {
@@ -104,7 +94,7 @@ class WayWriter {
     const std::size_t blocks = (bytes.size() + kBlock - 1) / kBlock;
     std::string head = size(blocks) + size(kBlock) + size(bytes.size() % kBlock), data;
     for (std::size_t b = 0; b < blocks; ++b) {
-      const std::string packed = zlib_packed(std::string_view(bytes).substr(b * kBlock, kBlock));
+      const std::string packed = packed_by_zlib(bytes.substr(b * kBlock, kBlock), Wrapping::zlib);
       head += size(packed.size());
       data += packed;
     }
