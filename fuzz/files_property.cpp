@@ -10,13 +10,10 @@
 #include "fuzz/properties.h"
 #include "fuzz/scratch.h"
 #include "mesher/cli/run.h"
-#include "mesher/io/inflate.h"
 #include "mesher/io/output.h"
 #include "mesher/io/parse_surface.h"
 #include "mesher/io/read_mesh.h"
-#include "mesher/io/reading.h"
 #include "mesher/io/test_archives.h"
-#include "mesher/io/test_zlib.h"
 #include "mesher/io/write_mesh.h"
 #include "oracles/mesh_file.h"
 #include "oracles/text_reader.h"
@@ -35,7 +32,6 @@ Leniency mesh_refused("mesh-refused-in-one-line", 0.999);
 Leniency not_conforming("read-and-not-conforming", 0.999);
 Leniency no_boundary("boundary-not-in-format", 0.5);
 Leniency no_labels("labels-not-in-format", 0.5);
-Leniency not_unpacked("refused-by-zlib-too", 0.999);
 Leniency not_run("ends-with-its-parsing", 0.999);
 
 bool is_one_line(const std::string& text) {
@@ -108,8 +104,6 @@ delmesher::TetMesh read_mesh(Bytes& bytes) {
   }
   return mesh;
 }
-
-constexpr std::size_t kMostUnpacked = std::size_t{1} << 20;
 
 // A package of 3MF with this model, so that a fuzzer need not find checksums.
 std::string package_of(const std::string& model) {
@@ -186,25 +180,6 @@ Finding reader_holds(const std::string& text, const std::string& name) {
   const auto again = delmesher::io::parse_surface(to_off(unlabelled), "again.off");
   if (!again.ok()) return "reader round trip: " + again.error;
   return same_bits(unlabelled, again.surface) ? "" : "reader round trip: differs";
-}
-
-Finding unpacking_agrees(const std::string& bytes) {
-  judging({&not_unpacked});
-  if (bytes.empty()) return {};
-  const auto wrapping =
-      static_cast<delmesher::io::Wrapping>(static_cast<unsigned char>(bytes[0]) % 3);
-  const std::string packed = bytes.substr(1);
-  const std::optional<std::string> theirs =
-      delmesher::io::unpacked_by_zlib(packed, wrapping, kMostUnpacked);
-  std::optional<std::string> ours;
-  try {
-    delmesher::io::Polling polling;
-    ours = delmesher::io::unpacked(packed, wrapping, kMostUnpacked, polling);
-  } catch (const delmesher::io::ParseError& error) {
-    if (!is_one_line(error.reason)) return "unpacking error: not one line";
-  }
-  if (!theirs) not_unpacked.take();
-  return ours == theirs ? "" : "unpacking: zlib disagrees";
 }
 
 Finding mesh_reader_holds(const std::string& text, const std::string& name) {

@@ -24,10 +24,6 @@ Finding reader_holds(const std::string& text, const std::string& name);
 // files of TetGen's are parts of one text, separated by form feeds: .node, .ele, .face.
 Finding mesh_reader_holds(const std::string& text, const std::string& name);
 
-// Bytes behind a first one that chooses the wrapping unpack to what zlib makes of them, or are
-// refused where zlib refuses them.
-Finding unpacking_agrees(const std::string& bytes);
-
 // Our check of a surface and CGAL's agree on its validity; defects are named.
 Finding check_agrees(const delmesher::Surface& surface);
 

@@ -1,8 +1,8 @@
 // Files of surfaces, planar graphs, meshes and exact records, as the command line reads and writes
-// them: library delmesher::io, which needs the standard library alone. mesher/io/formats.md and
-// mesher/io/exact_format.md describe the formats.
+// them: library delmesher::io, which needs the standard library, and zlib if it was built with it.
+// mesher/io/formats.md and mesher/io/exact_format.md describe the formats.
 //
-// Files that are compressed with gzip are read as well, ".gz" after their name or not.
+// With zlib, files that are compressed with gzip are read as well, ".gz" after their name or not.
 // Nothing is thrown but std::bad_alloc. An error is one line that names the file, and the line or
 // byte where there is one.
 #pragma once

@@ -472,6 +472,7 @@ TEST_F(Program, StandardInputAndOutput) {
   EXPECT_FALSE(fs::exists(path("-.vtu")));
 }
 
+#ifdef DELMESHER_ZLIB
 // Known by its first bytes, whatever it is called; of two files one after the other.
 TEST_F(Program, GzipIsUnpacked) {
   write("in.off", cube());
@@ -516,6 +517,17 @@ TEST_F(Program, GzipIsUnpackedForImproveAndInThePlane) {
   EXPECT_EQ(run("plane in.txt.gz -q -o again.node"), 0) << text("err.txt");
   EXPECT_EQ(text("again.node"), text("plane.node"));
 }
+#else
+TEST_F(Program, GzipIsRefusedWithoutZlib) {
+  write("in.off", cube());
+  ASSERT_EQ(std::system(("gzip " + path("in.off")).c_str()), 0);
+  for (const char* command : {"", "check ", "repair ", "improve ", "plane "}) {
+    const bool writes = std::string(command) != "check ";
+    EXPECT_EQ(run(std::string(command) + "in.off.gz -q" + (writes ? " -o out.off" : "")), 3);
+    expect_error("in.off.gz", "compressed by gzip: this build of delmesher has no zlib");
+  }
+}
+#endif
 
 // What it is, its first bytes tell.
 TEST_F(Program, ImproveReadsStandardInput) {

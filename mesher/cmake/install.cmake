@@ -7,6 +7,13 @@ install(TARGETS delmesher delmesher_io EXPORT delmesherTargets ARCHIVE DESTINATI
 install(FILES delmesher.h delmesher_c.h delmesher_files.h delmesher_plane.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY delmesher DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(EXPORT delmesherTargets NAMESPACE delmesher:: DESTINATION ${package_dir})
+# A static library is linked with what it needs by whoever links it.
+set(find_zlib "")
+set(pc_requires "")
+if(ZLIB_FOUND)
+  set(find_zlib "find_dependency(ZLIB)")
+  set(pc_requires zlib)
+endif()
 configure_package_config_file(cmake/delmesherConfig.cmake.in delmesherConfig.cmake
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(delmesherConfigVersion.cmake COMPATIBILITY SameMinorVersion)
