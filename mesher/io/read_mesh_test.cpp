@@ -98,6 +98,17 @@ TEST_F(Files, AreReadAsTheyWereWritten) {
   }
 }
 
+// Also where two labels have the same name.
+TEST_F(Files, KeepNamesOfLabels) {
+  const LabelNames names = {{-7, "in & <out> 'x'"}, {5, "in & <out> 'x'"}, {0, "0"}};
+  for (const char* extension : {".msh", ".vtu"}) {
+    for (const bool ascii : {false, true}) {
+      ASSERT_TRUE(write_mesh(path("a") + extension, pair(), names, {.ascii = ascii}).ok());
+      EXPECT_EQ(read_mesh(path("a") + extension).names, names) << extension;
+    }
+  }
+}
+
 TEST_F(Files, KeepRegions) {
   TetMesh given = pair();
   for (const std::vector<std::int32_t>& regions :

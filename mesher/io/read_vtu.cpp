@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesher/io/mesh_reading.h"
@@ -48,6 +49,11 @@ class VtuReader {
     label_ = arrays_.integers<std::int32_t>("CellData label");
     facet_ = arrays_.integers<std::int64_t>("CellData facet");
     check_sizes();
+    arrays_.each_field_of_two([&](const std::string& name, std::int64_t label, std::int64_t two) {
+      if (two == 2 && std::in_range<std::int32_t>(label)) {
+        builder_.name_label(static_cast<std::int32_t>(label), name);
+      }
+    });
     std::uint64_t begin = 0;
     for (std::size_t n = 0; n < types_.size(); begin = offsets_[n++]) {
       polling_.poll(8);

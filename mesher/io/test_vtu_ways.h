@@ -48,14 +48,15 @@ class WayWriter {
   explicit WayWriter(const Way& way) : way_(way) {}
 
   template <class T>
-  void array(const char* type, const char* name, std::initializer_list<T> values) {
+  void array(const char* type, const char* name, std::initializer_list<T> values,
+             const std::string& attributes = "") {
     std::string bytes;
     for (const T value : values) {
       for (const char c : bytes_of(value)) bytes += c;
     }
     const std::string stored = way_.compressed ? compressed(bytes) : plain(bytes);
     text_ += std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" ";
-    if (std::string_view(name) == "Points") text_ += "NumberOfComponents=\"3\" ";
+    text_ += attributes;
     if (way_.place == Place::in_base64) {
       text_ += "format=\"binary\">\n  " + stored + "\n</DataArray>\n";
     } else {
@@ -105,18 +106,24 @@ class WayWriter {
   std::string text_, appended_;
 };
 
-// Two tetrahedra and a triangle; an array of no use is among them.
+// Two tetrahedra and a triangle with a name; arrays of no use are among them.
 inline std::string grid(const Way& way) {
   WayWriter out(way);
   out.text("<?xml version=\"1.0\"?>\n<!-- <DataArray> > -->\n");
   out.text("<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"");
   if (way.wide) out.text(" header_type=\"UInt64\"");
   if (way.compressed) out.text(" compressor=\"vtkZLibDataCompressor\"");
-  out.text(">\n<UnstructuredGrid><Piece NumberOfPoints=\"5\" NumberOfCells=\"3\">\n<PointData>\n");
+  out.text(">\n<UnstructuredGrid><FieldData>\n");
+  out.array<std::int32_t>("Int32", "in &lt; out", {-7, 2}, "NumberOfTuples=\"2\" ");
+  out.array<std::int32_t>("Int32", "a volume", {3, 3}, "NumberOfTuples=\"2\" ");
+  out.array<std::int32_t>("Int32", "cycles", {1, 2, 3}, "NumberOfTuples=\"3\" ");
+  out.array<double>("Float64", "times", {1, 2}, "NumberOfTuples=\"2\" ");
+  out.text("</FieldData><Piece NumberOfPoints=\"5\" NumberOfCells=\"3\">\n<PointData>\n");
   out.array<float>("Float32", "label", {1, 2, 3, 4, 5});
   out.text("</PointData><Points>\n");
   out.array<double>("Float64", "Points",
-                    {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.1, 0.2, 1e300, -0.0, 1e-320, -1.25});
+                    {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.1, 0.2, 1e300, -0.0, 1e-320, -1.25},
+                    "NumberOfComponents=\"3\" ");
   out.text("</Points><Cells>\n");
   out.array<std::int64_t>("Int64", "connectivity", {0, 1, 2, 3, 0, 2, 1, 4, 0, 1, 2});
   out.array<std::uint32_t>("UInt32", "offsets", {4, 8, 11});

@@ -21,6 +21,12 @@ bool wanted(std::string_view section, std::string_view name) {
   return section == "Points";
 }
 
+bool has_two_integers(const XmlTags& tags) {
+  const std::string_view type = value_of(tags, "type");
+  return (type.starts_with("Int") || type.starts_with("UInt")) &&
+         value_of(tags, "NumberOfTuples") == "2";
+}
+
 }  // namespace
 
 VtuArrays::VtuArrays(std::string_view text, Polling& polling) : text_(text), polling_(polling) {
@@ -71,7 +77,8 @@ void VtuArrays::read_array_tag(const XmlTags& tags, const std::string& section) 
     array.offset = offset;
     offsets_.push_back(offset);
   }
-  if (!wanted(section, name)) return;
+  const bool field = section == "FieldData" && has_two_integers(tags);
+  if (!field && !wanted(section, name)) return;
   if (format != "ascii" && !array.binary && !array.offset) {
     tags.fail("an array that is neither text (ascii) nor bytes (binary, appended)");
   }
@@ -81,6 +88,10 @@ void VtuArrays::read_array_tag(const XmlTags& tags, const std::string& section) 
   if (format != "ascii" && !compressor_.empty() && compressor_ != kZlib) {
     tags.fail("data compressed with " + in_quotes(compressor_) +
               " are not read: save without compression, or with zlib");
+  }
+  if (field) {
+    fields_.emplace_back(xml_text(name), std::move(array));
+    return;
   }
   const std::string key = section == "Points" ? section : section + " " + std::string(name);
   if (!arrays_.try_emplace(key, std::move(array)).second) {
@@ -100,15 +111,17 @@ void VtuArrays::find_appended(const XmlTags& tags) {
 // Each array reaches to the next one; offsets count from the '_'.
 void VtuArrays::divide_appended() {
   std::sort(offsets_.begin(), offsets_.end());
-  for (auto& [key, array] : arrays_) {
-    if (!array.offset) continue;
+  const auto take = [&](const std::string& key, Array& array) {
+    if (!array.offset) return;
     if (*array.offset >= appended_.size()) {
       fail_at_line(array.line, "the appended data end before the offset of " + in_quotes(key));
     }
     const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), *array.offset);
     array.text = appended_.substr(*array.offset);
     if (next != offsets_.end()) array.text = array.text.substr(0, *next - *array.offset);
-  }
+  };
+  for (auto& [key, array] : arrays_) take(key, array);
+  for (auto& [name, array] : fields_) take(name, array);
 }
 
 std::uint64_t VtuArrays::line_of(const std::string& key) const {

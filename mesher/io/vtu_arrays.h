@@ -41,6 +41,18 @@ class VtuArrays {
     return integers<T>(key);
   }
 
+  // Calls take(name, first, second) with each pair of integers in the field data.
+  template <class Take>
+  void each_field_of_two(const Take& take) const {
+    for (const auto& [name, array] : fields_) {
+      std::vector<std::int64_t> values;
+      each_number_in(array, false, [&](auto value) {
+        if (holds<std::int64_t>(value)) values.push_back(static_cast<std::int64_t>(value));
+      });
+      if (values.size() == 2) take(name, values[0], values[1]);
+    }
+  }
+
   // The line on which an array begins; 1 if there is none.
   std::uint64_t line_of(const std::string& key) const;
 
@@ -68,6 +80,9 @@ class VtuArrays {
   void find_appended(const XmlTags& tags);
   void divide_appended();
 
+  // Numbers in text are integers unless the array's type or `real` says otherwise.
+  template <class Take>
+  void each_number_in(const Array& array, bool real, const Take& take) const;
   Bytes bytes_of(const Array& array) const;
   // The bytes of an array with the numbers before them, as they are in the file.
   Bytes stored(const Array& array) const;
@@ -101,6 +116,7 @@ class VtuArrays {
   std::string_view text_;
   Polling& polling_;
   std::map<std::string, Array> arrays_;
+  std::vector<std::pair<std::string, Array>> fields_;  // of two integers, by name
   std::string compressor_;
   bool big_endian_ = false;
   std::size_t header_size_ = sizeof(std::uint32_t);  // of each number before an array's bytes
@@ -134,23 +150,26 @@ template <class Take>
 bool VtuArrays::each_number(const std::string& key, const Take& take) const {
   const auto found = arrays_.find(key);
   if (found == arrays_.end()) return false;
-  const Array& array = found->second;
-  const bool real = array.type.starts_with("Float");
+  each_number_in(found->second, key == "Points", take);
+  return true;
+}
+
+template <class Take>
+void VtuArrays::each_number_in(const Array& array, bool real, const Take& take) const {
   if (!array.binary && !array.offset) {
-    real || key == "Points" ? each_in_text<double>(array, take)
-                            : each_in_text<std::int64_t>(array, take);
-    return true;
+    return real || array.type.starts_with("Float") ? each_in_text<double>(array, take)
+                                                   : each_in_text<std::int64_t>(array, take);
   }
-  if (array.type == "Float64") return each_binary<double>(array, take), true;
-  if (array.type == "Float32") return each_binary<float>(array, take), true;
-  if (array.type == "Int64") return each_binary<std::int64_t>(array, take), true;
-  if (array.type == "UInt64") return each_binary<std::uint64_t>(array, take), true;
-  if (array.type == "Int32") return each_binary<std::int32_t>(array, take), true;
-  if (array.type == "UInt32") return each_binary<std::uint32_t>(array, take), true;
-  if (array.type == "Int16") return each_binary<std::int16_t>(array, take), true;
-  if (array.type == "UInt16") return each_binary<std::uint16_t>(array, take), true;
-  if (array.type == "Int8") return each_binary<std::int8_t>(array, take), true;
-  if (array.type == "UInt8") return each_binary<std::uint8_t>(array, take), true;
+  if (array.type == "Float64") return each_binary<double>(array, take);
+  if (array.type == "Float32") return each_binary<float>(array, take);
+  if (array.type == "Int64") return each_binary<std::int64_t>(array, take);
+  if (array.type == "UInt64") return each_binary<std::uint64_t>(array, take);
+  if (array.type == "Int32") return each_binary<std::int32_t>(array, take);
+  if (array.type == "UInt32") return each_binary<std::uint32_t>(array, take);
+  if (array.type == "Int16") return each_binary<std::int16_t>(array, take);
+  if (array.type == "UInt16") return each_binary<std::uint16_t>(array, take);
+  if (array.type == "Int8") return each_binary<std::int8_t>(array, take);
+  if (array.type == "UInt8") return each_binary<std::uint8_t>(array, take);
   fail_at_line(array.line, "an array of type " + in_quotes(array.type));
 }
 

@@ -21,6 +21,7 @@ TEST_P(Ways, AreReadAsTheSameGrid) {
             (std::vector<std::array<std::uint32_t, 4>>{{0, 1, 2, 3}, {0, 2, 1, 4}}));
   EXPECT_EQ(read.mesh.regions, (std::vector<std::int32_t>{3, -4}));
   EXPECT_EQ(read.mesh.boundary_labels, (std::vector<std::int32_t>{-7}));
+  EXPECT_EQ(read.names, (LabelNames{{-7, "in < out"}}));
 }
 
 // Cut anywhere or with a byte changed: refused in one line, or a grid whose indices are in range.
@@ -54,20 +55,20 @@ std::string error_of(std::string text, const std::string& what, const std::strin
 TEST(Vtu, SaysWhatIsNotReadAndWhere) {
   const std::string packed = grid(kWays[2]), raw = grid(kWays[4]);
   EXPECT_EQ(error_of(packed, "vtkZLib", "vtkLZ4"),
-            "a.vtu:10: data compressed with 'vtkLZ4DataCompressor' are not read: save without "
+            "a.vtu:5: data compressed with 'vtkLZ4DataCompressor' are not read: save without "
             "compression, or with zlib");
   EXPECT_EQ(error_of(packed, "LittleEndian", "BigEndian"),
-            "a.vtu:10: bytes in big-endian order are not read: save as text (ascii)");
-  EXPECT_EQ(error_of(raw, "offset=\"24\"", "offset=\"99999\""),
-            "a.vtu:8: the appended data end before the offset of 'Points'");
-  EXPECT_EQ(error_of(raw, "offset=\"24\"", "offset=\"23\""),
-            "a.vtu:8: an array of 121 bytes, but 30784 were announced");
-  EXPECT_EQ(error_of(raw, "offset=\"24\"", ""), "a.vtu:8: an array without its offset");
-  EXPECT_EQ(error_of(raw, "\n _", "\n "), "a.vtu:17: appended data do not begin with '_'");
-  EXPECT_EQ(error_of(raw, "\"Int16\"", "\"Float64\""), "a.vtu:15: an array of half a number");
+            "a.vtu:5: bytes in big-endian order are not read: save as text (ascii)");
+  EXPECT_EQ(error_of(raw, "offset=\"84\"", "offset=\"99999\""),
+            "a.vtu:13: the appended data end before the offset of 'Points'");
+  EXPECT_EQ(error_of(raw, "offset=\"84\"", "offset=\"83\""),
+            "a.vtu:13: an array of 121 bytes, but 30784 were announced");
+  EXPECT_EQ(error_of(raw, "offset=\"84\"", ""), "a.vtu:13: an array without its offset");
+  EXPECT_EQ(error_of(raw, "\n _", "\n "), "a.vtu:22: appended data do not begin with '_'");
+  EXPECT_EQ(error_of(raw, "\"Int16\"", "\"Float64\""), "a.vtu:20: an array of half a number");
   std::string other = grid(kWays[5]);
   other.replace(other.find("Float32", other.find("region") - 30), 7, "Int32  ");
-  EXPECT_EQ(parse_mesh(other, "a.vtu").error, "a.vtu:14: an array of type 'Int32  '");
+  EXPECT_EQ(parse_mesh(other, "a.vtu").error, "a.vtu:19: an array of type 'Int32  '");
 }
 
 TEST(Vtu, ABlockThatIsDamagedIsRefused) {
@@ -81,7 +82,7 @@ TEST(Vtu, ABlockThatIsDamagedIsRefused) {
     std::string changed = packed;
     changed[at] = static_cast<char>(changed[at] ^ 4);
     const std::string error = parse_mesh(changed, "a.vtu").error;
-    EXPECT_TRUE(error.starts_with("a.vtu:8: an array that cannot be unpacked: ")) << error;
+    EXPECT_TRUE(error.starts_with("a.vtu:13: an array that cannot be unpacked: ")) << error;
   }
 }
 
