@@ -397,16 +397,24 @@ std::int64_t read_tetgen_nodes(const std::string& path, std::vector<Position>& v
   return first;
 }
 
-void read_tetgen_elements(const std::string& path, std::int64_t first, MeshFile& mesh) {
+using TetNodes = std::vector<std::array<Index, 6>>;
+
+void read_tetgen_elements(const std::string& path, std::int64_t first, MeshFile& mesh,
+                          TetNodes& nodes) {
   TextReader ele = TextReader::of_file(path);
   const std::uint64_t tets = ele.count();
-  if (integer_in_line(ele, path) != 4) ele.fail("elements are not linear tetrahedra");
+  const std::int64_t corners = integer_in_line(ele, path);
+  if (corners != 4 && corners != 10) ele.fail("elements are no tetrahedra of 4 or 10 nodes");
   const std::int64_t attributes = integer_in_line(ele, path);
   if (attributes < 0) ele.fail("no such number of attributes");
   ele.expect_line_end();
   for (std::uint64_t i = 0; i < tets; ++i) {
     expect_number(ele, first + static_cast<std::int64_t>(i));
     mesh.tetrahedra.push_back(read_corners<4>(ele, first, mesh.vertices.size()));
+    if (corners == 10) {  // on cd ad ab bc bd ac: TetGen 1.5, -o2
+      const auto n = read_corners<6>(ele, first, mesh.vertices.size());
+      nodes.push_back({n[2], n[3], n[5], n[1], n[4], n[0]});
+    }
     if (attributes > 0) mesh.regions.push_back(ele.integer());
     skip_numbers(ele, path, std::max<std::int64_t>(attributes - 1, 0));
     ele.expect_line_end();
@@ -414,8 +422,61 @@ void read_tetgen_elements(const std::string& path, std::int64_t first, MeshFile&
   ele.expect_nothing();
 }
 
-void read_tetgen_faces(const std::string& path, std::int64_t first, MeshFile& mesh) {
+// The nodes that tetrahedra of second order have on the edges of a face.
+class NodesOfFaces {
+ public:
+  NodesOfFaces(const MeshFile& mesh, const TetNodes& nodes) {
+    static constexpr std::size_t kEnds[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
+    for (std::size_t t = 0; t < nodes.size(); ++t) {
+      for (std::size_t e = 0; e < 6; ++e) {
+        const auto [a, b] =
+            std::minmax(mesh.tetrahedra[t][kEnds[e][0]], mesh.tetrahedra[t][kEnds[e][1]]);
+        on_edges_.push_back({a, b, nodes[t][e]});
+      }
+    }
+    std::sort(on_edges_.begin(), on_edges_.end());
+  }
+
+  bool are_there() const { return !on_edges_.empty(); }
+  // On ab bc ac; nullopt if an edge is of no tetrahedron.
+  std::optional<std::array<Index, 3>> of(const Face& face) const {
+    std::array<Index, 3> nodes;
+    for (std::size_t e = 0; e < 3; ++e) {
+      const auto [a, b] = std::minmax(face[e == 1 ? 1 : 0], face[e == 0 ? 1 : 2]);
+      const auto at =
+          std::lower_bound(on_edges_.begin(), on_edges_.end(), std::array<Index, 3>{a, b, 0});
+      if (at == on_edges_.end() || (*at)[0] != a || (*at)[1] != b) return {};
+      nodes[e] = (*at)[2];
+    }
+    return nodes;
+  }
+
+ private:
+  std::vector<std::array<Index, 3>> on_edges_;  // the ends, and the node between them
+};
+
+// Of ten-node tetrahedra: the faces have three nodes or six, whose order depends on what TetGen
+// did. Their corners have to be followed by `markers` numbers and, by its -nn, two more. Takes the
+// nodes away, which have to be those of the tetrahedra.
+std::array<Index, 3> take_nodes_of_face(TextReader& reader, const NodesOfFaces& of_faces,
+                                        const Face& face, std::int64_t first, std::size_t markers,
+                                        std::vector<std::int64_t>& numbers) {
+  const auto nodes = of_faces.of(face);
+  if (!nodes) reader.fail("an edge of this face is of no tetrahedron");
+  if (numbers.size() < markers + 3) return *nodes;
+  std::array<std::int64_t, 3> expected;
+  for (std::size_t k = 0; k < 3; ++k) expected[k] = (*nodes)[k] + first;
+  if (!std::is_permutation(expected.begin(), expected.end(), numbers.begin())) {
+    reader.fail("this face has other nodes than its tetrahedron");
+  }
+  numbers.erase(numbers.begin(), numbers.begin() + 3);
+  return *nodes;
+}
+
+void read_tetgen_faces(const std::string& path, std::int64_t first, MeshFile& mesh,
+                       NodesOnEdges& nodes) {
   TextReader face = TextReader::of_file(path);
+  const NodesOfFaces of_faces(mesh, nodes.of_tetrahedra);
   const std::uint64_t triangles = face.count();
   const std::int64_t markers = integer_in_line(face, path);
   if (markers != 0 && markers != 1) face.fail("no such number of markers");
@@ -423,13 +484,24 @@ void read_tetgen_faces(const std::string& path, std::int64_t first, MeshFile& me
   for (std::uint64_t i = 0; i < triangles; ++i) {
     expect_number(face, first + static_cast<std::int64_t>(i));
     mesh.boundary.push_back(read_corners<3>(face, first, mesh.vertices.size()));
-    if (markers == 1) mesh.labels.push_back(face.integer32());
-    // TetGen's own files have no further numbers, or two with another meaning (its -nn); only a
-    // record decides what it should be.
     std::vector<std::int64_t> further;
     for (auto word = face.word_in_line(); !word.empty(); word = face.word_in_line()) {
       further.push_back(TextReader(path, word, '\0').integer());
     }
+    if (of_faces.are_there()) {
+      nodes.of_triangles.push_back(take_nodes_of_face(face, of_faces, mesh.boundary.back(), first,
+                                                      static_cast<std::size_t>(markers), further));
+    }
+    if (markers == 1) {
+      if (further.empty()) face.fail("the marker is missing");
+      if (further[0] != static_cast<std::int32_t>(further[0])) {
+        face.fail(std::to_string(further[0]) + " is no integer of 32 bits");
+      }
+      mesh.labels.push_back(static_cast<std::int32_t>(further[0]));
+      further.erase(further.begin());
+    }
+    // TetGen's own files have no further numbers, or two with another meaning (its -nn); only a
+    // record decides what it should be.
     if (further.size() > 2) face.fail("too many numbers");
     if (further.empty() || markers == 0) continue;
     const bool known = further.size() == 1 && further[0] >= 0 && further[0] < std::int64_t{kNone};
@@ -442,9 +514,11 @@ MeshFile read_tetgen(const std::string& stem) {
   MeshFile mesh;
   mesh.either_orientation = true;
   const std::int64_t first = read_tetgen_nodes(maybe_with_gz(stem + ".node"), mesh.vertices);
-  read_tetgen_elements(maybe_with_gz(stem + ".ele"), first, mesh);
+  NodesOnEdges nodes;
+  read_tetgen_elements(maybe_with_gz(stem + ".ele"), first, mesh, nodes.of_tetrahedra);
   const std::string faces = maybe_with_gz(stem + ".face");
-  if (std::filesystem::exists(faces)) read_tetgen_faces(faces, first, mesh);
+  if (std::filesystem::exists(faces)) read_tetgen_faces(faces, first, mesh, nodes);
+  take_out_edge_nodes(mesh, nodes, stem + ".ele");
   return mesh;
 }
 

@@ -31,8 +31,8 @@ struct MeshFile {
   bool either_orientation = false;
 };
 
-// Elements of second order are read in MEDIT, Gmsh and .vtu. Throws ReadError. The complex oracle
-// checks indices; but a reference to no vertex at all is an error of the file.
+// Elements of second order are read in all but .tet (TetGen makes them with -o2). Throws ReadError.
+// The complex oracle checks indices; but a reference to no vertex at all is an error of the file.
 MeshFile read_mesh(const std::string& path);
 
 }  // namespace tetproof::oracles
