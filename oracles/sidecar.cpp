@@ -1,6 +1,9 @@
 // The format is described in mesher/io/exact_format.md.
 #include "oracles/sidecar.h"
 
+#include <algorithm>
+#include <string>
+
 #include "oracles/exact_points.h"
 #include "oracles/text_reader.h"
 
@@ -33,8 +36,7 @@ class SidecarReader {
       chain.artificial = kind == "A";
       chain.facet = chain.artificial ? number() : kNone;
       if (!chain.artificial) reader_.expect("-");
-      chain.vertices.resize(reader_.count());
-      for (Index& v : chain.vertices) v = point();
+      reader_.read_items(chain.vertices, [&](Index& v) { v = point(); });
     });
     reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = point();
@@ -111,14 +113,21 @@ class SidecarReader {
         return;
       }
       if (kind != "E") {
-        p.i = point();
-        p.j = point();
+        p.i = number();
+        p.j = number();
       }
-      if (kind == "T") p.k = point();
+      if (kind == "T") p.k = number();
       p.x = reader_.number();
       if (kind != "S") p.y = reader_.number();
       if (kind == "E") p.z = reader_.number();
     });
+    // A point may be given by points that come later.
+    for (const ExactPoint& p : record_.points) {
+      if (p.kind == ExactPoint::Kind::on_planes) continue;  // numbers of planes
+      const Index last = std::max({p.i, p.j, p.k});
+      if (last < record_.points.size()) continue;
+      reader_.fail("a point is given by point " + std::to_string(last) + ", which does not exist");
+    }
   }
 
   void read_tets(const std::string& name, std::vector<ExactRecord::Tet>& tets) {
@@ -139,8 +148,7 @@ class SidecarReader {
   bool flag() { return reader_.index(0, 2) != 0; }
   Index point() { return reader_.index(0, record_.points.size()); }
   void numbers(std::vector<Index>& list) {
-    list.resize(reader_.count());
-    for (Index& value : list) value = number();
+    reader_.read_items(list, [&](Index& value) { value = number(); });
   }
 
   TextReader reader_;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -15,33 +16,47 @@ namespace tetproof::oracles {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 18;
+constexpr std::size_t kLongestWord = std::size_t{1} << 20;
 constexpr std::string_view kGzip = ".gz";
 
-// A file in pieces; what is compressed with gzip unpacked, which its first bytes tell.
+// A file in pieces; what is compressed with gzip unpacked, which its first bytes tell. zlib's own
+// reader of files would pass over what follows the compressed data.
 class FileStream {
  public:
-  explicit FileStream(const std::string& path) : path_(path), file_(::gzopen(path.c_str(), "rb")) {
+  explicit FileStream(const std::string& path)
+      : path_(path), file_(std::fopen(path.c_str(), "rb")) {
     if (file_ == nullptr && errno == ENOMEM) throw std::bad_alloc();
     if (file_ == nullptr) throw ReadError(path + ": cannot be opened");
-    ::gzbuffer(file_, kPiece);
+    packed_.resize(kPiece);
+    fetch();
+    plain_ = !begins_member();
+    if (plain_) return;
+    constexpr int kGzipOnly = 16;
+    ready_ = ::inflateInit2(&inflater_, MAX_WBITS + kGzipOnly) == Z_OK;
+    if (!ready_) {
+      std::fclose(file_);
+      throw std::bad_alloc();
+    }
   }
-  ~FileStream() { ::gzclose(file_); }
+  ~FileStream() {
+    if (ready_) ::inflateEnd(&inflater_);
+    std::fclose(file_);
+  }
   FileStream(const FileStream&) = delete;
   FileStream& operator=(const FileStream&) = delete;
 
   // Fills as much of the piece as there is left, and returns how much that is.
   std::size_t read(char* piece, std::size_t size) {
-    const int got = ::gzread(file_, piece, static_cast<unsigned>(size));
-    int error = Z_OK;
-    ::gzerror(file_, &error);
-    if (error == Z_MEM_ERROR) throw std::bad_alloc();
-    if (got < 0 || error != Z_OK) throw ReadError(path_ + ": cannot be read, or is cut");
-    return static_cast<std::size_t>(got);
+    inflater_.next_out = reinterpret_cast<Bytef*>(piece);
+    inflater_.avail_out = static_cast<uInt>(size);
+    while (inflater_.avail_out > 0 && (plain_ ? copy() : unpack())) {
+    }
+    return size - inflater_.avail_out;
   }
 
-  bool is_plain() { return ::gzdirect(file_) != 0; }
+  bool is_plain() const { return plain_; }
   // As many bytes as there are in all, or more. DEFLATE makes a file 1032 times smaller at most.
-  std::uint64_t most_bytes() {
+  std::uint64_t most_bytes() const {
     std::error_code unknown;  // set if it is no regular file
     const std::uintmax_t size = std::filesystem::file_size(path_, unknown);
     if (unknown) return std::numeric_limits<std::uint64_t>::max();
@@ -49,8 +64,55 @@ class FileStream {
   }
 
  private:
+  bool begins_member() const {
+    return inflater_.avail_in > 1 && inflater_.next_in[0] == 0x1f && inflater_.next_in[1] == 0x8b;
+  }
+
+  // Reads on in the file, after what is left of the last piece; false at the end.
+  bool fetch() {
+    std::memmove(packed_.data(), inflater_.next_in, inflater_.avail_in);
+    const std::size_t left = inflater_.avail_in;
+    const std::size_t got = std::fread(packed_.data() + left, 1, kPiece - left, file_);
+    if (std::ferror(file_) != 0) fail("cannot be read");
+    inflater_.next_in = packed_.data();
+    inflater_.avail_in = static_cast<uInt>(left + got);
+    return got > 0;
+  }
+
+  // These two give some bytes; false if there are no more.
+  bool copy() {
+    if (inflater_.avail_in == 0 && !fetch()) return false;
+    const uInt count = std::min(inflater_.avail_in, inflater_.avail_out);
+    std::memcpy(inflater_.next_out, inflater_.next_in, count);
+    inflater_.next_in += count;
+    inflater_.avail_in -= count;
+    inflater_.next_out += count;
+    inflater_.avail_out -= count;
+    return true;
+  }
+  bool unpack() {
+    if (ended_) {
+      if (inflater_.avail_in < 2) fetch();
+      if (inflater_.avail_in == 0) return false;
+      if (!begins_member()) fail("something follows the compressed data");
+      ::inflateReset(&inflater_);
+      ended_ = false;
+    }
+    if (inflater_.avail_in == 0 && !fetch()) fail("is cut");
+    const int result = ::inflate(&inflater_, Z_NO_FLUSH);
+    if (result == Z_MEM_ERROR) throw std::bad_alloc();
+    if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR) fail("cannot be read");
+    ended_ = result == Z_STREAM_END;
+    return true;
+  }
+  [[noreturn]] void fail(const char* why) const { throw ReadError(path_ + ": " + why); }
+
   std::string path_;
-  gzFile file_;
+  std::FILE* file_;
+  std::vector<Bytef> packed_;
+  z_stream inflater_{};  // of a plain file only its places are used
+  bool plain_ = true, ready_ = false;
+  bool ended_ = false;  // nothing of the last member is left
 };
 
 }  // namespace
@@ -145,6 +207,8 @@ std::string_view TextReader::word_in_line() {
   while (!at_its_end() && text_[at_] != ' ' && text_[at_] != '\t' && text_[at_] != '\r' &&
          text_[at_] != '\n') {
     ++at_;
+    // Every piece of a longer one would be moved each time that one more is read.
+    if (at_ - kept_ > kLongestWord) fail("a word of more than a million characters");
   }
   return text_.substr(kept_, at_ - kept_);
 }

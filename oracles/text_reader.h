@@ -2,6 +2,7 @@
 // own.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -58,8 +59,20 @@ class TextReader {
   template <class Item, class Read>
   void list(const std::string& name, std::vector<Item>& items, const Read& read_item) {
     expect(name);
-    items.resize(count());
-    for (Item& item : items) read_item(item);
+    read_items(items, read_item);
+  }
+  // The same without a name. Memory is taken as items are read, as a count may be a lie.
+  template <class Item, class Read>
+  void read_items(std::vector<Item>& items, const Read& read_item) {
+    constexpr std::size_t kFirst = 4096;
+    const std::size_t wanted = count();
+    items.clear();
+    while (items.size() < wanted) {
+      if (items.size() == items.capacity()) {
+        items.reserve(std::min(wanted, std::max(kFirst, 2 * items.size())));
+      }
+      read_item(items.emplace_back());
+    }
   }
 
   // The rest of this line is blank; bytes begin after it.

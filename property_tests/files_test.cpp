@@ -110,20 +110,24 @@ TEST_F(Files, WhatIsCompressedWithGzipIsVerified) {
   write("in.poly", "4 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n0\n");
   std::string outputs;
   for (const char* format : kFormats) outputs += " -o " + path(std::string("out.") + format);
-  ASSERT_EQ(run("mesh -q " + path("in.off") + outputs), 0);
+  ASSERT_EQ(run("mesh -q " + path("in.off") + outputs + " --exact " + path("out.exact")), 0);
   ASSERT_EQ(run("plane -q " + path("in.poly") + " -o " + path("flat.node") + " -o " +
-                path("flat.vtu") + " -o " + path("flat.msh")),
+                path("flat.vtu") + " -o " + path("flat.msh") + " --exact " + path("flat.exact")),
             0);
   ASSERT_EQ(
       std::system(("gzip " + path("in.*") + " " + path("out.*") + " " + path("flat.*")).c_str()),
       0);
   for (const char* format : kFormats) {
-    EXPECT_EQ(verify({path("in.off.gz"), path(std::string("out.") + format + ".gz")}), 0) << format;
+    const std::string file = path(std::string("out.") + format + ".gz");
+    EXPECT_EQ(verify({path("in.off.gz"), file}), 0) << format;
+    EXPECT_EQ(verify({path("in.off.gz"), file, "--exact", path("out.exact.gz")}), 0) << format;
   }
   for (const char* format : {"node", "vtu", "msh"}) {
-    EXPECT_EQ(verify({path("in.poly.gz"), path(std::string("flat.") + format + ".gz"), "--promised",
-                      "plane"}),
-              0)
+    const std::string file = path(std::string("flat.") + format + ".gz");
+    EXPECT_EQ(verify({path("in.poly.gz"), file, "--promised", "plane"}), 0) << format;
+    EXPECT_EQ(
+        verify({path("in.poly.gz"), file, "--promised", "plane", "--exact", path("flat.exact.gz")}),
+        0)
         << format;
   }
 }

@@ -1,10 +1,12 @@
 #include "oracles/cgal/record_text.h"
 
+#include <zlib.h>
+
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <exception>
-#include <fstream>
+#include <memory>
 #include <sstream>
 
 namespace tetproof::oracles {
@@ -85,14 +87,36 @@ bool read_point(std::istringstream& words, const std::string& kind, ExactPoint& 
   return true;
 }
 
+// The lines of a file, which may be compressed with gzip.
+class Lines {
+ public:
+  explicit Lines(const std::string& path) : file_(::gzopen(path.c_str(), "rb"), ::gzclose) {}
+
+  // False at the end, also if there is no such file.
+  bool next(std::string& line) {
+    line.clear();
+    std::array<char, 4096> piece;
+    while (file_ && ::gzgets(file_.get(), piece.data(), static_cast<int>(piece.size()))) {
+      line += piece.data();
+      if (!line.ends_with('\n')) continue;
+      line.pop_back();
+      return true;
+    }
+    return !line.empty();
+  }
+
+ private:
+  std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
+};
+
 }  // namespace
 
 bool read_definitions(const std::string& path, Definitions& definitions) {
   std::vector<ExactPoint>& points = definitions.points;
-  std::ifstream in(path);
+  Lines lines(path);
   std::string line, word;
   std::size_t count = 0, planes = 0;
-  while (std::getline(in, line)) {
+  while (lines.next(line)) {
     std::istringstream words(line.substr(0, line.find('#')));
     if (definitions.planes.size() < planes) {
       if (!read_plane(words, definitions.planes.emplace_back())) return false;
@@ -102,7 +126,7 @@ bool read_definitions(const std::string& path, Definitions& definitions) {
     if (word == "planes" && !(words >> planes)) return false;
     if (word == "points" && words >> count) break;
   }
-  while (points.size() < count && std::getline(in, line)) {
+  while (points.size() < count && lines.next(line)) {
     std::istringstream words(line.substr(0, line.find('#')));
     std::string kind;
     if (!(words >> kind)) continue;

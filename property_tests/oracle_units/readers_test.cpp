@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "mesher/io/test_zlib.h"
 #include "oracles/mesh_file.h"
 #include "oracles/surface_file.h"
 #include "oracles/text_reader.h"
@@ -24,6 +25,8 @@ namespace tetproof {
 namespace {
 
 using namespace oracles;  // NOLINT
+using delmesher::io::packed_by_zlib;
+using delmesher::io::Wrapping;
 
 TEST(TextReader, ReadsWordsAndCountsLines) {
   TextReader reader("file", "one two # three\n\n\t four\r\nfive");
@@ -101,6 +104,61 @@ TEST(TextReader, AFileThatDoesNotFitInMemoryIsNotReadInPart) {
   for (const std::size_t mebibytes : {2, 30, 70}) {
     EXPECT_EQ(with_more_memory(mebibytes << 20, said, read), 5) << mebibytes;
   }
+  std::remove(file.c_str());
+}
+
+// A file of 1 MB may unpack to 1 GB. No count and no word of it takes memory that is not there.
+TEST(TextReader, ALieInACompressedFileExhaustsNoMemory) {
+  const std::string said = "/dev/null";
+  if (!can_be_limited(said)) GTEST_SKIP() << "address space cannot be limited here";
+  const std::string file = testing::TempDir() + "lie.gz";
+  const auto pack = [&](const std::string& text) {
+    std::ofstream(file, std::ios::binary) << packed_by_zlib(text, Wrapping::gzip);
+  };
+  const auto read = [&] {
+    try {
+      std::vector<std::array<int, 16>> items;
+      TextReader reader = TextReader::of_file(file);
+      reader.list("numbers", items, [&](auto& item) { item[0] = reader.integer32(); });
+      return 0;
+    } catch (const ReadError&) {
+      return 3;
+    } catch (const std::bad_alloc&) {
+      return 5;
+    }
+  };
+  pack("numbers 3 1 2 3" + std::string(100 << 20, ' '));
+  EXPECT_EQ(with_more_memory(40 << 20, said, read), 0);
+  pack("numbers 30000000 1 2 3" + std::string(100 << 20, ' '));
+  EXPECT_EQ(with_more_memory(40 << 20, said, read), 3);
+  pack("numbers 3 1 2 " + std::string(100 << 20, '0') + " 3");
+  EXPECT_EQ(with_more_memory(40 << 20, said, read), 3);
+  std::remove(file.c_str());
+}
+
+// zlib's own reader of files takes what follows for nothing. Members may follow each other.
+TEST(TextReader, AfterWhatIsCompressedNothingFollows) {
+  const std::string file = testing::TempDir() + "followed.gz";
+  const std::string half = packed_by_zlib("one ", Wrapping::gzip);
+  const auto words = [&](const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+    std::string all;
+    TextReader reader = TextReader::of_file(file);
+    while (!reader.at_end()) all += reader.word();
+    return all;
+  };
+  EXPECT_EQ(words(half), "one");
+  EXPECT_EQ(words(half + half), "oneone");
+  EXPECT_EQ(words(packed_by_zlib("", Wrapping::gzip) + half), "one");
+  for (const std::string& after :
+       {std::string("x"), std::string("junk\n"), std::string(1, '\0'), std::string("\x1f"),
+        half.substr(0, 2), half.substr(0, half.size() - 1), std::string(300000, ' ')}) {
+    EXPECT_THROW(words(half + after), ReadError) << after.size();
+  }
+  EXPECT_THROW(words(half.substr(0, half.size() - 1)), ReadError);
+  std::string spoilt = half;
+  spoilt[spoilt.size() - 6] ^= 1;  // its checksum
+  EXPECT_THROW(words(spoilt), ReadError);
   std::remove(file.c_str());
 }
 
