@@ -180,6 +180,7 @@ MeshFile read_tet(const std::string& path) {
   MeshFile mesh;
   mesh.either_orientation = true;
   mesh.lists_boundary = false;
+  mesh.has_second_order = false;
   const std::uint64_t vertices = counted(reader, {"vertices"});
   std::uint64_t inner = reader.count(), outer = 0;
   const std::string kind(reader.word_in_line());
@@ -513,6 +514,7 @@ void read_tetgen_faces(const std::string& path, std::int64_t first, MeshFile& me
 MeshFile read_tetgen(const std::string& stem) {
   MeshFile mesh;
   mesh.either_orientation = true;
+  mesh.has_second_order = false;
   const std::int64_t first = read_tetgen_nodes(maybe_with_gz(stem + ".node"), mesh.vertices);
   NodesOnEdges nodes;
   read_tetgen_elements(maybe_with_gz(stem + ".ele"), first, mesh, nodes.of_tetrahedra);

@@ -27,6 +27,7 @@ struct MeshFile {
   std::vector<Index> facets;         // per triangle, the facet that it tiles; or empty
   std::vector<EdgeNode> edge_nodes;  // one of each edge; empty if the elements are linear
   bool lists_boundary = true;        // false for a format that has no triangles
+  bool has_second_order = true;      // false for a format that has only linear elements
   // The format has no common convention: tetrahedra that are all turned the same way are right.
   bool either_orientation = false;
 };

@@ -63,7 +63,6 @@ constexpr Number kNumbers[] = {
     {"--max-vertices", &Promise::max_vertices, kAll, 1, 4294967294},
     {"--time-limit", nullptr, kAll, 0, kMost, true},
     {"--threads", nullptr, kSpace, 0, 1024},
-    {"--order", nullptr, kSpace, 1, 2},
     {"--jobs", nullptr, kAll, 0, 1024}};
 
 // These options say where and how, not what; --slivers guarantees nothing.
@@ -85,11 +84,9 @@ constexpr Word kSwitches[] = {{"-q", kAll},
                               {"--ascii", kAll},
                               {"--gabriel", kMesh},
                               {"--approximate", kMesh | kPlane}};
-constexpr Word kChosen[] = {{"--preset", kMesh | kPlane},
-                            {"--as-paper", kMesh},
-                            {"--region", kAll},
-                            {"--improve", kMesh},
-                            {"--slivers", kMesh}};
+constexpr Word kChosen[] = {{"--preset", kMesh | kPlane}, {"--as-paper", kMesh},
+                            {"--region", kAll},           {"--order", kSpace},
+                            {"--improve", kMesh},         {"--slivers", kMesh}};
 
 template <std::size_t N>
 bool among(const Word (&words)[N], const std::string& name, Task task) {
@@ -223,6 +220,10 @@ class PromiseReader {
     if (option == "--region") {
       p.region = *value_ == "hull" ? Region::hull : Region::interior;
       return one_of("interior", "hull");
+    }
+    if (option == "--order") {
+      p.second_order = *value_ == "2";
+      return one_of("1", "2");
     }
     if (option == "--improve") p.improve = *value_ == "on";
     return one_of("on", "off");

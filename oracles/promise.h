@@ -27,6 +27,7 @@ struct Promise {
   bool gabriel = false;
   bool approximate = false;
   bool improve = true;
+  bool second_order = false;  // ten-node tetrahedra, in formats that have them
   // The choices of --as-paper that an oracle can see.
   bool link = false;              // chamfers reach a third of the way to the link
   bool bridges = false;           // a bridge per triangle

@@ -16,6 +16,8 @@ const Lie kRelaxed[] = {
     {"threshold of corners relaxed", "promise", [](Told& t) { t.record.parameters.acute = 1; }},
     {"threshold of two edges relaxed", "promise", [](Told& t) { t.record.parameters.corner = 0; }},
     {"no empty balls", "promise", [](Told& t) { t.record.parameters.gabriel = false; }},
+    {"ten-node tetrahedra promised, the file has linear ones", "edge-nodes",
+     [](Told& t) { t.promise.second_order = true; }, "passed"},
     {"another region", "promise",
      [](Told& t) { t.record.parameters.region = delmesher::Region::hull; }},
     {"tolerance doubled", "promise", [](Told& t) { t.record.parameters.tolerance *= 2; }},

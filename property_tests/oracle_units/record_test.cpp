@@ -99,6 +99,10 @@ TEST(Promises, AreReadFromCommandLines) {
     EXPECT_EQ(p.acute, 60) << text;
     EXPECT_FALSE(p.link) << text;
   }
+  EXPECT_EQ(parse_promise("cdt --order 2", p), "");
+  EXPECT_TRUE(p.second_order);
+  EXPECT_EQ(parse_promise("--order=1", p), "");
+  EXPECT_FALSE(p.second_order);
   // The promises of a text are those of the same options.
   for (const delmesher::NamedChoice& choice : delmesher::kPaperChoices) {
     delmesher::Options options;
@@ -118,7 +122,8 @@ TEST(Promises, AreReadFromCommandLines) {
   for (const char* text :
        {"paper", "--preset", "mesh --preset", "--preset=", "--preset paperback", "--delta",
         "--delta=", "--delta=3x", "--nothing=3", "--as-paper", "--as-paper=", "--as-paper order,",
-        "--as-paper none,order", "--as-paper all,order", "--as-paper orders"}) {
+        "--as-paper none,order", "--as-paper all,order", "--as-paper orders", "--order 3",
+        "--order 1.5", "plane --order 2"}) {
     EXPECT_NE(parse_promise(text, p), "") << text;
   }
 }
