@@ -98,10 +98,11 @@ std::vector<Change> changes_of(const std::vector<Difference>& differences) {
 
 class SameMesh {
  public:
-  SameMesh(const MeshFile& mesh, const ExactRecord& record, const Promise& promise, bool labelled)
+  SameMesh(const MeshFile& mesh, const ExactRecord& record, const Promise& promise,
+           const std::vector<std::int32_t>& labels)
       : mesh_(mesh),
         record_(record),
-        labelled_(labelled),
+        labels_(labels),
         all_(promise.region == delmesher::Region::hull),
         approximate_(promise.approximate),
         tets_(record.final.empty() ? record.refined : record.final),
@@ -311,22 +312,9 @@ class SameMesh {
     }
   }
 
-  // By number; of those that are there more than once, the last one is right.
-  using Labels = std::vector<std::pair<Index, std::int32_t>>;
-  Labels labels_of_facets() const {
-    Labels labels;
-    if (!labelled_) return labels;
-    for (const ExactRecord::Facet& facet : record_.facets) {
-      labels.emplace_back(facet.id, facet.label);
-    }
-    std::ranges::stable_sort(labels, {}, &Labels::value_type::first);
-    return labels;
-  }
-  // 0 if there is no such facet.
-  static std::int32_t label_of(const Labels& labels, Index id) {
-    const auto next = std::ranges::upper_bound(labels, id, {}, &Labels::value_type::first);
-    return next == labels.begin() || std::prev(next)->first != id ? 0 : std::prev(next)->second;
-  }
+  // A facet's number is that of a triangle of the input. The record's own list lacks facets of the
+  // surface as given where another one was refined. 0 if there are no labels, or no such facet.
+  std::int32_t label_of(Index facet) const { return facet < labels_.size() ? labels_[facet] : 0; }
 
   // Which of the faces on facets are faces of the tetrahedra inside (of a refined mesh: of all that
   // are written), and how these are oriented seen from outside their tetrahedron.
@@ -353,7 +341,6 @@ class SameMesh {
     const SimplexSet<3> listed(corners);
     corners = {};
     const std::vector<Turned> turned = turned_in_tets(listed);
-    const Labels labels = labels_of_facets();
     std::vector<LabelledFace> faces;
     faces.reserve(faces_.size());
     for (const auto& [a, b, c, id] : faces_) {
@@ -366,7 +353,7 @@ class SameMesh {
       } else if (in_tets != Turned::no_face) {
         even = in_tets == Turned::even;
       }
-      faces.push_back({face, label_of(labels, id), id, even});
+      faces.push_back({face, label_of(id), id, even});
     }
     std::sort(faces.begin(), faces.end());
     return faces;
@@ -378,7 +365,7 @@ class SameMesh {
       report_.fail("the file names " + std::to_string(mesh_.facets.size()) + " facets for " +
                    std::to_string(triangles) + " boundary triangles");
     }
-    if (labelled_ && mesh_.labels.size() != triangles) {
+    if (!labels_.empty() && mesh_.labels.size() != triangles) {
       report_.fail("the file has " + std::to_string(mesh_.labels.size()) + " labels for " +
                    std::to_string(triangles) + " boundary triangles");
     }
@@ -413,7 +400,8 @@ class SameMesh {
 
   const MeshFile& mesh_;
   const ExactRecord& record_;
-  bool labelled_, all_, approximate_;
+  const std::vector<std::int32_t>& labels_;  // per triangle of the input, or empty
+  bool all_, approximate_;
   const std::vector<ExactRecord::Tet>& tets_;
   const std::vector<std::array<std::uint32_t, 4>>& faces_;
   std::optional<std::int64_t> outside_;
@@ -436,8 +424,8 @@ mpq_class exact_distance2(const Position& written, const ExactPoints& points, In
 }  // namespace
 
 OracleReport check_same_mesh(const MeshFile& mesh, const ExactRecord& record,
-                             const Promise& promise, bool labelled) {
-  return SameMesh(mesh, record, promise, labelled).run();
+                             const Promise& promise, const std::vector<std::int32_t>& labels) {
+  return SameMesh(mesh, record, promise, labels).run();
 }
 
 OracleReport check_rounding(const MeshFile& mesh, const ExactRecord& record,

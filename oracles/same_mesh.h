@@ -18,9 +18,10 @@ struct SameMeshOptions {
 // outside as the record does. A refined mesh is recorded as it was before it was rounded: where
 // rounding made a tetrahedron of it flat or inverted, others that fill the same place are accepted.
 // Listed boundary triangles are the record's faces on facets, one to
-// one, with their labels and facets, and seen from outside.
+// one, with their facets and the labels of these (one per triangle of the input, or none), and seen
+// from outside.
 OracleReport check_same_mesh(const MeshFile& mesh, const delmesher::ExactRecord& record,
-                             const Promise& promise, bool labelled);
+                             const Promise& promise, const std::vector<std::int32_t>& labels);
 
 // No two vertices of the file are the same point of the record, and every one is within 4 ulp of
 // its exact place in each coordinate, or within what was declared. Without that, vertices of the

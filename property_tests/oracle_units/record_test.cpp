@@ -38,7 +38,7 @@ TEST(SameMesh, FacesOfTheHullAreNoBoundary) {
     mesh.facets.assign(boundary.size(), facet);
     Promise promise;
     promise.region = delmesher::Region::hull;
-    return check_same_mesh(mesh, record, promise, false).violations;
+    return check_same_mesh(mesh, record, promise, {}).violations;
   };
   EXPECT_EQ(violations({{1, 2, 3}}), 0U);
   EXPECT_EQ(violations({{3, 1, 2}}), 0U);
@@ -64,7 +64,7 @@ TEST(SameMesh, TheOutsideIsOneOfTwoRegions) {
   promise.region = delmesher::Region::hull;
   const auto violations = [&](std::vector<std::int64_t> regions) {
     mesh.regions.assign(regions.begin(), regions.end());
-    return check_same_mesh(mesh, record, promise, false).violations;
+    return check_same_mesh(mesh, record, promise, {}).violations;
   };
   EXPECT_EQ(violations({1, 0, 0}), 0U);
   EXPECT_EQ(violations({1, 2, 2}), 0U);

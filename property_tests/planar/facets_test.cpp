@@ -134,6 +134,18 @@ TEST_P(Rotated, WithPlanarZeroTheSurfaceIsKeptToTheLastBit) {
   EXPECT_TRUE(samples::as_promised(of_more, more.promise)) << to_text(of_more);
 }
 
+// The record's list of facets is that of the stand-in, where fewer triangles are facets.
+TEST(PlanarZero, LabelsAreThoseOfTheSurfaceAsGiven) {
+  Surface labelled = rotated(stairs(), to_single);
+  labelled.labels.assign(labelled.triangles.size(), 7);
+  const Told told = run_of(labelled, 0);
+  EXPECT_LT(told.record.facets.size(), told.statistics.given_facets);
+  EXPECT_EQ(std::ranges::count(told.sample.mesh.labels, 7),
+            static_cast<std::ptrdiff_t>(told.sample.mesh.boundary.size()));
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
+}
+
 // Its two ends are fans of needles on an ellipse.
 Surface flat_prism(std::uint32_t n, double height, double width) {
   return test_surfaces::prism(test_surfaces::ellipse(n, width), height);
