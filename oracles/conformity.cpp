@@ -43,6 +43,7 @@ class Conformity {
     edges_.emplace(result_.faces, points_.size());
     match_vertices();
     follow_edges();
+    result_.off_edges = result_.deviation;
     if (!ended()) grow_patches();
     if (!ended()) check_borders();
     if (!ended()) check_facets();

@@ -59,6 +59,7 @@ struct ConformityResult {
   // input units. Set by the caller who united them.
   double slab = 0;
   double deviation = 0;       // largest distance of a surface vertex from its place, rounded up
+  double off_edges = 0;       // the same of the vertices of the surface's edges
   std::vector<Face> faces;    // boundary faces of the solid, counter-clockwise from outside
   std::vector<Index> facets;  // per face: the input facet that it tiles, or kNone
   std::uint64_t chain_edges = 0;
