@@ -387,11 +387,12 @@ class PromiseCheck {
   }
 
   // A vertex may be half as far from the plane of a facet as the surface may deviate. Where that
-  // may not, the refined mesh alone may be one of a surface with planar facets, within the default.
+  // may not, the refined mesh alone may be one of a surface with planar facets, within the default,
+  // if it is not what is written.
   void check_planar() {
     constexpr double kSlack = 1e-9;
-    const bool refined_alone =
-        promise_.task == Task::mesh && promise_.planar == 0 && promise_.improve;
+    const bool refined_alone = promise_.task == Task::mesh && promise_.planar == 0 &&
+                               promise_.improve && !promise_.approximate;
     const double promised =
         (refined_alone ? Promise{}.planar_share() : promise_.planar_share()) / 2;
     const double recorded = diagonal_ > 0 ? record_.parameters.planar / diagonal_ : 0;

@@ -155,6 +155,14 @@ const Lie kLies[] = {
        t = as_given();
        t.record.parameters.planar *= 1000;
      }},
+    {"facets are planar, promised was --approximate of the surface as given", "promise",
+     [](Told& t) {
+       Options options;
+       options.approximate = true;
+       t = run_with(rotated(stairs(), to_single), options);
+       t.promise.planar = 0;
+     },
+     "passed"},
     {"the surface as given, a face on a facet of the refined one", "exact-facets",
      [](Told& t) {
        t = as_given();

@@ -52,7 +52,9 @@ Told run_of(const Surface& surface, double planar) {
 VerifyReport verdict_on(const Told& told, bool with_record) {
   VerifyReport report;
   EXPECT_EQ(verify(told.sample.input, told.sample.mesh, with_record ? &told.record : nullptr,
-                   {.stage = with_record ? Stage::both : Stage::final,
+                   {.stage = told.promise.approximate ? Stage::refined
+                             : with_record            ? Stage::both
+                                                      : Stage::final,
                     .promised = told.promise,
                     .record_version = told.version},
                    report),
