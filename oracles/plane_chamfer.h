@@ -19,8 +19,7 @@ struct PieceRest {
 
 // Is anything inside between two directions from a vertex, towards the other ends of two pieces?
 // The angle is less than a right angle, counter-clockwise from the first direction to the second.
-// 1: yes, 0: no, -1: cannot be decided.
-using WedgeSide = std::function<int(std::uint32_t v, std::uint32_t from, std::uint32_t to)>;
+using WedgeSide = std::function<bool(std::uint32_t v, std::uint32_t from, std::uint32_t to)>;
 
 // Adds to the report:
 // - refined-chamfer-distance: every corner is an input vertex, once; its distance is positive, at

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "oracles/plane_faces.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -20,7 +22,12 @@ class FileChecker {
  public:
   FileChecker(PlaneGraph& graph, const PlaneFile& file, const Promise& promise, double tolerance,
               double declared)
-      : graph_(graph), file_(file), promise_(promise), tolerance_(tolerance), declared_(declared) {}
+      : graph_(graph),
+        inside_(graph),
+        file_(file),
+        promise_(promise),
+        tolerance_(tolerance),
+        declared_(declared) {}
 
   void run(VerifyReport& report) {
     check_complex();
@@ -93,6 +100,7 @@ class FileChecker {
   }
 
   bool inside(Index t) const { return file_.inside.empty() || file_.inside[t] != 0; }
+  Index segment_of(Index piece) const { return graph_.pieces()[piece].segment; }
   bool hull() const { return promise_.region == delmesher::Region::hull; }
 
   double off(Index v, const PlaneGraph::Piece& piece) {
@@ -225,27 +233,26 @@ class FileChecker {
       neighbours_.insert(edge);
       neighbours_.insert({edge.second, edge.first});
     }
-    for (const PlaneGraph::Piece& piece : graph_.pieces()) check_piece(piece);
+    for (Index p = 0; p < graph_.pieces().size(); ++p) check_piece(p);
     check_vertices();
     check_borders();
     conformity_.figures.emplace_back("deviation", deviation_);
   }
 
-  void check_piece(const PlaneGraph::Piece& piece) {
+  void check_piece(Index number) {
     ++conformity_.checked;
+    const PlaneGraph::Piece& piece = graph_.pieces()[number];
     const std::vector<Index> path = chain(piece);
     const std::string what = "segment " + std::to_string(piece.segment);
     if (path.empty()) {
-      if (hull() || graph_.closed_rings()) {
-        // A border between two outside faces is in no file of the interior.
-        const bool needed = hull() || graph_.separates(piece.segment);
-        if (needed) return conformity_.fail(what + " is not tiled by edges");
-      }
+      // A border between two outside faces is in no file of the interior.
+      const bool needed = hull() || inside_.ends_at(number);
+      if (needed) return conformity_.fail(what + " is not tiled by edges");
       if (covered(piece)) conformity_.fail(what + " is covered, but not tiled by edges");
       return;
     }
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      chains_.emplace(undirected(path[i], path[i + 1]), piece.segment);
+      chains_.emplace(undirected(path[i], path[i + 1]), number);
       deviation_ = std::max(deviation_, off(path[i], piece));
     }
   }
@@ -309,41 +316,35 @@ class FileChecker {
   }
 
   void check_sides() {
-    if (graph_.closed_rings()) {
-      for (Index t = 0; t < file_.triangles.size(); ++t) {
-        ++sides_.checked;
-        const auto& [a, b, c] = file_.triangles[t];
-        Point m;
-        m.x = (points_.all()[a].x + points_.all()[b].x + points_.all()[c].x) / 3;
-        m.y = (points_.all()[a].y + points_.all()[b].y + points_.all()[c].y) / 3;
-        m.dx = m.x.get_d();
-        m.dy = m.y.get_d();
-        const bool truth = graph_.inside_by_ray(m);
-        if (truth != (inside(t) && (!hull() || !file_.inside.empty()))) {
-          if (hull() && file_.inside.empty()) continue;  // nothing is claimed
-          if (near_a_segment(m)) continue;               // thinner than what rounding moves
-          sides_.fail(name(t) + (truth ? " is inside" : " is outside"));
-        }
+    for (Index t = 0; t < file_.triangles.size(); ++t) {
+      ++sides_.checked;
+      const auto& [a, b, c] = file_.triangles[t];
+      Point m;
+      m.x = (points_.all()[a].x + points_.all()[b].x + points_.all()[c].x) / 3;
+      m.y = (points_.all()[a].y + points_.all()[b].y + points_.all()[c].y) / 3;
+      m.dx = m.x.get_d();
+      m.dy = m.y.get_d();
+      const bool truth = inside_.contains(m);
+      if (truth != (inside(t) && (!hull() || !file_.inside.empty()))) {
+        if (hull() && file_.inside.empty()) continue;  // nothing is claimed
+        if (near_a_segment(m)) continue;               // thinner than what rounding moves
+        sides_.fail(name(t) + (truth ? " is inside" : " is outside"));
       }
-      // Parity changes across chains, so exactly one of the two triangles beside an edge is inside.
-      for (const auto& [edge, segment] : chains_) {
-        if (!graph_.separates(segment)) continue;
-        ++sides_.checked;
-        int count = 0, there = 0;
-        for (const Edge& side : {edge, Edge(edge.second, edge.first)}) {
-          const auto found = left_of_.find(side);
-          there += found != left_of_.end();
-          count += found != left_of_.end() && inside(found->second);
-        }
-        if (hull() ? there != 2 || (!file_.inside.empty() && count != 1) : count != 1) {
-          sides_.fail("an edge on segment " + std::to_string(segment) +
-                      " is not between an inside and an outside");
-        }
+    }
+    // Exactly one of the two triangles beside an edge where the inside ends is inside.
+    for (const auto& [edge, piece] : chains_) {
+      if (!inside_.ends_at(piece)) continue;
+      ++sides_.checked;
+      int count = 0, there = 0;
+      for (const Edge& side : {edge, Edge(edge.second, edge.first)}) {
+        const auto found = left_of_.find(side);
+        there += found != left_of_.end();
+        count += found != left_of_.end() && inside(found->second);
       }
-    } else {
-      sides_.checked += file_.triangles.size();
-      sides_.notes.emplace_back(
-          "what is inside is not decided by parity: of the file alone, only holes are looked at");
+      if (hull() ? there != 2 || (!file_.inside.empty() && count != 1) : count != 1) {
+        sides_.fail("an edge on segment " + std::to_string(segment_of(piece)) +
+                    " is not between an inside and an outside");
+      }
     }
     if (graph_.given().insideness != delmesher::Insideness::enclosed) return;
     for (const auto& hole : graph_.given().holes) {
@@ -386,18 +387,19 @@ class FileChecker {
         list_.fail(what + " is on no segment");
         continue;
       }
-      if (i < file_.segments.size() && file_.segments[i] != found->second) {
+      const Index segment = segment_of(found->second);
+      if (i < file_.segments.size() && file_.segments[i] != segment) {
         list_.fail(what + " is said to be on another segment");
       }
-      const std::int32_t marker = markers.empty() ? 0 : markers[found->second];
+      const std::int32_t marker = markers.empty() ? 0 : markers[segment];
       if (i < file_.markers.size() && file_.markers[i] != marker) {
         list_.fail(what + " does not have the marker of its segment");
       }
     }
-    for (const auto& [edge, segment] : chains_) {
+    for (const auto& [edge, piece] : chains_) {
       ++list_.checked;
       if (!listed.contains(edge)) {
-        list_.fail("an edge on segment " + std::to_string(segment) + " is not listed");
+        list_.fail("an edge on segment " + std::to_string(segment_of(piece)) + " is not listed");
       }
     }
     if (file_.lists_holes) check_holes();
@@ -442,6 +444,7 @@ class FileChecker {
   }
 
   PlaneGraph& graph_;
+  PlaneInside inside_;
   const PlaneFile& file_;
   const Promise& promise_;
   double tolerance_, declared_;
@@ -454,7 +457,7 @@ class FileChecker {
   std::set<Edge> neighbours_;      // both directions
   std::map<std::array<double, 2>, Index> at_;
   std::set<std::array<double, 2>> input_places_;
-  std::map<Edge, Index> chains_;  // edges that tile segments
+  std::map<Edge, Index> chains_;  // edges that tile pieces of segments, with the piece
   OracleReport complex_{"complex", "triangles"}, orientation_{"orientation", "triangles"},
       conformity_{"conformity", "pieces of segments, vertices, edges"},
       sides_{"sides", "triangles, edges"}, list_{"edge-list", "edges"},

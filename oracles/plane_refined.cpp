@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "oracles/plane_chamfer.h"
+#include "oracles/plane_faces.h"
 
 namespace tetproof::oracles {
 
@@ -154,84 +154,41 @@ class Promises {
 
 class Sides {
  public:
-  explicit Sides(RecordedPlane& recorded)
-      : input_(recorded.input),
-        exact_(recorded.exact),
-        mesh_(recorded.refined),
-        final_(recorded.final) {}
+  Sides(RecordedPlane& recorded, PlaneInside& inside)
+      : input_(recorded.input), exact_(recorded.exact), mesh_(recorded.refined), inside_(inside) {}
 
   void run(VerifyReport& report) {
     for (Index t = 0; t < mesh_.triangles().size(); ++t) {
       ++oracle_.checked;
       check(t);
     }
-    if (unknown_ > 0) {
-      oracle_.figures.emplace_back("of unknown side", static_cast<double>(unknown_));
-    }
     report.oracles.push_back(std::move(oracle_));
   }
 
  private:
-  // Does a part of a segment run through a triangle that separates the inside from the outside?
-  enum class Crossing : std::uint8_t { none, separating, unknown };
-
   void check(Index t) {
     const Triangle& triangle = mesh_.triangles()[t];
-    const Crossing crossing = crossing_of(triangle);
-    if (crossing == Crossing::unknown) {
-      ++unknown_;
-      return;
-    }
-    const bool mixed = crossing == Crossing::separating;
+    const bool mixed = is_crossed(triangle);
     if (mixed != (triangle.side == Side::mixed)) {
       oracle_.fail(triangle_name(t) + (mixed ? " is crossed by a segment" : " is not mixed"));
     }
     if (mixed) return;
-    const std::optional<bool> inside = is_inside(triangle);
-    if (!inside) {
-      ++unknown_;
-    } else if (*inside != (triangle.side == Side::inside)) {
-      oracle_.fail(triangle_name(t) + (*inside ? " is inside" : " is outside"));
+    const bool inside = inside_.contains(mesh_.centroid(triangle));
+    if (inside != (triangle.side == Side::inside)) {
+      oracle_.fail(triangle_name(t) + (inside ? " is inside" : " is outside"));
     }
   }
 
-  Crossing crossing_of(const Triangle& triangle) {
-    Crossing found = Crossing::none;
+  // Does a part of a segment run through the triangle that separates the inside from the outside?
+  bool is_crossed(const Triangle& triangle) {
+    bool found = false;
     input_.near_segments(mesh_.box(triangle), [&](Index s) {
       for (const Index p : input_.pieces_of()[s]) {
         const PlaneGraph::Piece& piece = input_.pieces()[p];
-        if (found == Crossing::separating || !crosses(piece.a, piece.b, triangle)) continue;
-        const std::optional<bool> separating = separates(piece);
-        if (!separating) {
-          found = Crossing::unknown;
-        } else if (*separating) {
-          found = Crossing::separating;
-        }
+        found = found || (inside_.ends_at(p) && crosses(piece.a, piece.b, triangle));
       }
     });
     return found;
-  }
-
-  // By parity, or by the triangles beside the piece in the final mesh, if there is one.
-  std::optional<bool> separates(const PlaneGraph::Piece& piece) {
-    if (input_.closed_rings()) return input_.separates(piece.segment);
-    std::optional<bool> left, right;
-    for (const Index t : final_.at(piece.a)) {
-      const auto& w = final_.triangles()[t].vertices;
-      const auto i = static_cast<std::size_t>(std::find(w.begin(), w.end(), piece.a) - w.begin());
-      const bool inside = final_.triangles()[t].side == Side::inside;
-      if (leads(piece, w[(i + 1) % 3])) left = inside;
-      if (leads(piece, w[(i + 2) % 3])) right = inside;
-    }
-    if (!left || !right) return {};
-    return *left != *right;
-  }
-
-  // Is the point on the ray from the piece's first end through the other one?
-  bool leads(const PlaneGraph::Piece& piece, Index v) {
-    const Point &a = mesh_.point(piece.a), &b = mesh_.point(piece.b), &p = mesh_.point(v);
-    return exact_.orient(piece.a, piece.b, v) == 0 &&
-           (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y) > 0;
   }
 
   // Does the segment meet the interior of the triangle? (Separating axes.)
@@ -257,35 +214,10 @@ class Sides {
     return hi < low - 2 * exact_.error() || lo > high + 2 * exact_.error();
   }
 
-  // Of a triangle that no separating part of a segment crosses.
-  std::optional<bool> is_inside(const Triangle& triangle) {
-    const Point c = mesh_.centroid(triangle);
-    if (input_.closed_rings()) return input_.inside_by_ray(c);
-    const Index found = final_triangle_beside(triangle, c);
-    if (found == kNone) return {};
-    return final_.triangles()[found].side == Side::inside;
-  }
-
-  // A triangle of the final mesh that overlaps this one, which no segment crosses: it has a corner
-  // in common, and contains the direction from there to this one's centroid.
-  Index final_triangle_beside(const Triangle& triangle, const Point& c) {
-    for (const Index v : triangle.vertices) {
-      for (const Index t : final_.at(v)) {
-        const auto& w = final_.triangles()[t].vertices;
-        const auto i = static_cast<std::size_t>(std::find(w.begin(), w.end(), v) - w.begin());
-        const Point &p = mesh_.point(w[(i + 1) % 3]), &q = mesh_.point(w[(i + 2) % 3]);
-        if (exact_.orient(mesh_.point(v), p, c) >= 0 && exact_.orient(mesh_.point(v), c, q) >= 0) {
-          return t;
-        }
-      }
-    }
-    return kNone;
-  }
-
   PlaneGraph& input_;
   PlanePoints& exact_;
-  const PlaneComplex &mesh_, &final_;
-  std::uint64_t unknown_ = 0;
+  const PlaneComplex& mesh_;
+  PlaneInside& inside_;
   OracleReport oracle_{"refined-sides", "triangles"};
 };
 
@@ -294,16 +226,19 @@ class Sides {
 // Is anything inside in the wedge between two directions from a vertex? (WedgeSide)
 class Wedges {
  public:
-  explicit Wedges(RecordedPlane& recorded) : recorded_(recorded), exact_(recorded.exact) {}
+  Wedges(RecordedPlane& recorded, PlaneInside& inside)
+      : recorded_(recorded), exact_(recorded.exact), inside_(inside) {}
 
-  int side(Index v, Index from, Index to) {
-    if (recorded_.promise.approximate) return side_by_probes(v, from, to);
+  bool any_inside(Index v, Index from, Index to) {
+    if (recorded_.promise.approximate) return any_by_probes(v, from, to);
     const PlaneComplex& final = recorded_.final;
     for (const Index t : final.at(v)) {
       const Triangle& triangle = final.triangles()[t];
-      if (triangle.side == Side::inside && between(v, from, to, final.centroid(triangle))) return 1;
+      if (triangle.side == Side::inside && between(v, from, to, final.centroid(triangle))) {
+        return true;
+      }
     }
-    return 0;
+    return false;
   }
 
  private:
@@ -313,16 +248,15 @@ class Wedges {
   const Point& point(Index v) const { return recorded_.points()[v]; }
 
   // Without a final mesh: tries a point close to the vertex between every two neighbouring pieces.
-  int side_by_probes(Index v, Index from, Index to) {
-    if (!recorded_.input.closed_rings()) return -1;
+  bool any_by_probes(Index v, Index from, Index to) {
     const std::vector<Index> ends = ends_between(v, from, to);
     double near = HUGE_VAL;
     for (const Index end : ends) near = std::min(near, exact_.distance(v, end));
     near = std::min(near, recorded_.input.feature_size(v, near)) / 8;
     for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
-      if (recorded_.input.inside_by_ray(probe(v, ends[k], ends[k + 1], near))) return 1;
+      if (inside_.contains(probe(v, ends[k], ends[k + 1], near))) return true;
     }
-    return 0;
+    return false;
   }
 
   // The other ends of the pieces at the vertex from one direction to the other, in this order.
@@ -356,6 +290,7 @@ class Wedges {
 
   RecordedPlane& recorded_;
   PlanePoints& exact_;
+  PlaneInside& inside_;
 };
 
 }  // namespace
@@ -363,12 +298,13 @@ class Wedges {
 void check_plane_refined(RecordedPlane& recorded, VerifyReport& report) {
   const std::vector<PieceRest> rests = check_segments(recorded, report);
   Promises(recorded).run(report);
-  Sides(recorded).run(report);
-  Wedges wedges(recorded);
+  PlaneInside inside(recorded.input);
+  Sides(recorded, inside).run(report);
+  Wedges wedges(recorded, inside);
   check_plane_chamfers(
       recorded.input, recorded.record, rests,
-      [&](Index v, Index from, Index to) { return wedges.side(v, from, to); }, recorded.promise,
-      report);
+      [&](Index v, Index from, Index to) { return wedges.any_inside(v, from, to); },
+      recorded.promise, report);
 }
 
 }  // namespace tetproof::oracles

@@ -14,8 +14,8 @@ namespace tetproof::oracles {
 //   is below the promised bound (or the record's, where that is larger), no corner is in the open
 //   disc of a listed edge of its triangle, and no edge is above --max-edge;
 // - refined-sides: triangles are on the side that they claim, and mixed exactly if a part of a
-//   segment runs through them with the inside on one side of it alone. Without rings the final mesh
-//   tells; where there is none, triangles are counted as of unknown side;
+//   segment runs through them with the inside on one side of it alone. Where parity does not decide
+//   what is inside, the faces of the input do (plane_faces.h);
 // - the oracles of plane_chamfer.h, about what is left of each piece.
 void check_plane_refined(RecordedPlane& recorded, VerifyReport& report);
 

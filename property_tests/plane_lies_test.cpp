@@ -34,7 +34,7 @@ TEST_P(PlaneLies, AreCaughtByTheOracleMeantForThem) {
   static const oracles::VerifyReport good = verdict(told);
   ASSERT_TRUE(good.all_passed()) << to_text(good);
   GetParam().tell(told);
-  judge("square with a dent", GetParam().name, GetParam().oracle, verdict(told));
+  judge("square with a dent", GetParam().name, GetParam().oracle, verdict(told), GetParam().before);
 }
 
 std::string lie_name(const testing::TestParamInfo<Lie>& tested) {
@@ -161,6 +161,26 @@ TEST(PlaneLies, AboutAnEdgeOverAVertex) {
   });
   edges.push_back({{beside[0], beside[1]}, 0});
   EXPECT_TRUE(says(verdict_on(told), "refined-segments", "has an edge over a vertex"));
+}
+
+// Segments cut a rectangle into two halves; what is inside is no matter of parity.
+TEST(PlaneLies, NameAFaceThatIsMissing) {
+  PlanarGraph graph;
+  graph.vertices = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
+  graph.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 0}, {1, 4}};
+  Told told = run_of(honest_options(), graph);
+  ASSERT_TRUE(verdict_on(told).all_passed()) << to_text(verdict_on(told));
+  Told half = told;
+  half.file = {};
+  half.file.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  half.file.triangles = {{0, 1, 2}, {2, 3, 0}};
+  const oracles::VerifyReport report = verdict_on(half, false);
+  EXPECT_TRUE(says(report, "conformity", "segment 1 is not tiled by edges")) << to_text(report);
+  EXPECT_TRUE(says(report, "conformity", "segment 2 is not tiled by edges"));
+  EXPECT_FALSE(says(report, "conformity", "segment 0 "));
+  graph.holes = {{1.5, 0.25}};
+  half.graph = graph;
+  EXPECT_TRUE(verdict_on(half, false).all_passed()) << to_text(verdict_on(half, false));
 }
 
 // A vertex index that is too large by one.

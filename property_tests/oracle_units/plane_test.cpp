@@ -6,8 +6,10 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "oracles/plane_faces.h"
 #include "oracles/plane_file.h"
 #include "oracles/plane_graph.h"
 #include "oracles/plane_grid.h"
@@ -185,6 +187,97 @@ TEST(PlaneFiles, ListedEdgesHaveMarkers) {
   written("triangle.poly", "0 2 0 0\n3 0\n1 1 2\n2 2 3\n3 3 1\n0\n");
   file = read_plane_file(path);
   EXPECT_EQ(file.markers, (std::vector<std::int32_t>{0, 0, 0}));
+}
+
+// Squares around each other, with a line into the innermost and one between the second and third,
+// and a triangle beside them.
+delmesher::PlanarGraph squares() {
+  delmesher::PlanarGraph graph;
+  for (const double r : {4.0, 3.0, 2.0, 1.0}) {
+    const auto first = static_cast<std::uint32_t>(graph.vertices.size());
+    for (const auto& [x, y] : {std::pair(-r, -r), {r, -r}, {r, r}, {-r, r}}) {
+      graph.vertices.push_back({x, y});
+    }
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      graph.segments.push_back({first + k, first + (k + 1) % 4});
+    }
+  }
+  return graph;
+}
+
+// In the middle of the innermost square, between the squares from there on, and outside.
+std::string sides_of(const delmesher::PlanarGraph& given) {
+  PlaneGraph graph(given);
+  PlaneFaces faces(graph);
+  std::string sides;
+  for (const double x : {0.25, 1.25, 2.25, 3.25, 4.25}) {
+    for (const double y : {0.0, 0.125, -0.25}) {
+      sides += faces.inside({x, y, x, y}) ? 'i' : 'o';
+    }
+  }
+  return sides;
+}
+
+TEST(PlaneFaces, OfSquaresAroundEachOther) {
+  delmesher::PlanarGraph graph = squares();
+  graph.insideness = delmesher::Insideness::nested;
+  EXPECT_EQ(sides_of(graph), "oooiiioooiiiooo");
+  graph.insideness = delmesher::Insideness::enclosed;
+  EXPECT_EQ(sides_of(graph), "iiiiiiiiiiiiooo");
+  graph.holes = {{0.5, 0}, {-2.5, 0}};
+  EXPECT_EQ(sides_of(graph), "oooiiioooiiiooo");
+  // A line that ends in a face bounds nothing.
+  graph.vertices.push_back({2.5, 0.125});
+  graph.segments.push_back({10, 16});
+  EXPECT_EQ(sides_of(graph), "oooiiioooiiiooo");
+  // Two lines from within a side of a square cut that face; the third is half of that side.
+  graph.vertices[16] = {2, 0};
+  graph.segments.push_back({16, 5});
+  graph.segments.push_back({16, 6});
+  EXPECT_EQ(sides_of(graph), "oooiiiiiiiiiooo");
+  graph.holes[1] = {2.5, 0};
+  EXPECT_EQ(sides_of(graph), "oooiiioooiiiooo");
+}
+
+TEST(PlaneFaces, SeparateWhereASideIsInside) {
+  delmesher::PlanarGraph given = squares();
+  given.holes = {{0, 0}};
+  PlaneGraph graph(given);
+  const PlaneFaces faces(graph);
+  std::string separating;
+  for (std::uint32_t piece = 0; piece < 16; ++piece)
+    separating += faces.separates(piece) ? 's' : '-';
+  EXPECT_EQ(separating, "ssss--------ssss");
+}
+
+// Parity says the same of rings, at points level with vertices as well.
+TEST(PlaneFaces, OfRingsAreThoseOfParity) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    delmesher::PlanarGraph given;
+    given.insideness = delmesher::Insideness::nested;
+    for (int ring = 0; ring < 4; ++ring) {  // stars about one point, each inside the one before
+      const auto first = static_cast<std::uint32_t>(given.vertices.size());
+      constexpr std::uint32_t kCorners = 9;
+      for (std::uint32_t k = 0; k < kCorners; ++k) {
+        const double angle = 2 * 3.14159265358979 * k / kCorners;
+        const double r = 64 >> ring,
+                     here = r * (0.6 + 0.4 * static_cast<double>(random() % 100) / 100);
+        given.vertices.push_back({std::round(4 * here * std::cos(angle)) / 4,
+                                  std::round(4 * here * std::sin(angle)) / 4});
+        given.segments.push_back({first + k, first + (k + 1) % kCorners});
+      }
+    }
+    PlaneGraph graph(given);
+    ASSERT_TRUE(graph.closed_rings());
+    PlaneFaces faces(graph);
+    for (int k = 0; k < 200; ++k) {
+      const double x = static_cast<double>(random() % 640) / 5 - 64.1,
+                   y = given.vertices[random() % given.vertices.size()][1] + (k % 2 == 0 ? 0 : 0.1);
+      if (graph.on_segment({x, y})) continue;
+      EXPECT_EQ(faces.inside({x, y, x, y}), graph.inside_by_ray({x, y, x, y})) << x << " " << y;
+    }
+  }
 }
 
 }  // namespace

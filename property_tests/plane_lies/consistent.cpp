@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -155,6 +156,55 @@ void drop_all(Told& told) {
   for (Index s = 0; s < told.graph.segments.size(); ++s) told.record.dropped.push_back(s);
 }
 
+std::array<double, 2> place_of(const Told& told, Index v) {
+  const ExactPoint& p = told.record.points[v];
+  if (p.kind == ExactPoint::Kind::explicit_point) return {p.x, p.y};
+  const auto &a = told.graph.vertices[p.i], &b = told.graph.vertices[p.j];
+  return {p.x * a[0] + (1 - p.x) * b[0], p.x * a[1] + (1 - p.x) * b[1]};
+}
+
+// The file of those triangles of the refined mesh that the record calls inside.
+void write_refined(Told& told) {
+  constexpr Index kNotWritten = 0xffffffffU;
+  std::vector<Index> number(told.record.points.size(), kNotWritten);
+  told.record.mesh_vertices.clear();
+  PlaneFile file;
+  file.lists_edges = told.file.lists_edges;
+  file.names_segments = told.file.names_segments;
+  std::set<std::pair<Index, Index>> sides;
+  for (const PlaneRecord::Triangle& triangle : told.record.refined) {
+    if (triangle.side != Side::inside) continue;
+    std::array<Index, 3> corners = triangle.vertices;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sides.insert(std::minmax(triangle.vertices[i], triangle.vertices[(i + 1) % 3]));
+      Index& v = corners[i];
+      if (number[v] == kNotWritten) {
+        number[v] = static_cast<Index>(file.vertices.size());
+        file.vertices.push_back(place_of(told, v));
+        told.record.mesh_vertices.push_back(v);
+      }
+      v = number[v];
+    }
+    file.triangles.push_back(corners);
+    file.inside.push_back(1);
+  }
+  for (const auto& [ends, segment] : told.record.refined_edges) {
+    if (segment >= told.graph.segments.size() || !sides.contains(std::minmax(ends[0], ends[1]))) {
+      continue;
+    }
+    file.edges.push_back({number[ends[0]], number[ends[1]]});
+    file.segments.push_back(segment);
+    file.markers.push_back(told.graph.markers[segment]);
+  }
+  told.file = file;
+}
+
+void run_approximate(Told& told) {
+  Options options = honest_options();
+  options.approximate = true;
+  told = run_of(options);
+}
+
 const Lie kConsistent[] = {
     {"a run with delta 5", "refined-angles",
      [](Told& t) { claim_for(t, [](Options& o) { o.delta = 5; }); }},
@@ -217,6 +267,31 @@ const Lie kConsistent[] = {
      [](Told& t) {
        t.graph.holes = {{0.515625, 0.53125}};
      }},
+    {"all but one triangle of --approximate called outside", "refined-sides",
+     [](Told& t) {
+       run_approximate(t);
+       const PlaneRecord::Triangle kept = some(t.record.refined, Side::inside);
+       for (auto& triangle : t.record.refined) {
+         if (triangle.side == Side::inside && triangle.vertices != kept.vertices) {
+           triangle.side = Side::outside;
+         }
+       }
+       write_refined(t);
+     },
+     "passed"},
+    {"the hole filled, of --approximate", "refined-sides",
+     [](Told& t) {
+       run_approximate(t);
+       const Index by_hole = 5;  // a vertex
+       for (auto& triangle : t.record.refined) {
+         const auto& v = triangle.vertices;
+         if (triangle.side == Side::outside && std::find(v.begin(), v.end(), by_hole) != v.end()) {
+           triangle.side = Side::inside;
+         }
+       }
+       write_refined(t);
+     },
+     "passed"},
     {"an edge on a segment not listed, in the file alone", "edge-list",
      [](Told& t) {
        const auto& last = t.file.edges.back();

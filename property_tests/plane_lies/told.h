@@ -45,6 +45,7 @@ struct Lie {
   const char* name;
   const char* oracle;  // the one meant to catch it
   void (*tell)(Told&);
+  const char* before = "";  // for the table: its fate before its row was there
 };
 
 void PrintTo(const Lie& lie, std::ostream* stream);
