@@ -443,6 +443,19 @@ TEST(Plane, TheOuterBoxIsBeyondAGraphOfAnUlp) {
   }
 }
 
+// The triangle that is refined has no double inside, and one side on a segment that was dropped.
+TEST(Plane, WhatIsAsSmallAsAnUlpHasASide) {
+  PlanarGraph graph;
+  graph.vertices = {{1, 1}, {1, 1 - 0x1p-53}, {1 - 0x1p-53, 1}};
+  graph.segments = {{0, 1}, {1, 2}, {2, 0}};
+  const PlaneResult result = expect_verified(graph);
+  EXPECT_EQ(result.exact.dropped.size(), 1U);
+  const auto inside = [](const PlaneRecord::Triangle& triangle) {
+    return triangle.side == PlaneRecord::Side::inside;
+  };
+  EXPECT_EQ(std::ranges::count_if(result.exact.refined, inside), 1);
+}
+
 TEST(Plane, LimitsAndOptions) {
   Options options = plane_options();
   options.max_vertices = 3;

@@ -213,19 +213,43 @@ void Sides::settle() {
   if (gaps_.empty()) return;
   for (TriangleId t = 0; t < mesh_.size(); ++t) {
     if (side_[t] != kMixed) continue;
-    bool crossed = false;
-    if (list_of_[t] != kNone) {
-      const auto& v = mesh_[t].vertex;
-      for (const std::uint32_t g : lists_[list_of_[t]]) {
-        int zeros = 0;
-        for (const VertexId corner : v) {
-          zeros += predicates_.orient(gaps_[g].a, gaps_[g].b, corner) == 0;
-        }
-        crossed = crossed || zeros < 2;  // not just along an edge
-      }
-    }
-    if (!crossed) side_[t] = static_cast<std::uint8_t>(resolve(t, near(t)));
+    const std::span<const std::uint32_t> here = gaps_at(t);
+    const bool crossed =
+        std::ranges::any_of(here, [&](std::uint32_t g) { return !is_along_edge(t, gaps_[g]); });
+    if (crossed) continue;
+    Side side = told_at_edges(t);
+    if (side == Side::mixed) side = resolve(t, near(t));
+    side_[t] = static_cast<std::uint8_t>(side);
   }
+}
+
+bool Sides::is_along_edge(TriangleId t, const Gap& gap) {
+  return std::ranges::count_if(mesh_[t].vertex, [&](VertexId corner) {
+           return predicates_.orient(gap.a, gap.b, corner) == 0;
+         }) == 2;
+}
+
+// Of a triangle in one face: what pieces and gaps at its edges say, or neighbours where there is
+// neither. In a triangle as small as an ulp there may be no point to locate.
+Side Sides::told_at_edges(TriangleId t) {
+  for (int i = 0; i < 3; ++i) {
+    if (mesh_.piece(edge_of(t, i)) != kNone) return beside(edge_of(t, i));
+  }
+  if (!gaps_at(t).empty()) return beside(t, gaps_[gaps_at(t).front()]);
+  for (const EdgeId f : mesh_[t].neighbor) {
+    if (f != kNone && of(triangle_of(f)) != Side::mixed) return of(triangle_of(f));
+  }
+  return Side::mixed;
+}
+
+// The side of a triangle that a gap is along an edge of.
+Side Sides::beside(TriangleId t, const Gap& gap) {
+  const Piece& piece = graph_.pieces[gap.piece];
+  int sum = 0;  // of the corner that is not on the line alone
+  for (const VertexId corner : mesh_[t].vertex) sum += predicates_.orient(gap.a, gap.b, corner);
+  const bool along = spatial_.dot_difference_sign(gap.a, gap.b, piece.a, piece.b) > 0;
+  return (along == (sum > 0) ? piece.inside_left : piece.inside_right) ? Side::inside
+                                                                       : Side::outside;
 }
 
 // ------------------------------------------------------------------------------------ validation

@@ -70,6 +70,9 @@ class Sides {
   Contact contact(TriangleId t, const Gap& gap);
   void trace(std::uint32_t gap);
   Side beside(EdgeId e);
+  Side beside(TriangleId t, const Gap& gap);
+  bool is_along_edge(TriangleId t, const Gap& gap);
+  Side told_at_edges(TriangleId t);
   VertexId near(TriangleId t) const;
   Side resolve(TriangleId t, VertexId from);
   void flood();
