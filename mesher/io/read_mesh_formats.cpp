@@ -235,13 +235,19 @@ void read_faces(std::string_view text, const std::string& file, std::uint64_t fi
     const auto triangle = cell<3>(lines, first, builder.vertices());
     std::int32_t label = 0;
     std::optional<std::uint32_t> facet;
+    std::vector<std::string_view> numbers;
+    for (auto number = lines.rest(); !number.empty(); number = lines.rest()) {
+      numbers.push_back(number);
+    }
+    // TetGen's -o2 gives faces of a surface the nodes on their edges, and those of a hull not.
+    if (builder.order() == 2 && numbers.size() >= (markers > 0 ? 4 : 3)) {
+      numbers.erase(numbers.begin(), numbers.begin() + 3);
+    }
     if (markers > 0) {
-      label = lines.text().parsed<std::int32_t>(lines.need("the marker"), "marker");
+      if (numbers.empty()) lines.text().fail("the marker is missing");
+      label = lines.text().parsed<std::int32_t>(numbers[0], "marker");
       // One number more is delmesher's facet; two are the tetrahedra of `tetgen -nn`.
-      const std::string_view next = lines.rest();
-      if (!next.empty() && lines.rest().empty()) {
-        facet = lines.text().parsed<std::uint32_t>(next, "facet");
-      }
+      if (numbers.size() == 2) facet = lines.text().parsed<std::uint32_t>(numbers[1], "facet");
     }
     builder.add_triangle(triangle, label, facet);
   }

@@ -381,6 +381,26 @@ TEST_F(Files, ACurvedEdgeIsTakenAsStraight) {
             (std::vector<std::array<double, 3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
 }
 
+// What TetGen 1.5 makes of a tetrahedron with -pQo2, -pQo2nn and -Qo2.
+TEST_F(Files, OfTetgenOfSecondOrderHaveTheirLabels) {
+  write("a.node",
+        "10 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 0.5 0 0.5\n5 0.5 0 0\n6 0 0.5 0\n"
+        "7 0 0.5 0.5\n8 0.5 0.5 0\n9 0 0 0.5\n");
+  write("a.ele", "1 10 0\n0 0 2 3 1 4 5 6 7 8 9\n");
+  for (const char* faces : {"2 1\n0 2 0 1 6 5 8 7\n1 0 2 3 6 7 9 -3\n",
+                            "2 1\n0 2 0 1 6 5 8 7 0 -1\n1 0 2 3 6 7 9 -3 0 -1\n"}) {
+    write("a.face", faces);
+    const MeshReadResult read = read_mesh(path("a.ele"));
+    ASSERT_TRUE(read.ok()) << read.error;
+    EXPECT_EQ(read.mesh.boundary,
+              (std::vector<std::array<std::uint32_t, 3>>{{2, 0, 1}, {0, 2, 3}}));
+    EXPECT_EQ(read.mesh.boundary_labels, (std::vector<std::int32_t>{7, -3}));
+    EXPECT_EQ(read.warnings, std::vector<std::string>());
+  }
+  write("a.face", "1 0\n0 2 0 1\n");
+  EXPECT_EQ(read_mesh(path("a.ele")).mesh.boundary_labels, (std::vector<std::int32_t>{0}));
+}
+
 TEST_F(Files, ReadingStopsWhenAsked) {
   std::string large = "9000 vertices\n1 tets\n";
   for (int v = 0; v < 9000; ++v) large += "0 0 1\n";
