@@ -244,7 +244,10 @@ class ModelReader {
     for (const Element* build : part(root).all(prefix(root) + "build")) {
       for (const Element* item : build->all(prefix(root) + "item")) place(root, *item, {});
     }
-    if (labels_.size() < 2) surface_.labels.clear();
+    if (labels_.size() == 1) label_by_material();
+    if (std::ranges::all_of(surface_.labels, [](auto label) { return label == 1; })) {
+      surface_.labels.clear();
+    }
     return std::move(surface_);
   }
 
@@ -346,6 +349,7 @@ class ModelReader {
     const std::uint64_t count = surface_.vertices.size() - static_cast<std::size_t>(first);
     const bool turned = mirrored(matrices);
     std::int32_t label = 0;
+    const Element& object = find_object(name, id);
     for (const Element* list : mesh.all(prefix(name) + "triangles")) {
       for (const Element* triangle : list->all(prefix(name) + "triangle")) {
         std::array<Index, 3> corners;
@@ -362,7 +366,49 @@ class ModelReader {
         surface_.triangles.push_back(corners);
         surface_.polygons.push_back(static_cast<Index>(surface_.polygons.size()));
         surface_.labels.push_back(label);
+        materials_.push_back(material_of(name, object, *triangle));
       }
+    }
+  }
+
+  // The numbers of the group and of its member that a triangle names, or the object for it; empty
+  // if that is nothing, or neither a base material nor a colour.
+  std::string material_of(const std::string& name, const Element& object, const Element& triangle) {
+    const bool own = triangle.attribute("p1") != nullptr;
+    const std::string* index = own ? triangle.attribute("p1") : object.attribute("pindex");
+    const std::string* group = own ? triangle.attribute("pid") : nullptr;
+    if (group == nullptr) group = object.attribute("pid");
+    if (index == nullptr || group == nullptr) return {};
+    const std::optional<std::size_t> size = size_of_group(name, *group);
+    if (!size) return {};
+    const std::uint32_t member = TextReader(path_, *index, '\0').index(0, *size);
+    return *group + " " + std::to_string(member);
+  }
+
+  std::optional<std::size_t> size_of_group(const std::string& name, const std::string& id) {
+    for (const Element* resources : part(name).all(prefix(name) + "resources")) {
+      for (const auto& group : resources->children) {
+        const std::string* own = group->attribute("id");
+        if (own == nullptr || *own != id) continue;
+        if (group->name == prefix(name) + "basematerials") {
+          return group->all(prefix(name) + "base").size();
+        }
+        for (const auto& [key, value] : part(name).attributes) {
+          if (!key.starts_with("xmlns:") || !value.ends_with("/material/2015/02")) continue;
+          const std::string colours = key.substr(6) + ":";
+          if (group->name == colours + "colorgroup") return group->all(colours + "color").size();
+        }
+      }
+    }
+    return {};
+  }
+
+  // Of one object: in the order of their use.
+  void label_by_material() {
+    std::map<std::string, std::int32_t> labels;
+    for (std::size_t t = 0; t < materials_.size(); ++t) {
+      const auto next = static_cast<std::int32_t>(labels.size() + 1);
+      surface_.labels[t] = labels.emplace(materials_[t], next).first->second;
     }
   }
 
@@ -395,6 +441,7 @@ class ModelReader {
   Archive archive_;
   std::map<std::string, std::unique_ptr<Element>> parts_;
   std::map<std::pair<std::string, std::string>, std::int32_t> labels_;
+  std::vector<std::string> materials_;  // of the triangles
   int matrices_deep_ = 0, placed_ = 0;
   Polyhedron surface_;
 };

@@ -150,6 +150,7 @@ TEST_F(Files, ArraysInAllPlacesAreTheSameToBothReaders) {
 TEST_F(Files, PackagesAreTheSameToBothReaders) {
   using delmesher::io::kTet, delmesher::io::model, delmesher::io::package;
   std::mt19937 random(3);
+  int labelled = 0;
   const auto transform = [&] {
     std::string text = " transform='";
     for (int i = 0; i < 12; ++i) {
@@ -172,6 +173,29 @@ TEST_F(Files, PackagesAreTheSameToBothReaders) {
     EXPECT_EQ(theirs.triangles, ours.surface.triangles);
     EXPECT_EQ(theirs.labels, ours.surface.labels);
   }
+  for (int i = 0; i < 20; ++i) {
+    std::string text = kTet;
+    for (std::size_t at = text.find("<triangle "); at != std::string::npos;
+         at = text.find("<triangle ", at + 1)) {
+      static constexpr const char* kAttributes[] = {"", "pid='4' p1='0'", "p1='1'",
+                                                    "pid='3' p1='0'", "pid='5' p1='0'"};
+      text.insert(at + 10, std::string(kAttributes[random() % 5]) + " ");
+    }
+    text.replace(text.find(" pid='1'/>"), 8, "");
+    write("a.3mf",
+          package(model(
+              "<basematerials id='3'><base name='a'/><base name='b'/></basematerials>"
+              "<m:colorgroup id='4'><m:color color='#FFFFFF'/></m:colorgroup>"
+              "<object id='1'" +
+                  std::string(i % 2 == 0 ? " pid='3' pindex='1'" : "") + ">" + text + "</object>",
+              "<item objectid='1'/>",
+              "xmlns:m='http://schemas.microsoft.com/3dmanufacturing/material/2015/02'")));
+    const auto ours = delmesher::io::read_surface(path("a.3mf"));
+    ASSERT_TRUE(ours.ok()) << ours.error;
+    EXPECT_EQ(oracles::read_surface(path("a.3mf")).labels, ours.surface.labels);
+    labelled += ours.surface.labels.empty() ? 0 : 1;
+  }
+  EXPECT_GT(labelled, 10);
   // One that can be meshed, and is verified.
   write("a.3mf", package(model("<object id='1'>" + kTet + "</object>",
                                "<item objectid='1'/><item objectid='1' "

@@ -77,6 +77,59 @@ TEST(ThreeMf, OneObjectHasNoLabels) {
   }
 }
 
+const std::string kMaterials =
+    "<basematerials id='3'><base name='steel &amp; zinc' displaycolor='#112233'/><base "
+    "name='wood'/>"
+    "</basematerials><m:colorgroup id='4'><m:color color='#FF0000'/><m:color color='#00FF00FF'/>"
+    "</m:colorgroup><m:texture2dgroup id='5' texid='6'/>";
+const std::string kNamespace =
+    "xmlns:m='http://schemas.microsoft.com/3dmanufacturing/material/2015/02'";
+
+// A tetrahedron whose triangles have these attributes.
+std::string painted(const std::array<std::string, 4>& triangles) {
+  std::string text = kTet;
+  std::size_t at = 0;
+  for (const std::string& attributes : triangles) {
+    at = text.find("<triangle ", at) + 10;
+    const std::size_t end = text.find("/>", at);
+    text.replace(at, end - at, text.substr(at, 20) + ' ' + attributes);
+  }
+  return text;
+}
+
+// A triangle's own material, else the object's; a group of its own, else the object's.
+TEST(ThreeMf, MaterialsOfTheOnlyObjectAreLabels) {
+  const auto read = [](const std::string& object, const std::array<std::string, 4>& triangles,
+                       const std::string& items = "<item objectid='7'/>") {
+    return parse_surface(package(model(kMaterials + "<object id='7' " + object + ">" +
+                                           painted(triangles) + "</object>",
+                                       items, kNamespace)),
+                         "a.3mf");
+  };
+  const ReadResult own =
+      read("", {"pid='4' p1='1'", "", "pid='3' p1='0' p2='1'", "pid='4' p1='1'"});
+  ASSERT_TRUE(own.ok()) << own.error;
+  EXPECT_EQ(own.surface.labels, (std::vector<std::int32_t>{1, 2, 3, 1}));
+  EXPECT_EQ(own.names, (LabelNames{{1, "#00FF00FF"}, {3, "steel & zinc"}}));
+  EXPECT_EQ(own.notes.back(), "3 materials, labelled in the order of their use from 1");
+  const ReadResult given = read("pid='3' pindex='1'", {"", "p1='0'", "pid='4'", "pid='4' p1='0'"},
+                                "<item objectid='7'/><item objectid='7' transform='1 0 0 0 1 0 0 0 "
+                                "1 9 0 0'/>");
+  ASSERT_TRUE(given.ok()) << given.error;
+  EXPECT_EQ(given.surface.labels, (std::vector<std::int32_t>{1, 2, 1, 3, 1, 2, 1, 3}));
+  EXPECT_EQ(given.names, (LabelNames{{1, "wood"}, {2, "steel & zinc"}, {3, "#FF0000"}}));
+  // One material, and what is none: a texture, a group without a member, a member without a group.
+  EXPECT_TRUE(read("pid='3' pindex='1'", {}).surface.labels.empty());
+  EXPECT_TRUE(
+      read("", {"pid='5' p1='8'", "pid='3'", "p1='1'", "pid='9' p1='1'"}).surface.labels.empty());
+  EXPECT_EQ(read("", {"pid='3' p1='2'"}).error,
+            "a.3mf: in /3D/My.model, line 5: there is no p1 2 among 2 materials");
+  EXPECT_EQ(
+      parse_surface(package(model(kMaterials + "<basematerials id='4'/>", "", kNamespace)), "a.3mf")
+          .error,
+      "a.3mf: in /3D/My.model, line 5: a second group of materials 4");
+}
+
 // A component goes through its own transform, then through that of the item. A mirror image is
 // turned inside out, twice mirrored it is not.
 TEST(ThreeMf, ItemsAndComponentsArePlaced) {

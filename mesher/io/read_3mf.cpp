@@ -1,7 +1,9 @@
 // 3MF (3D Manufacturing Format, core specification 1.3): a zip archive with a model in XML. Of the
-// extensions that a file may require, production (models in several parts) is read, and materials
-// are passed over.
+// extensions that a file may require, production (models in several parts) is read, and of
+// materials the colours.
 #include <array>
+#include <compare>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -47,16 +49,26 @@ struct Placement {
   std::optional<Transform> transform;
 };
 
+// A base material or a colour: a member of a group of the model; no group: none, or something else.
+struct Material {
+  static constexpr std::uint32_t kNoGroup = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t group = kNoGroup, index = 0;
+  auto operator<=>(const Material&) const = default;
+};
+
 struct Object {
   std::string type, name;
+  std::optional<std::uint64_t> materials_id;
+  Material material;                // of triangles that tell none
+  std::vector<Material> materials;  // of the triangles
   std::vector<Point> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Placement> components;
-  std::int32_t label = 0;  // 0: not placed yet
 };
 
 struct Model {
   std::string unit;
+  std::vector<std::vector<std::string>> material_names;  // by group
   std::map<std::uint64_t, Object> objects;
   std::vector<Placement> build;
 };
@@ -98,12 +110,19 @@ class ModelReader {
     if (open_.empty()) {
       if (found_) tags_.fail("a second root of the XML");
       begin_model();
+    } else if (is(2, "resources", "basematerials") || is_colour(2, "colorgroup")) {
+      begin_group();
+    } else if (is(3, "basematerials", "base") && own(open_[1]) == "resources") {
+      add_material("name");
+    } else if (is_colour(3, "color")) {
+      add_material("color");
     } else if (is(2, "resources", "object")) {
       begin_object();
     } else if (is(5, "vertices", "vertex") && object_ != nullptr) {
       object_->vertices.push_back({coordinate("x"), coordinate("y"), coordinate("z")});
     } else if (is(5, "triangles", "triangle") && object_ != nullptr) {
       object_->triangles.push_back({corner("v1"), corner("v2"), corner("v3")});
+      object_->materials.push_back(material("p1", object_->material));
     } else if (is(4, "components", "component") && object_ != nullptr) {
       object_->components.push_back(placement());
     } else if (is(2, "build", "item")) {
@@ -133,6 +152,9 @@ class ModelReader {
       if (space == std::string(kNamespaces) + std::string(kProduction)) {
         path_attribute_ = std::string(prefix) + ":path";
       }
+      if (space == std::string(kNamespaces) + std::string(kMaterials)) {
+        colour_prefix_ = std::string(prefix) + ":";
+      }
     }
     model_.unit = tags_.attribute("unit").value_or("millimeter");
     TextLines required(tags_.attribute("requiredextensions").value_or(""), Comments::none);
@@ -153,6 +175,45 @@ class ModelReader {
     object_ = &at->second;
     object_->type = tags_.attribute("type").value_or("model");
     object_->name = xml_text(tags_.attribute("name").value_or(""));
+    if (tags_.attribute("pid")) object_->materials_id = number<std::uint64_t>("pid");
+    object_->material = material("pindex", {});
+  }
+
+  // Is the current element `name`, of the extension for materials, so deep in the resources?
+  bool is_colour(std::size_t depth, std::string_view name) const {
+    return open_.size() == depth && own(open_[1]) == "resources" && !colour_prefix_.empty() &&
+           tags_.name() == colour_prefix_ + std::string(name) &&
+           (depth == 2 || open_[2] == colour_prefix_ + "colorgroup");
+  }
+
+  void begin_group() {
+    const auto id = number<std::uint64_t>("id");
+    const auto next = static_cast<std::uint32_t>(model_.material_names.size());
+    if (!groups_.try_emplace(id, next).second) {
+      tags_.fail("a second group of materials " + std::to_string(id));
+    }
+    model_.material_names.emplace_back();
+  }
+
+  void add_material(std::string_view name) {
+    model_.material_names.back().push_back(xml_text(tags_.attribute(name).value_or("")));
+  }
+
+  // What the current element's attribute of that name means, with its own group or the object's;
+  // corners may have others. Only an attribute that is there counts.
+  Material material(std::string_view index_name, Material otherwise) const {
+    if (!tags_.attribute(index_name)) return otherwise;
+    const auto index = number<std::uint32_t>(index_name);
+    if (!tags_.attribute("pid") && !object_->materials_id) return {};
+    const auto group = groups_.find(tags_.attribute("pid") ? number<std::uint64_t>("pid")
+                                                           : *object_->materials_id);
+    if (group == groups_.end()) return {};
+    const std::size_t size = model_.material_names[group->second].size();
+    if (index >= size) {
+      tags_.fail("there is no " + std::string(index_name) + " " + std::to_string(index) +
+                 " among " + std::to_string(size) + " materials");
+    }
+    return {group->second, index};
   }
 
   void end_object() {
@@ -212,6 +273,8 @@ class ModelReader {
   std::vector<std::string_view> open_;  // elements, from the root
   std::string_view prefix_;             // of the core specification, with its colon
   std::string path_attribute_;          // of the extension for production; empty: not declared
+  std::string colour_prefix_;           // of that for materials, with its colon
+  std::map<std::uint64_t, std::uint32_t> groups_;  // of materials, by their numbers in the file
   Model model_;
   Object* object_ = nullptr;  // that the current element is in
   bool found_ = false;
@@ -228,11 +291,22 @@ class Package {
     builder_.note("coordinates are in the unit " + in_quotes(model.unit));
     if (model.build.empty()) fail({}, "the model builds nothing");
     for (const Placement& item : model.build) place(root, item, {}, 0);
-    if (labels_ < 2) return builder_.forget_labels();
-    builder_.note(std::to_string(labels_) + " objects, labelled in the order of their use from 1");
+    for (const Use& use : uses_) add(use);
+    const std::size_t labels = one_object() ? materials_.size() : objects_.size();
+    if (labels < 2) return builder_.forget_labels();
+    builder_.note(std::to_string(labels) + (one_object() ? " materials" : " objects") +
+                  ", labelled in the order of their use from 1");
   }
 
  private:
+  // An object where it is placed.
+  struct Use {
+    const Model* model;
+    const Object* object;
+    std::uint64_t id;
+    std::vector<const Transform*> transforms;
+  };
+
   static constexpr std::size_t kDeepest = 32;
   // So that components of components of components end.
   static constexpr std::uint64_t kMostPlacements = std::uint64_t{1} << 20;
@@ -292,7 +366,7 @@ class Package {
     if (found == model.objects.end()) {
       fail({}, "there is no object " + std::to_string(placement.object) + " in " + name);
     }
-    Object& object = found->second;
+    const Object& object = found->second;
     if (object.type != "model" && object.type != "surface") {
       builder_.warn("objects of the type " + in_quotes(object.type) + " are left out");
       return;
@@ -301,14 +375,32 @@ class Package {
     for (const Placement& component : object.components) {
       place(name, component, transforms, depth + 1);
     }
-    if (!object.triangles.empty()) add(object, placement.object, transforms);
+    if (object.triangles.empty()) return;
+    objects_.try_emplace(&object, static_cast<std::int32_t>(objects_.size() + 1));
+    uses_.push_back({&model, &object, placement.object, std::move(transforms)});
   }
 
-  void add(Object& object, std::uint64_t id, const std::vector<const Transform*>& transforms) {
-    if (object.label == 0) {
-      object.label = ++labels_;
-      builder_.name_label(object.label,
-                          object.name.empty() ? "object " + std::to_string(id) : object.name);
+  bool one_object() const { return objects_.size() == 1; }
+
+  // Objects tell triangles apart, and if there is but one, its materials do.
+  std::int32_t label_of(const Use& use, std::size_t triangle) {
+    const Object& object = *use.object;
+    if (!one_object()) return objects_.at(&object);
+    const Material material = object.materials[triangle];
+    const auto [at, fresh] =
+        materials_.try_emplace(material, static_cast<std::int32_t>(materials_.size() + 1));
+    if (fresh && material.group != Material::kNoGroup) {
+      builder_.name_label(at->second, use.model->material_names[material.group][material.index]);
+    }
+    return at->second;
+  }
+
+  void add(const Use& use) {
+    const Object& object = *use.object;
+    const auto& transforms = use.transforms;
+    if (!one_object()) {
+      builder_.name_label(objects_.at(&object),
+                          object.name.empty() ? "object " + std::to_string(use.id) : object.name);
     }
     bool mirrored = false;
     for (const Transform* transform : transforms) mirrored ^= mirrors(*transform);
@@ -317,10 +409,11 @@ class Package {
       for (auto t = transforms.rbegin(); t != transforms.rend(); ++t) p = transformed(p, **t);
       builder_.add_vertex(p[0], p[1], p[2], {});
     }
-    for (const auto& [a, b, c] : object.triangles) {
+    for (std::size_t t = 0; t < object.triangles.size(); ++t) {
+      const auto& [a, b, c] = object.triangles[t];
       const auto corner = [&](std::uint32_t v) { return static_cast<std::uint32_t>(first + v); };
       const std::array corners = {corner(a), corner(mirrored ? c : b), corner(mirrored ? b : c)};
-      builder_.add_polygon(corners, object.label, {});
+      builder_.add_polygon(corners, label_of(use, t), {});
     }
   }
 
@@ -328,7 +421,9 @@ class Package {
   Polling& polling_;
   SurfaceBuilder& builder_;
   std::map<std::string, Model> parts_;
-  std::int32_t labels_ = 0;
+  std::vector<Use> uses_;
+  std::map<const Object*, std::int32_t> objects_;  // in use, with their labels
+  std::map<Material, std::int32_t> materials_;     // the same, of the only object
   std::uint64_t placements_ = 0;
 };
 
