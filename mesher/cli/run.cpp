@@ -109,7 +109,8 @@ int Runner::mesh() {
   note_interruption(result.status);
   count_defects(result.status);
   const Statistics& s = result.statistics;
-  if (s.planar_groups > 0) remark(planar_text(command_.input, s, command_.options.planar == 0));
+  if (s.planar_groups > 0)
+    remark(planar_text(command_.input, s, command_.options.planar == 0 || s.diagonals > 0));
   for (const std::string& limit : limits_texts(s)) tell(command_.input + ": " + limit);
   // The constrained Delaunay tetrahedrization promises no angles.
   if (result.status.ok() && command_.job == Job::mesh) {

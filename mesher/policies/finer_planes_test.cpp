@@ -33,17 +33,50 @@ TEST(FinerPlanes, NothingIsWantedAfterAFailure) {
 }
 
 // A vertex may be 0.5 from its plane, so the surface 1, a quarter of the diagonal.
-TEST(FinerPlanes, AThirtySecondOfTheBoundThenNoPlanes) {
+TEST(FinerPlanes, TheSurfaceAsGivenThenAThirtySecondThenNoPlanes) {
   Options options;
   options.tau = 0.25;
   FinerPlanes planes(options);
   const Result bad = result_with(0, 2);
   ASSERT_TRUE(planes.plan_run_after(bad));
-  EXPECT_EQ(planes.options().planar, 0.25 / 32);
-  EXPECT_EQ(planes.options().tau, 0.25);
-  ASSERT_TRUE(planes.plan_run_after(bad));
   EXPECT_EQ(planes.options().planar, 0);
-  EXPECT_FALSE(planes.plan_run_after(bad));
+  EXPECT_FALSE(planes.directly());
+  EXPECT_EQ(planes.options().tau, 0.25);
+  // Of the first bound, even if another run was better.
+  Result other = result_with(0, 1);
+  other.statistics.planar_bound = 0.125;
+  ASSERT_TRUE(planes.plan_run_after(other));
+  EXPECT_EQ(planes.options().planar, 0.25 / 32);
+  EXPECT_FALSE(planes.directly());
+  ASSERT_TRUE(planes.plan_run_after(other));
+  EXPECT_EQ(planes.options().planar, 0);
+  EXPECT_TRUE(planes.directly());
+  EXPECT_FALSE(planes.plan_run_after(other));
+}
+
+// Without the improvement no mesh goes back to the surface as given.
+TEST(FinerPlanes, WithoutAWayBackThereIsOneRunLess) {
+  Options unimproved, approximate;
+  unimproved.improve = false;
+  approximate.approximate = true;
+  for (const Options& options : {unimproved, approximate}) {
+    FinerPlanes planes(options);
+    const Result bad = result_with(0, 2);
+    ASSERT_TRUE(planes.plan_run_after(bad));
+    EXPECT_EQ(planes.options().planar, 0.25 / 32);
+    ASSERT_TRUE(planes.plan_run_after(bad));
+    EXPECT_TRUE(planes.directly());
+    EXPECT_FALSE(planes.plan_run_after(bad));
+  }
+}
+
+// A run that did not come back to the surface as given has no mesh.
+TEST(FinerPlanes, WhatWasGivenUpIsNotBetter) {
+  Result best = result_with(0, 2), gave_up = result_with(0, 0);
+  gave_up.statistics.planar_given_up = true;
+  FinerPlanes::keep_better(gave_up, best);
+  EXPECT_EQ(best.statistics.rounding_flat, 2U);
+  EXPECT_FALSE(best.statistics.planar_given_up);
 }
 
 TEST(FinerPlanes, AllRunsShareTheTimeLimit) {
@@ -108,16 +141,6 @@ TEST(FinerPlanes, WhatWasGivenUpIsMeshedDirectly) {
   EXPECT_EQ(best.statistics.diagonals, 9U);
   EXPECT_EQ(best.statistics.diagonals_missing, 2U);
   EXPECT_FALSE(planes.plan_run_after(best));
-}
-
-// The last run of the default has no stand-in either.
-TEST(FinerPlanes, WithoutPlanesMeansDirectly) {
-  FinerPlanes planes({});
-  const Result bad = result_with(0, 2);
-  ASSERT_TRUE(planes.plan_run_after(bad));
-  EXPECT_FALSE(planes.directly());
-  ASSERT_TRUE(planes.plan_run_after(bad));
-  EXPECT_TRUE(planes.directly());
 }
 
 TEST(FinerPlanes, AnInterruptionIsReported) {
