@@ -344,16 +344,44 @@ bool GroupPlanes::release_all(VertexId v) {
 }
 
 bool GroupPlanes::release(VertexId v, std::uint32_t plane) {
-  bool any = false;
-  const std::vector<std::uint32_t> here = triangles_at(v, plane);
-  for (const std::uint32_t t : here) {
-    const std::uint32_t g = growth_.group_of(t);
-    if (!growth_.is_group(g) || g >= plane_of_.size()) continue;
-    const bool few = growth_.groups()[g].triangles.size() > 2 * here.size();
-    if (few && !growth_.stays_whole(g, here)) continue;
-    any |= growth_.take_apart(g);
+  Departure departure{triangles_at(v, plane), {}};
+  for (const std::uint32_t other : planes_at_[v]) {
+    for (const std::uint32_t t : triangles_at(v, other)) {
+      departure.groups.push_back(growth_.group_of(t));
+    }
   }
-  return detach_at(v, plane) || any;
+  std::erase(planes_at_[v], plane);
+  if (departure.triangles.empty()) return false;
+  sort_unique(departure.groups);
+  departures_.push_back(std::move(departure));
+  return true;
+}
+
+void GroupPlanes::let_go() {
+  constexpr std::size_t kPieces = 4;  // what is bent falls into few, what is noisy into many
+  std::map<std::uint32_t, std::vector<std::size_t>> departures_at;
+  for (std::size_t n = 0; n < departures_.size(); ++n) {
+    for (const std::uint32_t g : departures_[n].groups) departures_at[g].push_back(n);
+  }
+  for (const auto& [g, at] : departures_at) {
+    control_.poll();
+    std::vector<std::uint32_t> spared;
+    for (const std::size_t n : at) {
+      const std::vector<std::uint32_t>& triangles = departures_[n].triangles;
+      spared.insert(spared.end(), triangles.begin(), triangles.end());
+    }
+    sort_unique(spared);
+    const std::size_t most =
+        1 + growth_.groups()[g].left.size() + (spared.size() + kPieces - 1) / kPieces;
+    if (!growth_.take_apart(g, most)) continue;
+    for (const std::size_t n : at) departures_[n].triangles.clear();
+  }
+  for (const Departure& departure : departures_) {
+    for (const std::uint32_t t : departure.triangles) {
+      if (growth_.is_group(growth_.group_of(t))) growth_.detach(t);
+    }
+  }
+  departures_.clear();
 }
 
 bool GroupPlanes::detach_at(VertexId v, std::uint32_t plane) {
@@ -368,7 +396,7 @@ std::vector<std::uint32_t> GroupPlanes::triangles_at(VertexId v, std::uint32_t p
   std::vector<std::uint32_t> here;
   for (const std::uint32_t t : surface_.triangles_at(v)) {
     const std::uint32_t g = growth_.group_of(t);
-    if (growth_.is_group(g) && g < plane_of_.size() && plane_of_[g] == plane) here.push_back(t);
+    if (growth_.is_group(g) && plane_of_[g] == plane) here.push_back(t);
   }
   return here;
 }

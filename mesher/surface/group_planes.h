@@ -17,7 +17,7 @@ bool exactly_on(const PlaneEquation& plane, const Vec3& p);
 Fit rough(const PlaneEquation& plane);
 
 // Call fit(), share(), spread_moves() and relieve_vertices() in this order. If the last one says
-// that groups have lost triangles, all has to be done again; the same after release() and after
+// that groups have lost triangles, all has to be done again; the same after let_go() and after
 // PlanarGrowth::detach().
 class GroupPlanes {
  public:
@@ -37,13 +37,15 @@ class GroupPlanes {
   // all can, groups give up their triangles at the vertex until it has three planes. True if some
   // have.
   bool relieve_vertices();
-  // Takes the triangles at v out of the groups of the plane with the least area there. Those groups
-  // are taken apart if that costs them little: if the rest would be one group again, of a smaller
-  // bound, which leaves more room to the vertices, or if half of the triangles are at v. Otherwise
-  // v alone has no room, having an edge shorter than the noise, say. False if there is no group.
+  // A vertex that finds no place on its planes. The triangles at it that are in groups of the plane
+  // with the least area there have to leave them, with let_go(). False if there is no group.
   bool release(VertexId v);
   // The same until no plane is left at v. True if there was one.
   bool release_all(VertexId v);
+  // For all such vertices together: a group at some of them that was grown across a bend, say, is
+  // taken apart if there are far fewer pieces than triangles that it spares. Where no group is, the
+  // triangles leave.
+  void let_go();
 
   // A group by the number of the group whose plane it shares.
   std::uint32_t plane_of(std::uint32_t group) const { return plane_of_[group]; }
@@ -93,6 +95,13 @@ class GroupPlanes {
   std::vector<Plane> planes_;                          // per group
   std::vector<std::uint32_t> plane_of_;                // group -> the one whose plane it shares
   std::vector<std::vector<std::uint32_t>> planes_at_;  // vertex -> planes, as such groups
+
+  // What let_go() is about.
+  struct Departure {
+    std::vector<std::uint32_t> triangles;  // at a vertex
+    std::vector<std::uint32_t> groups;     // at it, theirs and others
+  };
+  std::vector<Departure> departures_;
 };
 
 }  // namespace delmesher::surface

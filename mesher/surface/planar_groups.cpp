@@ -41,7 +41,7 @@ class StandInBuilder {
     if (!growth_.any_nearly_flat()) return {};
     growth_.grow_all();
     // Groups that cannot be certified are taken apart, and the rest is tried again. Every round
-    // takes a triangle out of a group for good.
+    // takes a triangle out of a group, or makes the bound of a group smaller.
     while (true) {
       control_.poll();
       if (!planes_.fit()) return {};
@@ -49,8 +49,8 @@ class StandInBuilder {
       planes_.spread_moves();
       if (planes_.relieve_vertices()) continue;
       place_vertices();
-      if (!certify()) continue;
-      return result();
+      if (certify()) return result();
+      planes_.let_go();
     }
   }
 

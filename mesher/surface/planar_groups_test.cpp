@@ -209,9 +209,8 @@ TEST(PlanarGroups, AFlatFacetLendsItsPlaneToANoisyOne) {
   EXPECT_EQ(g.stand_in.groups, 1U);
 }
 
-// The same with needles in the wall at x = 1 along its edge with the lid: they become part of the
-// lid, and leave no trace of themselves there by flips. Flipped facets have to be planar.
-TEST(PlanarGroups, NeedlesBesideALentPlaneKeepTheOutlines) {
+// The same with needles in the wall at x = 1 along its edge with the lid.
+Surface lid_beside_needles() {
   Surface s = lid_in_two_parts();
   for (std::size_t t = 0, n = s.triangles.size(); t < n; ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -229,9 +228,53 @@ TEST(PlanarGroups, NeedlesBesideALentPlaneKeepTheOutlines) {
       break;
     }
   }
-  const Grouped g = grouped(s);
+  return s;
+}
+
+// They become part of the lid, and leave no trace of themselves there by flips. Flipped facets have
+// to be planar.
+TEST(PlanarGroups, NeedlesBesideALentPlaneKeepTheOutlines) {
+  const Grouped g = grouped(lid_beside_needles());
   EXPECT_EQ(g.facets(), 7U);
   EXPECT_FALSE(g.stand_in.triangles.empty());
+}
+
+// A needle belongs to the facet that it was handed to, also when its former one is taken apart.
+TEST(PlanarGroups, ANeedleHasOneGroup) {
+  const Surface s = lid_beside_needles();
+  Limits limits;
+  Control control{limits};
+  const MeasuredSurface surface(s);
+  PlanarGrowth growth(surface, 1e-8, 1e-16, control);
+  growth.grow_all();
+  const auto is_lid = [&](std::uint32_t g) {
+    const auto& members = growth.groups()[g].triangles;
+    const std::uint32_t largest =
+        *std::ranges::max_element(members, {}, [&](std::uint32_t t) { return surface.size(t); });
+    return surface.area(largest)[2] > std::fabs(surface.area(largest)[0]);
+  };
+  std::vector<std::uint32_t> needles;
+  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) {
+    if (std::fabs(surface.area(t)[0]) > surface.area(t)[2] && surface.size(t) < 1e-8) {
+      needles.push_back(t);
+      ASSERT_TRUE(is_lid(growth.group_of(t))) << t;
+    }
+  }
+  ASSERT_FALSE(needles.empty());
+  std::vector<std::uint32_t> before;
+  for (std::uint32_t t = 0; t < s.triangles.size(); ++t) before.push_back(growth.group_of(t));
+  for (const std::uint32_t g : std::set<std::uint32_t>(before.begin(), before.end())) {
+    if (growth.is_group(g) && !is_lid(g)) growth.take_apart(g, 1000);
+  }
+  for (const std::uint32_t t : needles) EXPECT_EQ(growth.group_of(t), before[t]);
+  std::vector<int> times(s.triangles.size());
+  for (std::uint32_t g = 0; g < growth.groups().size(); ++g) {
+    for (const std::uint32_t t : growth.groups()[g].triangles) {
+      ++times[t];
+      EXPECT_EQ(growth.group_of(t), g);
+    }
+  }
+  EXPECT_EQ(std::ranges::count(times, 1), std::ssize(times));
 }
 
 // A lid in columns of given places and heights; two at one place are a riser. The floor's columns
@@ -461,38 +504,78 @@ TEST(PlanarGroups, ASmallerBoundLeavesWholeWhatIsFlatEnough) {
     PlanarGrowth growth(surface, 1e-6, 1e-16, control);
     growth.grow_all();
     ASSERT_EQ(growth.groups().size(), 6U);
-    const std::vector<std::uint32_t> without = {growth.groups()[0].triangles[3]};
-    EXPECT_EQ(growth.stays_whole(0, without), !single);
-    EXPECT_TRUE(growth.take_apart(0));
-    const auto of_more_than_one = [&](std::uint32_t first) {
-      std::size_t n = 0;
-      for (std::uint32_t g = first; g < growth.groups().size(); ++g) n += growth.is_group(g);
-      return n;
-    };
-    EXPECT_EQ(of_more_than_one(6) == 1 && growth.groups().size() == 7, !single);
+    const std::size_t size = growth.groups()[0].triangles.size();
+    EXPECT_EQ(growth.take_apart(0, 2), !single);
+    if (single) {
+      EXPECT_EQ(growth.groups().size(), 6U);  // as before
+      EXPECT_EQ(growth.groups()[0].triangles.size(), size);
+      EXPECT_EQ(growth.group_of(growth.groups()[0].triangles[3]), 0U);
+    }
+    // With triangles that had left it.
+    if (!single) {
+      growth.detach(growth.groups()[6].triangles[3]);
+      EXPECT_EQ(growth.groups()[6].triangles.size(), size - 1);
+      EXPECT_TRUE(growth.take_apart(6, 2));
+      EXPECT_EQ(growth.groups()[7].triangles.size(), size);
+    }
+  }
+}
+// A ridge that is lower than the bound: the plates on both sides of it become one bent group and
+// the rest of one plate, whose planes meet far from their common edge. To take the bent one apart
+// is better than to take triangles out of the other.
+TEST(PlanarGroups, AFacetThatGrewAcrossARidgeFallsIntoTwo) {
+  constexpr std::uint32_t kRows = 8;
+  Surface s = box({0, 0, 0}, {10, 6, 1}, kRows);
+  for (Point& p : s.vertices) {
+    if (p[2] == 1) p[2] -= 9e-6 * std::fabs(p[1] - 3);
+  }
+  ASSERT_EQ(Grouped(rotated(s), 1e-10).facets(), 7U);
+  for (const Surface& t : {rotated(s), in_single_precision(rotated(s))}) {
+    EXPECT_EQ(grouped(t).facets(), 7U);
   }
 }
 
-// An edge shorter than the noise leaves its ends no room to move. That is no reason to give up the
+// Terraces of a height below the bound: one group as long as nothing is wrong with it, but their
+// risers are too narrow for their vertices to move as far.
+TEST(PlanarGroups, StepsBelowTheBoundDoNotShatterWhatIsBesideThem) {
+  const std::vector<double> places = {0, 1, 2, 2 + 1e-6, 3, 4, 4 + 1e-6, 5, 6},
+                            heights = {1,        1,        1,        1 + 2e-6, 1 + 2e-6,
+                                       1 + 2e-6, 1 + 4e-6, 1 + 4e-6, 1 + 4e-6};
+  const Surface s = terraces(places, heights, 6);
+  const std::size_t before = Grouped(s, 0).facets();
+  EXPECT_EQ(before, 10U);
+  EXPECT_EQ(grouped(s).facets(), before);
+  EXPECT_EQ(grouped(rotated(s)).facets(), before);
+}
+
+// Edges shorter than the noise leave their ends no room to move. That is no reason to give up the
 // whole face around them.
-TEST(PlanarGroups, AnEdgeShorterThanTheNoiseCostsItsOwnTrianglesAlone) {
-  constexpr std::uint32_t kSquares = 8;
+TEST(PlanarGroups, EdgesShorterThanTheNoiseCostTheirOwnTrianglesAlone) {
+  constexpr std::uint32_t kSquares = 16;  // the short edges have others between them
   const Surface given = box({0, 0, 0}, {1, 2, 3}, kSquares);
   const Surface s = in_single_precision(rotated(given));
-  VertexId v = 0;
-  while (!(given.vertices[v][0] == 0.5 && given.vertices[v][1] == 1 && given.vertices[v][2] == 3)) {
-    ++v;
-  }
   ASSERT_EQ(grouped(s).facets(), 6U);
-  const Surface split = with_split_edge(s, v, v + 1, 1e-6);
-  const Grouped g = grouped(split);
-  const auto at_its_ends =
-      static_cast<std::size_t>(std::ranges::count_if(split.triangles, [&](const auto& t) {
-        return std::ranges::find(t, v) != t.end() ||
-               std::ranges::find(t, split.vertices.size() - 1) != t.end();
-      }));
-  EXPECT_GT(g.facets(), 6U);
-  EXPECT_LE(g.facets(), 6U + at_its_ends);
+  for (const double every : {0.5, 0.25}) {
+    Surface split = s;
+    std::set<VertexId> ends;
+    for (VertexId v = 0; v < given.vertices.size(); ++v) {
+      const auto& [x, y, z] = given.vertices[v];
+      const auto is_inside = [&](double share) {
+        return share > 0 && share < 1 && std::fmod(share, every) == 0;
+      };
+      if (z != 3 || !is_inside(x) || !is_inside(y / 2)) continue;
+      ends.insert(v);
+      ends.insert(static_cast<VertexId>(split.vertices.size()));
+      split = with_split_edge(split, v, v + 1, 1e-6);
+    }
+    const Grouped g = grouped(split);
+    const auto at_ends =
+        static_cast<std::size_t>(std::ranges::count_if(split.triangles, [&](const auto& t) {
+          return std::ranges::any_of(t, [&](VertexId v) { return ends.contains(v); });
+        }));
+    EXPECT_GT(g.facets(), 6U);
+    EXPECT_LE(g.facets(), 6U + at_ends);
+  }
 }
 
 // Every step goes over all vertices, so each consults the caller many times on a surface of many.

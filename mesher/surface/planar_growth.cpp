@@ -147,7 +147,7 @@ void PlanarGrowth::hand_over_needles() {
     PlaneFit sum(surface_.vertices());
     for (const std::uint32_t member : groups_[to].triangles) sum.add(surface_.triangles()[member]);
     if (!within(t, sum.fit(), noise_)) continue;
-    detach(t);
+    remove(t);
     group_of_[t] = to;
     std::vector<std::uint32_t>& members = groups_[to].triangles;
     members.insert(std::lower_bound(members.begin(), members.end(), t), t);
@@ -277,7 +277,7 @@ class PlanarGrowth::Growing {
 
 void PlanarGrowth::grow(std::uint32_t seed, double noise) {
   const auto id = static_cast<std::uint32_t>(groups_.size());
-  groups_.push_back({.triangles = {}, .noise = noise});
+  groups_.push_back({.triangles = {}, .noise = noise, .left = {}});
   Growing(*this, id, seed).run();
 }
 
@@ -291,35 +291,35 @@ bool PlanarGrowth::within(std::uint32_t t, const Fit& fit, double noise) const {
   });
 }
 
-bool PlanarGrowth::stays_whole(std::uint32_t g, const std::vector<std::uint32_t>& without) const {
-  std::vector<std::uint32_t> rest;
-  PlaneFit sum(surface_.vertices());
-  for (const std::uint32_t t : groups_[g].triangles) {
-    if (std::ranges::find(without, t) != without.end()) continue;
-    rest.push_back(t);
-    sum.add(surface_.triangles()[t]);
-  }
-  const double noise = groups_[g].noise * kFiner;
-  const Fit fit = sum.fit();
-  return noise >= finest_ &&
-         std::ranges::all_of(rest, [&](std::uint32_t t) { return fits(t, fit, noise); });
-}
-
-bool PlanarGrowth::take_apart(std::uint32_t g) {
+bool PlanarGrowth::take_apart(std::uint32_t g, std::size_t fewer_than) {
   const double noise = groups_[g].noise * kFiner;
   if (!(noise >= finest_)) return false;
-  const std::vector<std::uint32_t> members = std::move(groups_[g].triangles);
-  groups_[g].triangles.clear();
+  std::vector<std::uint32_t> members = groups_[g].triangles;
+  members.insert(members.end(), groups_[g].left.begin(), groups_[g].left.end());
+  const std::size_t before = groups_.size();
   for (const std::uint32_t t : members) {
     group_of_[t] = kNone;
     open_[t] = 1;
   }
   grow_from(members, noise);
   for (const std::uint32_t t : members) open_[t] = 0;
-  return true;
+  if (groups_.size() - before < fewer_than) {
+    groups_[g].triangles.clear();
+    groups_[g].left.clear();
+    return true;
+  }
+  groups_.resize(before);
+  for (const std::uint32_t t : groups_[g].triangles) group_of_[t] = g;
+  for (const std::uint32_t t : groups_[g].left) group_of_[t] = kNone;
+  return false;
 }
 
 void PlanarGrowth::detach(std::uint32_t t) {
+  groups_[group_of_[t]].left.push_back(t);
+  remove(t);
+}
+
+void PlanarGrowth::remove(std::uint32_t t) {
   std::vector<std::uint32_t>& members = groups_[group_of_[t]].triangles;
   members.erase(std::lower_bound(members.begin(), members.end(), t));
   group_of_[t] = kNone;

@@ -78,7 +78,8 @@ class PlanarGrowth {
  public:
   struct Group {
     std::vector<std::uint32_t> triangles;
-    double noise = 0;  // bound on the distances of its vertices from the plane
+    double noise = 0;                 // bound on the distances of its vertices from the plane
+    std::vector<std::uint32_t> left;  // triangles that were in it, and are in none
   };
 
   // No bound is smaller than `finest`.
@@ -88,10 +89,10 @@ class PlanarGrowth {
   // surfaces have none, and nothing to be done.
   bool any_nearly_flat() const;
   void grow_all();
-  // Would taking it apart leave one group, of all triangles but these (in any order)?
-  bool stays_whole(std::uint32_t group, const std::vector<std::uint32_t>& without) const;
-  // Into groups of smaller bounds; false if its bound is the smallest already.
-  bool take_apart(std::uint32_t group);
+  // Into groups of a smaller bound, together with the triangles that have left it, if these are
+  // fewer than `fewer_than`. False, and nothing changes, if they are not, or if its bound is the
+  // smallest already.
+  bool take_apart(std::uint32_t group, std::size_t fewer_than);
   // Takes a triangle out of its group: it is a facet of its own from now on.
   void detach(std::uint32_t triangle);
 
@@ -108,6 +109,7 @@ class PlanarGrowth {
   void grow_from(std::vector<std::uint32_t> seeds, double noise);
   void grow(std::uint32_t seed, double noise);
   void hand_over_needles();
+  void remove(std::uint32_t triangle);
   bool fits(std::uint32_t triangle, const Fit& fit, double noise) const;
 
   const MeasuredSurface& surface_;
