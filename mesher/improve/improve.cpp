@@ -52,6 +52,7 @@ class Improvement {
     polish_vertices();
     begin(0.02);
     repair({});
+    mend();
   }
 
   std::uint64_t spared() const { return spared_; }
@@ -176,6 +177,18 @@ class Improvement {
     }
   }
 
+  // The last resort for what is bad by its dihedral angles: they alone count, first beside the face
+  // angles that are promised, and points are put in on the surface, too.
+  void mend() {
+    on_surface_ = true;
+    for (const Measure measure : {Measure::angles, Measure::dihedrals}) {
+      state_.measure_by(measure);
+      for (auto* tried : {&tried_, &smooth_tried_, &collapse_tried_}) tried->clear();
+      begin(0);
+      repair({});
+    }
+  }
+
   bool in_vain(std::size_t attempts, std::size_t successes) const {
     return attempts > state_.mesh.slots() / 100 && successes < attempts / 6;
   }
@@ -201,7 +214,7 @@ class Improvement {
     for (const VertexId v : tet) {
       if (collapse(v)) return true;
     }
-    return insert_ && insertion_.run(t);
+    return (insert_ && insertion_.run(t)) || (on_surface_ && insertion_.run_on_surface(t));
   }
 
   // From the other side, and neither side has changed since.
@@ -240,7 +253,7 @@ class Improvement {
   Collapse collapse_;
   Smoothing smoothing_;
   Insertion insertion_;
-  bool insert_ = false;
+  bool insert_ = false, on_surface_ = false;
   std::uint64_t spared_ = 0;
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]

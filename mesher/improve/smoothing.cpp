@@ -68,16 +68,7 @@ bool Smoothing::find_axis() {
 
 // The part of a displacement that keeps v where it belongs.
 Vec3 Smoothing::allowed(const Vec3& offset) const {
-  switch (state_.mobility(v_)) {
-    case Mobility::free:
-      return offset;
-    case Mobility::in_plane:
-      return add_scaled(offset, -dot(offset, axis_), axis_);
-    default: {
-      const double along = dot(offset, axis_);
-      return {along * axis_[0], along * axis_[1], along * axis_[2]};
-    }
-  }
+  return allowed_offset(state_.mobility(v_), axis_, offset);
 }
 
 // From x to the apex that would make a tetrahedron of the star nearly regular.

@@ -20,12 +20,12 @@ State::State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopol
       topology_(topology),
       given_(given),
       goals_(goals),
-      per_target_{1 / goals.target.dihedral, 1 / goals.target.face, 1 / goals.target.gamma},
       first_new_(points.size()),
       point_(std::move(point)),
       mobility_(point_.size(), Mobility::free),
       facet_(point_.size(), kNone),
       changed_at_(point_.size(), 0) {
+  measure_by(Measure::shape);
   if (topology != nullptr) locator_.emplace(*topology, points);
   PointStore scratch;
   position_.reserve(point_.size());
@@ -37,6 +37,26 @@ State::State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopol
   find_mobility();
   quality_.resize(mesh.slots());
   for (TetId t = 0; t < mesh.slots(); ++t) measure(t);
+}
+
+void State::measure_by(Measure measure) {
+  // Better than every value that counts, so that what is not measured is never the worst.
+  constexpr float kIgnored = 1e30F;
+  // Of a face angle that just keeps the promise.
+  constexpr float kScoreOfPromise = 0.5F;
+  // However flat, tetrahedra are not to lose all of their volume.
+  constexpr float kLeastGamma = 0.01F;
+  target_ = goals_.target;
+  per_target_ = {1 / target_.dihedral, 1 / target_.face, 1 / target_.gamma};
+  least_score_ = least_gamma_ = 0;
+  if (measure == Measure::shape) return;
+  least_score_ = kMended;
+  least_gamma_ = kLeastGamma;
+  target_.gamma = 0;
+  per_target_.gamma = kIgnored;
+  const bool promises = measure == Measure::angles && goals_.promised > 0;
+  target_.face = promises ? goals_.promised / kScoreOfPromise : 0;
+  per_target_.face = promises ? 1 / target_.face : kIgnored;
 }
 
 // A Steiner point of the surface is on a segment or on a triangle; explicit points there are of the
@@ -154,6 +174,30 @@ Place State::place_in_triangle(VertexId v, const std::array<VertexId, 3>& corner
       planes, {});
 }
 
+Place State::place_in_facet(FacetId facet, const Vec3& x, double tolerance) {
+  const auto& corner = topology_->triangles[locator_->triangle_at(facet, x)];
+  const PlaneId plane = topology_->facet_plane[facet];
+  return place_of(place_on_triangle(points_, corner[0], corner[1], corner[2], x, tolerance),
+                  {&plane, 1}, {});
+}
+
+Place State::place_on_input_edge(std::uint32_t edge, const Vec3& x, double tolerance) {
+  const std::array<VertexId, 2> end = topology_->edge_vertices(edge);
+  return place_of(place_on_segment(points_, end[0], end[1], x, tolerance),
+                  topology_->edge_planes(edge), {&edge, 1});
+}
+
+std::uint32_t State::input_edge_of(VertexId a, VertexId b) const {
+  std::array<VertexId, 2> end = {point_[a], point_[b]};
+  for (const VertexId p : {point_[a], point_[b]}) {
+    if (points_.is_corner(p)) continue;
+    const PointDefinition d = points_.definition(p);
+    if (d.kind != PointKind::on_segment) return kNone;
+    end = {d.corner[0], d.corner[1]};
+  }
+  return edge_between(*topology_, end[0], end[1]);
+}
+
 void State::move_to_edge(VertexId v, const Place& place, std::span<const TetId> star) {
   mobility_[v] = Mobility::on_line;
   move(v, place, star);
@@ -196,31 +240,40 @@ VertexId State::add_vertex(const Place& place, Mobility mobility, FacetId facet)
   return mesh.add_vertex();
 }
 
-void State::insert_on_edge(const Place& place, std::span<const TetId> removed,
-                           std::span<CreatedTet> created, std::span<SurfaceFace> faces) {
-  const VertexId v = add_vertex(place, Mobility::on_line, faces.front().facet);
+// The new vertex takes the place of kNone.
+void State::put_in(const Place& place, Mobility mobility, FacetId facet,
+                   std::span<const TetId> removed, std::span<CreatedTet> created,
+                   std::span<SurfaceFace> faces) {
+  const VertexId v = add_vertex(place, mobility, facet);
   for (CreatedTet& tet : created) {
     std::replace(tet.vertices.begin(), tet.vertices.end(), kNone, v);
   }
   for (SurfaceFace& face : faces) {
     std::replace(face.vertices.begin(), face.vertices.end(), kNone, v);
   }
-  replace(removed, created, faces);
-}
-
-void State::insert(const Place& place, std::span<const TetId> removed,
-                   std::span<CreatedTet> created) {
-  const VertexId v = add_vertex(place, Mobility::free, kNone);
-  for (CreatedTet& tet : created) {
-    std::replace(tet.vertices.begin(), tet.vertices.end(), kNone, v);
-  }
   swallowed_.clear();
   for (const TetId t : removed) {
     swallowed_.insert(swallowed_.end(), mesh.tet(t).begin(), mesh.tet(t).end());
   }
   sort_unique(swallowed_);
-  replace(removed, created, {});
+  replace(removed, created, faces);
   for (const VertexId w : swallowed_) gained_ -= mesh.incident(w) == kNone ? 1 : 0;
+}
+
+void State::insert_on_edge(const Place& place, std::span<const TetId> removed,
+                           std::span<CreatedTet> created, std::span<SurfaceFace> faces) {
+  put_in(place, Mobility::on_line, faces.front().facet, removed, created, faces);
+}
+
+void State::insert_on_surface(const Place& place, Mobility mobility, FacetId facet,
+                              std::span<const TetId> removed, std::span<CreatedTet> created,
+                              std::span<SurfaceFace> faces) {
+  put_in(place, mobility, facet, removed, created, faces);
+}
+
+void State::insert(const Place& place, std::span<const TetId> removed,
+                   std::span<CreatedTet> created) {
+  put_in(place, Mobility::free, kNone, removed, created, {});
 }
 
 }  // namespace delmesher::improve

@@ -26,6 +26,22 @@ enum class Mobility : std::uint8_t {
   free       // anywhere in its star
 };
 
+// The part of an offset that keeps a vertex where it belongs. `axis`: the unit normal of its facet,
+// or the direction of its edge.
+inline Vec3 allowed_offset(Mobility mobility, const Vec3& axis, const Vec3& offset) {
+  if (mobility == Mobility::free) return offset;
+  const double along = dot(offset, axis);
+  if (mobility == Mobility::in_plane) return add_scaled(offset, -along, axis);
+  return {along * axis[0], along * axis[1], along * axis[2]};
+}
+
+// What the score of a tetrahedron tells: how near the worst of these is to its target.
+enum class Measure : std::uint8_t {
+  shape,     // dihedral angles, face angles and gamma
+  angles,    // dihedral angles, and whether face angles keep the promise
+  dihedrals  // dihedral angles alone
+};
+
 struct Goals {
   Quality target;  // tetrahedra as good as this are left alone
   // Squared sines: no face angle below `promised` and no dihedral angle flatter than `floor` is
@@ -80,33 +96,39 @@ class State {
   }
   Quality worst_of(std::span<const TetId> tets) const;
 
-  // By the worst of the three: 1 and more is good enough.
+  // By the worst of what is measured: 1 and more is good enough.
   float score(const Quality& q) const {
     return std::min({q.dihedral * per_target_.dihedral, q.face * per_target_.face,
                      q.gamma * per_target_.gamma});
   }
+  // What is not measured by its shape is mended with this score: a dihedral angle of 12.2 degrees.
+  static constexpr float kMended = 0.32F;
+  // The score that is worth any change; infinite while the shape is measured.
+  float enough() const { return least_score_ > 0 ? least_score_ : HUGE_VALF; }
+  // From now on scores tell of this. If it is not the shape, all that a change makes is mended: a
+  // mesh is not to get many tetrahedra that are bad instead of one that is worse.
+  void measure_by(Measure measure);
   // Fineness of the grid of new points, in the shortest edge where they go.
   static constexpr double kGrid = 1.0 / 1024;
   // Below this score it is worth trying hard.
   static constexpr float kBad = 0.4F;
   bool good(const Quality& q) const { return score(q) >= 1; }
   float score(TetId t) const { return score(quality_[t]); }
-  // By its face angles alone.
+  // By its face angles alone, if they are measured.
   float face_score(TetId t) const { return quality_[t].face * per_target_.face; }
 
   // The quality that a change has to reach if it replaces tetrahedra as bad as `before`: better
   // than they are; or, where something else is gained, nearly good or as good as they are.
   Quality to_be_better(const Quality& before) const {
     const float now = score(before);
-    return at_least((now < kBad ? kLeastGain : kGain) * now, before);
+    return at_least(std::max(least_score_, (now < kBad ? kLeastGain : kGain) * now), before);
   }
   Quality to_be_acceptable(const Quality& before) const {
-    return at_least(std::min(kNearlyGood, score(before)), before);
+    return at_least(std::max(least_score_, std::min(kNearlyGood, score(before))), before);
   }
   // The least quality with this score.
   Quality to_reach(float score) const {
-    return {score * goals_.target.dihedral, score * goals_.target.face,
-            score * goals_.target.gamma};
+    return {score * target_.dihedral, score * target_.face, score * target_.gamma};
   }
   static bool reaches(const Quality& q, const Quality& least) {
     return q.dihedral >= least.dihedral && q.face >= least.face && q.gamma >= least.gamma;
@@ -147,6 +169,18 @@ class State {
   void move_to_edge(VertexId v, const Place& place, std::span<const TetId> star);
   void insert_on_edge(const Place& place, std::span<const TetId> removed,
                       std::span<CreatedTet> created, std::span<SurfaceFace> faces);
+  // Places for new vertices near x, in a facet and on an edge of the surface. Without a topology
+  // there are none.
+  bool has_places_on_surface() const { return topology_ != nullptr; }
+  Place place_in_facet(FacetId facet, const Vec3& x, double tolerance);
+  Place place_on_input_edge(std::uint32_t edge, const Vec3& x, double tolerance);
+  // The edge of the surface that the edge a-b between two of its facets is a piece of; kNone where
+  // its points are given by two parameters.
+  std::uint32_t input_edge_of(VertexId a, VertexId b) const;
+  // The new vertex is in this facet, or on an edge of it. `faces`: those at it, on the surface.
+  void insert_on_surface(const Place& place, Mobility mobility, FacetId facet,
+                         std::span<const TetId> removed, std::span<CreatedTet> created,
+                         std::span<SurfaceFace> faces);
   // A place near v within the plane of a triangle of its facet.
   Place place_in_triangle(VertexId v, const std::array<VertexId, 3>& corners, double tolerance);
 
@@ -165,9 +199,9 @@ class State {
   static constexpr float kGain = 1.1F, kLeastGain = 1.01F;
 
   Quality at_least(float score, const Quality& before) const {
-    return {std::max(score * goals_.target.dihedral, std::min(goals_.floor, before.dihedral)),
-            std::max(score * goals_.target.face, std::min(goals_.promised, before.face)),
-            score * goals_.target.gamma};
+    return {std::max(score * target_.dihedral, std::min(goals_.floor, before.dihedral)),
+            std::max(score * target_.face, std::min(goals_.promised, before.face)),
+            std::max(score * target_.gamma, std::min(least_gamma_, before.gamma))};
   }
   // The points with the vertices of the surface as given, by the same numbers.
   struct GivenPoints {
@@ -176,6 +210,8 @@ class State {
   };
 
   void find_mobility();
+  void put_in(const Place& place, Mobility mobility, FacetId facet, std::span<const TetId> removed,
+              std::span<CreatedTet> created, std::span<SurfaceFace> faces);
   Place place_of(const PointDefinition& d, std::span<const PlaneId> planes,
                  std::span<const std::uint32_t> lines);
   VertexId add_vertex(const Place& place, Mobility mobility, FacetId facet);
@@ -188,8 +224,9 @@ class State {
   std::span<const Vec3> given_;
   std::unique_ptr<GivenPoints> as_given_;  // null: nobody asks
   Goals goals_;
-  Quality per_target_;
-  std::size_t first_new_;  // point of the store
+  Quality target_, per_target_;              // of what is measured
+  float least_score_ = 0, least_gamma_ = 0;  // of what a change makes
+  std::size_t first_new_;                    // point of the store
   std::optional<FacetLocator> locator_;
   // Per vertex.
   std::vector<VertexId> point_;

@@ -1,0 +1,103 @@
+#include "mesher/improve/insertion.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "mesher/cdt/model_reference.h"
+#include "mesher/cdt/test_models.h"
+#include "mesher/improve/mesh_in_order.h"
+
+namespace delmesher::improve {
+namespace {
+
+using namespace cdt::test_models;
+
+// A mesh of a surface with points of all kinds; without the outside, if `inside_alone`.
+struct Case {
+  Case(const Surface& surface, bool inside_alone, std::uint32_t seed) : model(surface) {
+    EXPECT_TRUE(model.valid);
+    cdt::test_models::enrich(model, 2, seed);
+    mesh = model.run();
+    ImproveMesh given;
+    for (std::size_t n = 0; n < mesh.tetrahedra.size(); ++n) {
+      if (inside_alone && mesh.inside[n] == 0) continue;
+      given.tetrahedra.push_back(mesh.tetrahedra[n]);
+      given.region.push_back(mesh.inside[n]);
+    }
+    given.boundary = mesh.boundary;
+    const std::vector<VertexId> point = vertices_in_order(given, model.points);
+    const std::size_t points = model.points.size();
+    state.emplace(work_mesh(std::move(given), point, points), point, &model.topology,
+                  std::span<const Vec3>{}, model.points, model.predicates, goals_of({}));
+  }
+
+  float worst_score() const {
+    float worst = HUGE_VALF;
+    for (TetId t = 0; t < state->mesh.slots(); ++t) {
+      if (state->mesh.alive(t)) worst = std::min(worst, state->score(t));
+    }
+    return worst;
+  }
+
+  // From all bad tetrahedra once; returns how many points have each mobility.
+  std::map<Mobility, int> put_in_points(Measure measure) {
+    state->measure_by(measure);
+    Insertion insertion(*state);
+    const std::size_t slots = state->mesh.slots(), vertices = state->mesh.vertices();
+    const float before = worst_score();
+    for (TetId t = 0; t < slots; ++t) {
+      if (!state->mesh.alive(t) || !insertion.run_on_surface(t)) continue;
+      if (measure == Measure::shape) continue;
+      for (const TetId u : state->mesh.created()) EXPECT_GE(state->score(u), State::kMended);
+    }
+    EXPECT_GE(worst_score(), before);
+    std::map<Mobility, int> added;
+    for (auto v = static_cast<VertexId>(vertices); v < state->mesh.vertices(); ++v) {
+      ++added[state->mobility(v)];
+    }
+    for (VertexId v = 0; v < vertices; ++v) {
+      const Mobility mobility = state->mobility(v);
+      if (mobility == Mobility::free || mobility == Mobility::in_plane) continue;
+      EXPECT_NE(state->mesh.incident(v), kNone) << v;
+    }
+    return added;
+  }
+
+  // By rational arithmetic, what is wrong with the mesh now.
+  std::string wrong() {
+    state->mesh.validate();
+    ImproveMesh now = result_of(*state);
+    mesh.tetrahedra = std::move(now.tetrahedra);
+    mesh.inside.assign(now.region.begin(), now.region.end());
+    mesh.boundary = std::move(now.boundary);
+    return cdt::rational::Checker(model.topology, model.points, mesh, false).run();
+  }
+
+  Model model;
+  cdt::CdtResult mesh;
+  std::optional<State> state;
+};
+
+TEST(Insertion, PutsPointsOnTheSurfaceAndKeepsIt) {
+  std::map<Mobility, int> added;
+  std::uint32_t seed = 1;
+  for (const Surface& s : one_of_each()) {
+    for (const bool inside_alone : {false, true}) {
+      for (const Measure measure : {Measure::shape, Measure::angles, Measure::dihedrals}) {
+        Case c(s, inside_alone, seed++);
+        for (const auto& [mobility, n] : c.put_in_points(measure)) added[mobility] += n;
+        EXPECT_EQ(c.wrong(), "") << s.triangles.size()
+                                 << " triangles, inside alone: " << inside_alone;
+      }
+    }
+  }
+  EXPECT_GT(added[Mobility::in_plane], 100);
+  EXPECT_GT(added[Mobility::on_line], 100);
+  EXPECT_EQ(added.size(), 2U);
+}
+
+}  // namespace
+}  // namespace delmesher::improve
