@@ -154,7 +154,7 @@ class Improvement {
       tried_.resize(state_.mesh.slots(), 0);
       work.clear();
       for (TetId t = 0; t < state_.mesh.slots(); ++t) {
-        if (!state_.mesh.alive(t) || state_.score(t) >= limit || !changed_since(t, tried_[t]))
+        if (!state_.mesh.alive(t) || !is_to_be_tried(t, limit) || !changed_since(t, tried_[t]))
           continue;
         work.emplace_back(state_.score(t), t);
       }
@@ -180,13 +180,17 @@ class Improvement {
   // The last resort for what is bad by its dihedral angles: they alone count, first beside the face
   // angles that are promised, and points are put in on the surface, too.
   void mend() {
-    on_surface_ = true;
+    mending_ = true;
     for (const Measure measure : {Measure::angles, Measure::dihedrals}) {
       state_.measure_by(measure);
       for (auto* tried : {&tried_, &smooth_tried_, &collapse_tried_}) tried->clear();
       begin(0);
       repair({});
     }
+  }
+
+  bool is_to_be_tried(TetId t, float limit) const {
+    return mending_ ? state_.dihedral_score(t) < State::kMended : state_.score(t) < limit;
   }
 
   bool in_vain(std::size_t attempts, std::size_t successes) const {
@@ -214,7 +218,7 @@ class Improvement {
     for (const VertexId v : tet) {
       if (collapse(v)) return true;
     }
-    return (insert_ && insertion_.run(t)) || (on_surface_ && insertion_.run_on_surface(t));
+    return (insert_ && insertion_.run(t)) || (mending_ && insertion_.run_on_surface(t));
   }
 
   // From the other side, and neither side has changed since.
@@ -253,7 +257,7 @@ class Improvement {
   Collapse collapse_;
   Smoothing smoothing_;
   Insertion insertion_;
-  bool insert_ = false, on_surface_ = false;
+  bool insert_ = false, mending_ = false;
   std::uint64_t spared_ = 0;
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]

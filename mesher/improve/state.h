@@ -114,6 +114,8 @@ class State {
   static constexpr float kBad = 0.4F;
   bool good(const Quality& q) const { return score(q) >= 1; }
   float score(TetId t) const { return score(quality_[t]); }
+  // By its dihedral angles alone, whatever is measured.
+  float dihedral_score(TetId t) const { return quality_[t].dihedral / goals_.target.dihedral; }
   // By its face angles alone, if they are measured.
   float face_score(TetId t) const { return quality_[t].face * per_target_.face; }
 
