@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
 
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
+#include "mesher/predicates/placement.h"
 #include "mesher/surface/flatness.h"
 #include "mesher/surface/test_surfaces.h"
 
@@ -41,10 +44,11 @@ struct Case {
     result.boundary = mesh.boundary;
     result.repeated_faces.clear();
   }
-  DiagonalsResult enter() {
+  DiagonalsResult enter(const std::function<void(ImproveMesh&)>& change = {}) {
     const ImproveOptions options{.region = Region::hull};
     ImproveResult improved = improve(taken(), &model.topology, model.surface.vertices, options,
                                      model.points, model.predicates, model.control);
+    if (change) change(improved.mesh);
     give_back(improved.mesh);
     DiagonalsResult entered =
         enter_diagonals(std::move(improved.mesh), model.topology, as_given, model.surface.vertices,
@@ -129,6 +133,59 @@ TEST(Diagonals, RoomIsMadeBetweenNeedles) {
   Case c(in_single_precision(rotated(prism(ellipse(60), 0.1))), 6, 3);
   EXPECT_EQ(c.enter().missing, 0U);
   EXPECT_EQ(c.wrong(), "");
+}
+
+// A triangle of the stand-in's facet that is another one as given than the point's own.
+std::uint32_t other_triangle(const Case& c, const PointDefinition& d, FacetId facet) {
+  const std::vector<std::uint32_t>& triangles = c.model.topology.facet_triangles[facet];
+  const auto own = std::ranges::find_if(triangles, [&](std::uint32_t t) {
+    return std::ranges::is_permutation(c.model.topology.triangles[t], d.corner);
+  });
+  if (own == triangles.end()) return kNone;
+  const auto other = std::ranges::find_if(triangles, [&](std::uint32_t t) {
+    return c.as_given.facet_of[t] != c.as_given.facet_of[*own];
+  });
+  return other == triangles.end() ? kNone : *other;
+}
+
+// Puts points in the place of the mesh's that are given by such triangles. How many?
+std::uint64_t give_by_other_triangles(Case& c, ImproveMesh& mesh) {
+  std::map<VertexId, VertexId> became;
+  PointStore& points = c.model.points;
+  for (const SurfaceFace& face : mesh.boundary) {
+    for (const VertexId v : face.vertices) {
+      const PointDefinition d = points.definition(v);
+      if (d.kind != PointKind::on_triangle || became.contains(v)) continue;
+      const std::uint32_t t = other_triangle(c, d, face.facet);
+      if (t == kNone) continue;
+      const auto& [p, q, r] = c.model.topology.triangles[t];
+      const std::vector<PlaneId> planes(points.planes(v).begin(), points.planes(v).end());
+      became[v] = points.add(place_on_triangle(points, p, q, r, points.nearest(v), 1e-12));
+      points.set_supports(became[v], planes, {});
+    }
+  }
+  const auto follow = [&](auto& list) {
+    for (VertexId& v : list) {
+      if (became.contains(v)) v = became[v];
+    }
+  };
+  for (Tet& t : mesh.tetrahedra) follow(t);
+  for (SurfaceFace& face : mesh.boundary) follow(face.vertices);
+  return became.size();
+}
+
+// Placed to a tolerance, a point may lie beyond the edge of the triangle that gives it. As given it
+// would be off the facet.
+TEST(Diagonals, PointsGivenByOtherFacetsArePlacedAnew) {
+  std::uint64_t changed = 0;
+  for (const Surface& surface : surfaces()) {
+    Case c(surface, 3, 7);
+    const DiagonalsResult entered =
+        c.enter([&](ImproveMesh& mesh) { changed += give_by_other_triangles(c, mesh); });
+    EXPECT_EQ(entered.missing, 0U);
+    EXPECT_EQ(c.wrong(), "");
+  }
+  EXPECT_GT(changed, 20U);
 }
 
 // Points that were moved or are new lie on the diagonals themselves.
