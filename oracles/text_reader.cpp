@@ -24,7 +24,7 @@ constexpr std::string_view kGzip = ".gz";
 class FileStream {
  public:
   explicit FileStream(const std::string& path)
-      : path_(path), file_(std::fopen(path.c_str(), "rb")) {
+      : path_(path), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
     if (file_ == nullptr && errno == ENOMEM) throw std::bad_alloc();
     if (file_ == nullptr) throw ReadError(path + ": cannot be opened");
     packed_.resize(kPiece);
@@ -32,15 +32,10 @@ class FileStream {
     plain_ = !begins_member();
     if (plain_) return;
     constexpr int kGzipOnly = 16;
-    ready_ = ::inflateInit2(&inflater_, MAX_WBITS + kGzipOnly) == Z_OK;
-    if (!ready_) {
-      std::fclose(file_);
-      throw std::bad_alloc();
-    }
+    if (::inflateInit2(&inflater_, MAX_WBITS + kGzipOnly) != Z_OK) throw std::bad_alloc();
   }
   ~FileStream() {
-    if (ready_) ::inflateEnd(&inflater_);
-    std::fclose(file_);
+    if (!plain_) ::inflateEnd(&inflater_);
   }
   FileStream(const FileStream&) = delete;
   FileStream& operator=(const FileStream&) = delete;
@@ -72,8 +67,8 @@ class FileStream {
   bool fetch() {
     std::memmove(packed_.data(), inflater_.next_in, inflater_.avail_in);
     const std::size_t left = inflater_.avail_in;
-    const std::size_t got = std::fread(packed_.data() + left, 1, kPiece - left, file_);
-    if (std::ferror(file_) != 0) fail("cannot be read");
+    const std::size_t got = std::fread(packed_.data() + left, 1, kPiece - left, file_.get());
+    if (std::ferror(file_.get()) != 0) fail("cannot be read");
     inflater_.next_in = packed_.data();
     inflater_.avail_in = static_cast<uInt>(left + got);
     return got > 0;
@@ -108,10 +103,10 @@ class FileStream {
   [[noreturn]] void fail(const char* why) const { throw ReadError(path_ + ": " + why); }
 
   std::string path_;
-  std::FILE* file_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::vector<Bytef> packed_;
   z_stream inflater_{};  // of a plain file only its places are used
-  bool plain_ = true, ready_ = false;
+  bool plain_ = true;
   bool ended_ = false;  // nothing of the last member is left
 };
 
