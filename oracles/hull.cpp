@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 #include <tuple>
 
 #include "oracles/measures.h"
+#include "oracles/union_find.h"
 #ifdef TETPROOF_SECOND_OPINIONS
 #include "oracles/cgal/kernel_opinion.h"
 #endif
@@ -65,12 +65,7 @@ void Hull::check_edges() {
     }
   }
   std::sort(sides.begin(), sides.end());
-  std::vector<Index> root(faces_.size());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](Index f) {
-    while (root[f] != f) f = root[f] = root[root[f]];
-    return f;
-  };
+  UnionFind joined(faces_.size());
   std::size_t components = faces_.size();
   std::int64_t euler = static_cast<std::int64_t>(faces_.size());
   std::vector<std::uint8_t> used(points_.size(), 0);
@@ -84,10 +79,7 @@ void Hull::check_edges() {
                    complex_.vertex_name(side.to) + " does not have one face on each side");
       continue;
     }
-    if (const Index a = find(side.face), b = find(low->face); a != b) {
-      root[std::max(a, b)] = std::min(a, b);
-      --components;
-    }
+    components -= joined.unite(side.face, low->face) ? 1 : 0;
     if (side.from > side.to) continue;
     --euler;
     check_edge(side, *low);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "oracles/union_find.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -15,26 +16,6 @@ struct DirectedEdge {
   bool operator<(const DirectedEdge& other) const {
     return std::pair(low, high) < std::pair(other.low, other.high);
   }
-};
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The smaller index stays the representative, so that it is the facet's id.
-  void unite(Index a, Index b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
 };
 
 // Sides of triangles, each with the number of times that it is there in one direction more often

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace tetproof::oracles {
@@ -72,17 +71,7 @@ void PlaneFaces::trace_borders() {
     for (Index side = first; face_[side] == kNone; side = next[side]) face_[side] = unbounded_;
     ++unbounded_;
   }
-  joined_.resize(unbounded_ + 1);  // one more than there are borders
-  std::iota(joined_.begin(), joined_.end(), Index{0});
-}
-
-PlaneFaces::Index PlaneFaces::representative(Index border) const {
-  while (joined_[border] != border) border = joined_[border];
-  return border;
-}
-
-void PlaneFaces::join(Index border, Index other) {
-  joined_[representative(border)] = representative(other);
+  joined_ = UnionFind(unbounded_ + 1);  // one more than there are borders
 }
 
 // The rightmost vertex of each connected part of the graph, of these the uppermost.
@@ -111,12 +100,12 @@ std::vector<PlaneFaces::Index> PlaneFaces::outermost() const {
 void PlaneFaces::join_components() {
   for (const Index v : outermost()) {
     const Index around = border_right_of(graph_.vertex(v));
-    join(face_[sides_from_[v].back()], around);
+    joined_.unite(face_[sides_from_[v].back()], around);
   }
   for (Index& face : face_) {
-    if (face != kNone) face = representative(face);
+    if (face != kNone) face = joined_.find(face);
   }
-  unbounded_ = representative(unbounded_);
+  unbounded_ = joined_.find(unbounded_);
 }
 
 std::optional<PlaneFaces::Crossing> PlaneFaces::crossing(Index piece, const Point& p) const {
@@ -144,7 +133,7 @@ PlaneFaces::Index PlaneFaces::border_right_of(const Point& p) {
       if (found && (!nearest || *found < *nearest)) nearest = std::move(found);
     }
   });
-  return nearest ? face_[nearest->left] : static_cast<Index>(joined_.size() - 1);
+  return nearest ? face_[nearest->left] : unbounded_;
 }
 
 // Enclosed is what no way from far outside, or from a hole, reaches without crossing a piece. Of
@@ -163,7 +152,7 @@ void PlaneFaces::find_inside() {
   depth[unbounded_] = 0;
   for (const auto& hole : graph_.given().holes) {
     if (nested || graph_.on_segment(hole)) continue;
-    depth[representative(border_right_of({hole[0], hole[1], hole[0], hole[1]}))] = 0;
+    depth[joined_.find(border_right_of({hole[0], hole[1], hole[0], hole[1]}))] = 0;
   }
   std::deque<Index> queue = {unbounded_};
   while (!queue.empty()) {
@@ -180,7 +169,7 @@ void PlaneFaces::find_inside() {
 }
 
 bool PlaneFaces::inside(const Point& p) {
-  return inside_[representative(border_right_of(p))] != 0;
+  return inside_[joined_.find(border_right_of(p))] != 0;
 }
 
 }  // namespace tetproof::oracles

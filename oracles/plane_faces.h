@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "oracles/plane_graph.h"
+#include "oracles/union_find.h"
 
 namespace tetproof::oracles {
 
@@ -34,8 +35,6 @@ class PlaneFaces {
   void sort_sides();
   void trace_borders();
   void join_components();
-  void join(Index border, Index other);
-  Index representative(Index border) const;
   void find_inside();
   std::vector<Index> outermost() const;
   std::optional<Crossing> crossing(Index piece, const Point& p) const;
@@ -47,7 +46,7 @@ class PlaneFaces {
   std::vector<Index> side_of_;                  // per piece: the left side of the one that counts
   std::vector<std::vector<Index>> sides_from_;  // per vertex, counter-clockwise
   std::vector<Index> face_;                     // per side
-  std::vector<Index> joined_;                   // borders that belong to one face
+  UnionFind joined_{0};                         // borders that belong to one face
   Index unbounded_ = 0;
   std::vector<std::uint8_t> inside_;  // per face
 };
