@@ -14,11 +14,9 @@ class EdgeNodeList {
   template <class Cells, class Nodes>
   void add(const Cells& cells, const Nodes& nodes) {
     if (cells.size() != nodes.size()) fail("elements of first and of second order");
-    static constexpr std::array<std::array<std::size_t, 2>, 6> kEnds = {
-        {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
     for (std::size_t i = 0; i < cells.size(); ++i) {
       for (std::size_t e = 0; e < nodes[i].size(); ++e) {
-        const Index a = cells[i][kEnds[e][0]], b = cells[i][kEnds[e][1]];
+        const Index a = cells[i][kNodeEnds[e][0]], b = cells[i][kNodeEnds[e][1]];
         on_edges_.push_back({std::min(a, b), std::max(a, b), nodes[i][e]});
       }
     }

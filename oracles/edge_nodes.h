@@ -9,6 +9,10 @@
 
 namespace tetproof::oracles {
 
+// The corners that the nodes of an element are between, in the order of NodesOnEdges.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> kNodeEnds = {
+    {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
 // The nodes of a file's elements that are no corners: of a tetrahedron abcd on ab bc ac ad bd cd,
 // of a triangle abc on ab bc ac.
 struct NodesOnEdges {

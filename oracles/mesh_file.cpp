@@ -427,11 +427,10 @@ void read_tetgen_elements(const std::string& path, std::int64_t first, MeshFile&
 class NodesOfFaces {
  public:
   NodesOfFaces(const MeshFile& mesh, const TetNodes& nodes) {
-    static constexpr std::size_t kEnds[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
     for (std::size_t t = 0; t < nodes.size(); ++t) {
       for (std::size_t e = 0; e < 6; ++e) {
         const auto [a, b] =
-            std::minmax(mesh.tetrahedra[t][kEnds[e][0]], mesh.tetrahedra[t][kEnds[e][1]]);
+            std::minmax(mesh.tetrahedra[t][kNodeEnds[e][0]], mesh.tetrahedra[t][kNodeEnds[e][1]]);
         on_edges_.push_back({a, b, nodes[t][e]});
       }
     }
@@ -443,7 +442,7 @@ class NodesOfFaces {
   std::optional<std::array<Index, 3>> of(const Face& face) const {
     std::array<Index, 3> nodes;
     for (std::size_t e = 0; e < 3; ++e) {
-      const auto [a, b] = std::minmax(face[e == 1 ? 1 : 0], face[e == 0 ? 1 : 2]);
+      const auto [a, b] = std::minmax(face[kNodeEnds[e][0]], face[kNodeEnds[e][1]]);
       const auto at =
           std::lower_bound(on_edges_.begin(), on_edges_.end(), std::array<Index, 3>{a, b, 0});
       if (at == on_edges_.end() || (*at)[0] != a || (*at)[1] != b) return {};
