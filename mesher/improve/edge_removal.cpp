@@ -4,18 +4,6 @@
 #include <cmath>
 
 namespace delmesher::improve {
-namespace {
-
-// The two vertices of t other than i and j, such that (i, j, x, y) is an even permutation.
-std::array<int, 2> opposite_edge(int i, int j) {
-  static constexpr int kOpposite[4][4][2] = {{{0, 0}, {2, 3}, {3, 1}, {1, 2}},
-                                             {{3, 2}, {0, 0}, {0, 3}, {2, 0}},
-                                             {{1, 3}, {3, 0}, {0, 0}, {0, 1}},
-                                             {{2, 1}, {0, 2}, {1, 0}, {0, 0}}};
-  return {kOpposite[i][j][0], kOpposite[i][j][1]};
-}
-
-}  // namespace
 
 bool EdgeRemoval::run(TetId t, int i, int j, std::span<const std::uint32_t> failed) {
   a_ = state_.mesh.tet(t)[i];

@@ -45,25 +45,22 @@ bool Smoothing::begin(VertexId v) {
 
 // The normal of the facet that v is in, or the direction of the edge that it is on.
 bool Smoothing::find_axis() {
-  Vec3 axis{};
+  axis_ = {};
   if (state_.mobility(v_) == Mobility::free) return true;
   if (state_.mobility(v_) == Mobility::on_line) {
     const PointDefinition d = state_.points().definition(state_.point(v_));
-    axis = state_.points().difference(d.corner[0], d.corner[1]);
+    axis_ = state_.points().difference(d.corner[0], d.corner[1]);
   } else {
     for (std::size_t n = 0; n < star_.size(); ++n) {
       const TetId t = star_[n];
       if (!state_.mesh.inside(t)) continue;
       for (int k = 0; k < 4; ++k) {
         if (k == index_[n] || state_.mesh.facet(t, k) == kNone) continue;
-        const auto at = [&](int j) { return state_.position(state_.mesh.tet(t)[kFace[k][j]]); };
-        axis = predicates::add(axis, cross(subtract(at(1), at(0)), subtract(at(2), at(0))));
+        axis_ = predicates::add(axis_, state_.face_normal(t, k));
       }
     }
   }
-  const double length = norm(axis);
-  axis_ = {axis[0] / length, axis[1] / length, axis[2] / length};
-  return length > 0;
+  return to_unit_length(axis_);
 }
 
 // The part of a displacement that keeps v where it belongs.

@@ -26,6 +26,13 @@ enum class Mobility : std::uint8_t {
   free       // anywhere in its star
 };
 
+// False if it is zero.
+inline bool to_unit_length(Vec3& x) {
+  const double length = norm(x);
+  for (double& k : x) k /= length;
+  return length > 0;
+}
+
 // The part of an offset that keeps a vertex where it belongs. `axis`: the unit normal of its facet,
 // or the direction of its edge.
 inline Vec3 allowed_offset(Mobility mobility, const Vec3& axis, const Vec3& offset) {
@@ -95,6 +102,11 @@ class State {
     return improve::quality(at(0), at(1), at(2), at(3), least);
   }
   Quality worst_of(std::span<const TetId> tets) const;
+  // Of face i of t, as long as twice its area.
+  Vec3 face_normal(TetId t, int i) const {
+    const auto at = [&](int k) -> const Vec3& { return position(mesh.tet(t)[kFace[i][k]]); };
+    return cross(subtract(at(1), at(0)), subtract(at(2), at(0)));
+  }
 
   // By the worst of what is measured: 1 and more is good enough.
   float score(const Quality& q) const {
@@ -103,8 +115,6 @@ class State {
   }
   // What is not measured by its shape is mended with this score: a dihedral angle of 12.2 degrees.
   static constexpr float kMended = 0.32F;
-  // The score that is worth any change; infinite while the shape is measured.
-  float enough() const { return least_score_ > 0 ? least_score_ : HUGE_VALF; }
   // From now on scores tell of this. If it is not the shape, all that a change makes is mended: a
   // mesh is not to get many tetrahedra that are bad instead of one that is worse.
   void measure_by(Measure measure);

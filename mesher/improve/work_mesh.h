@@ -31,6 +31,16 @@ struct CreatedTet {
   RegionId region;
 };
 
+// The two vertices of a tetrahedron other than i and j, such that (i, j, x, y) is an even
+// permutation.
+inline std::array<int, 2> opposite_edge(int i, int j) {
+  static constexpr int kOpposite[4][4][2] = {{{0, 0}, {2, 3}, {3, 1}, {1, 2}},
+                                             {{3, 2}, {0, 0}, {0, 3}, {2, 0}},
+                                             {{1, 3}, {3, 0}, {0, 0}, {0, 1}},
+                                             {{2, 1}, {0, 2}, {1, 0}, {0, 0}}};
+  return {kOpposite[i][j][0], kOpposite[i][j][1]};
+}
+
 class WorkMesh {
  public:
   WorkMesh(std::vector<Tet> tetrahedra, std::span<const RegionId> region,
