@@ -14,7 +14,6 @@ using Side = delmesher::PlaneRecord::Side;
 using Index = PlaneComplex::Index;
 using Point = PlaneComplex::Point;
 using Triangle = PlaneComplex::Triangle;
-constexpr Index kNone = PlaneComplex::kNone;
 
 // ------------------------------------------------------------------------------------ segments
 
