@@ -274,7 +274,7 @@ std::string Mesher::promise() const {
   } else if (sidecar_command && flags.starts_with("mesh") &&
              flags.find("--planar 0") == std::string::npos &&
              flags.find("--preset paper") == std::string::npos) {
-    text << "planar within 2^-18";
+    text << "planar but for rounding";
   } else {
     text << "exact";
   }

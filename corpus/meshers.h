@@ -46,7 +46,7 @@ struct Mesher {
   // given, but for the deviation that they declare.
   std::string promised() const { return sidecar_command ? flags : "mesh --planar 0"; }
 
-  // In words, for tables: "exact", "planar within 2^-18", "within 1e-08", "envelope 0.001".
+  // In words, for tables: "exact", "planar but for rounding", "within 1e-08", "envelope 0.001".
   std::string promise() const;
 };
 

@@ -169,7 +169,7 @@ TEST_F(Meshers, WhatEachPromises) {
   const auto promise = [&](const std::string& text) {
     return make_mesher(text, programs_).promise();
   };
-  EXPECT_EQ(promise("delmesher"), "planar within 2^-18");
+  EXPECT_EQ(promise("delmesher"), "planar but for rounding");
   EXPECT_EQ(promise("delmesher+planar-0"), "exact");
   EXPECT_EQ(promise("delmesher-e4"), "exact");
   EXPECT_EQ(promise("cdt"), "exact");

@@ -58,7 +58,8 @@ struct Options : Limits {
   // diagonal. 0: the surface as given, to the last bit; if meshes are improved, such triangles are
   // one facet while they are refined, and the edges between them come back at the end. kPlanarAuto:
   // as little as it takes for triangles that are bent by less than 2^-20 of the diagonal, at most
-  // 2^-18.
+  // 2^-18; where coordinates were rounded to few digits, six times what that moves a point off a
+  // plane (surface/flatness.h, surface/resolution.h), at most 2^-12.
   double planar = kPlanarAuto;
   double max_edge = 0;  // largest edge wanted inside, in input units; 0: no bound
   AsPaper as_paper;

@@ -394,7 +394,7 @@ class PromiseCheck {
     const bool refined_alone = promise_.task == Task::mesh && promise_.planar == 0 &&
                                promise_.improve && !promise_.approximate;
     const double promised =
-        (refined_alone ? Promise{}.planar_share() : promise_.planar_share()) / 2;
+        (refined_alone ? promise_.automatic_planar : promise_.planar_share()) / 2;
     const double recorded = diagonal_ > 0 ? record_.parameters.planar / diagonal_ : 0;
     demand(recorded >= 0 && recorded <= promised * (1 + kSlack),
            "the record has facets that are planar within " + number(recorded) +
@@ -414,7 +414,7 @@ class PromiseCheck {
 }  // namespace
 
 double Promise::planar_share() const {
-  return planar == kPlanarAuto ? 0x1p-18 : planar;
+  return planar == kPlanarAuto ? automatic_planar : planar;
 }
 
 double Promise::guaranteed_delta() const {

@@ -52,8 +52,9 @@ struct VerifyReport {
   Verdict verdict = Verdict::broken;
   double deviation = 0;  // upper bound for that of the surface as written, in input units
   double slab = 0;       // width of the widest that holds a facet made of several, in input units
-  double deviation_ulps = 0;             // in ulps of the largest coordinate
-  double deviation_share = 0;            // as a fraction of the bounding-box diagonal
+  double deviation_ulps = 0;   // in ulps of the largest coordinate
+  double deviation_share = 0;  // as a fraction of the bounding-box diagonal
+  double planar_share = 0;  // how far facets may be from planar by the promise, as such a fraction
   std::uint64_t inverted = 0, flat = 0;  // cells as written
   const char* cells = "tetrahedra";
   std::vector<OracleReport> oracles;

@@ -21,9 +21,9 @@ void conclude(double ulp, double diagonal, VerifyReport& report) {
 bool failed(const VerifyReport& report, const VerifyOptions& options) {
   // United facets may be planar within the promised bound. Without them only the declared deviation
   // is allowed.
-  const double declared =
-      report.slab > 0 ? std::max(options.declared_deviation, options.promised.planar_share())
-                      : options.declared_deviation;
+  const double declared = report.slab > 0
+                              ? std::max(options.declared_deviation, report.planar_share)
+                              : options.declared_deviation;
   return report.verdict == Verdict::broken ||
          (report.verdict == Verdict::deviating && report.deviation_share > declared);
 }

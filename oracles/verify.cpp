@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "oracles/input_digits.h"
 #include "oracles/ordinary_units.h"
 #include "oracles/parallel.h"
 #include "oracles/verdict.h"
@@ -67,11 +68,14 @@ std::string verify_scaled(InOrdinaryUnits& task, VerifyOptions options, VerifyRe
 std::string verify_in_units(const Polyhedron& input, const MeshFile& mesh,
                             const delmesher::ExactRecord* exact, const VerifyOptions& options,
                             const Expendable& expendable, VerifyReport& report) {
+  VerifyOptions known = options;
+  known.promised.automatic_planar = automatic_planar_share(input.vertices);
   report = {};
-  if (auto scaled = in_ordinary_units(input, mesh, exact, options.promised)) {
-    return verify_scaled(*scaled, options, report);
+  report.planar_share = known.promised.planar_share();
+  if (auto scaled = in_ordinary_units(input, mesh, exact, known.promised)) {
+    return verify_scaled(*scaled, known, report);
   }
-  return run_parts(input, mesh, exact, options, expendable, report);
+  return run_parts(input, mesh, exact, known, expendable, report);
 }
 
 }  // namespace

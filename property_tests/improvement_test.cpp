@@ -65,7 +65,7 @@ TEST_P(Models, AreNeverWorseThanWithoutIt) {
     options.region = region;
     const Told improved = run_of(GetParam().surface, options);
     const VerifyReport report = improved.verify();
-    EXPECT_TRUE(samples::as_promised(report, improved.promise)) << to_text(report);
+    EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
     options.improve = false;
     const Told plain = run_of(GetParam().surface, options);
     const auto &before = plain.statistics.final, &after = improved.statistics.final;
@@ -239,7 +239,7 @@ const Lie kLies[] = {
 
 TEST(Improvement, LiesAboutItAreCaught) {
   const VerifyReport good = honest().verify();
-  ASSERT_TRUE(samples::as_promised(good, honest().promise)) << to_text(good);
+  ASSERT_TRUE(samples::as_promised(good)) << to_text(good);
   ASSERT_NE(good.find("improvement"), nullptr);
   EXPECT_TRUE(good.find("improvement")->promised);
   ASSERT_FALSE(honest().record.unrepaired_facets.empty());

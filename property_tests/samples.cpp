@@ -324,11 +324,11 @@ bool exact_or_rounded(const oracles::VerifyReport& report) {
   return report.verdict == oracles::Verdict::exact || report.verdict == oracles::Verdict::rounded;
 }
 
-bool as_promised(const oracles::VerifyReport& report, const oracles::Promise& promise) {
+bool as_promised(const oracles::VerifyReport& report) {
   if (exact_or_rounded(report)) return true;
   const oracles::OracleReport* stand_in = report.find("stand-in");
   return report.verdict == oracles::Verdict::deviating && stand_in != nullptr &&
-         stand_in->passed() && report.deviation_share <= promise.planar_share();
+         stand_in->passed() && report.deviation_share <= report.planar_share;
 }
 
 delmesher::Surface triangular_prism(const std::array<std::array<double, 2>, 3>& base, double bottom,

@@ -65,7 +65,7 @@ delmesher::Surface finned_cube(double length, double h);
 bool exact_or_rounded(const oracles::VerifyReport& report);
 // The same; or the verdict is deviating by at most the promise, if facets were made planar and the
 // stand-in oracle has passed.
-bool as_promised(const oracles::VerifyReport& report, const oracles::Promise& promise);
+bool as_promised(const oracles::VerifyReport& report);
 
 // Over a counter-clockwise triangle. Triangles 2 and 3 are the side of its first edge, and so on.
 delmesher::Surface triangular_prism(const std::array<std::array<double, 2>, 3>& base, double bottom,

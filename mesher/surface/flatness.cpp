@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "mesher/predicates/vector.h"
 #include "mesher/surface/half_edges.h"
+#include "mesher/surface/resolution.h"
 
 namespace delmesher::surface {
 namespace {
@@ -36,11 +38,32 @@ double bend(const Surface& surface, std::uint32_t h, std::uint32_t g) {
   return largest / norm(normal);
 }
 
+std::vector<double> bends(const Surface& surface) {
+  const HalfEdgeGroups edges(surface.triangles, surface.vertices.size());
+  std::vector<double> result;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (const auto h = edges[e]; h.size() == 2) result.push_back(bend(surface, h[0], h[1]));
+  }
+  return result;
+}
+
+// Are the bends above `least` what coordinates that are off by `rounding` make of flat faces?
+bool explains(double rounding, const std::vector<double>& bends, double least) {
+  constexpr double kExplained = 2.5, kMore = 4, kTimes = 8;
+  const auto count = [&bends](double low, double high) {
+    return static_cast<double>(
+        std::ranges::count_if(bends, [=](double x) { return x > low && x <= high; }));
+  };
+  const double most = kExplained * rounding;
+  return count(least, most) > kTimes * count(std::max(least, most), kMore * most);
+}
+
 }  // namespace
 
 double flatness(const Surface& surface) {
-  constexpr double kFlat = 0x1p-20;       // of the diagonal
-  constexpr double kRoundings = 0x1p-46;  // of the largest coordinate: 64 units in the last place
+  constexpr double kFlat = 0x1p-20;                            // of the diagonal
+  constexpr double kUlps = 0x1p-46;                            // of the largest coordinate: 64
+  constexpr double kOfRounding = 1.5, kMostRounded = 0x1p-14;  // of the diagonal
   Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   double largest = 0;
   for (const Vec3& v : surface.vertices) {
@@ -50,17 +73,17 @@ double flatness(const Surface& surface) {
       largest = std::max(largest, std::fabs(v[i]));
     }
   }
-  const double most = kFlat * norm(subtract(high, low));
-  if (!(most > 0) || !std::isfinite(most)) return 0;
-  double flat = kRoundings / 4 * largest;
-  const HalfEdgeGroups edges(surface.triangles, surface.vertices.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto h = edges[e];
-    if (h.size() != 2) continue;
-    const double x = bend(surface, h[0], h[1]);
+  const double diagonal = norm(subtract(high, low));
+  if (!(diagonal > 0) || !std::isfinite(diagonal)) return 0;
+  const std::vector<double> all = bends(surface);
+  const double least = kUlps * largest, most = kFlat * diagonal;
+  double flat = least / 4;
+  for (const double x : all) {
     if (x <= most) flat = std::max(flat, x);
   }
-  return std::min(4 * flat, most);
+  const double result = std::min(4 * flat, most);
+  const double rounding = rounding_of_coordinates(surface, kMostRounded / kOfRounding * diagonal);
+  return explains(rounding, all, least) ? std::max(result, kOfRounding * rounding) : result;
 }
 
 }  // namespace delmesher::surface

@@ -9,7 +9,13 @@ namespace delmesher::surface {
 // the sum of their area vectors. An edge that is bent by less than 2^-20 of the diagonal of the
 // bounding box is called flat. Returns four times the largest such bend, since the corners of many
 // triangles are farther from their plane than those of two, at most 2^-20 of the diagonal and at
-// least 64 ulp of the largest coordinate; in the units of the surface, which is valid.
+// least 64 ulp of the largest coordinate.
+//
+// Where coordinates were rounded more coarsely (resolution.h), flat faces are bent by more. That
+// shows: hardly an edge is bent by a bit more than rounding explains, while there are edges of
+// every small bend on a curved surface. So if there are eight times as many edges that rounding can
+// explain (up to 2.5 of it) as of up to four times that bend, it returns at least 1.5 times the
+// rounding, at most 2^-14 of the diagonal. In the units of the surface, which is valid.
 double flatness(const Surface& surface);
 
 }  // namespace delmesher::surface

@@ -45,6 +45,43 @@ TEST(Flatness, NeverMoreThanAMillionthOfTheSize) {
   EXPECT_LE(flatness(rotated(bent)), 0x1p-42);
 }
 
+// Half a unit on each axis.
+double rounding(double unit) {
+  return unit * std::sqrt(3) / 2;
+}
+
+TEST(Flatness, IsWhatFewDigitsExplain) {
+  const Surface s = scaled(rotated(box({0, 0, 0}, {1, 2, 3}, 5)), 30);
+  const double decimals = flatness(in_decimals(s, 1e-3));
+  EXPECT_GE(decimals, rounding(1e-3));
+  EXPECT_LE(decimals, 2 * rounding(1e-3));
+  Surface far = s;
+  for (Point& p : far.vertices) p = {p[0] + 5000, p[1] + 6000, p[2] + 7000};  // up to 8191
+  const double single = flatness(in_single_precision(far));
+  EXPECT_GE(single, rounding(0x1p-11));
+  EXPECT_LE(single, 2 * rounding(0x1p-11));
+}
+
+// A torus, where edges of all small bends are.
+TEST(Flatness, FewDigitsDoNotFlattenWhatIsCurved) {
+  constexpr std::uint32_t kAround = 300, kAcross = 150;
+  const double turn = 2 * std::acos(-1.0);
+  Surface torus;
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    for (std::uint32_t j = 0; j < kAcross; ++j) {
+      const double u = turn * i / kAround, v = turn * j / kAcross, r = 40 + 20 * std::cos(v);
+      torus.vertices.push_back({r * std::cos(u), r * std::sin(u), 20 * std::sin(v)});
+      const std::uint32_t k = (i + 1) % kAround, l = (j + 1) % kAcross;
+      const std::uint32_t c = k * kAcross + l, a = i * kAcross + j;
+      torus.triangles.push_back({a, k * kAcross + j, c});
+      torus.triangles.push_back({a, c, i * kAcross + l});
+    }
+  }
+  for (const double unit : {1e-3, 5e-4}) {
+    EXPECT_LE(flatness(in_decimals(torus, unit)), 0x1p-20 * std::hypot(120, 120, 40));
+  }
+}
+
 TEST(Flatness, ScalesWithTheSurface) {
   Surface s = in_single_precision(rotated(box({0, 0, 0}, {1, 2, 3}, 3)));
   const double before = flatness(s);

@@ -364,14 +364,14 @@ TEST(PlanarTruths, ABarPutOntoTheSurfaceAsGivenPasses) {
   Told told = bar();
   write_as_given(told);
   const VerifyReport report = verdict_on(told);
-  EXPECT_TRUE(samples::as_promised(report, told.promise)) << to_text(report);
+  EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
 }
 
 class PlanarLies : public testing::TestWithParam<Lie> {};
 
 TEST_P(PlanarLies, AreCaughtByTheOracleMeantForThem) {
   static const VerifyReport good = verdict_on(honest());
-  ASSERT_TRUE(samples::as_promised(good, honest().promise)) << to_text(good);
+  ASSERT_TRUE(samples::as_promised(good)) << to_text(good);
   ASSERT_EQ(good.verdict, Verdict::deviating);
   Told told = honest();
   GetParam().tell(told);

@@ -1,0 +1,19 @@
+// How far --planar auto may let a surface deviate, by the digits that its coordinates have.
+#pragma once
+
+#include <span>
+
+#include "oracles/exact_points.h"
+
+namespace tetproof::oracles {
+
+// As a fraction of the diagonal of the bounding box: 2^-18, or more where the coordinates were
+// rounded more coarsely: six times half a unit in the last place on every axis (as a vector), if
+// that is at most 2^-12. Decimals that are not all integers have a last place: the last one that
+// any of them needs. If they need six significant digits or more, that many may have been printed,
+// and it is the last such digit of the largest number on the axis where that is coarser. Numbers
+// that all are of single precision have that of the largest on the axis, even if they have a finer
+// decimal place, and if their decimal place explains more than that.
+double automatic_planar_share(std::span<const Position> vertices);
+
+}  // namespace tetproof::oracles

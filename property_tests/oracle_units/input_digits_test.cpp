@@ -1,0 +1,84 @@
+// How far planar facets may be from planar by the digits of the input.
+#include "oracles/input_digits.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace tetproof::oracles {
+namespace {
+
+constexpr double kAlways = 0x1p-18;
+
+// In a box with corners at 0 and 100, to `unit`.
+std::vector<Position> numbers(double unit) {
+  std::mt19937 random(5);
+  std::vector<Position> result = {{0, 0, 0}, {100, 100, 100}};
+  for (int n = 0; n < 100; ++n) {
+    Position p;
+    for (double& x : p) {
+      const double some = static_cast<double>(random()) * 0x1p-32 * 100;
+      x = unit > 0 ? std::round(some / unit) / std::round(1 / unit) : some;
+    }
+    result.push_back(p);
+  }
+  return result;
+}
+
+// Six halves of a unit per axis, over the diagonal.
+double share(double unit, double size) {
+  return 6 * (unit / 2) / size;
+}
+
+TEST(InputDigits, DecimalsLetDeviateByTheirLastPlace) {
+  EXPECT_NEAR(automatic_planar_share(numbers(1e-3)), share(1e-3, 100), 1e-15);
+  EXPECT_EQ(automatic_planar_share(numbers(1e-6)), kAlways);
+  EXPECT_EQ(automatic_planar_share(numbers(1e-1)), kAlways);  // too coarse: meant
+  EXPECT_EQ(automatic_planar_share(numbers(1)), kAlways);
+  EXPECT_EQ(automatic_planar_share(numbers(0)), kAlways);
+}
+
+TEST(InputDigits, OneNumberWithMoreCounts) {
+  std::vector<Position> p = numbers(1e-3);
+  p.back()[1] = 1.2345;
+  EXPECT_EQ(automatic_planar_share(p), kAlways);
+  p.back()[1] = 12.3456;  // six digits, as printed: 100 has three behind the point then
+  EXPECT_NEAR(automatic_planar_share(p), share(1e-3, 100), 1e-15);
+  p.back()[1] = 1 / 3.0;
+  EXPECT_EQ(automatic_planar_share(p), kAlways);
+}
+
+TEST(InputDigits, SixDigitsArePrintedDigits) {
+  std::vector<Position> p = numbers(1e-3);
+  p.back() = {0.00123456, 0.0123456, 0.123456};
+  EXPECT_NEAR(automatic_planar_share(p), share(1e-3, 100), 1e-15);
+}
+
+TEST(InputDigits, SinglePrecisionFarAway) {
+  std::vector<Position> p = numbers(0);
+  for (Position& q : p) {
+    for (double& x : q) x = static_cast<double>(static_cast<float>(x + 5000));  // up to 8191
+  }
+  EXPECT_NEAR(automatic_planar_share(p), share(0x1p-11, 100), 1e-15);
+  for (Position& q : p) {
+    for (double& x : q) x += 0x1p-30;
+  }
+  EXPECT_EQ(automatic_planar_share(p), kAlways);
+}
+
+TEST(InputDigits, OfSmallAndLargeModels) {
+  for (const double size : {1e-40, 1e40}) {
+    std::vector<Position> p = numbers(1e-3);
+    for (Position& q : p) {
+      for (double& x : q) x = std::stod(std::to_string(x) + (size < 1 ? "e-40" : "e40"));
+    }
+    // Of the small one all are behind the point; those of the large one are integers.
+    EXPECT_NEAR(automatic_planar_share(p), size < 1 ? share(1e-3, 100) : kAlways, 1e-15);
+  }
+  EXPECT_EQ(automatic_planar_share({}), kAlways);
+}
+
+}  // namespace
+}  // namespace tetproof::oracles
