@@ -469,12 +469,7 @@ class FileChecker {
 void check_plane_file(PlaneGraph& graph, const PlaneFile& file, const Promise& promise,
                       double declared, VerifyReport& report, double& deviation) {
   constexpr double kUlps = 4;
-  double largest = graph.largest();
-  for (const auto& p : file.vertices) {
-    largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1])});
-  }
-  const double tolerance =
-      std::max(kUlps * (std::nextafter(largest, HUGE_VAL) - largest), declared);
+  const double tolerance = std::max(kUlps * graph.ulp(), declared);
   FileChecker checker(graph, file, promise, tolerance, declared);
   checker.run(report);
   deviation = checker.deviation();

@@ -13,10 +13,10 @@ namespace tetproof::oracles {
 // - orientation: every triangle is counter-clockwise;
 // - conformity: every piece of a segment is a chain of edges (of those listed, if the file lists
 //   them), or the triangles do not meet it, and the inside does not end there. The chain's vertices
-//   are at most 4 ulp of the largest coordinate and 9 ulp of their own coordinates off the piece,
-//   or at most `declared` (input units) if that is given. The triangles are bounded by such chains,
-//   or by the outer rectangle where the hull was promised. Triangles beside each other are on the
-//   same side but across chains. Input vertices are vertices;
+//   are at most 4 ulp of the input's largest coordinate and 9 ulp of their own coordinates off the
+//   piece, or at most `declared` (input units) if that is given. The triangles are bounded by such
+//   chains, or by the outer rectangle where the hull was promised. Triangles beside each other are
+//   on the same side but across chains. Input vertices are vertices;
 // - sides: triangles are inside or outside as rays say, or the faces of the input (plane_faces.h),
 //   each piece where the inside ends is between an inside and an outside, and no hole is covered;
 // - edge-list: the edges listed are those chains, each with the marker of its segment;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -65,6 +66,11 @@ void PlaneGraph::cut_into_pieces() {
       pieces_at_[on[k + 1].second].push_back(id);
     }
   }
+}
+
+double PlaneGraph::ulp() const {
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  return largest_ > 0 ? std::max(std::ldexp(1.0, std::ilogb(largest_) - 52), kLeast) : kLeast;
 }
 
 bool PlaneGraph::separates(Index segment) const {

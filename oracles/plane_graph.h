@@ -32,6 +32,9 @@ class PlaneGraph {
   const std::vector<std::vector<Index>>& pieces_at() const { return pieces_at_; }  // per vertex
   const std::vector<std::vector<Index>>& pieces_of() const { return pieces_of_; }  // per segment
   double largest() const { return largest_; }                                      // coordinate
+  // The unit in the last place of the largest coordinate: the measure of roundings, whatever a file
+  // or a record has beyond the input.
+  double ulp() const;
   double diagonal() const { return diagonal_; }  // of the bounding box
 
   // Does the inside change to the outside across the segment? (Some inputs have others, between two

@@ -22,9 +22,10 @@ bool read_plane_points(const PlaneGraph& input, const delmesher::PlaneRecord& re
 // same-mesh: triangles, sides and listed edges of the file are, one to one, those of the last mesh.
 OracleReport check_plane_same_mesh(const RecordedPlane& recorded, const PlaneFile& file);
 
-// rounding: every written vertex is within 4 ulp of the largest coordinate from its exact place, or
-// within `declared` (input units); vertices of the input are unmoved; no point is written twice.
-// `deviation` gets the largest distance of a written vertex from its place, in input units.
+// rounding: every written vertex is within 4 ulp of the input's largest coordinate, or of its own
+// if that is larger, from its exact place, or within `declared` (input units); vertices of the
+// input are unmoved; no point is written twice. `deviation` gets the largest distance of a written
+// vertex from its place, of those not beyond the input, in input units.
 OracleReport check_plane_rounding(const RecordedPlane& recorded, const PlaneFile& file,
                                   double declared, double& deviation);
 

@@ -72,11 +72,7 @@ std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const 
   report.cells = "triangles";
   if (std::string why = reason_against(graph); !why.empty()) return why;
   PlaneGraph input(graph);
-  double largest = input.largest();
-  for (const auto& p : file.vertices) {
-    largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1])});
-  }
-  const double ulp = std::nextafter(largest, HUGE_VAL) - largest;
+  const double ulp = input.ulp();
   oracles::check_plane_file(input, file, options.promised,
                             options.declared_deviation * input.diagonal(), report,
                             report.deviation);

@@ -211,5 +211,30 @@ TEST(PlaneLies, AboutTheInsideOfASingleRingShowInItsArea) {
   EXPECT_EQ(bad.find("exact-area")->violations, 1U);
 }
 
+// A square within a rectangle, with and without the sides exchanged. However far away the rectangle
+// is, no vertex of the square is known worse for it.
+TEST(PlaneLies, AboutSidesWithinARectangleFarAway) {
+  PlanarGraph square;
+  square.vertices = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  square.segments = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  for (const double far : {4.0, 0x1p60}) {
+    Told told;
+    told.graph = square;
+    told.how.promised.task = oracles::Task::plane;
+    told.how.promised.region = delmesher::Region::hull;
+    told.file.vertices = square.vertices;
+    for (const auto& [x, y] : {std::array{-far, -far}, {far, -far}, {far, far}, {-far, far}}) {
+      told.file.vertices.push_back({x, y});
+    }
+    told.file.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 0}, {5, 1, 0}, {5, 6, 1},
+                           {6, 2, 1}, {6, 7, 2}, {7, 3, 2}, {7, 4, 3}, {4, 0, 3}};
+    told.file.inside = {1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
+    const oracles::VerifyReport good = verdict_on(told, false);
+    EXPECT_EQ(good.verdict, oracles::Verdict::exact) << to_text(good);
+    for (auto& side : told.file.inside) side = side == 0;
+    EXPECT_TRUE(says(verdict_on(told, false), "sides", "triangle 0 is inside")) << far;
+  }
+}
+
 }  // namespace
 }  // namespace tetproof

@@ -1,4 +1,5 @@
 // Lies in the plane: records and files of other runs.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,16 @@ namespace {
 
 using delmesher::Options;
 using delmesher::PlanarGraph;
+
+// The first written vertex that is not of the input, but within it.
+std::size_t inner(const Told& told) {
+  for (std::size_t i = 0; i < told.record.mesh_vertices.size(); ++i) {
+    const auto& p = told.file.vertices[i];
+    if (told.record.mesh_vertices[i] < told.graph.vertices.size()) continue;
+    if (std::min(p[0], p[1]) > 0 && std::max(p[0], p[1]) < 4) return i;
+  }
+  return 0;
+}
 
 const Lie kForeign[] = {
     {"file of another run", "same-mesh",
@@ -43,6 +54,20 @@ const Lie kForeign[] = {
      [](Told& t) { std::swap(t.record.mesh_vertices[0], t.record.mesh_vertices[5]); }},
     {"a written vertex 6 ulp off", "rounding",
      [](Told& t) { t.file.vertices[steiner(t)][0] += 6 * 0x1p-50; }},  // of the largest, 4.5
+    {"the same, beside a corner of the outer box at 2^60", "rounding",
+     [](Told& t) {
+       Options options = honest_options();
+       options.region = delmesher::Region::hull;
+       t = run_of(options);
+       for (std::size_t i = 0; i < t.file.vertices.size(); ++i) {
+         if (t.file.vertices[i][0] < 5 || t.file.vertices[i][1] < 5) continue;
+         t.file.vertices[i] = {0x1p60, 0x1p60};
+         auto& corner = t.record.points[t.record.mesh_vertices[i]];
+         corner.x = corner.y = 0x1p60;
+       }
+       t.file.vertices[inner(t)][0] += 6 * 0x1p-50;
+     },
+     "not caught by it"},
     {"an input vertex an ulp off", "rounding", [](Told& t) { t.file.vertices[0][0] = 0x1p-60; }},
     {"a written vertex that is infinite", "complex",
      [](Told& t) { t.file.vertices[steiner(t)][0] = HUGE_VAL; }},
