@@ -436,6 +436,11 @@ void ChamferExtent::check_point(Index p, Index vertex) {
   const double distance = exact::distance(points_, p, vertex);
   const double reach = corner->second->distance;
   farthest_ = std::max(farthest_, distance / reach);
+  // Cut points are at the distance along their edge, those of bridges to the side of such a place.
+  if (!(distance * kPlacement >= reach)) {
+    report_.fail(complex_.vertex_name(p) + " is nearer than the chamfer distance to input vertex " +
+                 std::to_string(vertex));
+  }
   if (!(distance <= reach * (on_edge ? 1 : widest_) * kPlacement)) {
     report_.fail(complex_.vertex_name(p) +
                  " is farther than the chamfer distance from input vertex " +

@@ -174,8 +174,8 @@ void Segments::check_input(std::size_t n, const ExactRecord::Chain& chain) {
   last_[e] = ordered.back();
 }
 
-// Of an edge with a kept facet, a part may be missing at an end that was chamfered. All of it may
-// be missing if both ends were chamfered and its dihedral angle, between kept facets, is below 90
+// Of an edge with a kept facet, a part is missing at an end that was chamfered. All of it may be
+// missing if both ends were chamfered and its dihedral angle, between kept facets, is below 90
 // degrees. Whether it is below the threshold in force, check_chamfer_need decides.
 void Segments::check_ends() {
   std::uint64_t missing = 0;
@@ -199,17 +199,19 @@ void Segments::check_ends() {
   report_.figures.emplace_back("acute edges", missing);
 }
 
+// All edges at a chamfered vertex are cut at its distance, and those at others not at all.
 void Segments::check_gap(const InputSurface::Edge& edge, Index input_vertex, Index end) {
-  if (end == input_vertex) return;
   const auto corner = corner_.find(input_vertex);
   if (corner == corner_.end()) {
+    if (end == input_vertex) return;
     return report_.fail(edge_name(edge) + " has no segment near input vertex " +
                         std::to_string(input_vertex) + ", which was not chamfered");
   }
   const double cut = exact::distance(points_, input_vertex, end);
+  const double distance = corner->second->distance;
   // Cut points are placed with a relative accuracy of 2^-20.
-  if (!(cut <= corner->second->distance * (1 + 0x1p-16))) {
-    report_.fail(edge_name(edge) + " is cut off farther than the distance at input vertex " +
+  if (!(std::fabs(cut - distance) <= distance * 0x1p-16)) {
+    report_.fail(edge_name(edge) + " is not cut off at the distance at input vertex " +
                  std::to_string(input_vertex));
   }
 }

@@ -1,6 +1,7 @@
 // Lies: promises in the record that are laxer than those of the options.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "property_tests/lies/told.h"
@@ -100,6 +101,37 @@ const Lie kRelaxed[] = {
      [](Told& t) { t.record.corners.front().threshold = 90; }},
     {"a distance a ten-thousandth smaller", "refined-chamfer-extent",
      [](Told& t) { t.record.corners.front().distance *= 0.9999; }},
+    {"distances up to the radius that was promised, not where the cuts are", "refined-segments",
+     [](Told& t) {
+       Options options = honest_options();
+       options.chamfer_radius = 0x1p-5;
+       t = run_of(options);
+       for (auto& corner : t.record.corners) {
+         corner.distance = std::min(1.05 * corner.distance, 0x1p-5);
+       }
+     },
+     "passed"},
+    {"chamfers of a small radius, told to be as wide as they might be", "refined-segments",
+     [](Told& t) {
+       Options options = honest_options();
+       options.chamfer_radius = 0x1p-6;
+       const auto wide = t.record.corners;
+       t = run_of(options);
+       t.promise.chamfer_radius = 0;
+       ASSERT_EQ(t.record.corners.size(), wide.size());
+       t.record.corners = wide;
+     },
+     "caught by refined-filter"},
+    {"the same, seen by the points of bridges", "refined-chamfer-extent",
+     [](Told& t) {
+       Options options = honest_options();
+       options.chamfer_radius = 0x1p-6;
+       const auto wide = t.record.corners;
+       t = run_of(options);
+       t.promise.chamfer_radius = 0;
+       t.record.corners = wide;
+     },
+     "caught by refined-filter"},
     {"delta denormal", "promise", [](Told& t) { t.record.parameters.delta = 0x1p-1070; }},
     // Done in the mesher's own way, and told to be as the paper says.
     {"chamfers beyond a third of the way to the link", "refined-chamfer-need",
