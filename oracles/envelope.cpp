@@ -235,6 +235,26 @@ bool names_places(const MeshFile& mesh) {
          });
 }
 
+// Puts extreme models into units of about their size, 2^exponent: squares and volumes of lengths
+// fit into doubles then. Otherwise they would all be 0 or infinite, so that nothing would differ.
+// What is lost of the digits is nothing to any envelope.
+int ordinary_exponent(Polyhedron& input, Polyhedron& own) {
+  double largest = 0;
+  for (const Polyhedron* surface : {&input, &own}) {
+    for (const Position& p : surface->vertices) {
+      for (const double x : p) largest = std::max(largest, std::fabs(x));
+    }
+  }
+  if (!(largest > 0) || (largest > 0x1p-200 && largest < 0x1p200)) return 0;
+  const int exponent = std::ilogb(largest);
+  for (Polyhedron* surface : {&input, &own}) {
+    for (Position& p : surface->vertices) {
+      for (double& x : p) x = std::ldexp(x, -exponent);
+    }
+  }
+  return exponent;
+}
+
 void broken(VerifyReport& report, const std::string& oracle, const std::string& finding) {
   OracleReport said(oracle);
   said.checked = 1;
@@ -292,7 +312,7 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   bare.tetrahedra = mesh.tetrahedra;
   bare.lists_boundary = false;
   bare.either_orientation = mesh.either_orientation;
-  const Polyhedron own = boundary_of(bare);
+  Polyhedron own = boundary_of(bare);
   if (own.triangles.empty()) {
     broken(report, "own-surface", "the tetrahedra have no boundary");
     return {};
@@ -304,10 +324,18 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
     broken(report, "own-surface", "the boundary of the tetrahedra bounds no solid: " + why);
     return {};
   }
-  const double diagonal = diagonal_of(input), allowed = share * diagonal;
-  report.oracles.push_back(check_distances(input, own, allowed, report.deviation));
-  report.oracles.push_back(check_volumes(input, own, allowed));
+  Polyhedron given = input;
+  const int exponent = ordinary_exponent(given, own);
+  const double diagonal = diagonal_of(given), allowed = share * diagonal;
+  for (OracleReport oracle : {check_distances(given, own, allowed, report.deviation),
+                              check_volumes(given, own, allowed)}) {
+    if (exponent != 0) {
+      oracle.notes.push_back("lengths are in units of 2^" + std::to_string(exponent));
+    }
+    report.oracles.push_back(std::move(oracle));
+  }
   report.deviation_share = report.deviation / diagonal;
+  report.deviation = std::ldexp(report.deviation, exponent);
   report.verdict = report.any_failed() ? Verdict::broken : Verdict::deviating;
   return {};
 }

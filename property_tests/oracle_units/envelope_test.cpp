@@ -153,7 +153,28 @@ TEST(Envelope, ACrustIsNoSolid) {
                           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
     if (volume < 0) std::swap(tet[2], tet[3]);
   }
-  EXPECT_EQ(failed_first(judged(crust)), "envelope-volume");
+  // In any units, also those in which volumes, or squares, are no doubles.
+  for (const int exponent : {0, -370, 340, -560, 600}) {
+    const auto in_units = [exponent](std::vector<Position> vertices) {
+      for (Position& p : vertices) {
+        for (double& x : p) x = std::ldexp(x, exponent);
+      }
+      return vertices;
+    };
+    MeshFile mesh = crust, far = cube_mesh(), moved = cube_mesh();
+    for (Position& p : far.vertices) p[0] += 1.1 * kAllowed;
+    for (Position& p : moved.vertices) p[0] += 0.9 * kAllowed;
+    Polyhedron input = cube();
+    for (auto* vertices : {&mesh.vertices, &far.vertices, &moved.vertices, &input.vertices}) {
+      *vertices = in_units(*vertices);
+    }
+    EXPECT_EQ(failed_first(judged(mesh, input)), "envelope-volume") << exponent;
+    EXPECT_EQ(failed_first(judged(far, input)), "envelope") << exponent;
+    const VerifyReport near = judged(moved, input);
+    EXPECT_EQ(failed_first(near), "") << exponent;
+    EXPECT_GE(near.deviation, std::ldexp(0.9 * kAllowed, exponent));
+    EXPECT_LE(near.deviation, std::ldexp(1.01 * kAllowed, exponent));
+  }
 }
 
 }  // namespace
