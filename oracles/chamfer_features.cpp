@@ -148,7 +148,7 @@ void ChamferFeatures::add_strips(Index e, const AcuteCorners::Present& present,
   for (const Index f : {edge.left, edge.right}) {
     const double height = strip(e, f, present);
     const double gap = std::min(height, 2 * height * std::sin(wedge / 2));
-    list.push_back({gap, length / gap});
+    list.push_back({gap, length / gap, {edge.left, edge.right, kNone, kNone}});
   }
 }
 
@@ -156,20 +156,25 @@ void ChamferFeatures::add_strips(Index e, const AcuteCorners::Present& present,
 void ChamferFeatures::add_edges(Index v, const AcuteCorners::Present& present,
                                 std::vector<Feature>& list) const {
   const double d = distance(v, present);
-  std::vector<Index> spokes;
+  std::vector<Index> spokes, edges;
   for (const Index e : corners_.edges_at(v)) {
     const InputSurface::Edge& edge = surface_.edges()[e];
     if (!AcuteCorners::edge_present(edge, present)) continue;
     spokes.push_back(edge.from == v ? edge.to : edge.from);
+    edges.push_back(e);
   }
   for (std::size_t i = 0; i < spokes.size(); ++i) {
+    const InputSurface::Edge& edge = surface_.edges()[edges[i]];
     const ExactVector a = exact::difference(points_, v, spokes[i]);
     const double length = exact::distance(points_, v, spokes[i]);
     for (std::size_t j = 0; j < i; ++j) {
       const double angle = angle_between(a, exact::difference(points_, v, spokes[j]));
       const double both = std::min(length, exact::distance(points_, v, spokes[j]));
       const double widening = std::sin(std::min(angle, std::numbers::pi / 2));
-      list.push_back({2 * d * std::sin(angle / 2), std::log(both / d) / widening});
+      const InputSurface::Edge& other = surface_.edges()[edges[j]];
+      list.push_back({2 * d * std::sin(angle / 2),
+                      std::log(both / d) / widening,
+                      {edge.left, edge.right, other.left, other.right}});
     }
     // The distance from a facet that the edge does not bound, if it projects into a triangle of it.
     for (const Index t : corners_.triangles_at(v)) {
@@ -187,7 +192,9 @@ void ChamferFeatures::add_edges(Index v, const AcuteCorners::Present& present,
         continue;
       }
       const double angle = std::fabs(std::numbers::pi / 2 - angle_between(a, n));
-      list.push_back({d * std::sin(angle), std::log(length / d) / std::sin(angle)});
+      list.push_back({d * std::sin(angle),
+                      std::log(length / d) / std::sin(angle),
+                      {edge.left, edge.right, f, kNone}});
     }
   }
 }
@@ -196,8 +203,10 @@ std::vector<ChamferFeatures::Feature> ChamferFeatures::at(
     Index v, const AcuteCorners::Present& present) const {
   if (corners_.why_acute(v, present, thresholds_, Doubt::acute).empty()) return {};
   const double d = distance(v, present);
-  std::vector<Feature> list = {{d, 0}};
-  for (const Sector& sector : sectors(v, present)) list.push_back({d * step_of(sector.angle), 0});
+  std::vector<Feature> list = {{.size = d, .times = 0}};
+  for (const Sector& sector : sectors(v, present)) {
+    list.push_back({d * step_of(sector.angle), 0, {sector.facet, kNone, kNone, kNone}});
+  }
   for (const Index e : corners_.edges_at(v)) {
     if (AcuteCorners::edge_present(surface_.edges()[e], present) &&
         corners_.edge_is_acute(e, present, thresholds_, Doubt::acute)) {

@@ -2,6 +2,9 @@
 // input alone, by the construction of section 4.2.
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "oracles/corners.h"
 
 namespace tetproof::oracles {
@@ -32,6 +35,12 @@ class ChamferFeatures {
     // How often a gap of their distance fits along them, at most: the integral of ds / distance.
     // 0 if only points, or edges as short as the distance, are so close.
     double times;
+    // Whose boundaries or corners they are; kNone: fewer. All kNone: of each facet at the vertex.
+    std::array<Index, 4> facets{kNone, kNone, kNone, kNone};
+    // Could it go with that facet, which is at the vertex?
+    bool is_of(Index facet) const {
+      return facets[0] == kNone || std::find(facets.begin(), facets.end(), facet) != facets.end();
+    }
   };
   // The features that chamfering makes at a vertex: the sides of a bridge, cut points of two edges
   // and the rest of these edges, a cut point and a facet, and the borders of the strips cut off on

@@ -60,8 +60,8 @@ class Features {
   std::string near_vertex(Index v, double reach, const mpq_class& bound);
   std::string near_edge(Index e, double reach, const mpq_class& bound);
 
-  // The vertices of the facet on present edges, and the other ends of these.
-  std::vector<Index> vertices_around(Index facet) const;
+  // The vertices of the facet on present edges; where asked for, the other ends of these as well.
+  std::vector<Index> vertices_of(Index facet, bool and_beyond) const;
 
  private:
   bool touches(Index v, Index facet) const {
@@ -216,12 +216,14 @@ std::vector<Element> Features::elements_of(Index facet) const {
   return elements;
 }
 
-std::vector<Index> Features::vertices_around(Index facet) const {
+std::vector<Index> Features::vertices_of(Index facet, bool and_beyond) const {
   std::vector<Index> vertices;
   for (const Index t : triangles_.of(facet)) {
     for (const Index v : surface_.triangles()[t]) {
       for (const Index e : corners_.edges_at(v)) {
         if (!edge_present(e)) continue;
+        vertices.push_back(v);
+        if (!and_beyond) break;
         vertices.push_back(surface_.edges()[e].from);
         vertices.push_back(surface_.edges()[e].to);
       }
@@ -349,15 +351,17 @@ class FilterCheck {
   }
 
   // The second step, read backwards: the facet dropped last was dropped from the present surface,
-  // so chamfering has to make too small a feature at that facet, and so on.
+  // so chamfering has to make too small a feature of that facet, and so on. Where both sides of a
+  // feature go, one of them may be all facets at a vertex, so that any feature near them will do.
   void check_second_step(std::vector<Index> dropped, double tolerance) {
     const AcuteCorners::Present present = [this](Index f) { return features_.present(f); };
     const auto put_back = [&](Index f) {
       features_.set_present(f, true);
-      for (const Index v : features_.vertices_around(f)) {
+      for (const Index v : features_.vertices_of(f, both_sides_)) {
         const auto features = chamfers_.at(v, present);
-        if (std::any_of(features.begin(), features.end(),
-                        [&](const auto& feature) { return is_too_small(feature, tolerance); })) {
+        if (std::any_of(features.begin(), features.end(), [&](const auto& feature) {
+              return (both_sides_ || feature.is_of(f)) && is_too_small(feature, tolerance);
+            })) {
           return true;
         }
       }

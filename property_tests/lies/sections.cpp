@@ -370,6 +370,18 @@ const Lie kSections[] = {
        }
      },
      "passed"},
+    {"a facet near one dropped for its chamfers called so, too", "refined-filter",
+     [](Told& t) {
+       dagger(t);
+       const auto dropped = [](const auto& facet) { return facet.filtered == 2; };
+       ASSERT_EQ(std::ranges::count_if(t.record.facets, dropped), 1);
+       // The side across from the sharp edge: no chamfer of it is small.
+       const auto across = std::ranges::find(t.record.facets, 4U, &ExactRecord::Facet::id);
+       ASSERT_NE(across, t.record.facets.end());
+       across->filtered = 2;
+       std::erase_if(t.record.refined_facets, [](const auto& face) { return face[3] == 4; });
+     },
+     "not caught by it"},
     {"a tetrahedron of the final mesh of a point that does not exist", "sidecar",
      [](Told& t) { t.record.final.front().vertices[1] = 4294967295U; }},
     {"a tetrahedron of the refined mesh of a point that does not exist", "sidecar",

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace tetproof::lies {
 
 using namespace oracles;  // NOLINT
@@ -44,6 +46,13 @@ std::size_t kept_facet(const ExactRecord& r) {
   }
   ADD_FAILURE() << "no facet was kept";
   return 0;
+}
+
+void dagger(Told& told) {
+  Options options = honest_options();
+  options.tau = 0.1 / std::hypot(200, 200, 0.5);
+  told = run_of(options, Task::mesh,
+                samples::triangular_prism({{{0, 0}, {200, 0}, {200, 0.5}}}, 0, 200));
 }
 
 void run_hull(Told& told, Task task) {

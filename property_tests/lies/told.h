@@ -33,6 +33,10 @@ delmesher::Surface flat_wedge();
 // The first facet that the filter has kept.
 std::size_t kept_facet(const delmesher::ExactRecord& r);
 
+// A blade whose sides meet at an angle of 0.14 degrees: the gap that their chamfers leave is so
+// long that the second step of the filter drops one of them.
+void dagger(Told& told);
+
 // A run of the hull, told as it was.
 void run_hull(Told& told, oracles::Task task = oracles::Task::mesh);
 
