@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -70,6 +71,7 @@ class Conformity {
   void check_facet(Index facet, std::span<const Index> triangles, std::span<const Index> faces);
   std::uint64_t count_folded(Index facet, const std::vector<Face>& faces);
   void check_in_plane(Index facet, Index v);
+  double most_off_plane(Index facet, double distance);
   // Is a point certainly no farther from the line of an edge, or the plane of a facet, than the
   // largest deviation so far? Then its distance need not be known.
   bool surely_seen(const InputSurface::Edge& edge, Index v) const;
@@ -105,6 +107,7 @@ class Conformity {
   ConformityResult result_;
   std::optional<BoundaryEdges> edges_;  // of the boundary faces
   std::optional<VertexMatch> match_;
+  std::map<Index, bool> flat_with_another_;  // of the facets that were asked about
 };
 
 void Conformity::collect_faces() {
@@ -184,7 +187,9 @@ bool Conformity::surely_seen(const InputSurface::Edge& edge, Index v) const {
 bool Conformity::surely_seen(const InputSurface::Facet& facet, Index v) const {
   const IntervalVector& normal = facet.rough_normal;
   const Interval off = exact::dot(normal, points_.rough_difference(facet.span[0], v));
-  const double most = result_.deviation * (1 - 1e-9);
+  // What is farther than this may be too far for this facet, however far others reach.
+  const double own = options_.off_plane > 0 ? facet.slab + options_.off_plane : HUGE_VAL;
+  const double most = std::min(result_.deviation, own) * (1 - 1e-9);
   return (off * off).high <= most * most * exact::dot(normal, normal).low;
 }
 
@@ -329,6 +334,16 @@ std::uint64_t Conformity::count_folded(Index facet, const std::vector<Face>& fac
   return folded;
 }
 
+// How far a vertex may be off the plane of its facet, in input units, where one is so far.
+double Conformity::most_off_plane(Index facet, double distance) {
+  if (!(options_.off_plane > 0)) return options_.largest_tolerance * surface_.diagonal();
+  const double most = surface_.facets()[facet].slab + options_.off_plane;
+  if (distance <= most || options_.planar == 0) return most;
+  const auto [known, fresh] = flat_with_another_.try_emplace(facet, false);
+  if (fresh) known->second = surface_.is_flat_with_another(facet, options_.planar, points_);
+  return known->second ? options_.planar + options_.off_plane : most;
+}
+
 void Conformity::check_in_plane(Index facet, Index v) {
   const InputSurface::Facet& input = surface_.facets()[facet];
   if (!options_.exact && surely_seen(input, v)) return;
@@ -337,9 +352,7 @@ void Conformity::check_in_plane(Index facet, Index v) {
   const ExactNumber off = exact::dot(normal, exact::difference(points_, input.span[0], v));
   const double distance =
       std::fabs(to_double(off, 3 * points_.exponent())) / length(normal, 2 * points_.exponent());
-  const double most = options_.off_plane > 0 ? options_.off_plane
-                                             : options_.largest_tolerance * surface_.diagonal();
-  if (options_.exact || !(distance <= most)) {
+  if (options_.exact || !(distance <= most_off_plane(facet, distance))) {
     fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + facet_name(facet));
   } else {
     deviate(distance);

@@ -42,8 +42,13 @@ struct ConformityOptions {
   // deviation measured.
   bool exact = true;
   double largest_tolerance = 1e-5;  // fraction of the diagonal
-  // The tolerance for the planes of facets alone, in input units; 0: largest_tolerance.
+  // The tolerance for the planes of facets alone, in input units, beyond the slab of each; 0:
+  // largest_tolerance.
   double off_plane = 0;
+  // So wide a slab, too, may contain a facet and one beside it (InputSurface::is_flat_with_another)
+  // that count as two only because the mesh has their edge: a point of one may be in the plane of
+  // the other. In input units; with off_plane.
+  double planar = 0;
   // The first failure ends the check, for a caller who only asks whether there is one.
   bool first_failure_ends = false;
   bool want_chains = false;

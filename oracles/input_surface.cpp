@@ -440,34 +440,61 @@ bool InputSurface::is_thin(Index t, double thin, const ExactPoints& points) cons
   return length(area2(points, t), 2 * points.exponent()) <= thin * longest;
 }
 
+std::pair<double, double> InputSurface::heights(const Facet& facet,
+                                                std::span<const Index> triangles,
+                                                const ExactPoints& points) const {
+  const ExactVector normal = facet.area2(points);
+  const double unit = length(normal, 2 * points.exponent());
+  if (unit == 0) return {-HUGE_VAL, HUGE_VAL};
+  double low = 0, high = 0;
+  for (const Index t : triangles) {
+    for (const Index v : triangles_[t]) {
+      if (facet.side(points, v) == 0) continue;
+      const double height =
+          to_double(exact::dot(normal, exact::difference(points, facet.span[0], v)),
+                    3 * points.exponent()) /
+          unit;
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
+  return {low, high};
+}
+
 double InputSurface::widest_slab(const std::vector<std::uint8_t>& asked, double thin,
-                                 const ExactPoints& points) const {
+                                 const ExactPoints& points) {
   double widest = 0;
   const Members all = members();
   for (Index f = 0; f < facets_.size(); ++f) {
     if (asked[f] == 0) continue;
-    const Facet& facet = facets_[f];
-    const ExactVector normal = facet.area2(points);
-    const double unit = length(normal, 2 * points.exponent());
-    if (unit == 0) return HUGE_VAL;
+    Facet& facet = facets_[f];
+    if (length(facet.area2(points), 2 * points.exponent()) == 0) return HUGE_VAL;
     if (all.of(f).size() == 1) continue;  // in one plane
-    double low = 0, high = 0;
     for (const Index t : all.of(f)) {
       if (facet.facing(points, triangles_[t]) < 0 && !is_thin(t, thin, points)) return HUGE_VAL;
-      for (const Index v : triangles_[t]) {
-        if (facet.side(points, v) == 0) continue;
-        const double height =
-            to_double(exact::dot(normal, exact::difference(points, facet.span[0], v)),
-                      3 * points.exponent()) /
-            unit;
-        low = std::min(low, height);
-        high = std::max(high, height);
-      }
     }
+    const auto [low, high] = heights(facet, all.of(f), points);
     // The few roundings of measuring stay below this factor.
-    widest = std::max(widest, (high - low) * (1 + 1e-12));
+    facet.slab = (high - low) * (1 + 1e-12);
+    widest = std::max(widest, facet.slab);
   }
   return widest;
+}
+
+bool InputSurface::is_flat_with_another(Index facet, double width,
+                                        const ExactPoints& points) const {
+  const Members all = members();
+  const auto in_slab_of = [&](Index f, Index other) {
+    const auto [low, high] = heights(facets_[f], all.of(f), points);
+    const auto [below, above] = heights(facets_[f], all.of(other), points);
+    return std::max(high, above) - std::min(low, below) <= width;
+  };
+  return std::any_of(edges_.begin(), edges_.end(), [&](const Edge& edge) {
+    if (edge.left != facet && edge.right != facet) return false;
+    const Facet &left = facets_[edge.left], &right = facets_[edge.right];
+    return left.label == right.label && exact::dot(left.normal(points), right.normal(points)) > 0 &&
+           (in_slab_of(edge.left, edge.right) || in_slab_of(edge.right, edge.left));
+  });
 }
 
 void InputSurface::build_edges() {

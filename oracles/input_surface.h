@@ -74,6 +74,8 @@ class InputSurface {
     // If it was made of facets that are not in one plane: the sum of its area vectors. Exact
     // numbers of all facets would take more memory than all the rest.
     std::shared_ptr<const ExactVector> sum{};
+    // The width of the slab that it lies in, in input units, if it was made of several.
+    double slab = 0;
 
     // Outwards; exact, and of any length: where the record has a plane through the facet's corners,
     // that plane's normal, whose numbers are far smaller.
@@ -105,6 +107,10 @@ class InputSurface {
   // The same for given facets, by a number for each triangle: a facet is a connected set of
   // triangles of one number and one label.
   double group_facets(const std::vector<Index>& group, double thin, const ExactPoints& points);
+
+  // Does a slab of this width (input units), along the plane of one of the two, contain the facet
+  // and one of the same label that has an edge in common with it, both facing the same way?
+  bool is_flat_with_another(Index facet, double width, const ExactPoints& points) const;
 
   const std::vector<std::array<Index, 3>>& triangles() const { return triangles_; }
   const std::vector<Facet>& facets() const { return facets_; }
@@ -169,7 +175,10 @@ class InputSurface {
   // Is the triangle's height over its longest edge at most this?
   bool is_thin(Index t, double thin, const ExactPoints& points) const;
   double widest_slab(const std::vector<std::uint8_t>& asked, double thin,
-                     const ExactPoints& points) const;
+                     const ExactPoints& points);
+  // How far some vertices are below (negative) and above a facet's plane, in input units.
+  std::pair<double, double> heights(const Facet& facet, std::span<const Index> triangles,
+                                    const ExactPoints& points) const;
   void build_edges();
   int crossings_above(const ExactPoints& points, std::span<const Index> corners,
                       Index except) const;

@@ -201,7 +201,8 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
       std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_) * (1 + 1e-9);
   const auto conforms_to = [&](InputSurface& flat, double width) {
     if (!(width <= bound)) return false;
-    as_rounded.off_plane = width + kRoundedUlps * ulp_;
+    as_rounded.off_plane = kRoundedUlps * ulp_;
+    as_rounded.planar = width > 0 ? bound : 0;
     ConformityResult of_flat = check(flat, as_rounded);
     // Chains that the record gives may be anywhere. Only facets were promised to be no more than
     // planar within a bound, their edges are as given.

@@ -51,14 +51,49 @@ TEST(PlanarFile, AVertexOffItsFacetIsNoPlanarFacet) {
   EXPECT_TRUE(failed(report, options));
 }
 
-// A box with all faces bent along their diagonals: two triangles are one facet wherever the mesh
-// has the other diagonal.
-TEST(PlanarFile, FacetsThatWereUnitedAreCounted) {
+// A box with all faces bent along their diagonals.
+Surface bent_box() {
   Surface box = samples::to_surface(samples::cube().input);
   std::mt19937 random(5);
   for (auto& p : box.vertices) {
     for (double& x : p) x += static_cast<double>(random() % 1024) * 0x1p-36;
   }
+  return box;
+}
+
+// The same beside a box whose faces are planar within a slab: theirs does not hold this one.
+TEST(PlanarFile, ASlabHoldsNoVertexOfAnotherFacet) {
+  Told told = run_of(bent_box());
+  const samples::Sample cube = samples::cube();
+  auto& [input, mesh] = told.sample;
+  const auto before = static_cast<Index>(input.vertices.size()),
+             written = static_cast<Index>(mesh.vertices.size());
+  for (const Position& p : cube.input.vertices) input.vertices.push_back({p[0] + 2, p[1], p[2]});
+  for (const Position& p : cube.mesh.vertices) mesh.vertices.push_back({p[0] + 2, p[1], p[2]});
+  for (const auto& [a, b, c] : cube.input.triangles) {
+    input.triangles.push_back({a + before, b + before, c + before});
+  }
+  for (Tet tet : cube.mesh.tetrahedra) {
+    for (Index& v : tet) v += written;
+    mesh.tetrahedra.push_back(tet);
+  }
+  mesh.regions.assign(mesh.tetrahedra.size(), 1);
+  mesh.boundary.clear();
+  mesh.labels.clear();
+  mesh.facets.clear();
+  const VerifyReport good = verdict_on(told, false);
+  EXPECT_GT(good.slab, 1e-9) << to_text(good);
+  EXPECT_FALSE(failed(good, {.promised = told.promise})) << to_text(good);
+  for (Position& p : mesh.vertices) {
+    if (p == Position{2.5, 0.5, 1}) p[2] += good.slab / 2;
+  }
+  const VerifyReport report = verdict_on(told, false);
+  EXPECT_TRUE(failed(report, {.promised = told.promise})) << to_text(report);
+}
+
+// Two triangles are one facet wherever the mesh has the other diagonal.
+TEST(PlanarFile, FacetsThatWereUnitedAreCounted) {
+  const Surface box = bent_box();
   ASSERT_EQ(box.triangles.size(), 12U);
   const Told told = run_of(box);
   ASSERT_EQ(told.statistics.given_facets, 12U);
