@@ -251,6 +251,7 @@ MeshFile read_gmsh(const std::string& path) {
     const auto named = text.names.find({2, group});
     const std::int64_t label =
         named == text.names.end() ? group : label_in(named->second).value_or(group);
+    mesh.labels_contradict = mesh.labels_contradict || (label > 0 && label != group);
     if (label != static_cast<std::int32_t>(label)) {
       throw ReadError(path + ": label " + std::to_string(label) + " is no integer of 32 bits");
     }
@@ -290,11 +291,8 @@ class VtuReader {
     }
     if (start_ != corners_.size()) text_.fail("the connectivity goes on after the last cell");
     take_out_edge_nodes(mesh_, nodes_, path_);
-    // The sides of a mesh from elsewhere are not known: all is called inside then.
-    if (!regions_.empty() &&
-        std::ranges::all_of(mesh_.inside, [](auto side) { return side != 0; })) {
-      mesh_.inside.clear();
-    }
+    mesh_.all_called_inside =
+        !regions_.empty() && std::ranges::all_of(mesh_.inside, [](auto side) { return side != 0; });
     return std::move(mesh_);
   }
 

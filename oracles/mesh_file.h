@@ -22,9 +22,15 @@ struct MeshFile {
   // Per tetrahedron, where the format has words for it (and not just a number for each region);
   // empty if the file does not use them.
   std::vector<std::uint8_t> inside;
+  // It has regions, too, and its word is that all is inside: delmesher says so of a mesh that it
+  // has read, whose sides it does not know. Of a mesh that it has made it is a statement.
+  bool all_called_inside = false;
   std::vector<Face> boundary;        // triangles listed in the file
   std::vector<std::int32_t> labels;  // per triangle; empty if the file says nothing
   std::vector<Index> facets;         // per triangle, the facet that it tiles; or empty
+  // A label that could be the number of its group is the name of a group of another number, so that
+  // readers differ in what it is. Delmesher writes no such file.
+  bool labels_contradict = false;
   std::vector<EdgeNode> edge_nodes;  // one of each edge; empty if the elements are linear
   bool lists_boundary = true;        // false for a format that has no triangles
   bool has_second_order = true;      // false for a format that has only linear elements

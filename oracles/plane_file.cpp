@@ -69,19 +69,20 @@ Point numbered_point(TextReader& reader) {
   return point(reader);
 }
 
-// Segments as .poly files list them.
+// Segments as .poly files list them. Nothing else stands in the lines of a file that was written.
 void read_segments(TextReader& reader, const std::string& path, std::int64_t first,
-                   std::uint64_t vertices, std::vector<Edge>& segments,
+                   std::uint64_t vertices, bool written, std::vector<Edge>& segments,
                    std::vector<std::int32_t>& markers) {
+  const auto end_line = [&] { written ? reader.expect_line_end() : reader.skip_line(); };
   const std::uint64_t count = reader.count();
   const bool marked = integer_in_line(reader, path, 0) != 0;
-  reader.skip_line();
+  end_line();
   for (std::uint64_t i = 0; i < count; ++i) {
     reader.integer();
     const std::uint32_t a = reader.index(first, vertices);
     segments.push_back({a, reader.index(first, vertices)});
     if (marked) markers.push_back(integer32(reader, integer_in_line(reader, path, 0)));
-    reader.skip_line();
+    end_line();
   }
 }
 
@@ -109,7 +110,7 @@ PlanarGraph read_poly(const std::string& path, std::string_view text) {
     nodes.skip_line();
     first = read_nodes(nodes, count, graph.vertices);
   }
-  read_segments(reader, path, first, graph.vertices.size(), graph.segments, graph.markers);
+  read_segments(reader, path, first, graph.vertices.size(), false, graph.segments, graph.markers);
   if (reader.at_end()) return graph;
   for (std::uint64_t left = reader.count(); left > 0; --left) {
     reader.integer();
@@ -181,7 +182,7 @@ void read_written_poly(const std::string& path, std::int64_t first, PlaneFile& f
     if (count != 0 && count != 1) poly.fail(std::string("no such number of ") + what);
   }
   poly.expect_line_end();
-  read_segments(poly, path, first, file.vertices.size(), file.edges, file.markers);
+  read_segments(poly, path, first, file.vertices.size(), true, file.edges, file.markers);
   file.lists_edges = true;
   file.markers.resize(file.edges.size(), 0);
   file.lists_holes = true;

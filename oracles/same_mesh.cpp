@@ -369,6 +369,9 @@ class SameMesh {
       report_.fail("the file has " + std::to_string(mesh_.labels.size()) + " labels for " +
                    std::to_string(triangles) + " boundary triangles");
     }
+    if (mesh_.labels_contradict) {
+      report_.fail("the file has a group of triangles that is called by the label of another one");
+    }
     const std::vector<LabelledFace> recorded = recorded_faces();
     std::vector<std::uint8_t> seen(recorded.size());
     for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {

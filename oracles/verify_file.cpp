@@ -147,8 +147,9 @@ std::string Verification::check_file() {
   const Regions regions(complex, given);
   check_file_surface(complex, neighbours, surface);
   // The centroid of a tetrahedron is a quarter of its altitude away from its faces.
-  add(regions.check_strays(8 * slack_, mesh_.inside));
-  if (!solid_only) check_file_hull(complex, neighbours);
+  const bool sides_known = exact_ != nullptr || !mesh_.all_called_inside;
+  add(regions.check_strays(8 * slack_, sides_known ? mesh_.inside : std::vector<std::uint8_t>{}));
+  if (!solid_only || scope() == AngleScope::all) check_file_hull(complex, neighbours);
   return {};
 }
 

@@ -144,6 +144,17 @@ std::vector<double> numbers(std::string_view bytes) {
   return values;
 }
 
+// Could a number written as text be of that type? Readers make another number of it if not.
+bool fits(const std::string& type, double value) {
+  if (type == "Float64" || type == "Float32") return true;
+  const bool is_signed = type.starts_with("Int"), is_unsigned = type.starts_with("UInt");
+  if (!is_signed && !is_unsigned) return false;
+  const std::string bits = type.substr(is_signed ? 3 : 4);
+  if (bits != "8" && bits != "16" && bits != "32" && bits != "64") return false;
+  const double end = std::ldexp(1.0, std::stoi(bits) - (is_signed ? 1 : 0));
+  return value == std::trunc(value) && value < end && value >= (is_signed ? -end : 0);
+}
+
 std::vector<double> numbers_of(const std::string& type, std::string_view bytes) {
   return type == "Float64"   ? numbers<double>(bytes)
          : type == "Float32" ? numbers<float>(bytes)
@@ -268,6 +279,8 @@ std::vector<double> VtuText::values(std::string_view tag, std::size_t start) con
   if (type == "Float32") {  // which is what readers make of them
     for (double& value : values) value = static_cast<float>(value);
   }
+  const bool fit = std::ranges::all_of(values, [&](double value) { return fits(type, value); });
+  if (!fit) fail("an array of type " + type + " with a value that is none of these");
   return values;
 }
 

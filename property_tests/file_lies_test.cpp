@@ -182,6 +182,9 @@ const Lie kLies[] = {
     {"vtu", "a surface instead of a grid", "UnstructuredGrid\"", "PolyData\""},
     {"vtu", "a name in other quotation marks", "Name=\"inside\"", "Name='inside'"},
     {"vtu", "a name spelt in another way", "Name=\"inside\"", "Name=\"in&#115;ide\""},
+    {"vtu", "facets of a type without negative numbers", "\"Int(\\d+)\" Name=\"facet\"",
+     "\"UInt$1\" Name=\"facet\""},
+    {"vtu", "points of a type that is none", "\"Float64\"", "\"Real\""},
     {"vtu", "an element within an array", "Name=\"label\"([^>]*)>\n", "Name=\"label\"$1>\n<X/>"},
     {"msh", "nodes without an end", "\\$EndNodes\n", ""},
     {"msh", "elements without an end", "\\$EndElements\n", ""},
@@ -255,6 +258,7 @@ const Lie kPlaneLies[] = {
     {"poly", "a hole elsewhere", "\n0 2 2\n", "\n0 2 2.5\n", 1, 1},
     {"poly", "a hole twice", "\n1\n0 2 2\n", "\n2\n0 2 2\n1 2 2\n", 1, 1},
     {"poly", "a region", "\n$", "\n1\n0 0.5 0.5 7\n", 1, 1},
+    {"poly", "two markers of a segment", " 5\n", " 5 9\n"},
     {"poly", "vertices of its own", "^0 2 0 0", "1 2 0 0"},
     {"poly", "in space", "^0 2 0 0", "0 3 0 0"},
     {"poly", "a marker that wraps around", " 5\n", " 4294967301\n"},
@@ -312,6 +316,43 @@ TEST(FileLies, AreRefused) {
   for (const Lie& lie : kLies) tell(in_space(), lie);
   for (const Lie& lie : kSecondOrderLies) tell(of_second_order(), lie);
   for (const Lie& lie : kPlaneLies) tell(in_the_plane(), lie);
+}
+
+// A .vtu with numbers for regions, as a mesh has that was read: then its sides are not known, and
+// all is called inside. A mesh that was made has sides, and a record of them.
+TEST(FileLies, RegionsAndSidesThatContradictEachOther) {
+  std::string text = in_space().files().at("vtu"), regions;
+  const std::string start = text.substr(0, text.find("Name=\"inside\""));
+  const std::size_t tag = start.rfind("<DataArray"), first = text.find('\n', tag) + 1,
+                    end = text.find("</DataArray>", first);
+  std::string sides = text.substr(first, end - first), called = sides;
+  for (std::size_t at = 0; at < sides.size(); at = sides.find('\n', at) + 1) {
+    if (sides[at] == '0') called[at] = '1', sides[at] = '2';
+  }
+  ASSERT_NE(called, sides);
+  regions = text.substr(tag, first - tag) + sides + "</DataArray>\n";
+  regions.replace(regions.find("inside"), 6, "region");
+  const std::string both = text.substr(0, tag) + regions + text.substr(tag);
+  EXPECT_EQ(in_space().verify("vtu", both, false), 0);
+  EXPECT_EQ(in_space().verify("vtu", both, true), 0);
+  text.replace(first, end - first, called);
+  const std::string lie = text.substr(0, tag) + regions + text.substr(tag);
+  EXPECT_EQ(in_space().verify("vtu", lie, false), 0);
+  EXPECT_EQ(in_space().verify("vtu", lie, true), 1);
+}
+
+// A group whose number and name are two labels.
+TEST(FileLies, ALabelThatIsNotTheNumberOfItsGroup) {
+  const std::string& honest = in_space().files().at("msh");
+  std::string lie =
+      std::regex_replace(honest, std::regex("\n2 11 \"label 11\""), "\n2 77 \"label 11\"");
+  ASSERT_NE(lie, honest);
+  const std::size_t entities = lie.find("$Entities"), end = lie.find("$EndEntities");
+  const std::size_t group = lie.find(" 1 11 ", entities);
+  ASSERT_LT(group, end);
+  lie.replace(group, 6, " 1 77 ");
+  EXPECT_EQ(in_space().verify("msh", lie, false), 0);
+  EXPECT_EQ(in_space().verify("msh", lie, true), 1);
 }
 
 std::string bytes_of(std::uint64_t number, std::size_t count) {

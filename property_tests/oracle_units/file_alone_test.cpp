@@ -130,5 +130,23 @@ TEST(Complex, OnlyAPartMayBeEmpty) {
   EXPECT_EQ(report.findings, std::vector<std::string>{"there are no tetrahedra"});
 }
 
+// Of a solid that is not convex, the mesh of the solid is not that of its hull.
+TEST(FileAlone, IsHeldToTheRegionThatWasPromised) {
+  for (const Task task : {Task::mesh, Task::cdt}) {
+    const auto verdict_on = [task](const samples::Sample& sample) {
+      VerifyReport report;
+      Promise promise{.task = task, .region = delmesher::Region::hull};
+      EXPECT_EQ(verify(sample.input, sample.mesh, nullptr, {.promised = promise}, report), "");
+      return report;
+    };
+    EXPECT_EQ(verdict_on(samples::cube()).verdict, Verdict::exact);
+    EXPECT_EQ(verdict_on(samples::cube_in_hull()).verdict, Verdict::exact);
+    const VerifyReport solid = verdict_on(samples::l_shape());
+    EXPECT_EQ(solid.verdict, Verdict::broken);
+    ASSERT_NE(solid.find("hull"), nullptr);
+    EXPECT_FALSE(solid.find("hull")->passed()) << to_text(solid);
+  }
+}
+
 }  // namespace
 }  // namespace tetproof

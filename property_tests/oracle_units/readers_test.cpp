@@ -46,9 +46,11 @@ TEST(TextReader, ReadsWordsAndCountsLines) {
 
 // Where something is there twice, other readers may take the other one.
 TEST(VtuText, RefusesWhatIsThereTwice) {
-  const std::string array = "<DataArray Name=\"label\" format=\"ascii\">1 2</DataArray>";
+  const std::string array =
+      "<DataArray type=\"Int32\" Name=\"label\" format=\"ascii\">1 2</DataArray>";
   const std::string points =
-      "<Points><DataArray NumberOfComponents=\"3\" format=\"ascii\">0 1 2</DataArray></Points>";
+      "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 1 2"
+      "</DataArray></Points>";
   const auto text = [&](const std::string& in_piece, const std::string& in_data) {
     return "<VTKFile type=\"UnstructuredGrid\"><Piece NumberOfPoints=\"1\" NumberOfCells=\"2\">" +
            points + in_piece + "<CellData>" + array + in_data + "</CellData></Piece></VTKFile>\n";
@@ -56,7 +58,8 @@ TEST(VtuText, RefusesWhatIsThereTwice) {
   const auto labels = [](const std::string& contents) {
     return VtuText("file", contents).array("CellData", "label");
   };
-  const std::string honest = text("", "<DataArray Name=\"other\" format=\"ascii\">3</DataArray>");
+  const std::string honest =
+      text("", "<DataArray type=\"Int8\" Name=\"other\" format=\"ascii\">3</DataArray>");
   EXPECT_EQ(labels(honest), (std::vector<double>{1, 2}));
   EXPECT_EQ(VtuText("file", honest).array("Points", ""), (std::vector<double>{0, 1, 2}));
   EXPECT_EQ(VtuText("file", honest).array("CellData", "region"), std::vector<double>());
