@@ -21,13 +21,14 @@ Edge undirected(Index a, Index b) {
 class FileChecker {
  public:
   FileChecker(PlaneGraph& graph, const PlaneFile& file, const Promise& promise, double tolerance,
-              double declared)
+              double declared, bool recorded)
       : graph_(graph),
         inside_(graph),
         file_(file),
         promise_(promise),
         tolerance_(tolerance),
-        declared_(declared) {}
+        declared_(declared),
+        recorded_(recorded) {}
 
   void run(VerifyReport& report) {
     check_complex();
@@ -38,6 +39,7 @@ class FileChecker {
       measure_angles();
       if (promise_.approximate) {  // nothing is tiled where corners were not restored
         for (OracleReport* r : {&orientation_, &angles_}) report.oracles.push_back(std::move(*r));
+        if (!recorded_) report.oracles.push_back(surface_not_decided("conformity"));
         return;
       }
       check_conformity();
@@ -448,6 +450,7 @@ class FileChecker {
   const PlaneFile& file_;
   const Promise& promise_;
   double tolerance_, declared_;
+  bool recorded_;
   int scale_ = 0;
   PlanePoints points_;
   PlaneGrid cells_;
@@ -467,10 +470,10 @@ class FileChecker {
 }  // namespace
 
 void check_plane_file(PlaneGraph& graph, const PlaneFile& file, const Promise& promise,
-                      double declared, VerifyReport& report, double& deviation) {
+                      double declared, bool recorded, VerifyReport& report, double& deviation) {
   constexpr double kUlps = 4;
   const double tolerance = std::max(kUlps * graph.ulp(), declared);
-  FileChecker checker(graph, file, promise, tolerance, declared);
+  FileChecker checker(graph, file, promise, tolerance, declared, recorded);
   checker.run(report);
   deviation = checker.deviation();
 }

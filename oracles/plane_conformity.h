@@ -21,9 +21,10 @@ namespace tetproof::oracles {
 //   each piece where the inside ends is between an inside and an outside, and no hole is covered;
 // - edge-list: the edges listed are those chains, each with the marker of its segment;
 // - angles: for information.
-// Where corners were not to be restored (--approximate): only complex, orientation and angles.
-// `deviation` gets the largest distance of a chain's vertex from its segment, in input units.
+// Where corners were not to be restored (--approximate): only complex, orientation and angles; the
+// rest is undecided unless there is a record (`recorded`). `deviation` gets the largest distance of
+// a chain's vertex from its segment, in input units.
 void check_plane_file(PlaneGraph& graph, const PlaneFile& file, const Promise& promise,
-                      double declared, VerifyReport& report, double& deviation);
+                      double declared, bool recorded, VerifyReport& report, double& deviation);
 
 }  // namespace tetproof::oracles

@@ -74,8 +74,8 @@ std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const 
   PlaneGraph input(graph);
   const double ulp = input.ulp();
   oracles::check_plane_file(input, file, options.promised,
-                            options.declared_deviation * input.diagonal(), report,
-                            report.deviation);
+                            options.declared_deviation * input.diagonal(), record != nullptr,
+                            report, report.deviation);
   if (record != nullptr && options.promised.approximate && file.triangles.empty()) {
     // Corners may have taken all triangles; same-mesh decides whether the record has none either.
     for (OracleReport& oracle : report.oracles) {
@@ -89,7 +89,8 @@ std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const 
   }
   report.deviation_ulps = ulp > 0 ? report.deviation / ulp : 0;
   report.deviation_share = input.diagonal() > 0 ? report.deviation / input.diagonal() : 0;
-  report.verdict = !report.all_passed()              ? Verdict::broken
+  report.verdict = report.any_failed()               ? Verdict::broken
+                   : !report.all_passed()            ? Verdict::undecided
                    : report.deviation == 0           ? Verdict::exact
                    : report.deviation <= kUlps * ulp ? Verdict::rounded
                                                      : Verdict::deviating;

@@ -15,6 +15,15 @@ std::string number(double value) {
 
 }  // namespace
 
+OracleReport surface_not_decided(const std::string& oracle) {
+  OracleReport report(oracle, "boundary faces");
+  report.undecided = true;
+  report.notes.emplace_back(
+      "the surface of a refined mesh is not the input's: the file alone does not say whether it is "
+      "a mesh of this input, a record (--exact) does");
+  return report;
+}
+
 const char* verdict_name(Verdict verdict) {
   switch (verdict) {
     case Verdict::exact:
@@ -54,6 +63,7 @@ bool VerifyReport::any_failed() const {
 std::string to_json(const VerifyReport& report) {
   nlohmann::ordered_json json;
   json["verdict"] = verdict_name(report.verdict);
+  if (!report.scope.empty()) json["scope"] = report.scope;
   json["deviation"] = report.deviation;
   json["deviation_ulps"] = report.deviation_ulps;
   json["deviation_relative"] = report.deviation_share;
@@ -123,7 +133,8 @@ std::string summary(const VerifyReport& report) {
     if (!oracle.passed()) list(oracle.undecided ? open_names : names, oracle.name);
   }
   if (!names.empty()) names += ")";
-  Paragraph line(std::string("verdict: ") + verdict_name(report.verdict));
+  Paragraph line(std::string("verdict: ") + verdict_name(report.verdict) +
+                 (report.scope.empty() ? "" : ", of " + report.scope + " alone"));
   line.add(std::to_string(passed) + " passed, " + std::to_string(failed) + " FAILED" + names +
            ", " + std::to_string(told) + " for information");
   if (undecided > 0) line.add(std::to_string(undecided) + " undecided" + open_names + ")");

@@ -44,6 +44,10 @@ struct OracleReport {
   }
 };
 
+// Of a refined mesh without a record: its surface is not the input's where corners were cut off, so
+// that the file alone does not tell whether it is a mesh of this input at all. Undecided.
+OracleReport surface_not_decided(const std::string& oracle);
+
 enum class Verdict : std::uint8_t { exact, rounded, deviating, undecided, broken };
 
 const char* verdict_name(Verdict verdict);
@@ -57,6 +61,7 @@ struct VerifyReport {
   double planar_share = 0;  // how far facets may be from planar by the promise, as such a fraction
   std::uint64_t inverted = 0, flat = 0;  // cells as written
   const char* cells = "tetrahedra";
+  std::string scope;  // the verdict is of this alone ("the final mesh"); empty: of all there is
   std::vector<OracleReport> oracles;
 
   const OracleReport* find(const std::string& name) const;

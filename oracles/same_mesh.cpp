@@ -426,6 +426,20 @@ mpq_class exact_distance2(const Position& written, const ExactPoints& points, In
 
 }  // namespace
 
+double largest_rounding(const MeshFile& mesh, const ExactRecord& record,
+                        const ExactPoints& points) {
+  double largest = 0;
+  for (std::size_t i = 0; i < std::min(mesh.vertices.size(), record.mesh_vertices.size()); ++i) {
+    const Index v = record.mesh_vertices[i];
+    const Position& q = mesh.vertices[i];
+    const bool finite = std::ranges::all_of(q, [](double x) { return std::isfinite(x); });
+    if (v >= points.size() || !finite) continue;  // check_rounding reports them
+    if (points.is_double(v) && points.nearest(v) == q) continue;
+    largest = std::max(largest, std::sqrt(exact_distance2(q, points, v).get_d()) * (1 + 1e-12));
+  }
+  return largest;
+}
+
 OracleReport check_same_mesh(const MeshFile& mesh, const ExactRecord& record,
                              const Promise& promise, const std::vector<std::int32_t>& labels) {
   return SameMesh(mesh, record, promise, labels).run();

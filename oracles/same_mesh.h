@@ -29,4 +29,9 @@ OracleReport check_same_mesh(const MeshFile& mesh, const delmesher::ExactRecord&
 OracleReport check_rounding(const MeshFile& mesh, const delmesher::ExactRecord& record,
                             const ExactPoints& points, const SameMeshOptions& options);
 
+// The largest distance of a vertex of the file from its exact place, in input units, rounded up: 0
+// exactly if there is none.
+double largest_rounding(const MeshFile& mesh, const delmesher::ExactRecord& record,
+                        const ExactPoints& points);
+
 }  // namespace tetproof::oracles

@@ -14,6 +14,14 @@
 namespace tetproof::oracles {
 namespace {
 
+// What alone is asked about although more was promised.
+std::string scope_of(const VerifyOptions& options, bool recorded) {
+  if (!recorded || options.promised.task != Task::mesh) return {};
+  if (options.stage == Stage::final) return "the final mesh";
+  const bool more = options.stage == Stage::refined && !options.promised.approximate;
+  return more ? "the refined mesh" : "";
+}
+
 // Runs all parts in the order of their turns.
 std::string run_parts(const Polyhedron& input, const MeshFile& mesh,
                       const delmesher::ExactRecord* exact, const VerifyOptions& options,
@@ -42,6 +50,7 @@ std::string run_parts(const Polyhedron& input, const MeshFile& mesh,
   }
   double ulp = 0, diagonal = 0;
   for (Verification& part : parts) part.move_to(report, ulp, diagonal);
+  report.scope = scope_of(options, exact != nullptr);
   conclude(ulp, diagonal, report);
   return {};
 }

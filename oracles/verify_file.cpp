@@ -131,6 +131,7 @@ std::string Verification::check_file() {
   if (options_.stage == Stage::refined) {
     add(check_angles(complex, neighbours, Places(complex, neighbours, surface), delta(), scope(),
                      before_writing()));
+    if (exact_ == nullptr) add(surface_not_decided("conformity"));
     return {};
   }
   const bool solid_only =

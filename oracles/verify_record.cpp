@@ -67,6 +67,10 @@ std::string Verification::check_sidecar() {
                      {.ulp = ulp_,
                       .allowed = options_.declared_deviation * diagonal_,
                       .input_vertices = static_cast<Index>(input_.vertices.size())}));
+  // Otherwise the oracles of the file measure it, on its surface.
+  if (options_.stage == Stage::refined) {
+    report_.deviation = largest_rounding(mesh_, *exact_, sidecar.written());
+  }
   return {};
 }
 

@@ -101,6 +101,62 @@ TEST(Truths, ChamfersWithinTheirBoundPass) {
   EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
 }
 
+// One side goes, for a gap that is long and no wider than the tolerance.
+TEST(Truths, AFacetMayGoForItsChamfers) {
+  Told told = honest();
+  dagger(told);
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
+  EXPECT_EQ(figures_of(report, "refined-filter").at("dropped for what chamfering made of them"), 1);
+}
+
+// A refined mesh is written as it is recorded, but for rounding, or for what was declared.
+TEST(Truths, ARefinedMeshDeviatesFromWhereItIsWritten) {
+  Told told = honest();
+  run_approximate(told);
+  const auto judged = [&told] {
+    VerifyReport report;
+    EXPECT_EQ(verify(told.sample.input, told.sample.mesh, &told.record,
+                     {.stage = Stage::refined, .promised = told.promise, .declared_deviation = 1},
+                     report),
+              "");
+    return report;
+  };
+  const VerifyReport as_it_was = judged();
+  EXPECT_LE(as_it_was.deviation_ulps, 1) << to_text(as_it_was);
+  const auto rounded = [&told](const Position& written, Index v) {
+    return told.record.points[v].kind != ExactPoint::Kind::explicit_point && written[0] < 2;
+  };
+  for (std::size_t i = 0; i < told.sample.mesh.vertices.size(); ++i) {
+    Position& written = told.sample.mesh.vertices[i];
+    if (!rounded(written, told.record.mesh_vertices[i])) continue;
+    written[0] += 0x1p-30;
+    break;
+  }
+  const VerifyReport moved = judged();
+  EXPECT_EQ(moved.verdict, Verdict::deviating) << to_text(moved);
+  EXPECT_NEAR(moved.deviation, 0x1p-30, 0x1p-50);
+}
+
+// A stage alone is not all that was promised, and the first line says so.
+TEST(Truths, TheVerdictOnAStageIsOfThatAlone) {
+  const auto judged = [](Stage stage) {
+    VerifyReport report;
+    EXPECT_EQ(verify(honest().sample.input, honest().sample.mesh, &honest().record,
+                     {.stage = stage, .promised = honest().promise}, report),
+              "");
+    return to_text(report).substr(0, 60) + to_json(report).substr(0, 80);
+  };
+  EXPECT_EQ(judged(Stage::both).find("alone"), std::string::npos);
+  EXPECT_EQ(judged(Stage::both).find("scope"), std::string::npos);
+  for (const char* part : {"rounded, of the final mesh alone", "\"scope\": \"the final mesh\""}) {
+    EXPECT_NE(judged(Stage::final).find(part), std::string::npos) << judged(Stage::final);
+  }
+  for (const char* part : {"of the refined mesh alone", "\"scope\": \"the refined mesh\""}) {
+    EXPECT_NE(judged(Stage::refined).find(part), std::string::npos) << judged(Stage::refined);
+  }
+}
+
 // The filter may leave nothing to refine; then nothing is written.
 TEST(Truths, ARefinedMeshOfNothingPasses) {
   Options options = honest_options();

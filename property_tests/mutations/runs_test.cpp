@@ -285,7 +285,7 @@ TEST_P(RefinedDamages, AreCaughtByTheOracleMeantForThem) {
   MesherRun mutant = good_run();
   VerifyOptions options{.stage = Stage::refined, .promised = mutant.promise};
   static const VerifyReport good = run(mutant.sample, &mutant.record, options);
-  ASSERT_EQ(good.verdict, Verdict::exact) << to_text(good);
+  ASSERT_TRUE(samples::exact_or_rounded(good)) << to_text(good);
   GetParam().apply(mutant.record);
   judge("refined wedge and slab", GetParam().name, GetParam().oracle,
         run(mutant.sample, &mutant.record, options));
