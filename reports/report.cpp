@@ -126,6 +126,10 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
   add("rotated", "Rotated models",
       "Of a part in another position, its corners rounded, the mesh should be about the same.",
       {rotated_table(selection)}, {});
+  add("vary", "Exact copies",
+      "Of the same solid, turned, scaled or numbered otherwise without a rounding, a mesher should "
+      "think the same.",
+      {vary_table(selection), vary_changes_table(selection)}, {});
   add("fidelity", "Beside the paper",
       "Columns \"paper\": as printed there. Columns \"here\": measured in this campaign, with "
       "other "

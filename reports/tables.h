@@ -40,6 +40,11 @@ Table figure_8_table(const Selection& selection);
 // sizes and angles relative to those of the model as given. No rows if there are none.
 Table rotated_table(const Selection& selection);
 
+// Exact copies (NAME@t1.off and so on; reports/relations.h, tetproof vary) beside their models: how
+// often a mesher ended in another disposition; and each of these pairs. No rows if there are none.
+Table vary_table(const Selection& selection);
+Table vary_changes_table(const Selection& selection);
+
 // Our mesher's default, delmesher+NAME for each departure from the paper undone alone, and the
 // paper's preset (tetproof run --ablation). No rows without the default or without such departures.
 Table deviation_table(const Selection& selection);

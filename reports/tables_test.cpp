@@ -319,6 +319,44 @@ TEST(Tables, LimitsThatStruckAreCounted) {
                                                      "1", "6", "15"}));
 }
 
+// A copy that ended in another way than its model is a change of mind, whichever of them is ok.
+// What was killed or not verified tells nothing.
+TEST(Tables, MeshersThatChangeTheirMindAreReported) {
+  std::vector<RunRow> rows;
+  for (const Made& made : std::initializer_list<Made>{
+           {"dir/a.off", "netgen", kOk, 1000, 4, 1, 0, 0},
+           {"dir/a@t1.off", "netgen", kOk, 1200, 4, 1, 0, 0},  // another mesh, but one
+           {"dir/a@t2.off", "netgen", Disposition::crash, 0, 0, 1, 0, 0},
+           {"dir/a@n1.off", "netgen", Disposition::killed, 0, 0, 1, 0, 0},
+           {"dir/a@s1.off", "netgen", Disposition::unverified, 0, 0, 1, 0, 0},
+           {"b.off", "netgen", Disposition::rejected, 0, 0, 1, 0, 0},
+           {"b@t1.off", "netgen", kOk, 90, 4, 1, 0, 0},
+           {"b@t12.off", "netgen", Disposition::timeout, 0, 0, 1, 0, 0},
+           {"b@e1.off", "netgen", Disposition::rejected, 0, 0, 1, 0, 0},
+           {"b@r1.off", "netgen", kOk, 90, 4, 1, 0, 0},        // rotated, not exactly
+           {"b@test.off", "netgen", kOk, 90, 4, 1, 0, 0},      // no copy
+           {"other/b@t1.off", "netgen", kOk, 90, 4, 1, 0, 0},  // of a model that was not run
+           {"a.off", "tetgen", kOk, 1000, 4, 1, 0, 0}}) {      // no copies
+    rows.push_back(row_of(made));
+  }
+  const Selection selection = select_runs(rows);
+  using Row = std::vector<std::string>;
+  EXPECT_EQ(
+      vary_table(selection).rows,
+      (std::vector<Row>{{"netgen", "turned by an exact matrix", "4", "1", "3", "1", "1"},
+                        {"netgen", "one edge split at its midpoint", "1", "1", "0", "0", "0"}}));
+  const Table changes = vary_changes_table(selection);
+  ASSERT_EQ(changes.rows.size(), 3U);
+  EXPECT_EQ(changes.rows[0],
+            (Row{"netgen", "b@t1", "turned by an exact matrix", "rejected: a | reason", "ok"}));
+  EXPECT_EQ(changes.rows[1], (Row{"netgen", "b@t12", "turned by an exact matrix",
+                                  "rejected: a | reason", "timeout: a | reason"}));
+  EXPECT_EQ(changes.rows[2],
+            (Row{"netgen", "a@t2", "turned by an exact matrix", "ok", "crash: a | reason"}));
+  EXPECT_TRUE(vary_table(campaign()).rows.empty());
+  EXPECT_TRUE(vary_changes_table(campaign()).rows.empty());
+}
+
 // Copies of a model have their ratios to it. A copy that is not ok has none, but is counted.
 TEST(Tables, RotatedCopiesStandBesideTheirModels) {
   std::vector<RunRow> rows;

@@ -95,6 +95,11 @@ struct RotateArguments {
   std::string folder;
 };
 
+struct VaryArguments {
+  std::vector<std::string> paths;
+  std::string folder;
+};
+
 struct ShrinkArguments {
   std::string input, mesher, output;
   double timeout = 10, seconds = 600;  // per run, in all
@@ -128,6 +133,7 @@ int slurm_command(const SlurmArguments& arguments);
 #ifdef TETPROOF_HAS_GENERATE
 int generate_command(const GenerateArguments& arguments);
 int rotate_command(const RotateArguments& arguments);
+int vary_command(const VaryArguments& arguments);
 int shrink_command(const ShrinkArguments& arguments);
 #endif
 

@@ -1,8 +1,6 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 #include "corpus/cli/commands.h"
 #include "corpus/generate/certify.h"
@@ -15,14 +13,6 @@ namespace tetproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write(const fs::path& path, const delmesher::Surface& surface) {
-  fs::create_directories(path.parent_path());
-  std::ofstream file(path, std::ios::binary);
-  file << to_off(surface);
-  file.close();
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
-}
 
 struct Summary {
   std::size_t given = 0, rotated = 0, left_out = 0;
@@ -37,7 +27,7 @@ void rotate(const fs::path& file, const std::string& name, const fs::path& folde
   const oracles::Polyhedron read = oracles::read_surface(file);
   const delmesher::Surface given{read.vertices, read.triangles, read.labels};
   if (!certified_valid(given)) return leave_out(name, "no valid surface");
-  write(folder / (name + ".off"), given);
+  write_off(folder / (name + ".off"), given);
   ++sum.given;
   for (std::size_t r = 0; r < kRotations.size(); ++r) {
     for (const Precision precision : {Precision::doubles, Precision::single}) {
@@ -48,7 +38,7 @@ void rotate(const fs::path& file, const std::string& name, const fs::path& folde
         leave_out(copy, "not valid once it is rounded");
         continue;
       }
-      write(folder / (copy + ".off"), surface);
+      write_off(folder / (copy + ".off"), surface);
       ++sum.rotated;
     }
   }

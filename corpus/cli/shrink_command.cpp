@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 
 #include "corpus/cli/commands.h"
@@ -61,10 +60,7 @@ int shrink_command(const ShrinkArguments& arguments) {
   const delmesher::Surface small =
       shrink(surface, std::ref(judges),
              {arguments.runs, arguments.seconds, std::max(1U, arguments.jobs)}, progress);
-  std::ofstream file(arguments.output, std::ios::binary);
-  file << to_off(small, prober.mesher.name + ": " + first.failure, true);
-  file.close();
-  if (!file) throw std::runtime_error(arguments.output + ": cannot be written");
+  write_off(arguments.output, small, prober.mesher.name + ": " + first.failure, true);
   fmt::print("{} triangles in {} after {} runs\n", small.triangles.size(), arguments.output,
              progress.runs);
   return 0;

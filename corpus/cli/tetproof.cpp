@@ -252,6 +252,18 @@ CLI::App* declare_rotate(CLI::App& tetproof, RotateArguments& a) {
   return app;
 }
 
+CLI::App* declare_vary(CLI::App& tetproof, VaryArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "vary",
+      "Surfaces as given and exact copies, turned (NAME@t1.off), scaled (NAME@s1.off), numbered "
+      "otherwise (NAME@n1.off), an edge split (NAME@e1.off); reports tell which meshers change "
+      "their mind");
+  app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
+      ->required();
+  app->add_option("-o,--output", a.folder, "Folder for the files")->required();
+  return app;
+}
+
 CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
   CLI::App* app = tetproof.add_subcommand(
       "shrink", "The smallest valid surface found on which a mesher fails in the same way");
@@ -300,6 +312,8 @@ int parse_and_run(int argc, char** argv) {
   const CLI::App* generate_app = declare_generate(app, generate);
   RotateArguments rotate;
   const CLI::App* rotate_app = declare_rotate(app, rotate);
+  VaryArguments vary;
+  const CLI::App* vary_app = declare_vary(app, vary);
   ShrinkArguments shrink;
   const CLI::App* shrink_app = declare_shrink(app, shrink);
 #endif
@@ -323,6 +337,7 @@ int parse_and_run(int argc, char** argv) {
 #ifdef TETPROOF_HAS_GENERATE
   if (generate_app->parsed()) return generate_command(generate);
   if (rotate_app->parsed()) return rotate_command(rotate);
+  if (vary_app->parsed()) return vary_command(vary);
   if (shrink_app->parsed()) return shrink_command(shrink);
 #endif
   return measure_command(measure);

@@ -141,4 +141,10 @@ GenerateSummary generate_files(const GenerateRequest& request) {
   return writer.finish();
 }
 
+void write_off(const std::filesystem::path& path, const Surface& surface,
+               const std::string& comment, bool hex) {
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
+  write(path, to_off(surface, comment, hex));
+}
+
 }  // namespace tetproof

@@ -22,6 +22,10 @@ std::optional<delmesher::Surface> generate(const Family& family, std::uint64_t s
 std::string to_off(const delmesher::Surface& surface, const std::string& comment = {},
                    bool hex = false);
 
+// Writes that, and makes the folder. \throw std::runtime_error if it cannot be written.
+void write_off(const std::filesystem::path& path, const delmesher::Surface& surface,
+               const std::string& comment = {}, bool hex = false);
+
 struct GenerateRequest {
   std::vector<const Family*> families;
   std::uint64_t seed = 1, first = 0, count = 10;

@@ -27,7 +27,7 @@ double weight(Random& random) {
   return random.between(0.2, 1);
 }
 
-std::uint32_t add_between(Surface& s, const std::vector<std::uint32_t>& corners, Random& random) {
+Point between(const Surface& s, const std::vector<std::uint32_t>& corners, Random& random) {
   Point p{0, 0, 0};
   double sum = 0;
   for (const std::uint32_t v : corners) {
@@ -36,6 +36,10 @@ std::uint32_t add_between(Surface& s, const std::vector<std::uint32_t>& corners,
     sum += w;
   }
   for (double& x : p) x /= sum;
+  return p;
+}
+
+std::uint32_t add_vertex(Surface& s, const Point& p) {
   s.vertices.push_back(p);
   return static_cast<std::uint32_t>(s.vertices.size() - 1);
 }
@@ -79,7 +83,7 @@ void add_noise(Surface& surface, double amplitude, Random& random) {
 
 void split_at_rounded_point(Surface& s, std::uint32_t t, Random& random) {
   const auto [a, b, c] = s.triangles[t];
-  const std::uint32_t m = add_between(s, {a, b, c}, random);
+  const std::uint32_t m = add_vertex(s, between(s, {a, b, c}, random));
   s.triangles[t] = {a, b, m};
   add_triangle(s, {b, c, m}, t);
   add_triangle(s, {c, a, m}, t);
@@ -87,12 +91,17 @@ void split_at_rounded_point(Surface& s, std::uint32_t t, Random& random) {
 
 void split_at_rounded_point(Surface& s, std::uint32_t t, int h, Random& random) {
   const auto k = static_cast<std::size_t>(h);
+  split_edge_at(s, t, h, between(s, {s.triangles[t][k], s.triangles[t][(k + 1) % 3]}, random));
+}
+
+void split_edge_at(Surface& s, std::uint32_t t, int h, const Point& p) {
+  const auto k = static_cast<std::size_t>(h);
   const std::uint32_t a = s.triangles[t][k], b = s.triangles[t][(k + 1) % 3],
                       c = s.triangles[t][(k + 2) % 3];
   for (std::uint32_t u = 0; u < s.triangles.size(); ++u) {
     for (std::size_t l = 0; l < 3; ++l) {
       if (s.triangles[u][l] != b || s.triangles[u][(l + 1) % 3] != a) continue;
-      const std::uint32_t d = s.triangles[u][(l + 2) % 3], m = add_between(s, {a, b}, random);
+      const std::uint32_t d = s.triangles[u][(l + 2) % 3], m = add_vertex(s, p);
       s.triangles[t] = {a, m, c};
       add_triangle(s, {m, b, c}, t);
       s.triangles[u] = {b, m, d};

@@ -35,4 +35,9 @@ void add_noise(delmesher::Surface& surface, double amplitude, Random& random);
 void split_at_rounded_point(delmesher::Surface& surface, std::uint32_t t, Random& random);
 void split_at_rounded_point(delmesher::Surface& surface, std::uint32_t t, int h, Random& random);
 
+// `p` becomes a vertex of edge h (0 to 2) of triangle t, and so of its neighbour too, which has to
+// be there.
+void split_edge_at(delmesher::Surface& surface, std::uint32_t t, int h,
+                   const std::array<double, 3>& p);
+
 }  // namespace tetproof
