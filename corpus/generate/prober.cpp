@@ -2,11 +2,11 @@
 #include <poll.h>
 
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <future>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "corpus/generate/generate.h"
@@ -18,23 +18,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Paths, numbers and addresses change with the input.
+// Paths, numbers and addresses change with the input, with sign, point and exponent.
 std::string without_numbers(const std::string& text, const fs::path& folder) {
   std::string plain = text;
   for (auto at = plain.find(folder.string()); at != std::string::npos;
        at = plain.find(folder.string(), at)) {
     plain.erase(at, folder.string().size());
   }
-  std::string result;
-  for (const char c : plain) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
-    if (!digit) {
-      result += c;
-    } else if (result.empty() || result.back() != '#') {
-      result += '#';
-    }
-  }
-  return result;
+  static const std::regex number("-?[0-9]+([.][0-9]+)?(e[-+]?[0-9]+)?");
+  return std::regex_replace(plain, number, "#");
 }
 
 // Names of the oracles that failed.

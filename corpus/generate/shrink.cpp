@@ -39,6 +39,29 @@ std::vector<std::vector<std::size_t>> components(const Surface& s) {
   return result;
 }
 
+// Leaves out vertices without triangles and merges those of equal coordinates. The others keep
+// their order, because some meshers fail with one numbering alone.
+Surface in_order_welded(const Surface& s) {
+  std::vector<bool> used(s.vertices.size(), false);
+  for (const auto& t : s.triangles) {
+    for (const std::uint32_t v : t) used[v] = true;
+  }
+  Surface result;
+  std::map<Point, std::uint32_t> ids;
+  std::vector<std::uint32_t> number(s.vertices.size());
+  for (std::uint32_t v = 0; v < s.vertices.size(); ++v) {
+    if (!used[v]) continue;
+    const auto fresh = static_cast<std::uint32_t>(result.vertices.size());
+    const auto [at, added] = ids.emplace(s.vertices[v], fresh);
+    if (added) result.vertices.push_back(s.vertices[v]);
+    number[v] = at->second;
+  }
+  for (const auto& [a, b, c] : s.triangles) {
+    result.triangles.push_back({number[a], number[b], number[c]});
+  }
+  return result;
+}
+
 struct Range {
   Point low, high;
   double size() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
@@ -82,9 +105,10 @@ class Shrinker {
  public:
   Shrinker(const Surface& surface, const OneThatFails& fails, const ShrinkLimits& limits,
            ShrinkProgress& progress)
-      : best_(shapes::welded(surface)), fails_(fails), limits_(limits), progress_(progress) {}
+      : best_(surface), fails_(fails), limits_(limits), progress_(progress) {}
 
   Surface run() {
+    if (in_order_welded(best_).vertices.size() < best_.vertices.size()) accept(best_);
     // Single collapses are many runs, and wait until nothing else helps.
     for (bool better = true; better && !spent();) {
       better = false;
@@ -130,7 +154,7 @@ class Shrinker {
   }
   // Welded; nothing unless that certainly is valid.
   static std::optional<Surface> valid_form(const Surface& candidate) {
-    Surface welded = shapes::welded(candidate);
+    Surface welded = in_order_welded(candidate);
     if (welded.triangles.empty() || !certified_valid(welded)) return std::nullopt;
     return welded;
   }

@@ -61,6 +61,36 @@ TEST(Shrink, FewRunsAreEnough) {
   EXPECT_LE(progress.runs, 121U);
 }
 
+// Fails where the apex is the first vertex, which the first triangle does not have.
+TEST(Shrink, KeepsTheOrderOfVertices) {
+  const Surface surface =
+      shapes::tetrahedron({0.1, 0.1, 123.456}, {0.3, 0, 0}, {2.7, 0, 0}, {0, 3.3, 0});
+  ShrinkProgress progress;
+  const Surface small = shrink(
+      surface,
+      [&](const std::vector<Surface>& some) -> std::optional<std::size_t> {
+        for (std::size_t i = 0; i < some.size(); ++i) {
+          if (some[i].vertices[0][2] > 100) return i;
+        }
+        return std::nullopt;
+      },
+      {.runs = 300, .seconds = 60}, progress);
+  EXPECT_GT(small.vertices[0][2], 100);
+  EXPECT_EQ(small.vertices[0][2], std::floor(small.vertices[0][2]));  // simpler than it was
+}
+
+// What was not judged is no result, be it only without the vertices that no triangle has.
+TEST(Shrink, TheGivenSurfaceStaysIfNothingElseFails) {
+  Surface surface = shapes::tetrahedron({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  surface.vertices.push_back({5, 5, 5});
+  ShrinkProgress progress;
+  const auto nothing = [](const std::vector<Surface>&) { return std::nullopt; };
+  EXPECT_EQ(shrink(surface, nothing, {.runs = 50, .seconds = 60}, progress).vertices,
+            surface.vertices);
+  const auto anything = [](const std::vector<Surface>&) { return std::optional<std::size_t>(0); };
+  EXPECT_EQ(shrink(surface, anything, {.runs = 50, .seconds = 60}, progress).vertices.size(), 4U);
+}
+
 class SideBySideRuns : public testing::Test {
  protected:
   void SetUp() override {
@@ -110,6 +140,16 @@ TEST_F(SideBySideRuns, AnotherFailureIsNone) {
   SideBySide judges(p, p.probe(box()));
   EXPECT_EQ(judges({tetrahedron(), box()}), 1U);
   EXPECT_EQ(judges({tetrahedron()}), std::nullopt);
+}
+
+// Coordinates are written with sign, point and exponent or without.
+TEST_F(SideBySideRuns, NumbersAreNoPartOfAFailure) {
+  const Prober p =
+      prober("echo at \"($([ $n = 12 ] && echo -4,0.5 || echo 4,-2.1e-07))\" >&2; exit 3");
+  const Probe first = p.probe(box());
+  EXPECT_NE(first.failure.find("at (#,#)"), std::string::npos) << first.failure;
+  SideBySide judges(p, first);
+  EXPECT_EQ(judges({tetrahedron()}), 0U);
 }
 
 TEST_F(SideBySideRuns, TheLimitFollowsTheCase) {
