@@ -8,16 +8,31 @@ namespace nglib {
 
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "corpus/peer_adapters/adapter.h"
 
 namespace {
 
+// Six times the volume that the surface bounds if it is oriented outwards.
+double signed_volume(const delmesher::Surface& surface) {
+  double sum = 0;
+  for (const auto& [a, b, c] : surface.triangles) {
+    const auto &p = surface.vertices[a], &q = surface.vertices[b], &r = surface.vertices[c];
+    sum += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
+           p[2] * (q[0] * r[1] - q[1] * r[0]);
+  }
+  return sum;
+}
+
+// Netgen needs triangles that are oriented outwards; ours may all be oriented inwards.
 void fill(nglib::Ng_Mesh* mesh, const delmesher::Surface& surface) {
+  const bool inwards = signed_volume(surface) < 0;
   for (std::array<double, 3> vertex : surface.vertices) nglib::Ng_AddPoint(mesh, vertex.data());
   for (const auto& triangle : surface.triangles) {
     std::array<int, 3> corners;  // counted from 1
     for (std::size_t i = 0; i < 3; ++i) corners[i] = static_cast<int>(triangle[i]) + 1;
+    if (inwards) std::swap(corners[1], corners[2]);
     nglib::Ng_AddSurfaceElement(mesh, nglib::NG_TRIG, corners.data());
   }
 }
