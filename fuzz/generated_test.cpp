@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -183,20 +184,23 @@ TEST(Shrink, KeepsWhatMatters) {
   EXPECT_GT(progress.runs, 0U);
 }
 
-std::vector<std::string> tetgen_failures() {
+// "tetgen/needle_segfault" and so on.
+std::vector<std::string> peer_failures() {
+  namespace fs = std::filesystem;
   std::vector<std::string> names;
-  for (const auto& file : std::filesystem::directory_iterator(TETPROOF_TETGEN_FAILURES)) {
-    if (file.path().extension() == ".off") names.push_back(file.path().stem());
+  for (const auto& file : fs::recursive_directory_iterator(TETPROOF_FAILURES)) {
+    if (file.path().extension() != ".off") continue;
+    names.push_back(fs::relative(file.path(), TETPROOF_FAILURES).replace_extension().string());
   }
   std::sort(names.begin(), names.end());
   return names;
 }
 
-// Small surfaces on which TetGen fails (corpus/tetgen_failures/README.md).
-class TetgenFailures : public testing::TestWithParam<std::string> {};
+// Small surfaces on which other meshers fail (corpus/failures/README.md).
+class PeerFailures : public testing::TestWithParam<std::string> {};
 
-TEST_P(TetgenFailures, AreMeshed) {
-  const std::string path = TETPROOF_TETGEN_FAILURES "/" + GetParam() + ".off";
+TEST_P(PeerFailures, AreMeshed) {
+  const std::string path = TETPROOF_FAILURES "/" + GetParam() + ".off";
   std::ifstream in(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   const auto read = delmesher::io::parse_surface(text, path);
@@ -205,8 +209,14 @@ TEST_P(TetgenFailures, AreMeshed) {
   EXPECT_LE(read.surface.triangles.size(), 60U);
   EXPECT_EQ(fuzz::default_pipeline_holds(read.surface), "");
 }
-INSTANTIATE_TEST_SUITE_P(All, TetgenFailures, testing::ValuesIn(tetgen_failures()),
-                         [](const auto& name) { return name.param; });
+INSTANTIATE_TEST_SUITE_P(
+    All, PeerFailures, testing::ValuesIn(peer_failures()), [](const auto& name) {
+      std::string word = name.param;
+      std::replace_if(
+          word.begin(), word.end(),
+          [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+      return word;
+    });
 
 // Boxes inside each other with walls of 1e-12 and 1e-7. Edges that run along each other at such a
 // distance were split at different places, and each split asked for one more on the other edge.
