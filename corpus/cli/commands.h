@@ -1,5 +1,6 @@
 // The subcommands of tetproof and their arguments. They return an exit code: 0 done, 1 a check
-// failed, 3 unreadable input, 5 a limit was reached, 130 interrupted.
+// failed, 3 unreadable input, 5 a limit was reached, 130 interrupted; union_files.h and
+// verify_command.h have more.
 #pragma once
 
 #include <cstdint>
@@ -47,6 +48,11 @@ struct MergeArguments {
 
 struct ConvertArguments {
   std::string input, output;  // surface files
+};
+
+struct UnionArguments {
+  std::string input, output;  // surface files
+  bool nonzero = false;       // also inside of what is turned inwards
 };
 
 struct ReportArguments {
@@ -135,6 +141,9 @@ int generate_command(const GenerateArguments& arguments);
 int rotate_command(const RotateArguments& arguments);
 int vary_command(const VaryArguments& arguments);
 int shrink_command(const ShrinkArguments& arguments);
+#endif
+#ifdef TETPROOF_HAS_UNION
+int union_command(const UnionArguments& arguments);
 #endif
 
 }  // namespace tetproof

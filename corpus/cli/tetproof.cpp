@@ -282,6 +282,25 @@ CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
 }
 #endif
 
+#ifdef TETPROOF_HAS_UNION
+CLI::App* declare_union(CLI::App& tetproof, UnionArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "union",
+      "One surface around bodies that overlap, and around a surface that intersects itself; exact "
+      "but for new points, which are rounded");
+  app->add_option("input", a.input, "A surface file")->required();
+  app->add_option("-o,--output", a.output, "FILE.stl, FILE.ply or FILE.off")->required();
+  app->add_flag("--nonzero", a.nonzero,
+                "Inside is also what triangles that are turned inwards enclose (default: where the "
+                "winding number is positive)");
+  app->footer(
+      "Exit codes: 0 done, 1 parts touch so that it is not manifold there, 2 usage, 3 unreadable "
+      "or cannot be written, 4 it does not close up, 5 memory or the precision of doubles, 6 "
+      "internal error, 130 interrupted. Nothing is written but with 0 and 1.");
+  return app;
+}
+#endif
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app("Runs tetrahedral meshers on models, checks what they deliver and reports.",
                "tetproof");
@@ -317,6 +336,10 @@ int parse_and_run(int argc, char** argv) {
   ShrinkArguments shrink;
   const CLI::App* shrink_app = declare_shrink(app, shrink);
 #endif
+#ifdef TETPROOF_HAS_UNION
+  UnionArguments uniting;
+  const CLI::App* union_app = declare_union(app, uniting);
+#endif
 #ifdef TETPROOF_HAS_VERIFY
   app.add_subcommand("verify", "Exact checks of a mesh against its input (see verify --help)");
 #endif
@@ -339,6 +362,9 @@ int parse_and_run(int argc, char** argv) {
   if (rotate_app->parsed()) return rotate_command(rotate);
   if (vary_app->parsed()) return vary_command(vary);
   if (shrink_app->parsed()) return shrink_command(shrink);
+#endif
+#ifdef TETPROOF_HAS_UNION
+  if (union_app->parsed()) return union_command(uniting);
 #endif
   return measure_command(measure);
 }

@@ -193,9 +193,10 @@ std::vector<std::string> advice(const Surface& surface, const SurfaceReport& rep
   } else if (count_of(report, Kind::self_intersection) > 0) {
     lines.push_back(
         report.components > 1
-            ? "triangles meet: if bodies touch or overlap, unite them first, or mesh them one by "
-              "one"
-            : "triangles meet: repair does not move them; the modeller that made them has to");
+            ? "triangles meet: if bodies overlap, `tetproof union` makes one of them; or mesh them "
+              "one by one"
+            : "triangles meet: `tetproof union` cuts them there and keeps the outside, if the "
+              "surface closes up");
   } else if (count_of(report, Kind::non_manifold_vertex) > 0 &&
              count_of(report, Kind::open_edge) == 0) {
     lines.push_back(

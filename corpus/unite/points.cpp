@@ -1,0 +1,35 @@
+#include "corpus/unite/points.h"
+
+#include <cmath>
+
+namespace tetproof::unite {
+namespace {
+
+// Of the two doubles around an exact number the one that is closer to it.
+template <class Number>
+double nearest(const Number& x) {
+  const auto [low, high] = CGAL::to_interval(x);
+  return x - Number(low) <= Number(high) - x ? low : high;
+}
+
+double coordinate(const Exact::FT& x, double grid) {
+  const double near = nearest(CGAL::exact(x));
+  const double multiple = grid > 0 ? std::nearbyint(near / grid) * grid : near;
+  return std::isfinite(multiple) ? multiple : near;
+}
+
+}  // namespace
+
+Position Points::rounded(Index i, double grid) const {
+  if (is_given(i)) return given_[i];
+  const Exact::Point_3 p = (*this)[i];
+  return {coordinate(p.x(), grid), coordinate(p.y(), grid), coordinate(p.z(), grid)};
+}
+
+Position Points::approximate(Index i) const {
+  if (is_given(i)) return given_[i];
+  const Exact::Point_3 p = (*this)[i];
+  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+}
+
+}  // namespace tetproof::unite
