@@ -55,7 +55,7 @@ bool explains(double rounding, const std::vector<double>& bends, double least) {
         std::ranges::count_if(bends, [=](double x) { return x > low && x <= high; }));
   };
   const double most = kExplained * rounding;
-  return count(least, most) > kTimes * count(std::max(least, most), kMore * most);
+  return count(least, most) > kTimes * std::max(1.0, count(std::max(least, most), kMore * most));
 }
 
 }  // namespace

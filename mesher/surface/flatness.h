@@ -14,8 +14,9 @@ namespace delmesher::surface {
 // Where coordinates were rounded more coarsely (resolution.h), flat faces are bent by more. That
 // shows: hardly an edge is bent by a bit more than rounding explains, while there are edges of
 // every small bend on a curved surface. So if there are eight times as many edges that rounding can
-// explain (up to 1.25 of it) as of up to four times that bend, it returns at least 1.5 times the
-// rounding, at most 2^-14 of the diagonal. In the units of the surface, which is valid.
+// explain (up to 1.25 of it) as of up to four times that bend, and more than eight, it returns at
+// least 1.5 times the rounding, at most 2^-14 of the diagonal. In the units of the surface, which
+// is valid.
 double flatness(const Surface& surface);
 
 }  // namespace delmesher::surface
