@@ -96,12 +96,7 @@ struct GenerateArguments {
   bool twins = false, list = false;
 };
 
-struct RotateArguments {
-  std::vector<std::string> paths;
-  std::string folder;
-};
-
-struct VaryArguments {
+struct CopiesArguments {
   std::vector<std::string> paths;
   std::string folder;
 };
@@ -138,8 +133,8 @@ int classify_command(const ClassifyArguments& arguments);
 int slurm_command(const SlurmArguments& arguments);
 #ifdef TETPROOF_HAS_GENERATE
 int generate_command(const GenerateArguments& arguments);
-int rotate_command(const RotateArguments& arguments);
-int vary_command(const VaryArguments& arguments);
+int rotate_command(const CopiesArguments& arguments);
+int vary_command(const CopiesArguments& arguments);
 int shrink_command(const ShrinkArguments& arguments);
 #endif
 #ifdef TETPROOF_HAS_UNION

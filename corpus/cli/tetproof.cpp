@@ -241,27 +241,30 @@ CLI::App* declare_generate(CLI::App& tetproof, GenerateArguments& a) {
   return app;
 }
 
-CLI::App* declare_rotate(CLI::App& tetproof, RotateArguments& a) {
-  CLI::App* app = tetproof.add_subcommand(
-      "rotate",
-      "Surfaces as given and in three other positions, in doubles (NAME@r1.off) and in float32 "
-      "(NAME@r1s.off), where they are valid; reports compare their meshes");
+CLI::App* declare_copies(CLI::App& tetproof, const char* name, const char* about,
+                         CopiesArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(name, about);
   app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
       ->required();
   app->add_option("-o,--output", a.folder, "Folder for the files")->required();
   return app;
 }
 
-CLI::App* declare_vary(CLI::App& tetproof, VaryArguments& a) {
-  CLI::App* app = tetproof.add_subcommand(
-      "vary",
+CLI::App* declare_rotate(CLI::App& tetproof, CopiesArguments& a) {
+  return declare_copies(
+      tetproof, "rotate",
+      "Surfaces as given and in three other positions, in doubles (NAME@r1.off) and in float32 "
+      "(NAME@r1s.off), where they are valid; reports compare their meshes",
+      a);
+}
+
+CLI::App* declare_vary(CLI::App& tetproof, CopiesArguments& a) {
+  return declare_copies(
+      tetproof, "vary",
       "Surfaces as given and exact copies, turned (NAME@t1.off), scaled (NAME@s1.off), numbered "
       "otherwise (NAME@n1.off), an edge split (NAME@e1.off); reports tell which meshers change "
-      "their mind");
-  app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
-      ->required();
-  app->add_option("-o,--output", a.folder, "Folder for the files")->required();
-  return app;
+      "their mind",
+      a);
 }
 
 CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
@@ -329,9 +332,9 @@ int parse_and_run(int argc, char** argv) {
 #ifdef TETPROOF_HAS_GENERATE
   GenerateArguments generate;
   const CLI::App* generate_app = declare_generate(app, generate);
-  RotateArguments rotate;
+  CopiesArguments rotate;
   const CLI::App* rotate_app = declare_rotate(app, rotate);
-  VaryArguments vary;
+  CopiesArguments vary;
   const CLI::App* vary_app = declare_vary(app, vary);
   ShrinkArguments shrink;
   const CLI::App* shrink_app = declare_shrink(app, shrink);

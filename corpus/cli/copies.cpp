@@ -1,0 +1,56 @@
+#include "corpus/cli/copies.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "corpus/generate/certify.h"
+#include "corpus/generate/generate.h"
+#include "corpus/models.h"
+#include "oracles/surface_file.h"
+
+namespace tetproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Summary {
+  std::size_t given = 0, copies = 0, left_out = 0;
+};
+
+// `name`: a path within the folder, without extension.
+void copy(const fs::path& file, const std::string& name, const fs::path& folder,
+          const CopyKind& kind, Summary& sum) {
+  const auto leave_out = [&](const std::string& which, const char* why) {
+    fmt::print("left out: {}: {}\n", which, why);
+    ++sum.left_out;
+  };
+  const oracles::Polyhedron read = oracles::read_surface(file);
+  const delmesher::Surface given{read.vertices, read.triangles, read.labels};
+  if (!certified_valid(given)) return leave_out(name, "no valid surface");
+  write_off(folder / (name + ".off"), given);
+  ++sum.given;
+  for (const Copy& made : kind.copies_of(given, name)) {
+    if (!made.surface) {
+      leave_out(made.name, kind.left_out);
+      continue;
+    }
+    write_off(folder / (made.name + ".off"), *made.surface);
+    ++sum.copies;
+  }
+}
+
+}  // namespace
+
+int write_copies(const CopiesArguments& arguments, const CopyKind& kind) {
+  Summary sum;
+  for (const Model& model :
+       collect_models({arguments.paths.begin(), arguments.paths.end()}).models) {
+    copy(model.path, fs::path(model.name).replace_extension(), arguments.folder, kind, sum);
+  }
+  fmt::print("{} surfaces and {} {} in {}, {} left out\n", sum.given, sum.copies, kind.name,
+             arguments.folder, sum.left_out);
+  return sum.given > 0 ? 0 : 1;
+}
+
+}  // namespace tetproof
