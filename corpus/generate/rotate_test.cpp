@@ -8,16 +8,15 @@
 
 #include "corpus/generate/certify.h"
 #include "corpus/generate/shapes.h"
+#include "corpus/generate/test_surfaces.h"
 
 namespace tetproof {
 namespace {
 
 using delmesher::Surface;
+using test_surfaces::a_box;
+using test_surfaces::volume;
 using Point = std::array<double, 3>;
-
-Surface a_box() {
-  return shapes::box({-1, -2, -0.5}, {3, 1, 1.5});
-}
 
 double distance2(const Point& p, const Point& q) {
   double sum = 0;
@@ -31,16 +30,6 @@ double largest_coordinate(const Surface& s) {
     for (const double x : p) largest = std::max(largest, std::fabs(x));
   }
   return largest;
-}
-
-double volume(const Surface& s) {
-  double sum = 0;
-  for (const auto& [a, b, c] : s.triangles) {
-    const Point &p = s.vertices[a], &q = s.vertices[b], &r = s.vertices[c];
-    sum += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
-           p[2] * (q[0] * r[1] - q[1] * r[0]);
-  }
-  return sum / 6;
 }
 
 TEST(Rotated, KeepsDistancesAndOrientation) {

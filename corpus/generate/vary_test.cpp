@@ -8,17 +8,16 @@
 
 #include "corpus/generate/certify.h"
 #include "corpus/generate/shapes.h"
+#include "corpus/generate/test_surfaces.h"
 
 namespace tetproof {
 namespace {
 
 using delmesher::Surface;
 using shapes::Point;
+using test_surfaces::a_box;
+using test_surfaces::volume;
 using Corners = std::array<Point, 3>;
-
-Surface a_box() {
-  return shapes::box({-1, -2, -0.5}, {3, 1, 1.5});
-}
 
 // A triangle by its corners' coordinates, the least one first, mapped by `map`: what a numbering
 // does not change.
@@ -35,16 +34,6 @@ std::vector<Corners> triangles_of(const Surface& s, const Map& map) {
 }
 std::vector<Corners> triangles_of(const Surface& s) {
   return triangles_of(s, [](const Point& p) { return p; });
-}
-
-double volume(const Surface& s) {
-  double sum = 0;
-  for (const auto& [a, b, c] : s.triangles) {
-    const Point &p = s.vertices[a], &q = s.vertices[b], &r = s.vertices[c];
-    sum += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
-           p[2] * (q[0] * r[1] - q[1] * r[0]);
-  }
-  return sum / 6;
 }
 
 // 24 is the box's volume, and all of this is exact.

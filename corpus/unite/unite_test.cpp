@@ -13,6 +13,7 @@
 #include "corpus/generate/random.h"
 #include "corpus/generate/rotate.h"
 #include "corpus/generate/shapes.h"
+#include "corpus/generate/test_surfaces.h"
 #include "oracles/exact_points.h"
 #include "oracles/input_surface.h"
 
@@ -21,6 +22,7 @@ namespace {
 
 using delmesher::Surface;
 using shapes::box;
+using test_surfaces::volume;
 using Point = std::array<double, 3>;
 
 Surface together(const std::vector<Surface>& bodies) {
@@ -33,16 +35,6 @@ Surface together(const std::vector<Surface>& bodies) {
 Surface inwards(Surface body) {
   shapes::reverse(body);
   return body;
-}
-
-double volume(const Surface& s) {
-  double sum = 0;
-  for (const auto& [a, b, c] : s.triangles) {
-    const Point &p = s.vertices[a], &q = s.vertices[b], &r = s.vertices[c];
-    sum += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
-           p[2] * (q[0] * r[1] - q[1] * r[0]);
-  }
-  return sum / 6;
 }
 
 // Of closed surfaces, one by one.
