@@ -12,6 +12,17 @@ namespace {
 using namespace oracles;  // NOLINT
 using delmesher::Options;
 
+// The chamfers of a small radius, with the distances that wider ones would have.
+void told_wider(Told& t) {
+  Options options = honest_options();
+  options.chamfer_radius = 0x1p-6;
+  const auto wide = t.record.corners;
+  t = run_of(options);
+  t.promise.chamfer_radius = 0;
+  ASSERT_EQ(t.record.corners.size(), wide.size());
+  t.record.corners = wide;
+}
+
 const Lie kRelaxed[] = {
     {"delta relaxed to nothing", "promise", [](Told& t) { t.record.parameters.delta = 0x1p-20; }},
     {"threshold of corners relaxed", "promise", [](Told& t) { t.record.parameters.acute = 1; }},
@@ -112,25 +123,8 @@ const Lie kRelaxed[] = {
      },
      "passed"},
     {"chamfers of a small radius, told to be as wide as they might be", "refined-segments",
-     [](Told& t) {
-       Options options = honest_options();
-       options.chamfer_radius = 0x1p-6;
-       const auto wide = t.record.corners;
-       t = run_of(options);
-       t.promise.chamfer_radius = 0;
-       ASSERT_EQ(t.record.corners.size(), wide.size());
-       t.record.corners = wide;
-     },
-     "caught by refined-filter"},
-    {"the same, seen by the points of bridges", "refined-chamfer-extent",
-     [](Told& t) {
-       Options options = honest_options();
-       options.chamfer_radius = 0x1p-6;
-       const auto wide = t.record.corners;
-       t = run_of(options);
-       t.promise.chamfer_radius = 0;
-       t.record.corners = wide;
-     },
+     told_wider, "caught by refined-filter"},
+    {"the same, seen by the points of bridges", "refined-chamfer-extent", told_wider,
      "caught by refined-filter"},
     {"delta denormal", "promise", [](Told& t) { t.record.parameters.delta = 0x1p-1070; }},
     // Done in the mesher's own way, and told to be as the paper says.
