@@ -50,8 +50,9 @@ class Digits {
 bool has_24_bits(double x) {
   if (x == 0) return true;
   const int power = std::ilogb(x);
+  if (power < -126 || power > 127) return false;  // nor if it is not finite
   const double integer = std::scalbn(x, 23 - power);
-  return power >= -126 && power <= 127 && std::nearbyint(integer) == integer;
+  return std::nearbyint(integer) == integer;
 }
 
 struct Extent {
