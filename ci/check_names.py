@@ -22,6 +22,7 @@ import sys
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), ".."))
 FOLDERS = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports")
 TOGETHER = 64  # files
+FEW = 12
 FUZZER_ENTRIES = ("LLVMFuzzerTestOneInput", "LLVMFuzzerCustomMutator", "LLVMFuzzerCustomCrossOver")  # each target has its own
 # What a file defines outside of classes and functions begins a line there.
 DEFINED = re.compile(r"^(?:using (\w+) =|(?:struct|class|enum class|union) (\w+)|"
@@ -40,6 +41,15 @@ def digest(paths):
 def project_headers():
     return [os.path.join(folder, name) for top in FOLDERS for folder, _, names in os.walk(os.path.join(ROOT, top))
             for name in names if name.endswith(".h")]
+
+
+def sources_of(entry):
+    """The file of an entry, or those that CMake has it include (CMAKE_UNITY_BUILD)."""
+    file = os.path.realpath(os.path.join(entry["directory"], entry["file"]))
+    if os.path.basename(os.path.dirname(file)) != "Unity":
+        return [file]
+    with open(file, encoding="utf-8") as stream:
+        return [os.path.realpath(name) for name in re.findall(r'^#include "([^"]+)"', stream.read(), re.MULTILINE)]
 
 
 def flags_of(entry):
@@ -102,16 +112,35 @@ class Group:
         self.others += [flag for flag in flags[1] if flag not in self.others]
 
 
+@functools.cache
+def reads_cgal(path):
+    """Whether a file includes CGAL, by itself or by a header of the project: that takes longer to read than all else."""
+    with open(path, encoding="utf-8") as stream:
+        return "#include <CGAL/" in stream.read() or any(map(reads_cgal, headers_of(path)))
+
+
+def add_to_first(groups, file, flags):
+    group = next((group for group in groups if group.takes(file, flags)), None)
+    if group is None:
+        group = Group()
+        groups.append(group)
+    group.add(file, flags)
+
+
 def groups_of(files, flags):
-    groups = collections.defaultdict(list)  # by top folder: what lies together includes the same libraries
+    """What lies in one folder includes the same libraries. Few files that agree with no larger group there may agree with those of
+    other folders."""
+    cgal, others, by_folder = [], [], collections.defaultdict(list)
     for file in files:
         top = os.path.relpath(file, ROOT).split(os.sep)[0]
-        group = next((g for g in groups[top] if g.takes(file, flags[file])), None)
-        if group is None:
-            group = Group()
-            groups[top].append(group)
-        group.add(file, flags[file])
-    return [group for groups_there in groups.values() for group in groups_there]
+        add_to_first(cgal if reads_cgal(file) else by_folder[top], file, flags[file])
+    large = [group for groups in by_folder.values() for group in groups if len(group.files) >= FEW]
+    for groups in by_folder.values():
+        for group in groups:
+            if len(group.files) < FEW:
+                for file in group.files:
+                    add_to_first(others, file, flags[file])
+    return cgal + large + others
 
 
 class Tidy:
@@ -146,7 +175,7 @@ def main():
     jobs = int(sys.argv[2]) if len(sys.argv) > 2 else os.cpu_count()
     with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as stream:
         entries = json.load(stream)
-    flags = {os.path.realpath(os.path.join(e["directory"], e["file"])): flags_of(e) for e in entries}
+    flags = {file: flags_of(e) for e in entries for file in sources_of(e)}
     files = sorted(f for f in flags if f.startswith(ROOT + os.sep) and not f.startswith(os.path.realpath(build)))
     common = digest(project_headers() + [os.path.join(ROOT, ".clang-tidy")])
     memory = os.path.join(build, "names_checked")
