@@ -73,19 +73,19 @@ TEST(Sides, FoundFromOneAndPassedOn) {
 // Near the removed part of the surface each tetrahedron has to be tested by itself, and no side is
 // passed on to it.
 TEST(Sides, NearTheRemovedPartEachIsTested) {
-  Sided everywhere(std::vector{kEverything});
+  Sided everywhere(std::vector<Box>{kEverything});
   const std::vector<TetId> all = everywhere.finite();
   for (std::size_t n = 0; n < all.size(); ++n) {
     EXPECT_EQ(everywhere.count_known(), n);
     EXPECT_EQ(everywhere.sides->of(all[n]), everywhere.expected(all[n]));
   }
-  Sided corner(std::vector{Box{{-0.125, -0.125, -0.125}, {0.125, 0.125, 0.125}}});
+  Sided corner(std::vector<Box>{Box{{-0.125, -0.125, -0.125}, {0.125, 0.125, 0.125}}});
   for (const TetId t : corner.finite()) EXPECT_EQ(corner.sides->of(t), corner.expected(t));
   EXPECT_EQ(complaint_of(*corner.sides), "nothing");
 }
 
 TEST(Sides, SharedAmongThreadsOnlyWhereEachIsTested) {
-  Sided box(std::vector{Box{{-9, -9, -9}, {0.5, 9, 9}}});
+  Sided box(std::vector<Box>{Box{{-9, -9, -9}, {0.5, 9, 9}}});
   Limits limits;
   limits.threads = 2;
   Control two(limits);
