@@ -4,7 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string>
+#include <vector>
 
 namespace tetproof::oracles {
 namespace {
@@ -90,7 +92,9 @@ Units decimal_units(std::span<const Position> vertices, const Extent& extent) {
     if (!(extent.largest(i) > 0)) continue;
     units[i] = std::pow(10, -needed.places());
     if (needed.digits() < 6) continue;
-    const std::string text = printed(extent.largest(i), std::chars_format::scientific, 16);
+    // Printed as all are: in single precision 0.01 is slightly less than that.
+    const std::string text =
+        printed(extent.largest(i), std::chars_format::scientific, needed.digits() - 1);
     const int exponent = std::stoi(text.substr(text.find('e') + 1));
     units[i] = std::max(units[i], std::pow(10, exponent - needed.digits() + 1));
   }
@@ -105,10 +109,10 @@ Units single_units(const Extent& extent) {
   return units;
 }
 
-}  // namespace
+constexpr double kAlways = 0x1p-18;
 
-double automatic_planar_share(std::span<const Position> vertices) {
-  constexpr double kAlways = 0x1p-18, kMost = 0x1p-12, kSlack = 1e-9;
+double share_in_units(std::span<const Position> vertices) {
+  constexpr double kMost = 0x1p-12, kSlack = 1e-9;
   const Extent extent(vertices);
   if (!(extent.diagonal() > 0) || !std::isfinite(extent.diagonal())) return kAlways;
   const Units single = single_units(extent);
@@ -119,6 +123,32 @@ double automatic_planar_share(std::span<const Position> vertices) {
     if (share <= kMost * (1 + kSlack)) return std::max(kAlways, share);
   }
   return kAlways;
+}
+
+// In units of a power of two just above the largest coordinate, if that is of no ordinary size.
+// Empty if it is, or if a number would lose digits.
+std::vector<Position> in_own_units(std::span<const Position> vertices) {
+  constexpr int kOrdinary = 64;
+  const Extent extent(vertices);
+  const double largest = std::max({extent.largest(0), extent.largest(1), extent.largest(2)});
+  if (!(largest > 0) || !std::isfinite(largest)) return {};
+  const int exponent = std::ilogb(largest) + 1;
+  if (std::abs(exponent) <= kOrdinary) return {};
+  std::vector<Position> scaled(vertices.begin(), vertices.end());
+  for (Position& p : scaled) {
+    for (double& x : p) {
+      const double given = x;
+      x = std::ldexp(given, -exponent);
+      if (std::ldexp(x, exponent) != given) return {};
+    }
+  }
+  return scaled;
+}
+
+}  // namespace
+
+double automatic_planar_share(std::span<const Position> vertices) {
+  return std::max(share_in_units(vertices), share_in_units(in_own_units(vertices)));
 }
 
 }  // namespace tetproof::oracles

@@ -13,7 +13,9 @@ namespace tetproof::oracles {
 // any of them needs. If they need six significant digits or more, that many may have been printed,
 // and it is the last such digit of the largest number on the axis where that is coarser. Numbers
 // that all are of single precision have that of the largest on the axis, even if they have a finer
-// decimal place, and if their decimal place explains more than that.
+// decimal place, and if their decimal place explains more than that. Models whose largest
+// coordinate is above 2^64 or below 2^-64 are meshed in units of a power of two just above it, and
+// may have been rounded before they were scaled: the digits in those units count as well.
 double automatic_planar_share(std::span<const Position> vertices);
 
 }  // namespace tetproof::oracles

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <random>
 #include <vector>
 
@@ -78,6 +80,48 @@ TEST(InputDigits, OfSmallAndLargeModels) {
     EXPECT_NEAR(automatic_planar_share(p), size < 1 ? share(1e-3, 100) : kAlways, 1e-15);
   }
   EXPECT_EQ(automatic_planar_share({}), kAlways);
+}
+
+// Decimals below 1, and numbers of single precision, that were rounded before a power of two made
+// them small or large. The mesher takes out that power again.
+TEST(InputDigits, OfModelsTimesPowersOfTwo) {
+  std::vector<Position> decimal = numbers(1e-3), single = numbers(0);
+  for (Position& q : decimal) {
+    for (double& x : q) x = std::round(x * 800) / 1e5;  // up to 0.8
+  }
+  for (Position& q : single) {
+    for (double& x : q) x = static_cast<double>(static_cast<float>(x + 5000));
+  }
+  for (const int power : {-300, -90, 0, 90, 300}) {
+    const auto scaled = [power](std::vector<Position> p) {
+      for (Position& q : p) {
+        for (double& x : q) x = std::ldexp(x, power);
+      }
+      return p;
+    };
+    EXPECT_NEAR(automatic_planar_share(scaled(decimal)), share(1e-5, 0.8), 1e-15) << power;
+    EXPECT_NEAR(automatic_planar_share(scaled(single)), share(0x1p-11, 100), 1e-15) << power;
+  }
+  // Not if a number would lose digits.
+  std::vector<Position> p = decimal;
+  for (Position& q : p) {
+    for (double& x : q) x = std::ldexp(x, 300);
+  }
+  p.front()[0] = 0x1p-1074;
+  EXPECT_EQ(automatic_planar_share(p), kAlways);
+}
+
+// The largest number on an axis is 0.01, which in single precision is slightly less.
+TEST(InputDigits, OfNumbersPrintedWithTheirDigits) {
+  std::vector<Position> p = numbers(0);
+  for (Position& q : p) {
+    for (double& x : q) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.6g", x * 1e-4);
+      x = static_cast<double>(std::strtof(text, nullptr));
+    }
+  }
+  EXPECT_NEAR(automatic_planar_share(p), share(1e-7, 0.01), 1e-12);
 }
 
 }  // namespace
