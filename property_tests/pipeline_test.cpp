@@ -467,5 +467,27 @@ TEST(InvalidSurfaces, AreRefusedWithTheDefectNamed) {
   refused(Surface{});
 }
 
+// They do not fit into ordinary units, and lengths overflow in their own. That is a limit.
+TEST(ExtremeSizes, AreALimitWhereNumbersDoNotFit) {
+  std::size_t limits = 0;
+  for (const NamedSurface& named :
+       {NamedSurface{"cube", samples::to_surface(samples::cube().input)},
+        NamedSurface{"prism", samples::triangular_prism({{{0, 0}, {4, 0}, {4, 1}}}, 0, 2)}}) {
+    for (const int power : {-300, 300, 1000}) {
+      Surface surface = named.surface;
+      for (auto& p : surface.vertices) {
+        for (double& x : p) x = std::ldexp(x, power);
+      }
+      for (double& x : surface.vertices.front()) {
+        if (x == 0) x = 0x1p-1074;
+      }
+      const Result result = delmesher::tetrahedralize(surface, default_options());
+      EXPECT_NE(result.status.code, StatusCode::internal_error) << result.status.message;
+      limits += result.status.limit == delmesher::Limit::precision ? 1 : 0;
+    }
+  }
+  EXPECT_GT(limits, 0U);
+}
+
 }  // namespace
 }  // namespace tetproof

@@ -43,7 +43,7 @@ void scale(ExactRecord& record, int exponent) {
   }
 }
 
-// 0 for models of ordinary size, and where scaling would not be exact.
+// 0 for models of ordinary size.
 int unit_exponent(const std::vector<Point>& vertices) {
   double largest = 0;
   for (const Point& p : vertices) {
@@ -52,8 +52,23 @@ int unit_exponent(const std::vector<Point>& vertices) {
   if (!(largest > 0) || !std::isfinite(largest)) return 0;
   int exponent = 0;
   std::frexp(largest, &exponent);
-  if (std::abs(exponent) <= kOrdinary || exponent < kSmallest) return 0;
-  return is_exact(vertices, -exponent) ? exponent : 0;
+  return std::abs(exponent) <= kOrdinary ? 0 : exponent;
+}
+
+// For models of extreme size whose numbers do not fit into other units. Where the stages steer by
+// lengths that over- or underflow, nothing is wrong but that.
+template <class Model>
+Result in_given_units(const Model& model, const Options& options,
+                      Result (&task)(const Model&, const Options&)) {
+  Result result = task(model, options);
+  if (result.status.code == StatusCode::internal_error) {
+    result.status = {StatusCode::limit_reached,
+                     "the model is too large or too small for double precision, and some "
+                     "coordinates do not fit into other units (" +
+                         result.status.message + ")",
+                     Limit::precision};
+  }
+  return result;
 }
 
 template <class Model>
@@ -61,6 +76,9 @@ Result scaled_and_back(const Model& model, const Options& options,
                        Result (&task)(const Model&, const Options&)) {
   const int exponent = unit_exponent(model.vertices);
   if (exponent == 0) return task(model, options);
+  if (exponent < kSmallest || !is_exact(model.vertices, -exponent)) {
+    return in_given_units(model, options, task);
+  }
   Model scaled = model;
   for (Point& p : scaled.vertices) scale(p, -exponent);
   Options units = options;
@@ -70,7 +88,7 @@ Result scaled_and_back(const Model& model, const Options& options,
   // Messages about defects name coordinates; points that become subnormal are not exact.
   if (result.status.code == StatusCode::invalid_surface ||
       result.status.code == StatusCode::invalid_mesh || !is_exact(result.mesh.vertices, exponent)) {
-    return task(model, options);
+    return in_given_units(model, options, task);
   }
   for (Point& p : result.mesh.vertices) scale(p, exponent);
   for (Point& p : result.chamfered.vertices) scale(p, exponent);
