@@ -170,7 +170,7 @@ void Conformity::put_in_chains(const InputSurface::Edge& edge, const std::vector
     const ExactVector off =
         exact::cross(direction, exact::difference(points_, edge.from, chain[i]));
     if (!exact::is_zero(off)) {
-      deviate(length(off, 2 * points_.exponent()) / length(direction, points_.exponent()));
+      deviate(length_over(off, direction, points_.exponent()));
     }
   }
 }
@@ -350,8 +350,7 @@ void Conformity::check_in_plane(Index facet, Index v) {
   if (input.side(points_, v) == 0) return;
   const ExactVector normal = input.area2(points_);
   const ExactNumber off = exact::dot(normal, exact::difference(points_, input.span[0], v));
-  const double distance =
-      std::fabs(to_double(off, 3 * points_.exponent())) / length(normal, 2 * points_.exponent());
+  const double distance = std::fabs(component(off, normal, points_.exponent()));
   if (options_.exact || !(distance <= most_off_plane(facet, distance))) {
     fail_facet(facet, complex_.vertex_name(v) + " is off the plane of " + facet_name(facet));
   } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tetproof::oracles {
 
@@ -97,6 +98,36 @@ double square_root(const mpq_class& squared, long exponent) {
     --power;
   }
   return std::ldexp(std::sqrt(ratio), static_cast<int>(power / 2 + exponent));
+}
+
+namespace {
+
+// The exponent of about the largest component.
+long size_of(const ExactVector& vector) {
+  const auto bits = [](const mpz_class& n) {
+    return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2));
+  };
+  long largest = std::numeric_limits<int>::min();
+  for (const ExactNumber& x : vector) {
+    if (x != 0) largest = std::max(largest, bits(x.numerator()) - bits(x.denominator()));
+  }
+  return largest;
+}
+
+}  // namespace
+
+double component(const ExactNumber& product, const ExactVector& along, long exponent) {
+  if (product == 0) return 0;
+  const long size = size_of(along);
+  const double value = to_double(product, exponent - size) / length(along, -size);
+  return value != 0 ? value : std::copysign(0x1p-1074, product > 0 ? 1 : -1);
+}
+
+double length_over(const ExactVector& vector, const ExactVector& along, long exponent) {
+  if (exact::is_zero(vector)) return 0;
+  const long size = size_of(along);
+  const double value = length(vector, exponent - size) / length(along, -size);
+  return std::max(value, 0x1p-1074);
 }
 
 mpq_class times_power_of_two(mpq_class value, long exponent) {

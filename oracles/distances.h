@@ -26,6 +26,11 @@ mpq_class squared_distance_to_triangle(const ExactPoints& points, Index v,
 // The root of a squared distance in integer units, in units of length; no size over- or underflows
 // before the result.
 double square_root(const mpq_class& squared, long exponent);
+// The component of a vector along another one, given their product in integer units, in units of
+// length; and the length of one vector over that of another, likewise. No size over- or underflows
+// before the result, and what is not 0 is at least the smallest double.
+double component(const ExactNumber& product, const ExactVector& along, long exponent);
+double length_over(const ExactVector& vector, const ExactVector& along, long exponent);
 // value * 2^exponent, exactly.
 mpq_class times_power_of_two(mpq_class value, long exponent);
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <tuple>
 
+#include "oracles/distances.h"
 #include "oracles/measures.h"
 #include "oracles/union_find.h"
 #ifdef TETPROOF_SECOND_OPINIONS
@@ -103,9 +104,8 @@ void Hull::check_edge(const Side& side, const Side& other) {
   if (sign == 0 && exact::dot(m, n) > 0) return;
   if (sign > 0 && allowed_ > 0) {
     // How far the opposite corner is in front of the face.
-    const double height = to_double(exact::dot(m, exact::difference(points_, a, other.opposite)),
-                                    3 * points_.exponent()) /
-                          length(m, 2 * points_.exponent());
+    const double height = component(exact::dot(m, exact::difference(points_, a, other.opposite)), m,
+                                    points_.exponent());
     if (height <= allowed_) return;
   }
   report_.fail("the outer boundary is not convex at edge " + complex_.vertex_name(a) + " - " +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracles/distances.h"
 #include "oracles/union_find.h"
 
 namespace tetproof::oracles {
@@ -444,16 +445,14 @@ std::pair<double, double> InputSurface::heights(const Facet& facet,
                                                 std::span<const Index> triangles,
                                                 const ExactPoints& points) const {
   const ExactVector normal = facet.area2(points);
-  const double unit = length(normal, 2 * points.exponent());
-  if (unit == 0) return {-HUGE_VAL, HUGE_VAL};
+  if (exact::is_zero(normal)) return {-HUGE_VAL, HUGE_VAL};
   double low = 0, high = 0;
   for (const Index t : triangles) {
     for (const Index v : triangles_[t]) {
       if (facet.side(points, v) == 0) continue;
       const double height =
-          to_double(exact::dot(normal, exact::difference(points, facet.span[0], v)),
-                    3 * points.exponent()) /
-          unit;
+          component(exact::dot(normal, exact::difference(points, facet.span[0], v)), normal,
+                    points.exponent());
       low = std::min(low, height);
       high = std::max(high, height);
     }
@@ -468,7 +467,7 @@ double InputSurface::widest_slab(const std::vector<std::uint8_t>& asked, double 
   for (Index f = 0; f < facets_.size(); ++f) {
     if (asked[f] == 0) continue;
     Facet& facet = facets_[f];
-    if (length(facet.area2(points), 2 * points.exponent()) == 0) return HUGE_VAL;
+    if (exact::is_zero(facet.area2(points))) return HUGE_VAL;
     if (all.of(f).size() == 1) continue;  // in one plane
     for (const Index t : all.of(f)) {
       if (facet.facing(points, triangles_[t]) < 0 && !is_thin(t, thin, points)) return HUGE_VAL;

@@ -20,6 +20,21 @@ ExactPoints points_at(const std::vector<Position>& places) {
   return points;
 }
 
+// Products and lengths here are 2^-2222 and 2^-1148, or 2^3000 and 2^2000.
+TEST(Distances, AlongVectorsDoNotUnderOrOverflowOnTheWay) {
+  const ExactVector small{ExactNumber(0), ExactNumber(3), ExactNumber(4)};
+  EXPECT_EQ(component(ExactNumber(5), small, -1074), 0x1p-1074);
+  EXPECT_EQ(component(ExactNumber(-10), small, -1000), -0x1p-999);
+  EXPECT_EQ(component(ExactNumber(-1), small, -1074), -0x1p-1074);  // a fifth of that
+  EXPECT_EQ(component(ExactNumber(0), small, -1074), 0);
+  EXPECT_EQ(length_over(small, small, -1074), 0x1p-1074);
+  ExactVector large = small;
+  for (ExactNumber& x : large) x = x.shifted(2000);
+  EXPECT_EQ(component(ExactNumber(5).shifted(3000), large, 0), 0x1p1000);
+  EXPECT_EQ(length_over(large, small, -1000), 0x1p1000);
+  EXPECT_EQ(length_over({ExactNumber(0), ExactNumber(0), ExactNumber(0)}, small, 0), 0);
+}
+
 TEST(Distances, ToASegmentAreThoseToItsEndsBeyondThem) {
   const ExactPoints points =
       points_at({{0, 0, 0}, {4, 0, 0}, {-3, 4, 0}, {7, 0, 4}, {2, 3, 4}, {4, 0, 1}});

@@ -51,6 +51,23 @@ TEST(PlanarFile, AVertexOffItsFacetIsNoPlanarFacet) {
   EXPECT_TRUE(failed(report, options));
 }
 
+// One corner is off its faces by the smallest double, and heights times areas are too small for
+// doubles. That is a deviation all the same, and the volume may differ.
+TEST(PlanarFile, DeviationsOfTheSmallestDoubleAreSome) {
+  Surface box = samples::to_surface(samples::cube().input);
+  for (auto& p : box.vertices) {
+    for (double& x : p) x *= 0x1p-64;
+  }
+  *std::ranges::find(box.vertices.front(), 0) = 0x1p-1074;
+  for (const double planar : {delmesher::kPlanarAuto, 0.0}) {
+    const Told told = run_of(box, planar);
+    for (const bool with_record : {false, true}) {
+      const VerifyReport report = verdict_on(told, with_record);
+      EXPECT_FALSE(failed(report, {.promised = told.promise})) << to_text(report);
+    }
+  }
+}
+
 // A box with all faces bent along their diagonals.
 Surface bent_box() {
   Surface box = samples::to_surface(samples::cube().input);
