@@ -9,6 +9,7 @@
 #include "mesher/improve/face_removal.h"
 #include "mesher/improve/insertion.h"
 #include "mesher/improve/mesh_in_order.h"
+#include "mesher/improve/relocation.h"
 #include "mesher/improve/smoothing.h"
 #include "mesher/improve/state.h"
 
@@ -28,6 +29,7 @@ class Improvement {
         collapse_(state),
         smoothing_(state),
         insertion_(state),
+        relocation_(state),
         vertices_(static_cast<std::int64_t>(state.mesh.vertices())) {}
 
   // Vertices that are not needed go first; then less is left to repair. Points are put in when
@@ -91,16 +93,20 @@ class Improvement {
   }
 
   // Takes out points on the edges where they are to be spared, until there are as few tetrahedra as
-  // wanted or hardly fewer than before: first those that are missed least.
+  // wanted or hardly fewer than before: first those that are missed least, at last those that have
+  // to stay in the volume, where other vertices can replace them.
   void spare() {
     constexpr std::size_t kLeastGain = 128;  // one tetrahedron in so many
     if (sparing_.edges.empty()) return;
     for (const float score : {0.1F, 0.01F}) spare(score);
-    std::size_t before = 0;
-    do {
-      before = state_.mesh.tetrahedra();
-      spare(0);
-    } while (state_.mesh.tetrahedra() < before - before / kLeastGain);
+    for (const bool into_volume : {false, true}) {
+      into_volume_ = into_volume;
+      std::size_t before = 0;
+      do {
+        before = state_.mesh.tetrahedra();
+        spare(0);
+      } while (state_.mesh.tetrahedra() < before - before / kLeastGain);
+    }
   }
   // Takes out the points whose removal leaves tetrahedra of this score at least; then other
   // vertices go and tetrahedra are repaired once more, as in run().
@@ -109,7 +115,9 @@ class Improvement {
     begin(0);
     for_each_vertex([&](VertexId v) {
       if (!is_too_much() || !is_to_be_spared(v)) return;
-      spared_ += collapse_.run(v, state_.to_reach(score)) ? 1 : 0;
+      const bool gone =
+          collapse_.run(v, state_.to_reach(score)) || (into_volume_ && relocation_.run(v));
+      spared_ += gone ? 1 : 0;
     });
     coarsen();
     repair(kAgain);
@@ -257,7 +265,8 @@ class Improvement {
   Collapse collapse_;
   Smoothing smoothing_;
   Insertion insertion_;
-  bool insert_ = false, mending_ = false;
+  Relocation relocation_;
+  bool insert_ = false, into_volume_ = false, mending_ = false;
   std::uint64_t spared_ = 0;
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]

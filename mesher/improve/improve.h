@@ -19,7 +19,8 @@ namespace delmesher::improve {
 // No dihedral angle flatter than this, in degrees, is made where none was before.
 inline constexpr double kFlattestDihedral = 17;
 
-// Points that go, whatever becomes of the quality, while a mesh has more tetrahedra than wanted.
+// Points that go, whatever becomes of the quality, while a mesh has more tetrahedra than wanted;
+// some into the volume (relocation.h).
 struct Sparing {
   std::span<const std::uint8_t> edges = {};  // per edge: 1 if points on it may go; empty: none
   std::size_t tetrahedra = 0;                // wanted at most
@@ -45,7 +46,7 @@ struct ImproveResult {
   ImproveMesh mesh;
   bool changed = false;
   std::vector<VertexId> became;  // per point of the store before: its point now, kNone if gone
-  std::uint64_t spared = 0;      // points that went by Sparing
+  std::uint64_t spared = 0;      // points that left their edges by Sparing
 };
 
 // `topology`: of the surface that the mesh conforms to; null if all of its faces stay as they are.
