@@ -49,7 +49,7 @@ std::vector<double> bends(const Surface& surface) {
 
 // Are the bends above `least` what coordinates that are off by `rounding` make of flat faces?
 bool explains(double rounding, const std::vector<double>& bends, double least) {
-  constexpr double kExplained = 1.25, kMore = 4, kTimes = 8;
+  constexpr double kExplained = 1.25, kMore = 4, kTimes = 4.5;
   const auto count = [&bends](double low, double high) {
     return static_cast<double>(
         std::ranges::count_if(bends, [=](double x) { return x > low && x <= high; }));

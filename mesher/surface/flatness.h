@@ -13,8 +13,8 @@ namespace delmesher::surface {
 //
 // Where coordinates were rounded more coarsely (resolution.h), flat faces are bent by more. That
 // shows: hardly an edge is bent by a bit more than rounding explains, while there are edges of
-// every small bend on a curved surface. So if there are eight times as many edges that rounding can
-// explain (up to 1.25 of it) as of up to four times that bend, and more than eight, it returns at
+// every small bend on a curved surface. So if more than four edges can be explained by it (up to
+// 1.25 of the rounding), and 4.5 times as many as are bent by up to four times that, it returns at
 // least 1.5 times the rounding, at most 2^-14 of the diagonal. In the units of the surface, which
 // is valid.
 double flatness(const Surface& surface);

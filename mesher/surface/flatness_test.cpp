@@ -62,23 +62,35 @@ TEST(Flatness, IsWhatFewDigitsExplain) {
   EXPECT_LE(single, 2 * rounding(0x1p-11));
 }
 
-// A torus, where edges of all small bends are.
-TEST(Flatness, FewDigitsDoNotFlattenWhatIsCurved) {
-  constexpr std::uint32_t kAround = 300, kAcross = 150;
+// Of radii 40 and 20: edges of all small bends.
+Surface torus(std::uint32_t around, std::uint32_t across) {
   const double turn = 2 * std::acos(-1.0);
   Surface torus;
-  for (std::uint32_t i = 0; i < kAround; ++i) {
-    for (std::uint32_t j = 0; j < kAcross; ++j) {
-      const double u = turn * i / kAround, v = turn * j / kAcross, r = 40 + 20 * std::cos(v);
+  for (std::uint32_t i = 0; i < around; ++i) {
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double u = turn * i / around, v = turn * j / across, r = 40 + 20 * std::cos(v);
       torus.vertices.push_back({r * std::cos(u), r * std::sin(u), 20 * std::sin(v)});
-      const std::uint32_t k = (i + 1) % kAround, l = (j + 1) % kAcross;
-      const std::uint32_t c = k * kAcross + l, a = i * kAcross + j;
-      torus.triangles.push_back({a, k * kAcross + j, c});
-      torus.triangles.push_back({a, c, i * kAcross + l});
+      const std::uint32_t k = (i + 1) % around, l = (j + 1) % across;
+      const std::uint32_t c = k * across + l, a = i * across + j;
+      torus.triangles.push_back({a, k * across + j, c});
+      torus.triangles.push_back({a, c, i * across + l});
     }
   }
+  return torus;
+}
+
+TEST(Flatness, FewDigitsDoNotFlattenWhatIsCurved) {
+  const Surface curved = torus(300, 150);
   for (const double unit : {1e-3, 5e-4}) {
-    EXPECT_LE(flatness(in_decimals(torus, unit)), 0x1p-20 * std::hypot(120, 120, 40));
+    EXPECT_LE(flatness(in_decimals(curved, unit)), 0x1p-20 * std::hypot(120, 120, 40));
+  }
+}
+
+TEST(Flatness, FewDigitsFlattenFlatFacesBesideCurvedOnes) {
+  const Surface flat = scaled(rotated(box({0, 0, 0}, {1, 2, 3}, 5)), 30);
+  for (const std::uint32_t across : {20U, 90U, 100U}) {
+    const Surface both = joined(flat, torus(2 * across, across));
+    EXPECT_GE(flatness(in_decimals(both, 1e-3)), rounding(1e-3)) << across;
   }
 }
 
