@@ -53,6 +53,7 @@ struct ConvertArguments {
 struct UnionArguments {
   std::string input, output;  // surface files
   bool nonzero = false;       // also inside of what is turned inwards
+  double separate = 0;        // fraction of the diagonal
 };
 
 struct ReportArguments {

@@ -296,10 +296,16 @@ CLI::App* declare_union(CLI::App& tetproof, UnionArguments& a) {
   app->add_flag("--nonzero", a.nonzero,
                 "Inside is also what triangles that are turned inwards enclose (default: where the "
                 "winding number is positive)");
+  app->add_option("--separate", a.separate,
+                  "Parts that touch at edges and vertices are moved apart, each vertex there by at "
+                  "most this fraction of the diagonal (0: they stay as they are)")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 0.01));
   app->footer(
       "Exit codes: 0 done, 1 parts touch so that it is not manifold there, 2 usage, 3 unreadable "
-      "or cannot be written, 4 it does not close up, 5 memory or the precision of doubles, 6 "
-      "internal error, 130 interrupted. Nothing is written but with 0 and 1.");
+      "or cannot be written, 4 it does not close up, 5 memory, the precision of doubles, or "
+      "parts that could not be moved apart, 6 internal error, 130 interrupted. Nothing is written "
+      "but with 0 and 1.");
   return app;
 }
 #endif

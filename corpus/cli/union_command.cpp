@@ -13,6 +13,7 @@ int union_command(const UnionArguments& arguments) {
   handle_interrupts();
   unite::UnionOptions options;
   if (arguments.nonzero) options.inside = unite::Inside::nonzero;
+  options.separate = arguments.separate;
   options.go_on = [] { return !campaign_interrupted(); };
   return unite::unite_files(
       arguments.input, arguments.output, options,

@@ -97,6 +97,21 @@ TEST_F(UnionFiles, EndsWithTheCodeOfWhatHappened) {
   EXPECT_EQ(run(touching + " -o " + out), 1) << said();
   EXPECT_NE(said().find("touch at 0 edges and 1 more vertex"), std::string::npos) << said();
   EXPECT_TRUE(fs::exists(out));
+  fs::remove(out);
+  // Where doubles do not tell them apart.
+  const std::string farther =
+      write("farther.off",
+            "OFF\n7 8 0\n1 1 1\n2 1 1\n1 2 1\n1 1 2\n0 1 1\n1 0 1\n1 1 0\n3 0 2 1\n3 0 1 3\n3 1 "
+            "2 3\n3 2 0 3\n3 0 4 5\n3 0 6 4\n3 4 6 5\n3 5 6 0\n");
+  EXPECT_EQ(run(farther + " --separate 1e-30 -o " + out), 5);
+  EXPECT_NE(said().find("could not be moved apart by at most 3.4641e-30"), std::string::npos)
+      << said();
+  EXPECT_FALSE(fs::exists(out));
+  EXPECT_EQ(run(touching + " --separate 1 -o " + out), 2);
+  EXPECT_EQ(run(touching + " --separate 1e-3 -o " + out), 0) << said();
+  EXPECT_NE(said().find("moved apart there: 2 copies of vertices"), std::string::npos) << said();
+  const oracles::Polyhedron apart = oracles::read_surface(out);
+  EXPECT_TRUE(certified_valid({apart.vertices, apart.triangles, {}}));
 }
 
 TEST_F(UnionFiles, IsInterruptedWithoutAFile) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "corpus/unite/arrangement.h"
+#include "corpus/unite/separate.h"
 #include "corpus/unite/winding.h"
 #include "oracles/cgal/surface_opinion.h"
 
@@ -35,6 +36,17 @@ double largest_coordinate(const Soup& soup) {
     for (const double x : p) largest = std::max(largest, std::fabs(x));
   }
   return largest;
+}
+
+double diagonal(const Soup& soup) {
+  Position low = soup.vertices.front(), high = low;
+  for (const Position& p : soup.vertices) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
 // Points that triangles were cut at: where sides cross planes beside triangles, there are more.
@@ -72,6 +84,7 @@ class Uniter {
   std::vector<Piece> kept_pieces(const Arrangement& arrangement);
   Surface rounded(const Arrangement& arrangement, const std::vector<Piece>& pieces);
   double grid() const;
+  bool move_apart(const std::string& where);
   void judge();
   void ask_others() const;
   bool fail(UnionCode code, std::string message) {
@@ -243,24 +256,47 @@ void Uniter::ask_others() const {
   }
 }
 
+bool Uniter::move_apart(const std::string& where) {
+  const double farthest = options_.separate * diagonal(soup_);
+  const Separation separation = separate(soup_, farthest, poll_);
+  if (!separation.done) {
+    return fail(UnionCode::inseparable, where + "; they could not be moved apart by at most " +
+                                            number(farthest) + " at " + place(separation.place));
+  }
+  UnionCounts& counts = result_.counts;
+  counts.halved_edges = separation.halved;
+  counts.copies = separation.copies;
+  counts.largest_separation = separation.largest_move;
+  result_.done.push_back(where);
+  tell(separation.halved, "edge halved for that", "edges halved for that");
+  result_.done.push_back(
+      "moved apart there: " + counted(separation.copies, "copy of a vertex", "copies of vertices") +
+      ", each by at most " + number(separation.largest_move) + " (allowed: " + number(farthest) +
+      ")");
+  return true;
+}
+
 void Uniter::judge() {
   UnionCounts& counts = result_.counts;
-  counts.bodies_after = count_bodies(soup_.triangles);
-  counts.volume_after = volume(soup_);
-  tell_result();
   const Touching touching = find_touching(soup_.triangles);
   counts.touching_edges = touching.edges;
   counts.touching_vertices = touching.vertices;
+  const bool touches = touching.place != kNone;
+  const std::string where =
+      !touches ? ""
+               : "parts of the union touch at " + counted(touching.edges, "edge", "edges") +
+                     " and " + counted(touching.vertices, "more vertex", "more vertices") +
+                     ", the first at " + place(soup_.vertices[touching.place]);
+  if (touches && options_.separate > 0 && !move_apart(where)) return;
+  counts.bodies_after = count_bodies(soup_.triangles);
+  counts.volume_after = volume(soup_);
+  tell_result();
   result_.surface = surface_of(soup_);
-  if (touching.place == kNone) {
+  if (!touches || options_.separate > 0) {
     ask_others();
     return;
   }
-  fail(UnionCode::touching, "parts of the union touch at " +
-                                counted(touching.edges, "edge", "edges") + " and " +
-                                counted(touching.vertices, "more vertex", "more vertices") +
-                                ", the first at " + place(soup_.vertices[touching.place]) +
-                                ": it is not manifold there, and is not meshed as it is");
+  fail(UnionCode::touching, where + ": it is not manifold there, and is not meshed as it is");
 }
 
 UnionResult Uniter::run(const Surface& surface) {

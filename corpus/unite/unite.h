@@ -17,7 +17,8 @@
 //   zero: Inside).
 // - The result closes up, with all normals outwards. No two triangles meet outside of a common
 //   vertex or edge, none is without area. It is manifold but where parts of it touch, which is
-//   counted. If it is manifold, CGAL's polygon mesh processing and OpenMesh find it valid.
+//   counted; if UnionOptions::separate says so, they are moved apart (separate.h), and it is
+//   manifold. If it is manifold, CGAL's polygon mesh processing and OpenMesh find it valid.
 // - Vertices that are left are where they were, to the last bit; new ones are where their exact
 //   place is rounded to, and `largest_move` bounds the distance.
 // - A triangle that meets no other and is kept is the same triangle. Every piece has the label of a
@@ -44,15 +45,19 @@ enum class Inside : std::uint8_t {
 
 struct UnionOptions {
   Inside inside = Inside::positive;
+  // Where parts touch, they are moved apart, each vertex by at most this fraction of the diagonal
+  // of the result; 0: they are left as they are.
+  double separate = 0;
   std::function<bool()> go_on;  // asked many times a second; unite() stops where it says no
 };
 
 enum class UnionCode : std::uint8_t {
   done,
-  touching,   // the union is there, but not manifold: parts of it touch
-  unsound,    // a corner that is no point, or triangles that do not close up
-  empty,      // nothing is inside
-  imprecise,  // new points are too close to each other for doubles
+  touching,     // the union is there, but not manifold: parts of it touch
+  unsound,      // a corner that is no point, or triangles that do not close up
+  empty,        // nothing is inside
+  imprecise,    // new points are too close to each other for doubles
+  inseparable,  // parts touch, and could not be moved apart
   stopped
 };
 
@@ -65,6 +70,8 @@ struct UnionCounts {
   std::uint64_t dropped = 0;                          // pieces that are no part of the result
   std::uint64_t inside_out = 0;  // patches with a negative winding number behind
   std::uint64_t touching_edges = 0, touching_vertices = 0;
+  std::uint64_t halved_edges = 0, copies = 0;  // by moving parts apart
+  double largest_separation = 0;               // how far a vertex was moved for that, at most
   int rounds = 0;                              // of cutting and rounding
   double volume_before = 0, volume_after = 0;  // before: overlaps count once for each body
   double largest_move = 0;                     // by rounding
