@@ -175,6 +175,16 @@ void SharedData::read_sidecar() {
   if (const std::string name = out_of_range(*exact_, input_.triangles.size()); !name.empty()) {
     s.report.fail(name + " name what does not exist");
   }
+  s.diagonal = diagonal_of(input_);
+  // The stand-in oracle says how far a vertex may be moved. Beyond the whole input nothing is left
+  // to ask, and intervals around such places decide nothing, which takes very long.
+  for (Index v = 0; moved && v < input_.vertices.size() && s.report.passed(); ++v) {
+    const Position &from = input_.vertices[v], &to = s.points.nearest(v);
+    if (!(std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) <= s.diagonal)) {
+      s.report.fail("input vertex " + std::to_string(v) +
+                    " was moved by more than the input's size");
+    }
+  }
   if (!s.report.passed()) return;
   if (moved) {
     std::vector<delmesher::ExactPoint> definitions = exact_->points;
@@ -185,7 +195,6 @@ void SharedData::read_sidecar() {
       return;
     }
   }
-  s.diagonal = diagonal_of(input_);
   Polyhedron meshed = input_;
   if (!exact_->triangles.empty()) meshed.triangles = exact_->triangles;
   s.why = s.surface.assign(meshed, s.points);

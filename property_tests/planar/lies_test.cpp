@@ -266,6 +266,20 @@ const Lie kLies[] = {
        while (t.record.points[w].kind != ExactPoint::Kind::on_planes) ++w;
        t.record.points[v] = t.record.points[w];
      }},
+    {"a vertex moved to where planes meet far away", "sidecar",
+     [](Told& t) {
+       const std::size_t v = moved_vertex(t.record);
+       const auto first = static_cast<Index>(t.record.planes.size());
+       ExactRecord::Plane plane;
+       plane.through[0] = t.sample.input.vertices[v];
+       for (const Position normal : {Position{1, 0, 0}, {0, 1, 0}, {1, 0, 0x1p-60}}) {
+         plane.normal = normal;
+         if (normal[2] != 0) plane.through[0][0] += 1;
+         t.record.planes.push_back(plane);
+       }
+       t.record.points[v] = {ExactPoint::Kind::on_planes, first, first + 1, first + 2, 0, 0, 0};
+     },
+     "caught by stand-in, after long"},
     {"another triangulation across a sharp edge", "stand-in",
      [](Told& t) {
        t.record.triangles = t.sample.input.triangles;
