@@ -65,7 +65,8 @@ class FileStream {
 
   // Reads on in the file, after what is left of the last piece; false at the end.
   bool fetch() {
-    std::memmove(packed_.data(), inflater_.next_in, inflater_.avail_in);
+    // Nothing has been read at first, and memmove takes no null pointer.
+    if (inflater_.avail_in > 0) std::memmove(packed_.data(), inflater_.next_in, inflater_.avail_in);
     const std::size_t left = inflater_.avail_in;
     const std::size_t got = std::fread(packed_.data() + left, 1, kPiece - left, file_.get());
     if (std::ferror(file_.get()) != 0) fail("cannot be read");
