@@ -1,6 +1,8 @@
 // What tests of generated surfaces have in common.
 #pragma once
 
+#include <vector>
+
 #include "corpus/generate/shapes.h"
 
 namespace tetproof::test_surfaces {
@@ -8,6 +10,18 @@ namespace tetproof::test_surfaces {
 // Of volume 24.
 inline delmesher::Surface a_box() {
   return shapes::box({-1, -2, -0.5}, {3, 1, 1.5});
+}
+
+inline delmesher::Surface together(const std::vector<delmesher::Surface>& bodies) {
+  delmesher::Surface surface;
+  for (const delmesher::Surface& body : bodies) shapes::append(surface, body);
+  surface.labels.clear();
+  return surface;
+}
+
+inline delmesher::Surface inwards(delmesher::Surface body) {
+  shapes::reverse(body);
+  return body;
 }
 
 // Signed, in doubles: the sum over the triangles' tetrahedra with the origin.

@@ -19,21 +19,11 @@ namespace {
 
 using delmesher::Surface;
 using shapes::box;
+using test_surfaces::inwards;
+using test_surfaces::together;
 using test_surfaces::volume;
 
 constexpr double kShare = 1e-3;
-
-Surface together(const std::vector<Surface>& bodies) {
-  Surface surface;
-  for (const Surface& body : bodies) shapes::append(surface, body);
-  surface.labels.clear();
-  return surface;
-}
-
-Surface inwards(Surface body) {
-  shapes::reverse(body);
-  return body;
-}
 
 double distance(const Position& p, const Position& q) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);

@@ -22,20 +22,10 @@ namespace {
 
 using delmesher::Surface;
 using shapes::box;
+using test_surfaces::inwards;
+using test_surfaces::together;
 using test_surfaces::volume;
 using Point = std::array<double, 3>;
-
-Surface together(const std::vector<Surface>& bodies) {
-  Surface surface;
-  for (const Surface& body : bodies) shapes::append(surface, body);
-  surface.labels.clear();
-  return surface;
-}
-
-Surface inwards(Surface body) {
-  shapes::reverse(body);
-  return body;
-}
 
 // Of closed surfaces, one by one.
 class Bodies {

@@ -353,7 +353,8 @@ double number_of(const std::string& statistics, const std::string& key) {
 
 TEST_F(Program, AnyNumberOfThreadsWritesTheSameBytes) {
   write("in.off", spiky_ball());
-  for (const char* options : {"--tau 0.03 --acute 80 --max-edge 0.3", "--preset paper --tau 0.004"}) {
+  for (const char* options :
+       {"--tau 0.03 --acute 80 --max-edge 0.3", "--preset paper --tau 0.004"}) {
     std::string mesh, exact, statistics;
     for (const int threads : {1, 2, 3, 8}) {
       ASSERT_EQ(run("mesh in.off -o mesh.mesh --exact exact.txt --stats stats.json --threads " +

@@ -48,7 +48,7 @@ bool Relocation::find_faces() {
       if (mesh.neighbor(t, i) != kNone) return false;
       std::array<VertexId, 3> face{};
       std::ranges::transform(kFace[i], face.begin(), [&](int k) { return mesh.tet(t)[k]; });
-      std::ranges::rotate(face, std::ranges::find(face, v_));
+      std::rotate(face.begin(), std::ranges::find(face, v_), face.end());
       old_faces_.push_back({face, t, i});
     }
   }
