@@ -37,6 +37,7 @@ class GmshReader {
     for (const char* section : {"$MeshFormat", "$Nodes", "$Elements"}) {
       if (!seen_.contains(section)) reader_.fail(std::string("there is no ") + section);
     }
+    check_further_groups();
     return std::move(text_);
   }
 
@@ -57,6 +58,19 @@ class GmshReader {
       return false;
     }
     return true;
+  }
+
+  // Names of sides and labels are those of an entity's first group.
+  void check_further_groups() const {
+    for (const auto& group : further_) {
+      const auto found = text_.names.find(group);
+      if (found == text_.names.end()) continue;
+      const std::string& name = found->second;
+      if (name == "inside" || name == "outside" || name.starts_with("label ") ||
+          name.starts_with("marker ")) {
+        reader_.fail("\"" + name + "\" is the name of a second group of an entity");
+      }
+    }
   }
 
   void read_format() {
@@ -125,6 +139,7 @@ class GmshReader {
         for (std::uint64_t k = 0; k < tags; ++k) {
           const std::int64_t value = integer();
           if (k == 0) group = value;
+          if (value != group) further_.emplace(dimension, value);
         }
         if (!group_.emplace(std::pair(dimension, tag), group).second) {
           reader_.fail("entity " + std::to_string(tag) + " is there twice");
@@ -276,8 +291,9 @@ class GmshReader {
   bool binary_ = false;
   std::set<std::string> seen_;
   std::map<std::pair<int, std::int64_t>, std::int64_t> group_;  // of an entity
-  std::map<std::int64_t, Index> number_;                        // of a node
-  std::vector<std::int64_t> tags_;                              // of elements
+  std::set<std::pair<int, std::int64_t>> further_;  // groups of entities that have another one
+  std::map<std::int64_t, Index> number_;            // of a node
+  std::vector<std::int64_t> tags_;                  // of elements
 };
 
 }  // namespace

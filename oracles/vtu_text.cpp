@@ -11,16 +11,6 @@
 #include "oracles/text_reader.h"
 
 namespace tetproof::oracles {
-namespace {
-
-std::string attribute(std::string_view tag, const std::string& name) {
-  const std::size_t at = tag.find(" " + name + "=\"");
-  if (at == std::string_view::npos) return {};
-  const std::size_t start = at + name.size() + 3;
-  return std::string(tag.substr(start, tag.find('"', start) - start));
-}
-
-}  // namespace
 
 VtuText::VtuText(std::string path, std::string_view text) : path_(std::move(path)), text_(text) {
   cut_out_appended();
@@ -36,6 +26,10 @@ VtuText::VtuText(std::string path, std::string_view text) : path_(std::move(path
   const std::size_t after = end + std::string_view("</VTKFile>").size();
   if (text_.find_first_not_of(" \t\r\n", after) != std::string_view::npos) {
     fail("something follows the end");
+  }
+  const std::string order = attribute_of_file("byte_order");
+  if (!order.empty() && order != "LittleEndian" && order != "BigEndian") {
+    fail("no byte order " + order);
   }
   points_ = count("NumberOfPoints");
   cells_ = count("NumberOfCells");
@@ -82,6 +76,15 @@ std::size_t VtuText::count(const std::string& name) const {
   const std::string number = attribute(text_.substr(at, text_.find('>', at) - at), name);
   if (number.empty()) fail("the piece has no " + name);
   return TextReader(path_, number, '\0').index(0, 0xffffffffU);
+}
+
+std::string VtuText::attribute(std::string_view tag, const std::string& name) const {
+  const std::string before = " " + name + "=\"";
+  const std::size_t at = tag.find(before);
+  if (at == std::string_view::npos) return {};
+  if (tag.find(before, at + 1) != std::string_view::npos) fail("a tag has " + name + " twice");
+  const std::size_t start = at + before.size();
+  return std::string(tag.substr(start, tag.find('"', start) - start));
 }
 
 void VtuText::fail(const std::string& reason) const {
@@ -309,7 +312,14 @@ std::vector<double> VtuText::array(const std::string& section, const std::string
     if (components != wanted && !(components.empty() && wanted == "1")) {
       fail(what + " has \"" + components + "\" components, not " + wanted);
     }
+    if (section == "Cells" && attribute(tag, "type").starts_with("Float")) {
+      fail(what + " is of numbers that are no integers");
+    }
     result = values(tag, close + 1);
+    const std::string tuples = attribute(tag, "NumberOfTuples");
+    if (!tuples.empty() && tuples != std::to_string(result.size() / std::stoul(wanted))) {
+      fail(what + " has not " + tuples + " tuples");
+    }
     const std::size_t size = section == "Points" ? 3 * points_ : cells_;
     if (name != "connectivity" && result.size() != size) {
       fail(what + " has " + std::to_string(result.size()) + " values, not " + std::to_string(size));

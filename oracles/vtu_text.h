@@ -32,6 +32,8 @@ class VtuText {
   void cut_out_appended();
   void remove_comments();
   std::size_t count(const std::string& name) const;
+  // Empty if the tag has none.
+  std::string attribute(std::string_view tag, const std::string& name) const;
   std::string attribute_of_file(const std::string& name) const;
   std::uint64_t size_at(std::string_view& bytes) const;
   std::string unpacked(std::string_view bytes) const;
