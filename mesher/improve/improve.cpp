@@ -119,25 +119,24 @@ class Improvement {
   void spare() {
     constexpr std::size_t kLeastGain = 128;  // one tetrahedron in so many
     if (sparing_.edges.empty()) return;
-    for (const float score : {0.1F, 0.01F}) spare(score);
+    for (const float score : {0.1F, 0.01F}) spare(score, false);
     for (const bool into_volume : {false, true}) {
-      into_volume_ = into_volume;
       std::size_t before = 0;
       do {
         before = state_.mesh.tetrahedra();
-        spare(0);
+        spare(0, into_volume);
       } while (state_.mesh.tetrahedra() < before - before / kLeastGain);
     }
   }
   // Takes out the points whose removal leaves tetrahedra of this score at least; then other
   // vertices go and tetrahedra are repaired once more, as in run().
-  void spare(float score) {
+  void spare(float score, bool into_volume) {
     if (!is_too_much()) return;
     begin(0);
     for_each_vertex([&](VertexId v) {
       if (!is_too_much() || !is_to_be_spared(v)) return;
       const bool gone =
-          collapse_.run(v, state_.to_reach(score)) || (into_volume_ && relocation_.run(v));
+          collapse_.run(v, state_.to_reach(score)) || (into_volume && relocation_.run(v));
       spared_ += gone ? 1 : 0;
     });
     coarsen();
@@ -288,7 +287,7 @@ class Improvement {
   Smoothing smoothing_;
   Insertion insertion_;
   Relocation relocation_;
-  bool insert_ = false, into_volume_ = false, mending_ = false;
+  bool insert_ = false, mending_ = false;
   std::uint64_t spared_ = 0;
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]
