@@ -28,6 +28,7 @@ class FileStream {
     if (file_ == nullptr && errno == ENOMEM) throw std::bad_alloc();
     if (file_ == nullptr) throw ReadError(path + ": cannot be opened");
     packed_.resize(kPiece);
+    inflater_.next_in = packed_.data();
     fetch();
     plain_ = !begins_member();
     if (plain_) return;
@@ -65,8 +66,7 @@ class FileStream {
 
   // Reads on in the file, after what is left of the last piece; false at the end.
   bool fetch() {
-    // Nothing has been read at first, and memmove takes no null pointer.
-    if (inflater_.avail_in > 0) std::memmove(packed_.data(), inflater_.next_in, inflater_.avail_in);
+    std::memmove(packed_.data(), inflater_.next_in, inflater_.avail_in);
     const std::size_t left = inflater_.avail_in;
     const std::size_t got = std::fread(packed_.data() + left, 1, kPiece - left, file_.get());
     if (std::ferror(file_.get()) != 0) fail("cannot be read");
