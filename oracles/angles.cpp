@@ -5,20 +5,13 @@
 #include <limits>
 
 #include "oracles/shapes.h"
+#include "oracles/vectors.h"
 
 namespace tetproof::oracles {
 namespace {
 
 constexpr double kDegrees = 180 / 3.14159265358979323846;
 constexpr int kBins = 12;
-
-double dot(const Position& u, const Position& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-Position cross(const Position& u, const Position& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 
 // A tetrahedron in doubles. Each edge and normal is computed once for all of its angles, which
 // takes a fraction of the time that intervals take angle by angle.
@@ -270,12 +263,10 @@ class Distribution {
   double smallest = 180, largest = 0;
 
  private:
-  static double middle(const Interval& x) { return x.low / 2 + x.high / 2; }
-
   template <class Angle>
   bool roughly(const Angle& angle, double& degrees) const {
     const Parts<Interval> p = angle.roughly(points_);
-    const double cosine = middle(p.cosine), sine2 = middle(p.sine_squared);
+    const double cosine = p.cosine.middle(), sine2 = p.sine_squared.middle();
     const double sine = std::sqrt(std::max(0.0, sine2));
     degrees = std::atan2(sine, cosine) * kDegrees;
     return narrow(p.sine_squared, sine2) && narrow(p.cosine, std::fabs(cosine) + sine);

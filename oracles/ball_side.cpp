@@ -4,18 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "oracles/vectors.h"
+
 namespace tetproof::oracles {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-
-double dot(const Position& u, const Position& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-Position cross(const Position& u, const Position& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 
 double largest(const Position& v) {
   return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});

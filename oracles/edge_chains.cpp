@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oracles/distances.h"
+#include "oracles/vectors.h"
 
 namespace tetproof::oracles {
 
@@ -65,7 +66,7 @@ Index VertexMatch::nearest_vertex(Index input_vertex) const {
   for (auto i = first; i != by_position_.end(); ++i) {
     const Position q = points_.nearest(*i);
     if (q[0] > p[0] + distance) break;
-    const double d = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+    const double d = oracles::distance(q, p);
     if (d < distance) {
       distance = d;
       best = *i;

@@ -6,22 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/vectors.h"
+
 namespace tetproof::oracles {
 namespace {
 
-Position minus(const Position& a, const Position& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double dot(const Position& a, const Position& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Position cross(const Position& a, const Position& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double distance(const Position& a, const Position& b) {
+// Not by hypot: asked for often.
+double quick_distance(const Position& a, const Position& b) {
   const Position d = minus(a, b);
   return std::sqrt(dot(d, d));
 }
@@ -43,7 +34,7 @@ double to_segment(const Position& p, const Position& a, const Position& b) {
   const Position along = minus(b, a);
   const double length = dot(along, along);
   const double share = length > 0 ? std::clamp(dot(minus(p, a), along) / length, 0.0, 1.0) : 0;
-  return distance(p, between(a, b, share));
+  return quick_distance(p, between(a, b, share));
 }
 
 // The plane's distance where the foot is in the triangle, else that of an edge.
@@ -100,8 +91,8 @@ class Farthest {
   static void split(const Corners& piece, std::vector<Corners>& pieces) {
     std::size_t longest = 0;
     for (std::size_t i = 1; i < 3; ++i) {
-      if (distance(piece[i], piece[(i + 1) % 3]) >
-          distance(piece[longest], piece[(longest + 1) % 3])) {
+      if (quick_distance(piece[i], piece[(i + 1) % 3]) >
+          quick_distance(piece[longest], piece[(longest + 1) % 3])) {
         longest = i;
       }
     }
@@ -119,7 +110,7 @@ class Farthest {
     for (std::size_t i = 0; i < 3; ++i) centre[i] = (piece[0][i] + piece[1][i] + piece[2][i]) / 3;
     const auto [at_centre, near_centre] = nearest(centre);
     double radius = 0;
-    for (const Position& p : piece) radius = std::max(radius, distance(p, centre));
+    for (const Position& p : piece) radius = std::max(radius, quick_distance(p, centre));
     double bound = std::min(at_centre + radius, from_triangle(piece, near_centre));
     lower_ = std::max(lower_, at_centre);
     for (const Position& p : piece) {
@@ -170,7 +161,7 @@ double diagonal_of(const Polyhedron& surface) {
       high[i] = std::max(high[i], p[i]);
     }
   }
-  return distance(low, high);
+  return quick_distance(low, high);
 }
 
 struct Extent {

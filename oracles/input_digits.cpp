@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "oracles/vectors.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -71,9 +73,7 @@ struct Extent {
     }
   }
   double largest(std::size_t axis) const { return std::max(high[axis], -low[axis]); }
-  double diagonal() const {
-    return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-  }
+  double diagonal() const { return distance(high, low); }
 };
 
 using Units = std::array<double, 3>;

@@ -5,6 +5,7 @@
 
 #include "oracles/distances.h"
 #include "oracles/union_find.h"
+#include "oracles/vectors.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -56,10 +57,6 @@ std::string edge_name(Index a, Index b) {
   return "edge " + std::to_string(a) + "-" + std::to_string(b);
 }
 
-double middle(const Interval& x) {
-  return x.low / 2 + x.high / 2;
-}
-
 // Is the angle between the normals of two triangles acute?
 bool same_way(const ExactPoints& points, const std::array<Index, 3>& s,
               const std::array<Index, 3>& t) {
@@ -77,7 +74,7 @@ IntervalVector rough_normal_of(const InputSurface::Facet& facet, const ExactPoin
     IntervalVector area = exact::rough_area2(points, facet.span[0], facet.span[1], facet.span[2]);
     double size = 0, width = 0;
     for (const Interval& x : area) {
-      size = std::max(size, std::fabs(middle(x)));
+      size = std::max(size, std::fabs(x.middle()));
       width = std::max(width, x.high - x.low);
     }
     if (width <= 0x1p-48 * size) return area;
@@ -210,8 +207,7 @@ void InputSurface::measure(const ExactPoints& points) {
       }
     }
   }
-  diagonal_ =
-      std::hypot(all.high[0] - all.low[0], all.high[1] - all.low[1], all.high[2] - all.low[2]);
+  diagonal_ = distance(all.high, all.low);
   tree_ = std::make_shared<const BoxTree>(std::move(boxes));
 }
 
@@ -292,7 +288,7 @@ void InputSurface::find_normals(bool planar, const ExactPoints& points) {
       const auto& [a, b, c] = triangles_[t];
       const IntervalVector area = exact::rough_area2(points, a, b, c);
       double size = 0;
-      for (const Interval& x : area) size = std::max(size, std::fabs(middle(x)));
+      for (const Interval& x : area) size = std::max(size, std::fabs(x.middle()));
       if (!(size > largest)) continue;
       largest = size;
       facet.span = triangles_[t];

@@ -14,6 +14,8 @@ struct Interval {
   Interval(double value) : low(value), high(value) {}  // NOLINT: a double is an interval
   Interval(double l, double h) : low(l), high(h) {}
 
+  double middle() const { return low / 2 + high / 2; }
+
   // The result of one rounded operation is off by at most half an ulp, or by half the smallest
   // subnormal; the margin is several times that, so its own rounding does no harm. Infinite and
   // NaN bounds stay so and certify nothing.

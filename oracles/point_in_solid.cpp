@@ -103,10 +103,6 @@ int side_of_plane(const ExactPoints& points, const std::array<Index, 3>& t, cons
   return sgn(exact::dot(exact::area2(points, t[0], t[1], t[2]), q.from(t[0])));
 }
 
-double middle(const Interval& x) {
-  return x.low / 2 + x.high / 2;
-}
-
 // A cheap proof that the triangle enters: a point of it that is strictly inside the tetrahedron.
 // Doubles look for one by clipping the triangle; a sum of the triangle's corners with shares that
 // are not negative is one, up to a common factor, if intervals say so for each face.
@@ -126,7 +122,7 @@ bool surely_meets(const ExactPoints& points, const std::array<Index, 3>& triangl
       std::array<Index, 4> replaced = tetrahedron;
       replaced[face] = triangle[corner];
       rough[corner][face] = exact::quick_volume6(points, replaced);
-      polygon[corner].sides[face] = middle(rough[corner][face]);
+      polygon[corner].sides[face] = rough[corner][face].middle();
     }
     polygon[corner].shares[corner] = 1;
   }
@@ -248,7 +244,7 @@ bool triangle_separates(const ExactPoints& points, const std::array<Index, 3>& t
 // the direction across the edge may be rounded, but not the heights along it.
 bool beyond_edge(const ExactPoints& points, const std::array<Index, 3>& triangle,
                  const IntervalVector& rough_normal, const std::array<Index, 4>& tetrahedron) {
-  const Position n = {middle(rough_normal[0]), middle(rough_normal[1]), middle(rough_normal[2])};
+  const Position n = {rough_normal[0].middle(), rough_normal[1].middle(), rough_normal[2].middle()};
   for (std::size_t i = 0; i < 3; ++i) {
     const Index a = triangle[i], b = triangle[(i + 1) % 3], c = triangle[(i + 2) % 3];
     const Position &p = points.nearest(a), &q = points.nearest(b);
@@ -321,7 +317,7 @@ bool apart(const ExactPoints& points, const std::array<Index, 3>& triangle,
       if (v == w) continue;
       exact[count] = points.rough_difference(v, w);
       Position& u = differences[count++];
-      for (int axis = 0; axis < 3; ++axis) u[axis] = middle(exact[count - 1][axis]);
+      for (int axis = 0; axis < 3; ++axis) u[axis] = exact[count - 1][axis].middle();
       const double norm = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
       for (int axis = 0; axis < 3; ++axis) along[axis] += u[axis] /= norm;
     }
@@ -397,7 +393,7 @@ int InputSurface::rough_side(const ExactPoints& points, Index triangle, Index v)
   const Position &p = points.nearest(triangles_[triangle][0]), &q = points.nearest(v);
   double height = 0, error = 0x1p-1000, steepness = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double slope = middle(n[axis]), width = n[axis].high - n[axis].low;
+    const double slope = n[axis].middle(), width = n[axis].high - n[axis].low;
     const double along = q[axis] - p[axis];
     height += slope * along;
     error += (std::fabs(slope) * 0x1p-48 + width) * std::fabs(along);

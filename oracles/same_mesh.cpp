@@ -9,6 +9,7 @@
 #include "oracles/buckets.h"
 #include "oracles/distances.h"
 #include "oracles/simplex_set.h"
+#include "oracles/vectors.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -470,7 +471,7 @@ OracleReport check_rounding(const MeshFile& mesh, const ExactRecord& record,
                   ", as another one is");
     }
     const Position p = points.nearest(v), q = mesh.vertices[i];
-    const double distance = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    const double distance = oracles::distance(p, q);
     largest = std::max(largest, distance);
     if (v < options.input_vertices && p != q && options.allowed == 0) {
       report.fail("input vertex " + std::to_string(v) + " is not written where it was given");

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracles/vectors.h"
+
 namespace tetproof::oracles {
 namespace {
 
 constexpr int kPairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
-double dot(const Position& u, const Position& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-Position cross(const Position& u, const Position& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
 
 // With d six times the volume, n the doubled areas as vectors and l the edges: the radius of the
 // inscribed sphere is d over the sum of |n|, that of the circumsphere |c| / (2 d), where c = |u|^2

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "oracles/heap.h"
+#include "oracles/vectors.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -73,7 +74,7 @@ double diagonal_of(const Polyhedron& input) {
       }
     }
   }
-  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  return distance(high, low);
 }
 
 // Does a face of the final mesh tile a facet that the record, whose facets are those of the surface
@@ -179,8 +180,7 @@ void SharedData::read_sidecar() {
   // The stand-in oracle says how far a vertex may be moved. Beyond the whole input nothing is left
   // to ask, and intervals around such places decide nothing, which takes very long.
   for (Index v = 0; moved && v < input_.vertices.size() && s.report.passed(); ++v) {
-    const Position &from = input_.vertices[v], &to = s.points.nearest(v);
-    if (!(std::hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) <= s.diagonal)) {
+    if (!(distance(s.points.nearest(v), input_.vertices[v]) <= s.diagonal)) {
       s.report.fail("input vertex " + std::to_string(v) +
                     " was moved by more than the input's size");
     }

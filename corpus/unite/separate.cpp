@@ -17,24 +17,17 @@
 #include "corpus/unite/unite.h"
 #include "corpus/unite/wedges.h"
 #include "corpus/unite/winding.h"
+#include "oracles/vectors.h"
 
 namespace tetproof::unite {
 namespace {
 
-Position minus(const Position& p, const Position& q) {
-  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
+using oracles::cross;
+using oracles::dot;
+using oracles::minus;
 
 Position along(const Position& p, const Position& direction, double length) {
   return {p[0] + length * direction[0], p[1] + length * direction[1], p[2] + length * direction[2]};
-}
-
-double dot(const Position& p, const Position& q) {
-  return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-}
-
-Position cross(const Position& p, const Position& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
 
 Position unit(const Position& p) {

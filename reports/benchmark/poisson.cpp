@@ -5,26 +5,18 @@
 #include <cmath>
 #include <vector>
 
+#include "oracles/vectors.h"
 #include "reports/mesh_quality.h"
 
 namespace tetproof::benchmark {
 namespace {
 
+using oracles::cross;
+using oracles::dot;
 using oracles::Index;
+using oracles::minus;
 using oracles::Position;
 using oracles::Tet;
-
-double dot(const Position& u, const Position& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-Position cross(const Position& u, const Position& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-}
-
-Position from_to(const Position& a, const Position& b) {
-  return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-}
 
 // u = sin(w . (p - p0)), for which - Laplace u = |w|^2 u.
 class Solution {
@@ -39,13 +31,13 @@ class Solution {
         }
       }
     }
-    const Position diagonal = from_to(low, high);
+    const Position diagonal = minus(high, low);
     const double length = std::sqrt(dot(diagonal, diagonal));
     origin_ = low;
     for (int axis = 0; axis < 3; ++axis) wave_[axis] = (axis + 1) / length;
   }
 
-  double value(const Position& p) const { return std::sin(dot(wave_, from_to(origin_, p))); }
+  double value(const Position& p) const { return std::sin(dot(wave_, minus(p, origin_))); }
   double load(const Position& p) const { return dot(wave_, wave_) * value(p); }
 
  private:
@@ -138,10 +130,9 @@ Problem assemble(const std::vector<Position>& points, const std::vector<Tet>& te
   for (const Tet& t : tetrahedra) {
     // The gradients of the four linear functions are -n / (6 V), for doubled areas n outwards.
     const Position &a = points[t[0]], &b = points[t[1]], &c = points[t[2]], &d = points[t[3]];
-    const Position n[4] = {cross(from_to(b, c), from_to(b, d)), cross(from_to(a, d), from_to(a, c)),
-                           cross(from_to(a, b), from_to(a, d)),
-                           cross(from_to(a, c), from_to(a, b))};
-    const double volume6 = std::fabs(dot(from_to(a, b), n[1]));
+    const Position n[4] = {cross(minus(c, b), minus(d, b)), cross(minus(d, a), minus(c, a)),
+                           cross(minus(b, a), minus(d, a)), cross(minus(c, a), minus(b, a))};
+    const double volume6 = std::fabs(dot(minus(b, a), n[1]));
     if (volume6 == 0) continue;
     double loads = 0;
     for (const Index v : t) loads += solution.load(points[v]);

@@ -1,0 +1,26 @@
+// Vectors and places in doubles.
+#pragma once
+
+#include <cmath>
+
+#include "oracles/exact_points.h"
+
+namespace tetproof::oracles {
+
+inline Position minus(const Position& p, const Position& q) {
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+
+inline double dot(const Position& u, const Position& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+inline Position cross(const Position& u, const Position& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+inline double distance(const Position& p, const Position& q) {
+  return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+}
+
+}  // namespace tetproof::oracles
