@@ -138,6 +138,7 @@ Options options_for(Bytes& bytes) {
   options.tau = (flags & 16) != 0 ? 1e-2 : 0.1;  // narrow channels take many points
   options.region = (flags & 96) == 0 ? delmesher::Region::hull : delmesher::Region::interior;
   options.delta = (flags & 128) != 0 ? 20.7 : 27;
+  options.as_paper.steiner_point = (flags & 0x90) == 0x90;
   return options;
 }
 

@@ -20,12 +20,12 @@ struct PlaneResult {
 
 // Options with the defaults of the plane: delta is 20.7, which is guaranteed. In the plane, tau is
 // the narrowest channel between two segments, as a fraction of its length, that is refined;
-// slivers, simplify_bridges and as_paper mean nothing; max_vertices 0 is 1e7 and 64 more per input
-// vertex.
+// slivers, simplify_bridges and as_paper but for steiner_point mean nothing; max_vertices 0 is 1e7
+// and 64 more per input vertex.
 Options plane_options();
 
-// The paper's parameters in the plane: chamfers up to 90 degrees, no filter, everything down to the
-// outer box.
+// The paper's algorithm in the plane (section 3): chamfers up to 90 degrees, no filter, everything
+// down to the outer box, circumcentres.
 Options paper_plane_options();
 
 inline constexpr OptionBounds kPlaneBounds{.delta = {.low = 0, .high = 34, .above_low = true},

@@ -77,6 +77,7 @@ RefinedMesh refine(InputGraph& graph, const Chamfered& chamfered, Session& s) {
   options.delta = s.options.delta;
   options.max_edge = std::ldexp(s.options.max_edge, -graph.scale);
   options.everywhere = s.options.region == Region::hull;
+  options.circumcentres = s.options.as_paper.steiner_point;
   if (s.options.tau > 0) {
     // A channel as narrow as tau allows takes about 4 / tau; neighbours may add to that.
     options.most_splits = 16 * (static_cast<std::uint64_t>(1 / s.options.tau) + graph.vertices);

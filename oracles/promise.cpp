@@ -84,7 +84,7 @@ constexpr Word kSwitches[] = {{"-q", kAll},
                               {"--ascii", kAll},
                               {"--gabriel", kMesh},
                               {"--approximate", kMesh | kPlane}};
-constexpr Word kChosen[] = {{"--preset", kMesh | kPlane}, {"--as-paper", kMesh},
+constexpr Word kChosen[] = {{"--preset", kMesh | kPlane}, {"--as-paper", kMesh | kPlane},
                             {"--region", kAll},           {"--order", kSpace},
                             {"--improve", kMesh},         {"--slivers", kMesh}};
 
@@ -106,12 +106,13 @@ bool parse_number(const std::string& text, double& value) {
 struct Choice {
   const char* name;
   bool Promise::*target;  // null: promises nothing
+  unsigned tasks = kMesh;
 };
 constexpr Choice kChoices[] = {{"link", &Promise::link},
                                {"bridges", &Promise::bridges},
                                {"simplification", nullptr},
                                {"order", nullptr},
-                               {"steiner-point", &Promise::steiner_point},
+                               {"steiner-point", &Promise::steiner_point, kMesh | kPlane},
                                {"kept-points", &Promise::kept_points},
                                {"enrichment", &Promise::enrichment},
                                {"filter-pairs", &Promise::filter_pairs},
@@ -120,7 +121,7 @@ constexpr Choice kChoices[] = {{"link", &Promise::link},
 
 void choose_all(bool all, Promise& p) {
   for (const Choice& choice : kChoices) {
-    if (choice.target != nullptr) p.*choice.target = all;
+    if (choice.target != nullptr) p.*choice.target = all && (choice.tasks & bit_of(p.task)) != 0;
   }
 }
 
@@ -132,7 +133,7 @@ void set_defaults(Task task, bool paper, Promise& p) {
   if (task != Task::mesh || paper) p.planar = 0;
   if (task == Task::plane) p.delta = 20.7;
   if (!paper) return;
-  choose_all(task == Task::mesh, p);
+  choose_all(true, p);
   p.acute = p.corner = 90;
   p.region = Region::hull;
   p.gabriel = true;
@@ -146,8 +147,9 @@ std::string choose(const std::string& list, Promise& p) {
   for (std::size_t at = 0; at <= list.size();) {
     const std::size_t end = std::min(list.find(',', at), list.size());
     const std::string name = list.substr(at, end - at);
-    const auto* choice = std::find_if(std::begin(kChoices), std::end(kChoices),
-                                      [&](const Choice& c) { return name == c.name; });
+    const auto* choice = std::find_if(
+        std::begin(kChoices), std::end(kChoices),
+        [&](const Choice& c) { return name == c.name && (c.tasks & bit_of(p.task)) != 0; });
     if (choice == std::end(kChoices)) return "nothing is called \"" + name + "\"";
     if (choice->target != nullptr) p.*choice->target = true;
     at = end + 1;

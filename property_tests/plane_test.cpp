@@ -53,6 +53,18 @@ std::vector<std::array<double, 2>> scaled(std::vector<std::array<double, 2>> poi
   return points;
 }
 
+// Every oracle, and the bound down to the outer box.
+TEST(Plane, AsThePaperSays) {
+  Options options = paper_plane_options();
+  options.want_exact = true;
+  const PlanarGraph graphs[] = {shapes::square(), shapes::star(7, 0.2), shapes::comb(6, 0.1),
+                                shapes::koch(3), shapes::nested_squares(3)};
+  for (const PlanarGraph& graph : graphs) {
+    const PlaneResult result = expect_verified(graph, options);
+    EXPECT_GE(result.statistics.refined.min_angle, plane_options().delta);
+  }
+}
+
 TEST(Plane, Families) {
   const PlaneResult square = expect_verified(shapes::square());
   EXPECT_EQ(square.mesh.triangles.size(), 2U);  // a tie of four cocircular points costs nothing

@@ -126,37 +126,42 @@ void add_run(CLI::App& app, Command& command, Given& given,
   app.add_option("--exact", command.exact_file, "write the exact form of everything");
 }
 
-// Names with commas between them, all, or none. Empty if there is another name.
-std::optional<AsPaper> as_paper_of(const std::string& text) {
+// Names with commas between them, all, or none. Empty if there is another name than those of `all`.
+std::optional<AsPaper> as_paper_of(const std::string& text, const AsPaper& all) {
   AsPaper choices;
   if (text == "none") return choices;
-  if (text == "all") return paper_options().as_paper;
+  if (text == "all") return all;
   std::istringstream names(text + ",");
   for (std::string name; std::getline(names, name, ',');) {
-    const auto* choice = std::find_if(std::begin(kPaperChoices), std::end(kPaperChoices),
-                                      [&](const NamedChoice& c) { return c.name == name; });
+    const auto* choice =
+        std::find_if(std::begin(kPaperChoices), std::end(kPaperChoices),
+                     [&](const NamedChoice& c) { return c.name == name && all.*c.member; });
     if (choice == std::end(kPaperChoices)) return {};
     choices.*choice->member = true;
   }
   return choices;
 }
 
-std::string paper_choices() {
+std::string paper_choices(const AsPaper& all) {
   std::string names;
   for (const NamedChoice& choice : kPaperChoices) {
-    names += (names.empty() ? "" : ", ") + std::string(choice.name);
+    if (all.*choice.member) names += (names.empty() ? "" : ", ") + std::string(choice.name);
   }
   return names;
 }
 
-void add_as_paper(CLI::App& app, Given& given) {
+// `all`: those that there are.
+void add_as_paper(CLI::App& app, Given& given, const AsPaper& all) {
   app.add_option_function<std::string>(
-         "--as-paper", [&given](const std::string& text) { given.as_paper = as_paper_of(text); },
-         "what is done as the paper says: " + paper_choices() +
+         "--as-paper",
+         [&given, all](const std::string& text) { given.as_paper = as_paper_of(text, all); },
+         "what is done as the paper says: " + paper_choices(all) +
              ", with commas, all, or none (none)")
       ->check(CLI::Validator(
-          [](std::string& text) -> std::string {
-            return as_paper_of(text) ? "" : "none of " + paper_choices() + ", all, none: " + text;
+          [all](std::string& text) -> std::string {
+            return as_paper_of(text, all)
+                       ? ""
+                       : "none of " + paper_choices(all) + ", all, none: " + text;
           },
           "LIST"))
       ->type_name("LIST");
@@ -207,7 +212,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
                "stop before restoring the input: a mesh of the chamfered surface");
   add_number(app, given, "chamfer-radius", "how far a chamfer may reach", positive(kBounds.length));
   add_number(app, given, "max-edge", "largest edge", positive(kBounds.length));
-  add_as_paper(app, given);
+  add_as_paper(app, given, paper_options().as_paper);
   app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
@@ -244,9 +249,11 @@ void add_plane(CLI::App& app, Command& command, Given& given) {
   add_number(app, given, "chamfer-radius", "how far a chamfer may reach",
              positive(kPlaneBounds.length));
   add_number(app, given, "max-edge", "largest edge", positive(kPlaneBounds.length));
+  add_as_paper(app, given, paper_plane_options().as_paper);
   app.add_option_function<std::string>(
          "--preset", [&given](const std::string&) { given.paper = true; },
-         "paper: delta 20.7, tau 0, acute 90, region hull; other options override it")
+         "paper: delta 20.7, tau 0, acute 90, as-paper all, region hull; other options override "
+         "it")
       ->check(CLI::IsMember({"paper"}));
   app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered graph, .poly");
 }

@@ -153,7 +153,13 @@ TEST(Arguments, OtherJobs) {
   EXPECT_EQ(plane.command.options.delta, plane_options().delta);
   EXPECT_EQ(plane.command.options.acute, 90);
   EXPECT_EQ(plane.command.options.region, Region::hull);
-  EXPECT_EQ(parse({"plane", "i.off", "-o", "o.node"}).command.options.acute, 60);
+  EXPECT_EQ(plane.command.options.as_paper, AsPaper{.steiner_point = true});
+  const Options by_default = parse({"plane", "i.off", "-o", "o.node"}).command.options;
+  EXPECT_EQ(by_default.acute, 60);
+  EXPECT_EQ(by_default.as_paper, AsPaper{});
+  EXPECT_TRUE(parse({"plane", "i.off", "-o", "o.node", "--as-paper", "steiner-point"})
+                  .command.options.as_paper.steiner_point);
+  expect_usage_error({"plane", "i.off", "-o", "o.node", "--as-paper", "order"}, "order");
   expect_usage_error({"plane", "in.poly", "-o", "out.mesh"},
                      "out.mesh: unknown mesh format (.node, .vtu, .off, .msh or .svg)");
   expect_usage_error({"plane", "in.poly", "-o", "out.svg", "--acute", "30"}, "out of range");

@@ -226,7 +226,7 @@ std::string plane_stats_json(const Command& command, const PlaneResult& result,
                              const RunFacts& facts) {
   const PlaneStatistics& s = result.statistics;
   Json json = run_json(command, result, facts, "segments");
-  for (const char* key : {"planar", "budget", "corner", "gabriel", "improve", "slivers", "as_paper",
+  for (const char* key : {"planar", "budget", "corner", "gabriel", "improve", "slivers",
                           "bridge_simplification", "threads"}) {
     json["parameters"].erase(key);
   }

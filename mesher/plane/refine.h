@@ -1,5 +1,5 @@
-// Ruppert's Delaunay refinement of the chamfered graph, with off-centres (Ruppert 1995; Uengoer
-// 2004; Shewchuk 2002 for corners of 60 degrees and more).
+// Ruppert's Delaunay refinement of the chamfered graph, by default with off-centres (Ruppert 1995;
+// Uengoer 2004; Shewchuk 2002 for corners of 60 degrees and more).
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,9 @@ enum class RefineStep : std::uint8_t {
 
 struct RefineOptions {
   double delta = kProvenDelta;
-  double max_edge = 0;      // in the units of the store; 0: no bound
-  bool everywhere = false;  // triangles outside count as well
+  double max_edge = 0;         // in the units of the store; 0: no bound
+  bool everywhere = false;     // triangles outside count as well
+  bool circumcentres = false;  // SteinerPoints
   // A piece that is split so often counts as crowded, and the refinement stops; 0: no bound.
   std::uint64_t most_splits = 0;
   std::function<void(RefineStep)> on_step;  // told when a step begins; empty: nobody asks

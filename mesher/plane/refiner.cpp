@@ -25,7 +25,7 @@ Refiner::Refiner(InputGraph& graph, const Chamfered& chamfered, PointStore& poin
       control_(control),
       mesh_(predicates),
       sides_(graph, mesh_, points, predicates, chamfered.gaps, options.everywhere),
-      steiner_(graph, chamfered, mesh_, points, predicates),
+      steiner_(graph, chamfered, mesh_, points, predicates, options.circumcentres),
       subsegments_(mesh_, sides_, predicates),
       bad_(points, box(graph, points)),
       crowding_(graph, steiner_.carrier(), options.most_splits),

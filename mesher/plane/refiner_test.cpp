@@ -437,6 +437,39 @@ TEST(PlaneSteinerPoints, InsideTheCircleOfTheTriangle) {
   EXPECT_EQ(s.points.size(), before);
 }
 
+// As far from the three corners as from each other, on a grid of a millionth of the shortest edge.
+TEST(PlaneSteinerPoints, AtTheCircumcentre) {
+  for (const double height : {0.3, 4.0, 700.0}) {
+    Stages s(ring({{0, 0}, {1, 0}, {0.4, height}}));
+    const std::array<VertexId, 3> v = {s.vertex(0), s.vertex(1), s.vertex(2)};
+    SteinerPoints steiner(s.graph, s.chamfered, s.graph.base, s.points, s.predicates, true);
+    const auto candidate = steiner.in_triangle(v, Goal(kProvenDelta, 0));
+    ASSERT_NE(candidate.vertex, kNone);
+    const auto distance = [&](VertexId u) {
+      const Approximation &p = s.points.approximation(u),
+                          &q = s.points.approximation(candidate.vertex);
+      return norm(p.x - q.x, p.y - q.y);
+    };
+    const double edge = norm(s.points.approximation(v[1]).x - s.points.approximation(v[0]).x, 0);
+    EXPECT_NEAR(distance(v[0]), distance(v[1]), edge * 0x1p-18);
+    EXPECT_NEAR(distance(v[0]), distance(v[2]), edge * 0x1p-18) << height;
+  }
+}
+
+TEST(PlaneSteinerPoints, WithCircumcentresNoChamferedCornerComesBack) {
+  RefineOptions options;
+  options.circumcentres = true;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    Refinement r(star(24, seed), options);
+    const std::vector<PlaneRecord::Corner> corners = r.chamfered.corners;
+    ASSERT_FALSE(corners.empty());
+    r.refiner.run();
+    for (const PlaneRecord::Corner& corner : corners) {
+      EXPECT_FALSE(r.step.has_vertex(corner.vertex));
+    }
+  }
+}
+
 // Beside the cut points of a chamfered corner the corner itself comes back, and is not taken out of
 // the store.
 TEST(PlaneSteinerPoints, ChamferedCornersComeBack) {

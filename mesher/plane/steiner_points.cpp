@@ -16,11 +16,12 @@ double square(double x) {
 
 SteinerPoints::SteinerPoints(const InputGraph& graph, const Chamfered& chamfered,
                              const Triangulation& mesh, PointStore& points,
-                             PlanePredicates& predicates)
+                             PlanePredicates& predicates, bool circumcentres)
     : graph_(graph),
       mesh_(mesh),
       points_(points),
       predicates_(predicates),
+      circumcentres_(circumcentres),
       corner_of_(points.size(), kNone),
       carrier_(points.size(), kNone) {
   for (const Gap& gap : chamfered.gaps) {
@@ -81,6 +82,11 @@ VertexId SteinerPoints::corner_near(const std::array<VertexId, 3>& v, const Vec3
   return kNone;
 }
 
+SteinerPoints::Candidate SteinerPoints::at(const Vec3& place) {
+  if (!std::isfinite(place[0]) || !std::isfinite(place[1])) return {};
+  return {points_.add_explicit(place[0], place[1], 0), false};
+}
+
 SteinerPoints::Candidate SteinerPoints::in_triangle(const std::array<VertexId, 3>& v,
                                                     const Goal& goal) {
   const Shape shape = shape_of(points_, v[0], v[1], v[2]);
@@ -91,11 +97,17 @@ SteinerPoints::Candidate SteinerPoints::in_triangle(const std::array<VertexId, 3
   // It is placed on a grid of a millionth of that edge or two.
   const double room = std::max(size * kFloor, graph_.unit * 0x1p22);
   if (!(shape.shortest_squared > square(room * shape.scale))) return {};
+  if (circumcentres_) {
+    const Candidate candidate = at(shape.place(points_, v, shape.circumcentre));
+    if (candidate.vertex != kNone) {
+      if (predicates_.in_circle(v[0], v[1], v[2], candidate.vertex) > 0) return candidate;
+      take_back(candidate);
+    }
+  }
   const Vec3 place = shape.place(points_, v, goal.reach(shape));
-  if (!std::isfinite(place[0]) || !std::isfinite(place[1])) return {};
-  const VertexId corner = corner_near(v, place, shape);
+  const VertexId corner = circumcentres_ ? kNone : corner_near(v, place, shape);
   if (corner != kNone) return {corner, true};
-  return {points_.add_explicit(place[0], place[1], 0), false};
+  return at(place);
 }
 
 }  // namespace delmesher::plane

@@ -1,5 +1,7 @@
 // Where new points of the refinement go: in the middle of subsegments, near the circumcentres of
 // bad triangles, and back to where chamfering took a corner away. Points are added to the store.
+// With `circumcentres` a bad triangle gets its circumcentre, as the paper says (section 3), but
+// where that cannot be told in doubles; otherwise an off-centre or a chamfered corner.
 //
 // Laws:
 //  - a point of a piece is exactly on its line and strictly inside the subsegment; a point of a
@@ -23,7 +25,7 @@ namespace delmesher::plane {
 class SteinerPoints {
  public:
   SteinerPoints(const InputGraph& graph, const Chamfered& chamfered, const Triangulation& mesh,
-                PointStore& points, PlanePredicates& predicates);
+                PointStore& points, PlanePredicates& predicates, bool circumcentres = false);
 
   // On a subsegment; kNone if there is no room.
   VertexId on_subsegment(EdgeId e);
@@ -44,12 +46,14 @@ class SteinerPoints {
 
  private:
   void carry(VertexId v, PieceId piece);
+  Candidate at(const Vec3& place);
   VertexId corner_near(const std::array<VertexId, 3>& v, const Vec3& place, const Shape& shape);
 
   const InputGraph& graph_;
   const Triangulation& mesh_;
   PointStore& points_;
   PlanePredicates& predicates_;
+  bool circumcentres_;
   std::vector<VertexId> corner_of_;  // of cut points, by id; kNone of others
   std::vector<PieceId> carrier_;
 };

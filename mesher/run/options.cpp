@@ -74,7 +74,7 @@ Options plane_options() {
 
 Options paper_plane_options() {
   Options options = paper_options();
-  options.as_paper = {};
+  options.as_paper = {.steiner_point = true};
   options.delta = plane_options().delta;
   options.tau = 0;
   return options;

@@ -99,6 +99,10 @@ TEST(Promises, AreReadFromCommandLines) {
     EXPECT_EQ(p.acute, 60) << text;
     EXPECT_FALSE(p.link) << text;
   }
+  for (const char* text : {"plane --preset paper", "plane --as-paper=steiner-point"}) {
+    EXPECT_EQ(parse_promise(text, p), "") << text;
+    EXPECT_FALSE(p.link) << text;
+  }
   EXPECT_EQ(parse_promise("cdt --order 2", p), "");
   EXPECT_TRUE(p.second_order);
   EXPECT_EQ(parse_promise("--order=1", p), "");
@@ -119,11 +123,26 @@ TEST(Promises, AreReadFromCommandLines) {
     EXPECT_EQ(parse_promise("--preset paper --as-paper none", p), "");
     EXPECT_EQ(choices(p), choices(Promise{}));
   }
-  for (const char* text :
-       {"paper", "--preset", "mesh --preset", "--preset=", "--preset paperback", "--delta",
-        "--delta=", "--delta=3x", "--nothing=3", "--as-paper", "--as-paper=", "--as-paper order,",
-        "--as-paper none,order", "--as-paper all,order", "--as-paper orders", "--order 3",
-        "--order 1.5", "plane --order 2"}) {
+  for (const char* text : {"paper",
+                           "--preset",
+                           "mesh --preset",
+                           "--preset=",
+                           "--preset paperback",
+                           "--delta",
+                           "--delta=",
+                           "--delta=3x",
+                           "--nothing=3",
+                           "--as-paper",
+                           "--as-paper=",
+                           "--as-paper order,",
+                           "plane --as-paper order",
+                           "plane --as-paper=bridges",
+                           "--as-paper none,order",
+                           "--as-paper all,order",
+                           "--as-paper orders",
+                           "--order 3",
+                           "--order 1.5",
+                           "plane --order 2"}) {
     EXPECT_NE(parse_promise(text, p), "") << text;
   }
 }
