@@ -167,11 +167,11 @@ bool EdgeChains::find(const InputSurface::Edge& edge, std::vector<Index>& chain)
       return true;
     }
   }
-  for (double tolerance = std::min(1e-15, options_.largest_tolerance);
-       tolerance <= options_.largest_tolerance; tolerance *= 100) {
+  const double largest = options_.largest_tolerance;
+  for (double tolerance = 1e-15; tolerance < largest; tolerance *= 100) {
     if (follow(edge, tolerance, chain)) return true;
   }
-  return false;
+  return follow(edge, largest, chain);
 }
 
 }  // namespace tetproof::oracles

@@ -135,6 +135,35 @@ TEST(PlanarFile, FacetsThatWereUnitedAreCounted) {
   })) << to_text(report);
 }
 
+// Far from the origin, where roundings are larger than any share of the size that other tolerances
+// begin with: a face is bent, and a vertex on an edge of another one is `ulps` off.
+VerifyReport report_on_rounded_edge(double ulps) {
+  samples::Sample sample = samples::cube();
+  constexpr double kAway = 8192;
+  for (auto* vertices : {&sample.input.vertices, &sample.mesh.vertices}) {
+    for (Position& p : *vertices) {
+      const bool rounded = p == Position{0.5, 0, 1};
+      const double bend = p[2] == 1 ? p[0] * p[1] * 0x1p-30 : 0;
+      for (double& x : p) x += kAway;
+      p[2] += bend;
+      if (rounded) p[1] += ulps * 0x1p-39;
+    }
+  }
+  VerifyReport report;
+  EXPECT_EQ(verify(sample.input, sample.mesh, nullptr, {.promised = {.planar = 1e-6}}, report), "");
+  return report;
+}
+
+TEST(PlanarFile, EdgesMayBeRoundedBesidePlanarFacets) {
+  for (const double ulps : {0.0, 1.0, 3.0, 4.0}) {
+    const VerifyReport report = report_on_rounded_edge(ulps);
+    EXPECT_FALSE(failed(report, {.promised = {.planar = 1e-6}})) << to_text(report);
+    EXPECT_GT(report.slab, 0);
+  }
+  const VerifyReport off = report_on_rounded_edge(6);
+  EXPECT_TRUE(failed(off, {.promised = {.planar = 1e-6}})) << to_text(off);
+}
+
 // A plate of the width 2 and the length 4 whose top has a ridge along the middle.
 Surface ridge(double height) {
   Surface s;
