@@ -126,7 +126,9 @@ class GmshReader {
   // Physical tags; an entity without one stands for itself.
   void read_entities() {
     need_format();
-    if (seen_.contains("$Elements")) reader_.fail("entities after the elements that need them");
+    if (seen_.contains("$Nodes") || seen_.contains("$Elements")) {
+      reader_.fail("entities after the nodes or elements that need them");
+    }
     if (binary_) reader_.begin_bytes();
     std::uint64_t counts[4];
     for (std::uint64_t& number : counts) number = count();
@@ -167,11 +169,19 @@ class GmshReader {
     }
   }
 
+  // Some programs list no entities, others (meshio) those of the nodes alone.
+  void need_entity(int dimension, std::int64_t tag) const {
+    if (!seen_.contains("$Entities") || group_.contains({dimension, tag})) return;
+    static constexpr const char* kNames[] = {"point", "curve", "surface", "volume"};
+    reader_.fail("nodes of " + std::string(kNames[dimension]) + " " + std::to_string(tag) +
+                 ", which is not among the entities");
+  }
+
   void read_nodes_4() {
     const Announced a = announced();
     for (std::uint64_t block = 0; block < a.blocks; ++block) {
       const std::uint32_t dimension = index(4);
-      integer();
+      need_entity(static_cast<int>(dimension), integer());
       const bool parametric = index(2) != 0;
       const std::uint64_t nodes = count();
       for (std::uint64_t i = 0; i < nodes; ++i) {

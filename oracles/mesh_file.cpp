@@ -56,26 +56,26 @@ class MeditReader {
   }
 
  private:
-  // A section without use here: of what its entries tell numbers, and how many, and how many other
+  // A section without use here: of what its entries tell numbers, each of them, and how many other
   // numbers follow these.
   struct Skipped {
-    const char* of;
-    int numbers, others;
+    std::vector<const char*> of;
+    int others;
   };
 
   void read_section(const std::string& section) {
     static const std::map<std::string, Skipped> kSkipped = {
-        {"Edges", {"Vertices", 2, 1}},
-        {"EdgesP2", {"Vertices", 3, 1}},
-        {"Corners", {"Vertices", 1, 0}},
-        {"RequiredVertices", {"Vertices", 1, 0}},
-        {"Ridges", {"Edges", 1, 0}},
-        {"RequiredEdges", {"Edges", 1, 0}},
-        {"RequiredTriangles", {"Triangles", 1, 0}},
-        {"Normals", {"", 0, 3}},
-        {"Tangents", {"", 0, 3}},
-        {"NormalAtVertices", {"Vertices", 1, 1}},
-        {"TangentAtVertices", {"Vertices", 1, 1}}};
+        {"Edges", {{"Vertices", "Vertices"}, 1}},
+        {"EdgesP2", {{"Vertices", "Vertices", "Vertices"}, 1}},
+        {"Corners", {{"Vertices"}, 0}},
+        {"RequiredVertices", {{"Vertices"}, 0}},
+        {"Ridges", {{"Edges"}, 0}},
+        {"RequiredEdges", {{"Edges"}, 0}},
+        {"RequiredTriangles", {{"Triangles"}, 0}},
+        {"Normals", {{}, 3}},
+        {"Tangents", {{}, 3}},
+        {"NormalAtVertices", {{"Vertices", "Normals"}, 0}},
+        {"TangentAtVertices", {{"Vertices", "Tangents"}, 0}}};
     if (section == "Dimension") {
       if (reader_.integer() != 3) reader_.fail("a mesh that is not in space");
       return;
@@ -115,9 +115,10 @@ class MeditReader {
   }
 
   void skip_entry(const Skipped& entry) {
-    for (int k = 0; k < entry.numbers; ++k) {
+    for (const char* of : entry.of) {
       const std::uint64_t value = reader_.index(1, 0xffffffffU) + std::uint64_t{1};
-      largest_[entry.of] = std::max(largest_[entry.of], value);
+      Reference& largest = largest_[of];
+      if (value > largest.number) largest = {value, reader_.line()};
     }
     for (int k = 0; k < entry.others; ++k) reader_.number();
   }
@@ -125,10 +126,10 @@ class MeditReader {
   // What is referred to may come later.
   void check_references() {
     for (const auto& [section, largest] : largest_) {
-      if (largest > counts_[section]) {
-        reader_.fail("a reference to " + section + ": there is none of number " +
-                     std::to_string(largest));
-      }
+      const std::uint64_t count = counts_[section] + counts_[section + "P2"];
+      if (largest.number <= count) continue;
+      throw ReadError(path_ + ":" + std::to_string(largest.line) + ": a reference to " + section +
+                      ": there is none of number " + std::to_string(largest.number));
     }
   }
 
@@ -159,8 +160,11 @@ class MeditReader {
   TextReader reader_;
   MeshFile mesh_;
   NodesOnEdges nodes_;
-  std::map<std::string, std::uint64_t> counts_;   // of the sections
-  std::map<std::string, std::uint64_t> largest_;  // number that something refers to, by section
+  std::map<std::string, std::uint64_t> counts_;  // of the sections
+  struct Reference {
+    std::uint64_t number = 0, line = 0;
+  };
+  std::map<std::string, Reference> largest_;  // that something refers to, by section
 };
 
 // ------------------------------------------------------------------------------------------- .tet
