@@ -16,6 +16,14 @@ using delmesher::ExactRecord;
 // The filter compares distances in doubles, so it decides ties within this share of the tolerance.
 constexpr double kSlack = 1e-9;
 
+// Which distances are asked about: their squares, in integer units, from `least` on and below
+// `bound`. `reach` is the root of the latter in input units.
+struct Range {
+  double reach;
+  mpq_class bound, least = 0;
+  bool contains(const mpq_class& squared) const { return squared >= least && squared < bound; }
+};
+
 struct Element {
   enum class Kind : std::uint8_t { vertex, edge, facet };
   Kind kind;
@@ -55,10 +63,10 @@ class Features {
   // The facet, its vertices on constrained edges, and its edges.
   std::vector<Element> elements_of(Index facet) const;
 
-  // These name something present that is closer, in square, than the bound; empty if nothing is.
-  std::string near(const Element& element, double reach, const mpq_class& bound);
-  std::string near_vertex(Index v, double reach, const mpq_class& bound);
-  std::string near_edge(Index e, double reach, const mpq_class& bound);
+  // These name something present at such a distance; empty if nothing is.
+  std::string near(const Element& element, const Range& range);
+  std::string near_vertex(Index v, const Range& range);
+  std::string near_edge(Index e, const Range& range);
 
   // The vertices of the facet on present edges; where asked for, the other ends of these as well.
   std::vector<Index> vertices_of(Index facet, bool and_beyond) const;
@@ -78,8 +86,8 @@ class Features {
     const Interval bound = Interval(than) * Interval(than);
     return (exact::dot(u, u) - bound).sign() == 1;
   }
-  std::string vertex_near_edge(Index e, double reach, const mpq_class& bound);
-  std::string near_facet(Index facet, double reach, const mpq_class& bound);
+  std::string vertex_near_edge(Index e, const Range& range);
+  std::string near_facet(Index facet, const Range& range);
 
   const ExactPoints& points_;
   const InputSurface& surface_;
@@ -89,8 +97,8 @@ class Features {
   std::vector<Index> found_;
 };
 
-std::string Features::near_vertex(Index v, double reach, const mpq_class& bound) {
-  const BoxTree::Box box = enlarged(box_around(points_, std::array{v}), reach);
+std::string Features::near_vertex(Index v, const Range& range) {
+  const BoxTree::Box box = enlarged(box_around(points_, std::array{v}), range.reach);
   found_.clear();
   corners_.edge_tree().query(box, found_);
   for (const Index e : found_) {
@@ -98,11 +106,11 @@ std::string Features::near_vertex(Index v, double reach, const mpq_class& bound)
     const InputSurface::Edge& edge = surface_.edges()[e];
     // From an edge at the vertex itself, the distance is that of the other end.
     const bool at_vertex = edge.from == v || edge.to == v;
-    if (at_vertex && surely_longer(edge, reach)) continue;
+    if (at_vertex && surely_longer(edge, range.reach)) continue;
     const mpq_class distance =
         at_vertex ? exact::squared(exact::difference(points_, edge.from, edge.to)).rational()
                   : squared_distance_to_segment(points_, v, edge.from, edge.to);
-    if (distance < bound) return "vertex " + std::to_string(v) + " and " + edge_name(e);
+    if (range.contains(distance)) return "vertex " + std::to_string(v) + " and " + edge_name(e);
   }
   found_.clear();
   surface_.triangles_near(box, found_);
@@ -110,7 +118,7 @@ std::string Features::near_vertex(Index v, double reach, const mpq_class& bound)
     const Index f = surface_.facet_of_triangle()[t];
     if (!present_[f] || touches(v, f)) continue;
     const mpq_class distance = squared_distance_to_face(points_, v, surface_.triangles()[t]);
-    if (distance >= 0 && distance < bound) {
+    if (range.contains(distance)) {
       return "vertex " + std::to_string(v) + " and facet " +
              std::to_string(surface_.facets()[f].id);
     }
@@ -118,28 +126,29 @@ std::string Features::near_vertex(Index v, double reach, const mpq_class& bound)
   return {};
 }
 
-std::string Features::near_edge(Index e, double reach, const mpq_class& bound) {
+std::string Features::near_edge(Index e, const Range& range) {
   const Index a = surface_.edges()[e].from, b = surface_.edges()[e].to;
   found_.clear();
-  corners_.edge_tree().query(enlarged(box_around(points_, std::array{a, b}), reach), found_);
+  corners_.edge_tree().query(enlarged(box_around(points_, std::array{a, b}), range.reach), found_);
   for (const Index other : found_) {
     const Index c = surface_.edges()[other].from, d = surface_.edges()[other].to;
     if (!edge_present(other) || a == c || a == d || b == c || b == d) continue;
     const mpq_class distance = squared_distance_inside(points_, a, b, c, d);
-    if (distance >= 0 && distance < bound) return edge_name(e) + " and " + edge_name(other);
+    if (range.contains(distance)) return edge_name(e) + " and " + edge_name(other);
   }
   return {};
 }
 
 // Names the end of a present edge that is too close to this edge.
-std::string Features::vertex_near_edge(Index e, double reach, const mpq_class& bound) {
+std::string Features::vertex_near_edge(Index e, const Range& range) {
   const Index a = surface_.edges()[e].from, b = surface_.edges()[e].to;
   found_.clear();
-  corners_.edge_tree().query(enlarged(box_around(points_, std::array{a, b}), reach), found_);
+  corners_.edge_tree().query(enlarged(box_around(points_, std::array{a, b}), range.reach), found_);
   for (const Index other : found_) {
     if (!edge_present(other)) continue;
     for (const Index v : {surface_.edges()[other].from, surface_.edges()[other].to}) {
-      if (v == a || v == b || squared_distance_to_segment(points_, v, a, b) >= bound) continue;
+      if (v == a || v == b || !range.contains(squared_distance_to_segment(points_, v, a, b)))
+        continue;
       return "vertex " + std::to_string(v) + " and " + edge_name(e);
     }
   }
@@ -147,17 +156,17 @@ std::string Features::vertex_near_edge(Index e, double reach, const mpq_class& b
 }
 
 // Names a vertex, on some present edge, that is too close above or below a triangle of the facet.
-std::string Features::near_facet(Index facet, double reach, const mpq_class& bound) {
+std::string Features::near_facet(Index facet, const Range& range) {
   for (const Index t : triangles_.of(facet)) {
     std::vector<Index> edges;
-    corners_.edge_tree().query(enlarged(box_around(points_, surface_.triangles()[t]), reach),
+    corners_.edge_tree().query(enlarged(box_around(points_, surface_.triangles()[t]), range.reach),
                                edges);
     for (const Index e : edges) {
       if (!edge_present(e)) continue;
       for (const Index v : {surface_.edges()[e].from, surface_.edges()[e].to}) {
         if (touches(v, facet)) continue;
         const mpq_class distance = squared_distance_to_face(points_, v, surface_.triangles()[t]);
-        if (distance >= 0 && distance < bound) {
+        if (range.contains(distance)) {
           return "vertex " + std::to_string(v) + " and facet " +
                  std::to_string(surface_.facets()[facet].id);
         }
@@ -167,16 +176,16 @@ std::string Features::near_facet(Index facet, double reach, const mpq_class& bou
   return {};
 }
 
-std::string Features::near(const Element& element, double reach, const mpq_class& bound) {
+std::string Features::near(const Element& element, const Range& range) {
   switch (element.kind) {
     case Element::Kind::vertex:
-      return near_vertex(element.id, reach, bound);
+      return near_vertex(element.id, range);
     case Element::Kind::edge: {
-      std::string pair = near_edge(element.id, reach, bound);
-      return pair.empty() ? vertex_near_edge(element.id, reach, bound) : pair;
+      std::string pair = near_edge(element.id, range);
+      return pair.empty() ? vertex_near_edge(element.id, range) : pair;
     }
     default:
-      return near_facet(element.id, reach, bound);
+      return near_facet(element.id, range);
   }
 }
 
@@ -247,6 +256,7 @@ class FilterCheck {
                   {.limit = mesh.promise->chamfer_radius,
                    .to_link = mesh.promise->link || mesh.promise->bridges,
                    .per_triangle = mesh.promise->bridges}),
+        promise_(*mesh.promise),
         pairs_(mesh.promise->filter_pairs),
         both_sides_(mesh.promise->filter_chamfered) {
     double acute = record_.parameters.acute, of_edges = record_.parameters.corner;
@@ -255,6 +265,7 @@ class FilterCheck {
     for (const auto& corner : record_.corners) {
       if (corner.threshold > record_.parameters.acute) acute = of_edges = corner.threshold;
     }
+    guarded_ = acute > promise_.acute || of_edges > promise_.corner_in_force();
     thresholds_.at = [acute](Index) { return acute; };
     thresholds_.of_edges = [of_edges](Index) { return of_edges; };
   }
@@ -265,16 +276,18 @@ class FilterCheck {
     const std::vector<Index> first = dropped_in(1), second = dropped_in(2);
     // What the second step drops was kept by the first.
     for (const Index f : second) features_.set_present(f, true);
-    check_kept(low, bound(low));
+    check_kept(below(low));
     for (const Index f : second) features_.set_present(f, false);
-    count_returnable(first, high, bound(high));
+    count_returnable(first, below(high));
     check_second_step(second, tolerance);
     for (const Index f : second) features_.set_present(f, true);
     if (pairs_) {
       check_all_pairs(first, low, high);
     } else {
-      check_first_step(first, high, bound(high));
+      check_first_step(first, below(high));
     }
+    // Now the whole surface is present.
+    if (second.empty() && !pairs_) check_budget(tolerance);
     report_.figures.emplace_back("dropped facets", first.size() + second.size());
     report_.figures.emplace_back("dropped for what chamfering made of them", second.size());
     report_.figures.emplace_back("tolerance", tolerance);
@@ -286,19 +299,43 @@ class FilterCheck {
   mpq_class bound(double length) const {
     return times_power_of_two(mpq_class(length) * mpq_class(length), -2 * exponent_);
   }
+  Range below(double length) const { return {length, bound(length), 0}; }
 
-  void check_kept(double reach, const mpq_class& squared) {
+  void check_kept(const Range& range) {
     const auto judge = [&](const std::string& pair) {
       ++report_.checked;
       if (!pair.empty())
         report_.fail(pair + " were kept by the first step and are closer than the tolerance");
     };
     for (const Index v : surface_.used_vertices()) {
-      if (features_.vertex_present(v)) judge(features_.near_vertex(v, reach, squared));
+      if (features_.vertex_present(v)) judge(features_.near_vertex(v, range));
     }
     for (Index e = 0; e < surface_.edges().size(); ++e) {
-      if (features_.edge_present(e)) judge(features_.near_edge(e, reach, squared));
+      if (features_.edge_present(e)) judge(features_.near_edge(e, range));
     }
+  }
+
+  // The tolerance was doubled for a budget because too many tetrahedra were predicted with half of
+  // it. The first step takes the closest pairs first, so that it drops the same with both if
+  // nothing of the surface is as far apart as half the tolerance, and closer than all of it; and
+  // the second step, if it drops nothing, does not with half of it, either. The surfaces are the
+  // same then, and so is what is predicted. Where the guard has chamfered anew, the second step may
+  // have dropped something before.
+  void check_budget(double tolerance) {
+    constexpr double kLeast = 1e-5;  // of the diagonal: the first that is tried instead of 0
+    const double given = promise_.tau * surface_.diagonal(), least = kLeast * surface_.diagonal();
+    if (promise_.budget == 0 || guarded_ || tolerance <= given * (1 + kSlack)) return;
+    const double before = tolerance <= least * (1 + kSlack) ? given : tolerance / 2;
+    Range between = below(tolerance * (1 + kSlack));
+    between.least = bound(before * (1 - kSlack));
+    ++report_.checked;
+    for (const Index v : surface_.used_vertices()) {
+      if (features_.vertex_present(v) && !features_.near_vertex(v, between).empty()) return;
+    }
+    for (Index e = 0; e < surface_.edges().size(); ++e) {
+      if (features_.edge_present(e) && !features_.near_edge(e, between).empty()) return;
+    }
+    report_.fail("the tolerance was raised for the budget, and half of it drops the same");
   }
 
   std::vector<Index> dropped_in(int step) const {
@@ -310,13 +347,13 @@ class FilterCheck {
     return dropped;
   }
 
-  void count_returnable(const std::vector<Index>& dropped, double reach, const mpq_class& squared) {
+  void count_returnable(const std::vector<Index>& dropped, const Range& range) {
     std::uint64_t could_return = 0;
     for (const Index f : dropped) {
       features_.set_present(f, true);
       const std::vector<Element> elements = features_.elements_of(f);
       could_return += std::none_of(elements.begin(), elements.end(), [&](const Element& e) {
-        return !features_.near(e, reach, squared).empty();
+        return !features_.near(e, range).empty();
       });
       features_.set_present(f, false);
     }
@@ -330,10 +367,10 @@ class FilterCheck {
     for (Index f = 0; f < surface_.facets().size(); ++f) {
       ++report_.checked;
       const bool gone = std::find(dropped.begin(), dropped.end(), f) != dropped.end();
-      const double reach = gone ? high : low;
+      const Range range = below(gone ? high : low);
       std::string pair;
       for (const Element& e : features_.elements_of(f)) {
-        if (pair.empty()) pair = features_.near(e, reach, bound(reach));
+        if (pair.empty()) pair = features_.near(e, range);
       }
       if (gone && pair.empty()) report_.fail(name(f) + " was dropped and was near nothing");
       if (!gone && !pair.empty()) report_.fail(pair + " are too close, and one side was kept");
@@ -395,7 +432,7 @@ class FilterCheck {
 
   // The first step, read backwards: the facet dropped last was close to a kept one, the facet
   // before it to one that was kept or dropped later, and so on.
-  void check_first_step(const std::vector<Index>& dropped, double reach, const mpq_class& squared) {
+  void check_first_step(const std::vector<Index>& dropped, const Range& range) {
     std::vector<Element> candidates;
     for (const Index f : dropped) {
       for (const Element& element : features_.elements_of(f)) {
@@ -406,8 +443,7 @@ class FilterCheck {
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
     for (std::size_t before = candidates.size() + 1; candidates.size() < before;) {
       before = candidates.size();
-      std::erase_if(candidates,
-                    [&](const Element& element) { return put_back(element, reach, squared); });
+      std::erase_if(candidates, [&](const Element& element) { return put_back(element, range); });
     }
     for (const Index f : dropped) {
       ++report_.checked;
@@ -416,12 +452,12 @@ class FilterCheck {
   }
 
   // Is the element back, with all its facets? Puts it back if it makes a pair that is too close.
-  bool put_back(const Element& element, double reach, const mpq_class& squared) {
+  bool put_back(const Element& element, const Range& range) {
     std::vector<Index> missing = features_.facets_of(element);
     std::erase_if(missing, [&](Index f) { return features_.present(f); });
     if (missing.empty()) return true;
     for (const Index f : missing) features_.set_present(f, true);
-    if (!features_.near(element, reach, squared).empty()) return true;
+    if (!features_.near(element, range).empty()) return true;
     for (const Index f : missing) features_.set_present(f, false);
     return false;
   }
@@ -438,7 +474,9 @@ class FilterCheck {
   long exponent_;
   CornerThresholds thresholds_;
   ChamferFeatures chamfers_;
+  const Promise& promise_;
   bool pairs_, both_sides_;
+  bool guarded_ = false;  // some threshold is stricter than was asked for
   OracleReport report_{"filter", "vertices, edges and dropped facets"};
 };
 

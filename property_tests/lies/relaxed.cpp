@@ -44,6 +44,14 @@ const Lie kRelaxed[] = {
        t.promise.budget = 1000;
        t.record.parameters.tolerance *= 256;
      }},
+    {"tolerance raised for a budget, and nothing dropped", "refined-filter",
+     [](Told& t) {
+       Options options = honest_options();
+       t = run_of(options, Task::mesh, samples::to_surface(samples::cube().input));
+       t.promise.budget = 1000000;
+       t.promise.tau = options.tau / 2;
+     },
+     "passed"},
     {"threshold of one corner relaxed", "promise",
      [](Told& t) { t.record.corners.front().threshold = 30; }},
     {"threshold of one corner above a right angle", "promise",
