@@ -22,6 +22,14 @@ bool same_cycle(const Face& a, const Face& b) {
   return false;
 }
 
+// The square of a height times a length is at most the square of a distance times the square of the
+// length, with far more room than the roundings of measuring take. Squares that over- or underflow
+// are sure of nothing.
+bool surely_at_most(const Interval& squared, double distance, const Interval& squared_length) {
+  const double most = distance * (1 - 1e-9), bound = most * most * squared_length.low;
+  return most * most > 0x1p-900 && bound < HUGE_VAL && squared.high <= bound;
+}
+
 template <class T>
 void make_unique(std::vector<T>& list) {
   std::sort(list.begin(), list.end());
@@ -175,13 +183,10 @@ void Conformity::put_in_chains(const InputSurface::Edge& edge, const std::vector
   }
 }
 
-// The square of a height times a length is at most the square of the deviation so far times the
-// square of the length, with far more room than the roundings of measuring take.
 bool Conformity::surely_seen(const InputSurface::Edge& edge, Index v) const {
   const IntervalVector along = points_.rough_difference(edge.from, edge.to);
   const IntervalVector off = exact::cross(along, points_.rough_difference(edge.from, v));
-  const double most = result_.deviation * (1 - 1e-9);
-  return exact::dot(off, off).high <= most * most * exact::dot(along, along).low;
+  return surely_at_most(exact::dot(off, off), result_.deviation, exact::dot(along, along));
 }
 
 bool Conformity::surely_seen(const InputSurface::Facet& facet, Index v) const {
@@ -189,8 +194,7 @@ bool Conformity::surely_seen(const InputSurface::Facet& facet, Index v) const {
   const Interval off = exact::dot(normal, points_.rough_difference(facet.span[0], v));
   // What is farther than this may be too far for this facet, however far others reach.
   const double own = options_.off_plane > 0 ? facet.slab + options_.off_plane : HUGE_VAL;
-  const double most = std::min(result_.deviation, own) * (1 - 1e-9);
-  return (off * off).high <= most * most * exact::dot(normal, normal).low;
+  return surely_at_most(off * off, std::min(result_.deviation, own), exact::dot(normal, normal));
 }
 
 // Faces beside a chain belong to the facet on that side, and so do those reached without crossing a

@@ -82,17 +82,13 @@ Index VertexMatch::nearest_vertex(Index input_vertex) const {
 double EdgeChains::progress(const InputSurface::Edge& edge, Index v, double& distance) const {
   const Position p = points_.nearest(edge.from), q = points_.nearest(edge.to),
                  r = points_.nearest(v);
-  double uu = 0, uw = 0, u[3], w[3];
-  for (int i = 0; i < 3; ++i) {
-    u[i] = q[i] - p[i];
-    w[i] = r[i] - p[i];
-    uu += u[i] * u[i];
-    uw += u[i] * w[i];
-  }
-  distance =
-      std::hypot(u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]) /
-      std::sqrt(uu);
-  return uw / uu;
+  // Squares of lengths need not be doubles.
+  const double length = oracles::distance(p, q);
+  Position u = minus(q, p);
+  for (double& x : u) x /= length;
+  const Position w = minus(r, p), across = cross(u, w);
+  distance = std::hypot(across[0], across[1], across[2]);
+  return dot(u, w) / length;
 }
 
 // Exactly: is `next` on the line of the edge, beyond `here` and not beyond the edge's end?
@@ -125,8 +121,8 @@ bool EdgeChains::follow(const InputSurface::Edge& edge, double tolerance,
       const double at = progress(edge, next, distance);
       if (options_.exact) {
         if (!advances(edge, chain.back(), next)) continue;
-      } else if (next != goal && (at <= reached || at >= 1 + tolerance ||
-                                  distance > tolerance * surface_.diagonal())) {
+      } else if (next != goal && !(at > reached && at < 1 + tolerance &&
+                                   distance <= tolerance * surface_.diagonal())) {
         continue;
       }
       if (best == kNone || distance < best_distance) {

@@ -7,6 +7,7 @@
 
 #include "oracles/distances.h"
 #include "oracles/measures.h"
+#include "oracles/regions.h"
 #include "oracles/union_find.h"
 #ifdef TETPROOF_SECOND_OPINIONS
 #include "oracles/cgal/kernel_opinion.h"
@@ -45,7 +46,7 @@ class Hull {
   void check_edges();
   void check_edge(const Side& side, const Side& other);
   void check_volume();
-  double area() const;
+  double area() const;  // in squares of 2^area_unit() input units
 
   const TetComplex& complex_;
   const Neighbours& neighbours_;
@@ -116,7 +117,7 @@ double Hull::area() const {
   double sum = 0;
   for (const Face& f : faces_) {
     const ExactVector n = exact::area2(points_, f[0], f[1], f[2]);
-    sum += length(n, 2 * points_.exponent()) / 2;
+    sum += length(n, 2 * (points_.exponent() - area_unit(points_.largest_coordinate()))) / 2;
   }
   return sum;
 }
@@ -135,7 +136,10 @@ void Hull::check_volume() {
   if (sum == hull) return;
   const double excess = difference(sum, hull, exponent) / 6;
   report_.figures.emplace_back("difference", excess);
-  if (allowed_ > 0 && std::fabs(excess) <= 2 * allowed_ * area()) return;
+  // In the unit of areas times the input's.
+  const double thick =
+      difference(sum, hull, exponent - 2 * area_unit(points_.largest_coordinate())) / 6;
+  if (allowed_ > 0 && std::fabs(thick) <= 2 * allowed_ * area()) return;
   char text[128];
   std::snprintf(text, sizeof text,
                 "all tetrahedra have a volume that differs by %.3g from the hull's %.6g", excess,

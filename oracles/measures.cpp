@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "oracles/places.h"
+#include "oracles/regions.h"
 
 namespace tetproof::oracles {
 
@@ -56,8 +57,12 @@ OracleReport check_volume(const TetComplex& complex, const Neighbours& neighbour
   OracleReport report("volume", "tetrahedra inside");
   for (const std::uint8_t inside : complex.inside) report.checked += inside;
   const ExactSum sum = sum_of_volumes6(complex, neighbours, complex.inside);
-  const long exponent = 3 * complex.points->exponent();
+  const int unit = 2 * area_unit(surface.largest_coordinate());
+  const long exponent = 3 * complex.points->exponent() - unit;
   const double volume = surface.volume6().value(exponent) / 6;
+  if (unit != 0) {
+    report.notes.push_back("volumes are in units of 2^" + std::to_string(unit));
+  }
   if (!(sum == surface.volume6())) {
     const double excess = difference(sum, surface.volume6(), exponent) / 6;
     char text[128];

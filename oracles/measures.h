@@ -7,7 +7,7 @@
 namespace tetproof::oracles {
 
 // Volume oracle: the tetrahedra inside add up to exactly the volume of the polyhedron, or, for
-// rounded vertices, to within `allowed` (cubic input units) of it.
+// rounded vertices, to within `allowed` (a length times surface_area) of it.
 OracleReport check_volume(const TetComplex& complex, const Neighbours& neighbours,
                           const InputSurface& surface, double allowed);
 

@@ -11,8 +11,13 @@
 
 namespace tetproof::oracles {
 
+int area_unit(double largest_coordinate) {
+  const bool ordinary = largest_coordinate > 0x1p-200 && largest_coordinate < 0x1p200;
+  return ordinary || largest_coordinate == 0 ? 0 : std::ilogb(largest_coordinate);
+}
+
 // By intervals where these are narrow.
-double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
+double surface_area(const TetComplex& complex, const std::vector<Face>& faces, int unit) {
   double sum = 0;
   for (const Face& f : faces) {
     const IntervalVector rough = exact::rough_area2(*complex.points, f[0], f[1], f[2]);
@@ -22,12 +27,12 @@ double surface_area(const TetComplex& complex, const std::vector<Face>& faces) {
       n[axis] = rough[axis].low / 2 + rough[axis].high / 2;
       width = std::max(width, rough[axis].high - rough[axis].low);
     }
-    double area = std::hypot(n[0], n[1], n[2]);
-    if (!(area > 0x1p-900 && width < 0x1p-30 * area)) {
-      area =
-          length(exact::area2(*complex.points, f[0], f[1], f[2]), 2 * complex.points->exponent());
-    }
-    sum += area / 2;
+    const double size = std::hypot(n[0], n[1], n[2]);
+    const bool known = size > 0x1p-900 && size < HUGE_VAL && width < 0x1p-30 * size;
+    sum += (known ? std::ldexp(size, -2 * unit)
+                  : length(exact::area2(*complex.points, f[0], f[1], f[2]),
+                           2 * (complex.points->exponent() - unit))) /
+           2;
   }
   return sum;
 }
@@ -129,8 +134,10 @@ bool fills(const TetComplex& complex, const InputSurface& surface, double roundi
   exact::Volume6 volume6;
   for (const Tet& tet : complex.tetrahedra) sum += volume6(*complex.points, tet);
   if (within(sum, surface.volume6(), 1000000, surface.volume6())) return true;
-  const double volume = difference(sum, surface.volume6(), 3 * complex.points->exponent()) / 6;
-  return std::fabs(volume) <= 2 * rounding * surface_area(complex, surface.triangles());
+  const int unit = area_unit(surface.largest_coordinate());
+  const double volume =
+      difference(sum, surface.volume6(), 3 * complex.points->exponent() - 2 * unit) / 6;
+  return std::fabs(volume) <= 2 * rounding * surface_area(complex, surface.triangles(), unit);
 }
 
 }  // namespace tetproof::oracles

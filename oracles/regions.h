@@ -31,8 +31,12 @@ class Regions {
   std::vector<std::size_t> strays_;
 };
 
-// In squares of the input unit, rounded.
-double surface_area(const TetComplex& complex, const std::vector<Face>& faces);
+// Areas are doubles in squares of 2^area_unit() input units: 0, unless the largest coordinate is
+// above 2^200 or below 2^-200.
+int area_unit(double largest_coordinate);
+
+// In squares of 2^unit input units, rounded.
+double surface_area(const TetComplex& complex, const std::vector<Face>& faces, int unit);
 
 // Have the tetrahedra, all together, the volume of the solid, to a millionth? Or to as much as
 // rounding of the vertices by at most `rounding` (input units) adds: where walls are thin, that is

@@ -261,8 +261,9 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
   }
   add(conformity.report);
   // What may differ at all may differ by the smallest double.
-  const double allowed =
-      slack_ > 0 ? std::max(2 * slack_ * surface_area(complex, conformity.faces), 0x1p-1074) : 0;
+  const double area =
+      surface_area(complex, conformity.faces, area_unit(input.largest_coordinate()));
+  const double allowed = slack_ > 0 ? std::max(2 * slack_ * area, 0x1p-1074) : 0;
   add(check_volume(complex, neighbours, input, allowed));
   check_file_quality(complex, neighbours, surface, conformity);
   // If the faces' facets are unknown, so are the labels they should have.

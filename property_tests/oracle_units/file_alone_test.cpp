@@ -104,6 +104,55 @@ TEST(FileAlone, IsNoExcuseForWhatIsFarFromTheSurface) {
   EXPECT_EQ(verdict_on_dented_base(0x1p-30), Verdict::broken);
 }
 
+// A tetrahedron of size `size` without a corner, which a facet of size `cut` cuts off. The smallest
+// double keeps it from being verified in other units. Vertices are rounded on the large facet and
+// on an edge of it; that of the small facet is at `spike`.
+VerifyReport report_on_cut_corner(double size, double cut, const Position& spike) {
+  const Polyhedron input = {
+      {{size, 0, 0}, {0, size, 0}, {0, 0, size}, {cut, 0, 0x1p-1074}, {0, cut, 0}, {0, 0, cut}},
+      {{{0, 1, 2}},
+       {{3, 5, 4}},
+       {{3, 1, 0}},
+       {{3, 4, 1}},
+       {{0, 2, 5}},
+       {{0, 5, 3}},
+       {{1, 4, 5}},
+       {{1, 5, 2}}},
+      {},
+      {}};
+  MeshFile mesh;
+  mesh.vertices = input.vertices;
+  mesh.vertices.push_back({size / 3, size / 3, size / 3});
+  mesh.vertices.push_back(spike);
+  mesh.vertices.push_back({size / 8, size / 8, size / 8});
+  mesh.vertices.push_back({size / 3, size - size / 3, 0});
+  std::vector<Face> faces = {{0, 9, 6}, {9, 1, 6}, {1, 2, 6}, {2, 0, 6}, {3, 5, 7},
+                             {5, 4, 7}, {4, 3, 7}, {3, 1, 9}, {3, 9, 0}};
+  faces.insert(faces.end(), input.triangles.begin() + 3, input.triangles.end());
+  for (const auto& [a, b, c] : faces) mesh.tetrahedra.push_back({a, b, c, 8});
+  mesh.either_orientation = true;
+  VerifyReport report;
+  EXPECT_EQ(verify(input, mesh, nullptr, {.promised = {.planar = 0}}, report), "");
+  return report;
+}
+
+// Squares of such lengths are no doubles, and where some lengths are the smallest, others cannot be
+// measured in other units.
+TEST(FileAlone, IsMeasuredWhereSquaresAreNoDoubles) {
+  const double s = 0x1p1000, t = 0x1p200;
+  for (const double size : {1.0, 0x1p190, 0x1p300, s}) {
+    const double cut = size * 0x1p-10;
+    const VerifyReport report = report_on_cut_corner(size, cut, {cut / 4, cut / 4, cut / 2});
+    EXPECT_EQ(report.verdict, Verdict::rounded) << to_text(report);
+  }
+  EXPECT_EQ(report_on_cut_corner(s, t, {t / 4, t / 4, t / 2}).verdict, Verdict::rounded);
+  // Where the vertex of the small facet is far from it, that is a hollow as thin as a rounding of
+  // others.
+  const VerifyReport hollow = report_on_cut_corner(s, t, {s / 1024, s / 1024, s / 1024});
+  ASSERT_NE(hollow.find("conformity"), nullptr);
+  EXPECT_FALSE(hollow.find("conformity")->passed()) << to_text(hollow);
+}
+
 // A cube has six faces, twelve edges and eight corners, however it is triangulated.
 TEST(FileAlone, IsComparedWithTheWholeSurface) {
   const samples::Sample cube = samples::cube();
