@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "oracles/edge_noise.h"
 #include "oracles/vectors.h"
 
 namespace tetproof::oracles {
@@ -149,6 +150,11 @@ std::vector<Position> in_own_units(std::span<const Position> vertices) {
 
 double automatic_planar_share(std::span<const Position> vertices) {
   return std::max(share_in_units(vertices), share_in_units(in_own_units(vertices)));
+}
+
+double automatic_planar_share(const Polyhedron& surface) {
+  constexpr double kOfNoise = 16;
+  return std::max(automatic_planar_share(surface.vertices), kOfNoise * noise_of_edges(surface));
 }
 
 }  // namespace tetproof::oracles

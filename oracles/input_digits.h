@@ -1,9 +1,11 @@
-// How far --planar auto may let a surface deviate, by the digits that its coordinates have.
+// How far --planar auto may let a surface deviate, by the digits that its coordinates have and by
+// its edges.
 #pragma once
 
 #include <span>
 
 #include "oracles/exact_points.h"
+#include "oracles/input_surface.h"
 
 namespace tetproof::oracles {
 
@@ -17,5 +19,9 @@ namespace tetproof::oracles {
 // coordinate is above 2^64 or below 2^-64 are meshed in units of a power of two just above it, and
 // may have been rounded before they were scaled: the digits in those units count as well.
 double automatic_planar_share(std::span<const Position> vertices);
+
+// The same, or 16 times the noise that the edges show (edge_noise.h) if that is more:
+// coordinates that were rounded more than once are noisier than their digits tell.
+double automatic_planar_share(const Polyhedron& surface);
 
 }  // namespace tetproof::oracles

@@ -78,7 +78,7 @@ std::string verify_in_units(const Polyhedron& input, const MeshFile& mesh,
                             const delmesher::ExactRecord* exact, const VerifyOptions& options,
                             const Expendable& expendable, VerifyReport& report) {
   VerifyOptions known = options;
-  known.promised.automatic_planar = automatic_planar_share(input.vertices);
+  known.promised.automatic_planar = automatic_planar_share(input);
   report = {};
   report.planar_share = known.promised.planar_share();
   if (auto scaled = in_ordinary_units(input, mesh, exact, known.promised)) {

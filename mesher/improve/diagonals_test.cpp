@@ -23,10 +23,16 @@ using surface::test_surfaces::in_single_precision;
 using surface::test_surfaces::prism;
 using surface::test_surfaces::rotated;
 
+double flatness(const Surface& s) {
+  Limits limits;
+  Control control{limits};
+  return surface::flatness(s, control);
+}
+
 // A mesh of the stand-in of a surface, with points of all kinds.
 struct Case {
   Case(const Surface& surface, int density, std::uint32_t seed)
-      : model(surface, 2 * surface::flatness(surface)) {
+      : model(surface, 2 * flatness(surface)) {
     EXPECT_TRUE(model.valid);
     if (density > 0) cdt::test_models::enrich(model, density, seed);
     result = model.run();

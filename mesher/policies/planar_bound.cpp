@@ -4,10 +4,11 @@
 
 namespace delmesher::policies {
 
-double planar_bound(const Surface& surface, const Options& options, double diagonal) {
+double planar_bound(const Surface& surface, const Options& options, double diagonal,
+                    Control& control) {
   if (options.planar != kPlanarAuto) return options.planar / 2 * diagonal;
   // Twice: planes may be moved by as much again for vertices that lie on more than three.
-  return 2 * surface::flatness(surface);
+  return 2 * surface::flatness(surface, control);
 }
 
 }  // namespace delmesher::policies

@@ -9,7 +9,8 @@ PlanarSurface enter_surface(const Surface& surface, const ValidityResult& validi
   const Surface outwards = oriented_outwards(surface, validity);
   Options options = s.options;
   if (planes == Planes::while_refined) options.planar = kPlanarAuto;
-  const double bound = planes == Planes::none ? 0 : planar_bound(outwards, options, s.diagonal);
+  const double bound =
+      planes == Planes::none ? 0 : planar_bound(outwards, options, s.diagonal, s.control);
   StandIn stand_in =
       find_stand_in(outwards, bound, s.control,
                     planes == Planes::while_refined ? Retriangulate::no : Retriangulate::yes);

@@ -1,12 +1,12 @@
 #include "mesher/surface/flatness.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
 #include "mesher/predicates/vector.h"
-#include "mesher/surface/half_edges.h"
+#include "mesher/surface/edge_bends.h"
+#include "mesher/surface/planar_growth.h"
 #include "mesher/surface/resolution.h"
 
 namespace delmesher::surface {
@@ -14,56 +14,42 @@ namespace {
 
 using predicates::Vec3;
 
-// As noisy as the corners are, however narrow the triangles. Infinite for a sharp edge.
-double bend(const Surface& surface, std::uint32_t h, std::uint32_t g) {
-  const auto corner = [&](std::uint32_t edge, std::uint32_t k) {
-    return surface.vertices[surface.triangles[edge / 3][(edge % 3 + k) % 3]];
-  };
-  const std::array<Vec3, 4> p = {corner(h, 0), corner(h, 1), corner(h, 2), corner(g, 2)};
-  const Vec3 edge = subtract(p[1], p[0]), t = cross(edge, subtract(p[2], p[0])),
-             u = cross(subtract(p[3], p[0]), edge);
-  if (!(dot(t, u) > 0)) return HUGE_VAL;
-  const double weight_t = norm(t), weight_u = norm(u);
-  Vec3 normal, centre;
-  for (std::size_t i = 0; i < 3; ++i) {
-    normal[i] = t[i] + u[i];
-    centre[i] = (edge[i] + (weight_t * (p[2][i] - p[0][i]) + weight_u * (p[3][i] - p[0][i])) /
-                               (weight_t + weight_u)) /
-                3;
-  }
-  double largest = 0;
-  for (const Vec3& q : p) {
-    largest = std::max(largest, std::fabs(dot(normal, subtract(subtract(q, p[0]), centre))));
-  }
-  return largest / norm(normal);
-}
-
-std::vector<double> bends(const Surface& surface) {
-  const HalfEdgeGroups edges(surface.triangles, surface.vertices.size());
-  std::vector<double> result;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (const auto h = edges[e]; h.size() == 2) result.push_back(bend(surface, h[0], h[1]));
-  }
-  return result;
-}
-
 // Are the bends above `least` what coordinates that are off by `rounding` make of flat faces?
 bool explains(double rounding, const std::vector<double>& bends, double least) {
   constexpr double kExplained = 1.25, kMore = 4, kTimes = 4.5;
   const auto count = [&bends](double low, double high) {
-    return static_cast<double>(
-        std::ranges::count_if(bends, [=](double x) { return x > low && x <= high; }));
+    return static_cast<double>(std::ranges::count_if(
+        bends, [=](double x) { return std::fabs(x) > low && std::fabs(x) <= high; }));
   };
   const double most = kExplained * rounding;
   return count(least, most) > kTimes * std::max(1.0, count(std::max(least, most), kMore * most));
 }
 
+// Planar groups, those of one triangle among them.
+std::size_t groups_within(const MeasuredSurface& surface, double flat, Control& control) {
+  PlanarGrowth growth(surface, flat, flat, control);
+  growth.grow_all();
+  return static_cast<std::size_t>(std::ranges::count_if(
+      growth.groups(), [](const PlanarGrowth::Group& g) { return !g.triangles.empty(); }));
+}
+
+// Does `more` make groups one that `flat` leaves apart, and twice as much no others?
+bool makes_flat(const Surface& surface, double flat, double more, Control& control) {
+  constexpr double kFewer = 0.97, kSame = 0.9;
+  const MeasuredSurface measured(surface);
+  const auto groups = [&](double within) {
+    return static_cast<double>(groups_within(measured, within, control));
+  };
+  const double with_more = groups(more);
+  return with_more <= kFewer * groups(flat) && groups(2 * more) >= kSame * with_more;
+}
+
 }  // namespace
 
-double flatness(const Surface& surface) {
-  constexpr double kFlat = 0x1p-20;                            // of the diagonal
-  constexpr double kUlps = 0x1p-46;                            // of the largest coordinate: 64
-  constexpr double kOfRounding = 1.5, kMostRounded = 0x1p-14;  // of the diagonal
+double flatness(const Surface& surface, Control& control) {
+  constexpr double kFlat = 0x1p-20;  // of the diagonal
+  constexpr double kUlps = 0x1p-46;  // of the largest coordinate: 64
+  constexpr double kOfRounding = 1.5, kOfNoise = 4, kMostRounded = 0x1p-14;  // of the diagonal
   Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   double largest = 0;
   for (const Vec3& v : surface.vertices) {
@@ -75,15 +61,20 @@ double flatness(const Surface& surface) {
   }
   const double diagonal = norm(subtract(high, low));
   if (!(diagonal > 0) || !std::isfinite(diagonal)) return 0;
-  const std::vector<double> all = bends(surface);
+  const std::vector<double> all = edge_bends(surface);
   const double least = kUlps * largest, most = kFlat * diagonal;
   double flat = least / 4;
   for (const double x : all) {
-    if (x <= most) flat = std::max(flat, x);
+    if (std::fabs(x) <= most) flat = std::max(flat, std::fabs(x));
   }
-  const double result = std::min(4 * flat, most);
+  double result = std::min(4 * flat, most);
   const double rounding = rounding_of_coordinates(surface, kMostRounded / kOfRounding * diagonal);
-  return explains(rounding, all, least) ? std::max(result, kOfRounding * rounding) : result;
+  if (explains(rounding, all, least)) result = std::max(result, kOfRounding * rounding);
+  // Less is flat already.
+  const double noise =
+      noise_of_bends(all, least, result / kOfNoise, kMostRounded / kOfNoise * diagonal);
+  const bool noisy = noise > 0 && makes_flat(surface, result, kOfNoise * noise, control);
+  return noisy ? kOfNoise * noise : result;
 }
 
 }  // namespace delmesher::surface

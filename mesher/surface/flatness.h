@@ -1,22 +1,28 @@
 // How much bend at an edge is taken for rounding.
 #pragma once
 
+#include "mesher/base/control.h"
 #include "mesher/delmesher/surface.h"
 
 namespace delmesher::surface {
 
-// The bend of an edge is the largest distance of the corners of its two triangles from the plane of
-// the sum of their area vectors. An edge that is bent by less than 2^-20 of the diagonal of the
-// bounding box is called flat. Returns four times the largest such bend, since the corners of many
-// triangles are farther from their plane than those of two, at most 2^-20 of the diagonal and at
-// least 64 ulp of the largest coordinate.
+// An edge that is bent (edge_bends.h) by less than 2^-20 of the diagonal of the bounding box is
+// called flat. Returns four times the largest such bend, since the corners of many triangles are
+// farther from their plane than those of two, at most 2^-20 of the diagonal and at least 64 ulp of
+// the largest coordinate.
 //
 // Where coordinates were rounded more coarsely (resolution.h), flat faces are bent by more. That
 // shows: hardly an edge is bent by a bit more than rounding explains, while there are edges of
 // every small bend on a curved surface. So if more than four edges can be explained by it (up to
 // 1.25 of the rounding), and 4.5 times as many as are bent by up to four times that, it returns at
-// least 1.5 times the rounding, at most 2^-14 of the diagonal. In the units of the surface, which
-// is valid.
-double flatness(const Surface& surface);
+// least 1.5 times the rounding, at most 2^-14 of the diagonal.
+//
+// Coordinates may be noisier than their digits tell: they were rounded more than once, or are
+// integers. If the bends alone tell of noise (`noise_of_bends`), it returns four times that noise
+// if this makes at least three of a hundred planar groups one with others, and twice as much not
+// one in ten: faces that are flat but for noise stay the same, those of a curved surface grow
+// together more and more. At most 2^-14 of the diagonal, too. In the units of the surface, which is
+// valid.
+double flatness(const Surface& surface, Control& control);
 
 }  // namespace delmesher::surface

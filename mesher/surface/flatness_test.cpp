@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesher/surface/test_surfaces.h"
@@ -10,6 +11,12 @@ namespace delmesher::surface {
 namespace {
 
 using namespace test_surfaces;
+
+double flatness(const Surface& s) {
+  Limits limits;
+  Control control{limits};
+  return surface::flatness(s, control);
+}
 
 // Every coordinate off by up to `noise`, as of a hash of its number.
 Surface jittered(Surface s, double noise) {
@@ -62,13 +69,25 @@ TEST(Flatness, IsWhatFewDigitsExplain) {
   EXPECT_LE(single, 2 * rounding(0x1p-11));
 }
 
-// Of radii 40 and 20: edges of all small bends.
-Surface torus(std::uint32_t around, std::uint32_t across) {
+double diagonal(const Surface& s) {
+  Point low = s.vertices[0], high = low;
+  for (const Point& p : s.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+// Of radii 40 and 20: edges of all small bends. With `winding` its quadrangles are not flat.
+Surface torus(std::uint32_t around, std::uint32_t across, double winding = 0) {
   const double turn = 2 * std::acos(-1.0);
   Surface torus;
   for (std::uint32_t i = 0; i < around; ++i) {
     for (std::uint32_t j = 0; j < across; ++j) {
-      const double u = turn * i / around, v = turn * j / across, r = 40 + 20 * std::cos(v);
+      const double u = turn * i / around, v = turn * j / across + winding * u,
+                   r = 40 + 20 * std::cos(v);
       torus.vertices.push_back({r * std::cos(u), r * std::sin(u), 20 * std::sin(v)});
       const std::uint32_t k = (i + 1) % around, l = (j + 1) % across;
       const std::uint32_t c = k * across + l, a = i * across + j;
@@ -80,9 +99,11 @@ Surface torus(std::uint32_t around, std::uint32_t across) {
 }
 
 TEST(Flatness, FewDigitsDoNotFlattenWhatIsCurved) {
-  const Surface curved = torus(300, 150);
   for (const double unit : {1e-3, 5e-4}) {
-    EXPECT_LE(flatness(in_decimals(curved, unit)), 0x1p-20 * std::hypot(120, 120, 40));
+    const Surface curved = in_decimals(torus(300, 150, 1), unit);
+    EXPECT_LE(flatness(curved), 0x1p-20 * diagonal(curved));
+    // Its quadrangles are flat but for half a unit, and no more is.
+    EXPECT_LE(flatness(in_decimals(torus(300, 150), unit)), 4 * rounding(unit));
   }
 }
 
@@ -91,6 +112,29 @@ TEST(Flatness, FewDigitsFlattenFlatFacesBesideCurvedOnes) {
   for (const std::uint32_t across : {20U, 90U, 100U}) {
     const Surface both = joined(flat, torus(2 * across, across));
     EXPECT_GE(flatness(in_decimals(both, 1e-3)), rounding(1e-3)) << across;
+  }
+}
+
+// The digits tell of the last rounding alone, and those of integers tell nothing.
+TEST(Flatness, IsWhatBendsTellOfCoarserRoundings) {
+  const Surface s = rotated(scaled(box({0, 0, 0}, {1, 2, 3}, 5), 30));
+  const Surface coarse = in_decimals(s, 1e-3);
+  for (const Surface& twice :
+       {rotated(coarse), in_single_precision(rotated(coarse)), in_decimals(rotated(coarse), 1e-5),
+        scaled(in_decimals(scaled(s, 1e3), 1), 1e-3), scaled(in_decimals(scaled(s, 1e3), 1), 1)}) {
+    const double unit = std::fabs(twice.vertices.back()[0]) > 1e3 ? 1 : 1e-3;
+    EXPECT_GE(flatness(twice), rounding(unit));
+    EXPECT_LE(flatness(twice), 4 * rounding(unit));
+  }
+}
+
+// Facets and curves that are hardly larger than the noise, and are not to be told from it by the
+// sizes of the bends.
+TEST(Flatness, CoarserRoundingsDoNotFlattenWhatIsCurved) {
+  for (const Surface& curved :
+       {rotated(in_decimals(torus(300, 150, 1), 1e-3)), torus(1000, 500, 1),
+        in_decimals(scaled(rotated(prism(ellipse(1000), 1)), 1e5 / 3), 1)}) {
+    EXPECT_LE(flatness(curved), 0x1p-20 * diagonal(curved));
   }
 }
 

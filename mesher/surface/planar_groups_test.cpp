@@ -88,7 +88,9 @@ struct Grouped {
 };
 
 Grouped grouped(const Surface& s) {
-  return Grouped(s, 2 * flatness(s));
+  Limits limits;
+  Control control{limits};
+  return Grouped(s, 2 * flatness(s, control));
 }
 
 TEST(PlanarGroups, NothingMovesThatIsPlanar) {
@@ -178,6 +180,34 @@ TEST(PlanarGroups, ABendIsNoPlane) {
   // sqrt(1e-6 / 4e-8) = 5.
   EXPECT_GE(g.facets(), 10U);
   EXPECT_LT(g.facets(), 5U + n);
+}
+
+// In thousandths of about a hundred, or integers up to a hundred thousand.
+Surface twice_rounded(const Surface& s, double unit) {
+  return rotated(in_decimals(rotated(s), unit), 1.9, 0.4, 0.2);
+}
+
+TEST(PlanarGroups, OfCoordinatesThatWereRoundedTwice) {
+  const Surface s = scaled(box({0, 0, 0}, {1, 2, 3}, 5), 25);
+  EXPECT_GT(Grouped(twice_rounded(s, 1e-3), 0).facets(), 100U);
+  EXPECT_EQ(grouped(twice_rounded(s, 1e-3)).facets(), 6U);
+  EXPECT_EQ(grouped(in_single_precision(twice_rounded(s, 1e-3))).facets(), 6U);
+  EXPECT_EQ(grouped(in_decimals(rotated(scaled(s, 1e3)), 1)).facets(), 6U);
+}
+
+// A ridge of 0.05 degrees, and a slope that is off by ten units, on faces of many triangles whose
+// noise is two units.
+TEST(PlanarGroups, NoiseOfTwoRoundingsSwallowsNoFeatures) {
+  const Surface s = scaled(box({0, 0, 0}, {1, 2, 3}, 8), 25);
+  const double ridge = 25 * std::tan(0.05 * std::acos(-1.0) / 180), unit = 1e-3;
+  for (const double height : {ridge, 10 * unit}) {
+    Surface bent = s;
+    for (Point& p : bent.vertices) {
+      if (p[2] == 75) p[2] += height * (1 - std::fabs(p[0] / 12.5 - 1));
+    }
+    EXPECT_EQ(grouped(twice_rounded(bent, unit)).facets(), 7U);
+    EXPECT_EQ(grouped(in_decimals(rotated(scaled(bent, 1 / unit)), 1)).facets(), 7U);
+  }
 }
 
 TEST(PlanarGroups, LabelsSeparate) {

@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <random>
 #include <vector>
+
+#include "oracles/edge_noise.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -79,7 +83,7 @@ TEST(InputDigits, OfSmallAndLargeModels) {
     // Of the small one all are behind the point; those of the large one are integers.
     EXPECT_NEAR(automatic_planar_share(p), size < 1 ? share(1e-3, 100) : kAlways, 1e-15);
   }
-  EXPECT_EQ(automatic_planar_share({}), kAlways);
+  EXPECT_EQ(automatic_planar_share(std::vector<Position>{}), kAlways);
 }
 
 // Decimals below 1, and numbers of single precision, that were rounded before a power of two made
@@ -122,6 +126,63 @@ TEST(InputDigits, OfNumbersPrintedWithTheirDigits) {
     }
   }
   EXPECT_NEAR(automatic_planar_share(p), share(1e-7, 0.01), 1e-12);
+}
+
+// A height field over a square of 12 x 12 cells, 1 wide, without a bottom. Heights in 0.8.
+Polyhedron field(const std::function<double(std::uint32_t, std::uint32_t)>& height) {
+  constexpr std::uint32_t kCells = 12, kWide = kCells + 1;
+  Polyhedron field;
+  for (std::uint32_t i = 0; i < kWide; ++i) {
+    for (std::uint32_t j = 0; j < kWide; ++j) {
+      field.vertices.push_back({i / 12.0, j / 12.0, height(i, j)});
+      if (i == kCells || j == kCells) continue;
+      const Index a = i * kWide + j, b = a + kWide;
+      field.triangles.push_back({a, b, b + 1});
+      field.triangles.push_back({a, b + 1, a + 1});
+    }
+  }
+  return field;
+}
+
+TEST(EdgeNoise, OfRandomHeights) {
+  std::mt19937 random(7);
+  for (const double most : {1e-5, 1e-7}) {
+    const auto any = [&] { return most * (static_cast<double>(random()) * 0x1p-31 - 1); };
+    const Polyhedron noisy = field([&](auto, auto) { return any(); });
+    const double share = noise_of_edges(noisy) * std::sqrt(2);
+    EXPECT_GT(share, most / 4);
+    EXPECT_LT(share, 2 * most);
+    EXPECT_EQ(automatic_planar_share(noisy), std::max(kAlways, 16 * noise_of_edges(noisy)));
+    for (const int power : {-900, 900}) {
+      Polyhedron scaled = noisy;
+      for (Position& p : scaled.vertices) {
+        for (double& x : p) x = std::ldexp(x, power);
+      }
+      EXPECT_DOUBLE_EQ(noise_of_edges(scaled), noise_of_edges(noisy));
+    }
+  }
+  const Polyhedron coarse =
+      field([&](auto, auto) { return 1e-3 * static_cast<double>(random()) * 0x1p-32; });
+  EXPECT_LT(noise_of_edges(coarse), 1e-5);
+}
+
+TEST(EdgeNoise, IsNeitherGroovesNorDomesNorAFewEdges) {
+  // Of one size.
+  EXPECT_EQ(noise_of_edges(field([](auto i, auto) { return i % 2 == 0 ? 1e-5 : 0; })), 0);
+  // Of all sizes, and larger ones without end.
+  EXPECT_EQ(noise_of_edges(field([](auto i, auto j) {
+              return 1e-8 * std::exp2(1.2 * i) * (1 + 0.3 * std::cos(j));
+            })),
+            0);
+  // Far above the noise.
+  std::mt19937 random(8);
+  EXPECT_LT(noise_of_edges(field([&](auto i, auto j) {
+              const double noise = 1e-9 * static_cast<double>(random()) * 0x1p-32;
+              return noise + (i == 6 && j == 6 ? 1e-5 : i == 3 && j == 6 ? 3e-6 : 0);
+            })),
+            1e-9);
+  EXPECT_EQ(noise_of_edges(field([](auto i, auto j) { return i == 6 && j == 6 ? 1e-5 : 0; })), 0);
+  EXPECT_EQ(noise_of_edges({}), 0);
 }
 
 }  // namespace

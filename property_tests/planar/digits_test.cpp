@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <random>
 
+#include "mesher/base/control.h"
+#include "mesher/surface/flatness.h"
 #include "mesher/surface/resolution.h"
 #include "oracles/input_digits.h"
 #include "property_tests/planar/runs.h"
@@ -100,6 +102,47 @@ TEST(Digits, OfModelsTimesPowersOfTwo) {
       const VerifyReport report = verdict_on(told);
       EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
     }
+  }
+}
+
+// What a part says of its noise when it was rounded twice, each says on its own.
+TEST(EdgeNoise, LetsTheMesherDeviateByNoMoreThanTheOracles) {
+  std::mt19937 random(19);
+  const auto share = [&] { return static_cast<double>(random()) * 0x1p-32; };
+  int more = 0;
+  for (int n = samples::iterations(300); n > 0; --n) {
+    const double unit = std::exp2(-17 + 12 * share()), finer = unit * std::exp2(-8 * share());
+    const auto to = [](double place) {
+      return [place](double x) { return std::round(x / place) * place; };
+    };
+    const Surface part =
+        n % 3 == 0 ? stairs() : samples::random_voxels(static_cast<std::uint32_t>(random() % 99));
+    const Surface s = rotated(rotated(part, to(unit)), n % 2 == 0 ? to(finer) : to(0x1p-50));
+    delmesher::Limits limits;
+    delmesher::base::Control control{limits};
+    const double mine = 4 * delmesher::surface::flatness(s, control) / diagonal_of(s);
+    const double theirs = automatic_planar_share(samples::to_polyhedron(s));
+    more += mine > 1.01 * automatic_planar_share(s.vertices) ? 1 : 0;
+    ASSERT_LE(mine, theirs * (1 + 1e-9)) << n;
+  }
+  // The noise of some is as small as what is flat for all, and some have few edges.
+  EXPECT_GT(more, samples::iterations(300) / 10);
+}
+
+TEST(EdgeNoise, OfTwoRoundingsIsPromisedAndKept) {
+  const auto coarse = [](double x) { return std::round(x * 3e4) / 3e4; };
+  const auto to_double = [](double x) { return x; };
+  const std::uint64_t facets = run_of(stairs()).statistics.facets;
+  for (const Surface& s : {rotated(rotated(stairs(), coarse), to_single),
+                           rotated(rotated(stairs(), coarse), to_double),
+                           rotated(stairs(), [](double x) { return std::round(x * 3e4); })}) {
+    const Told told = run_of(s);
+    EXPECT_EQ(told.statistics.facets, facets);
+    const VerifyReport report = verdict_on(told);
+    EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
+    Told strict = told;
+    strict.promise.planar = 0x1p-18;  // what is always allowed
+    EXPECT_FALSE(samples::as_promised(verdict_on(strict)));
   }
 }
 

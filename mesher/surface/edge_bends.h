@@ -1,0 +1,27 @@
+// How much the edges of a surface are bent, and what of that is noise.
+#pragma once
+
+#include <vector>
+
+#include "mesher/delmesher/surface.h"
+
+namespace delmesher::surface {
+
+// The bend of an edge is the largest distance of the corners of its two triangles from the plane of
+// the sum of their area vectors. Of the edges of a valid surface: positive where it is convex if
+// triangles face outwards (else all are the other way round), negative where it is concave,
+// infinite where the triangles are at a right angle or more.
+std::vector<double> edge_bends(const Surface& surface);
+
+// Coordinates that were rounded more than once, or to integers, do not say how coarse they are.
+// Bends do: those that noise makes are as often convex as concave, of all sizes up to its own, and
+// there are hardly any beyond. Returns the smallest bend above `least` such that
+//   - at least eight edges are bent by up to it (and by more than `rounding`, as doubles are), and
+//     at least ten times as many as by more, up to four times it,
+//   - at least an eighth as many by a 16th to a quarter of it as by a quarter or more,
+//   - at least a quarter of all these by more than a quarter of it,
+//   - at least a quarter of all these to either side.
+// 0 if there is none up to `most`. What it finds may still be a surface that is curved.
+double noise_of_bends(const std::vector<double>& bends, double rounding, double least, double most);
+
+}  // namespace delmesher::surface

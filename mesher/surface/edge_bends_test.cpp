@@ -1,0 +1,91 @@
+#include "mesher/surface/edge_bends.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesher/surface/test_surfaces.h"
+
+namespace delmesher::surface {
+namespace {
+
+using namespace test_surfaces;
+
+constexpr double kRounding = 1e-14, kLeast = 1e-9, kMost = 1e-3;
+
+// `n` bends of evenly spread sizes up to `most`, to both sides by turns.
+std::vector<double> spread(int n, double most) {
+  std::vector<double> bends;
+  for (int i = 1; i <= n; ++i) bends.push_back((i % 2 == 0 ? most : -most) * i / n);
+  return bends;
+}
+
+double noise(std::vector<double> bends, const std::vector<double>& more = {}) {
+  bends.insert(bends.end(), more.begin(), more.end());
+  return noise_of_bends(bends, kRounding, kLeast, kMost);
+}
+
+TEST(EdgeBends, ConvexAndConcaveEdges) {
+  const double height = 0.01;
+  Surface s = box({0, 0, 0}, {2, 1, 1}, 2);
+  for (Point& p : s.vertices) {
+    if (p[0] == 1 && p[2] == 1) p[2] += height;
+    if (p[0] == 1 && p[2] == 0) p[2] += height / 2;
+  }
+  const std::vector<double> bends = edge_bends(s);
+  const auto like = [&](double x) {
+    return std::ranges::count_if(bends, [=](double y) { return std::fabs(x - y) < 1e-4 * height; });
+  };
+  // Of two edges each. The triangles' common centroid is at two thirds of the height: two corners
+  // of either triangle are on the edge.
+  EXPECT_EQ(like(height / 3 * 2), 2);
+  EXPECT_EQ(like(-height / 3), 2);
+  EXPECT_GT(std::ranges::count(bends, HUGE_VAL), 0);
+}
+
+TEST(EdgeBends, NoiseIsWhereBendsEnd) {
+  const double found = noise(spread(40, 1e-5), {2e-4, HUGE_VAL, HUGE_VAL});
+  EXPECT_GT(found, 0.8e-5);
+  EXPECT_LE(found, 1e-5);
+  EXPECT_EQ(noise(spread(40, 1.5 * kMost)), 0);
+  EXPECT_EQ(noise(spread(40, 0.9 * kLeast)), 0);
+}
+
+TEST(EdgeBends, AFewBendsTellNothing) {
+  EXPECT_GT(noise(spread(8, 1e-5)), 0);
+  EXPECT_EQ(noise(spread(7, 1e-5)), 0);
+}
+
+// So many larger ones that the smaller ones may be the beginning of these.
+TEST(EdgeBends, ThatGoOnAreMeant) {
+  EXPECT_GT(noise(spread(40, 1e-5), {2e-5, 3e-5}), 0);
+  std::vector<double> going_on;
+  for (double x = 1e-8; x < 4 * kMost; x *= 1.02) going_on.insert(going_on.end(), {x, -x});
+  EXPECT_EQ(noise(going_on), 0);
+}
+
+// Grooves of one depth, to both sides.
+TEST(EdgeBends, OfOneSizeAreMeant) {
+  std::vector<double> grooves;
+  for (int i = 0; i < 100; ++i) grooves.insert(grooves.end(), {1e-5, -1e-5});
+  EXPECT_EQ(noise(grooves), 0);
+}
+
+// A dome.
+TEST(EdgeBends, ToOneSideAreMeant) {
+  std::vector<double> dome = spread(40, 1e-5);
+  for (double& x : dome) x = std::fabs(x);
+  EXPECT_EQ(noise(dome), 0);
+  for (double& x : dome) x = -x;
+  EXPECT_EQ(noise(dome), 0);
+}
+
+// Much larger than most are.
+TEST(EdgeBends, AboveTheNoiseAreMeant) {
+  const std::vector<double> steps = {1e-6, -2e-6, 4e-6, -8e-6, 9e-6, -9e-6};
+  EXPECT_EQ(noise(spread(200, kLeast), steps), 0);
+}
+
+}  // namespace
+}  // namespace delmesher::surface
