@@ -140,7 +140,7 @@ Arrangement Arranger::run() {
     } else if (!chords_[t].empty()) {
       cut({t});
     } else {
-      result_.pieces.push_back({soup_.triangles[t], 1, t});
+      result_.pieces.push_back({soup_.triangles[t], 1, t, false});
     }
   }
   return std::move(result_);

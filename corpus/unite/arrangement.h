@@ -17,6 +17,7 @@ struct Piece {
   Triangle corners;
   int times;     // at least 1
   Index parent;  // the first given triangle that contains it and faces this way
+  bool cut;      // the parent meets another triangle
 };
 
 struct Arrangement {

@@ -6,24 +6,18 @@
 #include "corpus/unite/unite.h"
 
 namespace tetproof::unite {
-namespace {
 
-Exact::FT coordinate(const Exact::Point_3& p, int axis) {
-  return p.cartesian((axis + 3) % 3);
-}
-
-}  // namespace
-
-// Up is where the normal of the plane has its largest coordinate, nearly; at least not 0.
 PlaneCut::PlaneCut(const Soup& soup, std::span<const Index> members, Points& points)
-    : soup_(soup), members_(members), points_(points) {
+    : soup_(soup),
+      members_(members),
+      points_(points),
+      axis_(axis_across(points, soup.triangles[members.front()])) {
   const Triangle& t = soup.triangles[members.front()];
   const Exact::Point_3 p = points[t[0]];
   const Exact::Vector_3 normal = CGAL::cross_product(points[t[1]] - p, points[t[2]] - p);
   for (int k = 0; k < 3; ++k) {
     origin_[k] = p.cartesian(k);
     normal_[k] = normal.cartesian(k);
-    if (CGAL::abs(normal_[k]) > CGAL::abs(normal_[axis_])) axis_ = k;
   }
   for (const Index member : members) {
     for (const Index v : soup.triangles[member]) vertex(v);
@@ -34,10 +28,6 @@ PlaneCut::PlaneCut(const Soup& soup, std::span<const Index> members, Points& poi
     constrain(b, c);
     constrain(c, a);
   }
-}
-
-Exact::Point_2 PlaneCut::projected(const Exact::Point_3& p) const {
-  return {coordinate(p, axis_ + 1), coordinate(p, axis_ + 2)};
 }
 
 Exact::Point_3 PlaneCut::lifted(const Exact::Point_2& p) const {
@@ -52,14 +42,14 @@ Exact::Point_3 PlaneCut::lifted(const Exact::Point_2& p) const {
 }
 
 PlaneCut::Triangulation::Vertex_handle PlaneCut::vertex(Index point) {
-  const auto [at, fresh] = vertices_.try_emplace(point);
+  const auto [entry, fresh] = vertices_.try_emplace(point);
   if (fresh) {
     const Triangulation::Face_handle start =
         near_ == Triangulation::Vertex_handle() ? Triangulation::Face_handle() : near_->face();
-    near_ = at->second = triangulation_.insert(projected(points_[point]), start);
+    near_ = entry->second = triangulation_.insert(at(point), start);
     near_->info().number = point;
   }
-  return at->second;
+  return entry->second;
 }
 
 void PlaneCut::constrain(Index from, Index to) {
@@ -80,7 +70,7 @@ void PlaneCut::add(const std::vector<Chord>& chords) {
 
 PlaneCut::Corners PlaneCut::corners_of(Index member) const {
   const auto& [a, b, c] = soup_.triangles[member];
-  return {projected(points_[a]), projected(points_[b]), projected(points_[c])};
+  return {at(a), at(b), at(c)};
 }
 
 void PlaneCut::number_crossings() {
@@ -134,7 +124,8 @@ void PlaneCut::append(const Triangulation::Face_handle& face, std::vector<Piece>
   Triangle corners;
   for (int k = 0; k < 3; ++k) corners[k] = face->vertex(k)->info().number;
   if (info.times < 0) std::swap(corners[1], corners[2]);
-  pieces.push_back({corners, std::abs(info.times), info.times > 0 ? info.upwards : info.downwards});
+  pieces.push_back(
+      {corners, std::abs(info.times), info.times > 0 ? info.upwards : info.downwards, true});
 }
 
 void PlaneCut::append_to(std::vector<Piece>& pieces, Poll& poll) {

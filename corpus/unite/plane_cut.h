@@ -51,7 +51,7 @@ class PlaneCut {
       CGAL::Exact_intersections_tag>;
   using Corners = std::array<Exact::Point_2, 3>;
 
-  Exact::Point_2 projected(const Exact::Point_3& p) const;
+  Exact::Point_2 at(Index point) const { return projected(points_[point], axis_); }
   Exact::Point_3 lifted(const Exact::Point_2& p) const;
   Triangulation::Vertex_handle vertex(Index point);
   void constrain(Index from, Index to);
@@ -64,7 +64,7 @@ class PlaneCut {
   const Soup& soup_;
   std::span<const Index> members_;
   Points& points_;
-  int axis_ = 0;  // "up" is along it
+  int axis_;  // "up" is along it
   // The plane: normal . (x - origin) = 0.
   std::array<Exact::FT, 3> origin_, normal_;
   Triangulation triangulation_;

@@ -50,4 +50,10 @@ class Points {
   std::map<Exact::Point_3, Index> numbers_;  // lexicographically
 };
 
+// The axis along which the normal of a triangle has its largest coordinate.
+int axis_across(const Points& points, const Triangle& triangle);
+
+// Along that axis into the plane of the two others, which keeps turns as they are seen from above.
+Exact::Point_2 projected(const Exact::Point_3& p, int axis);
+
 }  // namespace tetproof::unite

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "corpus/unite/arrangement.h"
+#include "corpus/unite/flat_sides.h"
 #include "corpus/unite/separate.h"
 #include "corpus/unite/winding.h"
 #include "oracles/cgal/surface_opinion.h"
@@ -50,12 +51,12 @@ double diagonal(const Soup& soup) {
 }
 
 // Points that triangles were cut at: where sides cross planes beside triangles, there are more.
-std::uint64_t new_corners(const Arrangement& arrangement) {
-  std::vector<bool> seen(arrangement.points.size(), false);
+std::uint64_t new_corners(const Points& points, const std::vector<Piece>& pieces) {
+  std::vector<bool> seen(points.size(), false);
   std::uint64_t count = 0;
-  for (const Piece& piece : arrangement.pieces) {
+  for (const Piece& piece : pieces) {
     for (const Index v : piece.corners) {
-      count += !seen[v] && !arrangement.points.is_given(v) ? 1 : 0;
+      count += !seen[v] && !points.is_given(v) ? 1 : 0;
       seen[v] = true;
     }
   }
@@ -184,15 +185,17 @@ bool Uniter::cut_and_round(const std::vector<MeetingPair>& pairs) {
             place(arrangement.points.approximate(open.place)) +
             ": no union; delmesher repair turns triangles round, with --fill it closes holes");
   }
-  const std::vector<Piece> kept = kept_pieces(arrangement);
+  std::vector<Piece> kept = kept_pieces(arrangement);
+  const std::size_t dropped = arrangement.pieces.size() - kept.size();
+  counts.flat_vertices += restore_flat_sides(soup_, arrangement.points, kept, poll_);
   if (find_open_edges(kept).count > 0) throw InternalError("the union is open");
   if (first) {
     counts.pairs = pairs.size();
     counts.coplanar_pairs = static_cast<std::uint64_t>(std::count_if(
         pairs.begin(), pairs.end(), [](const MeetingPair& pair) { return pair.coplanar; }));
     counts.cut = arrangement.cut;
-    counts.new_points = new_corners(arrangement);
-    counts.dropped = arrangement.pieces.size() - kept.size();
+    counts.new_points = new_corners(arrangement.points, arrangement.pieces);
+    counts.dropped = dropped;
     tell_arrangement();
   }
   soup_ = soup_of(rounded(arrangement, kept));
@@ -237,6 +240,8 @@ void Uniter::tell_arrangement() {
 
 void Uniter::tell_result() {
   const UnionCounts& counts = result_.counts;
+  tell(counts.flat_vertices, "vertex within a flat side or a straight edge dropped",
+       "vertices within flat sides and straight edges dropped");
   result_.done.push_back(counted(counts.bodies_before, "body", "bodies") + " of volume " +
                          number(counts.volume_before) + " became " +
                          std::to_string(counts.bodies_after) + " of " +
