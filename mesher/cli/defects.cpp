@@ -104,21 +104,49 @@ Colour colour_of(Kind kind) {
   }
 }
 
-// What is wrong at each triangle, if anything is. The worst comes last, so that it is what is seen.
-std::vector<std::optional<Kind>> kinds_at(const Surface& surface, const SurfaceReport& report) {
-  std::vector<std::optional<Kind>> kinds(surface.triangles.size());
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> edges;
+struct WrongEdge {
+  std::array<std::uint32_t, 2> vertices;
+  std::vector<std::uint32_t> triangles;
+  Kind kind;
+};
+
+// Edges of one triangle, of more than two, and of two that run along it the same way.
+std::vector<WrongEdge> wrong_edges(const Surface& surface) {
+  struct Use {
+    std::vector<std::uint32_t> triangles;
+    int forward = 0;  // of them go from the lower to the higher vertex
+  };
+  std::map<std::array<std::uint32_t, 2>, Use> edges;
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& corners = surface.triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
-      edges[{std::min(a, b), std::max(a, b)}].push_back(t);
+      Use& use = edges[{std::min(a, b), std::max(a, b)}];
+      use.triangles.push_back(t);
+      use.forward += a < b ? 1 : 0;
     }
   }
-  for (const auto& [edge, triangles] : edges) {
-    if (triangles.size() == 2) continue;
-    for (const std::uint32_t t : triangles) {
-      kinds[t] = triangles.size() == 1 ? Kind::open_edge : Kind::non_manifold_edge;
+  std::vector<WrongEdge> wrong;
+  for (auto& [vertices, use] : edges) {
+    const std::size_t count = use.triangles.size();
+    if (vertices[0] == vertices[1] || (count == 2 && use.forward == 1)) continue;
+    const Kind kind = count == 1  ? Kind::open_edge
+                      : count > 2 ? Kind::non_manifold_edge
+                                  : Kind::inconsistent_orientation;
+    wrong.push_back({vertices, std::move(use.triangles), kind});
+  }
+  return wrong;
+}
+
+// What is wrong at each triangle, if anything is. The worst comes last, so that it is what is seen.
+std::vector<std::optional<Kind>> kinds_at(const Surface& surface, const SurfaceReport& report,
+                                          const std::vector<WrongEdge>& edges) {
+  std::vector<std::optional<Kind>> kinds(surface.triangles.size());
+  for (const Kind kind :
+       {Kind::inconsistent_orientation, Kind::open_edge, Kind::non_manifold_edge}) {
+    for (const WrongEdge& edge : edges) {
+      if (edge.kind != kind) continue;
+      for (const std::uint32_t t : edge.triangles) kinds[t] = kind;
     }
   }
   for (const Defect& defect : report.defects) {
@@ -134,6 +162,13 @@ void vtu_array(std::string& out, const char* attributes, std::size_t count, cons
   out += std::string("<DataArray ") + attributes + " format=\"ascii\">\n";
   for (std::size_t i = 0; i < count; ++i) out += value(i) + "\n";
   out += "</DataArray>\n";
+}
+
+template <std::size_t size>
+std::string numbers(const std::array<std::uint32_t, size>& list) {
+  std::string text;
+  for (const std::uint32_t n : list) text += (text.empty() ? "" : " ") + std::to_string(n);
+  return text;
 }
 
 std::string coordinates(const std::array<double, 3>& p) {
@@ -216,7 +251,7 @@ std::string coloured_ply(const Surface& surface, const SurfaceReport& report) {
       "\nproperty list uchar int vertex_indices\nproperty uchar red\nproperty uchar green\n"
       "property uchar blue\nend_header\n";
   for (const auto& p : surface.vertices) out += coordinates(p) + "\n";
-  const std::vector<std::optional<Kind>> kinds = kinds_at(surface, report);
+  const std::vector<std::optional<Kind>> kinds = kinds_at(surface, report, wrong_edges(surface));
   for (std::size_t t = 0; t < kinds.size(); ++t) {
     out += "3";
     for (const std::uint32_t v : surface.triangles[t]) out += " " + std::to_string(v);
@@ -227,8 +262,11 @@ std::string coloured_ply(const Surface& surface, const SurfaceReport& report) {
 }
 
 std::string defects_vtu(const Surface& surface, const SurfaceReport& report) {
-  const std::vector<std::optional<Kind>> kinds = kinds_at(surface, report);
-  const std::size_t triangles = kinds.size();
+  std::vector<WrongEdge> edges = wrong_edges(surface);
+  const std::vector<std::optional<Kind>> kinds = kinds_at(surface, report, edges);
+  // No program draws edges whose vertices are not there.
+  if (count_of(report, Kind::index_out_of_range) > 0) edges.clear();
+  const std::size_t triangles = kinds.size(), cells = triangles + edges.size();
   std::string out = "<?xml version=\"1.0\"?>\n<!-- delmesher, defect: 0 none";
   for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
     out += ", " + std::to_string(kind + 1) + " " + defect_name(static_cast<Kind>(kind));
@@ -236,23 +274,27 @@ std::string defects_vtu(const Surface& surface, const SurfaceReport& report) {
   out +=
       " -->\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
       "<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-      std::to_string(surface.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(triangles) +
+      std::to_string(surface.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(cells) +
       "\">\n<Points>\n";
   vtu_array(out, "type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"",
             surface.vertices.size(),
             [&](std::size_t i) { return coordinates(surface.vertices[i]); });
   out += "</Points>\n<Cells>\n";
-  vtu_array(out, "type=\"Int64\" Name=\"connectivity\"", triangles, [&](std::size_t t) {
-    const auto& [a, b, c] = surface.triangles[t];
-    return std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c);
+  vtu_array(out, "type=\"Int64\" Name=\"connectivity\"", cells, [&](std::size_t i) {
+    if (i < triangles) return numbers(surface.triangles[i]);
+    return numbers(edges[i - triangles].vertices);
   });
-  vtu_array(out, "type=\"Int64\" Name=\"offsets\"", triangles,
-            [](std::size_t t) { return std::to_string(3 * (t + 1)); });
-  vtu_array(out, "type=\"UInt8\" Name=\"types\"", triangles,
-            [](std::size_t) { return std::string("5"); });
+  vtu_array(out, "type=\"Int64\" Name=\"offsets\"", cells, [&](std::size_t i) {
+    const std::size_t lines = i < triangles ? 0 : i + 1 - triangles;
+    return std::to_string(3 * (i + 1 - lines) + 2 * lines);
+  });
+  vtu_array(out, "type=\"UInt8\" Name=\"types\"", cells, [&](std::size_t i) {
+    return std::string(i < triangles ? "5" : "3");  // VTK_TRIANGLE, VTK_LINE
+  });
   out += "</Cells>\n<CellData Scalars=\"defect\">\n";
-  vtu_array(out, "type=\"UInt8\" Name=\"defect\"", triangles, [&](std::size_t t) {
-    return std::to_string(kinds[t] ? static_cast<int>(*kinds[t]) + 1 : 0);
+  vtu_array(out, "type=\"UInt8\" Name=\"defect\"", cells, [&](std::size_t i) {
+    const std::optional<Kind> kind = i < triangles ? kinds[i] : edges[i - triangles].kind;
+    return std::to_string(kind ? static_cast<int>(*kind) + 1 : 0);
   });
   return out + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }

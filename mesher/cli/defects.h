@@ -17,10 +17,11 @@ std::vector<std::string> advice(const Surface& surface, const SurfaceReport& rep
 
 // The surface as a PLY whose triangles are coloured: red self-intersections, orange open edges,
 // violet edges and vertices that are not manifold, blue orientation, green without area or double,
-// grey nothing. All triangles at open or non-manifold edges are coloured; of other kinds only the
-// triangles that the report lists.
+// grey nothing. All triangles at wrong edges are coloured; of other kinds only the triangles that
+// the report lists.
 std::string coloured_ply(const Surface& surface, const SurfaceReport& report);
-// The same as .vtu: a number for the kind of defect at each triangle, 0 where there is none.
+// The same as .vtu: a number for the kind of defect at each triangle, 0 where there is none. Then
+// lines: open edges, those that are not manifold, and those where orientations disagree.
 std::string defects_vtu(const Surface& surface, const SurfaceReport& report);
 // By the extension of a path.
 enum class DefectsFormat : std::uint8_t { none, ply, vtu };

@@ -400,7 +400,17 @@ TEST_F(Program, ATornSurfaceIsShownAndMended) {
   EXPECT_NE(ply.find("3 0 2 3 190 190 190\n"), std::string::npos) << ply;
   EXPECT_EQ(run("check in.off --defects in.vtu"), 4);
   const std::string vtu = text("in.vtu");
-  EXPECT_NE(vtu.find("NumberOfCells=\"11\""), std::string::npos) << vtu;
+  // Nine edges are open, beside eleven triangles.
+  EXPECT_NE(vtu.find("NumberOfCells=\"20\""), std::string::npos) << vtu;
+  const auto repeated = [](int times, const std::string& line) {
+    std::string lines;
+    for (int i = 0; i < times; ++i) lines += line;
+    return lines;
+  };
+  EXPECT_NE(vtu.find(">\n" + repeated(11, "5\n") + repeated(9, "3\n") + "</DataArray>"),
+            std::string::npos)
+      << vtu;
+  EXPECT_NE(vtu.find("\n33\n35\n37\n"), std::string::npos) << vtu;
   const auto kind = [&](const std::string& name) {  // its number, from the comment
     const std::string head = vtu.substr(0, vtu.find(" " + name));
     return head.substr(head.rfind(' ') + 1);
@@ -415,6 +425,7 @@ TEST_F(Program, ATornSurfaceIsShownAndMended) {
       if (line.ends_with(colour)) numbers += kind(name) + "\n";
     }
   }
+  numbers += repeated(9, kind("open edge") + "\n");
   EXPECT_NE(vtu.find("Name=\"defect\" format=\"ascii\">\n" + numbers + "</DataArray>"),
             std::string::npos)
       << numbers << vtu;
