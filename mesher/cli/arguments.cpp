@@ -450,7 +450,9 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
 
 std::string with_name(std::string text, const std::string& input) {
   constexpr std::string_view kName = "{name}";
-  const std::string name = std::filesystem::path(input).stem().string();
+  const std::filesystem::path path(input);
+  const bool compressed = io::equal_ignoring_case(path.extension().string(), ".gz");
+  const std::string name = (compressed ? path.stem() : path.filename()).stem().string();
   for (std::size_t at = text.find(kName); at != std::string::npos;
        at = text.find(kName, at + name.size())) {
     text.replace(at, kName.size(), name);

@@ -245,6 +245,9 @@ TEST(Arguments, SeveralInputs) {
   EXPECT_TRUE(parse({"a.stl", "-o", "{name}.msh"}).batch.empty());
   EXPECT_EQ(parse({"a.stl", "-o", "{name}.msh"}).command.outputs[0], "a.msh");
   EXPECT_EQ(parse({"check", "a.stl", "b.stl"}).batch.size(), 2U);
+  EXPECT_EQ(parse({"in/a.stl.gz", "-o", "{name}.msh"}).command.outputs[0], "a.msh");
+  EXPECT_EQ(parse({"a.b.GZ", "-o", "{name}.msh"}).command.outputs[0], "a.msh");
+  EXPECT_EQ(parse({"a.gz", "-o", "{name}.msh"}).command.outputs[0], "a.msh");
   expect_usage_error({"a.stl", "b.stl", "-o", "one.msh"}, "one.msh: named twice");
   expect_usage_error({"a.stl", "x/a.obj", "-o", "{name}.msh"}, "a.msh: named twice");
   expect_usage_error({"a.stl", "b.stl", "-o", "-.msh"}, "standard output");
