@@ -166,6 +166,36 @@ TEST(EdgeNoise, OfRandomHeights) {
   EXPECT_LT(noise_of_edges(coarse), 1e-5);
 }
 
+// Two of its vertices are lifted by six times the noise: that bends the edges at them by about four
+// times it, and those across from them by twice as much as it.
+TEST(EdgeNoise, OfAFieldWithAFewEdgesBentByMore) {
+  std::mt19937 random(9);
+  const double most = 1e-6;
+  const Polyhedron some = field([&](auto i, auto j) {
+    const double noise = most * (static_cast<double>(random()) * 0x1p-31 - 1);
+    return noise + (i == 4 && (j == 4 || j == 8) ? 6 * most : 0);
+  });
+  EXPECT_GT(noise_of_edges(some) * std::sqrt(2), most / 4);
+  EXPECT_LT(noise_of_edges(some) * std::sqrt(2), 3 * most);
+}
+
+TEST(EdgeNoise, TakesEightEdges) {
+  const auto bent_pairs = [](std::uint32_t n) {
+    Polyhedron pairs;
+    for (Index i = 0; i < n; ++i) {
+      const double x = i;
+      const Index a = 4 * i;
+      pairs.vertices.insert(pairs.vertices.end(),
+                            {{x, 0, 0}, {x + 0.5, 0, 0}, {x + 0.5, 1, 0}, {x, 1, 1e-6 * (x + 1)}});
+      pairs.triangles.push_back({a, a + 1, a + 2});
+      pairs.triangles.push_back({a, a + 2, a + 3});
+    }
+    return pairs;
+  };
+  EXPECT_EQ(noise_of_edges(bent_pairs(7)), 0);
+  EXPECT_GT(noise_of_edges(bent_pairs(8)), 0);
+}
+
 TEST(EdgeNoise, IsNeitherGroovesNorDomesNorAFewEdges) {
   // Of one size.
   EXPECT_EQ(noise_of_edges(field([](auto i, auto) { return i % 2 == 0 ? 1e-5 : 0; })), 0);
