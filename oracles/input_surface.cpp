@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "oracles/distances.h"
 #include "oracles/union_find.h"
@@ -396,9 +398,19 @@ double InputSurface::unite_facets(const std::vector<Index>& across, double thin,
     groups.unite(facet.id, t);
   }
   std::vector<Index> united;
+  const Members all = members();
+  const auto in_slab_of = [&](Index f, Index other) {
+    const auto [low, high] = heights(facets_[f], all.of(f), points);
+    const auto [below, above] = heights(facets_[f], all.of(other), points);
+    return std::max(high, above) - std::min(low, below) <= thin;
+  };
   for (const Index e : across) {
     const Facet &left = facets_[edges_[e].left], &right = facets_[edges_[e].right];
     if (left.label != right.label) continue;
+    if (!in_slab_of(edges_[e].left, edges_[e].right) &&
+        !in_slab_of(edges_[e].right, edges_[e].left)) {
+      continue;
+    }
     groups.unite(left.id, right.id);
     united.push_back(left.id);
   }
@@ -426,6 +438,22 @@ double InputSurface::group_facets(const std::vector<Index>& group, double thin,
                 points);
   build_edges();
   return widest_slab(std::vector<std::uint8_t>(facets_.size(), 1), thin, points);
+}
+
+double InputSurface::move_needles(const std::vector<Index>& across, double thin,
+                                  const ExactPoints& points) {
+  std::set<std::pair<Index, Index>> ends;
+  for (const Index e : across) ends.insert(std::minmax(edges_[e].from, edges_[e].to));
+  std::vector<Index> group = facet_of_triangle_;
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index n = neighbours_[t][i];
+      if (!ends.contains(std::minmax(triangles_[t][i], triangles_[t][(i + 1) % 3]))) continue;
+      const bool stays = group[n] == facet_of_triangle_[n];
+      if (stays && is_thin(t, thin, points)) group[t] = group[n];
+    }
+  }
+  return group_facets(group, thin, points);
 }
 
 bool InputSurface::is_thin(Index t, double thin, const ExactPoints& points) const {

@@ -97,16 +97,20 @@ class InputSurface {
   std::string assign(const Polyhedron& polyhedron, const ExactPoints& points);
 
   // Makes one facet of the two on either side of each of these edges; other edges between the two
-  // are no edges any more either. Facets of different labels stay apart. Each facet made so lies in
-  // a slab perpendicular to the sum of its area vectors. Returns the width of the widest of these
-  // slabs in input units, rounded up. The result is infinite if such a sum is zero, or if a
-  // triangle faces against it and is no needle thinner than `thin` (input units): walls around a
-  // hollow, or two sides of a plate, are no facet.
+  // are no edges any more. Facets of different labels stay apart, and those that no slab of width
+  // `thin` (input units) along one of them contains. Each facet made so lies in a slab, across the
+  // sum of its area vectors. Returns the width of the widest, in input units, rounded up; infinite
+  // if such a sum is zero, or if a triangle faces against it and is no needle thinner than `thin`:
+  // walls around a hollow, or two sides of a plate, are no facet.
   double unite_facets(const std::vector<Index>& across, double thin, const ExactPoints& points);
 
   // The same for given facets, by a number for each triangle: a facet is a connected set of
   // triangles of one number and one label.
   double group_facets(const std::vector<Index>& group, double thin, const ExactPoints& points);
+
+  // Moves the triangles beside these edges that are no wider than `thin` (input units) to the facet
+  // on the other side: such needles are in the plane of either. Returns what group_facets does.
+  double move_needles(const std::vector<Index>& across, double thin, const ExactPoints& points);
 
   // Does a slab of this width (input units), along the plane of one of the two, contain the facet
   // and one of the same label that has an edge in common with it, both facing the same way?

@@ -167,7 +167,8 @@ BeforeWriting Verification::before_writing() {
 
 // Tries the surface as it is first. If facets that are planar within a bound may be one, those are
 // united that no chain of mesh edges separates, provided that the mesh conforms to the united
-// surface, which is then returned as well.
+// surface, which is then returned as well. Needles no wider than the bound may belong to the facet
+// on either side of them.
 ConformityResult Verification::conformity_of_file(const TetComplex& complex,
                                                   const Neighbours& neighbours,
                                                   const InputSurface& surface,
@@ -201,11 +202,14 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   const double bound = planar * diagonal_;
   const double at_edges =
       std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_) * (1 + 1e-9);
+  std::vector<Index> missing;  // edges of the united surface that the mesh does not have
   const auto conforms_to = [&](InputSurface& flat, double width) {
+    missing.clear();
     if (!(width <= bound)) return false;
     as_rounded.off_plane = kRoundedUlps * ulp_;
     as_rounded.planar = width > 0 ? bound : 0;
     ConformityResult of_flat = check(flat, as_rounded);
+    missing = std::move(of_flat.failed_edges);
     // Chains that the record gives may be anywhere. Only facets were promised to be no more than
     // planar within a bound, their edges are as given.
     if (!of_flat.report.passed() || of_flat.off_edges > at_edges) return false;
@@ -219,11 +223,17 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
     return true;
   };
   InputSurface flat = surface;
-  const double width = flat.unite_facets(failed_edges, bound, *complex.points);
-  if (conforms_to(flat, width)) return result;
-  // Triangles no wider than roundings may belong to one facet or to another. The record says to
-  // which, and whether that is a facet is decided as before.
-  if (exact_ == nullptr) return at_most_deviating();
+  if (conforms_to(flat, flat.unite_facets(failed_edges, bound, *complex.points))) return result;
+  if (exact_ == nullptr) {
+    constexpr int kRounds = 4;  // needles beside needles
+    for (int round = 0; round < kRounds && !missing.empty(); ++round) {
+      const double width = flat.move_needles(missing, bound, *complex.points);
+      if (conforms_to(flat, width)) return result;
+    }
+    return at_most_deviating();
+  }
+  // To which of two facets a needle belongs is in the record, and whether that is a facet is
+  // decided as before.
   const std::vector<Index> named = recorded_facets();
   if (named.size() != surface.triangles().size()) return at_most_deviating();
   flat = surface;

@@ -164,6 +164,37 @@ TEST(PlanarFile, EdgesMayBeRoundedBesidePlanarFacets) {
   EXPECT_TRUE(failed(off, {.promised = {.planar = 1e-6}})) << to_text(off);
 }
 
+// A needle of this width along the front edge of a box's top. The mesh has it in the front, whose
+// upper side is bent for that.
+VerifyReport report_on_needle(double width) {
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},       {0, 0, 1},
+                   {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {0.5, width, 1}, {0.5, 0.5, 0.5}};
+  std::vector<Face> faces = {{0, 2, 1}, {1, 2, 3}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6},
+                             {1, 3, 5}, {3, 7, 5}, {4, 8, 6}, {8, 5, 7}, {8, 7, 6}};
+  Polyhedron input{mesh.vertices, faces, {}, {}};
+  input.vertices.pop_back();
+  input.triangles.insert(input.triangles.end(), {{0, 1, 5}, {0, 5, 4}, {4, 5, 8}});
+  faces.insert(faces.end(), {{0, 1, 8}, {0, 8, 4}, {1, 5, 8}});
+  for (const auto& [a, b, c] : faces) mesh.tetrahedra.push_back({a, b, c, 9});
+  mesh.either_orientation = true;
+  VerifyReport report;
+  EXPECT_EQ(verify(input, mesh, nullptr, {.promised = {.planar = 1e-3}}, report), "");
+  return report;
+}
+
+TEST(PlanarFile, ANeedleIsInThePlaneOfEitherSide) {
+  const VerifyOptions options{.promised = {.planar = 1e-3}};
+  for (const double width : {0x1p-10, 0x1p-14, 0x1p-30}) {
+    const VerifyReport report = report_on_needle(width);
+    EXPECT_FALSE(failed(report, options)) << to_text(report);
+    EXPECT_EQ(report.verdict, Verdict::deviating) << to_text(report);
+  }
+  for (const double width : {0x1p-8, 0x1p-4}) {
+    EXPECT_TRUE(failed(report_on_needle(width), options));
+  }
+}
+
 // A plate of the width 2 and the length 4 whose top has a ridge along the middle.
 Surface ridge(double height) {
   Surface s;
