@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 
@@ -26,7 +27,8 @@ class CMakeBuild(build_ext):
         subprocess.run(["cmake", *ninja, "-S", str(ROOT), "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DTETPROOF_HARNESS=OFF",
                         "-DTETPROOF_TESTS=OFF", "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF",
                         "-DTETPROOF_PYTHON=%s" % target, "-DPython3_EXECUTABLE=%s" % sys.executable,
-                        "-Dpybind11_DIR=%s" % pybind11.get_cmake_dir()], check=True)
+                        "-Dpybind11_DIR=%s" % pybind11.get_cmake_dir(), *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
+                       check=True)
         subprocess.run(["cmake", "--build", build, "--parallel", "2", "--target", "tetproof_core"], check=True)
 
 

@@ -1,5 +1,8 @@
-# Debian's cross compiler for arm64, libraries from the root that ci/arm64 makes, programs run by qemu-user.
+# Debian's cross compiler for arm64, libraries from the root that ci/arm64 makes (ARM64_ROOT: another one), programs run by qemu-user.
 set(arm64_root "${CMAKE_CURRENT_LIST_DIR}/../build/arm64-root")
+if(DEFINED ENV{ARM64_ROOT})
+  set(arm64_root "$ENV{ARM64_ROOT}")
+endif()
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
