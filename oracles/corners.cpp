@@ -27,7 +27,7 @@ int surely_left(const ExactPoints& points, const IntervalVector& normal, Index v
   for (std::size_t i = 0; i < 3; ++i) {
     u[i] = a[i] - o[i];
     w[i] = b[i] - o[i];
-    n[i] = normal[i].low / 2 + normal[i].high / 2;
+    n[i] = normal[i].middle();
     along_u += std::fabs(u[i]);
     along_w += std::fabs(w[i]);
     along_n += std::fabs(n[i]);

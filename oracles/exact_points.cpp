@@ -652,7 +652,7 @@ double distance(const ExactPoints& points, Index a, Index b) {
   Position middle;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     width = std::max(width, rough[axis].high - rough[axis].low);
-    middle[axis] = rough[axis].low / 2 + rough[axis].high / 2;
+    middle[axis] = rough[axis].middle();
   }
   const double length_of_middle = std::hypot(middle[0], middle[1], middle[2]);
   if (length_of_middle > 0x1p-900 && width < 0x1p-48 * length_of_middle) return length_of_middle;

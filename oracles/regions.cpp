@@ -24,7 +24,7 @@ double surface_area(const TetComplex& complex, const std::vector<Face>& faces, i
     Position n{};
     double width = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      n[axis] = rough[axis].low / 2 + rough[axis].high / 2;
+      n[axis] = rough[axis].middle();
       width = std::max(width, rough[axis].high - rough[axis].low);
     }
     const double size = std::hypot(n[0], n[1], n[2]);
