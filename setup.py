@@ -26,8 +26,8 @@ class CMakeBuild(build_ext):
         ninja = ["-G", "Ninja"] if not os.path.exists(os.path.join(build, "CMakeCache.txt")) else []
         # Read together, the files of a target take the compiler a third of the time.
         subprocess.run(["cmake", *ninja, "-S", str(ROOT), "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-                        "-DCMAKE_UNITY_BUILD_BATCH_SIZE=16", "-DTETPROOF_HARNESS=OFF", "-DTETPROOF_TESTS=OFF",
-                        "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF", "-DTETPROOF_PYTHON=%s" % target, "-DPython3_EXECUTABLE=%s" % sys.executable,
+                        "-DTETPROOF_HARNESS=OFF", "-DTETPROOF_TESTS=OFF", "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF",
+                        "-DTETPROOF_PYTHON=%s" % target, "-DPython3_EXECUTABLE=%s" % sys.executable,
                         "-Dpybind11_DIR=%s" % pybind11.get_cmake_dir(), *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
                        check=True)
         subprocess.run(["cmake", "--build", build, "--parallel", "2", "--target", "tetproof_core"], check=True)

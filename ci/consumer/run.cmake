@@ -13,8 +13,8 @@ file(MAKE_DIRECTORY ${WORK})
 set(compiler -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_CXX_FLAGS=${CXXFLAGS}" -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
 if(SOURCE)
   # In no build type at all code is slow to run and quick to build. Without what is optional, so that somebody builds that, too.
-  step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -DDELMESHER_SOURCE=${SOURCE} ${compiler} -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON -DCMAKE_UNITY_BUILD=ON
-       -DCMAKE_UNITY_BUILD_BATCH_SIZE=16)
+  step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -DDELMESHER_SOURCE=${SOURCE} ${compiler} -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON
+       -DCMAKE_UNITY_BUILD=ON)
   step(${CMAKE_COMMAND} --build ${WORK}/build --parallel 2 --target consumer)
 else()
   step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
