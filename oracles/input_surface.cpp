@@ -440,17 +440,48 @@ double InputSurface::group_facets(const std::vector<Index>& group, double thin,
   return widest_slab(std::vector<std::uint8_t>(facets_.size(), 1), thin, points);
 }
 
-double InputSurface::move_needles(const std::vector<Index>& across, double thin,
+double InputSurface::move_needles(const MissingEdges& missing, double thin,
                                   const ExactPoints& points) {
-  std::set<std::pair<Index, Index>> ends;
-  for (const Index e : across) ends.insert(std::minmax(edges_[e].from, edges_[e].to));
-  std::vector<Index> group = facet_of_triangle_;
+  const std::vector<Index> own = facet_of_triangle_;
+  const auto facets = static_cast<Index>(facets_.size());
+  // Facets first, then triangles.
+  std::vector<Index> group = own;
   for (Index t = 0; t < triangles_.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index n = neighbours_[t][i];
-      if (!ends.contains(std::minmax(triangles_[t][i], triangles_[t][(i + 1) % 3]))) continue;
-      const bool stays = group[n] == facet_of_triangle_[n];
-      if (stays && is_thin(t, thin, points)) group[t] = group[n];
+    if (is_thin(t, thin, points)) group[t] = facets + t;
+  }
+  group_facets(group, thin, points);
+  // Groups that needles join; two facets are never joined.
+  UnionFind clusters(facets + triangles_.size());
+  std::vector<std::pair<Index, Index>> beside;  // a needle, and a facet
+  for (const Index e : missing(*this)) {
+    const auto [left, right] =
+        std::minmax(group[facets_[edges_[e].left].id], group[facets_[edges_[e].right].id]);
+    if (left >= facets) {
+      clusters.unite(left, right);
+    } else if (right >= facets) {
+      beside.emplace_back(right, left);
+    }
+  }
+  constexpr Index kSeveral = kNone - 1;
+  std::vector<Index> to(facets + triangles_.size(), kNone);  // by cluster, the group that it joins
+  for (const auto& [needle, facet] : beside) {
+    Index& joined = to[clusters.find(needle)];
+    joined = joined == kNone || joined == facet ? facet : kSeveral;
+  }
+  std::vector<Index> home(to.size(), kNone);  // by cluster, the facet that it is in as given
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    if (group[t] < facets) continue;
+    Index& in = home[clusters.find(group[t])];
+    in = in == kNone || in == own[t] ? own[t] : kSeveral;
+  }
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    if (group[t] < facets) continue;
+    const Index cluster = clusters.find(group[t]);
+    if (to[cluster] == kSeveral) continue;
+    if (to[cluster] != kNone) {
+      group[t] = to[cluster];
+    } else {
+      group[t] = home[cluster] == kSeveral ? cluster : home[cluster];
     }
   }
   return group_facets(group, thin, points);

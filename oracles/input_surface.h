@@ -108,9 +108,15 @@ class InputSurface {
   // triangles of one number and one label.
   double group_facets(const std::vector<Index>& group, double thin, const ExactPoints& points);
 
-  // Moves the triangles beside these edges that are no wider than `thin` (input units) to the facet
-  // on the other side: such needles are in the plane of either. Returns what group_facets does.
-  double move_needles(const std::vector<Index>& across, double thin, const ExactPoints& points);
+  // A triangle no wider than `thin` (input units) is in the plane of any facet beside it, and so
+  // are triangles like that beside each other: to which of two facets such needles belong, a mesh
+  // has decided. `missing` is asked which edges of a surface a mesh does not have; on that surface
+  // each needle is a facet of its own. Needles that only missing edges separate go to the facet
+  // that only missing edges separate from them. If there is none, they stay in theirs or, if they
+  // were in several, become one; if there are several, they stay apart. Returns what group_facets
+  // does.
+  using MissingEdges = std::function<std::vector<Index>(const InputSurface&)>;
+  double move_needles(const MissingEdges& missing, double thin, const ExactPoints& points);
 
   // Does a slab of this width (input units), along the plane of one of the two, contain the facet
   // and one of the same label that has an edge in common with it, both facing the same way?

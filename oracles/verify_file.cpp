@@ -202,14 +202,11 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   const double bound = planar * diagonal_;
   const double at_edges =
       std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_) * (1 + 1e-9);
-  std::vector<Index> missing;  // edges of the united surface that the mesh does not have
   const auto conforms_to = [&](InputSurface& flat, double width) {
-    missing.clear();
     if (!(width <= bound)) return false;
     as_rounded.off_plane = kRoundedUlps * ulp_;
     as_rounded.planar = width > 0 ? bound : 0;
     ConformityResult of_flat = check(flat, as_rounded);
-    missing = std::move(of_flat.failed_edges);
     // Chains that the record gives may be anywhere. Only facets were promised to be no more than
     // planar within a bound, their edges are as given.
     if (!of_flat.report.passed() || of_flat.off_edges > at_edges) return false;
@@ -225,11 +222,10 @@ ConformityResult Verification::conformity_of_file(const TetComplex& complex,
   InputSurface flat = surface;
   if (conforms_to(flat, flat.unite_facets(failed_edges, bound, *complex.points))) return result;
   if (exact_ == nullptr) {
-    constexpr int kRounds = 4;  // needles beside needles
-    for (int round = 0; round < kRounds && !missing.empty(); ++round) {
-      const double width = flat.move_needles(missing, bound, *complex.points);
-      if (conforms_to(flat, width)) return result;
-    }
+    const double width = flat.move_needles(
+        [&](const InputSurface& parted) { return check(parted, as_rounded).failed_edges; }, bound,
+        *complex.points);
+    if (conforms_to(flat, width)) return result;
     return at_most_deviating();
   }
   // To which of two facets a needle belongs is in the record, and whether that is a facet is

@@ -195,6 +195,50 @@ TEST(PlanarFile, ANeedleIsInThePlaneOfEitherSide) {
   }
 }
 
+// The same with a fan of needles, each beside the one before, around one end of the front edge of a
+// box's top.
+VerifyReport report_on_fan(int needles, double width) {
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
+                   {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  std::vector<Face> faces = {{0, 2, 1}, {1, 2, 3}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2},
+                             {2, 4, 6}, {1, 3, 5}, {3, 7, 5}, {6, 5, 7}};
+  std::vector<Face> as_given = {{0, 1, 5}, {0, 5, 4}};
+  faces.push_back({0, 1, 5});
+  Index last = 5;
+  for (int i = 1; i <= needles; ++i) {
+    const auto next = static_cast<Index>(mesh.vertices.size());
+    mesh.vertices.push_back({1 - i / (needles + 1.0), i * width / needles, 1});
+    as_given.push_back({4, last, next});
+    faces.push_back({0, last, next});
+    as_given.push_back({6, next, last});
+    faces.push_back({6, next, last});
+    last = next;
+  }
+  as_given.push_back({6, 4, last});
+  faces.insert(faces.end(), {{6, 4, last}, {0, last, 4}});
+  as_given.insert(as_given.end(), faces.begin(), faces.begin() + 9);
+  const Polyhedron input{mesh.vertices, as_given, {}, {}};
+  const auto middle = static_cast<Index>(mesh.vertices.size());
+  mesh.vertices.push_back({0.5, 0.5, 0.5});
+  for (const auto& [a, b, c] : faces) mesh.tetrahedra.push_back({a, b, c, middle});
+  mesh.either_orientation = true;
+  VerifyReport report;
+  EXPECT_EQ(verify(input, mesh, nullptr, {.promised = {.planar = 1e-3}}, report), "");
+  return report;
+}
+
+TEST(PlanarFile, NeedlesBesideNeedlesAreInThePlaneOfEitherSide) {
+  const VerifyOptions options{.promised = {.planar = 1e-3}};
+  for (const int needles : {1, 4, 5, 6, 40}) {
+    const VerifyReport report = report_on_fan(needles, 0x1p-10);
+    EXPECT_FALSE(failed(report, options)) << to_text(report);
+    EXPECT_EQ(report.verdict, Verdict::deviating) << needles << " needles";
+    // Each is no wider than the bound, all together are.
+    EXPECT_TRUE(failed(report_on_fan(needles, 0x1p-8), options)) << needles << " needles";
+  }
+}
+
 // A plate of the width 2 and the length 4 whose top has a ridge along the middle.
 Surface ridge(double height) {
   Surface s;
