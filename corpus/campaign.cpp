@@ -188,7 +188,7 @@ class Job {
   }
 
  private:
-  enum class Step : std::uint8_t { mesh, measure, sidecar, verify };
+  enum class Step : std::uint8_t { mesh, measure, sidecar, verify, picture };
 
   void start(const std::vector<std::string>& argv, const Limits& limits) {
     process_ = std::make_unique<SupervisedProcess>(
@@ -206,6 +206,8 @@ class Job {
         return after_sidecar();
       case Step::verify:
         return after_verify();
+      case Step::picture:
+        return after_picture();
     }
     return false;
   }
@@ -231,8 +233,10 @@ class Job {
       wrong("no mesh was written");
       return false;
     }
-    start({options_.self.string(), "measure", files_.mesh.string(), "-o", measured().string()},
-          options_.verify_limits);
+    std::vector<std::string> argv = {options_.self.string(), "measure", files_.mesh.string(), "-o",
+                                     measured().string()};
+    if (options_.solver) argv.emplace_back("--solver");
+    start(argv, options_.verify_limits);
     return true;
   }
 
@@ -306,7 +310,8 @@ class Job {
       start(mesher_.sidecar_command(files_), options_.verify_limits);
       return true;
     }
-    if (told && outcome.exit_code == 1) {
+    const bool is_wrong = told && outcome.exit_code == 1;
+    if (is_wrong) {
       const std::string said = last_line(outcome.stderr_tail);
       const std::string prefix = "tetproof: " + files_.mesh.string() + ": ";
       wrong("verify: " + (said.starts_with(prefix) ? said.substr(prefix.size()) : said));
@@ -321,11 +326,32 @@ class Job {
       verdict["no_sidecar"] = no_sidecar_;
       row_.verdict_json = verdict.dump();
     }
+    if (is_wrong) start_picture();
+    return is_wrong;
+  }
+
+  // Of the place that an oracle names. Without it the verdict is as good.
+  void start_picture() {
+    std::vector<std::string> argv = {
+        options_.self.string(), "picture", files_.input.string(), files_.mesh.string(), "--verdict",
+        verdict().string(),     "-o",      picture().string()};
+    if (mesher_.envelope > 0) argv.emplace_back("--own-surface");
+    start(argv, options_.verify_limits);
+  }
+
+  bool after_picture() {
+    const std::string svg = read_if_there(picture());
+    if (!svg.empty()) {
+      Json verdict = Json::parse(row_.verdict_json);
+      verdict["picture"] = svg;
+      row_.verdict_json = verdict.dump();
+    }
     return false;
   }
 
   fs::path measured() const { return folder_ / "measured.json"; }
   fs::path verdict() const { return folder_ / "verdict.json"; }
+  fs::path picture() const { return folder_ / "picture.svg"; }
 
   void wrong(const std::string& reason) {
     row_.disposition = Disposition::wrong_result;

@@ -33,6 +33,7 @@ struct CampaignOptions {
   // nothing. Without this option there is a second run only where the file alone does not decide
   // conformity.
   bool sidecars = false;
+  bool solver = false;    // solve Poisson's equation on each mesh (reports/poisson.h)
   bool terminal = false;  // one live line rather than a line per run
 };
 

@@ -91,6 +91,24 @@ class CampaignTest : public testing::Test {
   CampaignOptions options_;
 };
 
+// The corner with a vertex in its middle, the only unknown.
+TEST_F(CampaignTest, ASolverIsAskedIfOneWants) {
+  const std::string star =
+      "5 vertices\\n4 tets\\n0 0 0\\n1 0 0\\n0 1 0\\n0 0 1\\n.25 .25 .25\\n"
+      "4 0 1 2 4\\n4 0 2 3 4\\n4 0 3 1 4\\n4 1 3 2 4\\n";
+  const std::string line = "printf '" + star + "' > mesh.tet";
+  run_campaign({models()[0]}, {shell("plain", line)}, options_);
+  options_.solver = true;
+  run_campaign({models()[0]}, {shell("solved", line)}, options_);
+  auto rows = rows_of_model(0);
+  EXPECT_FALSE(solver_columns(rows["plain"].mesh_json).has_value());
+  const auto solver = solver_columns(rows["solved"].mesh_json);
+  ASSERT_TRUE(solver.has_value()) << rows["solved"].mesh_json << rows["solved"].reason;
+  EXPECT_EQ(solver->unknowns, 1u);
+  EXPECT_EQ(solver->iterations, 1u);
+  EXPECT_EQ(rows["solved"].mesh->tetrahedra, 4u);
+}
+
 TEST_F(CampaignTest, DispositionsAreToldApart) {
   make_surface(0);
   options_.verify = true;
@@ -120,6 +138,9 @@ TEST_F(CampaignTest, DispositionsAreToldApart) {
   EXPECT_EQ(rows["good"].exit_code, 0);
   EXPECT_EQ(rows["inverted"].disposition, Disposition::wrong_result);
   EXPECT_EQ(rows["inverted"].inverted, 1u);
+  EXPECT_NE(rows["inverted"].verdict_json.find("\"picture\":\"<svg"), std::string::npos)
+      << rows["inverted"].verdict_json;
+  EXPECT_EQ(rows["good"].verdict_json.find("picture"), std::string::npos);
   EXPECT_EQ(rows["garbage"].disposition, Disposition::wrong_result);
   EXPECT_EQ(rows["nothing"].disposition, Disposition::wrong_result);
   EXPECT_EQ(rows["nothing"].reason, "no mesh was written");

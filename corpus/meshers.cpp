@@ -163,10 +163,12 @@ bool has_feature(const Peer& peer, const MesherPrograms& programs) {
 std::string version_of(const Peer& peer, const MesherPrograms& programs) {
   if (peer.program == nullptr) return version_of(programs.adapters / peer.adapter, programs);
   const fs::path program = program_of(peer).value();
-  if (*peer.version_option != 0) {
-    return peer.program + (" " + version_of(program, programs, peer.version_option));
-  }
-  return std::string(peer.program) + " (build " + build_id(program) + ")";
+  const std::string said =
+      *peer.version_option != 0
+          ? peer.program + (" " + version_of(program, programs, peer.version_option))
+          : std::string(peer.program) + " (build " + build_id(program) + ")";
+  // What the script asks for is a part of what was run.
+  return said + " (adapter " + build_id(programs.adapters / peer.adapter) + ")";
 }
 
 // The command of a program with our contract, or of a script.

@@ -158,6 +158,8 @@ TEST_F(Meshers, Peers) {
                                          "Mesh.Optimize 0");
   const Mesher gmsh = make_mesher("gmsh-hxt", programs_);
   EXPECT_TRUE(gmsh.version.starts_with("gmsh 4.9 (build ")) << gmsh.version;
+  script("adapters/gmsh", "true  # another one");
+  EXPECT_NE(make_mesher("gmsh-hxt", programs_).version, gmsh.version);
   EXPECT_EQ(gmsh.mesh_extension, ".msh");
   EXPECT_EQ(why_not_at_hand("gmsh-frontal", programs_), "this build of gmsh is without Netgen");
   script("gmsh", "echo 'Build options     : 64Bit Netgen OpenMP' >&2");

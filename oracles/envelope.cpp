@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <map>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -86,6 +88,8 @@ class Farthest {
     }
   }
   double bound() const { return std::max(lower_, least_) + precision_; }
+  // The point seen that is farthest away.
+  const Position& place() const { return place_; }
 
  private:
   static void split(const Corners& piece, std::vector<Corners>& pieces) {
@@ -112,13 +116,19 @@ class Farthest {
     double radius = 0;
     for (const Position& p : piece) radius = std::max(radius, quick_distance(p, centre));
     double bound = std::min(at_centre + radius, from_triangle(piece, near_centre));
-    lower_ = std::max(lower_, at_centre);
+    see(centre, at_centre);
     for (const Position& p : piece) {
       const auto [d, t] = nearest(p);
-      lower_ = std::max(lower_, d);
+      see(p, d);
       if (t != near_centre) bound = std::min(bound, from_triangle(piece, t));
     }
     return bound;
+  }
+
+  void see(const Position& p, double distance) {
+    if (distance <= lower_) return;
+    lower_ = distance;
+    place_ = p;
   }
 
   double from_triangle(const Corners& piece, Index t) const {
@@ -150,6 +160,7 @@ class Farthest {
   const BoxTree tree_;
   double precision_, least_;
   double lower_ = 0;  // of the largest distance
+  Position place_{};
   std::vector<Index> found_;
 };
 
@@ -180,23 +191,34 @@ Extent extent_of(const Polyhedron& surface) {
   return extent;
 }
 
+// Coordinates in units of 2^exponent, in words.
+std::string place_name(const Position& p, int exponent) {
+  std::ostringstream text;
+  text << std::setprecision(12) << " at (" << std::ldexp(p[0], exponent) << ", "
+       << std::ldexp(p[1], exponent) << ", " << std::ldexp(p[2], exponent) << ")";
+  return text.str();
+}
+
 OracleReport check_distances(const Polyhedron& input, const Polyhedron& own, double allowed,
-                             double& deviation) {
+                             int exponent, double& deviation) {
   OracleReport report("envelope", "triangles");
   report.checked = input.triangles.size() + own.triangles.size();
-  const double there = farthest(own, input, allowed / 100, allowed);
-  const double back = farthest(input, own, allowed / 100, allowed);
+  Position worst_there, worst_back;
+  const double there = farthest(own, input, allowed / 100, allowed, &worst_there);
+  const double back = farthest(input, own, allowed / 100, allowed, &worst_back);
   deviation = std::max(there, back);
   report.figures.emplace_back("of the mesh from the input, at most", there);
   report.figures.emplace_back("of the input from the mesh, at most", back);
   // What the bounds are uncertain by is nobody's fault.
   const double most = allowed * 1.01;
-  if (there > most)
+  if (there > most) {
     report.fail("the mesh's surface is as far from the input as " +
-                std::to_string(there / allowed) + " envelopes");
-  if (back > most)
+                std::to_string(there / allowed) + " envelopes" + place_name(worst_there, exponent));
+  }
+  if (back > most) {
     report.fail("the input is as far from the mesh's surface as " + std::to_string(back / allowed) +
-                " envelopes");
+                " envelopes" + place_name(worst_back, exponent));
+  }
   return report;
 }
 
@@ -256,9 +278,11 @@ void broken(VerifyReport& report, const std::string& oracle, const std::string& 
 
 }  // namespace
 
-double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough) {
+double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough,
+                Position* place) {
   Farthest search(to, precision, enough);
   for (std::size_t t = 0; t < from.triangles.size(); ++t) search.look_at(corners_of(from, t));
+  if (place != nullptr) *place = search.place();
   return search.bound();
 }
 
@@ -318,7 +342,7 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   Polyhedron given = input;
   const int exponent = ordinary_exponent(given, own);
   const double diagonal = diagonal_of(given), allowed = share * diagonal;
-  for (OracleReport oracle : {check_distances(given, own, allowed, report.deviation),
+  for (OracleReport oracle : {check_distances(given, own, allowed, exponent, report.deviation),
                               check_volumes(given, own, allowed)}) {
     if (exponent != 0) {
       oracle.notes.push_back("lengths are in units of 2^" + std::to_string(exponent));

@@ -17,8 +17,10 @@ namespace tetproof::oracles {
 
 // An upper bound of the distance from any point of `from` to `to`, in doubles, in input units.
 // Exact but for `precision`, or for a tenth of `enough` if that is larger: distances so small are
-// not told apart. Neither may be empty, and not both bounds 0.
-double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough);
+// not told apart. Neither may be empty, and not both bounds 0. `place` gets a point of `from` that
+// is about so far away, if any is farther than a tenth of `enough`.
+double farthest(const Polyhedron& from, const Polyhedron& to, double precision, double enough,
+                Position* place = nullptr);
 
 // The faces of one tetrahedron, seen from outside, with the vertices that they use.
 Polyhedron boundary_of(const MeshFile& mesh);

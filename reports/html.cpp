@@ -100,6 +100,15 @@ std::string table_row(const Table& table, const std::vector<std::string>& cells)
   return row + "</tr>\n";
 }
 
+// An image cannot run what somebody else's results may hold.
+std::string picture_row(const Table& table, const std::string& svg) {
+  if (svg.empty()) return {};
+  return fmt::format(
+      "<tr><td class=\"text\" colspan=\"{}\"><details><summary>The place</summary><img alt=\"The "
+      "place\" loading=\"lazy\" src=\"data:image/svg+xml;base64,{}\"></details></td></tr>\n",
+      table.header.size(), base64(svg.data(), svg.size()));
+}
+
 std::string notes_list(const std::vector<std::string>& notes) {
   if (notes.empty()) return "";
   std::string text = "<ul class=\"notes\">";
@@ -347,7 +356,10 @@ std::string to_html(const Table& table) {
     const char* kind = table.heat_map ? " class=\"heat\"" : "";
     text += fmt::format("<div class=\"scroll\"><table{}><thead>", kind) + header_row(table) +
             "</thead><tbody>\n";
-    for (const auto& row : table.rows) text += table_row(table, row);
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+      text += table_row(table, table.rows[i]);
+      if (i < table.pictures.size()) text += picture_row(table, table.pictures[i]);
+    }
     text += "</tbody></table></div>\n";
   }
   return text + notes_list(table.notes) + "</div>\n";

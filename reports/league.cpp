@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <set>
 #include <stdexcept>
 
 #include "reports/measures.h"
+#include "reports/picture.h"
 #include "reports/statistics.h"
 
 namespace tetproof {
@@ -72,6 +74,17 @@ std::vector<std::string> by_success(const Selection& selection) {
   std::stable_sort(meshers.begin(), meshers.end(),
                    [&](const auto& a, const auto& b) { return share(a) > share(b); });
   return meshers;
+}
+
+// A measure of the solver times that power of the number of unknowns; nothing of fewer unknowns
+// than tell something, or if the solver gave up.
+Value of_solver(double (*measure)(const SolverColumns&), double power) {
+  constexpr std::uint64_t kLeastUnknowns = 50;
+  return [=](const RunRow& row) -> std::optional<double> {
+    const auto solver = solver_columns(row.mesh_json);
+    if (!solver || !solver->converged || solver->unknowns < kLeastUnknowns) return std::nullopt;
+    return measure(*solver) * std::pow(static_cast<double>(solver->unknowns), power);
+  };
 }
 
 }  // namespace
@@ -163,6 +176,38 @@ Table family_table(const Selection& selection, const Families& families) {
   return table;
 }
 
+Table solver_table(const Selection& selection) {
+  Table table;
+  table.name = "league-solver";
+  table.title = "What a solver sees";
+  table.header = {
+      "Mesher",         "Meshes", "unknowns n", "iterations / n^(1/3)", "condition / n^(2/3)",
+      "error x n^(2/3)"};
+  const Value unknowns =
+      of_solver([](const SolverColumns& s) { return static_cast<double>(s.unknowns); }, 0);
+  const Value iterations =
+      of_solver([](const SolverColumns& s) { return static_cast<double>(s.iterations); }, -1.0 / 3);
+  const Value condition = of_solver([](const SolverColumns& s) { return s.condition; }, -2.0 / 3);
+  const Value error = of_solver([](const SolverColumns& s) { return s.mean_error; }, 2.0 / 3);
+  for (const std::string& mesher : by_success(selection)) {
+    const Rows successes = selection.ok_runs(mesher);
+    const std::size_t meshes = values_of(successes, unknowns).size();
+    if (meshes == 0) continue;
+    const auto median_of = [&](const Value& value, int digits) {
+      return fixed(quantile(values_of(successes, value), 0.5), digits);
+    };
+    table.rows.push_back({mesher, std::to_string(meshes), median_of(unknowns, 0),
+                          median_of(iterations, 2), median_of(condition, 2), median_of(error, 3)});
+  }
+  table.notes = {
+      "Poisson's equation with linear elements on the tetrahedra inside, for a solution that is "
+      "known: iterations of conjugate gradients (preconditioned by the diagonal, to 1e-8), the "
+      "condition number that they tell, and the error (root of the mean square). Each with the "
+      "power of n that a uniform refinement leaves as it is, so that they compare at equal "
+      "unknowns: less is better. Medians; meshes with fewer than 50 unknowns are left out."};
+  return table;
+}
+
 Table wrong_result_table(const Selection& selection) {
   Table table;
   table.name = "league-wrong";
@@ -173,6 +218,7 @@ Table wrong_result_table(const Selection& selection) {
       const RunRow* row = selection.run(mesher, model);
       if (row == nullptr || row->disposition != Disposition::wrong_result) continue;
       table.rows.push_back({mesher, short_name(row->model_name), row->promise, row->reason});
+      table.pictures.push_back(picture_in(row->verdict_json));
     }
   }
   return table;

@@ -39,7 +39,12 @@ Table league_table(const Selection& selection);
 // Successes of runs, a row per family. No rows without families.
 Table family_table(const Selection& selection, const Families& families);
 
-// Every mesh that was delivered and is wrong, with the oracle's sentence.
+// Poisson's equation on the meshes, in measures that do not grow with the number of unknowns, so
+// that meshes of other sizes can be compared. No rows if no solver was asked (run --solver).
+Table solver_table(const Selection& selection);
+
+// Every mesh that was delivered and is wrong, with the oracle's sentence, and a picture of the
+// place if the campaign made one.
 Table wrong_result_table(const Selection& selection);
 
 // Models by meshers: seconds of a success, else the disposition. A heat map in the page.

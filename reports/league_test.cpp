@@ -88,6 +88,29 @@ TEST_F(League, TheMatrixHasACellForEachRun) {
   EXPECT_EQ(to_html(league_table(campaign())).find("heat"), std::string::npos);
 }
 
+// 1000 unknowns: their cube root is 10. A mesh of few unknowns, and one whose solver gave up, do
+// not count.
+TEST_F(League, ASolverComparesAtEqualUnknowns) {
+  Selection selection = campaign();
+  EXPECT_TRUE(solver_table(selection).rows.empty());
+  const auto told = [](int unknowns, bool converged) {
+    return "{\"solver\": {\"unknowns\": " + std::to_string(unknowns) +
+           ", \"iterations\": 35, \"condition\": 250.0, \"mean_error\": 0.004, \"converged\": " +
+           (converged ? "true" : "false") + "}}";
+  };
+  auto& runs = selection.runs.at("cdt");
+  runs.at("hash-a").mesh_json = told(1000, true);
+  runs.at("hash-b").mesh_json = told(8, true);
+  runs.at("hash-c").mesh_json = told(27000, false);
+  const auto found = cells(solver_table(selection));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found.at("cdt").at("Meshes"), "1");
+  EXPECT_EQ(found.at("cdt").at("unknowns n"), "1000");
+  EXPECT_EQ(found.at("cdt").at("iterations / n^(1/3)"), "3.50");
+  EXPECT_EQ(found.at("cdt").at("condition / n^(2/3)"), "2.50");
+  EXPECT_EQ(found.at("cdt").at("error x n^(2/3)"), "0.400");
+}
+
 TEST_F(League, WrongResultsComeWithTheOraclesSentence) {
   Selection selection = campaign();
   EXPECT_TRUE(wrong_result_table(selection).rows.empty());
@@ -99,6 +122,11 @@ TEST_F(League, WrongResultsComeWithTheOraclesSentence) {
   EXPECT_EQ(table.rows[0][0], "tetgen");
   EXPECT_EQ(table.rows[0][1], "b");
   EXPECT_EQ(table.rows[0][3], row.reason);
+  EXPECT_EQ(table.pictures, std::vector<std::string>{""});
+  EXPECT_EQ(to_html(table).find("<img"), std::string::npos);
+  row.verdict_json = R"({"verdict": "broken", "picture": "<svg/>"})";
+  const std::string page = to_html(wrong_result_table(selection));
+  EXPECT_NE(page.find("src=\"data:image/svg+xml;base64,PHN2Zy8+\""), std::string::npos);
 }
 
 }  // namespace

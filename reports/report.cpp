@@ -92,7 +92,7 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
       .side_by_side = true;
   add("league", "League",
       "Every mesher on every model, judged by the same oracles; the most successful first.",
-      {league_table(selection), family_table(selection, families)},
+      {league_table(selection), family_table(selection, families), solver_table(selection)},
       {cactus_chart(selection), size_cactus_chart(selection)});
   add("matrix", "League: wrong results, and model by model", "",
       {wrong_result_table(selection), league_matrix(selection, families)}, {})

@@ -278,6 +278,17 @@ Disposition disposition_from_name(const std::string& name) {
   return static_cast<Disposition>(found - kDispositions.begin());
 }
 
+std::optional<SolverColumns> solver_columns(const std::string& mesh_json) {
+  const Json json = Json::parse(mesh_json, nullptr, false);
+  if (!json.is_object() || !json.contains("solver")) return std::nullopt;
+  const Json& solver = json["solver"];
+  return SolverColumns{.unknowns = solver.value("unknowns", std::uint64_t{0}),
+                       .iterations = solver.value("iterations", std::uint64_t{0}),
+                       .converged = solver.value("converged", false),
+                       .condition = solver.value("condition", 0.0),
+                       .mean_error = solver.value("mean_error", 0.0)};
+}
+
 std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std::string& member) {
   Json json = Json::parse(json_text, nullptr, false);
   if (!member.empty() && json.is_object()) json = json.value(member, Json());

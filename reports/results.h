@@ -53,6 +53,13 @@ struct MeshColumns {
   std::optional<double> min_gamma, mean_gamma, gamma_percent, min_sicn, mean_sicn;
 };
 
+// What a solver sees of the tetrahedra inside (reports/poisson.h).
+struct SolverColumns {
+  std::uint64_t unknowns = 0, iterations = 0;
+  bool converged = false;
+  double condition = 0, mean_error = 0;
+};
+
 struct RunRow {
   RunKey key;
   std::string model_name, model_path;
@@ -93,6 +100,9 @@ bool supersedes(const RunRow& row, const RunRow& other);
 // The columns found in a measured object (no member), or in its member `inside`, or in the member
 // `refined` of a mesher's statistics; a member without tetrahedra counts as absent.
 std::optional<MeshColumns> mesh_columns(const std::string& json_text, const std::string& member);
+
+// Nothing if no solver was asked.
+std::optional<SolverColumns> solver_columns(const std::string& mesh_json);
 
 class ResultsDatabase {
  public:

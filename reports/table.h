@@ -15,6 +15,8 @@ struct Table {
   std::string caption = {};        // below the title: the conditions, such as limits of the runs
   // Columns of commands and the like, which the page shows on request.
   std::vector<std::size_t> folded_columns = {};
+  // SVG for each row, which the page shows on request in a row below it; empty ones are none.
+  std::vector<std::string> pictures = {};
   // The page colours cells by what they say (a number or the name of a disposition), and sorts by
   // the column whose head is clicked.
   bool heat_map = false;

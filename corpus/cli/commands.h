@@ -29,6 +29,7 @@ struct RunArguments {
   unsigned jobs = 1;
   bool verify = true, sidecars = false;
   bool ablation = false;  // ablation_names() as well
+  bool solver = false;
 };
 
 struct MeshersArguments {
@@ -48,6 +49,7 @@ struct MergeArguments {
 
 struct ConvertArguments {
   std::string input, output;  // surface files
+  std::string solids;         // where to write which shells bound each solid; empty: nowhere
 };
 
 struct UnionArguments {
@@ -65,6 +67,12 @@ struct ReportArguments {
 
 struct MeasureArguments {
   std::string mesh, output;  // no output: standard output
+  bool solver = false;
+};
+
+struct PictureArguments {
+  std::string input, mesh, verdict, sentence, output;
+  bool own_surface = false;  // the mesh is judged by an envelope
 };
 
 struct GateArguments {
@@ -129,6 +137,7 @@ int measure_command(const MeasureArguments& arguments);
 int export_command(const ExportArguments& arguments);
 int merge_command(const MergeArguments& arguments);
 int convert_command(const ConvertArguments& arguments);
+int picture_command(const PictureArguments& arguments);
 int gate_command(const GateArguments& arguments);
 int classify_command(const ClassifyArguments& arguments);
 int slurm_command(const SlurmArguments& arguments);

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "corpus/cli/commands.h"
+#include "corpus/solids.h"
 #include "oracles/surface_file.h"
 
 namespace tetproof {
@@ -28,7 +29,9 @@ void write_medit(fmt::ostream& out, const Polyhedron& surface) {
   for (const Position& p : surface.vertices) out.print("{} 0\n", text_of(p));
   out.print("Triangles\n{}\n", surface.triangles.size());
   for (const auto& t : surface.triangles) {
-    out.print("{} {} {} 1\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    const std::size_t at = static_cast<std::size_t>(&t - surface.triangles.data());
+    out.print("{} {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1,
+              surface.labels.empty() ? 1 : surface.labels[at]);
   }
   out.print("End\n");
 }
@@ -44,6 +47,19 @@ void write_stl(fmt::ostream& out, const Polyhedron& surface) {
   out.print("endsolid model\n");
 }
 
+void label_shells(Polyhedron& surface, const std::string& file) {
+  const Solids found = solids_of(surface);
+  for (const std::size_t shell : found.shell_of_triangle) {
+    surface.labels.push_back(static_cast<std::int32_t>(shell + 1));
+  }
+  auto out = fmt::output_file(file);
+  for (const Solid& solid : found.solids) {
+    out.print("{}", solid.outer + 1);
+    for (const std::size_t cavity : solid.cavities) out.print(" {}", cavity + 1);
+    out.print("\n");
+  }
+}
+
 }  // namespace
 
 int convert_command(const ConvertArguments& arguments) {
@@ -53,7 +69,9 @@ int convert_command(const ConvertArguments& arguments) {
                      : extension == ".stl"  ? write_stl
                                             : nullptr;
   if (write == nullptr) throw UsageError("a name that ends in .off, .mesh or .stl is expected");
-  const Polyhedron surface = oracles::read_surface(arguments.input);
+  Polyhedron surface = oracles::read_surface(arguments.input);
+  surface.labels.clear();
+  if (!arguments.solids.empty()) label_shells(surface, arguments.solids);
   auto out = fmt::output_file(arguments.output);
   write(out, surface);
   return 0;

@@ -4,11 +4,16 @@
 
 #include "corpus/cli/commands.h"
 #include "reports/mesh_quality.h"
+#include "reports/poisson.h"
 
 namespace tetproof {
 
 int measure_command(const MeasureArguments& arguments) {
-  const std::string json = to_json(measure(oracles::read_mesh(arguments.mesh)));
+  const oracles::MeshFile mesh = oracles::read_mesh(arguments.mesh);
+  std::string json = to_json(measure(mesh));
+  if (arguments.solver) {
+    json.replace(json.rfind('}'), 1, ",\"solver\":" + to_json(solve_poisson(mesh)) + "}");
+  }
   if (arguments.output.empty()) {
     fmt::print("{}\n", json);
     return 0;

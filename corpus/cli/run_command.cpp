@@ -90,6 +90,7 @@ CampaignOptions campaign_options(const RunArguments& arguments) {
 #else
   campaign.verify = false;
 #endif
+  campaign.solver = arguments.solver;
   campaign.terminal = isatty(STDOUT_FILENO) != 0;
   return campaign;
 }

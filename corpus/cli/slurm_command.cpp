@@ -42,6 +42,7 @@ std::vector<std::string> task_of(const RunArguments& run) {
     option("--keep-tetrahedra", std::to_string(run.keep_tetrahedra));
   }
   if (run.sidecars) words.emplace_back("--exact");
+  if (run.solver) words.emplace_back("--solver");
   if (!run.verify) words.emplace_back("--no-verify");
   return words;
 }

@@ -52,6 +52,8 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
   app->add_option("--keep", a.keep,
                   "Folder in which to keep the meshes, and the chamfered surfaces of ours");
   app->add_option("--keep-tetrahedra", a.keep_tetrahedra, "Keep no mesh with more than these");
+  app->add_flag("--solver", a.solver,
+                "Solve Poisson's equation on each mesh, inside: iterations, condition, error");
   app->add_flag("--verify,!--no-verify", a.verify, "Ask the oracles about each mesh (the default)");
   app->add_flag(
       "--exact", a.sidecars,
@@ -119,6 +121,10 @@ CLI::App* declare_convert(CLI::App& tetproof, ConvertArguments& a) {
   CLI::App* app = tetproof.add_subcommand("convert", "A surface in another format, exactly");
   app->add_option("input", a.input, "A surface file")->required();
   app->add_option("output", a.output, "FILE.off, FILE.mesh or FILE.stl")->required();
+  app->add_option(
+      "--solids", a.solids,
+      "Number the shells from 1, as labels of FILE.mesh, and write a line for each solid "
+      "here: the shell around it and those of its cavities");
   return app;
 }
 
@@ -127,6 +133,21 @@ CLI::App* declare_measure(CLI::App& tetproof, MeasureArguments& a) {
       tetproof.add_subcommand("measure", "Angles, counts and orientation of a mesh file, as JSON");
   app->add_option("mesh", a.mesh, "A .mesh, .msh, .vtu, .node or .tet file")->required();
   app->add_option("-o,--output", a.output, "Where to write it (default: standard output)");
+  app->add_flag("--solver", a.solver, "Solve Poisson's equation on it, too");
+  return app;
+}
+
+CLI::App* declare_picture(CLI::App& tetproof, PictureArguments& a) {
+  CLI::App* app = tetproof.add_subcommand(
+      "picture", "The place that an oracle names, in the mesh and in the input, as SVG");
+  app->add_option("input", a.input, "The surface")->required();
+  app->add_option("mesh", a.mesh, "The mesh that was judged")->required();
+  app->add_option("-o,--output", a.output, "FILE.svg")->required();
+  CLI::Option* verdict =
+      app->add_option("--verdict", a.verdict, "What tetproof verify --json says of it")
+          ->check(CLI::ExistingFile);
+  app->add_option("--sentence", a.sentence, "What an oracle says, instead")->excludes(verdict);
+  app->add_flag("--own-surface", a.own_surface, "It was judged by an envelope");
   return app;
 }
 
@@ -321,6 +342,8 @@ int parse_and_run(int argc, char** argv) {
   const CLI::App* run_app = declare_run(app, run);
   const CLI::App* report_app = declare_report(app, report);
   declare_measure(app, measure);
+  PictureArguments picture;
+  const CLI::App* picture_app = declare_picture(app, picture);
   ExportArguments exporting;
   const CLI::App* export_app = declare_export(app, exporting);
   MergeArguments merging;
@@ -360,6 +383,7 @@ int parse_and_run(int argc, char** argv) {
   if (run_app->parsed()) return run_command(run);
   if (report_app->parsed()) return report_command(report);
   if (export_app->parsed()) return export_command(exporting);
+  if (picture_app->parsed()) return picture_command(picture);
   if (gate_app->parsed()) return gate_command(gate);
   if (classify_app->parsed()) return classify_command(classification);
   if (slurm_app->parsed()) return slurm_command(slurm);

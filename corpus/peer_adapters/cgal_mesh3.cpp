@@ -64,8 +64,10 @@ Complex complex_in(const Polyhedron& polyhedron, bool optimize) {
                           parameters::facet_distance = kFacetDistance * size,
                           parameters::cell_radius_edge_ratio = 3,
                           parameters::cell_size = kCellSize * size);
-  if (optimize) return CGAL::make_mesh_3<Complex>(domain, criteria);
-  return CGAL::make_mesh_3<Complex>(domain, criteria, parameters::no_perturb(),
+  // The surface bounds a solid, and so has the mesh to: without this its boundary may touch itself.
+  const auto topology = parameters::manifold();
+  if (optimize) return CGAL::make_mesh_3<Complex>(domain, criteria, topology);
+  return CGAL::make_mesh_3<Complex>(domain, criteria, topology, parameters::no_perturb(),
                                     parameters::no_exude());
 }
 

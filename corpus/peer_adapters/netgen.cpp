@@ -7,32 +7,35 @@ namespace nglib {
 }
 
 #include <array>
+#include <cstdint>
 #include <stdexcept>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "corpus/peer_adapters/adapter.h"
+#include "oracles/input_surface.h"
 
 namespace {
 
-// Six times the volume that the surface bounds if it is oriented outwards.
-double signed_volume(const delmesher::Surface& surface) {
-  double sum = 0;
-  for (const auto& [a, b, c] : surface.triangles) {
-    const auto &p = surface.vertices[a], &q = surface.vertices[b], &r = surface.vertices[c];
-    sum += p[0] * (q[1] * r[2] - q[2] * r[1]) + p[1] * (q[2] * r[0] - q[0] * r[2]) +
-           p[2] * (q[0] * r[1] - q[1] * r[0]);
-  }
-  return sum;
+// The triangles, each oriented away from the inside as parity has it: Netgen needs that, and a
+// surface may have some of its shells the other way round.
+std::vector<std::array<std::uint32_t, 3>> oriented(const delmesher::Surface& surface) {
+  tetproof::oracles::Polyhedron polyhedron;
+  for (const auto& vertex : surface.vertices) polyhedron.vertices.push_back(vertex);
+  for (const auto& triangle : surface.triangles) polyhedron.triangles.push_back(triangle);
+  tetproof::oracles::ExactPoints points;
+  std::string why = points.assign(polyhedron.vertices);
+  tetproof::oracles::InputSurface input;
+  if (why.empty()) why = input.assign(polyhedron, points);
+  if (!why.empty()) throw std::runtime_error(why);
+  return input.triangles();
 }
 
-// Netgen needs triangles that are oriented outwards; ours may all be oriented inwards.
 void fill(nglib::Ng_Mesh* mesh, const delmesher::Surface& surface) {
-  const bool inwards = signed_volume(surface) < 0;
   for (std::array<double, 3> vertex : surface.vertices) nglib::Ng_AddPoint(mesh, vertex.data());
-  for (const auto& triangle : surface.triangles) {
+  for (const auto& triangle : oriented(surface)) {
     std::array<int, 3> corners;  // counted from 1
     for (std::size_t i = 0; i < 3; ++i) corners[i] = static_cast<int>(triangle[i]) + 1;
-    if (inwards) std::swap(corners[1], corners[2]);
     nglib::Ng_AddSurfaceElement(mesh, nglib::NG_TRIG, corners.data());
   }
 }

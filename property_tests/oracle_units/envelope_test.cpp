@@ -53,9 +53,11 @@ TEST(Envelope, DistancesAreBoundedFromAboveAndNearlySo) {
     spiked.triangles.push_back({a, b, 8U});
   }
   for (const double precision : {1e-2, 1e-4}) {
-    const double there = farthest(spiked, cube(), precision, 0);
+    Position place{};
+    const double there = farthest(spiked, cube(), precision, 0, &place);
     EXPECT_GE(there, 0.25);
     EXPECT_LE(there, 0.25 + precision * 1.0001);
+    EXPECT_EQ(place, (Position{0.5, 0.6, 1.25}));
   }
   // The point of the face z = 1 below the spike's apex, by a search over the face.
   double exact = 0;
@@ -91,7 +93,15 @@ TEST(Envelope, ASurfaceInsideOutBoundsTheSameSolid) {
 TEST(Envelope, WhatEachOracleIsFor) {
   MeshFile far = cube_mesh();
   for (Position& p : far.vertices) p[0] += 1.1 * kAllowed;
-  EXPECT_EQ(failed_first(judged(far)), "envelope");
+  const VerifyReport report = judged(far);
+  EXPECT_EQ(failed_first(report), "envelope");
+  // It says where, on the side that was moved away.
+  const auto& oracles = report.oracles;
+  const auto envelope = std::find_if(oracles.begin(), oracles.end(),
+                                     [](const OracleReport& o) { return o.name == "envelope"; });
+  ASSERT_NE(envelope, oracles.end());
+  EXPECT_NE(envelope->findings.at(0).find(" envelopes at (1.019"), std::string::npos)
+      << envelope->findings.at(0);
 
   // All that there is lies on the input; a part of the input is far from it.
   MeshFile less = cube_mesh();

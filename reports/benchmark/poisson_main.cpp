@@ -2,11 +2,10 @@
 // line of JSON each.
 #include <fmt/format.h>
 
-#include <cmath>
 #include <cstdio>
 #include <exception>
 
-#include "reports/benchmark/poisson.h"
+#include "reports/poisson.h"
 
 int main(int argc, char** argv) {
   if (argc < 2) {
@@ -15,13 +14,9 @@ int main(int argc, char** argv) {
   }
   try {
     for (int i = 1; i < argc; ++i) {
-      const auto run = tetproof::benchmark::solve_poisson(tetproof::oracles::read_mesh(argv[i]));
-      fmt::print(
-          "{{\"tetrahedra\": {}, \"unknowns\": {}, \"iterations\": {}, \"converged\": {}, "
-          "\"per_root\": {:.4f}, \"largest_error\": {:.3e}, \"mean_error\": {:.3e}}}\n",
-          run.tetrahedra, run.unknowns, run.iterations, run.converged,
-          run.iterations / std::cbrt(static_cast<double>(run.unknowns)), run.largest_error,
-          run.mean_error);
+      constexpr unsigned kAnyNumber = -1;
+      fmt::print("{}\n", tetproof::to_json(tetproof::solve_poisson(
+                             tetproof::oracles::read_mesh(argv[i]), kAnyNumber)));
     }
   } catch (const std::exception& error) {
     fmt::print(stderr, "tetproof-poisson: {}\n", error.what());

@@ -1,4 +1,6 @@
-#include "reports/benchmark/poisson.h"
+#include "reports/poisson.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +10,7 @@
 #include "oracles/vectors.h"
 #include "reports/mesh_quality.h"
 
-namespace tetproof::benchmark {
+namespace tetproof {
 namespace {
 
 using oracles::cross;
@@ -151,9 +153,65 @@ double inner(const std::vector<double>& u, const std::vector<double>& v) {
   return sum;
 }
 
+// The tridiagonal matrix that conjugate gradients make on their way (Lanczos).
+class Tridiagonal {
+ public:
+  // Of one iteration: the length of its step, and the share of the direction before it that the
+  // next direction takes.
+  void add(double step, double share) {
+    diagonal_.push_back(1 / step + (diagonal_.empty() ? 0 : share_ / step_));
+    // Squares of what stands beside the diagonal.
+    beside_.push_back(share / (step * step));
+    step_ = step;
+    share_ = share;
+  }
+
+  // The largest eigenvalue over the smallest one; 0 if there is none.
+  double condition() const {
+    if (diagonal_.empty()) return 0;
+    double high = 0;
+    for (std::size_t i = 0; i < diagonal_.size(); ++i) {
+      const double before = i == 0 ? 0 : std::sqrt(beside_[i - 1]);
+      const double after = i + 1 == diagonal_.size() ? 0 : std::sqrt(beside_[i]);
+      high = std::max(high, diagonal_[i] + before + after);
+    }
+    const double largest = eigenvalue(diagonal_.size() - 1, high);
+    const double smallest = eigenvalue(0, high);
+    return smallest > 0 ? largest / smallest : 0;
+  }
+
+ private:
+  // How many eigenvalues are below x, by Sturm's sequence.
+  std::size_t count_below(double x) const {
+    constexpr double kTiny = 1e-300;
+    std::size_t count = 0;
+    double last = 1;
+    for (std::size_t i = 0; i < diagonal_.size(); ++i) {
+      last = diagonal_[i] - x - (i == 0 ? 0 : beside_[i - 1] / last);
+      if (last == 0) last = kTiny;
+      count += last < 0;
+    }
+    return count;
+  }
+
+  // The one that `rank` others are below, by bisection of the logarithm; all are positive and at
+  // most `high`.
+  double eigenvalue(std::size_t rank, double high) const {
+    double low = 1e-18 * high;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = std::sqrt(low) * std::sqrt(high);
+      (count_below(middle) > rank ? high : low) = middle;
+    }
+    return high;
+  }
+
+  std::vector<double> diagonal_, beside_;
+  double step_ = 1, share_ = 0;
+};
+
 // Improves x on the vertices that are not fixed.
 void conjugate_gradients(const Problem& problem, const std::vector<std::uint8_t>& fixed,
-                         std::vector<double>& x, PoissonRun& run) {
+                         unsigned most_iterations, std::vector<double>& x, PoissonRun& run) {
   constexpr double kResidual = 1e-8;
   const std::size_t n = x.size();
   std::vector<double> residual(n), z(n), direction(n), product(n), inverse(n);
@@ -164,7 +222,9 @@ void conjugate_gradients(const Problem& problem, const std::vector<std::uint8_t>
     direction[v] = z[v] = inverse[v] * residual[v];
   }
   const double goal = kResidual * kResidual * inner(residual, residual);
-  const auto most = static_cast<unsigned>(10 * run.unknowns + 100);
+  const auto most =
+      static_cast<unsigned>(std::min<std::uint64_t>(10 * run.unknowns + 100, most_iterations));
+  Tridiagonal seen;
   double rz = inner(residual, z);
   while (!(run.converged = inner(residual, residual) <= goal) && run.iterations < most) {
     ++run.iterations;
@@ -177,13 +237,15 @@ void conjugate_gradients(const Problem& problem, const std::vector<std::uint8_t>
     }
     const double before = rz;
     rz = inner(residual, z);
+    seen.add(step, rz / before);
     for (std::size_t v = 0; v < n; ++v) direction[v] = z[v] + rz / before * direction[v];
   }
+  run.condition = seen.condition();
 }
 
 }  // namespace
 
-PoissonRun solve_poisson(const oracles::MeshFile& mesh) {
+PoissonRun solve_poisson(const oracles::MeshFile& mesh, unsigned most_iterations) {
   PoissonRun run;
   const std::vector<Tet> tetrahedra = inside_of(mesh);
   run.tetrahedra = tetrahedra.size();
@@ -195,7 +257,7 @@ PoissonRun solve_poisson(const oracles::MeshFile& mesh) {
   const Problem problem = assemble(points, tetrahedra, solution);
   std::vector<double> x(points.size());
   for (std::size_t v = 0; v < x.size(); ++v) x[v] = fixed[v] != 0 ? solution.value(points[v]) : 0;
-  conjugate_gradients(problem, fixed, x, run);
+  conjugate_gradients(problem, fixed, most_iterations, x, run);
   double largest = 0, volume = 0;
   for (std::size_t v = 0; v < x.size(); ++v) {
     if (problem.volume[v] == 0) continue;
@@ -210,4 +272,14 @@ PoissonRun solve_poisson(const oracles::MeshFile& mesh) {
   return run;
 }
 
-}  // namespace tetproof::benchmark
+std::string to_json(const PoissonRun& run) {
+  return fmt::format(
+      "{{\"tetrahedra\": {}, \"unknowns\": {}, \"iterations\": {}, \"converged\": {}, "
+      "\"per_root\": {:.4f}, \"condition\": {:.4e}, \"largest_error\": {:.3e}, \"mean_error\": "
+      "{:.3e}}}",
+      run.tetrahedra, run.unknowns, run.iterations, run.converged,
+      run.unknowns == 0 ? 0 : run.iterations / std::cbrt(static_cast<double>(run.unknowns)),
+      run.condition, run.largest_error, run.mean_error);
+}
+
+}  // namespace tetproof

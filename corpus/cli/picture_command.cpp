@@ -1,0 +1,38 @@
+#include <fmt/core.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "corpus/cli/commands.h"
+#include "oracles/envelope.h"
+#include "oracles/mesh_file.h"
+#include "oracles/surface_file.h"
+#include "reports/picture.h"
+
+namespace tetproof {
+
+int picture_command(const PictureArguments& arguments) {
+  std::string sentence = arguments.sentence;
+  if (sentence.empty()) {
+    std::ostringstream verdict;
+    verdict << std::ifstream(arguments.verdict).rdbuf();
+    sentence = sentence_with_place(verdict.str());
+  }
+  const oracles::MeshFile mesh = oracles::read_mesh(arguments.mesh);
+  oracles::Polyhedron surface = oracles::read_surface(arguments.input);
+  // The oracles judge such a mesh by its own boundary, but for the distance.
+  const bool is_own = arguments.own_surface && !sentence.starts_with("envelope:");
+  if (is_own) surface = oracles::boundary_of(mesh);
+  const std::string svg = picture_of(surface, mesh, sentence);
+  if (svg.empty()) {
+    fmt::print(stderr, "tetproof: {}: no oracle names a place\n", arguments.verdict);
+    return 1;
+  }
+  std::ofstream file(arguments.output);
+  file << svg;
+  file.close();
+  if (!file) throw std::runtime_error(arguments.output + ": cannot be written");
+  return 0;
+}
+
+}  // namespace tetproof
