@@ -350,8 +350,16 @@ class ModelReader {
     const bool turned = mirrored(matrices);
     std::int32_t label = 0;
     const Element& object = find_object(name, id);
+    const auto modifiers = modifiers_of(id);
+    std::uint64_t number = 0;
     for (const Element* list : mesh.all(prefix(name) + "triangles")) {
       for (const Element* triangle : list->all(prefix(name) + "triangle")) {
+        const std::uint64_t own = number++;
+        if (std::ranges::any_of(modifiers, [own](const auto& range) {
+              return range[0] <= own && own <= range[1];
+            })) {
+          continue;
+        }
         std::array<Index, 3> corners;
         for (int k = 0; k < 3; ++k) {
           const std::string key = std::string("v") + "123"[k];
@@ -369,6 +377,33 @@ class ModelReader {
         materials_.push_back(material_of(name, object, *triangle));
       }
     }
+  }
+
+  // The first and the last triangle of each volume that PrusaSlicer, in a file of its own, calls
+  // something else than a part of the object. It writes one model.
+  std::vector<std::array<std::uint64_t, 2>> modifiers_of(const std::string& id) const {
+    std::vector<std::array<std::uint64_t, 2>> result;
+    const std::string file = "Metadata/Slic3r_PE_model.config";
+    if (parts_.size() != 1 || !archive_.contains(file)) return result;
+    const std::string text = archive_.contents(file);
+    const auto config = XmlReader(path_ + ", " + file, text).read();
+    for (const Element* object : config->all("object")) {
+      if (needed(*object, "id") != id) continue;
+      for (const Element* volume : object->all("volume")) {
+        const auto is_other = [](const Element* m) {
+          const std::string *key = m->attribute("key"), *value = m->attribute("value");
+          return key != nullptr && *key == "volume_type" && value != nullptr &&
+                 *value != "ModelPart";
+        };
+        if (std::ranges::none_of(volume->all("metadata"), is_other)) continue;
+        const auto end = [&](const char* name) {
+          return std::uint64_t{
+              TextReader(path_, needed(*volume, name), '\0').index(0, 0xffffffffU)};
+        };
+        result.push_back({end("firstid"), end("lastid")});
+      }
+    }
+    return result;
   }
 
   // The numbers of the group and of its member that a triangle names, or the object for it; empty

@@ -148,7 +148,7 @@ TEST_F(Files, ArraysInAllPlacesAreTheSameToBothReaders) {
 }
 
 TEST_F(Files, PackagesAreTheSameToBothReaders) {
-  using delmesher::io::kTet, delmesher::io::model, delmesher::io::package;
+  using delmesher::io::kTet, delmesher::io::model, delmesher::io::package, delmesher::io::Zip;
   std::mt19937 random(3);
   int labelled = 0;
   const auto transform = [&] {
@@ -202,6 +202,26 @@ TEST_F(Files, PackagesAreTheSameToBothReaders) {
                                "transform='0 1 0 1 0 0 0 0 3 5 0 0'/>")));
   ASSERT_EQ(run("mesh -q " + path("a.3mf") + " -o " + path("a.msh")), 0);
   EXPECT_EQ(verify({path("a.3mf"), path("a.msh")}), 0);
+  // Within it a modifier of PrusaSlicer, which is no hollow.
+  std::string with_modifier = kTet;
+  with_modifier.insert(with_modifier.find("</vertices>"),
+                       "<vertex x='.1' y='.1' z='.01'/><vertex x='.2' y='.1' z='.01'/>"
+                       "<vertex x='.1' y='.2' z='.01'/><vertex x='.1' y='.1' z='.02'/>");
+  with_modifier.insert(with_modifier.find("</triangles>"),
+                       "<triangle v1='4' v2='6' v3='5'/><triangle v1='4' v2='5' v3='7'/>"
+                       "<triangle v1='5' v2='6' v3='7'/><triangle v1='6' v2='4' v3='7'/>");
+  const std::string config =
+      "<config><object id='1'><volume firstid='0' lastid='3'/><volume firstid='4' lastid='7'>"
+      "<metadata type='volume' key='volume_type' value='ParameterModifier'/></volume></object>"
+      "</config>";
+  write("a.3mf", Zip()
+                     .add("3D/3dmodel.model", model("<object id='1'>" + with_modifier + "</object>",
+                                                    "<item objectid='1'/>"))
+                     .add("Metadata/Slic3r_PE_model.config", config)
+                     .finish());
+  EXPECT_EQ(oracles::read_surface(path("a.3mf")).triangles.size(), 4U);
+  ASSERT_EQ(run("mesh -q " + path("a.3mf") + " -o " + path("a.mesh")), 0);
+  EXPECT_EQ(verify({path("a.3mf"), path("a.mesh")}), 0);
 }
 
 TEST_F(Files, WhatSaysNothingIsRefused) {

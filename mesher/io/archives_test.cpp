@@ -194,6 +194,42 @@ TEST(ThreeMf, ObjectsMayBeInOtherParts) {
             "a.3mf: the parts of the package have different units");
 }
 
+// As PrusaSlicer 2.5 writes it: names, and which triangles are those of modifiers, stand in a file
+// beside the model.
+TEST(ThreeMf, PrusaSlicersNamesAndModifiers) {
+  const std::string models =
+      model("<object id='1' type='model'>" + kTet + "</object><object id='2' type='model'>" + kTet +
+                "</object><object id='3' name='own' type='model'>" + kTet + "</object>",
+            "<item objectid='2'/><item objectid='1'/><item objectid='3'/>");
+  const std::string config =
+      "<?xml version='1.0' encoding='UTF-8'?>\n<config>\n"
+      " <object id='1' instances_count='1'>\n"
+      "  <metadata type='object' key='name' value='a &amp; b'/>\n"
+      "  <metadata type='object' key='layer_height' value='0.2'/>\n"
+      "  <volume firstid='0' lastid='1'>\n"
+      "   <metadata type='volume' key='name' value='a volume'/>\n"
+      "   <metadata type='volume' key='volume_type' value='ModelPart'/>\n"
+      "   <mesh edges_fixed='0'/>\n  </volume>\n"
+      "  <volume firstid='2' lastid='2'>\n"
+      "   <metadata type='volume' key='volume_type' value='ParameterModifier'/>\n  </volume>\n"
+      " </object>\n <object id='3'><metadata type='object' key='name' value='c'/></object>\n"
+      "</config>\n";
+  const auto with = [&](const std::string& text) {
+    return parse_surface(
+        Zip().add("3D/3dmodel.model", models).add("Metadata/Slic3r_PE_model.config", text).finish(),
+        "a.3mf");
+  };
+  const ReadResult read = with(config);
+  ASSERT_TRUE(read.ok()) << read.error;
+  EXPECT_EQ(read.names, (LabelNames{{1, "object 2"}, {2, "a & b"}, {3, "own"}}));
+  EXPECT_EQ(read.surface.labels, (std::vector<std::int32_t>{1, 1, 1, 1, 2, 2, 2, 3, 3, 3, 3}));
+  EXPECT_EQ(read.surface.triangles[6], (std::array<std::uint32_t, 3>{6, 4, 7}));
+  EXPECT_EQ(read.warnings,
+            std::vector<std::string>{"volumes of the type 'ParameterModifier' are left out"});
+  EXPECT_EQ(with("<config><object id='x'/></config>").error,
+            "a.3mf: in Metadata/Slic3r_PE_model.config, line 1: bad id 'x'");
+}
+
 TEST(ThreeMf, SupportsAreLeftOut) {
   const ReadResult read = parse_surface(
       package(model(

@@ -21,6 +21,8 @@ namespace {
 
 constexpr std::string_view kModelType = "/3dmodel", kUsualModel = "3D/3dmodel.model";
 constexpr std::string_view kNamespaces = "http://schemas.microsoft.com/3dmanufacturing/";
+// What PrusaSlicer tells of the objects of its only model, beside it.
+constexpr const char* kSlicerConfig = "Metadata/Slic3r_PE_model.config";
 constexpr std::string_view kProduction = "production/2015/06", kMaterials = "material/2015/02";
 
 // Rows m00 m01 m02, m10 ..., of a matrix that multiplies (x y z 1) from the right.
@@ -280,6 +282,49 @@ class ModelReader {
   bool found_ = false;
 };
 
+// An object in the eyes of PrusaSlicer: its triangles are those of several volumes, some of which
+// only change how others are printed.
+struct SlicedObject {
+  struct Volume {
+    std::uint64_t first = 0, last = 0;  // triangles
+    std::string type = "ModelPart";
+  };
+  std::string name;
+  std::vector<Volume> volumes;
+};
+
+std::map<std::uint64_t, SlicedObject> read_slicer_config(const std::string& text,
+                                                         Polling& polling) {
+  std::map<std::uint64_t, SlicedObject> objects;
+  SlicedObject* object = nullptr;
+  SlicedObject::Volume* volume = nullptr;
+  XmlTags tags(text, polling);
+  const auto number = [&](std::string_view name) {
+    std::uint64_t value = 0;
+    const std::string_view written = tags.attribute(name).value_or("");
+    if (!parse_integer(written, value))
+      tags.fail("bad " + std::string(name) + " " + in_quotes(written));
+    return value;
+  };
+  while (tags.next()) {
+    if (tags.name() == "object") {
+      object = tags.begins() ? &objects[number("id")] : nullptr;
+      volume = nullptr;
+    } else if (tags.name() == "volume" && object != nullptr) {
+      volume = nullptr;
+      if (!tags.begins()) continue;
+      object->volumes.push_back({.first = number("firstid"), .last = number("lastid")});
+      volume = &object->volumes.back();
+    } else if (tags.name() == "metadata" && tags.begins() && object != nullptr) {
+      const std::string_view key = tags.attribute("key").value_or("");
+      const std::string value = xml_text(tags.attribute("value").value_or(""));
+      if (volume == nullptr && key == "name") object->name = value;
+      if (volume != nullptr && key == "volume_type") volume->type = value;
+    }
+  }
+  return objects;
+}
+
 class Package {
  public:
   Package(std::string_view bytes, Polling& polling, SurfaceBuilder& builder)
@@ -290,6 +335,7 @@ class Package {
     const Model& model = part(root);
     builder_.note("coordinates are in the unit " + in_quotes(model.unit));
     if (model.build.empty()) fail({}, "the model builds nothing");
+    read_slicer_names();
     for (const Placement& item : model.build) place(root, item, {}, 0);
     for (const Use& use : uses_) add(use);
     const std::size_t labels = one_object() ? materials_.size() : objects_.size();
@@ -323,6 +369,12 @@ class Package {
       fail({},
            "in " + name + (placed ? ", " + describe(error.position) : "") + ": " + error.reason);
     }
+  }
+
+  void read_slicer_names() {
+    if (!archive_.contains(kSlicerConfig)) return;
+    sliced_ = read_part(
+        kSlicerConfig, [&](const std::string& text) { return read_slicer_config(text, polling_); });
   }
 
   std::string root_part() {
@@ -395,13 +447,39 @@ class Package {
     return at->second;
   }
 
+  // What PrusaSlicer tells of an object, if it does.
+  const SlicedObject* sliced(const Use& use) const {
+    const auto found = sliced_.find(use.id);
+    return found == sliced_.end() || parts_.size() > 1 ? nullptr : &found->second;
+  }
+
+  std::string name_of(const Use& use) const {
+    if (!use.object->name.empty()) return use.object->name;
+    const SlicedObject* told = sliced(use);
+    if (told != nullptr && !told->name.empty()) return told->name;
+    return "object " + std::to_string(use.id);
+  }
+
+  // Triangles of volumes that are no part of the solid.
+  std::vector<bool> left_out(const Use& use) {
+    std::vector<bool> result(use.object->triangles.size(), false);
+    const SlicedObject* told = sliced(use);
+    if (told == nullptr) return result;
+    for (const SlicedObject::Volume& volume : told->volumes) {
+      if (volume.type == "ModelPart") continue;
+      builder_.warn("volumes of the type " + in_quotes(volume.type) + " are left out");
+      for (std::uint64_t t = volume.first; t <= volume.last && t < result.size(); ++t) {
+        result[t] = true;
+      }
+    }
+    return result;
+  }
+
   void add(const Use& use) {
     const Object& object = *use.object;
     const auto& transforms = use.transforms;
-    if (!one_object()) {
-      builder_.name_label(objects_.at(&object),
-                          object.name.empty() ? "object " + std::to_string(use.id) : object.name);
-    }
+    if (!one_object()) builder_.name_label(objects_.at(&object), name_of(use));
+    const std::vector<bool> no_part = left_out(use);
     bool mirrored = false;
     for (const Transform* transform : transforms) mirrored ^= mirrors(*transform);
     const std::uint64_t first = builder_.vertex_count();
@@ -410,6 +488,7 @@ class Package {
       builder_.add_vertex(p[0], p[1], p[2], {});
     }
     for (std::size_t t = 0; t < object.triangles.size(); ++t) {
+      if (no_part[t]) continue;
       const auto& [a, b, c] = object.triangles[t];
       const auto corner = [&](std::uint32_t v) { return static_cast<std::uint32_t>(first + v); };
       const std::array corners = {corner(a), corner(mirrored ? c : b), corner(mirrored ? b : c)};
@@ -421,6 +500,7 @@ class Package {
   Polling& polling_;
   SurfaceBuilder& builder_;
   std::map<std::string, Model> parts_;
+  std::map<std::uint64_t, SlicedObject> sliced_;
   std::vector<Use> uses_;
   std::map<const Object*, std::int32_t> objects_;  // in use, with their labels
   std::map<Material, std::int32_t> materials_;     // the same, of the only object
