@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "mesher/cli/defects.h"
+#include "mesher/cli/help.h"
 #include "mesher/cli/nearest.h"
 #include "mesher/io/output.h"
 #include "mesher/io/read_mesh.h"
@@ -54,22 +55,41 @@ std::string range_text(const Bounds& bounds) {
   return bounds.high == kNoBound ? low : low + ", at most " + number(bounds.high);
 }
 
-CLI::Validator number_within(Bounds bounds) {
+CLI::Validator number_within(Bounds bounds, bool whole = false) {
   return CLI::Validator(
-      [bounds](std::string& text) -> std::string {
+      [bounds, whole](std::string& text) -> std::string {
         double value = 0;
         if (io::parse_double(text, value) != io::NumberStatus::ok) return "not a number: " + text;
+        if (whole && value != std::floor(value)) return "not a whole number: " + text;
         return bounds.allow(value) ? "" : "out of range: " + text + " (" + range_text(bounds) + ")";
       },
       "NUMBER");
 }
 
-void add_number(CLI::App& app, Given& given, const std::string& name, const char* help,
-                Bounds bounds) {
-  app.add_option_function<std::string>(
-         "--" + name, [&given, name](const std::string& text) { given.numbers[name] = text; }, help)
+// "largest angle (30)" -> "largest angle (30; above 0, at most 90)", where there is a limit that
+// one may come near.
+std::string with_range(std::string help, const Bounds& bounds) {
+  constexpr double kFar = 1e6;
+  if (bounds.high > kFar) return help;
+  if (!help.ends_with(')')) return help + " (" + range_text(bounds) + ")";
+  help.back() = ';';
+  return help + " " + range_text(bounds) + ")";
+}
+
+CLI::Option* add_number(CLI::App& app, Given& given, const std::string& name, const char* help,
+                        Bounds bounds) {
+  return app
+      .add_option_function<std::string>(
+          "--" + name, [&given, name](const std::string& text) { given.numbers[name] = text; },
+          with_range(help, bounds))
       ->check(number_within(bounds))
       ->type_name("X");
+}
+
+// A whole number.
+void add_count(CLI::App& app, Given& given, const std::string& name, const char* help,
+               Bounds bounds) {
+  add_number(app, given, name, help, bounds)->check(number_within(bounds, true))->type_name("N");
 }
 
 constexpr const char* kAuto = "auto";
@@ -77,7 +97,9 @@ constexpr const char* kAuto = "auto";
 void add_planar(CLI::App& app, Given& given) {
   app.add_option_function<std::string>(
          "--planar", [&given](const std::string& text) { given.numbers["planar"] = text; },
-         "facets that are planar within this fraction of the diagonal, 0 is as given (auto)")
+         with_range(
+             "facets that are planar within this fraction of the diagonal, 0 is as given (auto)",
+             kBounds.planar))
       ->check(CLI::IsMember({kAuto}) | number_within(kBounds.planar))
       ->type_name("X");
 }
@@ -86,15 +108,15 @@ constexpr const char* kSurfaces =
     "surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly, - is standard input";
 void add_common(CLI::App& app, Command& command, Given& given, const char* input = kSurfaces) {
   app.add_option("input", given.inputs, std::string(input) + "; may be several")->required();
-  add_number(app, given, "jobs", "how many of several inputs at a time, 0: one per core (1)",
-             kBounds.threads);
+  add_count(app, given, "jobs", "how many of several inputs at a time, 0: one per core (1)",
+            kBounds.threads);
   auto* quiet = app.add_flag("-q,--quiet", command.quiet, "say nothing but errors");
   app.add_flag("-v,--verbose", command.verbose, "say what each phase did")->excludes(quiet);
 }
 
 void add_threads(CLI::App& app, Given& given) {
-  add_number(app, given, "threads", "threads that share the work, 0: one per core (1)",
-             kBounds.threads);
+  add_count(app, given, "threads", "threads that share the work, 0: one per core (1)",
+            kBounds.threads);
 }
 
 // The options of every job that writes a mesh.
@@ -105,12 +127,13 @@ void add_outputs(CLI::App& app, Command& command, Given& given, const std::strin
                      "-.EXT is standard output")
       ->required()
       ->expected(1)
-      ->take_all();
-  add_number(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
-             at_least_one(kBounds.max_vertices));
+      ->take_all()
+      ->type_name("FILE");
+  add_count(app, given, "max-vertices", "stop beyond this many vertices (exit 5)",
+            at_least_one(kBounds.max_vertices));
   add_number(app, given, "time-limit", "stop after this many seconds (exit 5)",
              positive(kBounds.seconds));
-  app.add_option("--stats", command.stats_file, "write statistics as JSON");
+  app.add_option("--stats", command.stats_file, "write statistics as JSON")->type_name("FILE");
 }
 
 void add_run(CLI::App& app, Command& command, Given& given,
@@ -122,8 +145,10 @@ void add_run(CLI::App& app, Command& command, Given& given,
            given.region = text == "hull" ? Region::hull : Region::interior;
          },
          "what is written: interior or hull")
-      ->check(CLI::IsMember({"interior", "hull"}));
-  app.add_option("--exact", command.exact_file, "write the exact form of everything");
+      ->check(CLI::IsMember({"interior", "hull"}))
+      ->type_name("interior|hull");
+  app.add_option("--exact", command.exact_file, "write the exact form of everything")
+      ->type_name("FILE");
 }
 
 // Names with commas between them, all, or none. Empty if there is another name than those of `all`.
@@ -168,7 +193,8 @@ void add_as_paper(CLI::App& app, Given& given, const AsPaper& all) {
 }
 
 void add_names(CLI::App& app, Command& command) {
-  app.add_option("--names", command.names_file, "file of lines LABEL NAME: what labels are called");
+  app.add_option("--names", command.names_file, "file of lines LABEL NAME: what labels are called")
+      ->type_name("FILE");
 }
 
 void add_ascii(CLI::App& app, Command& command) {
@@ -193,8 +219,8 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_number(app, given, "tau", "input filter, fraction of the diagonal, 0 is off (1e-4)",
              kBounds.tau);
   add_planar(app, given);
-  add_number(app, given, "budget", "raise tau until no more tetrahedra than this are predicted",
-             at_least_one(kBounds.budget));
+  add_count(app, given, "budget", "raise tau until no more tetrahedra than this are predicted",
+            at_least_one(kBounds.budget));
   add_number(app, given, "acute", "chamfer corners below this angle, degrees (60)", kBounds.acute);
   add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",
              kBounds.corner);
@@ -203,11 +229,13 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
   app.add_option_function<std::string>(
          "--slivers", [&given](const std::string& text) { given.slivers = text == "on"; },
          "treat slivers in the refinement: on or off (off; on if nothing is improved)")
-      ->check(CLI::IsMember({"on", "off"}));
+      ->check(CLI::IsMember({"on", "off"}))
+      ->type_name("on|off");
   app.add_option_function<std::string>(
          "--improve", [&given](const std::string& text) { given.improve = text == "on"; },
          "fewer and better tetrahedra by local operations: on or off (on)")
-      ->check(CLI::IsMember({"on", "off"}));
+      ->check(CLI::IsMember({"on", "off"}))
+      ->type_name("on|off");
   app.add_flag("--approximate", given.approximate,
                "stop before restoring the input: a mesh of the chamfered surface");
   add_number(app, given, "chamfer-radius", "how far a chamfer may reach", positive(kBounds.length));
@@ -218,8 +246,10 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
          "--preset", [&given](const std::string&) { given.paper = true; },
          "paper: delta 14.47, tau 1e-4, planar 0, acute 90, corner 90, gabriel, improve off, "
          "as-paper all, region hull; other options override it")
-      ->check(CLI::IsMember({"paper"}));
-  app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF");
+      ->check(CLI::IsMember({"paper"}))
+      ->type_name("paper");
+  app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered surface, OFF")
+      ->type_name("FILE");
   add_threads(app, given);
 }
 
@@ -254,8 +284,10 @@ void add_plane(CLI::App& app, Command& command, Given& given) {
          "--preset", [&given](const std::string&) { given.paper = true; },
          "paper: delta 20.7, tau 0, acute 90, as-paper all, region hull; other options override "
          "it")
-      ->check(CLI::IsMember({"paper"}));
-  app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered graph, .poly");
+      ->check(CLI::IsMember({"paper"}))
+      ->type_name("paper");
+  app.add_option("--save-chamfered", command.chamfered_file, "write the chamfered graph, .poly")
+      ->type_name("FILE");
 }
 
 void add_repair(CLI::App& app, Command& command, Given& given) {
@@ -264,7 +296,8 @@ void add_repair(CLI::App& app, Command& command, Given& given) {
                  "surface to write: " + io::boundary_extensions() + "; may be repeated")
       ->required()
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->type_name("FILE");
   add_number(app, given, "weld", "join vertices no farther apart than this, in units of the input",
              positive(kBounds.length));
   app.add_flag("--fill", command.repair.fill,
@@ -326,7 +359,8 @@ unsigned jobs_of(const Given& given) {
 
 // Files that would overwrite each other or the input; unknown formats. `seen`: the files of other
 // runs.
-std::string output_error(const Command& command, std::vector<std::filesystem::path>& seen) {
+std::string output_error(const Command& command, bool several,
+                         std::vector<std::filesystem::path>& seen) {
   // An .ele stands for several files; the files beside it are read, too.
   std::vector<std::string> files = {command.input};
   if (command.job == Job::improve) files = io::mesh_files_read(command.input);
@@ -371,7 +405,10 @@ std::string output_error(const Command& command, std::vector<std::filesystem::pa
   };
   constexpr const char* kClash = ": named twice, or the same as the input";
   for (const std::string& file : files) {
-    if (clash(file)) return file + kClash;
+    if (clash(file)) {
+      return file + kClash +
+             (several ? "; of several inputs {name} is the name, as in -o out/{name}.msh" : "");
+    }
     std::error_code error;
     if (!std::filesystem::is_character_file(where(file), error)) seen.push_back(where(file));
   }
@@ -482,9 +519,10 @@ void add_check(CLI::App& app, Command& command, Given& given) {
   add_planar(app, given);
   app.add_flag("--json", command.json, "report as JSON");
   app.add_option(
-      "--defects", command.defects_file,
-      "write the surface as .ply, its triangles coloured by what is wrong at them, or as "
-      ".vtu with numbers for that");
+         "--defects", command.defects_file,
+         "write the surface as .ply, its triangles coloured by what is wrong at them, or as "
+         ".vtu with numbers for that")
+      ->type_name("FILE");
   add_number(app, given, "acute", "corners below this angle are acute, degrees (60)",
              kBounds.acute);
   add_number(app, given, "corner", "the same for the angle of two edges, degrees (20)",
@@ -493,18 +531,30 @@ void add_check(CLI::App& app, Command& command, Given& given) {
 }
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 1 inverted tetrahedra left, or a file of several failed; 2 "
-    "usage;\n"
-    "  3 file; 4 not valid; 5 limit; 6 a bug; 130 interrupted.";
+    "Exit codes: 0 done; 1 inverted tetrahedra left, or one of several files failed;\n"
+    "  2 usage; 3 file; 4 not valid; 5 limit; 6 a bug; 130 interrupted.";
 
 constexpr const char* kExamples =
     "Examples:\n"
-    "  delmesher part.stl -o part.msh                        mesh a part\n"
-    "  delmesher part.obj -o part.inp --max-edge 2           no edge longer than 2, for Abaqus\n"
-    "  delmesher mesh *.stl -o out/{name}.vtu --jobs 4       a whole folder\n"
-    "  delmesher check part.stl                              what is wrong with it?\n"
-    "  delmesher repair part.stl -o mended.stl --fill        mend what is safe to mend\n"
+    "  delmesher part.stl -o part.msh                   mesh a part\n"
+    "  delmesher part.obj -o part.inp --max-edge 2      for Abaqus, no edge longer\n"
+    "  delmesher mesh *.stl -o out/{name}.vtu --jobs 4  a whole folder\n"
+    "  delmesher check part.stl                         what is wrong with it?\n"
+    "  delmesher repair part.stl -o mended.stl --fill   mend what is safe to mend\n"
     "`delmesher COMMAND --help` tells the options.";
+
+// Of the commands, in their order below.
+constexpr std::array<const char*, 6> kExamplesOf = {
+    "  delmesher part.stl -o part.msh -o part.vtu\n"
+    "  delmesher part.stl -o part.inp --max-edge 2 --order 2\n"
+    "  delmesher mesh *.stl -o out/{name}.msh --stats out/{name}.json --jobs 4\n"
+    "  curl -s URL/part.stl.gz | delmesher - -o -.msh > part.msh\n",
+    "  delmesher cdt part.stl -o part.vtu\n",
+    "  delmesher plane outline.poly -o outline.vtu --max-edge 0.1\n",
+    "  delmesher check part.stl --defects where.vtu\n"
+    "  delmesher check *.stl --json\n",
+    "  delmesher improve part.msh -o better.msh\n",
+    "  delmesher repair part.stl -o mended.stl --weld 1e-6 --fill\n"};
 
 // The commands, with their options.
 struct Subcommands {
@@ -512,8 +562,8 @@ struct Subcommands {
 
   Subcommands(CLI::App& app, Command& command, Given& given)
       : mesh(app.add_subcommand("mesh", "tetrahedralize a closed surface (the default)")),
-        cdt(app.add_subcommand(
-            "cdt", "constrained Delaunay tetrahedrization of the convex hull, no quality")),
+        cdt(app.add_subcommand("cdt",
+                               "constrained Delaunay tetrahedrization of the hull, no quality")),
         plane(app.add_subcommand("plane", "mesh a planar graph with triangles")),
         check(app.add_subcommand("check", "is this a valid surface? if not, what is wrong?")),
         improve(app.add_subcommand(
@@ -525,7 +575,9 @@ struct Subcommands {
     add_improve(*improve, command, given);
     add_check(*check, command, given);
     add_repair(*repair, command, given);
-    for (CLI::App* subcommand : all()) subcommand->footer(kExitCodes);
+    for (std::size_t i = 0; i < all().size(); ++i) {
+      all()[i]->footer(std::string("Examples:\n") + kExamplesOf[i] + kExitCodes);
+    }
   }
 
   std::array<CLI::App*, 6> all() const { return {mesh, cdt, plane, check, improve, repair}; }
@@ -554,7 +606,7 @@ std::string make_batch(const Command& command, const Given& given, Parsed& parse
   std::vector<std::filesystem::path> seen;
   for (const std::string& input : given.inputs) {
     parsed.batch.push_back(for_input(command, input));
-    const std::string error = output_error(parsed.batch.back(), seen);
+    const std::string error = output_error(parsed.batch.back(), given.inputs.size() > 1, seen);
     if (!error.empty()) return error;
   }
   if (shares_standard_output(parsed.batch)) {
@@ -574,6 +626,7 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   Given given;
   CLI::App app("Tetrahedral meshes of closed surfaces, exactly conforming.", "delmesher");
   app.require_subcommand(1);
+  app.formatter(std::make_shared<Help>());
   app.footer(std::string(kExamples) + "\n" + kExitCodes);
   app.set_version_flag("--version", std::string("delmesher ") + version());
   const Subcommands subcommands(app, command, given);
@@ -584,6 +637,7 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   if (const std::string error = misspelt(subcommands, arguments); !error.empty()) {
     return usage_error(error);
   }
+  const std::string see = ", see delmesher " + arguments[0] + " --help";
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   Parsed parsed;
   try {
@@ -593,6 +647,8 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
     app.exit(success, out, error);
     parsed.out = out.str();
     return parsed;
+  } catch (const CLI::RequiredError& error) {
+    return usage_error(error.what() + see);
   } catch (const CLI::ParseError& error) {
     std::string line = error.what();
     std::replace(line.begin(), line.end(), '\n', ' ');

@@ -221,14 +221,25 @@ TEST(Arguments, WhatIsMistypedIsNamedWithWhatMayBeMeant) {
 TEST(Arguments, HelpFitsAScreen) {
   const std::string help = parse({"--help"}).out;
   EXPECT_LE(std::count(help.begin(), help.end(), '\n'), 24) << help;
-  std::istringstream lines(help);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
   EXPECT_NE(help.find("delmesher part.stl -o part.msh"), std::string::npos);
-  for (const char* command : {"", "mesh", "cdt", "plane", "check", "improve"}) {
+  for (const char* command : {"", "mesh", "cdt", "plane", "check", "improve", "repair"}) {
     std::vector<std::string> arguments = {"--help"};
     if (*command != '\0') arguments.insert(arguments.begin(), command);
-    EXPECT_NE(parse(arguments).out.find("Exit codes: 0 done;"), std::string::npos) << command;
+    const std::string text = parse(arguments).out;
+    EXPECT_NE(text.find("Exit codes: 0 done;"), std::string::npos) << command;
+    EXPECT_NE(text.find("Examples:\n  delmesher "), std::string::npos) << command;
+    EXPECT_NE(text.find("Usage: delmesher "), std::string::npos) << command;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
   }
+}
+
+TEST(Arguments, HelpSaysTheRanges) {
+  const std::string help = parse({"mesh", "--help"}).out;
+  EXPECT_NE(help.find("(14.47; above 0, at most"), std::string::npos) << help;
+  EXPECT_NE(help.find("--threads N"), std::string::npos) << help;
+  EXPECT_NE(help.find("-o, --output FILE"), std::string::npos) << help;
+  EXPECT_EQ(help.find("4294967294"), std::string::npos) << help;  // a limit that is out of reach
 }
 
 TEST(Arguments, SeveralInputs) {
@@ -249,6 +260,11 @@ TEST(Arguments, SeveralInputs) {
   EXPECT_EQ(parse({"a.b.GZ", "-o", "{name}.msh"}).command.outputs[0], "a.msh");
   EXPECT_EQ(parse({"a.gz", "-o", "{name}.msh"}).command.outputs[0], "a.msh");
   expect_usage_error({"a.stl", "b.stl", "-o", "one.msh"}, "one.msh: named twice");
+  expect_usage_error({"a.stl", "b.stl", "-o", "one.msh"}, "as in -o out/{name}.msh");
+  expect_usage_error({"a.stl", "-o", "a.msh", "--jobs", "1.5"}, "not a whole number: 1.5");
+  expect_usage_error({"a.stl", "-o", "a.msh", "--max-vertices", "9.5"}, "not a whole number: 9.5");
+  EXPECT_EQ(parse({"a.stl", "-o", "a.msh", "--max-vertices", "1e6"}).command.options.max_vertices,
+            1000000U);
   expect_usage_error({"a.stl", "x/a.obj", "-o", "{name}.msh"}, "a.msh: named twice");
   expect_usage_error({"a.stl", "b.stl", "-o", "-.msh"}, "standard output");
 }
@@ -265,7 +281,7 @@ TEST(Arguments, StandardStreams) {
 
 TEST(Arguments, MistakesAreTwo) {
   expect_usage_error({});
-  expect_usage_error({"in.off"}, "--output");
+  expect_usage_error({"in.off"}, "--output is required, see delmesher mesh --help\n");
   expect_usage_error({"-o", "out.mesh"}, "input");
   expect_usage_error({"in.off", "-o", "out.xyz"},
                      "out.xyz: unknown mesh format (.mesh, .msh, .vtu, .vtk, .xdmf");

@@ -8,8 +8,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace delmesher::cli {
@@ -31,6 +33,7 @@ class Batch {
   int run(unsigned jobs);
 
  private:
+  std::string without_folder() const;
   bool start(std::size_t command);
   void wait_for_one();
   void count(int code) { ++codes_[code]; }
@@ -120,7 +123,24 @@ void Batch::wait_for_one() {
   summarize(child.command, code, how);
 }
 
+// The first output whose folder is not there; empty if there is none.
+std::string Batch::without_folder() const {
+  for (const Command& command : commands_) {
+    for (const std::string& output : command.outputs) {
+      const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+      std::error_code ignored;
+      if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) return output;
+    }
+  }
+  return {};
+}
+
 int Batch::run(unsigned jobs) {
+  // Once, not for every input.
+  if (const std::string output = without_folder(); !output.empty()) {
+    streams_.error("delmesher: " + output + ": cannot write: there is no such folder\n");
+    return kUnreadable;
+  }
   std::fflush(stdout);  // or every child would write it, too
   for (std::size_t next = 0; next < commands_.size() || !running_.empty();) {
     const bool room = running_.size() < jobs && next < commands_.size();
