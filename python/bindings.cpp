@@ -245,12 +245,13 @@ py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangle
   Options options;
   set_options(options, given);
   Watch watch(options, py::none());
-  const SurfaceReport report = watch.run([&] { return check_surface(surface, options); });
-  py::dict d, counts;
+  SurfaceReport report = watch.run([&] { return check_surface(surface, options); });
+  py::dict d, counts, places;
   put_status(d, report.status, report.warnings);
   for (std::size_t kind = 0; kind < report.defect_counts.size(); ++kind) {
     if (report.defect_counts[kind] == 0) continue;
     counts[defect_name(static_cast<Defect::Kind>(kind))] = report.defect_counts[kind];
+    places[defect_name(static_cast<Defect::Kind>(kind))] = taken(std::move(report.places[kind]));
   }
   py::list defects;
   for (const Defect& defect : report.defects) {
@@ -259,6 +260,7 @@ py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangle
                                   taken(std::vector(defect.triangles))));
   }
   d["counts"] = counts;
+  d["places"] = places;
   d["defects"] = defects;
   d["flipped"] = report.flipped;
   d["components"] = report.components;

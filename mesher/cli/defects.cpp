@@ -138,10 +138,25 @@ std::vector<WrongEdge> wrong_edges(const Surface& surface) {
   return wrong;
 }
 
-// What is wrong at each triangle, if anything is. The worst comes last, so that it is what is seen.
+const std::vector<std::array<std::uint32_t, 2>>& places_of(const SurfaceReport& report, Kind kind) {
+  return report.places[static_cast<std::size_t>(kind)];
+}
+
+// What is wrong at each triangle, if anything is. What says most comes last, so that it is seen: a
+// triangle of a wrong vertex may be as it should be, one that meets another is not.
 std::vector<std::optional<Kind>> kinds_at(const Surface& surface, const SurfaceReport& report,
                                           const std::vector<WrongEdge>& edges) {
   std::vector<std::optional<Kind>> kinds(surface.triangles.size());
+  const auto mark_around_vertices = [&](Kind kind) {
+    std::vector<std::uint8_t> wrong(surface.vertices.size(), 0);
+    for (const auto& place : places_of(report, kind)) wrong[place[0]] = 1;
+    for (std::size_t t = 0; t < kinds.size(); ++t) {
+      for (const std::uint32_t v : surface.triangles[t]) {
+        if (v < wrong.size() && wrong[v] != 0) kinds[t] = kind;
+      }
+    }
+  };
+  mark_around_vertices(Kind::non_manifold_vertex);
   for (const Kind kind :
        {Kind::inconsistent_orientation, Kind::open_edge, Kind::non_manifold_edge}) {
     for (const WrongEdge& edge : edges) {
@@ -149,9 +164,11 @@ std::vector<std::optional<Kind>> kinds_at(const Surface& surface, const SurfaceR
       for (const std::uint32_t t : edge.triangles) kinds[t] = kind;
     }
   }
-  for (const Defect& defect : report.defects) {
-    for (const std::uint32_t t : defect.triangles) {
-      if (t < kinds.size()) kinds[t] = defect.kind;
+  mark_around_vertices(Kind::non_finite);
+  for (const Kind kind : {Kind::index_out_of_range, Kind::degenerate_triangle,
+                          Kind::duplicate_triangle, Kind::self_intersection}) {
+    for (const auto& place : places_of(report, kind)) {
+      for (const std::uint32_t t : place) kinds[t] = kind;
     }
   }
   return kinds;

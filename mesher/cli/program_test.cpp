@@ -379,6 +379,27 @@ TEST_F(Program, AnyNumberOfThreadsWritesTheSameBytes) {
   }
 }
 
+// Twelve triangles that all meet eleven others: more pairs than `check` describes, and all of them
+// are coloured.
+TEST_F(Program, EveryTriangleThatMeetsAnotherIsColoured) {
+  std::string vertices, faces;
+  for (int i = 0; i < 23; ++i) {
+    const std::string n = std::to_string(i < 12 ? i : i - 12);
+    vertices += i < 12 ? "-1 " + n + " 0\n11 " + n + " -1\n11 " + n + " 1\n"
+                       : n + " -2 -100\n" + n + " 13 -100\n" + n + " 6 1000\n";
+    faces += "3 " + std::to_string(3 * i) + " " + std::to_string(3 * i + 1) + " " +
+             std::to_string(3 * i + 2) + "\n";
+  }
+  write("in.off", "OFF\n69 23 0\n" + vertices + faces);
+  EXPECT_EQ(run("check in.off --defects in.ply"), 4);
+  EXPECT_NE(text("out.txt").find("  self-intersection: 132\n"), std::string::npos);
+  EXPECT_NE(text("out.txt").find("    and 122 more\n"), std::string::npos) << text("out.txt");
+  const std::string ply = text("in.ply");
+  int red = 0;
+  for (std::size_t at = 0; (at = ply.find(" 220 40 40\n", at)) != std::string::npos; ++at) ++red;
+  EXPECT_EQ(red, 23) << ply;
+}
+
 // A cube with a corner torn into three and a triangle missing: refused with its defects, shown,
 // mended, meshed.
 TEST_F(Program, ATornSurfaceIsShownAndMended) {
@@ -564,6 +585,8 @@ TEST_F(Program, AWholeFolder) {
   write("in.b.off", replaced(replaced(cube(), "8 12", "8 11"), "3 1 7 5\n", ""));
   write("in.c.off", cube());
   write("in.d.off", "OFF\nnothing\n");
+  EXPECT_EQ(run("mesh in.a.off in.b.off -o none/{name}.tet --jobs 2"), 3);
+  EXPECT_EQ(text("err.txt"), "delmesher: none/in.a.tet: cannot write: there is no such folder\n");
   EXPECT_EQ(run("mesh in.a.off in.b.off in.c.off in.d.off -o {name}.tet --jobs 2"), 1);
   const std::string said = text("err.txt");
   for (const char* line :

@@ -32,8 +32,12 @@ struct Defect {
 // Defects and properties of a surface.
 struct SurfaceReport {
   Status status;                // ok, invalid_surface, interrupted ...
-  std::vector<Defect> defects;  // at most a few of each kind; counts below are complete
+  std::vector<Defect> defects;  // described: at most ten of each kind; counts below are complete
   std::array<std::uint64_t, 10> defect_counts{};  // indexed by Defect::Kind
+  // All of them, by Defect::Kind: at vertices the vertex, at edges its two ends, at triangles the
+  // triangle, of two triangles both; a single number stands twice. Of a kind with more than a
+  // million some are left out, and a warning says so.
+  std::array<std::vector<std::array<std::uint32_t, 2>>, 10> places;
   std::vector<std::string> warnings;
   bool flipped = false;  // the surface was inside out
   std::uint64_t vertices = 0, triangles = 0, components = 0, unused_vertices = 0;

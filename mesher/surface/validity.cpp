@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <set>
 
 #include "mesher/base/parallel.h"
 #include "mesher/predicates/box_tree.h"
@@ -60,10 +59,11 @@ double diagonal(const Box& box) {
 
 class Checker {
  public:
-  Checker(const Surface& surface, bool stop_at_first, Control& control)
+  Checker(const Surface& surface, bool stop_at_first, Control& control, std::uint64_t most_places)
       : surface_(surface),
         triangles_(surface.triangles),
         stop_at_first_(stop_at_first),
+        most_places_(most_places),
         control_(control),
         predicates_(points_) {}
 
@@ -115,9 +115,19 @@ class Checker {
   bool any_defect() const { return !result_.report.defects.empty(); }
   bool ends() const { return stop_at_first_ && any_defect(); }
 
-  void add(Kind kind, std::vector<std::uint32_t> vertices, std::vector<std::uint32_t> triangles,
-           const std::string& message) {
-    if (result_.report.defect_counts[static_cast<std::size_t>(kind)]++ < kListed) {
+  using Place = std::array<std::uint32_t, 2>;
+
+  std::vector<Place>& places(Kind kind) {
+    return result_.report.places[static_cast<std::size_t>(kind)];
+  }
+  std::uint64_t& count(Kind kind) {
+    return result_.report.defect_counts[static_cast<std::size_t>(kind)];
+  }
+
+  void add(Kind kind, const Place& place, std::vector<std::uint32_t> vertices,
+           std::vector<std::uint32_t> triangles, const std::string& message) {
+    if (places(kind).size() < most_places_) places(kind).push_back(place);
+    if (count(kind)++ < kListed) {
       result_.report.defects.push_back({kind, std::move(vertices), std::move(triangles), message});
     }
   }
@@ -130,18 +140,21 @@ class Checker {
   }
 
   void check_input() {
-    if (triangles_.empty()) add(Kind::empty, {}, {}, "the surface has no triangles");
+    if (triangles_.empty()) {
+      ++count(Kind::empty);
+      result_.report.defects.push_back({Kind::empty, {}, {}, "the surface has no triangles"});
+    }
     for (std::uint32_t v = 0; v < surface_.vertices.size(); ++v) {
       const Vec3& p = surface_.vertices[v];
       if (std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) continue;
-      add(Kind::non_finite, {v}, {},
+      add(Kind::non_finite, {v, v}, {v}, {},
           "vertex " + text(std::uint64_t{v}) +
               " has a coordinate that is not a finite number: " + at(v));
     }
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       for (const std::uint32_t v : triangles_[t]) {
         if (v < surface_.vertices.size()) continue;
-        add(Kind::index_out_of_range, {v}, {t},
+        add(Kind::index_out_of_range, {t, t}, {v}, {t},
             "triangle " + text(std::uint64_t{t}) + " refers to vertex " + text(std::uint64_t{v}) +
                 ", but there are " + text(surface_.vertices.size()) + " vertices (indices from 0)");
         break;
@@ -162,14 +175,14 @@ class Checker {
       box.extend(boxes_.back());
       if (a == b || b == c || c == a) {
         projections_.push_back({});
-        add(Kind::degenerate_triangle, {a, b, c}, {t},
+        add(Kind::degenerate_triangle, {t, t}, {a, b, c}, {t},
             "triangle " + text(std::uint64_t{t}) + " has vertex " +
                 text(std::uint64_t{b == c ? b : a}) + " twice, at " + at(b == c ? b : a));
         continue;
       }
       projections_.push_back(find_projection(predicates_, triangles_[t]));
       if (projections_.back().sign != 0) continue;
-      add(Kind::degenerate_triangle, {a, b, c}, {t},
+      add(Kind::degenerate_triangle, {t, t}, {a, b, c}, {t},
           "triangle " + text(std::uint64_t{t}) + " has no area: its vertices " + list({a, b, c}) +
               " are collinear, at " + at(a) + ", " + at(b) + ", " + at(c));
     }
@@ -195,7 +208,7 @@ class Checker {
     }
     std::sort(pairs.begin(), pairs.end());
     for (const auto [t, u] : pairs) {
-      add(Kind::duplicate_triangle, {sorted[t].begin(), sorted[t].end()}, {t, u},
+      add(Kind::duplicate_triangle, {t, u}, {sorted[t].begin(), sorted[t].end()}, {t, u},
           "triangles " + list({t, u}) + " have the same vertices " +
               list({triangles_[t].begin(), triangles_[t].end()}));
     }
@@ -213,14 +226,14 @@ class Checker {
         components.unite(h / 3, around[0]);
       }
       if (group.size() == 1) {
-        add(Kind::open_edge, {a, b}, around,
+        add(Kind::open_edge, {a, b}, {a, b}, around,
             "edge " + edge_text(a, b) + " belongs to triangle " + list(around) + " only");
       } else if (group.size() > 2) {
-        add(Kind::non_manifold_edge, {a, b}, around,
+        add(Kind::non_manifold_edge, {a, b}, {a, b}, around,
             "edge " + edge_text(a, b) + " belongs to " + text(group.size()) +
                 " triangles: " + list(around));
       } else if (from(group[1]) == a) {
-        add(Kind::inconsistent_orientation, {a, b}, around,
+        add(Kind::inconsistent_orientation, {a, b}, {a, b}, around,
             "triangles " + list(around) + " run along their edge " + edge_text(a, b) +
                 " in the same direction");
       }
@@ -264,7 +277,7 @@ class Checker {
     }
     for (VertexId v = 0; v < fans.size(); ++v) {
       if (fans[v].size() < 2) continue;
-      add(Kind::non_manifold_vertex, {v}, fans[v],
+      add(Kind::non_manifold_vertex, {v, v}, {v}, fans[v],
           "vertex " + text(std::uint64_t{v}) + " at " + at(v) + " joins " + text(fans[v].size()) +
               " separate fans of triangles, containing triangles " + list(fans[v]));
     }
@@ -279,40 +292,35 @@ class Checker {
   void check_intersections() {
     triangle_tree_.emplace(boxes_);
     const std::vector<BoxTree::PairTask> tasks = triangle_tree_->pair_tasks();
-    std::vector<Intersections> of_task(tasks.size());
     PerWorker<Predicates> predicates(control_, points_);
-    for_chunks(control_, tasks.size(), 1, [&](Worker& worker, const Chunk& chunk) {
-      return triangle_tree_->pairs(tasks[chunk.index], [&](std::uint32_t t, std::uint32_t u) {
-        worker.poll();
-        if (t > u) std::swap(t, u);
-        if (!intersect(predicates[worker], t, u)) return true;
-        of_task[chunk.index].add({t, u});
-        return !stop_at_first_;
+    std::vector<Place>& all = places(Kind::self_intersection);
+    // A part of the tasks at a time: what they find is put together before it takes much memory.
+    constexpr std::size_t kTogether = 256;
+    for (std::size_t begin = 0; begin < tasks.size(); begin += kTogether) {
+      std::vector<std::vector<Place>> of_task(std::min(kTogether, tasks.size() - begin));
+      for_chunks(control_, of_task.size(), 1, [&](Worker& worker, const Chunk& chunk) {
+        const BoxTree::PairTask& task = tasks[begin + chunk.index];
+        return triangle_tree_->pairs(task, [&](std::uint32_t t, std::uint32_t u) {
+          worker.poll();
+          if (t > u) std::swap(t, u);
+          if (!intersect(predicates[worker], t, u)) return true;
+          of_task[chunk.index].push_back({t, u});
+          return !stop_at_first_;
+        });
       });
-    });
-    Intersections all;
-    for (const Intersections& found : of_task) {
-      all.add(found);
-      if (stop_at_first_ && all.count > 0) break;  // found by other threads later
+      for (const std::vector<Place>& found : of_task) {
+        count(Kind::self_intersection) += found.size();
+        const std::size_t room = std::min(found.size(), most_places_ - all.size());
+        all.insert(all.end(), found.begin(), found.begin() + static_cast<std::ptrdiff_t>(room));
+        if (stop_at_first_ && !found.empty()) break;  // others were found later, by other threads
+      }
+      if (stop_at_first_ && !all.empty()) break;
     }
-    result_.report.defect_counts[static_cast<std::size_t>(Kind::self_intersection)] += all.count;
-    for (const auto [t, u] : all.first) describe_intersection(t, u);
+    std::sort(all.begin(), all.end());
+    for (std::size_t i = 0; i < all.size() && i < kListed; ++i) {
+      describe_intersection(all[i][0], all[i][1]);
+    }
   }
-
-  struct Intersections {
-    std::uint64_t count = 0;
-    std::set<std::array<std::uint32_t, 2>> first;  // the few with the smallest indices
-
-    void add(const std::array<std::uint32_t, 2>& pair) {
-      ++count;
-      first.insert(pair);
-      if (first.size() > kListed) first.erase(std::prev(first.end()));
-    }
-    void add(const Intersections& others) {
-      for (const auto& pair : others.first) add(pair);
-      count += others.count - others.first.size();
-    }
-  };
 
   bool intersect(Predicates& predicates, std::uint32_t t, std::uint32_t u) const {
     if (projections_[t].sign == 0 || projections_[u].sign == 0 || same_corners(t, u)) return false;
@@ -391,6 +399,13 @@ class Checker {
   void conclude() {
     SurfaceReport& report = result_.report;
     if (!any_defect()) return;
+    for (std::size_t k = 0; k < report.places.size(); ++k) {
+      const std::uint64_t kept = report.places[k].size();
+      if (kept != most_places_ || kept == report.defect_counts[k]) continue;
+      report.warnings.push_back(
+          text(kept) + " of " + text(report.defect_counts[k]) +
+          " places are kept for files of defects: " + defect_name(static_cast<Kind>(k)));
+    }
     const std::uint64_t total =
         std::accumulate(report.defect_counts.begin(), report.defect_counts.end(), std::uint64_t{0});
     const Defect& worst = report.defects.front();
@@ -409,6 +424,7 @@ class Checker {
   const Surface& surface_;
   const Triangles& triangles_;
   const bool stop_at_first_;
+  const std::uint64_t most_places_;
   Control& control_;
   PointStore points_;
   Predicates predicates_;
@@ -423,8 +439,9 @@ class Checker {
 
 }  // namespace
 
-ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control) {
-  return Checker(surface, stop_at_first, control).run();
+ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control,
+                              std::uint64_t most_places) {
+  return Checker(surface, stop_at_first, control, most_places).run();
 }
 
 Surface oriented_outwards(const Surface& surface, const ValidityResult& validity) {

@@ -13,11 +13,14 @@ struct ValidityResult {
   std::vector<std::uint8_t> reverse_triangle;  // per triangle: does it have to be reversed?
 };
 
+constexpr std::uint64_t kMostPlaces = 1'000'000;  // of each kind in SurfaceReport::places
+
 // Everything check_surface() reports except facets, acute corners and local feature size. With
 // `stop_at_first`, ends at the first kind of defect found (tetrahedralize() needs no more to refuse
 // a surface). An inside-out surface is no defect but sets `report.flipped`. Components oriented
 // otherwise than parity asks for are reported in warnings.
-ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control);
+ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control,
+                              std::uint64_t most_places = kMostPlaces);
 
 // The surface with the triangles marked by check_validity reversed: outwards by parity.
 Surface oriented_outwards(const Surface& surface, const ValidityResult& validity);

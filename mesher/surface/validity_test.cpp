@@ -296,6 +296,81 @@ TEST(Validity, ListsAreShortButCountsComplete) {
   EXPECT_NE(r.report.status.message.find("edge"), std::string::npos);
 }
 
+// Strips across each other: every one of the one kind meets every one of the other.
+Surface crossing_strips(std::uint32_t along_x, std::uint32_t along_y) {
+  Surface s;
+  const auto add = [&s](const Point& a, const Point& b, const Point& c) {
+    const auto n = static_cast<std::uint32_t>(s.vertices.size());
+    s.vertices.insert(s.vertices.end(), {a, b, c});
+    s.triangles.push_back({n, n + 1, n + 2});
+  };
+  for (std::uint32_t i = 0; i < along_x; ++i) {
+    add({-1, double(i), 0}, {1.0 * along_y, double(i), -1}, {1.0 * along_y, double(i), 1});
+  }
+  for (std::uint32_t j = 0; j < along_y; ++j) {
+    add({double(j), -2, -100}, {double(j), along_x + 1.0, -100}, {double(j), along_x / 2.0, 1000});
+  }
+  return s;
+}
+
+TEST(Validity, ThePlacesOfAllDefectsAreKept) {
+  const Surface s = crossing_strips(30, 40);
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (std::uint32_t t = 0; t < 30; ++t) {
+    for (std::uint32_t u = 30; u < 70; ++u) pairs.push_back({t, u});
+  }
+  for (const unsigned threads : {1U, 3U}) {
+    Limits options;
+    options.threads = threads;
+    Control control(options);
+    const SurfaceReport report = check_validity(s, false, control).report;
+    EXPECT_EQ(report.places[static_cast<std::size_t>(Kind::self_intersection)], pairs);
+    EXPECT_EQ(report.defect_counts[static_cast<std::size_t>(Kind::self_intersection)], 1200U);
+    EXPECT_EQ(report.places[static_cast<std::size_t>(Kind::open_edge)].size(), 210U);
+    EXPECT_EQ(report.defects.size(), 20U);
+    EXPECT_EQ(report.warnings.size(), 1U);  // of the volume
+    const SurfaceReport few = check_validity(s, false, control, 1199).report;
+    EXPECT_EQ(few.places[static_cast<std::size_t>(Kind::self_intersection)].size(), 1199U);
+    EXPECT_EQ(few.defect_counts, report.defect_counts);
+    ASSERT_EQ(few.warnings.size(), 2U);
+    EXPECT_EQ(few.warnings[1],
+              "1199 of 1200 places are kept for files of defects: self-intersection");
+  }
+}
+
+// What the numbers of a place are, by kind.
+TEST(Validity, PlacesNameVerticesEdgesAndTriangles) {
+  Surface s = box(kOrigin, {1, 1, 1});
+  const std::array<std::uint32_t, 3> last = s.triangles.back();
+  s.triangles.push_back({0, 1, 1});
+  s.triangles.push_back(s.triangles[4]);
+  const auto places = [&s](Kind kind) {
+    return check(s).report.places[static_cast<std::size_t>(kind)];
+  };
+  using Places = std::vector<std::array<std::uint32_t, 2>>;
+  EXPECT_EQ(places(Kind::degenerate_triangle), (Places{{12, 12}}));
+  EXPECT_EQ(places(Kind::duplicate_triangle), (Places{{4, 13}}));
+  s.triangles.resize(11);
+  Places edges = places(Kind::open_edge);
+  ASSERT_EQ(edges.size(), 3U);
+  for (auto& edge : edges) {
+    for (const std::uint32_t v : edge)
+      EXPECT_NE(std::find(last.begin(), last.end(), v), last.end());
+  }
+  s.triangles[3][1] = 77;
+  EXPECT_EQ(places(Kind::index_out_of_range), (Places{{3, 3}}));
+  s.triangles[3][1] = 7;
+  s.vertices[5][0] = std::nan("");
+  EXPECT_EQ(places(Kind::non_finite), (Places{{5, 5}}));
+  EXPECT_EQ(places(Kind::empty), Places{});
+  const Surface touching = joined(tetrahedron(kOrigin, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}),
+                                  tetrahedron(kOrigin, {0, -1, 0}, {-1, 0, 0}, {0, 0, -1}));
+  s = welded(touching);
+  const auto origin = static_cast<std::uint32_t>(
+      std::find(s.vertices.begin(), s.vertices.end(), kOrigin) - s.vertices.begin());
+  EXPECT_EQ(places(Kind::non_manifold_vertex), (Places{{origin, origin}}));
+}
+
 TEST(Validity, Cancels) {
   Limits options;
   options.progress = [](const Progress&) { return false; };

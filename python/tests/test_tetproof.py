@@ -2,8 +2,10 @@
 import gzip
 import os
 import signal
+import sys
 import threading
 import time
+import types
 
 import numpy as np
 import pytest
@@ -64,8 +66,12 @@ def test_what_makes_no_sense_is_a_value_error(wrong):
 
 
 def test_unknown_options_and_types():
-    with pytest.raises(TypeError, match="no such option: detla"):
+    with pytest.raises(TypeError, match="no such option: detla: did you mean delta?"):
         tetproof.mesh(POINTS, TRIANGLES, detla=3)
+    with pytest.raises(TypeError, match="no such option: colour .there are "):
+        tetproof.mesh(POINTS, TRIANGLES, colour=3)
+    with pytest.raises(TypeError, match="`read` makes one"):
+        tetproof.mesh("part.stl")
     with pytest.raises(TypeError):
         tetproof.mesh(POINTS, TRIANGLES + 0.5)
     with pytest.raises(TypeError):
@@ -77,9 +83,26 @@ def test_an_invalid_surface_says_where():
         tetproof.mesh(POINTS, TRIANGLES[:-1])
     assert caught.value.counts == {"open edge": 3}
     assert {tuple(sorted(d.vertices)) for d in caught.value.defects} == {(1, 7), (5, 7), (1, 5)}
+    assert {tuple(sorted(edge)) for edge in caught.value.places["open edge"].tolist()} == {(1, 7), (5, 7), (1, 5)}
     assert not caught.value.report.valid
     report = tetproof.check(POINTS, TRIANGLES)
     assert report.valid and report.volume == 1 and report.facets == 6 and report.defects == []
+
+
+def test_all_defects_are_arrays():
+    count = 40  # cubes far apart, each without its last triangle, and each with another that goes through its bottom
+    points = np.vstack([POINTS + [3 * i, 0, 0] for i in range(count)] + [POINTS * 0.5 + [3 * i + 0.2, 0.2, -0.3] for i in range(count)])
+    triangles = np.vstack([TRIANGLES[:-1] + 8 * i for i in range(count)] + [TRIANGLES + 8 * (count + i) for i in range(count)])
+    with pytest.raises(tetproof.InvalidSurface) as caught:
+        tetproof.mesh(points, triangles)
+    error = caught.value
+    assert set(error.places) == {"open edge", "self-intersection"} and len(error.defects) == 20
+    assert all(len(error.places[kind]) == error.counts[kind] for kind in error.counts)
+    assert error.counts["open edge"] == 3 * count
+    pairs = error.places["self-intersection"]
+    assert pairs.dtype == np.uint32 and len(pairs) >= 8 * count
+    bottoms, inner = pairs[:, 0], pairs[:, 1] - 11 * count
+    assert set(bottoms % 11) == {0, 1} and np.array_equal(bottoms // 11, inner // 12)  # the first two triangles are the bottom
 
 
 def test_repair():
@@ -105,6 +128,45 @@ def test_progress():
         tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: False)
     with pytest.raises(ZeroDivisionError):
         tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: 1 / 0)
+
+
+@pytest.mark.parametrize("with_tqdm", [False, True])
+def test_a_bar_for_every_function(capsys, monkeypatch, with_tqdm):
+    shown = []
+
+    class Bar:
+        def __init__(self, **_):
+            self.n, self.open = 0, True
+
+        def reset(self, total):
+            assert total == 1
+
+        def set_description_str(self, text, refresh):
+            shown.append(text)
+
+        def set_postfix_str(self, text, refresh):
+            assert text == "" or text.endswith(" points")
+
+        def refresh(self):
+            assert 0 <= self.n <= 1 and self.open
+
+        def close(self):
+            shown.append("closed")
+
+    module = types.ModuleType("tqdm.auto")
+    module.tqdm = Bar
+    monkeypatch.setitem(sys.modules, "tqdm", types.ModuleType("tqdm") if with_tqdm else None)
+    monkeypatch.setitem(sys.modules, "tqdm.auto", module if with_tqdm else None)
+    mesh = tetproof.mesh(POINTS, TRIANGLES, max_edge=0.3, progress=True)
+    tetproof.cdt(POINTS, TRIANGLES, progress=True)
+    tetproof.improve(mesh, progress=True)
+    tetproof.plane(POINTS[:4, :2], [[0, 1], [1, 3], [3, 2], [2, 0]], progress=True)
+    tetproof.mesh(POINTS, TRIANGLES, progress=False)
+    written = capsys.readouterr().err
+    if with_tqdm:
+        assert shown.count("closed") == 4 and shown[0] == "check" and "refine" in shown and written == ""
+    else:
+        assert written.count("\n") == 4 and "\rrefine" in written
 
 
 def test_ctrl_c_ends_a_long_run():

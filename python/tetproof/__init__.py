@@ -8,13 +8,23 @@
 >>> round(mesh.volumes().sum(), 12)
 1.0
 """
+import contextlib
 import dataclasses
+import difflib
 import os
-from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Union
+import sys
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _core
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[Any]
+else:
+    Array = np.ndarray
 
 __version__ = _core.version
 __all__ = ["Defect", "Error", "Interrupted", "InvalidMesh", "InvalidSurface", "LimitReached", "Mesh", "PlaneMesh",
@@ -54,8 +64,8 @@ class Defect(NamedTuple):
     """What is wrong at one place of a surface: its kind, a line that names it, and the numbers of the vertices and triangles."""
     kind: str
     message: str
-    vertices: np.ndarray
-    triangles: np.ndarray
+    vertices: Array
+    triangles: Array
 
 
 class InvalidSurface(Error, ValueError):
@@ -66,9 +76,11 @@ class InvalidSurface(Error, ValueError):
     report : Report
         What `check` says of it.
     defects : list of Defect
-        At most a few of each kind.
+        Described: at most ten of each kind.
     counts : dict of str to int
         How many defects there are of each kind.
+    places : dict of str to (n, 2) uint32
+        All of them, as in `Report`.
     """
 
     def __init__(self, message: str, report: "Optional[Report]" = None):
@@ -76,6 +88,7 @@ class InvalidSurface(Error, ValueError):
         self.report = report
         self.defects = report.defects if report else []
         self.counts = report.counts if report else {}
+        self.places = report.places if report else {}
 
 
 @dataclasses.dataclass
@@ -91,9 +104,9 @@ class Surface:
     names : dict of int to str
         What labels are called, where a file says so.
     """
-    points: np.ndarray
-    triangles: np.ndarray
-    labels: np.ndarray
+    points: Array
+    triangles: Array
+    labels: Array
     names: Dict[int, str] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
 
@@ -127,21 +140,22 @@ class Mesh:
         Sizes, angles in degrees, shapes and seconds.
     warnings : list of str
     """
-    points: np.ndarray
-    tetrahedra: np.ndarray
-    inside: np.ndarray
-    boundary: np.ndarray
-    labels: np.ndarray
-    facets: np.ndarray
-    regions: np.ndarray = dataclasses.field(default_factory=lambda: np.zeros(0, np.int32))
+    points: Array
+    tetrahedra: Array
+    inside: Array
+    boundary: Array
+    labels: Array
+    facets: Array
+    regions: Array = dataclasses.field(default_factory=lambda: np.zeros(0, np.int32))
     names: Dict[int, str] = dataclasses.field(default_factory=dict)
     stats: Dict[str, Any] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
 
-    def volumes(self) -> np.ndarray:
+    def volumes(self) -> Array:
         """The volume of each tetrahedron, in doubles."""
         a, b, c, d = (self.points[self.tetrahedra[:, k]] for k in range(4))
-        return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+        volumes: Array = np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+        return volumes
 
     def write(self, path: "Union[str, os.PathLike[str]]", *, order: int = 1, ascii: bool = False) -> None:
         """Write a file, see `write`."""
@@ -165,12 +179,12 @@ class Mesh:
 @dataclasses.dataclass
 class PlaneMesh:
     """A mesh of triangles in the plane; `edges` tile the segments, with their `markers` and the numbers of the `segments`."""
-    points: np.ndarray
-    triangles: np.ndarray
-    inside: np.ndarray
-    edges: np.ndarray
-    markers: np.ndarray
-    segments: np.ndarray
+    points: Array
+    triangles: Array
+    inside: Array
+    edges: Array
+    markers: Array
+    segments: Array
     stats: Dict[str, Any] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
 
@@ -187,7 +201,11 @@ class Report:
     counts : dict of str to int
         Defects by kind: "open edge", "self-intersection", ...
     defects : list of Defect
-        At most a few of each kind.
+        Described: at most ten of each kind.
+    places : dict of str to (n, 2) uint32
+        All of each kind, up to a million: the two ends of an edge ("open edge", "non-manifold edge", "inconsistent orientation"), two
+        triangles ("self-intersection", "duplicate triangle"), a vertex twice ("non-manifold vertex", "non-finite coordinate") or a
+        triangle twice ("degenerate triangle", "vertex index out of range").
     components, facets, acute_vertices, acute_edges : int
     volume, bbox_diagonal, smallest_local_feature_size : float
         Only of a valid surface, but for the diagonal.
@@ -198,6 +216,7 @@ class Report:
     message: str
     counts: Dict[str, int]
     defects: List[Defect]
+    places: Dict[str, Array]
     warnings: List[str]
     flipped: bool
     components: int
@@ -209,7 +228,7 @@ class Report:
     smallest_local_feature_size: float
 
 
-def _indices(values: Any, name: str) -> np.ndarray:
+def _indices(values: Any, name: str) -> Array:
     array = np.asarray(values)
     if array.size and not np.issubdtype(array.dtype, np.integer):
         raise TypeError("%s must be whole numbers, not %s" % (name, array.dtype))
@@ -218,15 +237,15 @@ def _indices(values: Any, name: str) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
-def _points(values: Any) -> np.ndarray:
+def _points(values: Any) -> Array:
     return np.ascontiguousarray(values, dtype=np.float64)
 
 
-def _labels(values: Any) -> Optional[np.ndarray]:
+def _labels(values: Any) -> Optional[Array]:
     return None if values is None else np.ascontiguousarray(values, dtype=np.int32)
 
 
-def _surface(points: Any, triangles: Any, labels: Any) -> tuple:
+def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Optional[Array]]:
     """Arrays, or an object that has them: of tetproof, trimesh (vertices, faces), meshio (points, cells_dict) or pyvista."""
     if triangles is None:
         given = points
@@ -240,7 +259,7 @@ def _surface(points: Any, triangles: Any, labels: Any) -> tuple:
         elif hasattr(given, "faces") and hasattr(given, "points"):
             points, triangles = given.points, np.reshape(given.faces, (-1, 4))[:, 1:]
         else:
-            raise TypeError("points and triangles are expected, or an object that has them")
+            raise TypeError("points and triangles are expected, or an object that has them; `read` makes one of a file")
     return _points(points), _indices(triangles, "triangles"), _labels(labels)
 
 
@@ -249,9 +268,11 @@ _REGIONS = {"interior": 0, "hull": 1}
 
 def _options(given: Mapping[str, Any], names: Mapping[str, Any]) -> Dict[str, float]:
     options = {name: value for name, value in {**names, **given}.items() if value is not None}
-    unknown = set(options) - set(_core.option_names())
+    unknown = sorted(set(options) - set(_core.option_names()))
     if unknown:
-        raise TypeError("no such option: %s (there are %s)" % (", ".join(sorted(unknown)), ", ".join(_core.option_names())))
+        near = difflib.get_close_matches(unknown[0], _core.option_names(), 1)
+        hint = ": did you mean %s?" % near[0] if near else " (there are %s)" % ", ".join(_core.option_names())
+        raise TypeError("no such option: %s%s" % (", ".join(unknown), hint))
     if isinstance(options.get("region"), str):
         if options["region"] not in _REGIONS:
             raise ValueError("region must be 'interior' or 'hull'")
@@ -285,24 +306,51 @@ def _mesh(result: Dict[str, Any], names: Optional[Mapping[int, str]] = None) -> 
     return Mesh(**fields)
 
 
-def _bar(progress: Any) -> Any:
-    """True means a progress bar, of tqdm if it is there."""
+class _Bar:
+    """A progress bar, of tqdm if it is there, else a line; anew for every phase, so that the time left is that of the phase."""
+
+    def __init__(self) -> None:
+        self.phase, self.width = "", 0
+        self.bar: Any = None
+        try:
+            from tqdm.auto import tqdm  # type: ignore
+        except ImportError:
+            return
+        self.bar = tqdm(total=1, bar_format="{desc:<10}{percentage:3.0f}%|{bar}| [{elapsed}<{remaining}{postfix}]")
+
+    def show(self, phase: str, done: float, vertices: int) -> None:
+        if self.bar is None:
+            text = phase if done < 0 else "%-9s %3d %%" % (phase, 100 * done)
+            text += ", %d points" % vertices if vertices else ""
+            print("\r" + text.ljust(self.width), end="", file=sys.stderr, flush=True)
+            self.width = len(text)
+            return
+        if phase != self.phase:
+            self.phase = phase
+            self.bar.reset(total=1)
+            self.bar.set_description_str(phase, refresh=False)
+        self.bar.n = min(max(done, 0), 1)
+        self.bar.set_postfix_str("%d points" % vertices if vertices else "", refresh=False)
+        self.bar.refresh()
+
+    def close(self) -> None:
+        if self.bar is not None:
+            self.bar.close()
+        elif self.width:
+            print(file=sys.stderr)
+
+
+@contextlib.contextmanager
+def _shown(progress: Any) -> Iterator[Any]:
+    """What is to be called: the user's callable, or for True that of a bar."""
     if progress is not True:
-        return progress
+        yield progress or None
+        return
+    bar = _Bar()
     try:
-        from tqdm.auto import tqdm
-    except ImportError:
-        import sys
-
-        return lambda phase, done, vertices: print("\r%-10s %9d points" % (phase, vertices), end="", file=sys.stderr)
-    bar = tqdm(unit=" points")
-
-    def show(phase: str, done: float, vertices: int) -> None:
-        bar.set_description(phase)
-        bar.n = vertices
-        bar.refresh()
-
-    return show
+        yield bar.show
+    finally:
+        bar.close()
 
 
 def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Optional[float] = None, delta: Optional[float] = None,
@@ -344,21 +392,25 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Op
         An option or an array makes no sense.
     """
     arrays = _surface(points, triangles, labels)
-    result = _core.mesh(*arrays, _options(options, {"max_edge": max_edge, "delta": delta, "threads": threads}), _bar(progress), False)
+    named = _options(options, {"max_edge": max_edge, "delta": delta, "threads": threads})
+    with _shown(progress) as shown:
+        result = _core.mesh(*arrays, named, shown, False)
     _raise(result, lambda: check(*arrays[:2]))
     return _mesh(result, getattr(points, "names", None))
 
 
-def cdt(points: Any, triangles: Any = None, labels: Any = None, *, region: str = "hull", progress: Optional[Progress] = None,
+def cdt(points: Any, triangles: Any = None, labels: Any = None, *, region: str = "hull", progress: Union[Progress, bool, None] = None,
         **options: Any) -> Mesh:
     """Constrained Delaunay tetrahedrization of the convex hull of a valid surface, without any promise of quality."""
     arrays = _surface(points, triangles, labels)
-    result = _core.mesh(*arrays, _options(options, {"region": region}), progress, True)
+    named = _options(options, {"region": region})
+    with _shown(progress) as shown:
+        result = _core.mesh(*arrays, named, shown, True)
     _raise(result, lambda: check(*arrays[:2]))
     return _mesh(result, getattr(points, "names", None))
 
 
-def improve(mesh: Mesh, *, max_edge: Optional[float] = None, delta: Optional[float] = None, progress: Optional[Progress] = None,
+def improve(mesh: Mesh, *, max_edge: Optional[float] = None, delta: Optional[float] = None, progress: Union[Progress, bool, None] = None,
             **options: Any) -> Mesh:
     """Fewer and better tetrahedra of any conforming mesh; its boundary and its regions are kept exactly.
 
@@ -367,7 +419,9 @@ def improve(mesh: Mesh, *, max_edge: Optional[float] = None, delta: Optional[flo
     InvalidMesh
         The mesh is not conforming.
     """
-    result = _core.improve(_fields(mesh), _options(options, {"max_edge": max_edge, "delta": delta}), progress)
+    named = _options(options, {"max_edge": max_edge, "delta": delta})
+    with _shown(progress) as shown:
+        result = _core.improve(_fields(mesh), named, shown)
     _raise(result)
     return _mesh(result, mesh.names)
 
@@ -406,7 +460,7 @@ def repair(points: Any, triangles: Any = None, labels: Any = None, *, weld: floa
 
 
 def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None, max_edge: Optional[float] = None,
-          delta: Optional[float] = None, progress: Optional[Progress] = None, **options: Any) -> PlaneMesh:
+          delta: Optional[float] = None, progress: Union[Progress, bool, None] = None, **options: Any) -> PlaneMesh:
     """Mesh a planar straight-line graph with triangles: what its segments enclose, but for the faces with a hole point.
 
     Parameters
@@ -419,8 +473,9 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
         Smallest angle, degrees.
     """
     no_holes = np.zeros((0, 2)) if holes is None else holes
-    result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers), _points(no_holes),
-                         _options(options, {"max_edge": max_edge, "delta": delta}), progress)
+    named = _options(options, {"max_edge": max_edge, "delta": delta})
+    with _shown(progress) as shown:
+        result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers), _points(no_holes), named, shown)
     _raise(result)
     fields = {f.name: result[f.name] for f in dataclasses.fields(PlaneMesh)}
     fields["inside"] = fields["inside"].view(np.bool_)
@@ -446,7 +501,7 @@ def read_mesh(path: "Union[str, os.PathLike[str]]") -> Mesh:
     return _mesh(_core.read_mesh(os.fspath(path)))
 
 
-def _fields(mesh: Mesh) -> Dict[str, np.ndarray]:
+def _fields(mesh: Mesh) -> Dict[str, Array]:
     count, triangles = len(mesh.tetrahedra), len(mesh.boundary)
     return {"points": _points(mesh.points), "tetrahedra": _indices(mesh.tetrahedra, "tetrahedra"),
             "inside": np.ascontiguousarray(np.broadcast_to(mesh.inside, (count,)), np.uint8),
