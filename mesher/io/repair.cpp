@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -85,6 +87,12 @@ std::map<Edge, std::vector<std::uint32_t>> triangles_of_edges(
     }
   }
   return edges;
+}
+
+// The same triangle, as seen from the same side.
+Triangle from_smallest(Triangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
 }
 
 // Vertices that become one: the root is the smallest of them.
@@ -345,16 +353,34 @@ void Repair::fill() {
   if (!options_.fill) return;
   const double all = diagonal(surface_);
   std::uint64_t holes = 0, added = 0;
+  std::map<Triangle, std::uint32_t> there;  // from the smallest corner on
+  for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
+    there[from_smallest(surface_.triangles[t])] = t;
+  }
+  std::vector<bool> fins(surface_.triangles.size());
   for (const Hole& hole : holes_of(surface_).holes) {
     if (hole.corners.size() < 3 || hole.corners.size() > kMaxPolygonCorners) continue;
     const std::vector<Loop> loops = {hole.corners};
     const FaceTriangulation face = triangulate_face(surface_.vertices, loops, polling_);
     if (!face.simple || (face.deviation > kPlanar * all && hole.width > kSmall * all)) continue;
-    for (const Triangle& t : face.triangles) surface_.triangles.push_back(t);
+    std::uint64_t of_hole = 0;
+    for (const Triangle& t : face.triangles) {
+      // What would lie on its back does not close a hole: it sticks out of the surface.
+      const auto back = there.find(from_smallest({t[0], t[2], t[1]}));
+      if (back != there.end()) {
+        fins[back->second] = true;
+        continue;
+      }
+      surface_.triangles.push_back(t);
+      ++of_hole;
+    }
     surface_.labels.resize(surface_.triangles.size(), hole.label);
-    ++holes;
-    added += face.triangles.size();
+    holes += of_hole > 0 ? 1 : 0;
+    added += of_hole;
   }
+  fins.resize(surface_.triangles.size());
+  tell(drop_if([&](std::uint32_t t) { return fins[t]; }), "triangle that sticks out removed",
+       "triangles that stick out removed");
   tell(holes, "hole filled", "holes filled");
   tell(added, "triangle added for them", "triangles added for them");
 }
@@ -387,44 +413,93 @@ RepairResult Repair::run() {
   return {std::move(surface_), std::move(done_)};
 }
 
+// 1 if the triangle goes along the edge from its first vertex to its second, -1 if back.
+int direction_of(const Triangle& t, const Edge& edge) {
+  int direction = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+    if (edge_of(a, b) == edge) direction += a == edge.first ? 1 : -1;
+  }
+  return direction;
+}
+
+// An edge at which a triangle is missing, as that would go along it.
+struct RingEdge {
+  std::uint32_t from, to, triangle;
+  bool open;  // of one triangle
+};
+
+class Rings {
+ public:
+  void add(const RingEdge& edge) {
+    next_[edge.from].push_back(edge);
+    ++ends_[edge.to];
+  }
+
+  // Those whose edges go on in one way only, without these vertices; by their first one.
+  std::vector<std::vector<RingEdge>> closed(const std::set<std::uint32_t>& without) const {
+    std::vector<std::vector<RingEdge>> rings;
+    std::set<std::uint32_t> seen = without;
+    for (const auto& [start, unused] : next_) {
+      if (seen.contains(start)) continue;
+      std::vector<RingEdge> ring;
+      bool goes_on = true;
+      std::uint32_t at = start;
+      do {
+        const auto found = next_.find(at);
+        goes_on = found != next_.end() && found->second.size() == 1 && ends_.contains(at) &&
+                  ends_.at(at) == 1 && seen.insert(at).second;
+        if (!goes_on) break;
+        ring.push_back(found->second[0]);
+        at = ring.back().to;
+      } while (at != start);
+      if (goes_on) rings.push_back(std::move(ring));
+    }
+    return rings;
+  }
+
+ private:
+  std::map<std::uint32_t, std::vector<RingEdge>> next_;
+  std::map<std::uint32_t, int> ends_;
+};
+
 }  // namespace
 
 Holes holes_of(const Surface& surface) {
   Holes result;
-  std::map<std::uint32_t, std::vector<std::pair<std::uint32_t, std::uint32_t>>> next;
-  std::map<std::uint32_t, int> ends;
+  Rings open, all;
   for (const auto& [edge, triangles] : triangles_of_edges(surface.triangles)) {
-    if (triangles.size() != 1 || edge.first == edge.second) continue;
-    ++result.open_edges;
-    const Triangle& t = surface.triangles[triangles[0]];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
-      if (edge_of(a, b) != edge) continue;
-      next[b].emplace_back(a, triangles[0]);  // the other way round than the triangle
-      ++ends[a];
+    if (edge.first == edge.second) continue;
+    // How many more go from the first vertex to the second than back.
+    int surplus = 0;
+    for (const std::uint32_t t : triangles) surplus += direction_of(surface.triangles[t], edge);
+    if (std::abs(surplus) != 1) continue;
+    const bool is_open = triangles.size() == 1;
+    result.open_edges += is_open ? 1 : 0;
+    // The other way round than the triangle.
+    const RingEdge next{surplus > 0 ? edge.second : edge.first,
+                        surplus > 0 ? edge.first : edge.second, triangles[0], is_open};
+    if (is_open) open.add(next);
+    all.add(next);
+  }
+  std::set<std::uint32_t> done;
+  for (Rings* rings : {&open, &all}) {
+    for (const std::vector<RingEdge>& ring : rings->closed(done)) {
+      // Edges of three triangles alone are the rim of a wall.
+      if (std::none_of(ring.begin(), ring.end(), [](const RingEdge& e) { return e.open; }))
+        continue;
+      Hole hole;
+      for (const RingEdge& edge : ring) {
+        hole.corners.push_back(edge.from);
+        done.insert(edge.from);
+      }
+      if (!surface.labels.empty()) hole.label = surface.labels[ring[0].triangle];
+      hole.width = diagonal(surface.vertices, hole.corners);
+      result.holes.push_back(std::move(hole));
     }
   }
-  std::map<std::uint32_t, bool> seen;
-  for (const auto& [start, unused] : next) {
-    if (seen[start]) continue;
-    Hole hole;
-    bool ring = true;
-    std::uint32_t at = start;
-    do {
-      const auto found = next.find(at);
-      ring = found != next.end() && found->second.size() == 1 && ends[at] == 1 && !seen[at];
-      if (!ring) break;
-      seen[at] = true;
-      hole.corners.push_back(at);
-      const auto [following, triangle] = found->second[0];
-      if (hole.corners.size() == 1 && !surface.labels.empty())
-        hole.label = surface.labels[triangle];
-      at = following;
-    } while (at != start);
-    if (!ring) continue;
-    hole.width = diagonal(surface.vertices, hole.corners);
-    result.holes.push_back(std::move(hole));
-  }
+  std::sort(result.holes.begin(), result.holes.end(),
+            [](const Hole& a, const Hole& b) { return a.corners[0] < b.corners[0]; });
   return result;
 }
 

@@ -9,8 +9,10 @@
 
 namespace delmesher::io {
 
-// The edges of exactly one triangle, put together where they form a ring: the side of a hole. At
-// vertices where several rings meet, edges are left over.
+// The edges of exactly one triangle, put together where they form a ring: the side of a hole. Where
+// they form none, edges at which one more triangle goes one way than the other are taken as well,
+// as of three where something else touches the hole. At vertices where several rings meet, edges
+// are left over.
 struct Hole {
   std::vector<std::uint32_t> corners;  // in the order in which a triangle that fills it goes round
   std::int32_t label = 0;              // of a triangle beside it

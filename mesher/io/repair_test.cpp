@@ -310,6 +310,39 @@ TEST(Holes, AreRingsOfOpenEdges) {
   EXPECT_EQ(sizes, (std::multiset<std::size_t>{3, 6}));
 }
 
+// A hole whose side runs along an edge of another wall, and a fin: a triangle that sticks out.
+TEST(Repair, HolesBesideEdgesOfThreeTriangles) {
+  Surface fin = cube();
+  fin.vertices.push_back({2, 0.5, 0});
+  fin.triangles.push_back({1, 8, 3});  // at an edge of two others
+  const RepairResult without = repair_surface(fin, {.weld = 0, .fill = true});
+  EXPECT_EQ(without.done, std::vector<std::string>{"1 triangle that sticks out removed"});
+  EXPECT_EQ(without.surface.triangles, cube().triangles);
+  EXPECT_EQ(without.surface.vertices, cube().vertices);
+  // Without a triangle of the top, and with a tetrahedron that stands on its diagonal: filled, both
+  // close up, though they share an edge.
+  Surface standing = cube();
+  standing.triangles.erase(standing.triangles.begin() + 2);
+  standing.vertices.push_back({0.25, 0.75, 2});
+  standing.vertices.push_back({0.75, 0.25, 2});
+  for (const Triangle& t : {Triangle{4, 8, 7}, {4, 7, 9}, {4, 9, 8}, {7, 8, 9}}) {
+    standing.triangles.push_back(t);
+  }
+  ASSERT_EQ(holes_of(standing).holes.size(), 1U);
+  const RepairResult filled = repair_surface(standing, {.weld = 0, .fill = true});
+  EXPECT_EQ(filled.done, (std::vector<std::string>{"1 hole filled", "1 triangle added for them"}));
+  EXPECT_EQ(holes_of(filled.surface).open_edges, 0U);
+  EXPECT_TRUE(holes_of(filled.surface).holes.empty());
+  // The tetrahedron: its opposite edges are at right angles, sqrt(2) and sqrt(1/2) long, 1 apart.
+  EXPECT_NEAR(std::abs(volume(filled.surface) - 1), 1.0 / 6, 1e-12);
+  // The rim of a wall that is whole is no hole.
+  Surface wall = cube();
+  wall.triangles.push_back({0, 1, 7});
+  wall.triangles.push_back({0, 7, 6});
+  EXPECT_TRUE(holes_of(wall).holes.empty());
+  EXPECT_TRUE(repair_surface(wall, {.weld = 0, .fill = true}).done.empty());
+}
+
 TEST(WeldHint, NamesTheDistanceThatCloses) {
   EXPECT_EQ(weld_hint(cube()).closed, 0U);
   Surface torn = cube();
