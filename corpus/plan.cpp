@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <stdexcept>
 
 #include "reports/statistics.h"
@@ -14,6 +15,11 @@ namespace {
 
 constexpr std::size_t kNearest = 9;
 constexpr double kMebibyte = 1048576;
+constexpr int kResamplings = 1000;
+
+std::string hours(double seconds) {
+  return fmt::format("{:.2f} h", seconds / 3600);
+}
 
 // The measured runs of one mesher.
 class Measured {
@@ -104,11 +110,51 @@ Plan plan_of(const std::vector<Model>& models, const std::vector<std::string>& m
     }
     plan.longest_shard = std::max(plan.longest_shard, seconds);
   }
+  for (const Model& model : models) plan.by_model.push_back(seconds_of_model[model.sha256]);
   return plan;
 }
 
+Extrapolation extrapolated(const Plan& plan, std::size_t models, unsigned shards) {
+  if (plan.by_model.empty()) throw std::runtime_error("there are no models to go by");
+  if (models < plan.by_model.size()) {
+    throw std::runtime_error(
+        fmt::format("{} models are no sample of {}", plan.by_model.size(), models));
+  }
+  const std::size_t size = plan.by_model.size();
+  Extrapolation all;
+  all.models = models;
+  all.seconds = plan.seconds * static_cast<double>(models) / static_cast<double>(size);
+  std::mt19937_64 random(1);
+  std::vector<double> totals, longest;
+  std::vector<double> sample(size);
+  std::vector<double> of_shard(std::max(1u, shards));
+  for (int i = 0; i < kResamplings; ++i) {
+    for (double& seconds : sample) seconds = plan.by_model[random() % size];
+    std::fill(of_shard.begin(), of_shard.end(), 0);
+    double total = 0;
+    for (std::size_t m = 0; m < models; ++m) {
+      const double seconds = sample[random() % size];
+      total += seconds;
+      of_shard[m % of_shard.size()] += seconds;
+    }
+    totals.push_back(total);
+    longest.push_back(*std::max_element(of_shard.begin(), of_shard.end()));
+  }
+  all.low = *quantile(totals, 0.025);
+  all.high = *quantile(totals, 0.975);
+  all.longest_shard = *median(longest);
+  return all;
+}
+
+std::string to_text(const Extrapolation& all, unsigned shards, unsigned jobs) {
+  return fmt::format(
+      "{} models like these: {} of processor time with the oracles, {} to {} in 95 of 100 draws; "
+      "the longest of {} shards {}\n",
+      all.models, hours(all.seconds), hours(all.low), hours(all.high), shards,
+      hours(all.longest_shard / std::max(1u, jobs)));
+}
+
 std::string to_text(const Plan& plan, unsigned shards, unsigned jobs) {
-  const auto hours = [](double seconds) { return fmt::format("{:.2f} h", seconds / 3600); };
   const auto mebibytes = [](std::uint64_t bytes) {
     return fmt::format("{:.0f} MiB", static_cast<double>(bytes) / kMebibyte);
   };

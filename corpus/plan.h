@@ -27,6 +27,7 @@ struct Plan {
   std::vector<PlannedMesher> meshers;
   double seconds = 0;                         // of all runs
   double longest_shard = 0, longest_run = 0;  // seconds
+  std::vector<double> by_model;               // seconds of all meshers, in the order of the models
   std::size_t runs = 0;
   std::uint64_t peak_bytes = 0;
 };
@@ -37,6 +38,21 @@ struct Plan {
 // oracles. \throw std::runtime_error if nothing was measured of a mesher.
 Plan plan_of(const std::vector<Model>& models, const std::vector<std::string>& meshers,
              const std::vector<RunRow>& rows, unsigned shards, double timeout);
+
+// What a collection costs of which the planned models are a sample.
+struct Extrapolation {
+  std::size_t models = 0;
+  double seconds = 0, low = 0, high = 0;  // of all runs, and its 95 % interval
+  double longest_shard = 0;               // seconds, the median
+};
+
+// A collection of so many models, each of which costs what one of the plan's does. The interval is
+// that of 1000 resamplings, each of which draws a sample anew from the plan's models and the
+// collection from that; the longest shard is that of models dealt out evenly. The same in every
+// call. \throw std::runtime_error if there are no models or more than the collection has.
+Extrapolation extrapolated(const Plan& plan, std::size_t models, unsigned shards);
+
+std::string to_text(const Extrapolation& all, unsigned shards, unsigned jobs);
 
 // The plan in words, for a task that does `jobs` runs at a time.
 std::string to_text(const Plan& plan, unsigned shards, unsigned jobs);

@@ -71,6 +71,33 @@ TEST(Plan, ShardsAreThoseOfTheCampaign) {
   EXPECT_NE(text.find("lost task"), std::string::npos) << text;
 }
 
+// Models that all cost the same leave nothing to chance.
+TEST(Plan, OfASample) {
+  Plan plan;
+  plan.by_model = {2, 2, 2};
+  plan.seconds = 6;
+  const Extrapolation same = extrapolated(plan, 10, 4);
+  EXPECT_DOUBLE_EQ(same.seconds, 20);
+  EXPECT_DOUBLE_EQ(same.low, 20);
+  EXPECT_DOUBLE_EQ(same.high, 20);
+  EXPECT_DOUBLE_EQ(same.longest_shard, 6);
+  // One in a hundred costs 99 hours, in a collection ten times as large. The number of such models
+  // is nearly a Poisson variable of mean 10 whose mean was estimated from one: standard deviation
+  // about sqrt(10 + 100), so the interval reaches from almost none to about three times as much.
+  plan.by_model.assign(100, 0);
+  plan.by_model[37] = 360000;
+  plan.seconds = 360000;
+  const Extrapolation tail = extrapolated(plan, 1000, 50);
+  EXPECT_DOUBLE_EQ(tail.seconds, 3600000);
+  EXPECT_LT(tail.low, 0.2 * tail.seconds);
+  EXPECT_GT(tail.high, 2.5 * tail.seconds);
+  EXPECT_LT(tail.high, 4.5 * tail.seconds);
+  EXPECT_GE(tail.longest_shard, 360000);
+  EXPECT_NE(to_text(tail, 50, 2).find("1000 models like these: 1000.00 h"), std::string::npos);
+  EXPECT_THROW(extrapolated(plan, 99, 1), std::runtime_error);
+  EXPECT_THROW(extrapolated({}, 99, 1), std::runtime_error);
+}
+
 TEST(Plan, NeedsSomethingMeasuredOfEveryMesher) {
   EXPECT_THROW(plan_of({model("a", 100)}, {"m"}, {row("a", "n", 100, 1, 0, 1)}, 1, 60),
                std::runtime_error);

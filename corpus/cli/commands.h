@@ -95,6 +95,7 @@ struct SlurmArguments {
   unsigned shards = 0, retries = 3;
   double task_minutes = 0;          // of a task; 0: the partition's limit
   bool plan = false;                // tell what it will cost, and submit nothing
+  std::size_t of = 0;               // the models are a sample of that many; 0: they are all
   std::vector<std::string> sbatch;  // further options of sbatch
 };
 

@@ -73,6 +73,10 @@ int tell_plan(const SlurmArguments& arguments) {
       plan_of(models, asked_meshers(run), measured.rows(), arguments.shards, run.timeout);
   fmt::print("{} models\n{}", models.size(),
              to_text(plan, arguments.shards, std::max(1u, run.jobs)));
+  if (arguments.of > 0) {
+    fmt::print("{}", to_text(extrapolated(plan, arguments.of, arguments.shards), arguments.shards,
+                             run.jobs));
+  }
   return 0;
 }
 

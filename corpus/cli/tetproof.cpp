@@ -238,9 +238,12 @@ CLI::App* declare_slurm(CLI::App& tetproof, SlurmArguments& a) {
   app->add_option("--retries", a.retries, "How often lost tasks are submitted again")
       ->capture_default_str();
   app->add_option("--task-minutes", a.task_minutes, "Time limit of a task");
-  app->add_flag("--plan", a.plan,
-                "Submit nothing: tell hours, memory and the cost of a lost task, from the runs in "
-                "--db");
+  CLI::Option* plan = app->add_flag(
+      "--plan", a.plan,
+      "Submit nothing: tell hours, memory and the cost of a lost task, from the runs in --db");
+  app->add_option("--of", a.of, "The models are a sample of that many: tell what those would cost")
+      ->check(CLI::PositiveNumber)
+      ->needs(plan);
   app->add_option("--sbatch", a.sbatch,
                   "Further options of sbatch, such as --sbatch=--partition=x");
   return app;
