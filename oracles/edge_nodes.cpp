@@ -1,6 +1,8 @@
 #include "oracles/edge_nodes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 #include "oracles/text_reader.h"
 
@@ -91,6 +93,31 @@ void take_out_edge_nodes(MeshFile& mesh, const NodesOnEdges& nodes, const std::s
   list.add(mesh.tetrahedra, nodes.of_tetrahedra);
   list.add(mesh.boundary, nodes.of_triangles);
   list.take_out();
+}
+
+OracleReport check_edge_nodes(const MeshFile& mesh, double allowed) {
+  OracleReport report("edge-nodes", "edges");
+  if (mesh.edge_nodes.empty()) report.fail("the elements are linear, promised was --order 2");
+  double farthest = 0;
+  for (const auto& [ends, at] : mesh.edge_nodes) {
+    ++report.checked;
+    double off = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double middle = mesh.vertices[ends[0]][k] / 2 + mesh.vertices[ends[1]][k] / 2;
+      const double distance = std::fabs(at[k] - middle);
+      off = distance <= off || std::isnan(off) ? off : distance;
+    }
+    if (off <= allowed) {  // not if it is no number
+      farthest = std::max(farthest, off);
+      continue;
+    }
+    char text[120];
+    std::snprintf(text, sizeof text, "the node of edge %u %u is %.3g away from the middle", ends[0],
+                  ends[1], off);
+    report.fail(text);
+  }
+  report.figures.emplace_back("farthest from the middle", farthest);
+  return report;
 }
 
 }  // namespace tetproof::oracles

@@ -30,10 +30,28 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-enum Tasks : unsigned { kMesh = 1, kCdt = 2, kPlane = 4, kSpace = kMesh | kCdt, kAll = 7 };
+enum Tasks : unsigned {
+  kMesh = 1,
+  kCdt = 2,
+  kPlane = 4,
+  kImprove = 8,
+  kSurface = kMesh | kCdt,
+  kSpace = kSurface | kImprove,
+  kAll = kSpace | kPlane
+};
 
 unsigned bit_of(Task task) {
-  return task == Task::mesh ? kMesh : task == Task::cdt ? kCdt : kPlane;
+  switch (task) {
+    case Task::mesh:
+      return kMesh;
+    case Task::cdt:
+      return kCdt;
+    case Task::plane:
+      return kPlane;
+    case Task::improve:
+      return kImprove;
+  }
+  return 0;
 }
 
 struct Number {
@@ -50,7 +68,7 @@ struct Number {
 
 constexpr double kMost = 1e308;
 constexpr Number kNumbers[] = {
-    {"--delta", &Promise::delta, kMesh, 0, 30, true},
+    {"--delta", &Promise::delta, kMesh | kImprove, 0, 30, true},
     {"--delta", &Promise::delta, kPlane, 0, 34, true},
     {"--tau", &Promise::tau, kMesh | kPlane, 0, 1},
     {"--planar", &Promise::planar, kMesh, 0, 0.01},
@@ -58,7 +76,7 @@ constexpr Number kNumbers[] = {
     {"--acute", &Promise::acute, kPlane, 60, 90},
     {"--corner", &Promise::corner, kMesh, 0, 90},
     {"--chamfer-radius", &Promise::chamfer_radius, kMesh | kPlane, 0, kMost, true},
-    {"--max-edge", &Promise::max_edge, kMesh | kPlane, 0, kMost, true},
+    {"--max-edge", &Promise::max_edge, kMesh | kPlane | kImprove, 0, kMost, true},
     {"--budget", &Promise::budget, kMesh, 1, 1e15},
     {"--max-vertices", &Promise::max_vertices, kAll, 1, 4294967294},
     {"--time-limit", nullptr, kAll, 0, kMost, true},
@@ -73,7 +91,7 @@ struct Word {
 constexpr Word kFiles[] = {{"-o", kAll},
                            {"--output", kAll},
                            {"--stats", kAll},
-                           {"--exact", kAll},
+                           {"--exact", kSurface | kPlane},
                            {"--save-chamfered", kMesh | kPlane},
                            {"--names", kSpace}};
 constexpr Word kSwitches[] = {{"-q", kAll},
@@ -84,9 +102,9 @@ constexpr Word kSwitches[] = {{"-q", kAll},
                               {"--ascii", kAll},
                               {"--gabriel", kMesh},
                               {"--approximate", kMesh | kPlane}};
-constexpr Word kChosen[] = {{"--preset", kMesh | kPlane}, {"--as-paper", kMesh | kPlane},
-                            {"--region", kAll},           {"--order", kSpace},
-                            {"--improve", kMesh},         {"--slivers", kMesh}};
+constexpr Word kChosen[] = {
+    {"--preset", kMesh | kPlane}, {"--as-paper", kMesh | kPlane}, {"--region", kSurface | kPlane},
+    {"--order", kSpace},          {"--improve", kMesh},           {"--slivers", kMesh}};
 
 template <std::size_t N>
 bool among(const Word (&words)[N], const std::string& name, Task task) {
@@ -169,8 +187,10 @@ class PromiseReader {
         task = Task::cdt;
       } else if (first == "plane") {
         task = Task::plane;
+      } else if (first == "improve") {
+        task = Task::improve;
       } else if (first != "mesh") {
-        return "\"" + first + "\" is none of mesh, cdt and plane";
+        return "\"" + first + "\" is none of mesh, cdt, plane and improve";
       }
     }
     set_defaults(task, preset(), p);
@@ -420,6 +440,7 @@ double Promise::planar_share() const {
 }
 
 double Promise::guaranteed_delta() const {
+  if (task == Task::improve) return delta;  // no smaller angle is made
   const double guaranteed = task == Task::plane ? 20.7 : 14.4775;
   return std::min(delta, guaranteed);
 }

@@ -12,7 +12,7 @@
 
 namespace tetproof::oracles {
 
-enum class Task : std::uint8_t { mesh, cdt, plane };
+enum class Task : std::uint8_t { mesh, cdt, plane, improve };
 
 // Options of delmesher as README.md documents them, with its defaults.
 struct Promise {
@@ -57,9 +57,9 @@ struct Promise {
   double corner_in_force() const;
 };
 
-// Reads a command line without the program's name: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS';
-// without a first word `mesh` is meant. Options that promise nothing of the result (files, threads,
-// times) are ignored. Empty on success, else the mistake.
+// Reads a command line without the program's name: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS',
+// 'improve OPTIONS'; without a first word `mesh` is meant. Options that promise nothing of the
+// result (files, threads, times) are ignored. Empty on success, else the mistake.
 std::string parse_promise(std::string_view text, Promise& promise);
 
 // The same for a call of the library.

@@ -38,7 +38,6 @@ class Verification {
  private:
   // The mesh as written, on its doubles (verify_file.cpp).
   bool check_finite();
-  void check_edge_nodes();
   bool check_empty();
   std::string check_file();
   Chains recorded_chains(const InputSurface& surface);

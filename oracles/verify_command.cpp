@@ -13,6 +13,7 @@
 
 #include "oracles/envelope.h"
 #include "oracles/heap.h"
+#include "oracles/improved.h"
 #include "oracles/plane_verify.h"
 #include "oracles/sidecar.h"
 #include "oracles/surface_file.h"
@@ -50,7 +51,8 @@ CLI::Validator one_of(const std::map<std::string, Choice>& choices) {
 
 void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("INPUT", arguments.input,
-                 "surface: OFF, OBJ, STL, PLY or 3MF; in the plane .poly, OFF, OBJ or rings")
+                 "surface: OFF, OBJ, STL, PLY or 3MF; in the plane .poly, OFF, OBJ or rings; of an "
+                 "improved mesh the one that was given")
       ->required();
   app.add_option("MESH", arguments.mesh,
                  "mesh: .mesh, .msh, .vtu, .node or .ele, .tet; in the plane .node or .ele, .msh, "
@@ -62,8 +64,8 @@ void declare(CLI::App& app, Arguments& arguments) {
       ->transform(one_of<Stage>({{"refined", Stage::refined}, {"final", Stage::final}}))
       ->type_name("STAGE");
   app.add_option("--promised", arguments.promised,
-                 "what the mesher was asked for: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS' "
-                 "(mesh)");
+                 "what the mesher was asked for: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS', "
+                 "'improve OPTIONS' (mesh)");
   app.add_option("--declared-deviation", arguments.options.declared_deviation,
                  "deviation that is no failure, as a fraction of the diagonal (0)");
   app.add_option(
@@ -167,11 +169,21 @@ std::string verify_plane_quietly(const Arguments& arguments, VerifyReport& repor
   return verify_plane(graph, file, exact ? &record : nullptr, options, report);
 }
 
+// The same for what was improved.
+std::string verify_improved_quietly(const Arguments& arguments, VerifyReport& report) {
+  Terminal terminal;
+  terminal.say("reading " + arguments.mesh);
+  const MeshFile given = read_mesh(arguments.input), mesh = read_mesh(arguments.mesh);
+  terminal.say(std::to_string(mesh.tetrahedra.size()) + " tetrahedra read");
+  return verify_improved(given, mesh, arguments.options, report);
+}
+
 int verify_files(const Arguments& arguments) {
   VerifyReport report;
-  const bool plane = arguments.options.promised.task == Task::plane;
-  const std::string why =
-      plane ? verify_plane_quietly(arguments, report) : verify_quietly(arguments, report);
+  const Task task = arguments.options.promised.task;
+  const std::string why = task == Task::plane     ? verify_plane_quietly(arguments, report)
+                          : task == Task::improve ? verify_improved_quietly(arguments, report)
+                                                  : verify_quietly(arguments, report);
   if (!why.empty()) {
     std::fprintf(stderr, "tetproof: %s: %s\n", arguments.input.c_str(), why.c_str());
     return kInvalid;
@@ -216,12 +228,17 @@ int run_verify(int argc, char** argv) {
     std::fprintf(stderr, "tetproof: --declared-deviation: %g is no deviation\n", declared);
     return kUsage;
   }
-  if (arguments.envelope > 0 &&
-      (arguments.options.promised.task == Task::plane || !arguments.exact.empty())) {
-    std::fputs("tetproof: --envelope: of a file alone, and not in the plane\n", stderr);
+  const Task task = arguments.options.promised.task;
+  const bool surface = task == Task::mesh || task == Task::cdt;
+  if (arguments.envelope > 0 && (!surface || !arguments.exact.empty())) {
+    std::fputs("tetproof: --envelope: of a mesh of a surface, and of a file alone\n", stderr);
     return kUsage;
   }
-  if (arguments.stage && arguments.options.promised.task == Task::plane) {
+  if (task == Task::improve && (arguments.stage || !arguments.exact.empty())) {
+    std::fputs("tetproof: an improved mesh has no record and no stages\n", stderr);
+    return kUsage;
+  }
+  if (arguments.stage && task == Task::plane) {
     std::fputs("tetproof: --stage: in the plane --promised 'plane --approximate' says it\n",
                stderr);
     return kUsage;

@@ -1,9 +1,9 @@
 // The oracles on the mesh as it was written.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "oracles/delaunay.h"
+#include "oracles/edge_nodes.h"
 #include "oracles/hull.h"
 #include "oracles/places.h"
 #include "oracles/refined_index.h"
@@ -66,35 +66,6 @@ bool Verification::check_empty() {
   return true;
 }
 
-// Elements of second order have straight edges: a node in the middle of each, but for rounding.
-void Verification::check_edge_nodes() {
-  const bool wanted = options_.promised.second_order && mesh_.has_second_order;
-  if (mesh_.edge_nodes.empty() && !wanted) return;
-  OracleReport report("edge-nodes", "edges");
-  if (mesh_.edge_nodes.empty()) report.fail("the elements are linear, promised was --order 2");
-  const double allowed = std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_);
-  double farthest = 0;
-  for (const auto& [ends, at] : mesh_.edge_nodes) {
-    ++report.checked;
-    double off = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double middle = mesh_.vertices[ends[0]][k] / 2 + mesh_.vertices[ends[1]][k] / 2;
-      const double distance = std::fabs(at[k] - middle);
-      off = distance <= off || std::isnan(off) ? off : distance;
-    }
-    if (off <= allowed) {  // not if it is no number
-      farthest = std::max(farthest, off);
-      continue;
-    }
-    char text[120];
-    std::snprintf(text, sizeof text, "the node of edge %u %u is %.3g away from the middle", ends[0],
-                  ends[1], off);
-    report.fail(text);
-  }
-  report.figures.emplace_back("farthest from the middle", farthest);
-  add(std::move(report));
-}
-
 std::string Verification::check_file() {
   if (!check_finite() || check_empty()) return {};
   ExactPoints points;
@@ -107,7 +78,10 @@ std::string Verification::check_file() {
   if (std::string why = surface.assign(input_, points); !why.empty()) return why;
   ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
   diagonal_ = surface.diagonal();
-  check_edge_nodes();
+  if (!mesh_.edge_nodes.empty() || (options_.promised.second_order && mesh_.has_second_order)) {
+    add(check_edge_nodes(mesh_,
+                         std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_)));
+  }
 
   const auto offset = static_cast<Index>(input_.vertices.size());
   TetComplex complex{&points, mesh_.tetrahedra, {}, offset, static_cast<Index>(points.size())};
