@@ -8,18 +8,24 @@
 namespace delmesher::improve {
 
 bool Collapse::run(VertexId v) {
+  if (state_.mobility(v) == Mobility::fixed) return false;
   state_.mesh.star(v, star_);
-  return run(v, state_.to_be_acceptable(state_.worst_of(star_)));
+  return take_out(v, state_.to_be_acceptable(state_.worst_of(star_)));
 }
 
 bool Collapse::run(VertexId v, const Quality& least) {
   if (state_.mobility(v) == Mobility::fixed) return false;
   state_.mesh.star(v, star_);
+  return take_out(v, least);
+}
+
+bool Collapse::take_out(VertexId v, const Quality& least) {
   find_targets(v);
+  look_around(v);
   VertexId best = kNone;
   float best_score = 0;
   for (const VertexId w : targets_) {
-    const float score = score_after(v, w, least);
+    const float score = score_after(w, least, best_score);
     if (score <= best_score) continue;
     best = w;
     best_score = score;
@@ -75,22 +81,33 @@ bool Collapse::stays_on_surface(VertexId v, VertexId w) const {
   return false;
 }
 
-// The score of the worst tetrahedron of v's star after the collapse; 0 if that is not allowed.
-float Collapse::score_after(VertexId v, VertexId w, const Quality& least) const {
-  float score = HUGE_VALF;
+void Collapse::look_around(VertexId v) {
+  around_.clear();
   for (const TetId t : star_) {
+    around_.push_back({t, state_.mesh.index_of(t, v), state_.counts(t)});
+  }
+}
+
+// The score of the worst tetrahedron of v's star after the collapse; 0 if that is not allowed, or
+// if it is not above `enough`. What forbids one target often forbids the next.
+float Collapse::score_after(VertexId w, const Quality& least, float enough) {
+  float score = HUGE_VALF;
+  for (Around& around : around_) {
+    const auto& [t, i, counts] = around;
     if (state_.mesh.index_of(t, w) >= 0) continue;
     const Tet& tet = state_.mesh.tet(t);
-    const int i = state_.mesh.index_of(t, v);
-    const bool counts = state_.counts(t);
     const Quality q = state_.quality_with(tet, i, state_.position(w), counts ? least : Quality{});
-    if (!(q.dihedral > 0)) return 0;
-    if (!counts) continue;
-    if (!State::reaches(q, least)) return 0;
-    score = std::min(score, state_.score(q));
-    for (int k = 0; k < 4; ++k) {
-      if (k != i && state_.too_long(state_.position(w), state_.position(tet[k]))) return 0;
+    bool ok = q.dihedral > 0;
+    if (ok && counts) {
+      score = std::min(score, state_.score(q));
+      ok = State::reaches(q, least) && score > enough;
+      for (int k = 0; k < 4; ++k) {
+        ok = ok && (k == i || !state_.too_long(state_.position(w), state_.position(tet[k])));
+      }
     }
+    if (ok) continue;
+    std::swap(around, around_.front());
+    return 0;
   }
   return score;
 }

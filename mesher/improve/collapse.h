@@ -21,14 +21,24 @@ class Collapse {
   bool run(VertexId v, const Quality& least);
 
  private:
+  // A tetrahedron of the star without v: the corner that v has, and whether it counts.
+  struct Around {
+    TetId tet;
+    int corner;
+    bool counts;
+  };
+
+  bool take_out(VertexId v, const Quality& least);
+  void look_around(VertexId v);
   void find_targets(VertexId v);
   void find_edges_on_surface(VertexId v);
   bool stays_on_surface(VertexId v, VertexId w) const;
-  float score_after(VertexId v, VertexId w, const Quality& least) const;
+  float score_after(VertexId w, const Quality& least, float enough);
   bool certain(VertexId v, VertexId w);
 
   State& state_;
   std::vector<TetId> star_;
+  std::vector<Around> around_;  // those first that forbade targets
   std::vector<VertexId> targets_;
   std::vector<std::uint32_t> mark_;  // of find_targets()
   std::uint32_t epoch_ = 0;

@@ -151,17 +151,18 @@ bool EdgeRemoval::improves(const Filling& filling, const Filling& best) const {
 
 // Two tetrahedra, towards a and b, for each triangle of the polygon: the best filling among those
 // that reach the quality required (Klincsek's dynamic program).
-EdgeRemoval::Filling EdgeRemoval::triangulate(Polygon& polygon) const {
+EdgeRemoval::Filling EdgeRemoval::triangulate(Polygon& polygon) {
   const int n = polygon.size;
   const bool counts = state_.counts_in(polygon.region);
   const bool weighs_roundness = counts && aim_ == Aim::roundest;
   const bool is_diagonal = !faces_.empty();  // of a facet: the edge from first to last is new, too
   const Quality least = counts ? least_ : Quality{};
-  std::array<std::array<Filling, kLongest + 1>, kLongest + 1> best;
-  for (int i = 0; i + 1 < n; ++i) best[i][i + 1].worst = kNotCounted;
+  auto& best = best_;
+  for (int i = 0; i + 1 < n; ++i) best[i][i + 1] = {kNotCounted, 0};
   for (int width = 2; width < n; ++width) {
     for (int i = 0; i + width < n; ++i) {
       const int j = i + width;
+      best[i][j] = {};
       const bool is_new = width < n - 1 || is_diagonal;
       if (counts && is_new &&
           state_.too_long(state_.position(polygon.vertex[i]), state_.position(polygon.vertex[j]))) {

@@ -47,9 +47,9 @@ class EdgeRemoval {
   struct Polygon {
     int size = 0;
     RegionId region = kOutside;
-    std::array<VertexId, kLongest + 1> vertex{};
+    std::array<VertexId, kLongest + 1> vertex;
     // Of the best triangulation of vertices i to j: the third vertex of the triangle at i-j.
-    std::array<std::array<std::int8_t, kLongest + 1>, kLongest + 1> middle{};
+    std::array<std::array<std::int8_t, kLongest + 1>, kLongest + 1> middle;
   };
 
   bool find_ring(TetId t, std::span<const std::uint32_t> failed);
@@ -57,7 +57,7 @@ class EdgeRemoval {
   TetId beginning(TetId t) const;
   bool split_ring();
   bool refill(double least_roundness);
-  Filling triangulate(Polygon& polygon) const;
+  Filling triangulate(Polygon& polygon);
   bool improves(const Filling& filling, const Filling& best) const;
   static double roundness(const Quality& q);
   void collect(const Polygon& polygon);
@@ -71,6 +71,7 @@ class EdgeRemoval {
   Quality least_;                   // the quality that the new tetrahedra have to reach
   std::vector<std::size_t> walls_;  // numbers of the faces of the surface
   std::vector<Polygon> polygons_;
+  std::array<std::array<Filling, kLongest + 1>, kLongest + 1> best_;  // of triangulate()
   std::vector<CreatedTet> created_;
   std::vector<SurfaceFace> faces_;
 };

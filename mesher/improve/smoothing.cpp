@@ -16,12 +16,7 @@ bool Smoothing::begin(VertexId v) {
     if (state_.score(t) < state_.score(star_[0])) std::swap(t, star_[0]);
   }
   index_.clear();
-  double shortest2 = HUGE_VAL, neighbours = 0;
-  center_ = {0, 0, 0};
-  const auto take = [&](VertexId w) {
-    center_ = predicates::add(center_, state_.position(w));
-    ++neighbours;
-  };
+  double shortest2 = HUGE_VAL;
   for (const TetId t : star_) {
     const int i = mesh.index_of(t, v);
     index_.push_back(i);
@@ -29,7 +24,28 @@ bool Smoothing::begin(VertexId v) {
       if (k == i) continue;
       const Vec3 edge = subtract(state_.position(mesh.tet(t)[k]), state_.position(v));
       shortest2 = std::min(shortest2, squared_norm(edge));
-      if (state_.mobility(v) == Mobility::free) {
+    }
+  }
+  shortest_ = std::sqrt(shortest2);
+  return shortest_ > 0 && find_axis();
+}
+
+// Of the neighbours, each as often as it has tetrahedra of the star; on the surface, of those
+// there.
+void Smoothing::find_center() {
+  const WorkMesh& mesh = state_.mesh;
+  double neighbours = 0;
+  center_ = {0, 0, 0};
+  const auto take = [&](VertexId w) {
+    center_ = predicates::add(center_, state_.position(w));
+    ++neighbours;
+  };
+  for (std::size_t n = 0; n < star_.size(); ++n) {
+    const TetId t = star_[n];
+    const int i = index_[n];
+    for (int k = 0; k < 4; ++k) {
+      if (k == i) continue;
+      if (state_.mobility(v_) == Mobility::free) {
         take(mesh.tet(t)[k]);
       } else if (mesh.facet(t, k) != kNone) {
         for (const int j : kFace[k]) {
@@ -38,9 +54,7 @@ bool Smoothing::begin(VertexId v) {
       }
     }
   }
-  shortest_ = std::sqrt(shortest2);
   for (double& x : center_) x /= neighbours;
-  return shortest_ > 0 && find_axis();
 }
 
 // The normal of the facet that v is in, or the direction of the edge that it is on.
@@ -88,12 +102,14 @@ Vec3 Smoothing::towards_best_apexes(const Vec3& x) const {
 // The worst of the star with v at x; all 0 if it does not reach `least`.
 Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
   Quality worst = kNotCounted;
+  quality_.clear();
   for (std::size_t n = 0; n < star_.size(); ++n) {
     const TetId t = star_[n];
     const bool counts = state_.counts(t);
     const Quality q =
         state_.quality_with(state_.mesh.tet(t), index_[n], x, counts ? least : Quality{});
     if (!(q.dihedral > 0)) return {};
+    quality_.push_back(counts ? q : kNotCounted);
     if (!counts) continue;
     if (state_.score(q) < state_.score(worst)) worst_ = n;
     worst = worse(worst, q);
@@ -105,6 +121,7 @@ Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
 bool Smoothing::improve_worst(VertexId v) {
   constexpr double kSteps[] = {0.5, 0.25, 0.125, 0.0625, 0.015625};
   if (!begin(v)) return false;
+  find_center();
   const Quality least = state_.to_be_better(state_.worst_of(star_));
   Quality best = state_.worst_of(star_);
   Vec3 x = state_.position(v);
@@ -144,7 +161,8 @@ bool Smoothing::improve_worst(VertexId v) {
 }
 
 // The sum of the gammas of the star with v at x; 0 if it does not reach `least`.
-double Smoothing::roundness_at(const Vec3& x, const Quality& least) const {
+double Smoothing::roundness_at(const Vec3& x, const Quality& least) {
+  quality_.clear();
   double sum = 0;
   for (std::size_t n = 0; n < star_.size(); ++n) {
     const TetId t = star_[n];
@@ -152,6 +170,7 @@ double Smoothing::roundness_at(const Vec3& x, const Quality& least) const {
     const Quality q =
         state_.quality_with(state_.mesh.tet(t), index_[n], x, counts ? least : Quality{});
     if (!(q.dihedral > 0)) return 0;
+    quality_.push_back(counts ? q : kNotCounted);
     if (!counts) continue;
     if (!State::reaches(q, least)) return 0;
     sum += std::sqrt(q.gamma);
@@ -213,7 +232,7 @@ bool Smoothing::settle(VertexId v, const Place& place, bool ok) {
          state_.is_positive_with(state_.mesh.tet(star_[n]), index_[n], place);
   }
   if (ok) {
-    state_.move(v, place, star_);
+    state_.move(v, place, star_, quality_);
   } else {
     state_.forget(place);
   }

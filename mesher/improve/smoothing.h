@@ -18,12 +18,13 @@ class Smoothing {
 
  private:
   bool begin(VertexId v);
+  void find_center();
   bool find_axis();
   Vec3 allowed(const Vec3& offset) const;
   Vec3 towards_best_apexes(const Vec3& x) const;
   Vec3 towards_best_apex(TetId worst, const Vec3& x) const;
   Quality worst_at(const Vec3& x, const Quality& least);
-  double roundness_at(const Vec3& x, const Quality& least) const;
+  double roundness_at(const Vec3& x, const Quality& least);
   bool commit(VertexId v, const Vec3& offset, const Quality& least);
   bool becomes_too_long(TetId t, int i, const Vec3& x) const;
   bool settle(VertexId v, const Place& place, bool ok);
@@ -31,11 +32,12 @@ class Smoothing {
   State& state_;
   VertexId v_ = 0;
   std::vector<TetId> star_;
-  std::vector<int> index_;  // of v in each
-  std::size_t worst_ = 0;   // of the star at the place asked last
-  Vec3 axis_{};             // normal of its facet, or direction of its edge; unused if it is free
-  double shortest_ = 0;     // edge at v
-  Vec3 center_{};           // of the neighbours
+  std::vector<int> index_;        // of v in each
+  std::vector<Quality> quality_;  // of the star at the place asked last, if it is good enough
+  std::size_t worst_ = 0;         // of the star at the place asked last
+  Vec3 axis_{};          // normal of its facet, or direction of its edge; unused if it is free
+  double shortest_ = 0;  // edge at v
+  Vec3 center_{};        // of the neighbours, if it is asked for
 };
 
 }  // namespace delmesher::improve

@@ -112,6 +112,10 @@ bool State::is_positive_with(const Tet& t, int i, const Place& place) {
 
 void State::note(TetId t) {
   measure(t);
+  note_change(t);
+}
+
+void State::note_change(TetId t) {
   for (const VertexId v : mesh.tet(t)) changed_at_[v] = clock_;
 }
 
@@ -217,6 +221,20 @@ void State::forget(const Place& place) {
 }
 
 void State::move(VertexId v, const Place& place, std::span<const TetId> star) {
+  put_at(v, place);
+  for (const TetId t : star) note(t);
+}
+
+void State::move(VertexId v, const Place& place, std::span<const TetId> star,
+                 std::span<const Quality> quality) {
+  put_at(v, place);
+  for (std::size_t n = 0; n < star.size(); ++n) {
+    quality_[star[n]] = quality[n];
+    note_change(star[n]);
+  }
+}
+
+void State::put_at(VertexId v, const Place& place) {
   ++clock_;
   if (mobility_[v] == Mobility::free && point_[v] >= first_new_) {
     // Nobody else has seen where it was.
@@ -227,7 +245,6 @@ void State::move(VertexId v, const Place& place, std::span<const TetId> star) {
     point_[v] = place.point;
   }
   position_[v] = place.position;
-  for (const TetId t : star) note(t);
 }
 
 VertexId State::add_vertex(const Place& place, Mobility mobility, FacetId facet) {

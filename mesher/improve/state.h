@@ -172,6 +172,9 @@ class State {
   Place new_place(const Vec3& x, double tolerance);
   void forget(const Place& place);
   void move(VertexId v, const Place& place, std::span<const TetId> star);
+  // `quality`: of the star, with v there.
+  void move(VertexId v, const Place& place, std::span<const TetId> star,
+            std::span<const Quality> quality);
   // `created` has kNone where the new vertex is.
   void insert(const Place& place, std::span<const TetId> removed, std::span<CreatedTet> created);
 
@@ -227,8 +230,10 @@ class State {
   Place place_of(const PointDefinition& d, std::span<const PlaneId> planes,
                  std::span<const std::uint32_t> lines);
   VertexId add_vertex(const Place& place, Mobility mobility, FacetId facet);
+  void put_at(VertexId v, const Place& place);
   void measure(TetId t);
   void note(TetId t);
+  void note_change(TetId t);
 
   PointStore& points_;
   Predicates& predicates_;

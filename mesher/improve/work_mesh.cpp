@@ -1,6 +1,7 @@
 #include "mesher/improve/work_mesh.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "mesher/base/check.h"
 #include "mesher/base/face_key.h"
@@ -152,8 +153,8 @@ void WorkMesh::replace(std::span<const TetId> removed, std::span<const CreatedTe
       const std::uint32_t across = neighbor_[t][i];
       if (across != kNone && mark_[across / 4] == epoch_) continue;
       const Tet& v = tet_[t];
-      faces_.push_back(
-          {undirected_face(v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]), across, facet_[t][i]});
+      faces_.push_back({undirected_face(v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]), across,
+                        facet_[t][i], false});
     }
   }
   const std::size_t outer = faces_.size();
@@ -175,7 +176,7 @@ void WorkMesh::replace(std::span<const TetId> removed, std::span<const CreatedTe
     for (int i = 0; i < 4; ++i) {
       const Tet& v = tet.vertices;
       faces_.push_back({undirected_face(v[kFace[i][0]], v[kFace[i][1]], v[kFace[i][2]]),
-                        4 * t + static_cast<std::uint32_t>(i), kNone});
+                        4 * t + static_cast<std::uint32_t>(i), kNone, true});
     }
   }
   // Vertices inside the cavity have no tetrahedra any more.
@@ -183,8 +184,9 @@ void WorkMesh::replace(std::span<const TetId> removed, std::span<const CreatedTe
     const TetId t = incident_[v];
     if (t != kNone && (!alive(t) || index_of(t, v) < 0)) incident_[v] = kNone;
   }
-  std::stable_sort(faces_.begin(), faces_.end(),
-                   [](const FaceEntry& a, const FaceEntry& b) { return a.key < b.key; });
+  std::sort(faces_.begin(), faces_.end(), [](const FaceEntry& a, const FaceEntry& b) {
+    return std::tie(a.key, a.created) < std::tie(b.key, b.created);
+  });
   DELMESHER_CHECK(outer <= faces_.size(), "fewer faces after a change than around it");
   for (std::size_t n = 0; n < faces_.size();) {
     const bool paired = n + 1 < faces_.size() && faces_[n + 1].key == faces_[n].key;

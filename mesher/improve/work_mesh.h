@@ -92,6 +92,7 @@ class WorkMesh {
     std::array<VertexId, 3> key;
     std::uint32_t side;  // 4 * tet + face, kNone beyond the hull
     FacetId facet;
+    bool created;
   };
 
   void link(std::span<const SurfaceFace> boundary);
