@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -109,6 +110,7 @@ struct GenerateArguments {
 struct CopiesArguments {
   std::vector<std::string> paths;
   std::string folder;
+  std::optional<std::uint64_t> seed;  // rotate: of one rotation in place of the three
 };
 
 struct ShrinkArguments {

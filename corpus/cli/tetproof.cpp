@@ -275,11 +275,13 @@ CLI::App* declare_copies(CLI::App& tetproof, const char* name, const char* about
 }
 
 CLI::App* declare_rotate(CLI::App& tetproof, CopiesArguments& a) {
-  return declare_copies(
+  CLI::App* app = declare_copies(
       tetproof, "rotate",
       "Surfaces as given and in three other positions, in doubles (NAME@r1.off) and in float32 "
       "(NAME@r1s.off), where they are valid; reports compare their meshes",
       a);
+  app->add_option("--seed", a.seed, "One position, drawn by this number, in place of the three");
+  return app;
 }
 
 CLI::App* declare_vary(CLI::App& tetproof, CopiesArguments& a) {

@@ -51,6 +51,12 @@ void add_triangle(Surface& s, const std::array<std::uint32_t, 3>& corners, std::
 
 }  // namespace
 
+Quaternion rotation_from(Random& random) {
+  Quaternion rotation;
+  for (int& x : rotation) x = random.integer(1, 99) * (random.chance(0.5) ? 1 : -1);
+  return rotation;
+}
+
 Surface rotated(const Surface& surface, const Quaternion& rotation, Precision precision) {
   const auto [w, x, y, z] = rotation;
   const int n = w * w + x * x + y * y + z * z;

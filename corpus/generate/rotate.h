@@ -23,6 +23,9 @@ using Quaternion = std::array<int, 4>;
 inline constexpr std::array<Quaternion, 3> kRotations = {
     Quaternion{11, 2, 3, 5}, Quaternion{4, 1, -3, 3}, Quaternion{3, 7, 8, -7}};
 
+// Another one, about no coordinate axis and by no half turn.
+Quaternion rotation_from(Random& random);
+
 // Rotates about the origin, in doubles, to a few roundings; the same on every machine.
 delmesher::Surface rotated(const delmesher::Surface& surface, const Quaternion& rotation,
                            Precision precision);

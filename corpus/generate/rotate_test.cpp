@@ -49,6 +49,21 @@ TEST(Rotated, KeepsDistancesAndOrientation) {
   }
 }
 
+TEST(Rotated, OtherRotationsTurnEveryAxis) {
+  Random random(1), same(1);
+  const Quaternion first = rotation_from(random);
+  EXPECT_EQ(rotation_from(same), first);
+  for (int n = 0; n < 50; ++n) {
+    const Quaternion q = rotation_from(random);
+    EXPECT_NE(q, first);
+    const Surface axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {}, {}};
+    for (const Point& p : rotated(axes, q, Precision::doubles).vertices) {
+      EXPECT_LT(*std::max_element(p.begin(), p.end()), 1);
+      EXPECT_NEAR(distance2(p, {0, 0, 0}), 1, 1e-14);
+    }
+  }
+}
+
 TEST(Rotated, AQuarterTurnIsExact) {
   const Surface given = a_box();
   const Surface turned = rotated(given, {1, 0, 0, 1}, Precision::doubles);  // about z
