@@ -33,23 +33,29 @@ double length(const Position& u) {
   return std::sqrt(dot(u, u));
 }
 
-// Of the edge from the first to the second corner, with the third on its left. Negative: sharp.
-double bend(const std::array<Position, 4>& corners) {
+struct Bend {
+  double size;  // negative: sharp
+  bool concave;
+};
+
+// Of the edge from the first to the second corner, with the third on its left.
+Bend bend(const std::array<Position, 4>& corners) {
   const Position along = minus(corners[1], corners[0]), left = minus(corners[2], corners[0]),
                  right = minus(corners[3], corners[0]);
   const Position m = cross(along, left), n = cross(right, along);
-  if (!(dot(m, n) > 0)) return -1;
+  const bool concave = dot(m, right) > 0;
+  if (!(dot(m, n) > 0)) return {-1, concave};
   const Position sum = {m[0] + n[0], m[1] + n[1], m[2] + n[2]};
   const std::array<double, 4> heights = {0, dot(sum, along), dot(sum, left), dot(sum, right)};
   const double a = length(m), b = length(n);
   const double centroid = (heights[1] * (a + b) + heights[2] * a + heights[3] * b) / (3 * (a + b));
   double most = 0;
   for (const double h : heights) most = std::max(most, std::fabs(h - centroid));
-  return most / length(sum);
+  return {most / length(sum), concave};
 }
 
 // Of vertices times `scale`, in the same units.
-std::vector<double> bends(const Polyhedron& surface, double scale) {
+std::vector<Bend> bends(const Polyhedron& surface, double scale) {
   const auto place = [&](Index v) {
     const Position& p = surface.vertices[v];
     return Position{p[0] * scale, p[1] * scale, p[2] * scale};
@@ -62,7 +68,7 @@ std::vector<double> bends(const Polyhedron& surface, double scale) {
     across.emplace_back(directed_key(c, a), b);
   }
   std::sort(across.begin(), across.end());
-  std::vector<double> result;
+  std::vector<Bend> result;
   for (const auto& [key, third] : across) {
     const auto from = static_cast<Index>(key >> 32), to = static_cast<Index>(key);
     if (from > to) continue;
@@ -82,20 +88,30 @@ double noise_of_edges(const Polyhedron& surface) {
   if (!(size.diagonal > 0) || !std::isfinite(size.diagonal)) return 0;
   // Else products of three lengths might be beyond doubles.
   const double scale = std::ldexp(1, -std::max(std::ilogb(size.diagonal), -1000));
-  std::vector<double> noisy = bends(surface, scale);
   const double least = kRounding * size.largest * scale, diagonal = size.diagonal * scale;
-  std::erase_if(noisy, [&](double x) { return !(x > least); });
-  std::sort(noisy.begin(), noisy.end());
+  std::vector<Bend> noisy = bends(surface, scale);
+  std::erase_if(noisy, [&](const Bend& b) { return !(b.size > least); });
+  std::ranges::sort(noisy, {}, &Bend::size);
+  // Of the first ones, how many are concave?
+  std::vector<std::ptrdiff_t> concave(1, 0);
+  for (const Bend& b : noisy) concave.push_back(concave.back() + (b.concave ? 1 : 0));
   const auto up_to = [&](double x) {
-    return std::upper_bound(noisy.begin(), noisy.end(), x) - noisy.begin();
+    return std::ranges::upper_bound(noisy, x, {}, &Bend::size) - noisy.begin();
+  };
+  // Of those from place `from` to place `to`, on the side that has fewer.
+  const auto fewer = [&](std::ptrdiff_t from, std::ptrdiff_t to) {
+    const std::ptrdiff_t n =
+        concave[static_cast<std::size_t>(to)] - concave[static_cast<std::size_t>(from)];
+    return std::min(n, to - from - n);
   };
   double result = 0;
   for (std::size_t n = 7; n < noisy.size(); ++n) {
-    const double x = noisy[n];
+    const double x = noisy[n].size;
     if (x > kMost * diagonal * (1 + kSlack)) break;
-    const auto count = up_to(x), quarter = up_to(x / 4);
-    if (count + 1 >= 9 * (up_to(4 * x) - count) && 5 * (count - quarter) >= count &&
-        10 * (quarter - up_to(x / 16)) >= count - quarter) {
+    const auto count = up_to(x), quarter = up_to(x / 4), large = count - quarter;
+    if (fewer(0, count) + 1 >= 6 * fewer(count, up_to(4 * x)) && 5 * large >= count &&
+        10 * (quarter - up_to(x / 16)) >= large && 5 * (fewer(0, count) + 1) >= count &&
+        10 * (fewer(quarter, count) + 1) >= large) {
       result = x;
     }
   }

@@ -36,15 +36,17 @@ double bend(const Surface& surface, std::uint32_t h, std::uint32_t g) {
   return std::copysign(largest / norm(normal), -dot(t, subtract(p[3], p[0])));
 }
 
-// Ascending sizes.
+// Bends to one side, or to both, by their sizes.
 class Sizes {
  public:
-  explicit Sizes(std::vector<double> sizes) : sizes_(std::move(sizes)) {
-    std::sort(sizes_.begin(), sizes_.end());
-  }
+  void add(double size) { sizes_.push_back(size); }
+  void sort() { std::sort(sizes_.begin(), sizes_.end()); }
   const std::vector<double>& all() const { return sizes_; }
   std::ptrdiff_t up_to(double most) const {
     return std::upper_bound(sizes_.begin(), sizes_.end(), most) - sizes_.begin();
+  }
+  std::ptrdiff_t between(double more_than, double most) const {
+    return up_to(most) - up_to(more_than);
   }
 
  private:
@@ -64,26 +66,35 @@ std::vector<double> edge_bends(const Surface& surface) {
 
 double noise_of_bends(const std::vector<double>& bends, double rounding, double least,
                       double most) {
-  constexpr std::ptrdiff_t kFewest = 8, kTimes = 10, kSmaller = 8, kShare = 4;
-  std::vector<double> sizes, convex_sizes;
+  constexpr std::ptrdiff_t kFewest = 8, kTimes = 7, kSmaller = 8, kShare = 4, kShareOfLarge = 8,
+                           kTimesAll = 10;
+  constexpr double kSoon = 2.5;
+  Sizes all, convex, concave;
   for (const double x : bends) {
     if (!(std::fabs(x) > rounding)) continue;
-    sizes.push_back(std::fabs(x));
-    if (x > 0) convex_sizes.push_back(x);
+    all.add(std::fabs(x));
+    (x > 0 ? convex : concave).add(std::fabs(x));
   }
-  const Sizes all(std::move(sizes)), convex(std::move(convex_sizes));
+  for (Sizes* sizes : {&all, &convex, &concave}) sizes->sort();
+  // To the side that has fewer.
+  const auto fewer = [&](double more_than, double to) {
+    return std::min(convex.between(more_than, to), concave.between(more_than, to));
+  };
+  double noise = 0;
   for (const double x : all.all()) {
     if (x <= least) continue;
-    if (x > most) break;
-    const std::ptrdiff_t up_to = all.up_to(x), more = all.up_to(4 * x) - up_to,
-                         quarter = all.up_to(x / 4), smaller = quarter - all.up_to(x / 16),
-                         to_one_side = convex.up_to(x);
-    if (up_to >= kFewest && up_to >= kTimes * more && kSmaller * smaller >= up_to - quarter &&
-        kShare * std::min({up_to - quarter, to_one_side, up_to - to_one_side}) >= up_to) {
-      return x;
-    }
+    if (x > most || (noise > 0 && x > kSoon * noise)) break;
+    const std::ptrdiff_t up_to = all.up_to(x), large = all.between(x / 4, x),
+                         to_either_side = fewer(0, x);
+    const bool like_noise = up_to >= kFewest && to_either_side >= kTimes * fewer(x, 4 * x) &&
+                            kSmaller * all.between(x / 16, x / 4) >= large &&
+                            kShare * std::min(large, to_either_side) >= up_to &&
+                            kShareOfLarge * fewer(x / 4, x) >= large;
+    if (!like_noise) continue;
+    if (up_to >= kTimesAll * all.between(x, 4 * x)) return x;
+    if (noise == 0) noise = x;
   }
-  return 0;
+  return noise;
 }
 
 }  // namespace delmesher::surface

@@ -14,13 +14,16 @@ namespace delmesher::surface {
 std::vector<double> edge_bends(const Surface& surface);
 
 // Coordinates that were rounded more than once, or to integers, do not say how coarse they are.
-// Bends do: those that noise makes are as often convex as concave, of all sizes up to its own, and
-// there are hardly any beyond. Returns the smallest bend above `least` such that
+// Bends do: those that noise makes are as often convex as concave and of all sizes up to its own,
+// while a fillet bends its edges to one side. So of the bends of a range, twice those to the side
+// that has fewer may be noise. Returns the smallest bend above `least` such that
 //   - at least eight edges are bent by up to it (and by more than `rounding`, as doubles are), and
-//     at least ten times as many as by more, up to four times it,
+//     those of them that may be noise are seven times as many as those beyond, up to four times it,
 //   - at least an eighth as many by a 16th to a quarter of it as by a quarter or more,
 //   - at least a quarter of all these by more than a quarter of it,
-//   - at least a quarter of all these to either side.
+//   - at least a quarter of all these to either side, and an eighth of those by more than a
+//   quarter.
+// or, up to 2.5 times that, the first of these that is followed by a tenth as many bends at all.
 // 0 if there is none up to `most`. What it finds may still be a surface that is curved.
 double noise_of_bends(const std::vector<double>& bends, double rounding, double least, double most);
 

@@ -59,7 +59,7 @@ TEST(EdgeBends, AFewBendsTellNothing) {
 
 // So many larger ones that the smaller ones may be the beginning of these.
 TEST(EdgeBends, ThatGoOnAreMeant) {
-  EXPECT_GT(noise(spread(40, 1e-5), {2e-5, 3e-5}), 0);
+  EXPECT_GT(noise(spread(42, 1e-5), {2e-5, -2e-5, 2.5e-5, -2.5e-5, 3e-5, -3e-5}), 0);
   std::vector<double> going_on;
   for (double x = 1e-8; x < 4 * kMost; x *= 1.02) going_on.insert(going_on.end(), {x, -x});
   EXPECT_EQ(noise(going_on), 0);
@@ -79,6 +79,39 @@ TEST(EdgeBends, ToOneSideAreMeant) {
   EXPECT_EQ(noise(dome), 0);
   for (double& x : dome) x = -x;
   EXPECT_EQ(noise(dome), 0);
+}
+
+// Few bends of one side after the first end, and then none at all: noise is up to there.
+TEST(EdgeBends, NoiseMayHaveATail) {
+  std::vector<double> tail;
+  for (int i = 0; i < 12; ++i) tail.push_back(1e-5 * (1.2 + 0.05 * i));
+  EXPECT_GT(noise(spread(60, 1e-5), tail), 1.1e-5);
+  for (double& x : tail) x *= 2.5;
+  EXPECT_LE(noise(spread(60, 1e-5), tail), 1e-5);
+}
+
+// Rounded edges, which begin where the noise ends, and are convex or concave as a rule.
+TEST(EdgeBends, FilletsHideNoNoise) {
+  std::vector<double> fillet;
+  for (double x = 1.2e-5; x < 4 * kMost; x *= 1.1) fillet.push_back(x);
+  for (const double side : {-1, 1}) {
+    for (double& x : fillet) x *= side;
+    const double found = noise(spread(40, 1e-5), fillet);
+    EXPECT_GT(found, 0.8e-5);
+    EXPECT_LE(found, 1e-5);
+  }
+  std::vector<double> both = fillet;
+  for (const double x : fillet) both.push_back(-x);
+  EXPECT_EQ(noise(spread(40, 1e-5), both), 0);
+}
+
+// More of the larger ones are to one side than noise would have, though of all they are not.
+TEST(EdgeBends, ADomeOnAFlatFaceIsMeant) {
+  std::vector<double> dome;
+  for (int i = 0; i < 40; ++i) dome.push_back(1e-5 * (0.3 + 0.7 * i / 40));
+  const double found = noise(spread(60, 3e-6), dome);
+  EXPECT_GT(found, 2e-6);
+  EXPECT_LE(found, 3e-6);
 }
 
 // Much larger than most are.

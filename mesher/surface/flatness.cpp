@@ -1,7 +1,9 @@
 #include "mesher/surface/flatness.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "mesher/predicates/vector.h"
@@ -25,31 +27,58 @@ bool explains(double rounding, const std::vector<double>& bends, double least) {
   return count(least, most) > kTimes * std::max(1.0, count(std::max(least, most), kMore * most));
 }
 
-// Planar groups, those of one triangle among them.
-std::size_t groups_within(const MeasuredSurface& surface, double flat, Control& control) {
-  PlanarGrowth growth(surface, flat, flat, control);
-  growth.grow_all();
-  return static_cast<std::size_t>(std::ranges::count_if(
-      growth.groups(), [](const PlanarGrowth::Group& g) { return !g.triangles.empty(); }));
-}
+class PlanarGroups {
+ public:
+  PlanarGroups(const Surface& surface, Control& control) : surface_(surface), control_(control) {}
 
-// Does `more` make groups one that `flat` leaves apart, and twice as much no others?
-bool makes_flat(const Surface& surface, double flat, double more, Control& control) {
-  constexpr double kFewer = 0.97, kSame = 0.9;
-  const MeasuredSurface measured(surface);
-  const auto groups = [&](double within) {
-    return static_cast<double>(groups_within(measured, within, control));
-  };
-  const double with_more = groups(more);
-  return with_more <= kFewer * groups(flat) && groups(2 * more) >= kSame * with_more;
+  // Those of one triangle among them.
+  double within(double flat) const {
+    PlanarGrowth growth(surface_, flat, flat, control_);
+    growth.grow_all();
+    return static_cast<double>(std::ranges::count_if(
+        growth.groups(), [](const PlanarGrowth::Group& g) { return !g.triangles.empty(); }));
+  }
+
+ private:
+  const MeasuredSurface surface_;
+  Control& control_;
+};
+
+// What bends noise makes of flat faces, if it does and more than `flat` is needed for it; else 0.
+// Bends are those of two triangles, and the corners of many are farther from their plane: how much,
+// depends on their shapes.
+double bend_of_noise(const Surface& surface, double flat, double noise, Control& control) {
+  constexpr double kLeast = 2, kStep = std::numbers::sqrt2;  // of the noise
+  constexpr double kSettled = 0.5, kHardly = 0.01, kFewer = 0.97;
+  constexpr double kSame = 0.1, kNearly = 0.25, kOfFewer = 1.0 / 3;
+  const PlanarGroups groups(surface, control);
+  std::array<double, 5> bound, count;
+  for (std::size_t i = 0; i < bound.size(); ++i) {
+    bound[i] = kLeast * noise * std::pow(kStep, i);
+    count[i] = groups.within(bound[i]);
+  }
+  // Where flat faces have become whole, the next step makes fewer groups one with others than the
+  // one before, or hardly any. Where it makes as many, these are facets that were meant. (Of a
+  // curved surface, groups become fewer with the root of the bound: by 29 % at twice.)
+  const auto step = [&](std::size_t i) { return count[i] - count[i + 1]; };
+  std::size_t best = 0;
+  while (best < 2 && step(best + 1) <= std::max(kSettled * step(best), kHardly * count[best]))
+    ++best;
+  const double before = groups.within(flat), fewer = before - count[best],
+               with_twice = count[best] - count[best + 2];
+  const bool noisy = count[best] <= kFewer * before &&
+                     with_twice <= std::max(kSame * count[best],
+                                            std::min(kNearly * count[best], kOfFewer * fewer));
+  return noisy ? bound[best] : 0;
 }
 
 }  // namespace
 
 double flatness(const Surface& surface, Control& control) {
-  constexpr double kFlat = 0x1p-20;  // of the diagonal
-  constexpr double kUlps = 0x1p-46;  // of the largest coordinate: 64
-  constexpr double kOfRounding = 1.5, kOfNoise = 4, kMostRounded = 0x1p-14;  // of the diagonal
+  constexpr double kFlat = 0x1p-20;                            // of the diagonal
+  constexpr double kUlps = 0x1p-46;                            // of the largest coordinate: 64
+  constexpr double kOfRounding = 1.5, kMostRounded = 0x1p-14;  // of the diagonal
+  constexpr double kMostNoise = kMostRounded / 4;
   Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   double largest = 0;
   for (const Vec3& v : surface.vertices) {
@@ -70,11 +99,10 @@ double flatness(const Surface& surface, Control& control) {
   double result = std::min(4 * flat, most);
   const double rounding = rounding_of_coordinates(surface, kMostRounded / kOfRounding * diagonal);
   if (explains(rounding, all, least)) result = std::max(result, kOfRounding * rounding);
-  // Less is flat already.
-  const double noise =
-      noise_of_bends(all, least, result / kOfNoise, kMostRounded / kOfNoise * diagonal);
-  const bool noisy = noise > 0 && makes_flat(surface, result, kOfNoise * noise, control);
-  return noisy ? kOfNoise * noise : result;
+  // Less than half is flat already.
+  const double noise = noise_of_bends(all, least, result / 2, kMostNoise * diagonal);
+  if (noise == 0) return result;
+  return std::max(result, bend_of_noise(surface, result, noise, control));
 }
 
 }  // namespace delmesher::surface

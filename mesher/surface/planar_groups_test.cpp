@@ -210,6 +210,27 @@ TEST(PlanarGroups, NoiseOfTwoRoundingsSwallowsNoFeatures) {
   }
 }
 
+// A rounded edge of 60 facets, whose bends begin at twice the noise and grow by a twentieth.
+TEST(PlanarGroups, FilletsThatBeginWhereNoiseEnds) {
+  const double unit = 1e-3, width = 1.5;
+  Polygon section = {{0, 0}};
+  double direction = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto [x, y] = section.back();
+    section.push_back({x + width * std::cos(direction), y + width * std::sin(direction)});
+    direction += 3 * 1.5 * unit / width * std::pow(1.05, i);
+  }
+  const Surface s = prism(section, 30);
+  ASSERT_EQ(Grouped(s, 0).facets(), 63U);
+  for (const Surface& twice : {twice_rounded(s, unit), in_single_precision(twice_rounded(s, unit)),
+                               in_decimals(rotated(scaled(s, 1 / unit)), 1)}) {
+    ASSERT_GT(Grouped(twice, 0).facets(), 200U);
+    const std::size_t facets = grouped(twice).facets();
+    EXPECT_GE(facets, 55U);
+    EXPECT_LE(facets, 70U);
+  }
+}
+
 TEST(PlanarGroups, LabelsSeparate) {
   Surface s = rotated(box({0, 0, 0}, {1, 2, 3}, 2));
   s.labels.assign(s.triangles.size(), 1);

@@ -179,29 +179,31 @@ TEST(EdgeNoise, OfAFieldWithAFewEdgesBentByMore) {
   EXPECT_LT(noise_of_edges(some) * std::sqrt(2), 3 * most);
 }
 
-TEST(EdgeNoise, TakesEightEdges) {
-  const auto bent_pairs = [](std::uint32_t n) {
+TEST(EdgeNoise, TakesEightEdgesOfBothSides) {
+  const auto bent_pairs = [](std::uint32_t n, std::uint32_t convex) {
     Polyhedron pairs;
     for (Index i = 0; i < n; ++i) {
       const double x = i;
       const Index a = 4 * i;
+      const double height = 1e-6 * (x + 1) * (i % n < convex ? -1 : 1);
       pairs.vertices.insert(pairs.vertices.end(),
-                            {{x, 0, 0}, {x + 0.5, 0, 0}, {x + 0.5, 1, 0}, {x, 1, 1e-6 * (x + 1)}});
+                            {{x, 0, 0}, {x + 0.5, 0, 0}, {x + 0.5, 1, 0}, {x, 1, height}});
       pairs.triangles.push_back({a, a + 1, a + 2});
       pairs.triangles.push_back({a, a + 2, a + 3});
     }
     return pairs;
   };
-  EXPECT_EQ(noise_of_edges(bent_pairs(7)), 0);
-  EXPECT_GT(noise_of_edges(bent_pairs(8)), 0);
+  EXPECT_EQ(noise_of_edges(bent_pairs(7, 3)), 0);
+  EXPECT_GT(noise_of_edges(bent_pairs(8, 4)), 0);
+  for (const std::uint32_t convex : {0U, 12U}) EXPECT_EQ(noise_of_edges(bent_pairs(12, convex)), 0);
 }
 
 TEST(EdgeNoise, IsNeitherGroovesNorDomesNorAFewEdges) {
   // Of one size.
   EXPECT_EQ(noise_of_edges(field([](auto i, auto) { return i % 2 == 0 ? 1e-5 : 0; })), 0);
-  // Of all sizes, and larger ones without end.
+  // Of all sizes to both sides, and larger ones without end.
   EXPECT_EQ(noise_of_edges(field([](auto i, auto j) {
-              return 1e-8 * std::exp2(1.2 * i) * (1 + 0.3 * std::cos(j));
+              return 6e-7 * std::exp2(0.8 * i) * ((i + j) % 2 == 0 ? 1 : -1);
             })),
             0);
   // Far above the noise.
