@@ -441,6 +441,34 @@ TEST(Precision, EndsWithALimitThatNamesTheEdge) {
   }
 }
 
+// An input of the fuzz target `complexity`: a quarter of the tetrahedra are not positive when they
+// are rounded. Repairing them one by one took five million signs before points went.
+TEST(Precision, RepairsOfManyTetrahedraWaitUntilPointsAreTakenOut) {
+  Surface surface;
+  surface.vertices = {{2.7583538983246254, 2.7583538983246254, 2.7583538983246254},
+                      {0, 0, 0},
+                      {0, 0.5184950247249993, 0.9999999997671694},
+                      {0, 1, -0.6000012078456979},
+                      {2.758353898324626, 2.758353898324626, 2.7583538983246254},
+                      {4, 0, 0.5},
+                      {4.999999998835847, 2.0000000009313226, 0},
+                      {4, 1, 3},
+                      {0.8751004381522676, 1.2345876337602637, 0.6594076865824072},
+                      {3.9016149979956527, 1.216127238445714, 2.8793085564510537},
+                      {4, 0.9999995754248624, 2.9999989385621557},
+                      {3.547003387984915, 1.0820445984533769, 1.3645440954925696},
+                      {1.6704774755893403, 2.0301875724198672, 3.049620428686529},
+                      {2.9121235772647145, -0.7281663259047587, 0.7912665303619035}};
+  surface.triangles = {{1, 2, 3},    {0, 3, 2},    {0, 8, 3},   {0, 2, 1},   {5, 6, 10},
+                       {4, 9, 6},    {11, 12, 13}, {4, 6, 5},   {1, 8, 0},   {3, 8, 1},
+                       {7, 9, 4},    {6, 9, 7},    {7, 10, 6},  {4, 10, 7},  {10, 4, 12},
+                       {10, 12, 11}, {4, 5, 13},   {4, 13, 12}, {5, 10, 11}, {5, 11, 13}};
+  const Result result = delmesher::tetrahedralize(surface, {});
+  ASSERT_TRUE(result.status.ok()) << result.status.message;
+  EXPECT_EQ(result.statistics.rounding_inverted + result.statistics.rounding_flat, 0U);
+  EXPECT_LT(result.statistics.rounding_signs, 100000U);
+}
+
 TEST(InvalidSurfaces, AreRefusedWithTheDefectNamed) {
   const Surface good = samples::to_surface(samples::cube().input);
   const auto refused = [](const Surface& surface) {

@@ -1,5 +1,7 @@
 #include "mesher/policies/thinned_rounding.h"
 
+#include <algorithm>
+
 #include "mesher/policies/thinning.h"
 
 namespace delmesher::policies {
@@ -9,6 +11,8 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
   // Repairing takes milliseconds for each tetrahedron, and where so many are not positive, they are
   // of features below roundings: taking points out there leaves few to repair.
   constexpr std::size_t kMostRepairs = 1000;
+  // So they are where more than this share of a mesh is not positive, unless the mesh is small.
+  constexpr std::size_t kShare = 8, kSmall = 100;
   // Other repairs, which take seconds, get rid of what the first ones leave where that is at most
   // this much, and of little more than half of what is beyond (measured on degenerate solids).
   constexpr std::size_t kFew = 8;
@@ -18,8 +22,10 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
                            session.options.region);
   };
   MeshToWrite exact = to_write();
+  const std::size_t most =
+      std::min(kMostRepairs, std::max(kSmall, exact.rounding.tetrahedra.size() / kShare));
   output::RoundingResult rounded =
-      output::round_mesh(std::move(exact.rounding), control, {kFew, kMostRepairs});
+      output::round_mesh(std::move(exact.rounding), control, {kFew, most});
   std::uint64_t thinned = 0, signs = rounded.signs;
   for (int rings = 0; rings <= kMostRings && defects(rounded) != output::kNoDefects; ++rings) {
     const std::size_t gone = thin_out(rounded.disturbed, rings, session.input_vertices(),
@@ -30,7 +36,7 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
     if (gone == 0 && (!last || all_tried)) continue;
     MeshToWrite thinner = to_write();
     const output::RepairLimits limits =
-        last ? output::RepairLimits{} : output::RepairLimits{0, kMostRepairs};
+        last ? output::RepairLimits{} : output::RepairLimits{0, most};
     output::RoundingResult other = output::round_mesh(std::move(thinner.rounding), control, limits);
     signs += other.signs;
     if (!(defects(other) < defects(rounded))) continue;

@@ -10,9 +10,9 @@ namespace delmesher::policies {
 // Rounds a final mesh and records it as written. If it is left with defects (output::defects),
 // Steiner points are taken out (thin_out): of the tetrahedra that rounding made inverted or flat,
 // then those up to one, two and three edges away. Of these
-// meshes the one with the fewest defects is written. Where more than a thousand are left by plain
-// rounding, points are taken out before anything is repaired, and where the first repairs leave
-// more than a few, before others are tried.
+// meshes the one with the fewest defects is written. Where more than a thousand, or more than an
+// eighth of the mesh, are left by plain rounding, points are taken out before anything is repaired,
+// and where the first repairs leave more than a few, before others are tried.
 void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder);
 
 }  // namespace delmesher::policies
