@@ -210,14 +210,20 @@ void Improved::check_orientation() {
   add(std::move(report));
 }
 
-// A file without regions has one. What a format calls inside is compared if both files say it.
+// A file without regions has one, of any number. What a format calls inside is compared if both
+// files say it.
 void Improved::name_parts() {
   const bool sides = !given_.inside.empty() && !mesh_.inside.empty();
+  const bool numbered = !given_.regions.empty() && !mesh_.regions.empty();
+  const auto region_of = [&](const MeshFile& file, std::size_t t) -> std::int64_t {
+    if (file.regions.empty()) return 0;
+    const std::int64_t region = file.regions[t], first = file.regions[0];
+    if (numbered || (region != 0 && region != first)) return region;
+    return region == first ? 0 : first;  // the first one is 0, as where there are none
+  };
   const auto name = [&](const MeshFile& file, Cells& cells) {
     for (std::size_t t = 0; t < file.tetrahedra.size(); ++t) {
-      const std::int64_t region =
-          given_.regions.empty() || file.regions.empty() ? 0 : file.regions[t];
-      cells.parts.emplace_back(region, sides ? file.inside[t] : std::uint8_t{2});
+      cells.parts.emplace_back(region_of(file, t), sides ? file.inside[t] : std::uint8_t{2});
     }
   };
   name(given_, before_);
@@ -280,7 +286,6 @@ void Improved::check_walls() {
                   [&](std::int64_t region) { return region != mesh_.regions[0]; })) {
     report.fail("there are several regions, and none were given");
   }
-  if (!given_.regions.empty() && mesh_.regions.empty()) report.fail("the regions are missing");
   const std::vector<Face> all = given_.boundary.empty() ? std::vector<Face>{} : faces(after_);
   for (Face face : given_.boundary) {
     ++report.checked;

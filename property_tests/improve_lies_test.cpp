@@ -439,6 +439,21 @@ TEST(ImproveLies, AGivenMeshMayHaveUnusedVerticesAndBeTurned) {
   EXPECT_EQ(verdict_on(t).verdict, Verdict::exact) << to_text(verdict_on(t));
 }
 
+// As in .tet, which names regions only where there are several.
+TEST(ImproveLies, OneRegionNeedsNoName) {
+  Told t = told();
+  const TetMesh improved = [] {
+    TetMesh one = given();
+    one.regions.assign(one.tetrahedra.size(), 7);
+    return delmesher::improve_mesh(one).mesh;
+  }();
+  t.mesh = to_file(improved);
+  t.given.regions.assign(t.given.tetrahedra.size(), 7);
+  EXPECT_EQ(verdict_on(t).verdict, Verdict::exact) << to_text(verdict_on(t));
+  t.mesh.regions.clear();
+  EXPECT_EQ(verdict_on(t).verdict, Verdict::exact) << to_text(verdict_on(t));
+}
+
 TEST(ImproveLies, AGivenMeshThatCannotBeImprovedIsRefused) {
   VerifyReport report;
   Told t = told();
