@@ -134,7 +134,7 @@ void Improved::count_signs(Cells& cells) {
 // A mesh all of which is turned is meant the other way round. Vertices that nothing uses are
 // dropped.
 std::string Improved::read_given() {
-  if (!std::all_of(given_.vertices.begin(), given_.vertices.end(), is_finite)) {
+  if (!std::ranges::all_of(given_.vertices, [](const Position& p) { return is_finite(p); })) {
     return "a vertex of the mesh given is not finite";
   }
   std::vector<Position> positions = given_.vertices;
