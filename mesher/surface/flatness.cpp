@@ -50,26 +50,30 @@ class PlanarGroups {
 double bend_of_noise(const Surface& surface, double flat, double noise, Control& control) {
   constexpr double kLeast = 2, kStep = std::numbers::sqrt2;  // of the noise
   constexpr double kSettled = 0.5, kHardly = 0.01, kFewer = 0.97;
-  constexpr double kSame = 0.1, kNearly = 0.25, kOfFewer = 1.0 / 3;
+  constexpr double kSame = 0.1, kNearly = 0.25, kOfFewer = 1.0 / 3, kOfMany = 0.02;
   const PlanarGroups groups(surface, control);
   std::array<double, 5> bound, count;
   for (std::size_t i = 0; i < bound.size(); ++i) {
     bound[i] = kLeast * noise * std::pow(kStep, i);
     count[i] = groups.within(bound[i]);
   }
+  const double before = groups.within(flat);
   // Where flat faces have become whole, the next step makes fewer groups one with others than the
   // one before, or hardly any. Where it makes as many, these are facets that were meant. (Of a
   // curved surface, groups become fewer with the root of the bound: by 29 % at twice.)
   const auto step = [&](std::size_t i) { return count[i] - count[i + 1]; };
+  const double hardly = kHardly * std::max(count[0], before - count[0]);
   std::size_t best = 0;
-  while (best < 2 && step(best + 1) <= std::max(kSettled * step(best), kHardly * count[best]))
-    ++best;
-  const double before = groups.within(flat), fewer = before - count[best],
-               with_twice = count[best] - count[best + 2];
-  const bool noisy = count[best] <= kFewer * before &&
-                     with_twice <= std::max(kSame * count[best],
-                                            std::min(kNearly * count[best], kOfFewer * fewer));
-  return noisy ? bound[best] : 0;
+  while (best < 2 && step(best + 1) <= std::max(kSettled * step(best), hardly)) ++best;
+  const auto noisy = [&](std::size_t i) {
+    const double fewer = before - count[i], with_twice = count[i] - count[i + 2];
+    return count[i] <= kFewer * before &&
+           with_twice <= std::max({kSame * count[i], kOfMany * fewer,
+                                   std::min(kNearly * count[i], kOfFewer * fewer)});
+  };
+  // Where few groups of many triangles are left, a step that is not the last one may be any.
+  while (best < 2 && !noisy(best) && 2 * count[best] < before) ++best;
+  return noisy(best) ? bound[best] : 0;
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ namespace delmesher::surface {
 // integers. If the bends alone tell of noise (`noise_of_bends`), it returns two to four times that
 // noise: twice, unless more makes further planar groups one with others, and then hardly any. That
 // is if it makes at least three of a hundred groups one with others, and twice as much hardly more:
-// not one in ten, or not one in four and not a third as many. Faces that are flat but for noise
-// stay the same, those of a curved surface grow together more and more. At most 2^-14 of the
-// diagonal, too. In the units of the surface, which is valid.
+// not one in ten, not a fiftieth as many, or not one in four and not a third as many. Faces that
+// are flat but for noise stay the same, those of a curved surface grow together more and more. At
+// most 2^-14 of the diagonal, too. In the units of the surface, which is valid.
 double flatness(const Surface& surface, Control& control);
 
 }  // namespace delmesher::surface

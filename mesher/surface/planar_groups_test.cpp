@@ -195,6 +195,16 @@ TEST(PlanarGroups, OfCoordinatesThatWereRoundedTwice) {
   EXPECT_EQ(grouped(in_decimals(rotated(scaled(s, 1e3)), 1)).facets(), 6U);
 }
 
+// Few groups are left then of very many, and one that is left over says nothing of features.
+TEST(PlanarGroups, OfFewFacesOneMayBeLeftOver) {
+  for (int n = 0; n < 12; ++n) {
+    const Surface s = scaled(box({0, 0, 0}, {1, 2, 3}, 12), 25 + n);
+    const std::size_t triangles = s.triangles.size();  // 1728
+    ASSERT_GT(Grouped(twice_rounded(s, 1e-3), 0).facets(), triangles / 2);
+    EXPECT_LE(grouped(twice_rounded(s, 1e-3)).facets(), triangles / 40) << n;
+  }
+}
+
 // A ridge of 0.05 degrees, and a slope that is off by ten units, on faces of many triangles whose
 // noise is two units.
 TEST(PlanarGroups, NoiseOfTwoRoundingsSwallowsNoFeatures) {
