@@ -187,6 +187,10 @@ class Pages(unittest.TestCase):
         self.assertTrue(text.endswith("\n" + league.BY_HAND + "\n## What was learnt\n\nMuch.\n"))
         self.assertNotIn("`cdt`", text)
 
+    def test_limits_that_differ_are_said(self):
+        for limits, said in (("60 s", "under the same limits"), ("600 s", "under limits that differ")):
+            self.assertIn(said, self.page(self.campaign(row("fan-1", "cdt"), row("fan-1", "netgen", limits=limits))))
+
     def test_another_table_is_refused(self):
         with open(self.path("other.csv"), "w", encoding="utf-8") as stream:
             stream.write("model,mesher\n")
