@@ -16,6 +16,7 @@
 namespace tetproof {
 namespace {
 
+using oracles::distance;
 using oracles::dot;
 using oracles::Index;
 using oracles::MeshFile;
@@ -51,11 +52,6 @@ void append(std::vector<Index>& to, const std::vector<Index>& from) {
 
 bool is_finite(const Position& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
-
-double distance(const Position& a, const Position& b) {
-  const Position d = minus(a, b);
-  return std::sqrt(dot(d, d));
 }
 
 // The part of space that is shown, and from where.
