@@ -128,7 +128,6 @@ struct Choice {
 };
 constexpr Choice kChoices[] = {{"link", &Promise::link},
                                {"bridges", &Promise::bridges},
-                               {"simplification", nullptr},
                                {"order", nullptr},
                                {"steiner-point", &Promise::steiner_point, kMesh | kPlane},
                                {"kept-points", &Promise::kept_points},

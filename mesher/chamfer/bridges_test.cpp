@@ -153,11 +153,10 @@ TEST(Chamfer, StripsHaveTheAnglesOfStatement2) {
   EXPECT_GT(strips, 100);
 }
 
-ChamferOptions as_paper(bool link, bool bridges, bool angles) {
+ChamferOptions as_paper(bool link, bool bridges) {
   ChamferOptions options = below(90);
   options.link_distances = link || bridges;
   options.bridge_per_triangle = bridges;
-  options.simplify_to_angles = angles;
   return options;
 }
 
@@ -167,7 +166,7 @@ TEST(AsPaper, ChamfersReachAThirdOfTheWayToTheLink) {
   for (const Sample& sample : test_polyhedra::samples()) {
     SCOPED_TRACE(sample.name);
     Model model(sample.surface), other(sample.surface);
-    const ChamferResult result = model.run(as_paper(true, false, false));
+    const ChamferResult result = model.run(as_paper(true, false));
     const ChamferResult by_facets = other.run(below(90));
     EXPECT_EQ(result.vertex_is_acute, by_facets.vertex_is_acute);
     std::vector<double> link(result.vertex_distance.size(), HUGE_VAL);
@@ -193,7 +192,7 @@ TEST(AsPaper, EveryTriangleHasABridge) {
   for (const Sample& sample : test_polyhedra::samples()) {
     SCOPED_TRACE(sample.name);
     Model model(sample.surface);
-    const ChamferOptions options = as_paper(true, true, false);
+    const ChamferOptions options = as_paper(true, true);
     const KeptSurface surface(model.topology, model.points, {});
     const Thresholds thresholds(options);
     const Acuteness acute = find_acute(surface, model.predicates, thresholds, {}, model.control);
@@ -230,26 +229,11 @@ TEST(AsPaper, EveryTriangleHasABridge) {
   EXPECT_GT(wide, 10);
 }
 
-// Section 4.4, and that each choice leaves no acute angle and simple outlines, as the default.
-TEST(AsPaper, SimplificationStopsAtAnglesAlone) {
-  std::size_t points = 0, fewer = 0;
-  for (const Sample& sample : test_polyhedra::samples()) {
-    SCOPED_TRACE(sample.name);
-    Model model(sample.surface), other(sample.surface);
-    model.run(as_paper(false, false, true));
-    other.run(below(90));
-    points += other.points.size();
-    fewer += model.points.size();
-  }
-  EXPECT_LT(fewer, points);
-}
-
+// Each choice leaves no acute angle and simple outlines, as the default.
 TEST(AsPaper, NoAngleIsLeftBelowTheThreshold) {
   for (const Sample& sample : test_polyhedra::samples()) {
     SCOPED_TRACE(sample.name);
-    for (const ChamferOptions& options :
-         {as_paper(true, false, false), as_paper(true, true, false), as_paper(true, true, true),
-          as_paper(false, false, true)}) {
+    for (const ChamferOptions& options : {as_paper(true, false), as_paper(true, true)}) {
       Model model(sample.surface);
       const ChamferResult result = model.run(options);
       const Report report = measure(result.plc, model.points);

@@ -74,8 +74,7 @@ ChamferResult chamfer_surface(const KeptSurface& surface, PointStore& points,
   NewPoints new_points(surface.topology(), points);
   Bridges bridges = build_bridges(surface, acute, cuts, thresholds, new_points, control);
   if (options.simplify_bridges) {
-    simplify_bridges(surface, acute, cuts, thresholds, options.simplify_to_angles, predicates,
-                     bridges, control);
+    simplify_bridges(surface, acute, cuts, thresholds, predicates, bridges, control);
   }
   drop_unused_points(bridges, points, new_points);
 

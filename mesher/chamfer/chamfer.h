@@ -24,10 +24,8 @@ struct ChamferOptions {
   bool simplify_bridges = true;
   // The paper's way, where the default differs. link_distances: reach a third of the way to the
   // link (section 4.1). bridge_per_triangle: one in each triangle (4.2); needs link_distances.
-  // simplify_to_angles: simplify as far as angles allow (4.4).
   bool link_distances = false;
   bool bridge_per_triangle = false;
-  bool simplify_to_angles = false;
   // Per facet: 1 if kept, 0 if dropped by the filter; empty: all kept. Edges between two dropped
   // facets disappear; an edge of one kept facet stays as its boundary.
   std::vector<std::uint8_t> facet_kept;

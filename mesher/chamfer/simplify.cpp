@@ -8,26 +8,20 @@ namespace delmesher::chamfer {
 namespace {
 
 // Smallest distance of a simplified bridge from the vertex it cuts off, relative to the chamfer
-// distance.
-struct LeastDistance {
-  double edge, whole;
-};
-constexpr LeastDistance kRoomy{0.5, 0.25};
-// As far as only angles count. An edge is met only by corners of more than 179.1 degrees, and there
-// by few: points that split it are rounded by a millionth of its length, and the edges of the facet
-// are as far from it as the vertex, in proportion.
-constexpr LeastDistance kAnglesAlone{0x1p-7, 0x1p-7};
+// distance. It is met only at corners of more than 179.1 degrees, and there by few: split points of
+// artificial edges are rounded by a millionth of their length, and must not leave the facet where
+// its boundary is straight or nearly so.
+constexpr double kLeastDistance = 0x1p-7;
 
 class Simplifier {
  public:
   Simplifier(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
-             const Thresholds& thresholds, bool to_angles, Predicates& predicates, Bridges& bridges)
+             const Thresholds& thresholds, Predicates& predicates, Bridges& bridges)
       : surface_(surface),
         topology_(surface.topology()),
         acute_(acute),
         cuts_(cuts),
         thresholds_(thresholds),
-        least_(to_angles ? kAnglesAlone : kRoomy),
         predicates_(predicates),
         bridges_(bridges),
         original_(bridges.chain) {}
@@ -59,7 +53,7 @@ class Simplifier {
  private:
   void simplify(std::uint32_t index) {
     std::vector<VertexId>& chain = bridges_.chain[index];
-    if (can_join(index, 0, chain.size() - 1, true)) {
+    if (can_join(index, 0, chain.size() - 1)) {
       chain = {chain.front(), chain.back()};
       return;
     }
@@ -73,7 +67,7 @@ class Simplifier {
       }
       std::sort(candidates.begin(), candidates.end());
       for (const auto& [shortest, i] : candidates) {
-        if (!can_join(index, i - 1, i + 1, false)) continue;
+        if (!can_join(index, i - 1, i + 1)) continue;
         chain.erase(chain.begin() + static_cast<std::ptrdiff_t>(i));
         changed = true;
         break;
@@ -82,7 +76,7 @@ class Simplifier {
   }
 
   // May chain[from] and chain[to] be joined by an edge?
-  bool can_join(std::uint32_t index, std::size_t from, std::size_t to, bool whole) {
+  bool can_join(std::uint32_t index, std::size_t from, std::size_t to) {
     const Corner& corner = surface_.corners()[index];
     const std::vector<VertexId>& chain = bridges_.chain[index];
     const VertexId x = chain[from], y = chain[to];
@@ -90,11 +84,7 @@ class Simplifier {
     const int side = predicates_.orient2d(topology_.facet_axis[corner.facet], x, y, corner.vertex) *
                      topology_.facet_axis_sign[corner.facet];
     if (side <= 0) return false;
-    // Around a wide corner every edge keeps its distance. So does a single edge, if less: split
-    // points of artificial edges are rounded, and must not leave the facet where its boundary is
-    // straight or nearly so.
-    const double least = whole ? least_.whole : least_.edge;
-    if (edge_distance(corner, x, y) < least * cuts_.distance[corner.vertex]) return false;
+    if (edge_distance(corner, x, y) < kLeastDistance * cuts_.distance[corner.vertex]) return false;
     return allows(index, x, y, from, true) && allows(index, y, x, to, false);
   }
 
@@ -180,7 +170,6 @@ class Simplifier {
   const Acuteness& acute_;
   const Cuts& cuts_;
   const Thresholds& thresholds_;
-  LeastDistance least_;
   Predicates& predicates_;
   Bridges& bridges_;
   std::vector<std::vector<VertexId>> original_;  // the chains before any simplification
@@ -189,9 +178,9 @@ class Simplifier {
 }  // namespace
 
 void simplify_bridges(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
-                      const Thresholds& thresholds, bool to_angles, Predicates& predicates,
-                      Bridges& bridges, Control& control) {
-  Simplifier(surface, acute, cuts, thresholds, to_angles, predicates, bridges).run(control);
+                      const Thresholds& thresholds, Predicates& predicates, Bridges& bridges,
+                      Control& control) {
+  Simplifier(surface, acute, cuts, thresholds, predicates, bridges).run(control);
 }
 
 }  // namespace delmesher::chamfer

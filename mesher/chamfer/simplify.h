@@ -6,10 +6,9 @@
 namespace delmesher::chamfer {
 
 // Replaces chains by a single edge, or drops some of their points, where that makes no angle below
-// the threshold. `to_angles`: angles alone decide, as in the paper; otherwise every edge also keeps
-// a distance from the vertex.
+// the threshold.
 void simplify_bridges(const KeptSurface& surface, const Acuteness& acute, const Cuts& cuts,
-                      const Thresholds& thresholds, bool to_angles, Predicates& predicates,
-                      Bridges& bridges, Control& control);
+                      const Thresholds& thresholds, Predicates& predicates, Bridges& bridges,
+                      Control& control);
 
 }  // namespace delmesher::chamfer

@@ -15,9 +15,6 @@ struct AsPaper {
   // Otherwise every corner of a facet has one, and one for each part of at most 120 degrees of a
   // wider corner. Implies `link`, which keeps the bridges of narrow triangles apart.
   bool bridges = false;
-  // Section 4.4: bridges are simplified unless that makes a new acute angle. Otherwise also not
-  // where that brings them much nearer to the vertex that they cut off.
-  bool simplification = false;
   // Section 5.4: the bad tetrahedron with the largest radius-edge ratio is split first. Otherwise
   // the last one found within a fourth of a doubling of the squared ratio.
   bool order = false;
@@ -50,7 +47,6 @@ struct NamedChoice {
 };
 inline constexpr NamedChoice kPaperChoices[] = {{"link", &AsPaper::link},
                                                 {"bridges", &AsPaper::bridges},
-                                                {"simplification", &AsPaper::simplification},
                                                 {"order", &AsPaper::order},
                                                 {"steiner-point", &AsPaper::steiner_point},
                                                 {"kept-points", &AsPaper::kept_points},

@@ -57,7 +57,6 @@ chamfer::ChamferOptions chamfer_options(const Options& options) {
   result.simplify_bridges = options.simplify_bridges;
   result.bridge_per_triangle = options.as_paper.bridges;
   result.link_distances = options.as_paper.link || options.as_paper.bridges;
-  result.simplify_to_angles = options.as_paper.simplification;
   return result;
 }
 
