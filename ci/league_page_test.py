@@ -27,13 +27,14 @@ COLUMNS = ("model_sha256", "mesher", "version", "flags", "limits", "model_name",
            "mesh_json", "promise")
 
 
-def row(model, mesher, disposition="ok", reason="", version="peer 1.2 (build 00)", limits="60 s", cpu=1.0, solver=None, **mesh):
+def row(model, mesher, disposition="ok", reason="", version="peer 1.2 (build 00)", limits="60 s", cpu=1.0, solver=None,
+        rss=3 << 20, **mesh):
     measured = {"tetrahedra": 100, "min_dihedral": 10.0, "dihedral_1_percent": 12.0, "min_face_angle": 9.0, "mean_gamma": 0.5}
     measured.update(mesh)
     if solver:
         measured["solver"] = solver
     return {"model_sha256": model[-1] * 64, "mesher": mesher, "version": version, "flags": "-x", "limits": limits, "model_name": model + ".off",
-            "disposition": disposition, "reason": reason, "cpu_seconds": cpu, "peak_rss_bytes": 3 << 20,
+            "disposition": disposition, "reason": reason, "cpu_seconds": cpu, "peak_rss_bytes": rss,
             "mesh_json": json.dumps(measured) if disposition in ("ok", "wrong-result") else "", "promise": "exact"}
 
 
@@ -100,6 +101,24 @@ class Pages(unittest.TestCase):
         self.assertNotIn("timeout", found[1])  # nothing ended like that
         self.assertEqual([found[0]["s"], found[0]["s, 95 %"]], ["3.00", "6.60"])
         self.assertEqual(found[0]["MB"], "3")
+
+    def test_limits_that_differ_are_made_equal(self):
+        wide, narrow = "wall 6000 s, cpu 600 s, memory 12000 MiB", "wall 400 s, cpu 20 s, memory 2 MiB"
+        text = self.page(self.campaign(
+            row("fan-1", "delmesher", limits=wide, cpu=21), row("fan-2", "delmesher", limits=wide, cpu=20, rss=2 << 20),
+            row("bunny-3", "delmesher", limits=wide, cpu=21, disposition="wrong-result"), row("x4", "delmesher", limits=wide, rss=3 << 20),
+            row("fan-2", "tetgen", limits=narrow, cpu=5, rss=1 << 20)))
+        self.assertIn("the least of them, 20 s of processor time and 2 MiB, counts", text)
+        (_, ours) = rows_under("## x\n" + text, "x")
+        self.assertEqual([ours[h] for h in ("Runs", "Ok", "timeout", "out-of-memory", "ok under its own limits")], ["4", "1", "2", "1", "3"])
+        self.assertNotIn("wrong-result", ours)
+        # What is kept run by run is what happened.
+        self.assertEqual([r["disposition"] for r in self.runs() if r["mesher"] == "delmesher"], ["wrong-result", "ok", "ok", "ok"])
+
+    def test_equal_limits_have_no_column_of_their_own(self):
+        text = self.page(self.campaign(row("fan-1", "delmesher", cpu=70), row("fan-1", "tetgen")))
+        self.assertNotIn("own limits", text)
+        self.assertIn("under the same limits", text)
 
     def test_only_what_is_inside_counts(self):
         self.page(self.campaign(row("fan-1", "tetgen", min_dihedral=1, inside={"tetrahedra": 7, "min_dihedral": 20.5})))
