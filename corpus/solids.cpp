@@ -18,67 +18,48 @@ void demand(const std::string& why_not) {
   if (!why_not.empty()) throw std::runtime_error(why_not);
 }
 
-struct Shell {
-  InputSurface surface;
-  BoxTree::Box box;
-};
-
-std::vector<std::size_t> number_shells(const InputSurface& whole) {
-  constexpr auto kNone = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> shell(whole.triangles().size(), kNone);
-  std::size_t count = 0;
-  for (Index seed = 0; seed < shell.size(); ++seed) {
-    if (shell[seed] != kNone) continue;
-    std::vector<Index> members = {seed};
-    shell[seed] = count;
-    while (!members.empty()) {
-      const Index t = members.back();
-      members.pop_back();
-      for (int i = 0; i < 3; ++i) {
-        const Index n = whole.neighbour(t, i);
-        if (shell[n] == kNone) members.push_back(n);
-        shell[n] = count;
-      }
-    }
-    ++count;
-  }
-  return shell;
-}
-
-bool meet(const BoxTree::Box& a, const BoxTree::Box& b) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (a.high[i] < b.low[i] || b.high[i] < a.low[i]) return false;
-  }
-  return true;
-}
-
 // Shells do not meet, so that one vertex tells.
-bool contains(const Shell& outer, const Shell& inner, const ExactPoints& points) {
-  if (!meet(outer.box, inner.box)) return false;
-  for (const Index v : inner.surface.used_vertices()) {
+bool contains(const InputSurface& outer, const InputSurface& inner, const ExactPoints& points) {
+  for (const Index v : inner.used_vertices()) {
     const Index corners[1] = {v};
-    const int inside = outer.surface.inside(points, corners);
+    const int inside = outer.inside(points, corners);
     if (inside >= 0) return inside > 0;
   }
   throw std::runtime_error("two shells have all vertices in common");
 }
 
-std::vector<Shell> shells_of(const Polyhedron& surface, const std::vector<std::size_t>& shell,
-                             const ExactPoints& points) {
+std::vector<InputSurface> shells_of(const Polyhedron& surface,
+                                    const std::vector<std::vector<Index>>& components,
+                                    const ExactPoints& points) {
   Polyhedron part;
   part.vertices = surface.vertices;
-  std::vector<std::vector<std::array<Index, 3>>> triangles(
-      1 + *std::max_element(shell.begin(), shell.end()));
-  for (std::size_t t = 0; t < shell.size(); ++t) {
-    triangles[shell[t]].push_back(surface.triangles[t]);
-  }
-  std::vector<Shell> shells(triangles.size());
+  std::vector<InputSurface> shells(components.size());
   for (std::size_t s = 0; s < shells.size(); ++s) {
-    part.triangles = std::move(triangles[s]);
-    demand(shells[s].surface.assign(part, points));
-    shells[s].box = oracles::box_around(points, shells[s].surface.used_vertices());
+    part.triangles.clear();
+    for (const Index t : components[s]) part.triangles.push_back(surface.triangles[t]);
+    demand(shells[s].assign(part, points));
   }
   return shells;
+}
+
+// For each shell, those around it.
+std::vector<std::vector<std::size_t>> shells_around(const std::vector<InputSurface>& shells,
+                                                    const ExactPoints& points) {
+  std::vector<BoxTree::Box> boxes;
+  for (const InputSurface& shell : shells) {
+    boxes.push_back(oracles::box_around(points, shell.used_vertices()));
+  }
+  const BoxTree tree(boxes);
+  std::vector<std::vector<std::size_t>> around(shells.size());
+  std::vector<Index> near;
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    near.clear();
+    tree.query(boxes[s], near);
+    for (const Index other : near) {
+      if (other != s && contains(shells[other], shells[s], points)) around[s].push_back(other);
+    }
+  }
+  return around;
 }
 
 }  // namespace
@@ -89,16 +70,14 @@ Solids solids_of(const Polyhedron& surface) {
   InputSurface whole;
   demand(whole.assign(surface, points));
   Solids found;
-  found.shell_of_triangle = number_shells(whole);
-  const std::vector<Shell> shells = shells_of(surface, found.shell_of_triangle, points);
-  std::vector<std::vector<std::size_t>> around(shells.size());
-  for (std::size_t s = 0; s < shells.size(); ++s) {
-    for (std::size_t other = 0; other < shells.size(); ++other) {
-      if (other != s && contains(shells[other], shells[s], points)) around[s].push_back(other);
-    }
+  const std::vector<std::vector<Index>> components = whole.components();
+  found.shell_of_triangle.resize(surface.triangles.size());
+  for (std::size_t s = 0; s < components.size(); ++s) {
+    for (const Index t : components[s]) found.shell_of_triangle[t] = s;
   }
+  const auto around = shells_around(shells_of(surface, components, points), points);
   std::map<std::size_t, std::vector<std::size_t>> cavities;
-  for (std::size_t s = 0; s < shells.size(); ++s) {
+  for (std::size_t s = 0; s < around.size(); ++s) {
     if (around[s].size() % 2 == 0) {
       cavities.try_emplace(s);
       continue;

@@ -61,6 +61,22 @@ TEST(Solids, CavitiesBelongToTheShellAroundThem) {
   EXPECT_EQ(found.shell_of_triangle[23], 5U);
 }
 
+// Many solids side by side, each with a cavity of its own that comes after all of them.
+TEST(Solids, OfManyShellsEachCavityBelongsToItsOwn) {
+  constexpr std::size_t kSolids = 3000;
+  Polyhedron surface;
+  for (const double radius : {1.0, 0.1}) {
+    for (std::size_t s = 0; s < kSolids; ++s)
+      add_shell(surface, 5 * static_cast<double>(s), radius);
+  }
+  const Solids found = solids_of(surface);
+  ASSERT_EQ(found.solids.size(), kSolids);
+  for (std::size_t s = 0; s < kSolids; ++s) {
+    EXPECT_EQ(found.solids[s].outer, s);
+    EXPECT_EQ(found.solids[s].cavities, (std::vector<std::size_t>{kSolids + s}));
+  }
+}
+
 TEST(Solids, AnOpenSurfaceBoundsNone) {
   Polyhedron surface;
   add_shell(surface, 0, 1);

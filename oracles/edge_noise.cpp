@@ -29,10 +29,6 @@ Size size_of(const std::vector<Position>& vertices) {
   return size;
 }
 
-double length(const Position& u) {
-  return std::sqrt(dot(u, u));
-}
-
 struct Bend {
   double size;  // negative: sharp
   bool concave;

@@ -12,6 +12,7 @@
 #include "oracles/edge_nodes.h"
 #include "oracles/local_operations.h"
 #include "oracles/ordinary_units.h"
+#include "oracles/vectors.h"
 #include "oracles/verdict.h"
 
 namespace tetproof::oracles {
@@ -36,10 +37,6 @@ struct Listed {
   Index facet = kNone;
   auto operator<=>(const Listed&) const = default;
 };
-
-bool is_finite(const Position& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
-}
 
 // Sorts the corners; is that an even permutation?
 bool sort_corners(Face& face) {

@@ -213,13 +213,12 @@ void InputSurface::measure(const ExactPoints& points) {
   tree_ = std::make_shared<const BoxTree>(std::move(boxes));
 }
 
-// A component is turned if the parity of the crossings above one of its triangles says that the
-// solid lies on its front side. Parity itself does not depend on orientations.
-void InputSurface::orient_components(const ExactPoints& points) {
+std::vector<std::vector<Index>> InputSurface::components() const {
+  std::vector<std::vector<Index>> result;
   std::vector<bool> seen(triangles_.size(), false);
   for (Index seed = 0; seed < triangles_.size(); ++seed) {
     if (seen[seed]) continue;
-    std::vector<Index> component = {seed};
+    std::vector<Index>& component = result.emplace_back(1, seed);
     seen[seed] = true;
     for (std::size_t i = 0; i < component.size(); ++i) {
       for (const Index n : neighbours_[component[i]]) {
@@ -227,6 +226,14 @@ void InputSurface::orient_components(const ExactPoints& points) {
         seen[n] = true;
       }
     }
+  }
+  return result;
+}
+
+// A component is turned if the parity of the crossings above one of its triangles says that the
+// solid lies on its front side. Parity itself does not depend on orientations.
+void InputSurface::orient_components(const ExactPoints& points) {
+  for (const std::vector<Index>& component : components()) {
     for (const Index t : component) {
       const auto& [a, b, c] = triangles_[t];
       const int up = sgn(exact::area2(points, a, b, c)[2]);

@@ -136,6 +136,8 @@ class InputSurface {
   Members members() const;
   // Twice the area vector of the union of some triangles.
   std::array<ExactSum, 3> area2(const ExactPoints& points, std::span<const Index> triangles) const;
+  // Triangles that edges connect, by the first of each set.
+  std::vector<std::vector<Index>> components() const;
   // The triangle across the edge from corner i to corner i + 1.
   Index neighbour(Index triangle, int i) const { return neighbours_[triangle][i]; }
   const std::vector<Edge>& edges() const { return edges_; }

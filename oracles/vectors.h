@@ -19,6 +19,14 @@ inline Position cross(const Position& u, const Position& v) {
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
+inline double length(const Position& u) {
+  return std::sqrt(dot(u, u));
+}
+
+inline bool is_finite(const Position& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
 inline double distance(const Position& p, const Position& q) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }

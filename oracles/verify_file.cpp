@@ -9,6 +9,7 @@
 #include "oracles/refined_index.h"
 #include "oracles/regions.h"
 #include "oracles/surface_validity.h"
+#include "oracles/vectors.h"
 #include "oracles/verdict.h"
 #include "oracles/verification.h"
 
@@ -42,8 +43,7 @@ bool Verification::check_finite() {
   OracleReport report("complex", "vertices");
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
     ++report.checked;
-    const Position& p = mesh_.vertices[v];
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
+    if (!is_finite(mesh_.vertices[v])) {
       report.fail("vertex " + std::to_string(v) + " is not finite");
     }
   }

@@ -19,6 +19,7 @@ namespace {
 using oracles::distance;
 using oracles::dot;
 using oracles::Index;
+using oracles::is_finite;
 using oracles::MeshFile;
 using oracles::minus;
 using oracles::Polyhedron;
@@ -48,10 +49,6 @@ void for_each_match(const std::string& text, const char* pattern, const Visit& v
 
 void append(std::vector<Index>& to, const std::vector<Index>& from) {
   to.insert(to.end(), from.begin(), from.end());
-}
-
-bool is_finite(const Position& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
 // The part of space that is shown, and from where.
