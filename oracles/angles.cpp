@@ -17,7 +17,7 @@ constexpr int kBins = 12;
 // takes a fraction of the time that intervals take angle by angle.
 //
 // Edges have components of at most h, with an error of at most e = h u + E, where E is that of a
-// difference of rounded points. As in ball_side.cpp, for a polynomial of degree d whose monomials
+// close difference of points. As in ball_side.cpp, for a polynomial of degree d whose monomials
 // add up to m h^d, rounding costs less than 16 m h^d u and the error of the edges less than d m
 // h^(d-1) e. All bounds are taken twice or more.
 class RoughTet {
@@ -26,22 +26,19 @@ class RoughTet {
   struct Angle {
     double sine, cosine, error;
     bool certain() const { return error <= 1e-9 * sine; }
+    double degrees() const { return std::atan2(sine, cosine) * kDegrees; }
   };
 
   RoughTet(const ExactPoints& points, const Tet& tet) {
     for (int i = 0; i < 4; ++i) {
-      const Position& p = points.nearest(tet[i]);
       for (int j = 0; j < i; ++j) {
-        const Position& q = points.nearest(tet[j]);
-        for (int axis = 0; axis < 3; ++axis) {
-          const double x = p[axis] - q[axis];
-          edges_[j][i][axis] = x;
-          edges_[i][j][axis] = -x;
-          size_ = std::max(size_, std::fabs(x));
-        }
+        const Position u = points.close_difference(tet[j], tet[i]);
+        edges_[j][i] = u;
+        edges_[i][j] = {-u[0], -u[1], -u[2]};
+        for (const double x : u) size_ = std::max(size_, std::fabs(x));
       }
     }
-    error_ = size_ * 0x1p-53 + points.difference_error();
+    error_ = size_ * 0x1p-53 + points.close_error();
     // Else something could over- or underflow.
     if (!(size_ > 0x1p-100 && size_ < 0x1p100)) error_ = std::numeric_limits<double>::infinity();
   }
@@ -234,7 +231,7 @@ class Distribution {
     int bin = -1;
     bool known = guess.certain();
     if (known) {
-      degrees = std::atan2(guess.sine, guess.cosine) * kDegrees;
+      degrees = guess.degrees();
     } else {
       known = roughly(angle, degrees);
     }
@@ -250,19 +247,68 @@ class Distribution {
       bin = angle_bin(e.cosine, e.norms);
     }
     ++histogram[bin];
-    if (degrees < smallest || degrees > largest) {
-      const Parts<ExactNumber> e = angle.exactly(points_);
-      const double better = exact_angle(e.sine_squared, e.cosine);
-      smallest = std::min(smallest, better);
-      largest = std::max(largest, better);
-    }
+    if (degrees < smallest || degrees > largest) widen(angle);
     return degrees;
+  }
+
+  // The smallest and the largest of several angles, which are all counted. Doubles tell which these
+  // are, and the bins of the others, by their cotangents.
+  template <class Angle, std::size_t N>
+  std::pair<double, double> add_all(const std::array<RoughTet::Angle, N>& guesses,
+                                    const std::array<Angle, N>& angles) {
+    std::array<int, N> bins{};
+    std::array<double, N> cotangents{};
+    bool known = true;
+    for (std::size_t i = 0; i < N; ++i) {
+      cotangents[i] = guesses[i].cosine / guesses[i].sine;
+      bins[i] = bin_of(cotangents[i]);
+      known = known && guesses[i].certain() && bins[i] >= 0;
+    }
+    if (!known) {
+      double low = 180, high = 0;
+      for (std::size_t i = 0; i < N; ++i) {
+        const double degrees = add(guesses[i], angles[i]);
+        low = std::min(low, degrees);
+        high = std::max(high, degrees);
+      }
+      return {low, high};
+    }
+    for (const int bin : bins) ++histogram[bin];
+    const auto [most, least] = std::ranges::minmax_element(cotangents);
+    const std::size_t of_low = least - cotangents.begin(), of_high = most - cotangents.begin();
+    const double low = guesses[of_low].degrees(), high = guesses[of_high].degrees();
+    if (low < smallest || low > largest) widen(angles[of_low]);
+    if (high < smallest || high > largest) widen(angles[of_high]);
+    return {low, high};
   }
 
   std::array<std::uint64_t, kBins> histogram{};
   double smallest = 180, largest = 0;
 
  private:
+  // -1 within a millionth of a degree or more of its ends.
+  static int bin_of(double cotangent) {
+    static const std::array<double, kBins - 1> kEnds = [] {
+      std::array<double, kBins - 1> ends{};
+      for (int k = 1; k < kBins; ++k) ends[k - 1] = 1 / std::tan(k * 15 / kDegrees);
+      return ends;
+    }();
+    int bin = 0, near = 0;
+    for (const double end : kEnds) {
+      bin += static_cast<int>(cotangent < end);
+      near += static_cast<int>(std::fabs(cotangent - end) <= 3e-7 * (1 + end * end));
+    }
+    return near > 0 ? -1 : bin;
+  }
+
+  template <class Angle>
+  void widen(const Angle& angle) {
+    const Parts<ExactNumber> e = angle.exactly(points_);
+    const double better = exact_angle(e.sine_squared, e.cosine);
+    smallest = std::min(smallest, better);
+    largest = std::max(largest, better);
+  }
+
   template <class Angle>
   bool roughly(const Angle& angle, double& degrees) const {
     const Parts<Interval> p = angle.roughly(points_);
@@ -333,22 +379,24 @@ class AngleMeasure {
   }
 
   void add_face(const RoughTet& rough, int i, const Face& f) {
-    const double a = face_.add(rough.face_angle(i, 0), FaceAngle{f[0], f[1], f[2]});
-    const double b = face_.add(rough.face_angle(i, 1), FaceAngle{f[1], f[2], f[0]});
-    const double c = face_.add(rough.face_angle(i, 2), FaceAngle{f[2], f[0], f[1]});
-    smallest_face_.add(std::min({a, b, c}));
-    largest_face_.add(std::max({a, b, c}));
+    const auto [low, high] = face_.add_all(
+        std::array{rough.face_angle(i, 0), rough.face_angle(i, 1), rough.face_angle(i, 2)},
+        std::array{FaceAngle{f[0], f[1], f[2]}, FaceAngle{f[1], f[2], f[0]},
+                   FaceAngle{f[2], f[0], f[1]}});
+    smallest_face_.add(low);
+    largest_face_.add(high);
   }
 
   // Returns the smallest one.
   double add_dihedrals(const RoughTet& rough, const Tet& t) {
-    double low = 180, high = 0;
-    for (const auto& [a, b, c, d] : kEdges) {
-      const double angle =
-          dihedral_.add(rough.dihedral_angle(a, b, c, d), DihedralAngle{t[a], t[b], t[c], t[d]});
-      low = std::min(low, angle);
-      high = std::max(high, angle);
+    std::array<RoughTet::Angle, 6> guesses;
+    std::array<DihedralAngle, 6> angles;
+    for (std::size_t e = 0; e < 6; ++e) {
+      const auto& [a, b, c, d] = kEdges[e];
+      guesses[e] = rough.dihedral_angle(a, b, c, d);
+      angles[e] = {t[a], t[b], t[c], t[d]};
     }
+    const auto [low, high] = dihedral_.add_all(guesses, angles);
     smallest_dihedral_.add(low);
     largest_dihedral_.add(high);
     return low;

@@ -9,11 +9,15 @@ namespace {
 constexpr Index kLeafSize = 4;
 constexpr int kMaxDepth = 60;
 
+// All comparisons are made: which of them fails first cannot be foretold, and a wrong guess takes
+// longer than they do.
 bool meet(const BoxTree::Box& a, const BoxTree::Box& b) {
+  unsigned apart = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    if (a.low[axis] > b.high[axis] || b.low[axis] > a.high[axis]) return false;
+    apart |= static_cast<unsigned>(a.low[axis] > b.high[axis]) |
+             static_cast<unsigned>(b.low[axis] > a.high[axis]);
   }
-  return true;
+  return apart == 0;
 }
 
 void enlarge(BoxTree::Box& box, const BoxTree::Box& other) {
@@ -82,9 +86,9 @@ void BoxTree::build(std::size_t node, Index first, Index last, int depth) {
 }
 
 void BoxTree::query(const Box& query, std::vector<Index>& found,
-                    const std::function<std::vector<HalfSpace>()>& but_in) const {
+                    const std::function<std::span<const HalfSpace>()>& but_in) const {
   if (boxes_.empty()) return;
-  std::vector<HalfSpace> half_spaces;
+  std::span<const HalfSpace> half_spaces;
   bool asked = !but_in;
   const auto wanted = [&](const Box& box) {
     return meet(box, query) &&

@@ -390,6 +390,8 @@ class ChamferExtent {
   bool contains_midpoint(Index facet, Index a, Index b) const;
   bool crosses_border(Index facet, Index a, Index b) const;
   bool is_whole(std::span<const Index> triangles, const std::vector<Face>& faces) const;
+  bool surely_covers_less(const InputSurface::Facet& facet, const std::vector<Face>& faces,
+                          std::span<const Index> triangles) const;
   void check_areas();
 
   const ExactRecord& record_;
@@ -527,6 +529,21 @@ bool ChamferExtent::is_whole(std::span<const Index> triangles,
   return false;
 }
 
+// Do intervals say that the faces cover less than the facet? So it is where something was cut off.
+bool ChamferExtent::surely_covers_less(const InputSurface::Facet& facet,
+                                       const std::vector<Face>& faces,
+                                       std::span<const Index> triangles) const {
+  Interval excess = 0;
+  for (const auto& [a, b, c] : faces) {
+    excess = excess + exact::dot(facet.rough_normal, exact::rough_area2(points_, a, b, c));
+  }
+  for (const Index t : triangles) {
+    const auto& [a, b, c] = surface_.triangles()[t];
+    excess = excess - exact::dot(facet.rough_normal, exact::rough_area2(points_, a, b, c));
+  }
+  return excess.sign() == -1;
+}
+
 void ChamferExtent::check_areas() {
   Buckets faces_of(surface_.facets().size());
   const auto for_each_face = [this](const auto& visit) {
@@ -548,6 +565,7 @@ void ChamferExtent::check_areas() {
     // A facet of which nothing is left, or all as it was, takes no arithmetic.
     if (faces.empty() || is_whole(members.of(f), faces)) continue;
     const InputSurface::Facet& facet = surface_.facets()[f];
+    if (surely_covers_less(facet, faces, members.of(f))) continue;
     const std::array<ExactSum, 3> area = sum_of_areas2(points_, faces),
                                   whole = surface_.area2(points_, members.of(f));
     const ExactVector normal = facet.normal(points_);

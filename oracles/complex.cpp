@@ -26,6 +26,14 @@ struct FaceRecord {
   auto operator<=>(const FaceRecord&) const = default;
 };
 
+// The corners of a tetrahedron, ascending.
+Tet ascending(const Tet& tet) {
+  const auto [a, b] = std::minmax(tet[0], tet[1]);
+  const auto [c, d] = std::minmax(tet[2], tet[3]);
+  const auto [second, third] = std::minmax(std::max(a, c), std::min(b, d));
+  return {std::min(a, c), second, third, std::max(b, d)};
+}
+
 // Sorts the corners; is that an even permutation?
 bool sort_face(Face& face) {
   bool even = true;
@@ -45,8 +53,7 @@ bool sort_face(Face& face) {
 bool check_corners(const TetComplex& complex, OracleReport& report) {
   bool usable = true;
   for (Index t = 0; t < complex.tetrahedra.size(); ++t) {
-    Tet corners = complex.tetrahedra[t];
-    std::sort(corners.begin(), corners.end());
+    const Tet corners = ascending(complex.tetrahedra[t]);
     if (corners[3] >= complex.points->size() || corners[0] < complex.first_vertex) {
       report.fail(complex.tet_name(t) + " has a corner out of range");
       usable = false;
@@ -58,26 +65,26 @@ bool check_corners(const TetComplex& complex, OracleReport& report) {
   return usable;
 }
 
-void check_used(const TetComplex& complex, OracleReport& report) {
+std::vector<std::uint8_t> used_by(const TetComplex& complex, const auto& cells) {
   std::vector<std::uint8_t> used(complex.points->size(), 0);
-  for (const Tet& tet : complex.tetrahedra) {
-    for (const Index v : tet) used[v] = 1;
+  for (const auto& cell : cells) {
+    for (const Index v : cell) used[v] = 1;
   }
-  for (Index v = complex.first_vertex; v < complex.last_vertex; ++v) {
-    if (!used[v]) report.fail(complex.vertex_name(v) + " belongs to no tetrahedron");
-  }
+  return used;
 }
 
 std::int64_t count_used(const TetComplex& complex, const auto& cells) {
-  std::vector<std::uint8_t> used(complex.points->size(), 0);
-  std::int64_t count = 0;
-  for (const auto& cell : cells) {
-    for (const Index v : cell) {
-      count += used[v] == 0;
-      used[v] = 1;
-    }
+  const std::vector<std::uint8_t> used = used_by(complex, cells);
+  return std::count(used.begin(), used.end(), 1);
+}
+
+// Returns how many vertices are used.
+std::int64_t check_used(const TetComplex& complex, OracleReport& report) {
+  const std::vector<std::uint8_t> used = used_by(complex, complex.tetrahedra);
+  for (Index v = complex.first_vertex; v < complex.last_vertex; ++v) {
+    if (!used[v]) report.fail(complex.vertex_name(v) + " belongs to no tetrahedron");
   }
-  return count;
+  return std::count(used.begin(), used.end(), 1);
 }
 
 // Every edge of the boundary faces is traversed as often in one direction as in the other. Returns
@@ -111,12 +118,12 @@ std::int64_t check_closed(const TetComplex& complex, const std::vector<Face>& bo
 
 struct Counts {
   std::uint64_t faces = 0;
-  std::int64_t edges = 0;
+  std::int64_t edges = 0, vertices = 0;
 };
 
 void check_euler(const TetComplex& complex, const Counts& counts, const std::vector<Face>& boundary,
                  std::int64_t boundary_edges, bool is_part, OracleReport& report) {
-  const std::int64_t euler = count_used(complex, complex.tetrahedra) - counts.edges +
+  const std::int64_t euler = counts.vertices - counts.edges +
                              static_cast<std::int64_t>(counts.faces) -
                              static_cast<std::int64_t>(complex.tetrahedra.size());
   const std::int64_t of_boundary =
@@ -158,14 +165,6 @@ void match_face(const TetComplex& complex, const Face& sorted, std::span<const F
   neighbours.across[second] = first;
 }
 
-// The corners of a tetrahedron, ascending.
-Tet ascending(const Tet& tet) {
-  const auto [a, b] = std::minmax(tet[0], tet[1]);
-  const auto [c, d] = std::minmax(tet[2], tet[3]);
-  const auto [second, third] = std::minmax(std::max(a, c), std::min(b, d));
-  return {std::min(a, c), second, third, std::max(b, d)};
-}
-
 // Faces by their lowest corner. Only their numbers are held all at once: sorting the faces
 // themselves takes four times the memory and most of the time.
 Buckets faces_by_lowest(const TetComplex& complex) {
@@ -196,12 +195,51 @@ Buckets highest_edges(const TetComplex& complex) {
   return edges;
 }
 
+// The faces with one lowest corner that have a partner: the same face of another tetrahedron, from
+// the other side. Most have one, and few have the same middle corner: sorting takes far longer.
+class Partners {
+ public:
+  explicit Partners(std::size_t vertices) : first_(vertices, kNone) {}
+
+  // False if more than two tetrahedra have a face, or two have it on the same side, or the same
+  // four corners.
+  bool find(const std::vector<FaceRecord>& faces) {
+    of_.assign(faces.size(), kNone);
+    next_.resize(faces.size());
+    for (const FaceRecord& face : faces) first_[face.middle()] = kNone;
+    for (Index f = 0; f < faces.size(); ++f) {
+      Index& first = first_[faces[f].middle()];
+      Index other = first;
+      while (other != kNone && faces[other].corners != faces[f].corners) other = next_[other];
+      if (other == kNone) {
+        next_[f] = first;
+        first = f;
+      } else if (of_[other] != kNone || faces[other].even() == faces[f].even() ||
+                 faces[other].opposite == faces[f].opposite) {
+        return false;
+      } else {
+        of_[other] = f;
+        of_[f] = other;
+      }
+    }
+    return true;
+  }
+  // kNone: none.
+  Index of(Index face) const { return of_[face]; }
+
+ private:
+  std::vector<Index> first_;  // by middle corner: the last face that had no partner then
+  std::vector<Index> next_,
+      of_;  // per face: the one before it with the same middle corner, its partner
+};
+
 // An edge of a tetrahedron is found at its lower end: from a face with that as its lowest corner,
 // unless the edge is between the two highest corners.
 Counts match_faces(const TetComplex& complex, Neighbours& neighbours, std::vector<Face>& boundary,
                    OracleReport& report) {
   const Buckets by_lowest = faces_by_lowest(complex), highest = highest_edges(complex);
   std::vector<FaceRecord> faces;
+  Partners partners(complex.points->size());
   std::vector<Index> seen_from(complex.points->size(), kNone);
   Counts counts;
   for (Index v = 0; v < complex.points->size(); ++v) {
@@ -219,6 +257,19 @@ Counts match_faces(const TetComplex& complex, Neighbours& neighbours, std::vecto
       faces.push_back({FaceRecord::pack(face), tet[i % 4], i | (even ? FaceRecord::kEven : 0)});
     }
     for (const Index other : highest.of(v)) see(other);
+    if (partners.find(faces)) {
+      for (Index f = 0; f < faces.size(); ++f) {
+        const Index here = faces[f].tet_face(), other = partners.of(f);
+        counts.faces += other == kNone || f < other;
+        if (other == kNone) {
+          boundary.push_back(face_of(complex.tetrahedra[here / 4], static_cast<int>(here % 4)));
+        } else {
+          neighbours.across[here] = faces[other].tet_face();
+        }
+      }
+      continue;
+    }
+    // Something is wrong, and is reported in order.
     std::sort(faces.begin(), faces.end());
     for (std::size_t i = 0; i < faces.size(); ++counts.faces) {
       std::size_t j = i + 1;
@@ -267,10 +318,11 @@ OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours, bo
     return report;
   }
   if (!check_corners(complex, report)) return report;
-  check_used(complex, report);
+  const std::int64_t vertices = check_used(complex, report);
 
   std::vector<Face> boundary;
-  const Counts counts = match_faces(complex, neighbours, boundary, report);
+  Counts counts = match_faces(complex, neighbours, boundary, report);
+  counts.vertices = vertices;
   const std::int64_t boundary_edges = check_closed(complex, boundary, report);
   check_euler(complex, counts, boundary, boundary_edges, is_part, report);
   report.figures.emplace_back("faces", counts.faces);

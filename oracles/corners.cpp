@@ -101,10 +101,12 @@ bool AcuteCorners::edge_is_acute(Index e, const Present& present,
                                  const CornerThresholds& thresholds, Doubt doubt) const {
   const InputSurface::Edge& edge = surface_.edges()[e];
   if (!present(edge.left) || !present(edge.right)) return false;
-  const AngleBound bound(std::max(thresholds.at(edge.from), thresholds.at(edge.to)), doubt);
   // The normals point away from each other where the facets enclose a sharp wedge, on either side.
   const IntervalVector &r = rough_normal(edge.left), &s = rough_normal(edge.right);
-  if (bound.surely_not_above(-exact::dot(r, s), exact::dot(r, r) * exact::dot(s, s))) return false;
+  const Interval rough_cosine = -exact::dot(r, s);
+  if (rough_cosine.sign() == -1) return false;  // most are: making a bound takes longer
+  const AngleBound bound(std::max(thresholds.at(edge.from), thresholds.at(edge.to)), doubt);
+  if (bound.surely_not_above(rough_cosine, exact::dot(r, r) * exact::dot(s, s))) return false;
   const ExactVector m = surface_.facets()[edge.left].normal(points_),
                     n = surface_.facets()[edge.right].normal(points_);
   const ExactNumber cosine = -exact::dot(m, n);

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <unordered_map>
 
-#include "oracles/simplex_set.h"
+#include "oracles/refined_index.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -143,12 +143,9 @@ std::vector<std::uint8_t> walls_of(const TetComplex& complex,
   corners.reserve(faces.size());
   for (const auto& [a, b, c, id] : faces) corners.push_back({a, b, c});
   const SimplexSet<3> listed(corners);
-  for (std::size_t t = 0; t < walls.size(); ++t) {
-    for (int i = 0; i < 4; ++i) {
-      const bool wall = listed.contains(face_of(complex.tetrahedra[t], i));
-      walls[t] |= static_cast<std::uint8_t>(static_cast<unsigned>(wall) << i);
-    }
-  }
+  for_each_face_in(listed, complex.tetrahedra, [&walls](std::size_t t, int i, std::size_t) {
+    walls[t] |= static_cast<std::uint8_t>(1U << i);
+  });
   return walls;
 }
 

@@ -4,10 +4,12 @@
 #include <optional>
 
 #include "oracles/ball_side.h"
+#include "oracles/buckets.h"
 #ifdef TETPROOF_SECOND_OPINIONS
 #include "oracles/cgal/kernel_opinion.h"
 #endif
 #include "oracles/sample.h"
+#include "oracles/simplex_set.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -178,6 +180,26 @@ std::vector<Index> used_vertices(const TetComplex& complex) {
   return vertices;
 }
 
+std::vector<std::uint8_t> in_both(const std::vector<delmesher::ExactRecord::Tet>& tetrahedra,
+                                  const TetComplex& other) {
+  Buckets by_lowest(other.points->size());
+  const auto lowest = [](const Tet& tet) { return *std::min_element(tet.begin(), tet.end()); };
+  for (const Tet& tet : other.tetrahedra) by_lowest.count(lowest(tet));
+  by_lowest.allot();
+  for (Index t = 0; t < other.tetrahedra.size(); ++t) {
+    by_lowest.put(lowest(other.tetrahedra[t]), t);
+  }
+  std::vector<std::uint8_t> found(tetrahedra.size());
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    const Tet& tet = tetrahedra[t].vertices;
+    const std::span<const Index> candidates = by_lowest.of(lowest(tet));
+    found[t] = std::any_of(candidates.begin(), candidates.end(), [&](Index c) {
+      return std::is_permutation(tet.begin(), tet.end(), other.tetrahedra[c].begin());
+    });
+  }
+  return found;
+}
+
 OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbours) {
   OracleReport report("delaunay", "faces between two tetrahedra, and tetrahedra");
   const ViolationNames names{complex};
@@ -204,20 +226,13 @@ OracleReport check_delaunay(const TetComplex& complex, const Neighbours& neighbo
 }
 
 OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbours& neighbours,
-                                        const InputSurface& surface, std::vector<Face> constraints,
+                                        const InputSurface& surface,
+                                        const std::vector<Face>& constraints,
                                         const ConstrainedDelaunayOptions& options) {
   OracleReport report("constrained-delaunay", "faces off the surface, and tetrahedra");
   report.promised = options.gate;
   const ViolationNames names{complex};
-  for (Face& face : constraints) std::sort(face.begin(), face.end());
-  std::sort(constraints.begin(), constraints.end());
-  // Most faces have a corner off the surface, and need no search.
-  std::vector<std::uint8_t> constrained(complex.points->size());
-  for (const Face& face : constraints) {
-    for (const Index v : face) {
-      if (v < constrained.size()) constrained[v] = 1;
-    }
-  }
+  const SimplexSet<3> constrained(constraints);
   std::uint64_t not_delaunay = 0;
   Circumsphere sphere;
   TwoOpinions opinions(*complex.points);
@@ -225,13 +240,15 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
   for (Index i = 0; i < neighbours.across.size(); ++i) {
     const Index j = neighbours.across[i];
     if (j == kNone || j < i) continue;
-    Face face = face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4));
-    if (constrained[face[0]] != 0 && constrained[face[1]] != 0 && constrained[face[2]] != 0) {
-      std::sort(face.begin(), face.end());
-      if (std::binary_search(constraints.begin(), constraints.end(), face)) continue;
+    // Most faces have a corner off the surface, and need no search.
+    const unsigned among = constrained.corners_among(complex.tetrahedra[i / 4]);
+    if ((among | 1U << i % 4) == 15 &&
+        constrained.contains(face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4)))) {
+      continue;
     }
     const Index opposite = complex.tetrahedra[j / 4][j % 4];
     ++report.checked;
+    if (!options.known.empty() && options.known[i / 4] != 0 && options.known[j / 4] != 0) continue;
     const Tet& tet = complex.tetrahedra[i / 4];
     sphere.move_to(*complex.points, tet, i / 4);
     // Violations that are only counted need no second opinion.

@@ -18,13 +18,21 @@ struct ConstrainedDelaunayOptions {
   // After repairs of rounding the property cannot hold everywhere: then violations are only
   // counted.
   bool gate = true;
+  // Per tetrahedron: is it known that no opposite corner is inside the circumsphere across a face
+  // between two of these? Then such faces are not decided again.
+  std::vector<std::uint8_t> known = {};
 };
 
 // The same for faces that are not among `constraints`. Then no tetrahedron sees a vertex inside its
 // circumsphere past the constraints (Shewchuk 2008). This is tried on the sample, looking from the
 // centroid, with the input surface as walls.
 OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbours& neighbours,
-                                        const InputSurface& surface, std::vector<Face> constraints,
+                                        const InputSurface& surface,
+                                        const std::vector<Face>& constraints,
                                         const ConstrainedDelaunayOptions& options = {});
+
+// Which of these tetrahedra are in a complex on the same points.
+std::vector<std::uint8_t> in_both(const std::vector<delmesher::ExactRecord::Tet>& tetrahedra,
+                                  const TetComplex& other);
 
 }  // namespace tetproof::oracles

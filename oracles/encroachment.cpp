@@ -31,17 +31,19 @@ class Encroachment {
  private:
   void check_neighbours() {
     for (const Tet& t : complex_.tetrahedra) {
+      const unsigned among = edges_.corners_among(t);
       for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < i; ++j) {
-          if (!edges_.contains({t[i], t[j]})) continue;
+          if ((among >> i & among >> j & 1U) == 0 || !edges_.contains({t[i], t[j]})) continue;
           for (int k = 0; k < 4; ++k) {
             if (k != i && k != j) check_edge(t[i], t[j], t[k]);
           }
         }
-        const std::size_t face = faces_.find(face_of(t, i));
-        if (face < faces_.size()) check_face(faces_[face], t[i]);
       }
     }
+    for_each_face_in(faces_, complex_.tetrahedra, [this](std::size_t t, int i, std::size_t face) {
+      check_face(faces_[face], complex_.tetrahedra[t][i]);
+    });
   }
 
   void check_sample() {
@@ -69,7 +71,9 @@ class Encroachment {
 
   void check_face(const Face& f, Index v) {
     if (v == f[0] || v == f[1] || v == f[2]) return;
-    if (!exact::in_diametral_ball(points_, f[0], f[1], f[2], v)) return;
+    const int side = BallSide::diametral(points_, f).side(v);
+    if (side > 0) return;
+    if (side == 0 && !exact::in_diametral_ball(points_, f[0], f[1], f[2], v)) return;
     offend(v, complex_.face_name(f));
   }
 

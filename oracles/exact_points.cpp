@@ -194,10 +194,20 @@ mpz_class shifted(const mpz_class& value, long exponent) {
   return value << static_cast<unsigned long>(exponent);
 }
 
-using Rational = std::array<mpq_class, 3>;
+// numerators * 2^exponent / denominator, which is odd, positive, and in lowest terms with all three
+// together.
+struct Meeting {
+  Integers numerators;
+  mpz_class denominator;
+  long exponent;
+};
+
+long zeros(const mpz_class& n) {
+  return static_cast<long>(mpz_scan1(n.get_mpz_t(), 0));
+}
 
 // The point where three planes meet (Cramer's rule); nothing if they do not meet in one point.
-std::optional<Rational> meeting_point(const Equation& p, const Equation& q, const Equation& r) {
+std::optional<Meeting> meeting_point(const Equation& p, const Equation& q, const Equation& r) {
   const Integers qr = cross(q.normal, r.normal), rp = cross(r.normal, p.normal),
                  pq = cross(p.normal, q.normal);
   const mpz_class determinant = dot(p.normal, qr);
@@ -206,13 +216,16 @@ std::optional<Rational> meeting_point(const Equation& p, const Equation& q, cons
   const Integers offsets = {shifted(p.offset, p.exponent - exponent),
                             shifted(q.offset, q.exponent - exponent),
                             shifted(r.offset, r.exponent - exponent)};
-  Rational x;
-  for (int i = 0; i < 3; ++i) {
-    const mpz_class sum = offsets[0] * qr[i] + offsets[1] * rp[i] + offsets[2] * pq[i];
-    x[i] = mpq_class(shifted(sum, std::max(0L, exponent)),
-                     shifted(determinant, std::max(0L, -exponent)));
-    x[i].canonicalize();
+  const long even = zeros(determinant);
+  Meeting x{.numerators = {}, .denominator = determinant >> even, .exponent = exponent - even};
+  mpz_class common = x.denominator;
+  for (std::size_t i = 0; i < 3; ++i) {
+    x.numerators[i] = offsets[0] * qr[i] + offsets[1] * rp[i] + offsets[2] * pq[i];
+    common = gcd(common, x.numerators[i]);
   }
+  if (determinant < 0) common = -common;
+  x.denominator /= common;
+  for (mpz_class& n : x.numerators) n /= common;
   return x;
 }
 
@@ -229,19 +242,15 @@ constexpr long kNoExponent = std::numeric_limits<int>::max();
 // The exponent at which every coordinate of every corner is an integer, over an odd denominator for
 // the corners in `moved`; kNoExponent if all are 0.
 long corner_exponent(std::span<const ExactPoint> points,
-                     const std::vector<std::pair<Index, Rational>>& moved) {
+                     const std::vector<std::pair<Index, Meeting>>& moved) {
   long exponent = kNoExponent;
   for (const ExactPoint& p : points) {
     if (p.kind != Kind::explicit_point) continue;
     for (const double x : {p.x, p.y, p.z}) lower(exponent, x, 0);
   }
   for (const auto& [index, place] : moved) {
-    for (const mpq_class& x : place) {
-      if (x == 0) continue;
-      const auto zeros = [](const mpz_class& n) {
-        return static_cast<long>(mpz_scan1(n.get_mpz_t(), 0));
-      };
-      exponent = std::min(exponent, zeros(x.get_num()) - zeros(x.get_den()));
+    for (const mpz_class& n : place.numerators) {
+      if (n != 0) exponent = std::min(exponent, place.exponent + zeros(n));
     }
   }
   return exponent;
@@ -382,33 +391,28 @@ std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Pla
     if (!is_finite(planes[n])) return "plane " + std::to_string(n) + " is not finite";
     equations.push_back(equation(planes[n]));
   }
-  std::vector<std::pair<Index, Rational>> moved;
+  std::vector<std::pair<Index, Meeting>> moved;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ExactPoint& p = points[i];
     if (p.kind != Kind::on_planes) continue;
-    const auto place = meeting_point(equations[p.i], equations[p.j], equations[p.k]);
+    auto place = meeting_point(equations[p.i], equations[p.j], equations[p.k]);
     if (!place) return "point " + std::to_string(i) + " is on planes that do not meet in one point";
-    moved.emplace_back(static_cast<Index>(i), *place);
+    moved.emplace_back(static_cast<Index>(i), std::move(*place));
   }
   exponent_ = corner_exponent(points, moved);
   exponent_ = exponent_ == kNoExponent ? 0 : exponent_ + parameter_exponent(points);
-  for (const auto& [i, place] : moved) {
-    // Over one denominator, as sums of products of these coordinates need none then.
-    std::array<mpq_class, 3> x;
-    mpz_class common = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      x[axis] = times_power_of_two(place[axis], -exponent_);
-      common = lcm(common, mpz_class(x[axis].get_den()));
+  for (auto& [i, place] : moved) {
+    // Over one denominator, as sums of products of these coordinates need none then. What is
+    // shifted out are zeros.
+    const long shift = place.exponent - exponent_;
+    for (mpz_class& n : place.numerators) {
+      n = shift >= 0 ? shifted(n, shift) : mpz_class(n >> static_cast<unsigned long>(-shift));
     }
-    std::array<mpz_class, 3> numerators;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      numerators[axis] = x[axis].get_num() * mpz_class(common / x[axis].get_den());
-    }
-    all_integers_ = all_integers_ && common == 1;
+    all_integers_ = all_integers_ && place.denominator == 1;
     implicit_[i] = static_cast<Index>(defined_.size());
     defined_.emplace_back().placed = static_cast<Index>(placed_.size());
-    placed_.push_back(
-        ExactNumber::over(std::move(numerators), ExactNumber::Denominator(std::move(common))));
+    placed_.push_back(ExactNumber::over(std::move(place.numerators),
+                                        ExactNumber::Denominator(std::move(place.denominator))));
   }
   keep_planes(points, planes.size(),
               [&](std::size_t n) { return integer_plane(equations[n], exponent_); });

@@ -85,6 +85,18 @@ class ExactPoints {
     const Position &p = nearest_[from], &q = nearest_[to], &r = rest(from), &s = rest(to);
     return {gap(p[0], r[0], q[0], s[0]), gap(p[1], r[1], q[1], s[1]), gap(p[2], r[2], q[2], s[2])};
   }
+  // The vector between two points in doubles. Each component is off by a rounding of itself and
+  // close_error(); where the rest of a point is not known, it is not a number.
+  Position close_difference(Index from, Index to) const {
+    const Position &p = nearest_[from], &q = nearest_[to];
+    if (defined_.empty()) return {q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+    const Position &r = rest(from), &s = rest(to);
+    return {close_gap(p[0], r[0], q[0], s[0]).value, close_gap(p[1], r[1], q[1], s[1]).value,
+            close_gap(p[2], r[2], q[2], s[2]).value};
+  }
+  // A rest and the error of a difference are at most an ulp of the largest coordinate, and what
+  // becomes of them is right to 2^-49 of that (see gap).
+  double close_error() const { return defined_.empty() ? 0 : largest_coordinate_ * 0x1p-98; }
   // A double within an ulp of the coordinates, in true units.
   const Position& nearest(Index i) const { return nearest_[i]; }
   double largest_coordinate() const { return largest_coordinate_; }
@@ -104,13 +116,18 @@ class ExactPoints {
   // (q + s) - (p + r). The difference of p and q and its rounding error are exact (Knuth's
   // two-sum). Three roundings follow, each within what margin() allows for the result or for its
   // own terms. The rests are themselves known to 2^-52 of their size.
-  static Interval gap(double p, double r, double q, double s) {
+  struct Gap {
+    double value, terms;
+  };
+  static Gap close_gap(double p, double r, double q, double s) {
     const double d = q - p, back = d - q;
     const double error = (q - (d - back)) - (p + back);
-    if (r == 0 && s == 0) return Interval::around(d, d);
-    const double x = d + (error + (s - r));
-    const double slack =
-        Interval::margin(x) + (std::fabs(r) + std::fabs(s) + std::fabs(error)) * 0x1p-49;
+    return {d + (error + (s - r)), std::fabs(r) + std::fabs(s) + std::fabs(error)};
+  }
+  static Interval gap(double p, double r, double q, double s) {
+    if (r == 0 && s == 0) return Interval::around(q - p, q - p);
+    const auto [x, terms] = close_gap(p, r, q, s);
+    const double slack = Interval::margin(x) + terms * 0x1p-49;
     return {x - slack, x + slack};
   }
 

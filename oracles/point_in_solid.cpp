@@ -103,6 +103,12 @@ int side_of_plane(const ExactPoints& points, const std::array<Index, 3>& t, cons
   return sgn(exact::dot(exact::area2(points, t[0], t[1], t[2]), q.from(t[0])));
 }
 
+// Are all corners certainly higher than that?
+bool is_above(const ExactPoints& points, const std::array<Index, 3>& triangle, double height) {
+  return std::all_of(triangle.begin(), triangle.end(),
+                     [&](Index v) { return points.enclosure(v)[2].low > height; });
+}
+
 // A cheap proof that the triangle enters: a point of it that is strictly inside the tetrahedron.
 // Doubles look for one by clipping the triangle; a sum of the triangle's corners with shares that
 // are not negative is one, up to a common factor, if intervals say so for each face.
@@ -269,9 +275,9 @@ bool beyond_edge(const ExactPoints& points, const std::array<Index, 3>& triangle
 // The half-spaces beyond the faces of a tetrahedron. Their normals may be rounded, as long as the
 // whole tetrahedron is short of the offset: the roundings of a height, those of the point among
 // them, are below 2^-49 of the sum of the sizes of its terms, unless these underflow.
-std::vector<BoxTree::HalfSpace> beyond_faces(const ExactPoints& points,
-                                             const std::array<Index, 4>& tetrahedron) {
-  std::vector<BoxTree::HalfSpace> result(4);
+std::array<BoxTree::HalfSpace, 4> beyond_faces(const ExactPoints& points,
+                                               const std::array<Index, 4>& tetrahedron) {
+  std::array<BoxTree::HalfSpace, 4> result;
   for (std::size_t i = 0; i < 4; ++i) {
     const Position &a = points.nearest(tetrahedron[(i + 1) % 4]),
                    &b = points.nearest(tetrahedron[(i + 2) % 4]),
@@ -361,7 +367,8 @@ int InputSurface::crossings_above(const ExactPoints& points, std::span<const Ind
                                   Index except) const {
   const Centroid q(points, corners);
   const IntervalVector p = q.position();
-  std::vector<Index> found;
+  thread_local std::vector<Index> found;  // allocating would take as long as the search
+  found.clear();
   tree_->query({{p[0].low, p[1].low, p[2].low},
                 {p[0].high, p[1].high, std::numeric_limits<double>::infinity()}},
                found);
@@ -371,6 +378,10 @@ int InputSurface::crossings_above(const ExactPoints& points, std::span<const Ind
     const int s = side_above(points, a, b, q);
     if (t == except || s == 0 || side_above(points, b, c, q) != s ||
         side_above(points, c, a, q) != s) {
+      continue;
+    }
+    if (is_above(points, triangles_[t], p[2].high)) {
+      ++crossings;
       continue;
     }
     const int height = side_of_plane(points, triangles_[t], q) * s;
@@ -421,9 +432,13 @@ InputSurface::Contact InputSurface::contact(const ExactPoints& points,
                                             const std::array<Index, 4>& tetrahedron,
                                             const BoxTree& parts, std::span<const Index> triangles,
                                             PlaneSides& known) const {
-  std::vector<Index> found;
-  parts.query(box_around(points, tetrahedron), found,
-              [&] { return beyond_faces(points, tetrahedron); });
+  thread_local std::vector<Index> found;  // allocating would take as long as the search
+  found.clear();
+  std::array<BoxTree::HalfSpace, 4> beyond;
+  parts.query(box_around(points, tetrahedron), found, [&] {
+    beyond = beyond_faces(points, tetrahedron);
+    return std::span<const BoxTree::HalfSpace>(beyond);
+  });
   if (found.empty()) return {};  // as for most tetrahedra of a refined mesh
   if (!triangles.empty()) {
     for (Index& t : found) t = triangles[t];

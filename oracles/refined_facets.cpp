@@ -48,11 +48,8 @@ class RefinedFacets {
 };
 
 void RefinedFacets::find_mesh_faces() {
-  for (const Tet& tet : complex_.tetrahedra) {
-    for (int i = 0; i < 4; ++i) {
-      if (const std::size_t f = faces_.find(face_of(tet, i)); f < faces_.size()) in_mesh_[f] = 1;
-    }
-  }
+  for_each_face_in(faces_, complex_.tetrahedra,
+                   [this](std::size_t, int, std::size_t face) { in_mesh_[face] = 1; });
 }
 
 void RefinedFacets::check_face(Face face, Index id) {

@@ -47,6 +47,21 @@ class InputEdges {
 // The sign of the cosine of the angle between an input edge and the way from p to q.
 int along_edge(const ExactPoints& points, const InputSurface::Edge& edge, Index p, Index q);
 
+// Visits the faces of tetrahedra that are in the set: tetrahedron, number of the opposite corner,
+// number in the set. Few tetrahedra have three corners there, so most need no search.
+template <class Visit>
+void for_each_face_in(const SimplexSet<3>& set, const std::vector<Tet>& tetrahedra,
+                      const Visit& visit) {
+  for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
+    const unsigned among = set.corners_among(tetrahedra[t]);
+    for (int i = 0; i < 4; ++i) {
+      if ((among | 1U << i) != 15) continue;
+      const std::size_t face = set.find(face_of(tetrahedra[t], i));
+      if (face < set.size()) visit(t, i, face);
+    }
+  }
+}
+
 // The edges of all chains, and the faces on all facets.
 SimplexSet<2> edges_of_chains(const delmesher::ExactRecord& record);
 SimplexSet<3> faces_on_facets(const delmesher::ExactRecord& record);

@@ -30,18 +30,15 @@ bool terms_in_doubles(const ExactPoints& points, const Tet& tet, Terms& terms) {
   double h = 0;
   terms.squared_edges = 0;
   for (int e = 0; e < 6; ++e) {
-    const Position &p = points.nearest(tet[kPairs[e][0]]), &q = points.nearest(tet[kPairs[e][1]]);
-    for (int axis = 0; axis < 3; ++axis) {
-      edge[e][axis] = q[axis] - p[axis];
-      h = std::max(h, std::fabs(edge[e][axis]));
-    }
+    edge[e] = points.close_difference(tet[kPairs[e][0]], tet[kPairs[e][1]]);
+    for (const double x : edge[e]) h = std::max(h, std::fabs(x));
     terms.squared_edges += dot(edge[e], edge[e]);
   }
   if (!(h > 0x1p-100 && h < 0x1p100)) return false;  // else something could over- or underflow
   const auto &u = edge[0], &v = edge[1], &w = edge[2];
   const Position vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
   terms.d = dot(u, vw);
-  const double error = h * 0x1p-53 + points.difference_error();
+  const double error = h * 0x1p-53 + points.close_error();
   if (!(1000 * h * h * error < 1e-8 * std::fabs(terms.d))) return false;
   terms.areas = terms.squared_areas = 0;
   for (const Position& n : {vw, wu, uv, cross(edge[3], edge[4])}) {

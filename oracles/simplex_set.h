@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,12 @@ class SimplexSet {
     for (const Simplex& s : given) ++first_[sorted(s)[0] + 1];
     for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
     simplices_.resize(given.size());
+    for (const Simplex& s : given) {
+      for (const Index v : s) {
+        if (v >= is_corner_.size()) is_corner_.resize(std::size_t{v} + 1);
+        is_corner_[v] = 1;
+      }
+    }
     std::vector<Index> next = first_;
     for (const Simplex& s : given) {
       const Simplex ascending = sorted(s);
@@ -49,6 +56,15 @@ class SimplexSet {
     return found != end && *found == wanted ? found - simplices_.begin() : size();
   }
   bool contains(const Simplex& simplex) const { return find(simplex) < size(); }
+  bool has_corner(Index v) const { return v < is_corner_.size() && is_corner_[v] != 0; }
+  // The corners of a tetrahedron that are corners of simplices, as bits.
+  unsigned corners_among(const std::array<Index, 4>& tetrahedron) const {
+    unsigned among = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+      among |= static_cast<unsigned>(has_corner(tetrahedron[i])) << i;
+    }
+    return among;
+  }
 
  private:
   static Simplex sorted(Simplex s) {
@@ -76,6 +92,7 @@ class SimplexSet {
   }
 
   std::vector<Simplex> simplices_;
+  std::vector<std::uint8_t> is_corner_;  // per vertex
   std::vector<Index> first_;  // per lowest corner, where its simplices begin; and the end
 };
 

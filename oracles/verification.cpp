@@ -27,7 +27,10 @@ std::vector<Verification::Part> Verification::parts(const delmesher::ExactRecord
   if (stage == Stage::final) return list;
   const std::vector<Bulk> needs = {Bulk::refined_elements, Bulk::refined_complex};
   // The first that asks makes the complex, out of the tetrahedra.
-  list.push_back({&Verification::check_refined_complex, 1, needs, {Bulk::refined_tetrahedra}});
+  list.push_back({&Verification::check_refined_complex,
+                  1,
+                  {Bulk::refined_elements, Bulk::refined_complex, Bulk::final_meshes},
+                  {Bulk::refined_tetrahedra}});
   list.push_back({&Verification::check_refined_angles, 1, needs, {}});
   list.push_back({&Verification::check_refined_inside, 1, needs, {}});
   list.push_back({&Verification::check_refined_promises,

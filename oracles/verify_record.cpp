@@ -197,7 +197,10 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
   for (const auto& [a, b, c, id] : exact_->final_facets) constraints.push_back({a, b, c});
   const bool repaired = !exact_->unrepaired.empty();
   OracleReport delaunay =
-      check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = !repaired});
+      repaired
+          ? check_constrained_delaunay(complex, neighbours, surface, constraints, {.gate = false})
+          : check_constrained_delaunay(complex, neighbours, surface, constraints,
+                                       {.known = shared_.known_to_be_delaunay()});
   // Where nothing is demanded, a mesh all of whose faces are on the surface has nothing to count.
   if (!repaired || delaunay.checked > 0) add(std::move(delaunay), "exact-");
 }
@@ -228,7 +231,9 @@ void Verification::check_unrepaired() {
   }
   std::vector<Face> constraints;
   for (const auto& [a, b, c, id] : listed) constraints.push_back({a, b, c});
-  add(check_constrained_delaunay(before, neighbours, sidecar.surface, constraints), "unrepaired-");
+  add(check_constrained_delaunay(before, neighbours, sidecar.surface, constraints,
+                                 {.known = shared_.known_to_be_delaunay()}),
+      "unrepaired-");
 }
 
 }  // namespace tetproof::oracles

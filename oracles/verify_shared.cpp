@@ -4,6 +4,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "oracles/delaunay.h"
 #include "oracles/heap.h"
 #include "oracles/vectors.h"
 
@@ -124,6 +125,15 @@ void SharedData::done_with(Bulk bulk) {
   if (--needs_[static_cast<std::size_t>(bulk)] > 0) return;
   give_up(bulk);
   return_free_pages();
+}
+
+void SharedData::tell_refined_is_delaunay() {
+  const auto& first = exact_->unrepaired.empty() ? exact_->final : exact_->unrepaired;
+  const bool other_points = exact_->unrepaired.empty() && sidecar().as_given;
+  if (first.empty() || other_points) return;
+  std::vector<std::uint8_t> found = in_both(first, refined().complex);
+  const std::lock_guard<std::mutex> lock(final_mutex_);
+  in_refined_ = std::move(found);
 }
 
 void SharedData::make_final() {

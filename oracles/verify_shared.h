@@ -136,6 +136,14 @@ class SharedData {
     });
     return refined_;
   }
+  // Which tetrahedra of the first mesh that is constrained Delaunay, before local operations, are
+  // in the refined mesh. Once every face of that has passed, those between two of these need not be
+  // decided again. None unless the refined mesh's oracle was done first, as it is on one thread.
+  void tell_refined_is_delaunay();
+  std::vector<std::uint8_t> known_to_be_delaunay() {
+    const std::lock_guard<std::mutex> lock(final_mutex_);
+    return std::move(in_refined_);
+  }
   std::mutex progress;
 
  private:
@@ -153,6 +161,7 @@ class SharedData {
   std::mutex final_mutex_;
   std::shared_ptr<const Final> final_;
   Chains final_chains_;
+  std::vector<std::uint8_t> in_refined_;
   bool final_chains_known_ = false;
   Sidecar sidecar_;
   Refined refined_;

@@ -22,7 +22,7 @@ class Residue {
     for (std::size_t i = 0; i < 2; ++i) {
       const std::uint64_t below = reduced(w, kPrimes[i]);
       if (below == 0) return false;
-      const std::uint64_t inverse = power(below, kPrimes[i] - 2, kPrimes[i]);
+      const std::uint64_t inverse = inverse_of(below, i);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         result[axis].value_[i] = times(reduced(x[axis], kPrimes[i]), inverse, kPrimes[i]);
       }
@@ -67,6 +67,16 @@ class Residue {
       if (exponent % 2 == 1) result = times(result, a, prime);
     }
     return result;
+  }
+  // Points that follow each other often have the same weight: 1, or that of their facet's corners.
+  static std::uint64_t inverse_of(std::uint64_t a, std::size_t prime) {
+    thread_local std::array<std::array<std::uint64_t, 2>, 2> last = {{{1, 1}, {1, 1}}};
+    auto& [value, inverse] = last[prime];
+    if (value != a) {
+      inverse = power(a, kPrimes[prime] - 2, kPrimes[prime]);
+      value = a;
+    }
+    return inverse;
   }
   static std::uint64_t reduced(const Number& x, std::uint64_t prime) {
     const std::uint64_t mantissa = mpz_fdiv_ui(x.man(), prime);

@@ -34,7 +34,7 @@ using Fractions = CGAL::Homogeneous<Number>;
 template <class K>
 class Point {
  public:
-  Rough::Point_3 rough;
+  Rough::Point_3 rough = CGAL::ORIGIN;
 
   Point() = default;
   explicit Point(const typename K::Point_3& p) : rough(enclosure(p)), exact_(p) {}
@@ -109,9 +109,9 @@ CGAL::Sign along_normal(const Corner& a, const Corner& b, const Corner& c, const
 }
 
 // The sign of the cosine of the angle between the normals of abc and pqr.
-template <class K>
-CGAL::Sign between_normals(const Point<K>& a, const Point<K>& b, const Point<K>& c,
-                           const Point<K>& p, const Point<K>& q, const Point<K>& r) {
+template <class Corner, class P, class Q, class R>
+CGAL::Sign between_normals(const Corner& a, const Corner& b, const Corner& c, const P& p,
+                           const Q& q, const R& r) {
   return decide(
       [](const auto& u, const auto& v, const auto& w, const auto& x, const auto& y, const auto& z) {
         return CGAL::sign(CGAL::cross_product(v - u, w - u) * CGAL::cross_product(y - x, z - x));
@@ -218,6 +218,17 @@ class SecondKernel {
     }
     return point;
   }
+  // The enclosure that the comparison of points has found, if that is kept; exactly only when
+  // asked, as few signs need it.
+  struct Lazily {
+    Rough::Point_3 rough;
+    SecondKernel* kernel;
+    Index vertex;
+
+    Place exact() const { return kernel->expand(vertex).exact(); }
+  };
+  Lazily lazily(Index v) { return {rough_.empty() ? expand(v).rough : rough_[v], this, v}; }
+
   Point place_exactly(Index v) {
     const ExactPoint& p = definitions_.points[v];
     if (p.kind == ExactPoint::Kind::explicit_point || p.kind == ExactPoint::Kind::on_planes) {
@@ -283,11 +294,13 @@ class SecondKernel {
   void compare_points() {
     constexpr std::size_t kMost = 20000;
     const std::size_t every = step(definitions_.points.size(), kMost);
-    const bool kept = every == 1 && (sums_faces() || sums_tetrahedra());
+    const bool all = every == 1, kept = all && (sums_faces() || sums_tetrahedra());
     const Number unit = power_of_two(points_.exponent());
     std::size_t asked = 0;
     for (std::size_t v = 0; v < definitions_.points.size(); v += every, ++asked) {
-      const Place p = expand(static_cast<Index>(v)).exact();
+      const Point& point = expand(static_cast<Index>(v));
+      const Place& p = point.exact();
+      if (all) rough_.push_back(point.rough);
       if (!is_at(p, points_.exact(static_cast<Index>(v)), unit)) {
         report_.fail("point " + std::to_string(v) + " is elsewhere to CGAL's kernel");
       }
@@ -321,8 +334,8 @@ class SecondKernel {
     for (std::size_t t = 0; t < record_.final.size(); ++t) {
       if (t % every != 0 && t % every_ray != 0) continue;
       const ExactRecord::Tet& tet = record_.final[t];
-      const std::array<Point, 4> p = {expand(tet.vertices[0]), expand(tet.vertices[1]),
-                                      expand(tet.vertices[2]), expand(tet.vertices[3])};
+      const std::array<Lazily, 4> p = {lazily(tet.vertices[0]), lazily(tet.vertices[1]),
+                                       lazily(tet.vertices[2]), lazily(tet.vertices[3])};
       ++asked;
       if (orientation(p[0], p[1], p[2], p[3]) != CGAL::POSITIVE) {
         report_.fail("tetrahedron " + std::to_string(t) + " is not positive");
@@ -340,12 +353,12 @@ class SecondKernel {
     report_.figures.emplace_back("rays", static_cast<double>(cast));
   }
 
-  static Place centroid(const std::array<Point, 4>& p) {
+  static Place centroid(const std::array<Lazily, 4>& p) {
     const Number quarter(0.25);
     return combined(std::array{p[0].exact(), p[1].exact(), p[2].exact(), p[3].exact()},
                     std::array{quarter, quarter, quarter, quarter});
   }
-  static Rough::Point_3 rough_centroid(const std::array<Point, 4>& p) {
+  static Rough::Point_3 rough_centroid(const std::array<Lazily, 4>& p) {
     const CGAL::Protect_FPU_rounding<true> protection;
     const auto mean = [&p](int axis) {
       return (p[0].rough[axis] + p[1].rough[axis] + p[2].rough[axis] + p[3].rough[axis]) *
@@ -476,9 +489,9 @@ class SecondKernel {
   }
 
   // Is the point certainly outside the box around a triangle?
-  static bool is_beside(const Point& p, const std::array<const Point*, 3>& triangle) {
+  static bool is_beside(const Rough::Point_3& p, const std::array<const Point*, 3>& triangle) {
     for (int axis = 0; axis < 3; ++axis) {
-      const auto x = p.rough[axis];
+      const auto x = p[axis];
       const auto above = [&](const Point* q) { return q->rough[axis].inf() > x.sup(); };
       const auto below = [&](const Point* q) { return q->rough[axis].sup() < x.inf(); };
       if (std::all_of(triangle.begin(), triangle.end(), above)) return true;
@@ -488,13 +501,13 @@ class SecondKernel {
   }
 
   // Is a point of the facet's plane on one of its triangles?
-  bool on_facet(Index v, const Point& p, const ExactRecord::Facet& facet) const {
+  bool on_facet(const Lazily& p, const ExactRecord::Facet& facet) const {
     return std::any_of(facet.triangles.begin(), facet.triangles.end(), [&](Index t) {
       const auto& [i, j, k] = triangles_[t];
       const Point &a = corners_[i], &b = corners_[j], &c = corners_[k];
-      if (is_beside(p, {&a, &b, &c})) return false;
+      if (is_beside(p.rough, {&a, &b, &c})) return false;
       const auto left = [&](Index from, Index to) {
-        return is_on_line(v, from, to) ||
+        return is_on_line(p.vertex, from, to) ||
                between_normals(a, b, c, corners_[from], corners_[to], p) != CGAL::NEGATIVE;
       };
       return left(i, j) && left(j, k) && left(k, i);
@@ -519,11 +532,12 @@ class SecondKernel {
       }
       const auto& t = triangles_[facet->second->triangles[0]];
       const Point &a = corners_[t[0]], &b = corners_[t[1]], &c = corners_[t[2]];
-      const std::array<Point, 3> p = {expand(i), expand(j), expand(k)};
+      const std::array<Lazily, 3> p = {lazily(i), lazily(j), lazily(k)};
       if (between_normals(a, b, c, p[0], p[1], p[2]) != CGAL::POSITIVE) {
         report_.fail(name + " is not turned outwards");
       }
-      for (const auto& [v, corner] : {std::pair(i, p[0]), std::pair(j, p[1]), std::pair(k, p[2])}) {
+      for (const Lazily& corner : p) {
+        const Index v = corner.vertex;
         if (std::find(t.begin(), t.end(), v) != t.end()) continue;
         const auto [where, fresh] =
             known.try_emplace(static_cast<std::uint64_t>(id) << 32 | v, Where::on_facet);
@@ -531,7 +545,7 @@ class SecondKernel {
           // decided before
         } else if (!is_defined_in_plane(v, t) && orientation(a, b, c, corner) != CGAL::ZERO) {
           where->second = Where::off_plane;
-        } else if (!on_facet(v, corner, *facet->second)) {
+        } else if (!on_facet(corner, *facet->second)) {
           where->second = Where::beside;
         }
         if (where->second == Where::off_plane) report_.fail(name + " is off its plane");
@@ -637,7 +651,8 @@ class SecondKernel {
   std::vector<std::pair<Index, Point>> recent_;  // see expand; kNone: none yet
   std::vector<Corners> recent_corners_;          // see of_equal_weight
   std::vector<Direction> directions_;
-  std::vector<Terms> terms_;  // of all points, if all were compared and sums are asked for
+  std::vector<Rough::Point_3> rough_;  // of all points, if all were compared
+  std::vector<Terms> terms_;           // of all points, if all were compared and sums are asked for
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
 };
 

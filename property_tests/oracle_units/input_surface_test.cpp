@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -186,7 +187,7 @@ TEST(BoxTree, FindsWhatMeetsTheQueryAndNothingFarInAHalfSpace) {
         {{{real(random), real(random), real(random)}, 0.5 * real(random)},
          {{real(random), real(random), real(random)}, 0.5 * real(random)}}};
     std::vector<Index> found;
-    tree.query(query, found, [&but_in] { return but_in; });
+    tree.query(query, found, [&but_in] { return std::span(but_in); });
     std::sort(found.begin(), found.end());
     for (Index i = 0; i < boxes.size(); ++i) {
       bool meets = true;

@@ -198,5 +198,32 @@ TEST(Delaunay, AFaceBetweenTwoSpheresIsNamed) {
   EXPECT_NE(report.findings.front().find("face"), std::string::npos) << report.findings.front();
 }
 
+// Faces between two tetrahedra that a mesh which is Delaunay has as well are not decided again, all
+// others are. The surface hides the apexes from each other.
+TEST(Delaunay, AFaceIsLeftOutOnlyIfBothOfItsTetrahedraAreKnown) {
+  ExactPoints points;
+  const std::vector<Position> vertices = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 1}, {1, 1, -1}};
+  ASSERT_EQ(points.assign(vertices), "");
+  InputSurface surface;
+  ASSERT_EQ(
+      surface.assign({vertices, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {}, {}}, points), "");
+  const TetComplex complex{&points, {{0, 1, 2, 3}, {0, 2, 1, 4}}, {}, 0, 5};
+  Neighbours neighbours;
+  ASSERT_TRUE(check_complex(complex, neighbours).passed());
+  const auto violations = [&](const std::vector<Tet>& others) {
+    const TetComplex other{&points, others, {}, 0, 0};
+    const std::vector<delmesher::ExactRecord::Tet> tets = {{{0, 1, 2, 3}, true},
+                                                           {{0, 2, 1, 4}, false}};
+    return check_constrained_delaunay(complex, neighbours, surface, {},
+                                      {.known = in_both(tets, other)})
+        .violations;
+  };
+  EXPECT_EQ(check_constrained_delaunay(complex, neighbours, surface, {}).violations, 1U);
+  EXPECT_EQ(violations({}), 1U);
+  EXPECT_EQ(violations({{0, 1, 2, 3}}), 1U);
+  EXPECT_EQ(violations({{0, 1, 2, 3}, {0, 3, 1, 4}}), 1U);
+  EXPECT_EQ(violations({{3, 2, 1, 0}, {4, 0, 1, 2}}), 0U);
+}
+
 }  // namespace
 }  // namespace tetproof
