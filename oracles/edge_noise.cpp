@@ -78,13 +78,14 @@ std::vector<Bend> bends(const Polyhedron& surface, double scale) {
 
 }  // namespace
 
-double noise_of_edges(const Polyhedron& surface) {
+double noise_of_edges(const Polyhedron& surface, double resolved) {
   constexpr double kRounding = 0x1p-46, kMost = 0x1p-16, kSlack = 1e-6;
   const Size size = size_of(surface.vertices);
   if (!(size.diagonal > 0) || !std::isfinite(size.diagonal)) return 0;
   // Else products of three lengths might be beyond doubles.
   const double scale = std::ldexp(1, -std::max(std::ilogb(size.diagonal), -1000));
-  const double least = kRounding * size.largest * scale, diagonal = size.diagonal * scale;
+  const double diagonal = size.diagonal * scale,
+               least = std::max(kRounding * size.largest * scale, resolved * diagonal);
   std::vector<Bend> noisy = bends(surface, scale);
   std::erase_if(noisy, [&](const Bend& b) { return !(b.size > least); });
   std::ranges::sort(noisy, {}, &Bend::size);
@@ -101,7 +102,7 @@ double noise_of_edges(const Polyhedron& surface) {
     return std::min(n, to - from - n);
   };
   double result = 0;
-  for (std::size_t n = 7; n < noisy.size(); ++n) {
+  for (std::size_t n = resolved > 0 ? 14 : 7; n < noisy.size(); ++n) {
     const double x = noisy[n].size;
     if (x > kMost * diagonal * (1 + kSlack)) break;
     const auto count = up_to(x), quarter = up_to(x / 4), large = count - quarter;

@@ -112,18 +112,19 @@ Units single_units(const Extent& extent) {
 
 constexpr double kAlways = 0x1p-18;
 
+// Six times what rounding to the last place moves a vertex by; 0 if nothing is known of it.
 double share_in_units(std::span<const Position> vertices) {
   constexpr double kMost = 0x1p-12, kSlack = 1e-9;
   const Extent extent(vertices);
-  if (!(extent.diagonal() > 0) || !std::isfinite(extent.diagonal())) return kAlways;
+  if (!(extent.diagonal() > 0) || !std::isfinite(extent.diagonal())) return 0;
   const Units single = single_units(extent);
   Units units = decimal_units(vertices, extent);
   for (std::size_t i = 0; i < 3; ++i) units[i] = std::max(units[i], single[i]);
   for (const Units& u : {units, single}) {
     const double share = 3 * std::hypot(u[0], u[1], u[2]) / extent.diagonal();
-    if (share <= kMost * (1 + kSlack)) return std::max(kAlways, share);
+    if (share <= kMost * (1 + kSlack)) return share;
   }
-  return kAlways;
+  return 0;
 }
 
 // In units of a power of two just above the largest coordinate, if that is of no ordinary size.
@@ -149,12 +150,18 @@ std::vector<Position> in_own_units(std::span<const Position> vertices) {
 }  // namespace
 
 double automatic_planar_share(std::span<const Position> vertices) {
-  return std::max(share_in_units(vertices), share_in_units(in_own_units(vertices)));
+  return std::max({kAlways, share_in_units(vertices), share_in_units(in_own_units(vertices))});
 }
 
 double automatic_planar_share(const Polyhedron& surface) {
-  constexpr double kOfNoise = 16;
-  return std::max(automatic_planar_share(surface.vertices), kOfNoise * noise_of_edges(surface));
+  constexpr double kOfNoise = 16, kResolved = 1.25 / 6;
+  double share =
+      std::max(automatic_planar_share(surface.vertices), kOfNoise * noise_of_edges(surface));
+  for (const double digits :
+       {share_in_units(surface.vertices), share_in_units(in_own_units(surface.vertices))}) {
+    if (digits > 0) share = std::max(share, kOfNoise * noise_of_edges(surface, kResolved * digits));
+  }
+  return share;
 }
 
 }  // namespace tetproof::oracles

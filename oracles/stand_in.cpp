@@ -73,7 +73,7 @@ class StandInCheck {
       } else if (grouped_[v] == 0) {
         report_.fail("vertex " + std::to_string(v) +
                      " was moved, and is in no facet of more than one triangle");
-      } else if (!(16 * distance <= shortest[v] * (1 + 1e-9))) {
+      } else if (!(4 * distance <= shortest[v] * (1 + 1e-9))) {
         report_.fail("vertex " + std::to_string(v) + " was moved by " + std::to_string(distance) +
                      ", its shortest edge is " + std::to_string(shortest[v]) + " long");
       }

@@ -64,10 +64,9 @@ std::vector<double> edge_bends(const Surface& surface) {
   return result;
 }
 
-double noise_of_bends(const std::vector<double>& bends, double rounding, double least,
-                      double most) {
-  constexpr std::ptrdiff_t kFewest = 8, kTimes = 7, kSmaller = 8, kShare = 4, kShareOfLarge = 8,
-                           kTimesAll = 10;
+double noise_of_bends(const std::vector<double>& bends, double rounding, double least, double most,
+                      std::ptrdiff_t fewest) {
+  constexpr std::ptrdiff_t kTimes = 7, kSmaller = 8, kShare = 4, kShareOfLarge = 8, kTimesAll = 10;
   constexpr double kSoon = 2.5;
   Sizes all, convex, concave;
   for (const double x : bends) {
@@ -86,7 +85,7 @@ double noise_of_bends(const std::vector<double>& bends, double rounding, double 
     if (x > most || (noise > 0 && x > kSoon * noise)) break;
     const std::ptrdiff_t up_to = all.up_to(x), large = all.between(x / 4, x),
                          to_either_side = fewer(0, x);
-    const bool like_noise = up_to >= kFewest && to_either_side >= kTimes * fewer(x, 4 * x) &&
+    const bool like_noise = up_to >= fewest && to_either_side >= kTimes * fewer(x, 4 * x) &&
                             kSmaller * all.between(x / 16, x / 4) >= large &&
                             kShare * std::min(large, to_either_side) >= up_to &&
                             kShareOfLarge * fewer(x / 4, x) >= large;

@@ -13,6 +13,7 @@ namespace {
 using namespace test_surfaces;
 
 constexpr double kRounding = 1e-14, kLeast = 1e-9, kMost = 1e-3;
+constexpr std::ptrdiff_t kFewest = 8;
 
 // `n` bends of evenly spread sizes up to `most`, to both sides by turns.
 std::vector<double> spread(int n, double most) {
@@ -21,9 +22,10 @@ std::vector<double> spread(int n, double most) {
   return bends;
 }
 
-double noise(std::vector<double> bends, const std::vector<double>& more = {}) {
+double noise(std::vector<double> bends, const std::vector<double>& more = {},
+             double rounding = kRounding) {
   bends.insert(bends.end(), more.begin(), more.end());
-  return noise_of_bends(bends, kRounding, kLeast, kMost);
+  return noise_of_bends(bends, rounding, kLeast, kMost, kFewest);
 }
 
 TEST(EdgeBends, ConvexAndConcaveEdges) {
@@ -55,6 +57,14 @@ TEST(EdgeBends, NoiseIsWhereBendsEnd) {
 TEST(EdgeBends, AFewBendsTellNothing) {
   EXPECT_GT(noise(spread(8, 1e-5)), 0);
   EXPECT_EQ(noise(spread(7, 1e-5)), 0);
+}
+
+// Two noises are one that has hardly a large bend, unless it is known up to where the bends are of
+// the finer rounding.
+TEST(EdgeBends, OfAFinerRoundingHideNoise) {
+  const std::vector<double> finer = spread(400, kLeast), own = spread(40, 1e-5);
+  EXPECT_EQ(noise(finer, own), 0);
+  EXPECT_GT(noise(finer, own, kLeast), 0.8e-5);
 }
 
 // So many larger ones that the smaller ones may be the beginning of these.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -16,9 +17,11 @@ namespace {
 
 using predicates::Vec3;
 
+constexpr double kExplained = 1.25;  // bends up to so many roundings
+
 // Are the bends above `least` what coordinates that are off by `rounding` make of flat faces?
 bool explains(double rounding, const std::vector<double>& bends, double least) {
-  constexpr double kExplained = 1.25, kMore = 4, kTimes = 4.5;
+  constexpr double kMore = 4, kTimes = 4.5;
   const auto count = [&bends](double low, double high) {
     return static_cast<double>(std::ranges::count_if(
         bends, [=](double x) { return std::fabs(x) > low && std::fabs(x) <= high; }));
@@ -83,6 +86,7 @@ double flatness(const Surface& surface, Control& control) {
   constexpr double kUlps = 0x1p-46;                            // of the largest coordinate: 64
   constexpr double kOfRounding = 1.5, kMostRounded = 0x1p-14;  // of the diagonal
   constexpr double kMostNoise = kMostRounded / 4;
+  constexpr std::ptrdiff_t kFewest = 8;
   Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   double largest = 0;
   for (const Vec3& v : surface.vertices) {
@@ -103,10 +107,15 @@ double flatness(const Surface& surface, Control& control) {
   double result = std::min(4 * flat, most);
   const double rounding = rounding_of_coordinates(surface, kMostRounded / kOfRounding * diagonal);
   if (explains(rounding, all, least)) result = std::max(result, kOfRounding * rounding);
-  // Less than half is flat already.
-  const double noise = noise_of_bends(all, least, result / 2, kMostNoise * diagonal);
-  if (noise == 0) return result;
-  return std::max(result, bend_of_noise(surface, result, noise, control));
+  const auto look_for_noise = [&](double resolved, std::ptrdiff_t fewest) {
+    // Less than half is flat already.
+    const double noise = noise_of_bends(all, resolved, result / 2, kMostNoise * diagonal, fewest);
+    if (noise > 0) result = std::max(result, bend_of_noise(surface, result, noise, control));
+  };
+  look_for_noise(least, kFewest);
+  // What the coordinates cannot resolve tells nothing of coarser noise, and may hide it.
+  if (kExplained * rounding > least) look_for_noise(kExplained * rounding, 2 * kFewest);
+  return result;
 }
 
 }  // namespace delmesher::surface

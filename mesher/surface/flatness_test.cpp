@@ -128,6 +128,29 @@ TEST(Flatness, IsWhatBendsTellOfCoarserRoundings) {
   }
 }
 
+// A few faces have a noise of their own, and all have that of single precision, which hides it if
+// all bends are counted. Where those few are curved instead, or grooves of one depth, there is
+// nothing to be found.
+TEST(Flatness, IsWhatBendsTellOfNoiseBelowAFinerRounding) {
+  const double noise = 1e-5;
+  const Surface many = rotated(box({0, 0, 0}, {1, 2, 3}, 8)), few = box({4, 0, 0}, {5, 1, 1}, 3);
+  Surface grooved = box({4, 0, 0}, {5, 1, 1}, 6);
+  for (Point& p : grooved.vertices) {
+    if (p[0] == 5 && std::fmod(std::round(6 * p[1]), 2) == 1) p[0] -= noise;
+  }
+  const Surface noisy = joined(many, jittered(rotated(few), noise));
+  for (const Surface& s : {noisy, in_single_precision(noisy)}) {
+    EXPECT_GE(flatness(s), noise);
+    EXPECT_LE(flatness(s), 8 * noise);
+  }
+  const Surface ring = rotated(prism(ellipse(400), 1));
+  const Surface curved = scaled(torus(120, 60), 1.0 / 60);
+  for (const Surface& meant : {ring, curved, rotated(grooved)}) {
+    const Surface both = in_single_precision(joined(many, meant));
+    EXPECT_LE(flatness(both), 0x1p-20 * diagonal(both));
+  }
+}
+
 // Facets and curves that are hardly larger than the noise, and are not to be told from it by the
 // sizes of the bends.
 TEST(Flatness, CoarserRoundingsDoNotFlattenWhatIsCurved) {

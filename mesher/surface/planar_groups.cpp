@@ -56,8 +56,9 @@ class StandInBuilder {
 
  private:
   // How far a vertex may move along its facets, which planes at small angles make it do: a share of
-  // the shortest edge at the vertex.
-  static constexpr double kShareOfEdge = 0x1p-4;
+  // the shortest edge at the vertex. Both ends of an edge together move by less than its length.
+  // What finds no room shatters the faces around it.
+  static constexpr double kShareOfEdge = 0x1p-2;
 
   bool in_group(std::uint32_t t) const { return growth_.is_group(growth_.group_of(t)); }
   const PlaneEquation& plane_of_triangle(std::uint32_t t) const {

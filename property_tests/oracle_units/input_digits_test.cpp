@@ -179,6 +179,19 @@ TEST(EdgeNoise, OfAFieldWithAFewEdgesBentByMore) {
   EXPECT_LT(noise_of_edges(some) * std::sqrt(2), 3 * most);
 }
 
+// A third of the field in each direction has noise, and the rest a hundredth of it, which hides it.
+TEST(EdgeNoise, BelowAFinerOne) {
+  std::mt19937 random(10);
+  const double most = 1e-6;
+  const Polyhedron both = field([&](auto i, auto j) {
+    return (i < 5 && j < 5 ? most : most / 100) * (static_cast<double>(random()) * 0x1p-31 - 1);
+  });
+  EXPECT_LT(noise_of_edges(both) * std::sqrt(2), most / 10);
+  const double share = noise_of_edges(both, most / 50) * std::sqrt(2);
+  EXPECT_GT(share, most / 4);
+  EXPECT_LT(share, 2 * most);
+}
+
 TEST(EdgeNoise, TakesEightEdgesOfBothSides) {
   const auto bent_pairs = [](std::uint32_t n, std::uint32_t convex) {
     Polyhedron pairs;
@@ -195,6 +208,9 @@ TEST(EdgeNoise, TakesEightEdgesOfBothSides) {
   };
   EXPECT_EQ(noise_of_edges(bent_pairs(7, 3)), 0);
   EXPECT_GT(noise_of_edges(bent_pairs(8, 4)), 0);
+  // Fifteen, if smaller ones are left out.
+  EXPECT_EQ(noise_of_edges(bent_pairs(14, 7), 1e-12), 0);
+  EXPECT_GT(noise_of_edges(bent_pairs(15, 7), 1e-12), 0);
   for (const std::uint32_t convex : {0U, 12U}) EXPECT_EQ(noise_of_edges(bent_pairs(12, convex)), 0);
 }
 

@@ -105,6 +105,15 @@ TEST(Digits, OfModelsTimesPowersOfTwo) {
   }
 }
 
+Surface beside(Surface s, const Surface& other, double shift) {
+  const auto first = static_cast<std::uint32_t>(s.vertices.size());
+  for (const Position& p : other.vertices) s.vertices.push_back({p[0] + shift, p[1], p[2]});
+  for (const auto& [a, b, c] : other.triangles) {
+    s.triangles.push_back({a + first, b + first, c + first});
+  }
+  return s;
+}
+
 // What a part says of its noise when it was rounded twice, each says on its own.
 TEST(EdgeNoise, LetsTheMesherDeviateByNoMoreThanTheOracles) {
   std::mt19937 random(19);
@@ -117,7 +126,10 @@ TEST(EdgeNoise, LetsTheMesherDeviateByNoMoreThanTheOracles) {
     };
     const Surface part =
         n % 3 == 0 ? stairs() : samples::random_voxels(static_cast<std::uint32_t>(random() % 99));
-    const Surface s = rotated(rotated(part, to(unit)), n % 2 == 0 ? to(finer) : to(0x1p-50));
+    Surface twice = rotated(part, to(unit));
+    // Of which more edges have the finer noise.
+    for (int k = 1; k < n % 5; ++k) twice = beside(twice, rotated(stairs(), to(0x1p-50)), 12 * k);
+    const Surface s = rotated(twice, n % 2 == 0 ? to(finer) : to(0x1p-50));
     delmesher::Limits limits;
     delmesher::base::Control control{limits};
     const double mine = 4 * delmesher::surface::flatness(s, control) / diagonal_of(s);
@@ -144,6 +156,24 @@ TEST(EdgeNoise, OfTwoRoundingsIsPromisedAndKept) {
     strict.promise.planar = 0x1p-18;  // what is always allowed
     EXPECT_FALSE(samples::as_promised(verdict_on(strict)));
   }
+}
+
+// Of five parts one was rounded before, so four of five edges are bent by single precision alone.
+TEST(EdgeNoise, BelowAFinerRoundingIsPromisedAndKept) {
+  const auto coarse = [](double x) { return std::round(x * 3e3) / 3e3; };
+  const auto to_double = [](double x) { return x; };
+  Surface parts = rotated(stairs(), coarse), straight = stairs();
+  for (int k = 1; k < 5; ++k) {
+    parts = beside(parts, rotated(stairs(), to_double), 12 * k);
+    straight = beside(straight, stairs(), 12 * k);
+  }
+  const Told told = run_of(rotated(parts, to_single));
+  EXPECT_EQ(told.statistics.facets, run_of(straight).statistics.facets);
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
+  Told strict = told;
+  strict.promise.planar = 0x1p-18;
+  EXPECT_FALSE(samples::as_promised(verdict_on(strict)));
 }
 
 }  // namespace
