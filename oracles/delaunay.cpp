@@ -183,7 +183,10 @@ std::vector<Index> used_vertices(const TetComplex& complex) {
 std::vector<std::uint8_t> in_both(const std::vector<delmesher::ExactRecord::Tet>& tetrahedra,
                                   const TetComplex& other) {
   Buckets by_lowest(other.points->size());
-  const auto lowest = [](const Tet& tet) { return *std::min_element(tet.begin(), tet.end()); };
+  const auto lowest = [](const Tet& tet) {
+    return std::min(std::min(tet[0], tet[1]), std::min(tet[2], tet[3]));
+  };
+  const auto sum = [](const Tet& tet) { return tet[0] + tet[1] + tet[2] + tet[3]; };
   for (const Tet& tet : other.tetrahedra) by_lowest.count(lowest(tet));
   by_lowest.allot();
   for (Index t = 0; t < other.tetrahedra.size(); ++t) {
@@ -194,7 +197,9 @@ std::vector<std::uint8_t> in_both(const std::vector<delmesher::ExactRecord::Tet>
     const Tet& tet = tetrahedra[t].vertices;
     const std::span<const Index> candidates = by_lowest.of(lowest(tet));
     found[t] = std::any_of(candidates.begin(), candidates.end(), [&](Index c) {
-      return std::is_permutation(tet.begin(), tet.end(), other.tetrahedra[c].begin());
+      const Tet& candidate = other.tetrahedra[c];
+      return sum(tet) == sum(candidate) &&
+             std::is_permutation(tet.begin(), tet.end(), candidate.begin());
     });
   }
   return found;

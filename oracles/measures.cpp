@@ -42,11 +42,18 @@ ExactSum sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours
     if (!selected.empty() && selected[t] == 0) continue;
     for (int i = 0; i < 4; ++i) {
       const Index here = 4 * t + static_cast<Index>(i), other = across[here];
+      const bool paired =
+          other != kNone && across[other] == here && (selected.empty() || selected[other / 4] != 0);
+      if (paired && other < here) continue;
       const Face face = face_of(tets[t], i);
-      const bool cancels = other != kNone && across[other] == here &&
-                           (selected.empty() || selected[other / 4] != 0) &&
-                           opposite(face, face_of(tets[other / 4], static_cast<int>(other % 4)));
-      if (!cancels) sum += volume6.from_origin(*complex.points, face);
+      if (!paired) {
+        sum += volume6.from_origin(*complex.points, face);
+        continue;
+      }
+      const Face back = face_of(tets[other / 4], static_cast<int>(other % 4));
+      if (opposite(face, back)) continue;
+      sum += volume6.from_origin(*complex.points, face);
+      sum += volume6.from_origin(*complex.points, back);
     }
   }
   return sum;

@@ -41,8 +41,14 @@ class RefinedFacets {
   const TetComplex& complex_;
   const FacetIndex facets_;
   const SimplexSet<3> faces_;
-  std::vector<std::uint8_t> in_mesh_;                     // per face
-  std::vector<std::pair<Index, std::uint64_t>> sides_;    // facet, directed edge of a face
+  std::vector<std::uint8_t> in_mesh_;  // per face
+  struct Side {                        // of a face
+    Index facet;
+    std::uint64_t edge;
+    bool forward;  // from its lower to its higher end
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides_;
   std::vector<std::pair<Index, std::uint64_t>> chained_;  // facet, edge of a chain
   OracleReport report_{"facets", "facets and faces"};
 };
@@ -71,7 +77,10 @@ void RefinedFacets::check_face(Face face, Index id) {
   if (facet.facing(points_, face) <= 0) {
     report_.fail(complex_.face_name(face) + " is folded over on facet " + std::to_string(id));
   }
-  for (int i = 0; i < 3; ++i) sides_.emplace_back(f, directed_key(face[i], face[(i + 1) % 3]));
+  for (int i = 0; i < 3; ++i) {
+    const Index a = face[i], b = face[(i + 1) % 3];
+    sides_.push_back({f, edge_key(a, b), a < b});
+  }
 }
 
 void RefinedFacets::collect_chains() {
@@ -103,16 +112,20 @@ void RefinedFacets::check_borders() {
            std::to_string(surface_.facets()[side.first].id);
   };
   if (const auto twice = std::adjacent_find(sides_.begin(), sides_.end()); twice != sides_.end()) {
-    report_.fail(name(*twice) + " has two faces on one side");
+    report_.fail(name({twice->facet, twice->edge}) + " has two faces on one side");
   }
   std::vector<std::pair<Index, std::uint64_t>> open;
-  for (const auto& side : sides_) {
-    const auto a = static_cast<Index>(side.second >> 32), b = static_cast<Index>(side.second);
-    const bool pair =
-        std::binary_search(sides_.begin(), sides_.end(), std::pair(side.first, directed_key(b, a)));
-    if (!pair) open.emplace_back(side.first, edge_key(a, b));
+  for (std::size_t i = 0; i < sides_.size();) {
+    const Side& side = sides_[i];
+    bool pair = false;
+    std::size_t end = i;
+    for (; end < sides_.size() && sides_[end].facet == side.facet && sides_[end].edge == side.edge;
+         ++end) {
+      pair = pair || sides_[end].forward != side.forward;
+    }
+    if (!pair) open.insert(open.end(), end - i, {side.facet, side.edge});
+    i = end;
   }
-  std::sort(open.begin(), open.end());
   for (const auto& side : open) {
     if (!std::binary_search(chained_.begin(), chained_.end(), side)) {
       report_.fail(name(side) + " has a face on one side only and is on no segment");

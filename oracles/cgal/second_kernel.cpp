@@ -236,17 +236,18 @@ class SecondKernel {
     }
     const bool triangle = p.kind == ExactPoint::Kind::on_triangle;
     const Corners& at = of_equal_weight({p.i, triangle ? p.j : kNone, triangle ? p.k : p.j});
-    const Number first(p.x), second(triangle ? p.y : 0), third = Number(1) - first - second;
+    const Number first(p.x), second(triangle ? p.y : 0);
     const auto sum = [&](std::size_t axis) {
-      const Number ends = at.places[0][axis] * first + at.places[2][axis] * third;
+      const Number ends = at.places[2][axis] + at.places[0][axis] * first;
       return triangle ? ends + at.places[1][axis] * second : ends;
     };
     return Point(oracles::place<K>(sum(0), sum(1), sum(2), at.weight));
   }
 
-  // The corners of a triangle or, without the second one, of a segment; their homogeneous
-  // coordinates are multiplied so that they have one weight. A point given on them is a sum of
-  // products with short numbers then, and most have their corners in common with others.
+  // The corners of a triangle or, without the second one, of a segment, relative to the last one;
+  // their homogeneous coordinates are multiplied so that they have one weight. A point given on
+  // them is a sum of products with short numbers then, and most have their corners in common with
+  // others.
   struct Corners {
     std::array<Index, 3> vertices = {kNone, kNone, kNone};
     std::array<std::array<Number, 3>, 3> places;
@@ -270,6 +271,12 @@ class SecondKernel {
       }
       slot.places[n] = {p.hx() * slot.weight, p.hy() * slot.weight, p.hz() * slot.weight};
       slot.weight = slot.weight * p.hw();
+    }
+    for (std::size_t n = 0; n < 2; ++n) {
+      if (vertices[n] == kNone) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        slot.places[n][axis] = slot.places[n][axis] - slot.places[2][axis];
+      }
     }
     return slot;
   }
