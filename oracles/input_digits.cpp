@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -154,12 +155,13 @@ double automatic_planar_share(std::span<const Position> vertices) {
 }
 
 double automatic_planar_share(const Polyhedron& surface) {
-  constexpr double kOfNoise = 16, kResolved = 1.25 / 6;
-  double share =
-      std::max(automatic_planar_share(surface.vertices), kOfNoise * noise_of_edges(surface));
-  for (const double digits :
-       {share_in_units(surface.vertices), share_in_units(in_own_units(surface.vertices))}) {
-    if (digits > 0) share = std::max(share, kOfNoise * noise_of_edges(surface, kResolved * digits));
+  constexpr double kOfNoise = 16, kResolved = 1.25 / 6, kFlat = 0x1p-22;
+  double share = automatic_planar_share(surface.vertices);
+  const std::set<double> resolved = {
+      0.0, std::max(kResolved * share_in_units(surface.vertices), kFlat),
+      std::max(kResolved * share_in_units(in_own_units(surface.vertices)), kFlat)};
+  for (const double least : resolved) {
+    share = std::max(share, kOfNoise * noise_of_edges(surface, least));
   }
   return share;
 }

@@ -113,8 +113,9 @@ double flatness(const Surface& surface, Control& control) {
     if (noise > 0) result = std::max(result, bend_of_noise(surface, result, noise, control));
   };
   look_for_noise(least, kFewest);
-  // What the coordinates cannot resolve tells nothing of coarser noise, and may hide it.
-  if (kExplained * rounding > least) look_for_noise(kExplained * rounding, 2 * kFewest);
+  // What the coordinates cannot resolve, or is flat in any case, tells nothing of coarser noise,
+  // and may hide it.
+  look_for_noise(std::max({least, kExplained * rounding, most / 4}), 2 * kFewest);
   return result;
 }
 

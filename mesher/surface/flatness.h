@@ -24,8 +24,9 @@ namespace delmesher::surface {
 // not one in ten, not a fiftieth as many, or not one in four and not a third as many. Faces that
 // are flat but for noise stay the same, those of a curved surface grow together more and more. At
 // most 2^-14 of the diagonal, too. Bends that the coordinates cannot resolve (up to 1.25 of the
-// rounding) may hide such noise, so it is looked for without them as well; then at least 16 edges
-// have to tell of it, not 8. In the units of the surface, which is valid.
+// rounding), or below 2^-22 of the diagonal, may hide such noise, so it is looked for without them
+// as well; then at least 16 edges have to tell of it, not 8. In the units of the surface, which is
+// valid.
 double flatness(const Surface& surface, Control& control);
 
 }  // namespace delmesher::surface

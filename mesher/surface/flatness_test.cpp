@@ -139,7 +139,8 @@ TEST(Flatness, IsWhatBendsTellOfNoiseBelowAFinerRounding) {
     if (p[0] == 5 && std::fmod(std::round(6 * p[1]), 2) == 1) p[0] -= noise;
   }
   const Surface noisy = joined(many, jittered(rotated(few), noise));
-  for (const Surface& s : {noisy, in_single_precision(noisy)}) {
+  for (const Surface& s :
+       {noisy, in_single_precision(noisy), rotated(in_single_precision(noisy))}) {
     EXPECT_GE(flatness(s), noise);
     EXPECT_LE(flatness(s), 8 * noise);
   }
@@ -148,6 +149,7 @@ TEST(Flatness, IsWhatBendsTellOfNoiseBelowAFinerRounding) {
   for (const Surface& meant : {ring, curved, rotated(grooved)}) {
     const Surface both = in_single_precision(joined(many, meant));
     EXPECT_LE(flatness(both), 0x1p-20 * diagonal(both));
+    EXPECT_LE(flatness(rotated(both)), 0x1p-20 * diagonal(rotated(both)));
   }
 }
 
