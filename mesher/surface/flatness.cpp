@@ -57,7 +57,7 @@ double bend_of_noise(const Surface& surface, double flat, double noise, Control&
   const PlanarGroups groups(surface, control);
   std::array<double, 5> bound, count;
   for (std::size_t i = 0; i < bound.size(); ++i) {
-    bound[i] = kLeast * noise * std::pow(kStep, i);
+    bound[i] = i == 0 ? kLeast * noise : kStep * bound[i - 1];
     count[i] = groups.within(bound[i]);
   }
   const double before = groups.within(flat);

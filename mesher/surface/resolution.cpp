@@ -35,6 +35,15 @@ Decimal shortest(Real x) {
   return {digits, exponent - digits + 1};
 }
 
+// The double nearest to 10^n on every machine: std::pow is rounded as each library likes.
+double power_of_ten(int n) {
+  std::array<char, 16> text = {'1', 'e'};
+  const auto end = std::to_chars(text.begin() + 2, text.end(), n).ptr;
+  double power = 0;
+  std::from_chars(text.begin(), end, power);
+  return power;
+}
+
 // Without a conversion to float and back, of which gcc 12 at -O3 leaves out some.
 bool in_single_precision(double x) {
   int exponent = 0;
@@ -71,7 +80,7 @@ class Coordinates {
     for (std::size_t i = 0; i < 3; ++i) {
       if (power == 0 || largest_[i] == 0) continue;
       const int last = decimal(largest_[i]).first() - digits + 1;
-      unit[i] = std::pow(10, digits < kPrinted ? power : std::max(power, last));
+      unit[i] = power_of_ten(digits < kPrinted ? power : std::max(power, last));
     }
     return unit;
   }

@@ -387,8 +387,8 @@ class Checker {
       result_.report.warnings.push_back(
           "the component of triangle " + text(std::uint64_t{first[c]}) + " (" +
           text(std::uint64_t{size[c]}) + " triangles, inside " +
-          text(std::uint64_t{nesting[c].depth}) +
-          " others) is oriented against the parity of its nesting and has been flipped");
+          text(std::uint64_t{nesting[c].depth}) + (nesting[c].depth == 1 ? " other" : " others") +
+          ") is oriented against the parity of its nesting and has been flipped");
     }
     if (reversed > listed) {
       result_.report.warnings.push_back(text(reversed - listed) +
