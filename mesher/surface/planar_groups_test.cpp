@@ -133,6 +133,11 @@ TEST(PlanarGroups, FacesOfARotatedBoxAreSix) {
   }
 }
 
+// Rounding of sums over so many triangles would put the planes off by more than the noise.
+TEST(PlanarGroups, ThousandsOfTrianglesAreOneFace) {
+  EXPECT_EQ(grouped(rotated(box({0, 0, 0}, {1, 2, 3}, 40))).facets(), 6U);
+}
+
 // A lid that is flat but for noise, on walls that are exactly: vertices of the rim are the meeting
 // points of noisy planes and exact ones, whose equations come from areas.
 TEST(PlanarGroups, AreTheSameInAllUnits) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesher/arithmetic/bounded.h"
 #include "mesher/base/check.h"
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/signs_of_doubles.h"
@@ -25,14 +26,20 @@ int largest_axis(const Vec3& v) {
   return axis;
 }
 
+void PlaneFit::Sum::add(double x) {
+  double tail = 0;
+  arithmetic::two_sum(high, x, high, tail);
+  low += tail;
+}
+
 void PlaneFit::add(const std::array<std::uint32_t, 3>& t) {
   const Vec3 &a = (*vertices_)[t[0]], &b = (*vertices_)[t[1]], &c = (*vertices_)[t[2]];
   const Vec3 area = cross(subtract(b, a), subtract(c, a));
   const double weight = norm(area);
   if (count_ == 0) origin_ = a;
   for (int i = 0; i < 3; ++i) {
-    area_[i] += area[i];
-    moment_[i] += weight * ((a[i] - origin_[i]) + (b[i] - origin_[i]) + (c[i] - origin_[i]));
+    area_[i].add(area[i]);
+    moment_[i].add(weight * ((a[i] - origin_[i]) + (b[i] - origin_[i]) + (c[i] - origin_[i])));
   }
   weight_ += weight;
   ++count_;
@@ -40,10 +47,12 @@ void PlaneFit::add(const std::array<std::uint32_t, 3>& t) {
 
 Fit PlaneFit::fit() const {
   Fit f;
-  const double largest = std::fabs(area_[largest_axis(area_)]);
-  for (int i = 0; i < 3; ++i) {
-    f.normal[i] = area_[i] / largest;
-    f.through[i] = origin_[i] + moment_[i] / (3 * weight_);
+  Vec3 area{0, 0, 0};
+  for (std::size_t i = 0; i < 3; ++i) area[i] = area_[i].high + area_[i].low;
+  const double largest = std::fabs(area[largest_axis(area)]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    f.normal[i] = area[i] / largest;
+    f.through[i] = origin_[i] + (moment_[i].high + moment_[i].low) / (3 * weight_);
   }
   return f;
 }

@@ -26,7 +26,8 @@ struct Fit {
 
 // The plane of a growing set of triangles. Its normal is the sum of area vectors, whose error does
 // not grow with the length of a narrow group: the noise of a long edge adds an error that is
-// perpendicular to that edge.
+// perpendicular to that edge. Sums are compensated: of thousands of triangles, rounding would move
+// the plane by more than the noise.
 class PlaneFit {
  public:
   explicit PlaneFit(const std::vector<Vec3>& vertices) : vertices_(&vertices) {}
@@ -35,8 +36,15 @@ class PlaneFit {
   Fit fit() const;
 
  private:
+  struct Sum {
+    double high = 0, low = 0;
+
+    void add(double x);
+  };
+
   const std::vector<Vec3>* vertices_;
-  Vec3 area_{0, 0, 0}, moment_{0, 0, 0}, origin_{0, 0, 0};
+  std::array<Sum, 3> area_, moment_;
+  Vec3 origin_{0, 0, 0};
   double weight_ = 0;
   std::uint64_t count_ = 0;
 };
