@@ -178,7 +178,7 @@ Equation equation(const delmesher::ExactRecord::Plane& plane) {
   return result;
 }
 
-bool is_finite(const delmesher::ExactRecord::Plane& plane) {
+bool is_finite_plane(const delmesher::ExactRecord::Plane& plane) {
   for (const double x : plane.normal) {
     if (!std::isfinite(x)) return false;
   }
@@ -388,7 +388,7 @@ void ExactPoints::keep_planes(std::span<const ExactPoint> points, std::size_t pl
 std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Planes planes) {
   std::vector<Equation> equations;
   for (std::size_t n = 0; n < planes.size(); ++n) {
-    if (!is_finite(planes[n])) return "plane " + std::to_string(n) + " is not finite";
+    if (!is_finite_plane(planes[n])) return "plane " + std::to_string(n) + " is not finite";
     equations.push_back(equation(planes[n]));
   }
   std::vector<std::pair<Index, Meeting>> moved;
