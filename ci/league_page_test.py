@@ -207,7 +207,7 @@ class Pages(unittest.TestCase):
         self.assertNotIn("`cdt`", text)
 
     def test_limits_that_differ_are_said(self):
-        for limits, said in (("60 s", "under the same limits"), ("600 s", "under limits that differ")):
+        for limits, said in (("60 s", "under the same limits"), ("600 s", "under limits that differ (last table), on one thread")):
             self.assertIn(said, self.page(self.campaign(row("fan-1", "cdt"), row("fan-1", "netgen", limits=limits))))
 
     def test_another_table_is_refused(self):

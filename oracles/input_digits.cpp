@@ -148,18 +148,23 @@ std::vector<Position> in_own_units(std::span<const Position> vertices) {
   return scaled;
 }
 
+// In the units given, and in those of its own.
+std::array<double, 2> shares(std::span<const Position> vertices) {
+  return {share_in_units(vertices), share_in_units(in_own_units(vertices))};
+}
+
 }  // namespace
 
 double automatic_planar_share(std::span<const Position> vertices) {
-  return std::max({kAlways, share_in_units(vertices), share_in_units(in_own_units(vertices))});
+  return std::max(kAlways, std::ranges::max(shares(vertices)));
 }
 
 double automatic_planar_share(const Polyhedron& surface) {
   constexpr double kOfNoise = 16, kResolved = 1.25 / 6, kFlat = 0x1p-22;
-  double share = automatic_planar_share(surface.vertices);
-  const std::set<double> resolved = {
-      0.0, std::max(kResolved * share_in_units(surface.vertices), kFlat),
-      std::max(kResolved * share_in_units(in_own_units(surface.vertices)), kFlat)};
+  const std::array<double, 2> known = shares(surface.vertices);
+  double share = std::max(kAlways, std::ranges::max(known));
+  const std::set<double> resolved = {0.0, std::max(kResolved * known[0], kFlat),
+                                     std::max(kResolved * known[1], kFlat)};
   for (const double least : resolved) {
     share = std::max(share, kOfNoise * noise_of_edges(surface, least));
   }

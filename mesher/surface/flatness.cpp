@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "mesher/predicates/vector.h"
@@ -50,11 +51,10 @@ class PlanarGroups {
 // What bends noise makes of flat faces, if it does and more than `flat` is needed for it; else 0.
 // Bends are those of two triangles, and the corners of many are farther from their plane: how much,
 // depends on their shapes.
-double bend_of_noise(const Surface& surface, double flat, double noise, Control& control) {
+double bend_of_noise(const PlanarGroups& groups, double flat, double noise) {
   constexpr double kLeast = 2, kStep = std::numbers::sqrt2;  // of the noise
   constexpr double kSettled = 0.5, kHardly = 0.01, kFewer = 0.97;
   constexpr double kSame = 0.1, kNearly = 0.25, kOfFewer = 1.0 / 3, kOfMany = 0.02;
-  const PlanarGroups groups(surface, control);
   std::array<double, 5> bound, count;
   for (std::size_t i = 0; i < bound.size(); ++i) {
     bound[i] = i == 0 ? kLeast * noise : kStep * bound[i - 1];
@@ -107,10 +107,13 @@ double flatness(const Surface& surface, Control& control) {
   double result = std::min(4 * flat, most);
   const double rounding = rounding_of_coordinates(surface, kMostRounded / kOfRounding * diagonal);
   if (explains(rounding, all, least)) result = std::max(result, kOfRounding * rounding);
+  std::optional<const PlanarGroups> groups;
   const auto look_for_noise = [&](double resolved, std::ptrdiff_t fewest) {
     // Less than half is flat already.
     const double noise = noise_of_bends(all, resolved, result / 2, kMostNoise * diagonal, fewest);
-    if (noise > 0) result = std::max(result, bend_of_noise(surface, result, noise, control));
+    if (noise == 0) return;
+    if (!groups) groups.emplace(surface, control);
+    result = std::max(result, bend_of_noise(*groups, result, noise));
   };
   look_for_noise(least, kFewest);
   // What the coordinates cannot resolve, or is flat in any case, tells nothing of coarser noise,
