@@ -40,6 +40,7 @@ class StandInBuilder {
   StandIn build() {
     if (!growth_.any_nearly_flat()) return {};
     growth_.grow_all();
+    growth_.merge_neighbours();
     // Groups that cannot be certified are taken apart, and the rest is tried again. Every round
     // takes a triangle out of a group, or makes the bound of a group smaller.
     while (true) {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <optional>
 
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/base/check.h"
@@ -45,6 +47,22 @@ void PlaneFit::add(const std::array<std::uint32_t, 3>& t) {
   ++count_;
 }
 
+void PlaneFit::add(const PlaneFit& other) {
+  if (count_ == 0) {
+    *this = other;
+    return;
+  }
+  for (int i = 0; i < 3; ++i) {
+    area_[i].add(other.area_[i].high);
+    area_[i].add(other.area_[i].low);
+    moment_[i].add(other.moment_[i].high);
+    moment_[i].add(other.moment_[i].low);
+    moment_[i].add(3 * other.weight_ * (other.origin_[i] - origin_[i]));
+  }
+  weight_ += other.weight_;
+  count_ += other.count_;
+}
+
 Fit PlaneFit::fit() const {
   Fit f;
   Vec3 area{0, 0, 0};
@@ -83,6 +101,15 @@ std::uint32_t MeasuredSurface::longest_edge(std::uint32_t t) const {
   return longest;
 }
 
+bool MeasuredSurface::bends_by_less(std::uint32_t h, double most) const {
+  const std::uint32_t g = opposite_[h], t = h / 3, u = g / 3;
+  if (!(dot(area(t), area(u)) > 0)) return false;
+  const std::uint32_t larger = size(t) < size(u) ? u : t;
+  const Vec3 offset =
+      subtract(vertices()[across(larger == t ? g : h)], vertices()[triangles()[larger][0]]);
+  return std::fabs(dot(area(larger), offset)) <= most * size(larger);
+}
+
 double MeasuredSurface::edge_length(std::uint32_t h) const {
   const auto& t = triangles()[h / 3];
   return distance(vertices()[t[h % 3]], vertices()[t[(h % 3 + 1) % 3]]);
@@ -116,16 +143,11 @@ PlanarGrowth::PlanarGrowth(const MeasuredSurface& surface, double noise, double 
 bool PlanarGrowth::any_nearly_flat() const {
   const std::vector<Vec3>& x = surface_.vertices();
   for (std::uint32_t h = 0; h < surface_.opposite().size(); ++h) {
-    const std::uint32_t g = surface_.opposite()[h], t = h / 3, u = g / 3;
-    if (h > g || surface_.label(t) != surface_.label(u)) continue;
-    if (!(dot(surface_.area(t), surface_.area(u)) > 0)) continue;
-    const std::uint32_t larger = surface_.size(t) < surface_.size(u) ? u : t;
-    const VertexId v = surface_.across(larger == t ? g : h);
-    const auto& [a, b, c] = surface_.triangles()[larger];
-    const Vec3 offset = subtract(x[v], x[a]);
-    if (std::fabs(dot(surface_.area(larger), offset)) > 4 * noise_ * surface_.size(larger))
-      continue;
-    if (orient3d_sign(x[a], x[b], x[c], x[v]) != 0) return true;
+    const std::uint32_t g = surface_.opposite()[h], t = h / 3;
+    if (h > g || surface_.label(t) != surface_.label(g / 3)) continue;
+    if (!surface_.bends_by_less(h, 4 * noise_)) continue;
+    const auto& [a, b, c] = surface_.triangles()[t];
+    if (orient3d_sign(x[a], x[b], x[c], x[surface_.across(g)]) != 0) return true;
   }
   return false;
 }
@@ -161,6 +183,92 @@ void PlanarGrowth::hand_over_needles() {
     std::vector<std::uint32_t>& members = groups_[to].triangles;
     members.insert(std::lower_bound(members.begin(), members.end(), t), t);
   }
+}
+
+// Who is asked first is decided by the edges' numbers; two that were refused are asked again once
+// one of them has changed.
+class PlanarGrowth::Merging {
+ public:
+  explicit Merging(PlanarGrowth& growth)
+      : growth_(growth),
+        surface_(growth.surface_),
+        whole_(growth.groups_.size()),
+        fits_(growth.groups_.size()) {}
+
+  void run() {
+    std::vector<std::uint32_t> edges = nearly_flat_edges();
+    for (bool again = !edges.empty(); again;) {
+      again = false;
+      std::erase_if(edges, [&](std::uint32_t h) {
+        growth_.control_.poll();
+        const std::uint32_t a = group_of(h / 3), b = group_of(surface_.opposite()[h] / 3);
+        const bool merged = a != b && merge(a, b);
+        again = again || merged;
+        return a == b || merged;
+      });
+    }
+    for (Group& group : growth_.groups_) std::sort(group.triangles.begin(), group.triangles.end());
+    for (std::uint32_t& g : growth_.group_of_) {
+      if (g != kNone) g = whole_.find(g);
+    }
+  }
+
+ private:
+  std::uint32_t group_of(std::uint32_t t) { return whole_.find(growth_.group_of_[t]); }
+  std::vector<std::uint32_t>& members(std::uint32_t g) { return growth_.groups_[g].triangles; }
+
+  // Between two groups. Triangles of one plane bend their edge by no more.
+  std::vector<std::uint32_t> nearly_flat_edges() const {
+    std::vector<std::uint32_t> edges;
+    for (std::uint32_t h = 0; h < surface_.opposite().size(); ++h) {
+      const std::uint32_t g = surface_.opposite()[h], t = h / 3, u = g / 3;
+      if (h > g || growth_.group_of_[t] == growth_.group_of_[u]) continue;
+      if (growth_.group_of_[t] == kNone || growth_.group_of_[u] == kNone) continue;
+      if (surface_.label(t) == surface_.label(u) && surface_.bends_by_less(h, 4 * growth_.noise_)) {
+        edges.push_back(h);
+      }
+    }
+    return edges;
+  }
+
+  bool merge(std::uint32_t a, std::uint32_t b) {
+    if (members(a).size() < members(b).size()) std::swap(a, b);
+    const std::array<std::size_t, 2> sizes = {members(a).size(), members(b).size()};
+    std::array<std::size_t, 2>& refused = refused_[{a, b}];
+    if (refused == sizes) return false;
+    refused = sizes;
+    PlaneFit sum = fit_of(a);
+    sum.add(fit_of(b));
+    const Fit fit = sum.fit();
+    const auto fits = [&](std::uint32_t t) { return growth_.fits(t, fit, growth_.noise_); };
+    // The smaller one is the sooner refused.
+    if (!std::ranges::all_of(members(b), fits) || !std::ranges::all_of(members(a), fits)) {
+      return false;
+    }
+    whole_.unite(a, b);
+    const std::uint32_t into = whole_.find(a), from = into == a ? b : a;
+    fits_[into] = sum;
+    members(into).insert(members(into).end(), members(from).begin(), members(from).end());
+    members(from).clear();
+    return true;
+  }
+  const PlaneFit& fit_of(std::uint32_t g) {
+    if (!fits_[g]) {
+      fits_[g].emplace(surface_.vertices());
+      for (const std::uint32_t t : members(g)) fits_[g]->add(surface_.triangles()[t]);
+    }
+    return *fits_[g];
+  }
+
+  PlanarGrowth& growth_;
+  const MeasuredSurface& surface_;
+  DisjointSets whole_;
+  std::vector<std::optional<PlaneFit>> fits_;
+  std::map<std::array<std::uint32_t, 2>, std::array<std::size_t, 2>> refused_;  // of these sizes
+};
+
+void PlanarGrowth::merge_neighbours() {
+  Merging(*this).run();
 }
 
 void PlanarGrowth::grow_from(std::vector<std::uint32_t> seeds, double noise) {

@@ -33,6 +33,7 @@ class PlaneFit {
   explicit PlaneFit(const std::vector<Vec3>& vertices) : vertices_(&vertices) {}
 
   void add(const std::array<std::uint32_t, 3>& triangle);
+  void add(const PlaneFit& other);  // its triangles
   Fit fit() const;
 
  private:
@@ -68,6 +69,9 @@ class MeasuredSurface {
   VertexId across(std::uint32_t h) const { return surface_.triangles[h / 3][(h % 3 + 2) % 3]; }
   std::uint32_t longest_edge(std::uint32_t t) const;  // a half-edge
   double edge_length(std::uint32_t h) const;
+  // Is the corner across the half-edge's edge no farther than `most` from the plane of the larger
+  // of its two triangles, which are not folded upon one another?
+  bool bends_by_less(std::uint32_t h, double most) const;
   std::span<const std::uint32_t> triangles_at(VertexId v);
 
  private:
@@ -97,6 +101,9 @@ class PlanarGrowth {
   // surfaces have none, and nothing to be done.
   bool any_nearly_flat() const;
   void grow_all();
+  // A group stops where the plane of its first triangles ends, which is off by the noise, and so
+  // one flat face may be that of two groups. Neighbours that lie in one plane become one group.
+  void merge_neighbours();
   // Into groups of a smaller bound, together with the triangles that have left it, if these are
   // fewer than `fewer_than`. False, and nothing changes, if they are not, or if its bound is the
   // smallest already.
@@ -113,6 +120,7 @@ class PlanarGrowth {
 
  private:
   class Growing;
+  class Merging;
 
   void grow_from(std::vector<std::uint32_t> seeds, double noise);
   void grow(std::uint32_t seed, double noise);
