@@ -67,7 +67,8 @@ class Manifest {
 }  // namespace
 
 int classify_command(const ClassifyArguments& arguments) {
-  const ModelList list = collect_models({arguments.paths.begin(), arguments.paths.end()});
+  ModelList list = collect_models({arguments.paths.begin(), arguments.paths.end()});
+  if (!arguments.tier.empty()) list.models = tier_of(list.models, tier_from_name(arguments.tier));
   auto known = decided_before(arguments.output);
   Manifest manifest(arguments);
   std::vector<Model> open;

@@ -84,7 +84,7 @@ struct GateArguments {
 
 struct ClassifyArguments {
   std::vector<std::string> paths;
-  std::string output, licences;  // no output: standard output
+  std::string output, licences, tier;  // no output: standard output
   bool json = false;
   unsigned jobs = 1;
   double timeout = 300;

@@ -15,6 +15,13 @@
 namespace tetproof {
 namespace {
 
+void add_tier(CLI::App& app, std::string& tier) {
+  app.add_option("--tier", tier,
+                 "How many of the models: smoke (30 small ones), nightly (300), "
+                 "weekly (all)")
+      ->check(CLI::IsMember({"smoke", "nightly", "weekly"}));
+}
+
 CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command = "run",
                       const char* description =
                           "Run meshers on models, each in a child process under limits; resumes "
@@ -38,10 +45,7 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
   app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")->capture_default_str();
   app->add_option("--stop-after", a.stop_after,
                   "Begin no further model after this many seconds (exit 5 if some are left)");
-  app->add_option("--tier", a.tier,
-                  "How many of the models: smoke (30 small ones), nightly (300), "
-                  "weekly (all)")
-      ->check(CLI::IsMember({"smoke", "nightly", "weekly"}));
+  add_tier(*app, a.tier);
   app->add_option("--shard", a.shard, "I/N: only the I-th of N parts of the models");
   app->add_option("--retry", a.retry,
                   "Run those again that ended so: killed, timeout, out-of-memory, ...")
@@ -222,6 +226,7 @@ CLI::App* declare_classify(CLI::App& tetproof, ClassifyArguments& a) {
   app->add_flag("--json", a.json, "JSON rather than CSV");
   app->add_option("--licences", a.licences, "CSV with columns file and licence")
       ->check(CLI::ExistingFile);
+  add_tier(*app, a.tier);
   app->add_option("-j,--jobs", a.jobs, "Files at a time")->capture_default_str();
   app->add_option("--timeout", a.timeout, "Seconds per file")->capture_default_str();
   app->add_option("--memory", a.memory_mebibytes, "Resident MiB per file")->capture_default_str();
