@@ -53,6 +53,8 @@ TEST(Disposition, ScriptsTellOfCrashes) {
   EXPECT_EQ(judge(exited(128 + SIGABRT, "assertion"), ExitCodes::unknown).reason,
             "SIGABRT: assertion");
   EXPECT_EQ(kind(exited(128 + SIGTERM), ExitCodes::unknown), Disposition::rejected);
+  EXPECT_EQ(kind(exited(128 + SIGXCPU), ExitCodes::unknown), Disposition::timeout);
+  EXPECT_EQ(kind(exited(128 + SIGXCPU)), Disposition::rejected);
   EXPECT_EQ(kind(exited(200), ExitCodes::unknown), Disposition::rejected);
 }
 
