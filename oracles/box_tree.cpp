@@ -86,13 +86,13 @@ void BoxTree::build(std::size_t node, Index first, Index last, int depth) {
 }
 
 void BoxTree::query(const Box& query, std::vector<Index>& found,
-                    const std::function<std::span<const HalfSpace>()>& but_in) const {
+                    const std::function<std::array<HalfSpace, 4>()>& but_in) const {
   if (boxes_.empty()) return;
-  std::span<const HalfSpace> half_spaces;
-  bool asked = !but_in;
+  std::array<HalfSpace, 4> half_spaces;
+  std::size_t known = 0;
   const auto wanted = [&](const Box& box) {
     return meet(box, query) &&
-           std::none_of(half_spaces.begin(), half_spaces.end(),
+           std::none_of(half_spaces.begin(), half_spaces.begin() + known,
                         [&](const HalfSpace& half) { return half.contains(box); });
   };
   std::array<std::size_t, 2 * kMaxDepth + 4> stack;
@@ -107,9 +107,9 @@ void BoxTree::query(const Box& query, std::vector<Index>& found,
       continue;
     }
     for (Index i = node.first; i < node.first + node.count; ++i) {
-      if (!asked && meet(boxes_[i], query)) {
+      if (but_in && known == 0 && meet(boxes_[i], query)) {
         half_spaces = but_in();
-        asked = true;
+        known = half_spaces.size();
       }
       if (wanted(boxes_[i])) found.push_back(order_[i]);
     }

@@ -34,21 +34,6 @@ Tet ascending(const Tet& tet) {
   return {std::min(a, c), second, third, std::max(b, d)};
 }
 
-// Sorts the corners; is that an even permutation?
-bool sort_face(Face& face) {
-  bool even = true;
-  const auto order = [&](int a, int b) {
-    if (face[a] > face[b]) {
-      std::swap(face[a], face[b]);
-      even = !even;
-    }
-  };
-  order(0, 1);
-  order(1, 2);
-  order(0, 1);
-  return even;
-}
-
 // Indices in range, four different corners. Returns false if faces make no sense.
 bool check_corners(const TetComplex& complex, OracleReport& report) {
   bool usable = true;

@@ -252,6 +252,7 @@ class FilterCheck {
         corners_(*mesh.points, surface_),
         features_(*mesh.points, surface_, facets_, corners_),
         exponent_(mesh.points->exponent()),
+        diagonal_(mesh.diagonal),
         chamfers_(*mesh.points, surface_, corners_, thresholds_,
                   {.limit = mesh.promise->chamfer_radius,
                    .to_link = mesh.promise->link || mesh.promise->bridges,
@@ -323,7 +324,7 @@ class FilterCheck {
   // have dropped something before.
   void check_budget(double tolerance) {
     constexpr double kLeast = 1e-5;  // of the diagonal: the first that is tried instead of 0
-    const double given = promise_.tau * surface_.diagonal(), least = kLeast * surface_.diagonal();
+    const double given = promise_.tau * diagonal_, least = kLeast * diagonal_;
     if (promise_.budget == 0 || guarded_ || tolerance <= given * (1 + kSlack)) return;
     const double before = tolerance <= least * (1 + kSlack) ? given : tolerance / 2;
     Range between = below(tolerance * (1 + kSlack));
@@ -472,6 +473,7 @@ class FilterCheck {
   const AcuteCorners corners_;
   Features features_;
   long exponent_;
+  double diagonal_;
   CornerThresholds thresholds_;
   ChamferFeatures chamfers_;
   const Promise& promise_;

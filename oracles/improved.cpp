@@ -38,15 +38,6 @@ struct Listed {
   auto operator<=>(const Listed&) const = default;
 };
 
-// Sorts the corners; is that an even permutation?
-bool sort_corners(Face& face) {
-  const auto smallest = std::min_element(face.begin(), face.end());
-  std::rotate(face.begin(), smallest, face.end());
-  if (face[1] < face[2]) return true;
-  std::swap(face[1], face[2]);
-  return false;
-}
-
 // One of the two files.
 struct Cells {
   TetComplex complex;
@@ -233,7 +224,7 @@ std::vector<Wall> Improved::walls(const Cells& cells) const {
     const Index j = cells.neighbours.across[i];
     if (j != kNone && (j < i || cells.parts[j / 4] == cells.parts[i / 4])) continue;
     Face face = united(face_of(cells.complex.tetrahedra[i / 4], static_cast<int>(i % 4)));
-    const bool even = sort_corners(face);
+    const bool even = sort_face(face);
     const Part mine = cells.parts[i / 4], other = j == kNone ? kNothing : cells.parts[j / 4];
     list.push_back(even ? Wall{face, mine, other} : Wall{face, other, mine});
   }
@@ -246,7 +237,7 @@ std::vector<Face> Improved::faces(const Cells& cells) const {
   for (const Tet& tet : cells.complex.tetrahedra) {
     for (int i = 0; i < 4; ++i) {
       Face face = united(face_of(tet, i));
-      sort_corners(face);
+      sort_face(face);
       list.push_back(face);
     }
   }
@@ -287,7 +278,7 @@ void Improved::check_walls() {
   for (Face face : given_.boundary) {
     ++report.checked;
     face = united(face);
-    sort_corners(face);
+    sort_face(face);
     if (!std::binary_search(all.begin(), all.end(), face)) {
       report.fail("listed " + name(face) + " is not kept");
     }
@@ -309,7 +300,7 @@ std::vector<Listed> Improved::listed(const MeshFile& file, Index offset,
     }
     for (Index& v : face) v += offset;
     face = united(face);
-    const bool even = sort_corners(face);
+    const bool even = sort_face(face);
     list.push_back(
         {face, even, n < file.labels.size() ? file.labels[n] : 0, facets ? file.facets[n] : kNone});
   }

@@ -43,7 +43,7 @@ class BoxTree {
   // that are certainly in one of the half-spaces are left out. These are asked for once a box meets
   // the query: most queries of some callers find none.
   void query(const Box& query, std::vector<Index>& found,
-             const std::function<std::span<const HalfSpace>()>& but_in = {}) const;
+             const std::function<std::array<HalfSpace, 4>()>& but_in = {}) const;
 
  private:
   struct Node {

@@ -482,17 +482,17 @@ class RecordReader {
         p.i = vertex();
         p.j = vertex();
       }
-      p.x = reader_.number();
-      if (kind == "E") p.y = reader_.number();
+      p.x = reader_.exact_number();
+      if (kind == "E") p.y = reader_.exact_number();
     });
     reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = vertex();
-      corner.distance = reader_.number();
+      corner.distance = reader_.exact_number();
     });
     reader_.list("dropped", record_.dropped, [&](auto& segment) { segment = number(); });
     reader_.expect("bounds");
-    record_.delta = reader_.number();
-    record_.acute = reader_.number();
+    record_.delta = reader_.exact_number();
+    record_.acute = reader_.exact_number();
     read_mesh("refined", record_.refined, record_.refined_edges);
     read_mesh("final", record_.final, record_.final_edges);
     reader_.list("mesh_vertices", record_.mesh_vertices, [&](auto& v) { v = vertex(); });

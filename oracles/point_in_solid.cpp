@@ -434,11 +434,8 @@ InputSurface::Contact InputSurface::contact(const ExactPoints& points,
                                             PlaneSides& known) const {
   thread_local std::vector<Index> found;  // allocating would take as long as the search
   found.clear();
-  std::array<BoxTree::HalfSpace, 4> beyond;
-  parts.query(box_around(points, tetrahedron), found, [&] {
-    beyond = beyond_faces(points, tetrahedron);
-    return std::span<const BoxTree::HalfSpace>(beyond);
-  });
+  parts.query(box_around(points, tetrahedron), found,
+              [&] { return beyond_faces(points, tetrahedron); });
   if (found.empty()) return {};  // as for most tetrahedra of a refined mesh
   if (!triangles.empty()) {
     for (Index& t : found) t = triangles[t];

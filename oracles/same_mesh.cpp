@@ -32,17 +32,6 @@ struct LabelledFace {
   auto operator<=>(const LabelledFace&) const = default;
 };
 
-// Sorts, and tells whether that was an even permutation.
-bool sort_face(Face& face) {
-  bool even = true;
-  for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)}) {
-    if (face[a] <= face[b]) continue;
-    std::swap(face[a], face[b]);
-    even = !even;
-  }
-  return even;
-}
-
 // A tetrahedron of the file or of the record that the other one does not have, by its points.
 struct Difference {
   Tet tet;

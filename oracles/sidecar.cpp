@@ -40,8 +40,8 @@ class SidecarReader {
     });
     reader_.list("corners", record_.corners, [&](auto& corner) {
       corner.vertex = point();
-      corner.threshold = reader_.number();
-      corner.distance = reader_.number();
+      corner.threshold = reader_.exact_number();
+      corner.distance = reader_.exact_number();
     });
     read_tets("refined", record_.refined);
     read_faces("refined_facets", record_.refined_facets);
@@ -59,13 +59,13 @@ class SidecarReader {
     reader_.expect("parameters");
     reader_.expect("1");
     auto& p = record_.parameters;
-    p.delta = reader_.number();
-    p.acute = reader_.number();
-    p.corner = reader_.number();
-    p.tolerance = reader_.number();
+    p.delta = reader_.exact_number();
+    p.acute = reader_.exact_number();
+    p.corner = reader_.exact_number();
+    p.tolerance = reader_.exact_number();
     p.region = flag() ? delmesher::Region::hull : delmesher::Region::interior;
     p.gabriel = flag();
-    if (version_ >= 4) p.planar = reader_.number();
+    if (version_ >= 4) p.planar = reader_.exact_number();
   }
 
   void read_surface() {
@@ -84,7 +84,7 @@ class SidecarReader {
     });
   }
   void coordinates(std::array<double, 3>& x) {
-    for (double& value : x) value = reader_.number();
+    for (double& value : x) value = reader_.exact_number();
   }
 
   void read_additions() {
@@ -117,9 +117,9 @@ class SidecarReader {
         p.j = number();
       }
       if (kind == "T") p.k = number();
-      p.x = reader_.number();
-      if (kind != "S") p.y = reader_.number();
-      if (kind == "E") p.z = reader_.number();
+      p.x = reader_.exact_number();
+      if (kind != "S") p.y = reader_.exact_number();
+      if (kind == "E") p.z = reader_.exact_number();
     });
     // A point may be given by points that come later.
     for (const ExactPoint& p : record_.points) {

@@ -1,7 +1,10 @@
 #include "oracles/refinement.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "oracles/ball_side.h"
+#include "oracles/earlier_vertices.h"
 #include "oracles/sample.h"
 
 namespace tetproof::oracles {
@@ -68,6 +71,48 @@ SplitAt place_in(const ExactPoints& points, const std::array<Index, 4>& tetrahed
   return within(off_centroid, 4) ? SplitAt::centroid : SplitAt::elsewhere;
 }
 
+// Points have numbers in the order in which they were made. So the ball was one of the Delaunay
+// tetrahedrization of that time exactly if its corners were there, and none of the other vertices
+// that were there is strictly inside.
+class BallsInTheirTime {
+ public:
+  explicit BallsInTheirTime(const RefinedMesh& mesh)
+      : points_(*mesh.points), complex_(*mesh.complex), is_vertex_(mesh.points->size()) {
+    std::vector<Index> vertices = used_vertices(complex_);
+    for (const Index v : vertices) is_vertex_[v] = 1;
+    earlier_.emplace(points_, std::move(vertices));
+  }
+
+  // Empty, or why there was no such tetrahedron, which must not be flat.
+  std::string why_not(const ExactRecord::Ball& ball, int sign) const {
+    for (const Index v : ball.tetrahedron) {
+      if (is_vertex_[v] == 0) return complex_.vertex_name(v) + " of it is no vertex of the mesh";
+      if (v >= ball.vertex) return complex_.vertex_name(v) + " of it was not there yet";
+    }
+    std::array<Index, 4> corners = ball.tetrahedron;
+    if (sign < 0) std::swap(corners[0], corners[1]);
+    const BallSide side = BallSide::circumscribed(points_, corners);
+    std::string why;
+    earlier_->near_ball(corners, ball.vertex, [&](Index v) {
+      if (side.side(v) > 0 || std::find(corners.begin(), corners.end(), v) != corners.end()) {
+        return false;
+      }
+      if (exact::insphere(points_, corners[0], corners[1], corners[2], corners[3], v) <= 0) {
+        return false;
+      }
+      why = complex_.vertex_name(v) + ", which was there before, is inside its circumsphere";
+      return true;
+    });
+    return why;
+  }
+
+ private:
+  const ExactPoints& points_;
+  const TetComplex& complex_;
+  std::vector<std::uint8_t> is_vertex_;
+  std::optional<EarlierVertices> earlier_;
+};
+
 }  // namespace
 
 OracleReport check_balls(const RefinedMesh& mesh) {
@@ -76,6 +121,7 @@ OracleReport check_balls(const RefinedMesh& mesh) {
   std::uint64_t on_sphere = 0, at_centroids = 0;
   std::vector<std::uint8_t> waiting = volume_points(mesh);
   report.checked = used_vertices(*mesh.complex).size();
+  const BallsInTheirTime in_time(mesh);
   for (const ExactRecord::Ball& ball : mesh.record->balls) {
     const auto& [a, b, c, d] = ball.tetrahedron;
     const std::string name = mesh.complex->vertex_name(ball.vertex);
@@ -91,6 +137,8 @@ OracleReport check_balls(const RefinedMesh& mesh) {
       on_sphere += inside == 0;
       report.fail(name + " is " + (inside == 0 ? "on" : "outside") +
                   " the circumsphere that it was made for");
+    } else if (const std::string why = in_time.why_not(ball, sign); !why.empty()) {
+      report.fail(name + " was made for no tetrahedron of that time: " + why);
     }
     if (sign == 0 || !mesh.promise->steiner_point) continue;
     const SplitAt place = place_in(points, ball.tetrahedron, ball.vertex);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "oracles/exact_points.h"
@@ -28,6 +29,21 @@ struct TetComplex {
 
 // Face i is opposite to corner i, counter-clockwise seen from outside.
 Face face_of(const Tet& tet, int i);
+
+// Sorts the corners; is that an even permutation?
+inline bool sort_face(Face& face) {
+  bool even = true;
+  const auto order = [&](int a, int b) {
+    if (face[a] > face[b]) {
+      std::swap(face[a], face[b]);
+      even = !even;
+    }
+  };
+  order(0, 1);
+  order(1, 2);
+  order(0, 1);
+  return even;
+}
 
 // Across each face: tetrahedron * 4 + face, or kNone.
 struct Neighbours {

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -18,6 +19,14 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 18;
 constexpr std::size_t kLongestWord = std::size_t{1} << 20;
 constexpr std::string_view kGzip = ".gz";
+
+// The beginning of a word, for a message of one line that a terminal can show.
+std::string quoted(std::string_view word) {
+  constexpr std::size_t kLongest = 40;
+  std::string text = "\"";
+  for (const char c : word.substr(0, kLongest)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + "\"";
+}
 
 // A file in pieces; what is compressed with gzip unpacked, which its first bytes tell. zlib's own
 // reader of files would pass over what follows the compressed data.
@@ -221,7 +230,7 @@ void TextReader::skip_line() {
 
 void TextReader::expect_line_end() {
   if (const std::string_view word = word_in_line(); !word.empty()) {
-    fail("\"" + std::string(word.substr(0, 40)) + "\" where the line should end");
+    fail(quoted(word) + " where the line should end");
   }
 }
 
@@ -265,7 +274,47 @@ bool underflows(std::string_view digits, bool hexadecimal) {
   return power + (hexadecimal ? 4 : 1) * place < 0;
 }
 
+// Does a double hold all of these hexadecimal digits, with a point and an exponent perhaps?
+bool fits_a_double(std::string_view digits) {
+  const std::size_t mark = std::min(digits.find_first_of("pP"), digits.size());
+  const std::string_view mantissa = digits.substr(0, mark);
+  const std::size_t first = mantissa.find_first_not_of("0."),
+                    last = mantissa.find_last_not_of("0.");
+  if (first == std::string_view::npos) return true;
+  const auto value_of = [&](std::size_t at) {
+    unsigned value = 0;
+    std::from_chars(&mantissa[at], &mantissa[at] + 1, value, 16);
+    return value;
+  };
+  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+  const auto places = static_cast<std::int64_t>(last - first + 1 - (first < point && point < last));
+  const int spare = std::countr_zero(value_of(last));
+  constexpr int kMost = 53, kLowest = -1074;
+  if (4 * places - (4 - std::bit_width(value_of(first))) - spare > kMost) return false;
+  std::int64_t exponent = 0;
+  const std::string_view power = digits.substr(std::min(mark + 1, digits.size()));
+  const std::size_t sign = power.starts_with('+') ? 1 : 0;
+  std::from_chars(power.data() + sign, power.data() + power.size(), exponent);
+  const auto behind = static_cast<std::int64_t>(last) - static_cast<std::int64_t>(point);
+  return exponent - 4 * (behind > 0 ? behind : behind + 1) + spare >= kLowest;
+}
+
 }  // namespace
+
+double TextReader::exact_number() {
+  const std::string_view text = required_word("a number");
+  std::string_view digits = text.substr(text.starts_with('-') ? 1 : 0);
+  const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
+  if (hexadecimal) digits.remove_prefix(2);
+  double value = 0;
+  const auto [end, error] =
+      std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
+  if (!hexadecimal || error != std::errc() || end != digits.data() + digits.size() ||
+      digits.starts_with('-') || !std::isfinite(value) || !fits_a_double(digits)) {
+    fail(quoted(text) + " is no hexadecimal number that a double holds");
+  }
+  return text.starts_with('-') ? -value : value;
+}
 
 double TextReader::number() {
   const std::string_view text = required_word("a number");
@@ -283,7 +332,7 @@ double TextReader::number() {
   const bool underflow = error == std::errc::result_out_of_range && underflows(digits, hexadecimal);
   if ((error != std::errc() && !underflow) || end != digits.data() + digits.size() ||
       digits.starts_with('-')) {
-    fail("\"" + std::string(text.substr(0, 40)) + "\" is no number");
+    fail(quoted(text) + " is no number");
   }
   return negative ? -value : value;
 }
@@ -291,7 +340,7 @@ double TextReader::number() {
 void TextReader::expect(const std::string& wanted) {
   const std::string_view word = required_word(wanted.c_str());
   if (word != wanted) {
-    fail("\"" + std::string(word.substr(0, 40)) + "\" where " + wanted + " should be");
+    fail(quoted(word) + " where " + wanted + " should be");
   }
 }
 
@@ -311,7 +360,7 @@ std::int64_t TextReader::integer() {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool two_signs = digits.size() < text.size() && digits.starts_with('-');
   if (error != std::errc() || end != digits.data() + digits.size() || two_signs) {
-    fail("\"" + std::string(text.substr(0, 40)) + "\" is no integer");
+    fail(quoted(text) + " is no integer");
   }
   return value;
 }

@@ -86,6 +86,8 @@ class TextReader {
   }
 
   double number();  // decimal or hexadecimal ("0x1.8p3"), exact to the nearest
+  // Hexadecimal, finite, and with no more digits than a double holds.
+  double exact_number();
   std::int64_t integer();
   std::int32_t integer32();  // as labels are
   // An index in [first, first + count), less first.

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 
@@ -51,7 +52,8 @@ CLI::Validator one_of(const std::map<std::string, Choice>& choices) {
 
 void declare(CLI::App& app, Arguments& arguments) {
   app.add_option("INPUT", arguments.input,
-                 "surface: OFF, OBJ, STL, PLY or 3MF; in the plane .poly, OFF, OBJ or rings; of an "
+                 "surface: OFF, OBJ, STL, PLY, 3MF, .smesh or .poly; in the plane .poly, OFF, OBJ "
+                 "or rings; of an "
                  "improved mesh the one that was given")
       ->required();
   app.add_option("MESH", arguments.mesh,
@@ -131,6 +133,15 @@ Stage promised_stage(const Promise& promised, const std::string& exact) {
   return exact.empty() || promised.task == Task::cdt ? Stage::final : Stage::both;
 }
 
+// The second kernel reads the record's text once more.
+void refuse_pipe(const std::string& path) {
+  std::error_code unknown;
+  const auto kind = std::filesystem::status(path, unknown).type();
+  if (kind != std::filesystem::file_type::fifo && kind != std::filesystem::file_type::character)
+    return;
+  throw ReadError(path + ": a record is read twice, so it has to be a file");
+}
+
 // Empty on success, else why the input bounds no solid.
 std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   Terminal terminal;
@@ -142,7 +153,10 @@ std::string verify_quietly(const Arguments& arguments, VerifyReport& report) {
   }
   delmesher::ExactRecord record;
   VerifyOptions options = arguments.options;
-  if (!arguments.exact.empty()) record = read_sidecar(arguments.exact, &options.record_version);
+  if (!arguments.exact.empty()) {
+    refuse_pipe(arguments.exact);
+    record = read_sidecar(arguments.exact, &options.record_version);
+  }
   options.sidecar = arguments.exact;
   options.stage = arguments.stage.value_or(promised_stage(options.promised, arguments.exact));
   terminal.say(std::to_string(mesh.tetrahedra.size()) + " tetrahedra read");

@@ -79,8 +79,13 @@ std::string Verification::check_file() {
   ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
   diagonal_ = surface.diagonal();
   if (!mesh_.edge_nodes.empty() || (options_.promised.second_order && mesh_.has_second_order)) {
-    add(check_edge_nodes(mesh_,
-                         std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_)));
+    OracleReport nodes = check_edge_nodes(
+        mesh_, std::max(kRoundedUlps * ulp_, options_.declared_deviation * diagonal_));
+    // Of a file alone nobody may know with which options it was made.
+    if (exact_ != nullptr && !options_.promised.second_order) {
+      nodes.fail("the elements are of second order, promised were linear ones");
+    }
+    add(std::move(nodes));
   }
 
   const auto offset = static_cast<Index>(input_.vertices.size());

@@ -18,10 +18,10 @@ namespace tetproof::oracles {
 
 namespace {
 
-// No oracle would look at a point that nothing uses. Points on segments and triangles are given by
-// vertices of the input.
-void check_points_are_used(const delmesher::ExactRecord& record, std::size_t inputs,
-                           OracleReport& report) {
+// No oracle would look at a point that nothing uses, or at a plane. Points on segments and
+// triangles are given by vertices of the input.
+void check_all_is_used(const delmesher::ExactRecord& record, std::size_t inputs,
+                       OracleReport& report) {
   std::vector<std::uint8_t> used(record.points.size());
   const auto use = [&](std::uint32_t v) {
     if (v < used.size()) used[v] = 1;
@@ -45,6 +45,15 @@ void check_points_are_used(const delmesher::ExactRecord& record, std::size_t inp
   for (std::size_t v = inputs; v < used.size(); ++v) {
     if (used[v] == 0) report.fail("point " + std::to_string(v) + " is used by nothing");
   }
+  std::vector<std::uint8_t> meets(record.planes.size());
+  for (const delmesher::ExactPoint& p : record.points) {
+    if (p.kind != delmesher::ExactPoint::Kind::on_planes) continue;
+    for (const std::uint32_t plane : {p.i, p.j, p.k})
+      meets[plane] = 1;  // in range: points are usable
+  }
+  for (std::size_t n = 0; n < meets.size(); ++n) {
+    if (meets[n] == 0) report.fail("no vertex is on plane " + std::to_string(n));
+  }
 }
 
 }  // namespace
@@ -52,7 +61,7 @@ void check_points_are_used(const delmesher::ExactRecord& record, std::size_t inp
 std::string Verification::check_sidecar() {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
   OracleReport report = sidecar.report;
-  if (sidecar.usable) check_points_are_used(*exact_, input_.vertices.size(), report);
+  if (sidecar.usable) check_all_is_used(*exact_, input_.vertices.size(), report);
   add(std::move(report));
   if (!sidecar.usable) return sidecar.why;
   ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);

@@ -124,7 +124,8 @@ class SharedData {
             &refined_.complex,
             &refined_.neighbours,
             &promise_,
-            static_cast<Index>(input_.vertices.size())};
+            static_cast<Index>(input_.vertices.size()),
+            sidecar_.diagonal};
   }
   // Only for a usable sidecar.
   const Refined& refined() {

@@ -69,6 +69,42 @@ void give_as_surface_point(Told& told) {
   }
 }
 
+// Gives a volume Steiner point another ball that has it inside: one corner is exchanged for a
+// vertex that was there before (or was not), so that another vertex of that time is in the ball as
+// well (where all were there).
+void exchange_corner_of_a_ball(Told& told, bool there_before) {
+  ExactRecord& r = told.record;
+  ExactPoints points;
+  ASSERT_EQ(points.assign(r.points), "");
+  std::vector<std::uint8_t> used(points.size());
+  for (const auto& tet : r.refined) {
+    for (const Index v : tet.vertices) used[v] = 1;
+  }
+  for (auto& ball : r.balls) {
+    for (Index w = 0; w < points.size(); ++w) {
+      const auto& corners = ball.tetrahedron;
+      if (used[w] == 0 || w == ball.vertex || (w < ball.vertex) != there_before ||
+          std::find(corners.begin(), corners.end(), w) != corners.end()) {
+        continue;
+      }
+      for (std::size_t i = 0; i < 4; ++i) {
+        auto other = corners;
+        other[i] = w;
+        const auto& [a, b, c, d] = other;
+        const int sign = exact::orient3d(points, a, b, c, d);
+        const auto is_in = [&](Index v) {
+          return sign * exact::insphere(points, a, b, c, d, v) > 0;
+        };
+        if (!is_in(ball.vertex)) continue;
+        bool was_in = !there_before;
+        for (Index v = 0; v < ball.vertex && !was_in; ++v) was_in = used[v] != 0 && is_in(v);
+        if (was_in) return void(ball.tetrahedron = other);
+      }
+    }
+  }
+  ADD_FAILURE() << "no such ball";
+}
+
 const Lie kSections[] = {
     {"no facets", "promise", [](Told& t) { t.record.facets.clear(); }},
     {"no segments", "promise", [](Told& t) { t.record.segments.clear(); }},
@@ -418,6 +454,17 @@ const Lie kSections[] = {
        t.record.balls.push_back(t.record.balls.front());
        t.record.balls.back().vertex = static_cast<Index>(t.record.points.size()) - 1;
      }},
+    {"a ball of a tetrahedron with a corner in no mesh", "refined-steiner-balls",
+     [](Told& t) {
+       Index& corner = t.record.balls.front().tetrahedron[0];
+       t.record.points.push_back(t.record.points[corner]);
+       corner = static_cast<Index>(t.record.points.size()) - 1;
+     },
+     "passed"},
+    {"a ball of a tetrahedron with a corner that came later", "refined-steiner-balls",
+     [](Told& t) { exchange_corner_of_a_ball(t, false); }, "passed"},
+    {"a ball in which another vertex was before", "refined-steiner-balls",
+     [](Told& t) { exchange_corner_of_a_ball(t, true); }, "passed"},
     {"a point made by chamfering that is in no mesh", "refined-chamfer-extent",
      [](Told& t) {
        t.record.points.push_back(t.record.points[t.record.chamfer_points.front()[0]]);

@@ -89,6 +89,33 @@ TEST(TextReader, NumbersBelowDoublesAreZeroThoseAboveAreRefused) {
   EXPECT_EQ(TextReader("file", "4e-324").number(), 0x1p-1074);
 }
 
+// As the numbers of records are, which another program reads exactly.
+TEST(TextReader, ExactNumbersAreHexadecimalAndFitADouble) {
+  const auto read = [](const char* text) { return TextReader("file", text).exact_number(); };
+  EXPECT_EQ(read("-0x1.8p+3"), -12);
+  EXPECT_EQ(read("0X1.FFFFFFFFFFFFFP+1023"), 0x1.fffffffffffffp+1023);
+  EXPECT_EQ(read("0x0.0000000000001p-1022"), 0x1p-1074);
+  EXPECT_EQ(read("0x001.8000000000000000000000p0"), 1.5);
+  EXPECT_EQ(read("0x0fffffffffffff8p-4"), 0xfffffffffffff8p-4);
+  EXPECT_EQ(read("0x0p+0"), 0);
+  EXPECT_EQ(read("0x80000p-1093"), 0x1p-1074);
+  for (const char* text :
+       {"14.47", "1", "0.5", "0x", "+0x1p0", "0x-1p0", "0x1.8p", "0x1.8q3", "0xnan", "0xinf", "nan",
+        "inf", "0x1p1024", "0x1p-1075", "0x3p-1075", "0x1.00000000000001p0",
+        "0x1.000000000000000000000000000001p+3", "0x3ffffffffffffffp0"}) {
+    EXPECT_THROW(read(text), ReadError) << text;
+  }
+}
+
+TEST(TextReader, WhatNoTerminalShowsIsInNoMessage) {
+  try {
+    TextReader("file", "\x1b[2J\xff 1").expect("word");
+    FAIL();
+  } catch (const ReadError& error) {
+    EXPECT_STREQ(error.what(), "file:1: \"?[2J?\" where word should be");
+  }
+}
+
 TEST(TextReader, AFileThatDoesNotFitInMemoryIsNotReadInPart) {
   const std::string said = "/dev/null";
   if (!can_be_limited(said)) GTEST_SKIP() << "address space cannot be limited here";

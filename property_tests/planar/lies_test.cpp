@@ -366,6 +366,8 @@ const Lie kLies[] = {
        write_as_given(t);
      },
      "passed"},
+    {"a plane that no vertex is on", "sidecar",
+     [](Told& t) { t.record.planes.push_back(t.record.planes.front()); }, "passed"},
     {"labels merged", "boundary-list",
      [](Told& t) {
        t.sample.input.labels.assign(t.sample.input.triangles.size(), 1);
@@ -377,6 +379,16 @@ const Lie kLies[] = {
 TEST(PlanarTruths, ABarPutOntoTheSurfaceAsGivenPasses) {
   Told told = bar();
   write_as_given(told);
+  const VerifyReport report = verdict_on(told);
+  EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
+}
+
+// The tolerance is a share of the diagonal of the surface as given, not of the one that was meshed.
+TEST(PlanarTruths, ABudgetThatAsksForNothingPasses) {
+  Options options;
+  options.budget = 1000000;
+  const Told told = run_with(rotated(stairs(), to_single), options);
+  EXPECT_EQ(told.promise.budget, 1000000);
   const VerifyReport report = verdict_on(told);
   EXPECT_TRUE(samples::as_promised(report)) << to_text(report);
 }
