@@ -4,6 +4,7 @@
 #include <cmath>
 #include <compare>
 #include <span>
+#include <unordered_map>
 
 #include "oracles/chamfer_features.h"
 #include "oracles/distances.h"
@@ -260,16 +261,26 @@ class FilterCheck {
         promise_(*mesh.promise),
         pairs_(mesh.promise->filter_pairs),
         both_sides_(mesh.promise->filter_chamfered) {
-    double acute = record_.parameters.acute, of_edges = record_.parameters.corner;
-    // Of the corners that the guard tightened, only the remaining ones are known, so the strictest
-    // threshold counts everywhere.
-    for (const auto& corner : record_.corners) {
-      if (corner.threshold > record_.parameters.acute) acute = of_edges = corner.threshold;
+    const double acute = record_.parameters.acute, of_edges = record_.parameters.corner;
+    double strictest = acute;
+    for (const ExactRecord::Corner& corner : record_.corners) {
+      known_[corner.vertex] = std::max(acute, corner.threshold);
+      strictest = std::max(strictest, corner.threshold);
     }
-    guarded_ = acute > promise_.acute || of_edges > promise_.corner_in_force();
-    thresholds_.at = [acute](Index) { return acute; };
-    thresholds_.of_edges = [of_edges](Index) { return of_edges; };
+    guarded_ = strictest > promise_.acute || of_edges > promise_.corner_in_force();
+    // Of the corners that the guard tightened, only the remaining ones are known, so the strictest
+    // threshold counts at all vertices that are no corners any more.
+    thresholds_.at = [this, strictest](Index v) {
+      const auto found = known_.find(v);
+      return found != known_.end() ? found->second : strictest;
+    };
+    thresholds_.of_edges = [this, acute, of_edges](Index v) {
+      const double here = thresholds_.at(v);
+      return here > acute ? here : of_edges;
+    };
   }
+  FilterCheck(const FilterCheck&) = delete;
+  FilterCheck& operator=(const FilterCheck&) = delete;
 
   OracleReport run() {
     const double tolerance = record_.parameters.tolerance;
@@ -474,6 +485,7 @@ class FilterCheck {
   Features features_;
   long exponent_;
   double diagonal_;
+  std::unordered_map<Index, double> known_;  // thresholds of corners
   CornerThresholds thresholds_;
   ChamferFeatures chamfers_;
   const Promise& promise_;

@@ -183,11 +183,12 @@ TEST(BoxTree, FindsWhatMeetsTheQueryAndNothingFarInAHalfSpace) {
       query.low[axis] = real(random);
       query.high[axis] = query.low[axis] + std::fabs(real(random));
     }
-    const std::vector<BoxTree::HalfSpace> but_in = {
-        {{{real(random), real(random), real(random)}, 0.5 * real(random)},
-         {{real(random), real(random), real(random)}, 0.5 * real(random)}}};
+    std::array<BoxTree::HalfSpace, 4> but_in;
+    for (BoxTree::HalfSpace& half : but_in) {
+      half = {{real(random), real(random), real(random)}, 0.5 + 0.5 * real(random)};
+    }
     std::vector<Index> found;
-    tree.query(query, found, [&but_in] { return std::span(but_in); });
+    tree.query(query, found, [&but_in] { return but_in; });
     std::sort(found.begin(), found.end());
     for (Index i = 0; i < boxes.size(); ++i) {
       bool meets = true;
