@@ -6,7 +6,7 @@
 namespace tetproof::oracles {
 namespace {
 
-constexpr Index kLeafSize = 8;
+constexpr Index kVerticesPerLeaf = 8;
 
 // Encloses a quotient; everything if the divisor may be zero, or something overflows.
 Interval quotient(const Interval& a, const Interval& b) {
@@ -37,7 +37,7 @@ void EarlierVertices::build(std::size_t node, Index begin, Index end) {
       box.high[axis] = std::max(box.high[axis], place[axis].high);
     }
   }
-  const bool leaf = end - begin <= kLeafSize;
+  const bool leaf = end - begin <= kVerticesPerLeaf;
   if (nodes_.size() <= node) nodes_.resize(node + 1);
   nodes_[node] = {box, first, begin, end, leaf};
   if (leaf) return;
