@@ -90,10 +90,9 @@ void exchange_corner_of_a_ball(Told& told, bool there_before) {
       for (std::size_t i = 0; i < 4; ++i) {
         auto other = corners;
         other[i] = w;
-        const auto& [a, b, c, d] = other;
-        const int sign = exact::orient3d(points, a, b, c, d);
+        const int sign = exact::orient3d(points, other[0], other[1], other[2], other[3]);
         const auto is_in = [&](Index v) {
-          return sign * exact::insphere(points, a, b, c, d, v) > 0;
+          return sign * exact::insphere(points, other[0], other[1], other[2], other[3], v) > 0;
         };
         if (!is_in(ball.vertex)) continue;
         bool was_in = !there_before;
