@@ -45,13 +45,12 @@ Judgement judge_exit(const Outcome& outcome, ExitCodes codes) {
     if (code == 6) return {Disposition::crash, with_words("internal error", outcome)};
     if (code == 3 || code == 4) return {Disposition::rejected, last_words(outcome)};
   }
-  // A script that runs the program ends with 128 and the signal that ended it.
-  if (codes == ExitCodes::unknown && code == 128 + SIGXCPU) {
-    return {Disposition::timeout, "processor limit"};
-  }
-  for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) {
-    if (codes == ExitCodes::unknown && code == 128 + signal) {
-      return {Disposition::crash, with_words(signal_name(signal), outcome)};
+  if (codes == ExitCodes::unknown) {
+    // A script that runs the program ends with 128 and the signal that ended it.
+    if (code == 128 + SIGXCPU) return {Disposition::timeout, "processor limit"};
+    for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) {
+      if (code == 128 + signal)
+        return {Disposition::crash, with_words(signal_name(signal), outcome)};
     }
   }
   return {Disposition::rejected, with_words("exit " + std::to_string(code), outcome)};

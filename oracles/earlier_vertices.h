@@ -15,7 +15,7 @@ class EarlierVertices {
   EarlierVertices(const ExactPoints& points, std::vector<Index> vertices);
 
   // Visits vertices below `before`: all of those strictly inside the circumsphere of a tetrahedron
-  // that is not flat, and some more, until `visit` says that it has seen enough.
+  // that is not flat, and some more, until it has seen `enough`.
   void near_ball(const std::array<Index, 4>& tetrahedron, Index before,
                  const std::function<bool(Index)>& enough) const;
 
