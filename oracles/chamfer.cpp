@@ -566,14 +566,13 @@ void ChamferExtent::check_areas() {
     if (faces.empty() || is_whole(members.of(f), faces)) continue;
     const InputSurface::Facet& facet = surface_.facets()[f];
     if (surely_covers_less(facet, faces, members.of(f))) continue;
-    const std::array<ExactSum, 3> area = sum_of_areas2(points_, faces),
-                                  whole = surface_.area2(points_, members.of(f));
+    const std::array<ExactSum, 3> excess = surface_.excess2(points_, faces, members.of(f));
     const ExactVector normal = facet.normal(points_);
     // All areas are multiples of one vector, so one component of it that is not zero decides.
     std::size_t axis = 0;
     while (axis < 2 && sgn(normal[axis]) == 0) ++axis;
-    if (area[axis] == whole[axis]) continue;
-    if (difference(area[axis], whole[axis], 0) * sgn(normal[axis]) > 0) {
+    if (excess[axis] == ExactSum()) continue;
+    if (excess[axis].sign() * sgn(normal[axis]) > 0) {
       report_.fail("the faces on facet " + std::to_string(facet.id) + " cover more than the facet");
     }
   }

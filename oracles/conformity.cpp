@@ -313,7 +313,7 @@ void Conformity::check_facet(Index facet, std::span<const Index> triangles,
   const std::uint64_t folded = count_folded(facet, corners);
   for (const Index v : vertices) check_in_plane(facet, v);
   // Rounded vertices change the area.
-  if (options_.exact && !(sum_of_areas2(points_, corners) == surface_.area2(points_, triangles)))
+  if (options_.exact && surface_.excess2(points_, corners, triangles) != std::array<ExactSum, 3>{})
     fail_facet(facet, "the faces on " + name + " do not add up to it");
   const std::int64_t euler = static_cast<std::int64_t>(vertices.size() + faces.size()) -
                              static_cast<std::int64_t>(edges.size());

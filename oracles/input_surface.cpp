@@ -22,39 +22,6 @@ struct DirectedEdge {
   }
 };
 
-// Sides of triangles, each with the number of times that it is there in one direction more often
-// than in the other.
-class Sides {
- public:
-  struct Side {
-    Index from, to;
-    long times;
-  };
-
-  void add(Index from, Index to, long times) {
-    if (from == to) return;
-    sides_.push_back(from < to ? Side{from, to, times} : Side{to, from, -times});
-  }
-  // Leaves every side once, and those that are there as often in both directions out.
-  void cancel() {
-    const auto ends = [](const Side& side) { return std::pair(side.from, side.to); };
-    std::ranges::sort(sides_, {}, ends);
-    std::size_t kept = 0;
-    for (std::size_t first = 0; first < sides_.size();) {
-      Side sum = sides_[first];
-      while (++first < sides_.size() && ends(sides_[first]) == ends(sum)) {
-        sum.times += sides_[first].times;
-      }
-      if (sum.times != 0) sides_[kept++] = sum;
-    }
-    sides_.resize(kept);
-  }
-  const std::vector<Side>& all() const { return sides_; }
-
- private:
-  std::vector<Side> sides_;
-};
-
 std::string edge_name(Index a, Index b) {
   return "edge " + std::to_string(a) + "-" + std::to_string(b);
 }
@@ -151,10 +118,7 @@ std::string InputSurface::assign(const Polyhedron& polyhedron, const ExactPoints
   orient_components(points);
   build_facets(polyhedron, points);
   build_edges();
-  volume6_ = {};
-  exact::Volume6 volume6;
-  const Index origin = triangles_[0][0];
-  for (const auto& [a, b, c] : triangles_) volume6_ += volume6(points, {origin, a, b, c});
+  volume6_ = sum_from_origin6(points, triangles_);
   if (volume6_.sign() <= 0) return "the surface encloses no volume";
   return {};
 }
@@ -333,11 +297,12 @@ InputSurface::Members InputSurface::members() const {
   return result;
 }
 
-std::array<ExactSum, 3> InputSurface::area2(const ExactPoints& points,
-                                            std::span<const Index> triangles) const {
+std::array<ExactSum, 3> InputSurface::excess2(const ExactPoints& points, TriangleSpan faces,
+                                              std::span<const Index> triangles) const {
   std::vector<std::array<Index, 3>> corners;
+  corners.reserve(triangles.size());
   for (const Index t : triangles) corners.push_back(triangles_[t]);
-  return sum_of_areas2(points, corners);
+  return sum_of_areas2(points, faces, corners);
 }
 
 ExactVector InputSurface::area2(const ExactPoints& points, Index t) const {
@@ -569,40 +534,6 @@ void InputSurface::build_edges() {
       }
     }
   }
-}
-
-std::array<ExactSum, 3> sum_of_areas2(const ExactPoints& points,
-                                      std::span<const std::array<Index, 3>> triangles) {
-  // The vertices of the input come first, and have the smallest numbers.
-  Index origin = kNone;
-  Sides sides;
-  for (const auto& corners : triangles) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      sides.add(corners[i], corners[(i + 1) % 3], 1);
-      origin = std::min(origin, corners[i]);
-    }
-  }
-  sides.cancel();
-  // From a to b on a segment is from its first corner to b less from there to a: of all sides on
-  // one segment few are left.
-  Sides from_corners;
-  for (const auto& [from, to, times] : sides.all()) {
-    const Index corner = points.corner_of_segment(from, to);
-    if (corner == kNone) {
-      from_corners.add(from, to, times);
-    } else {
-      from_corners.add(corner, to, times);
-      from_corners.add(corner, from, -times);
-    }
-  }
-  from_corners.cancel();
-  std::array<ExactSum, 3> sum;
-  for (const auto& [from, to, times] : from_corners.all()) {
-    if (from == origin) continue;
-    const ExactVector area = exact::area2(points, origin, from, to);
-    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += area[axis] * ExactNumber(times);
-  }
-  return sum;
 }
 
 BoxTree::Box enlarged(BoxTree::Box box, double by) {

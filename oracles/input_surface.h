@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "oracles/exact_points.h"
-#include "oracles/exact_sum.h"
+#include "oracles/triangle_sums.h"
 
 namespace tetproof::oracles {
 
@@ -134,8 +134,9 @@ class InputSurface {
     }
   };
   Members members() const;
-  // Twice the area vector of the union of some triangles.
-  std::array<ExactSum, 3> area2(const ExactPoints& points, std::span<const Index> triangles) const;
+  // Twice the sum of the area vectors of some faces less that of some triangles.
+  std::array<ExactSum, 3> excess2(const ExactPoints& points, TriangleSpan faces,
+                                  std::span<const Index> triangles) const;
   // Triangles that edges connect, by the first of each set.
   std::vector<std::vector<Index>> components() const;
   // The triangle across the edge from corner i to corner i + 1.
@@ -162,7 +163,7 @@ class InputSurface {
     // lies in its plane, and perhaps elsewhere.
     std::uint8_t covered = 0;
   };
-  // How the surface meets a tetrahedron (positively oriented).
+  // How the surface, all of whose facets are planar, meets a tetrahedron (positively oriented).
   Contact contact(const ExactPoints& points, const std::array<Index, 4>& tetrahedron,
                   PlaneSides& known) const {
     return contact(points, tetrahedron, *tree_, {}, known);
@@ -195,11 +196,11 @@ class InputSurface {
   int crossings_above(const ExactPoints& points, std::span<const Index> corners,
                       Index except) const;
   void measure(const ExactPoints& points);
-  // The side of a triangle's plane on which a vertex lies, or 2 where doubles do not tell.
-  int rough_side(const ExactPoints& points, Index triangle, Index v) const;
-  // Those of four vertices; 0 for the triangle's own corners.
-  std::array<int, 4> rough_sides(const ExactPoints& points, Index triangle,
-                                 const std::array<Index, 4>& vertices) const;
+  // The side of a facet's plane on which a vertex lies, or 2 where doubles do not tell.
+  static int rough_side(const ExactPoints& points, const Facet& facet, Index v);
+  // Does the plane of the facet of these triangles enter the tetrahedron? Adds to contact.covered.
+  bool plane_enters(const ExactPoints& points, const std::array<Index, 4>& tetrahedron,
+                    std::span<const Index> triangles, PlaneSides& known, Contact& contact) const;
 
   std::vector<std::array<Index, 3>> triangles_;
   std::vector<std::array<Index, 3>> neighbours_;  // across edge corner i -> i + 1
@@ -211,12 +212,6 @@ class InputSurface {
   double diagonal_ = 0, largest_coordinate_ = 0;
   std::shared_ptr<const BoxTree> tree_;
 };
-
-// Twice the sum of the area vectors of some triangles; exactly, in squares of integer units. That
-// of a triangle is the sum over its sides of those between side and origin. Sides that two
-// triangles share in opposite directions cancel, so that only the others take arithmetic.
-std::array<ExactSum, 3> sum_of_areas2(const ExactPoints& points,
-                                      std::span<const std::array<Index, 3>> triangles);
 
 // The smallest box that certainly contains the points.
 BoxTree::Box box_around(const ExactPoints& points, std::span<const Index> corners);

@@ -36,8 +36,7 @@ ExactSum sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours
                          const std::vector<std::uint8_t>& selected) {
   const auto& tets = complex.tetrahedra;
   const auto& across = neighbours.across;
-  ExactSum sum;
-  exact::Volume6 volume6;
+  std::vector<Face> alone;
   for (Index t = 0; t < tets.size(); ++t) {
     if (!selected.empty() && selected[t] == 0) continue;
     for (int i = 0; i < 4; ++i) {
@@ -47,16 +46,16 @@ ExactSum sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours
       if (paired && other < here) continue;
       const Face face = face_of(tets[t], i);
       if (!paired) {
-        sum += volume6.from_origin(*complex.points, face);
+        alone.push_back(face);
         continue;
       }
       const Face back = face_of(tets[other / 4], static_cast<int>(other % 4));
       if (opposite(face, back)) continue;
-      sum += volume6.from_origin(*complex.points, face);
-      sum += volume6.from_origin(*complex.points, back);
+      alone.push_back(face);
+      alone.push_back(back);
     }
   }
-  return sum;
+  return sum_from_origin6(*complex.points, alone);
 }
 
 OracleReport check_volume(const TetComplex& complex, const Neighbours& neighbours,

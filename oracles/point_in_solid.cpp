@@ -399,9 +399,9 @@ int InputSurface::inside(const ExactPoints& points, std::span<const Index> corne
 // The height is a sum of three products. Each component of the normal is off by at most half the
 // width of its interval, each difference by a rounding and what difference_error() says. All bounds
 // are taken twice or more.
-int InputSurface::rough_side(const ExactPoints& points, Index triangle, Index v) const {
-  const IntervalVector& n = facets_[facet_of_triangle_[triangle]].rough_normal;
-  const Position &p = points.nearest(triangles_[triangle][0]), &q = points.nearest(v);
+int InputSurface::rough_side(const ExactPoints& points, const Facet& facet, Index v) {
+  const IntervalVector& n = facet.rough_normal;
+  const Position &p = points.nearest(facet.span[0]), &q = points.nearest(v);
   double height = 0, error = 0x1p-1000, steepness = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double slope = n[axis].middle(), width = n[axis].high - n[axis].low;
@@ -413,21 +413,47 @@ int InputSurface::rough_side(const ExactPoints& points, Index triangle, Index v)
   error += 2 * steepness * points.difference_error();
   if (height > error) return 1;
   if (height < -error) return -1;
-  return exact::dot(n, points.rough_difference(triangles_[triangle][0], v)).sign();
+  return 2;
 }
 
-std::array<int, 4> InputSurface::rough_sides(const ExactPoints& points, Index triangle,
-                                             const std::array<Index, 4>& vertices) const {
-  const auto& corners = triangles_[triangle];
+// A facet's plane that does not enter the tetrahedron keeps all its triangles out. Only where
+// doubles do not tell is the side looked up or decided.
+bool InputSurface::plane_enters(const ExactPoints& points, const std::array<Index, 4>& tetrahedron,
+                                std::span<const Index> triangles, PlaneSides& known,
+                                Contact& contact) const {
+  const Index f = facet_of_triangle_[triangles[0]];
+  const Facet& facet = facets_[f];
   std::array<int, 4> sides;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Index v = vertices[i];
-    const bool own = v == corners[0] || v == corners[1] || v == corners[2];
-    sides[i] = own ? 0 : rough_side(points, triangle, v);
+  for (std::size_t i = 0; i < 4; ++i) sides[i] = rough_side(points, facet, tetrahedron[i]);
+  const auto has = [&](int wanted) {
+    return std::find(sides.begin(), sides.end(), wanted) != sides.end();
+  };
+  for (std::size_t i = 0; i < 4 && !(has(1) && has(-1)); ++i) {
+    if (sides[i] != 2) continue;
+    const Index v = tetrahedron[i];
+    if (std::any_of(triangles.begin(), triangles.end(), [&](Index t) {
+          const auto& corners = triangles_[t];
+          return v == corners[0] || v == corners[1] || v == corners[2];
+        })) {
+      sides[i] = 0;
+      continue;
+    }
+    const auto key = static_cast<std::uint64_t>(f) << 32 | v;
+    const auto [at, fresh] = known.try_emplace(key, 0);
+    if (fresh) at->second = facet.side(points, v);  // a triangle may be flat, a facet is not
+    sides[i] = at->second;
   }
-  return sides;
+  for (std::size_t i = 0; i < 4; ++i) {
+    bool off = false;
+    for (std::size_t j = 0; j < 4; ++j) off = off || (j != i && sides[j] % 2 != 0);
+    if (!off) contact.covered |= static_cast<std::uint8_t>(1U << i);
+  }
+  return has(1) && has(-1);
 }
 
+// The triangle has no point strictly inside exactly if a plane separates it from the tetrahedron.
+// Such planes are parallel to a face of one of the two or to an edge of each: those are the
+// directions of the faces of all differences of their points.
 InputSurface::Contact InputSurface::contact(const ExactPoints& points,
                                             const std::array<Index, 4>& tetrahedron,
                                             const BoxTree& parts, std::span<const Index> triangles,
@@ -439,49 +465,26 @@ InputSurface::Contact InputSurface::contact(const ExactPoints& points,
   if (found.empty()) return {};  // as for most tetrahedra of a refined mesh
   if (!triangles.empty()) {
     for (Index& t : found) t = triangles[t];
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
   }
-  const auto side = [&](Index t, Index v) {
-    const auto key = static_cast<std::uint64_t>(facet_of_triangle_[t]) << 32 | v;
-    const auto [at, fresh] = known.try_emplace(key, 0);
-    if (fresh) {  // the triangle itself may be flat, but its facet is not
-      const Facet& facet = facets_[facet_of_triangle_[t]];
-      at->second = facet.side(points, v);
-    }
-    return at->second;
-  };
-  Contact contact;
-  // A facet's plane that does not enter the tetrahedron keeps all its triangles out. Only where
-  // doubles do not tell is the side looked up or decided.
-  const auto plane_enters = [&](Index t) {
-    std::array<int, 4> sides = rough_sides(points, t, tetrahedron);
-    const auto has = [&](int wanted) {
-      return std::find(sides.begin(), sides.end(), wanted) != sides.end();
-    };
-    for (std::size_t i = 0; i < 4 && !(has(1) && has(-1)); ++i) {
-      if (sides[i] == 2) sides[i] = side(t, tetrahedron[i]);
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      bool off = false;
-      for (std::size_t j = 0; j < 4; ++j) off = off || (j != i && sides[j] % 2 != 0);
-      if (!off) contact.covered |= static_cast<std::uint8_t>(1U << i);
-    }
-    return has(1) && has(-1);
-  };
-  // The triangle has no point strictly inside exactly if a plane separates it from the tetrahedron.
-  // Such planes are parallel to a face of one of the two or to an edge of each: those are the
-  // directions of the faces of all differences of their points.
-  contact.enters = std::any_of(found.begin(), found.end(), [&](Index t) {
-    return plane_enters(t) &&
-           !beyond_edge(points, triangles_[t], facets_[facet_of_triangle_[t]].rough_normal,
-                        tetrahedron) &&
-           !faces_separate(points, triangles_[t], tetrahedron) &&
-           (surely_meets(points, triangles_[t], tetrahedron) ||
-            (!apart(points, triangles_[t], tetrahedron) &&
-             !triangle_separates(points, triangles_[t], tetrahedron) &&
-             !edges_separate(points, triangles_[t], tetrahedron)));
+  std::sort(found.begin(), found.end(), [this](Index s, Index t) {
+    return std::pair(facet_of_triangle_[s], s) < std::pair(facet_of_triangle_[t], t);
   });
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  Contact contact;
+  for (std::size_t first = 0, last = 0; first < found.size() && !contact.enters; first = last) {
+    const Facet& facet = facets_[facet_of_triangle_[found[first]]];
+    while (last < found.size() && &facets_[facet_of_triangle_[found[last]]] == &facet) ++last;
+    const std::span<const Index> of_facet = std::span(found).subspan(first, last - first);
+    if (!plane_enters(points, tetrahedron, of_facet, known, contact)) continue;
+    contact.enters = std::any_of(of_facet.begin(), of_facet.end(), [&](Index t) {
+      return !beyond_edge(points, triangles_[t], facet.rough_normal, tetrahedron) &&
+             !faces_separate(points, triangles_[t], tetrahedron) &&
+             (surely_meets(points, triangles_[t], tetrahedron) ||
+              (!apart(points, triangles_[t], tetrahedron) &&
+               !triangle_separates(points, triangles_[t], tetrahedron) &&
+               !edges_separate(points, triangles_[t], tetrahedron)));
+    });
+  }
   return contact;
 }
 

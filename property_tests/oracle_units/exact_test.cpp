@@ -14,6 +14,7 @@
 #include "oracles/exact_points.h"
 #include "oracles/exact_sum.h"
 #include "oracles/interval.h"
+#include "oracles/triangle_sums.h"
 #include "property_tests/oracle_units/helpers.h"
 
 namespace tetproof {
@@ -480,6 +481,58 @@ mpq_class height_over(const ExactPoints& points, const ExactRecord::Plane& plane
               (coordinate(points, v, axis) - mpq_class(plane.through[0][axis]));
   }
   return height;
+}
+
+// Many triangles share sides, and sides are on one segment; some are in one plane by definition.
+TEST(TriangleSums, AreThoseOfEachTriangleAlone) {
+  using Kind = ExactPoint::Kind;
+  std::mt19937 random(14);
+  const auto unit = [&] { return static_cast<double>(random()) * 0x1p-31 - 1; };
+  for (int round = 0; round < 100; ++round) {
+    std::vector<ExactRecord::Plane> planes(6);
+    for (auto& plane : planes) {
+      plane.normal = {unit(), unit(), unit()};
+      plane.through[0] = {unit(), unit(), unit()};
+    }
+    const std::vector<ExactPoint> list = {given(Kind::on_planes, 0, 1, 2),
+                                          given(Kind::on_planes, 3, 0, 2),
+                                          given(Kind::on_planes, 4, 5, 0),
+                                          given(Kind::on_planes, 1, 2, 3),
+                                          given(Kind::on_segment, 0, 1, 0, 0.375),
+                                          given(Kind::on_segment, 0, 1, 0, 0.75),
+                                          given(Kind::on_triangle, 0, 1, 2, unit(), 0.5),
+                                          given(Kind::on_segment, 0, 3, 0, 0.5),
+                                          given(Kind::explicit_point, 0, 0, 0, unit(), unit())};
+    ExactPoints points;
+    ASSERT_EQ(points.assign(list, planes), "");
+    std::array<std::vector<std::array<Index, 3>>, 2> sets;
+    std::array<ExactSum, 3> areas;
+    ExactSum volumes;
+    for (std::size_t set = 0; set < 2; ++set) {
+      for (int n = 0; n < 8; ++n) {
+        std::array<Index, 3> corners;
+        for (Index& v : corners) v = static_cast<Index>(random() % list.size());
+        sets[set].push_back(corners);
+        const auto& [a, b, c] = corners;
+        const ExactVector area = exact::area2(points, a, b, c);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          areas[axis] += set == 0 ? area[axis] : -area[axis];
+        }
+        if (set > 0) continue;
+        volumes += exact::dot(points.exact(a), exact::cross(points.exact(b), points.exact(c)));
+      }
+    }
+    EXPECT_EQ(sum_of_areas2(points, sets[0], sets[1]), areas);
+    EXPECT_EQ(sum_from_origin6(points, sets[0]), volumes);
+    // Four faces of two triangles' outline, with a point on the side between 0 and 1.
+    const std::vector<std::array<Index, 3>> faces = {{0, 4, 6}, {4, 1, 6}, {1, 2, 6}, {2, 0, 6}};
+    const std::vector<std::array<Index, 3>> whole = {{0, 1, 2}};
+    EXPECT_EQ(sum_of_areas2(points, faces, whole), (std::array<ExactSum, 3>{}));
+    const std::vector<std::array<Index, 3>> less = {{0, 4, 6}, {5, 1, 6}, {1, 2, 6}, {2, 0, 6}};
+    EXPECT_NE(sum_of_areas2(points, less, whole), (std::array<ExactSum, 3>{}));
+    EXPECT_EQ(sum_from_origin6(points, faces), sum_from_origin6(points, whole));
+    EXPECT_NE(sum_from_origin6(points, less), sum_from_origin6(points, whole));
+  }
 }
 
 // Points 0 to 3 are on plane 0, and so are 5 to 7, which are given by these; 4, 8 and 9 are not.
