@@ -140,6 +140,10 @@ Finding same_when_scaled(const Surface& surface, const Result& plain, const Opti
   Options units = options;
   units.max_edge = std::ldexp(options.max_edge, exponent);
   units.chamfer_radius = std::ldexp(options.chamfer_radius, exponent);
+  for (delmesher::SizeSource& source : units.size_field) {
+    for (double& x : source.point) x = std::ldexp(x, exponent);
+    source.size = std::ldexp(source.size, exponent);
+  }
   const Result result = delmesher::tetrahedralize(scaled, units);
   if (!result.status.ok()) return "scale status: " + result.status.message;
   if (result.mesh.tetrahedra != plain.mesh.tetrahedra || result.mesh.inside != plain.mesh.inside ||
@@ -189,6 +193,9 @@ Options options_for(const Surface& surface) {
   options.planar = kPlanar[(hash >> 17) % 4];
   if ((hash >> 7) % 8 == 0) options.max_edge = size / 4;
   if ((hash >> 10) % 8 == 0) options.chamfer_radius = size / 64;
+  if ((hash >> 21) % 8 == 0 && size > 0 && std::isfinite(size)) {
+    options.size_field = {{{size / 2, 0, 0}, size / 16}, {{0, size, size / 4}, size / 8}};
+  }
   return options;
 }
 
@@ -197,6 +204,7 @@ Options options_for(const Surface& surface) {
 Options coarser(Options options, std::uint64_t budget) {
   options.budget = budget;
   options.max_edge = options.chamfer_radius = 0;
+  options.size_field.clear();
   options.gabriel = false;
   options.region = delmesher::Region::interior;
   options.tau = std::max(options.tau, 1e-2);

@@ -14,6 +14,7 @@
 #include "delmesher/exact_record.h"
 #include "delmesher/option_bounds.h"
 #include "delmesher/run.h"
+#include "delmesher/size_source.h"
 #include "delmesher/statistics.h"
 #include "delmesher/surface.h"
 #include "delmesher/surface_report.h"
@@ -63,6 +64,10 @@ struct Options : Limits {
   // that (surface/edge_bends.h), at most 2^-12.
   double planar = kPlanarAuto;
   double max_edge = 0;  // largest edge wanted inside, in input units; 0: no bound
+  // Smaller edges in places, in input units: nowhere along an edge inside is it longer than size +
+  // size_growth * distance, of any of these sources and its distance. Empty: no bound.
+  std::vector<SizeSource> size_field;
+  double size_growth = 0.3;
   AsPaper as_paper;
   Region region = Region::interior;
   bool want_exact = false;      // fill Result::exact
@@ -92,11 +97,11 @@ Result constrained_delaunay(const Surface& surface, const Options& options = {})
 // regions or sides, and all their vertices are kept to the last bit. Every tetrahedron counts,
 // inside or not. No dihedral angle below 17 degrees (or above 163) and no face angle below `delta`
 // is made, unless there was one as bad. Vertices of no tetrahedron are dropped. Uses delta,
-// max_edge (no longer edge is made) and limits. `inside` may be empty, which means all are inside;
-// so may labels and facets. Statistics::refined is of the given mesh, `final` of the result;
-// `rounding_flat` counts flat tetrahedra of the given mesh that are left. A mesh that is not
-// conforming, by exact signs, is refused with StatusCode::invalid_mesh; overlaps of tetrahedra
-// without a common face are not looked for.
+// max_edge and size_field (no longer edge is made) and limits. `inside` may be empty, which means
+// all are inside; so may labels and facets. Statistics::refined is of the given mesh, `final` of
+// the result; `rounding_flat` counts flat tetrahedra of the given mesh that are left. A mesh that
+// is not conforming, by exact signs, is refused with StatusCode::invalid_mesh; overlaps of
+// tetrahedra without a common face are not looked for.
 Result improve_mesh(const TetMesh& mesh, const Options& options = {});
 
 // Decides exactly whether a surface is valid input. Angles are judged with options.acute.

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <new>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "mesher/delmesher.h"
 #include "mesher/named_options.h"
@@ -95,6 +97,22 @@ void delmesher_options_free(delmesher_options* options) {
 int delmesher_options_set(delmesher_options* options, const char* name, double value) {
   if (options == nullptr || name == nullptr) return -1;
   return delmesher::set_option(options->values, name, value) ? 0 : -1;
+}
+
+int delmesher_options_size_field(delmesher_options* options, const double* sources,
+                                 size_t n_sources) {
+  if (options == nullptr || (sources == nullptr && n_sources > 0)) return -1;
+  try {
+    std::vector<delmesher::SizeSource> field(n_sources);
+    for (std::size_t n = 0; n < n_sources; ++n) {
+      const double* source = sources + 4 * n;
+      field[n] = {{source[0], source[1], source[2]}, source[3]};
+    }
+    options->values.size_field = std::move(field);
+  } catch (...) {
+    return -1;
+  }
+  return 0;
 }
 
 void delmesher_options_progress(delmesher_options* options, delmesher_progress progress,

@@ -40,15 +40,20 @@ typedef enum {
 /* NOLINTEND(readability-identifier-naming) */
 
 /* Options by the names of delmesher::Options: delta, tau, budget, acute, corner, gabriel, improve,
- * slivers, approximate, simplify_bridges, chamfer_radius, planar (-1: automatic), max_edge, order,
- * steiner_point, region (0 interior, 1 hull), max_vertices, time_limit, threads. Switches are 0
- * or 1. Whether a value makes sense is said by the call that uses it. */
+ * slivers, approximate, simplify_bridges, chamfer_radius, planar (-1: automatic), max_edge,
+ * size_growth, order, steiner_point, region (0 interior, 1 hull), max_vertices, time_limit,
+ * threads. Switches are 0 or 1. Whether a value makes sense is said by the call that uses it. */
 struct delmesher_options;
 typedef struct delmesher_options delmesher_options;
 delmesher_options* delmesher_options_new(void); /* NULL if there is no memory */
 void delmesher_options_free(delmesher_options* options);
 /* 0, or -1 if there is no such option or the value is none of its type. */
 int delmesher_options_set(delmesher_options* options, const char* name, double value);
+
+/* Options::size_field: n_sources times x y z size, of which a copy is taken. 0, or -1 if there is
+ * no memory. */
+int delmesher_options_size_field(delmesher_options* options, const double* sources,
+                                 size_t n_sources);
 
 /* Called several times a second by the thread that called the library. `done` is the fraction of
  * the phase, negative if unknown. Any answer but 0 ends the run, with DELMESHER_INTERRUPTED. */

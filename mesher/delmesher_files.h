@@ -115,6 +115,17 @@ struct NamesResult {
 // skipped.
 NamesResult read_label_names(const std::string& path);
 
+struct SizeFieldResult {
+  std::string error;  // "file:line: reason" or "file: reason"; empty if read
+  std::vector<SizeSource> sources;
+  bool ok() const { return error.empty(); }
+};
+
+// Options::size_field from lines "X Y Z SIZE", with spaces or commas between them; blank lines, '#'
+// comments and a first line of words are skipped. Or a view of scalars as Gmsh's .pos, whose points
+// and corners of elements become the sources.
+SizeFieldResult read_size_field(const std::string& path);
+
 struct ExactResult {
   std::string error;  // "file:line: reason"; empty if read
   ExactRecord record;

@@ -184,8 +184,10 @@ Status improve_given(const TetMesh& given, Session& s, Result& result) {
   measure_given(given, mesh, regions, s, result);
 
   s.control.enter(Phase::improve);
-  const improve::ImproveOptions options{
-      .delta = s.options.delta, .max_edge = s.options.max_edge, .region = Region::hull};
+  const improve::ImproveOptions options{.delta = s.options.delta,
+                                        .max_edge = s.options.max_edge,
+                                        .sizes = &s.sizes,
+                                        .region = Region::hull};
   improve::ImproveResult improved =
       improve::improve(std::move(mesh), nullptr, {}, options, s.points, s.predicates, s.control);
   s.control.enter(Phase::round);
@@ -204,6 +206,7 @@ Result run_improvement(const TetMesh& mesh, const Options& options) {
     if (std::string defect = options_defect(options, kBounds); !defect.empty()) {
       return {StatusCode::invalid_options, std::move(defect)};
     }
+    session.sizes = SizeField(options.size_field, options.size_growth);
     return improve_given(mesh, session, result);
   });
   recorder.finish();

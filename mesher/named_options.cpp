@@ -28,7 +28,7 @@ struct NamedOption {
   bool (*set)(Options&, double);
 };
 
-constexpr std::array<NamedOption, 19> kOptions = {{
+constexpr std::array<NamedOption, 20> kOptions = {{
     {"delta", [](Options& o, double x) { return set(o.delta, x); }},
     {"tau", [](Options& o, double x) { return set(o.tau, x); }},
     {"budget", [](Options& o, double x) { return set_count(o.budget, x, kBounds.budget.high); }},
@@ -42,6 +42,7 @@ constexpr std::array<NamedOption, 19> kOptions = {{
     {"chamfer_radius", [](Options& o, double x) { return set(o.chamfer_radius, x); }},
     {"planar", [](Options& o, double x) { return set(o.planar, x); }},
     {"max_edge", [](Options& o, double x) { return set(o.max_edge, x); }},
+    {"size_growth", [](Options& o, double x) { return set(o.size_growth, x); }},
     {"order", [](Options& o, double x) { return set(o.as_paper.order, x); }},
     {"steiner_point", [](Options& o, double x) { return set(o.as_paper.steiner_point, x); }},
     {"region",

@@ -96,6 +96,7 @@ refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double ta
   options.delta = s.options.delta;
   options.slivers = s.options.slivers;
   options.max_edge = s.options.max_edge;
+  options.sizes = &s.sizes;
   options.largest_ratio_first = s.options.as_paper.order;
   options.circumcentres = s.options.as_paper.steiner_point;
   options.region = s.options.region;
@@ -129,6 +130,7 @@ cdt::CdtResult enriched_cdt(const chamfer::ChamferedSurface& chamfered,
 improve::ImproveOptions improve_options(Region region, const Session& s) {
   return {.delta = s.options.delta,
           .max_edge = s.options.max_edge,
+          .sizes = &s.sizes,
           .region = region,
           .as_given = goes_back(s.options)};
 }
@@ -169,7 +171,8 @@ bool put_back(cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
   put_in(std::move(entered.mesh), cdt);
   recorder.put_back(entered.diagonals, entered.missing);
   if (entered.missing == 0 && go_back(cdt, std::move(as_given), s)) return true;
-  if (s.options.max_edge > 0) {  // another tetrahedrization may have longer edges
+  if (s.options.max_edge > 0 ||
+      !s.sizes.empty()) {  // another tetrahedrization may have longer edges
     recorder.given_up();
     return false;
   }
@@ -276,6 +279,7 @@ Result run(Pipeline pipeline, const Surface& surface, const Options& options) {
     if (const std::string defect = options_defect(options, kBounds); !defect.empty()) {
       return {StatusCode::invalid_options, defect};
     }
+    session.sizes = SizeField(options.size_field, options.size_growth);
     return pipeline(surface, session, recorder);
   });
   recorder.finish();

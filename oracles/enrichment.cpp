@@ -73,7 +73,7 @@ class Enrichment {
     }
     const Promise& promise = *mesh_.promise;
     if (promise.region != delmesher::Region::interior || promise.max_edge > 0 ||
-        surface_.triangles().size() > kMostTriangles) {
+        !promise.size_field.empty() || surface_.triangles().size() > kMostTriangles) {
       return false;
     }
     TetComplex plain{&points_, {}, {}, 0, 0};

@@ -5,6 +5,7 @@
 
 #include "oracles/angles.h"
 #include "oracles/edge_key.h"
+#include "oracles/edge_sizes.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -142,6 +143,7 @@ class Improvement {
         all_(promise.region == delmesher::Region::hull),
         goal_{promise.guaranteed_delta(), kImprovedDihedral},
         longest_(promise.max_edge),
+        sizes_(promise.size_field, promise.size_growth),
         returned_(returned) {}
 
   OracleReport run() {
@@ -161,7 +163,16 @@ class Improvement {
                    " degrees and lacks " + std::to_string(bad.angles.dihedral) +
                    " of being flat, and nothing near was as bad before");
     }
-    if (longest_ > 0) check_edges();
+    if (longest_ > 0) {
+      check_edges("--max-edge", [&](Index v, Index w) {
+        return exact::distance(doubles_, v, w) > longest_ * (1 + 1e-9);
+      });
+    }
+    if (!sizes_.empty()) {
+      check_edges("--size-field", [&](Index v, Index w) {
+        return sizes_.excess(doubles_.nearest(v), doubles_.nearest(w)) > EdgeSizes::kMost;
+      });
+    }
     return std::move(report_);
   }
 
@@ -271,9 +282,10 @@ class Improvement {
 
   // A vertex that is moved becomes another point, so that an edge to it is new by name. Such an
   // edge may be as long as the longest was; how many there are is told.
-  void check_edges() {
-    const std::vector<std::uint64_t> before = long_edges(record_.unrepaired),
-                                     after = long_edges(record_.final);
+  template <class IsLong>
+  void check_edges(const std::string& option, const IsLong& is_long) {
+    const std::vector<std::uint64_t> before = long_edges(record_.unrepaired, is_long),
+                                     after = long_edges(record_.final, is_long);
     std::vector<std::uint64_t> fresh;
     std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
                         std::back_inserter(fresh));
@@ -290,10 +302,10 @@ class Improvement {
         ++moved;
         continue;
       }
-      report_.fail("edge (" + std::to_string(v) + " " + std::to_string(w) +
-                   ") is new and above --max-edge");
+      report_.fail("edge (" + std::to_string(v) + " " + std::to_string(w) + ") is new and above " +
+                   option);
     }
-    report_.figures.emplace_back("edges above --max-edge, as before",
+    report_.figures.emplace_back("edges above " + option + ", as before",
                                  static_cast<double>(after.size() - fresh.size()));
     report_.figures.emplace_back("to vertices that moved", static_cast<double>(moved));
   }
@@ -307,14 +319,16 @@ class Improvement {
   }
 
   // Once each, ascending.
-  std::vector<std::uint64_t> long_edges(const std::vector<ExactRecord::Tet>& tets) const {
+  template <class IsLong>
+  std::vector<std::uint64_t> long_edges(const std::vector<ExactRecord::Tet>& tets,
+                                        const IsLong& is_long) const {
     std::vector<std::uint64_t> edges;
     for (const ExactRecord::Tet& tet : tets) {
       if (!counts(tet)) continue;
       for (int i = 0; i < 4; ++i) {
         for (int j = 0; j < i; ++j) {
           const auto [v, w] = std::minmax(tet.vertices[i], tet.vertices[j]);
-          if (exact::distance(doubles_, v, w) <= longest_ * (1 + 1e-9)) continue;
+          if (!is_long(v, w)) continue;
           edges.push_back(directed_key(v, w));
         }
       }
@@ -329,6 +343,7 @@ class Improvement {
   const bool all_;
   const WorstAngles goal_;
   const double longest_;
+  const EdgeSizes sizes_;
   const std::vector<Index>& returned_;
   std::vector<WorstAngles> worst_;  // per point, of the tetrahedra there before
   WorstAngles before_, after_;

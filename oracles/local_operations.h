@@ -23,7 +23,7 @@ OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoin
 // edges away along edges of either mesh; so neither the smallest nor the flattest one becomes
 // worse, and nothing bad is made where all was good. One that was not positive on the nearest
 // doubles counts as flat, as repairs of rounding may follow there. No edge longer than --max-edge
-// is new.
+// or than --size-field allows is new.
 //
 // Measured on the nearest doubles, where the improvement weighs its steps, by doubles with a
 // relative slack of 1e-6.

@@ -60,6 +60,10 @@ std::optional<InOrdinaryUnits> in_ordinary_units(const Polyhedron& input, const 
   for (MeshFile::EdgeNode& node : result.mesh.edge_nodes) scaled(node.at);
   scaled(result.promise.chamfer_radius);
   scaled(result.promise.max_edge);
+  for (delmesher::SizeSource& source : result.promise.size_field) {
+    scaled(source.point);
+    scaled(source.size);
+  }
   if (record != nullptr) scale(result.record.emplace(*record), scaled);
   if (!scaled.exact()) return {};
   return result;

@@ -9,6 +9,8 @@
 #include <set>
 #include <vector>
 
+#include "oracles/edge_sizes.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -77,11 +79,14 @@ constexpr Number kNumbers[] = {
     {"--corner", &Promise::corner, kMesh, 0, 90},
     {"--chamfer-radius", &Promise::chamfer_radius, kMesh | kPlane, 0, kMost, true},
     {"--max-edge", &Promise::max_edge, kMesh | kPlane | kImprove, 0, kMost, true},
+    {"--size-growth", &Promise::size_growth, kMesh | kImprove, 0, 1, true},
     {"--budget", &Promise::budget, kMesh, 1, 1e15},
     {"--max-vertices", &Promise::max_vertices, kAll, 1, 4294967294},
     {"--time-limit", nullptr, kAll, 0, kMost, true},
     {"--threads", nullptr, kSpace, 0, 1024},
     {"--jobs", nullptr, kAll, 0, 1024}};
+
+constexpr const char* kSizeField = "--size-field";  // the one file that promises something
 
 // These options say where and how, not what; --slivers guarantees nothing.
 struct Word {
@@ -93,7 +98,8 @@ constexpr Word kFiles[] = {{"-o", kAll},
                            {"--stats", kAll},
                            {"--exact", kSurface | kPlane},
                            {"--save-chamfered", kMesh | kPlane},
-                           {"--names", kSpace}};
+                           {"--names", kSpace},
+                           {kSizeField, kMesh | kImprove}};
 constexpr Word kSwitches[] = {{"-q", kAll},
                               {"--quiet", kAll},
                               {"-v", kAll},
@@ -218,7 +224,8 @@ class PromiseReader {
     }
     const bool file = among(kFiles, option, p.task);
     // Which one counts would be anybody's guess; of files there may be several.
-    if (!file && !seen_.insert(option).second) return option + " is there twice";
+    if ((!file || option == kSizeField) && !seen_.insert(option).second)
+      return option + " is there twice";
     if (among(kSwitches, option, p.task)) {
       if (value_) return option + " takes no value";
       p.gabriel = p.gabriel || option == "--gabriel";
@@ -227,7 +234,10 @@ class PromiseReader {
     }
     if (!value_ && next_ < words_.size()) value_ = words_[next_++];
     if (!value_) return option + ": unknown, or without a value";
-    if (file) return value_->empty() ? option + " without a file" : "";
+    if (file) {
+      if (value_->empty()) return option + " without a file";
+      return option == kSizeField ? read_size_field(*value_, p.size_field) : "";
+    }
     return among(kChosen, option, p.task) ? apply_choice(option, p) : apply_number(option, p);
   }
 
@@ -477,6 +487,8 @@ Promise promise_of(const delmesher::Options& options, Task task) {
   p.region = options.region;
   p.chamfer_radius = options.chamfer_radius;
   p.max_edge = options.max_edge;
+  p.size_field = options.size_field;
+  p.size_growth = options.size_growth;
   p.budget = static_cast<double>(options.budget);
   p.max_vertices = static_cast<double>(options.max_vertices);
   return p;

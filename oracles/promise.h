@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mesher/delmesher.h"
 #include "oracles/report.h"
@@ -40,10 +41,12 @@ struct Promise {
   bool filter_chamfered = false;  // both sides of chamfered features below tau dropped
   bool no_guard = false;          // nothing stricter than was asked for
   delmesher::Region region = delmesher::Region::interior;
-  double chamfer_radius = 0;  // input units; 0: no bound
-  double max_edge = 0;        // input units; 0: no bound
-  double budget = 0;          // tetrahedra; 0: tau is not raised
-  double max_vertices = 0;    // 0: no limit
+  double chamfer_radius = 0;                           // input units; 0: no bound
+  double max_edge = 0;                                 // input units; 0: no bound
+  std::vector<delmesher::SizeSource> size_field = {};  // input units; empty: no bound
+  double size_growth = 0.3;
+  double budget = 0;        // tetrahedra; 0: tau is not raised
+  double max_vertices = 0;  // 0: no limit
 
   // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a
   // fraction of the diagonal.
@@ -59,7 +62,8 @@ struct Promise {
 
 // Reads a command line without the program's name: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS',
 // 'improve OPTIONS'; without a first word `mesh` is meant. Options that promise nothing of the
-// result (files, threads, times) are ignored. Empty on success, else the mistake.
+// result (files, threads, times) are ignored; the file of --size-field is read. Empty on success,
+// else the mistake.
 std::string parse_promise(std::string_view text, Promise& promise);
 
 // The same for a call of the library.

@@ -77,6 +77,7 @@ class Verification {
   void check_promises(const RefinedMesh& mesh);
   OracleReport check_contained(const TetComplex& complex, const Places& places) const;
   OracleReport check_edges(const TetComplex& complex) const;
+  OracleReport check_sizes(const TetComplex& complex) const;
 
   double delta() const;
   AngleScope scope() const;

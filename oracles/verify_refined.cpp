@@ -3,6 +3,7 @@
 
 #include "oracles/chamfer.h"
 #include "oracles/delaunay.h"
+#include "oracles/edge_sizes.h"
 #include "oracles/enrichment.h"
 #include "oracles/filter.h"
 #include "oracles/hull.h"
@@ -63,6 +64,7 @@ void Verification::check_promises(const RefinedMesh& mesh) {
     add(check_filter(mesh), "refined-");
   }
   if (options_.promised.max_edge > 0) add(check_edges(*mesh.complex), "refined-");
+  if (!options_.promised.size_field.empty()) add(check_sizes(*mesh.complex), "refined-");
   if (!options_.promised.approximate) add(check_enrichment(mesh));
 }
 
@@ -85,6 +87,30 @@ OracleReport Verification::check_edges(const TetComplex& complex) const {
     if (here > most) report.fail(complex.tet_name(t) + " has an edge above --max-edge");
   }
   report.figures.emplace_back("longest edge", longest);
+  return report;
+}
+
+// No edge of a tetrahedron of the region is longer than --size-field allows.
+OracleReport Verification::check_sizes(const TetComplex& complex) const {
+  OracleReport report("sizes", "tetrahedra");
+  const EdgeSizes sizes(options_.promised.size_field, options_.promised.size_growth);
+  double largest = 0;
+  for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
+    ++report.checked;  // there may be none in the region
+    if (complex.inside[t] == 0 && scope() == AngleScope::solid) continue;
+    const Tet& tet = complex.tetrahedra[t];
+    double here = 0;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < i; ++j) {
+        here = std::max(
+            here, sizes.excess(complex.points->nearest(tet[i]), complex.points->nearest(tet[j])));
+      }
+    }
+    largest = std::max(largest, here);
+    if (here > EdgeSizes::kMost)
+      report.fail(complex.tet_name(t) + " has an edge above --size-field");
+  }
+  report.figures.emplace_back("largest edge over its size", largest);
   return report;
 }
 

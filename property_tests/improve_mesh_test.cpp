@@ -301,6 +301,41 @@ TEST(ImproveMesh, MakesNoEdgeThatIsTooLong) {
   EXPECT_GT(longest(delmesher::improve_mesh(cube()).mesh), options.max_edge);
 }
 
+// Near one corner, where the mesh has to be fine; far from there it becomes coarser.
+TEST(ImproveMesh, MakesNoEdgeAboveTheSizeField) {
+  const Point corner = cube().vertices[cube().tetrahedra[0][0]];
+  Options options;
+  options.size_growth = 0.5;
+  // The edges that exceed what they may be, among those of all tetrahedra.
+  const auto too_long = [&](const TetMesh& mesh, double size) {
+    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    for (const auto& t : mesh.tetrahedra) {
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < i; ++j) {
+          const Point &a = mesh.vertices[t[i]], &b = mesh.vertices[t[j]];
+          const auto from = [&](const Point& p) {
+            return std::hypot(p[0] - corner[0], p[1] - corner[1], p[2] - corner[2]);
+          };
+          const double length = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+          // The ends alone: a weaker law than that of the whole edge.
+          if (length > size + 0.5 * std::min(from(a), from(b)) + 1e-12) {
+            edges.insert(std::minmax(t[i], t[j]));
+          }
+        }
+      }
+    }
+    return edges.size();
+  };
+  double size = 0.01;
+  while (too_long(cube(), size) > 0) size *= 1.1;
+  // With the law of the whole edge: enough that nothing is too long before.
+  options.size_field = {{corner, size}};
+  const Law law(cube(), options);
+  EXPECT_EQ(too_long(law.result.mesh, size), 0U);
+  EXPECT_GT(too_long(delmesher::improve_mesh(cube()).mesh, size), 0U);
+  EXPECT_LT(law.result.mesh.tetrahedra.size(), cube().tetrahedra.size());
+}
+
 TEST(ImproveMesh, RefusesWithItsOwnStatus) {
   TetMesh mesh = cube();
   std::swap(mesh.tetrahedra[3][0], mesh.tetrahedra[3][1]);

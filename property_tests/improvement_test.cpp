@@ -368,6 +368,13 @@ TEST(Improvement, MakesNoEdgeLongerThanPromised) {
   EXPECT_FALSE(check_improvement(told.record, points, told.promise).passed());
   told.promise.max_edge = 1.001 * after;
   EXPECT_TRUE(check_improvement(told.record, points, told.promise).passed());
+  // A size field that grows so slowly is nearly the same everywhere.
+  told.promise.max_edge = 0;
+  told.promise.size_growth = 1e-12;
+  told.promise.size_field = {{{0, 0, 0}, 1.001 * before}};
+  EXPECT_FALSE(check_improvement(told.record, points, told.promise).passed());
+  told.promise.size_field = {{{0, 0, 0}, 1.001 * after}};
+  EXPECT_TRUE(check_improvement(told.record, points, told.promise).passed());
 }
 
 }  // namespace

@@ -179,6 +179,23 @@ TEST(Truths, OfNothingNoEdgeIsTooLong) {
   EXPECT_TRUE(report.all_passed()) << to_text(report);
 }
 
+// The field is promised as it was asked for; one that grows more slowly was not kept.
+TEST(Truths, ASizeFieldIsKeptAndNoFinerOne) {
+  Options options = honest_options();
+  options.max_edge = 0;
+  const delmesher::Surface surface = samples::wedge_and_slab();
+  options.size_field = {{surface.vertices[0], 0.02}, {{50, 60, 70}, 0.1}};
+  Told told = run_of(options, Task::mesh, surface);
+  const VerifyReport report = verdict_on(told);
+  ASSERT_NE(report.find("refined-sizes"), nullptr);
+  EXPECT_TRUE(samples::exact_or_rounded(report) && report.all_passed()) << to_text(report);
+  told.promise.size_growth = 0.2;
+  EXPECT_FALSE(verdict_on(told).find("refined-sizes")->passed());
+  told.promise.size_growth = options.size_growth;
+  told.promise.size_field[0].size = 0.01;
+  EXPECT_FALSE(verdict_on(told).find("refined-sizes")->passed());
+}
+
 // A cut point is the same point from either end of its edge.
 TEST(Truths, CutPointsMayBeGivenFromEitherEnd) {
   Told told = honest();

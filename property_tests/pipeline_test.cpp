@@ -196,6 +196,9 @@ TEST(Solids, ThatMeetTheBoundAreLeftAsTheyAre) {
     options.max_edge = 0.25;
     EXPECT_GT(delmesher::tetrahedralize(model.surface, options).mesh.tetrahedra.size(), 50U);
     options.max_edge = 0;
+    options.size_field = {{model.surface.vertices[0], 0.1}};
+    EXPECT_GT(delmesher::tetrahedralize(model.surface, options).mesh.tetrahedra.size(), 50U);
+    options.size_field.clear();
     options.region = delmesher::Region::hull;
     EXPECT_TRUE(delmesher::tetrahedralize(model.surface, options).statistics.enriched);
   }
@@ -390,6 +393,16 @@ TEST(Limits, AreErrorsAsValues) {
   options = {};
   options.max_edge = -1;
   expect_refused(options, "max edge must be at least 0");
+  options = {};
+  options.size_growth = 0;
+  expect_refused(options, "size growth must be above 0 and at most 1");
+  for (const delmesher::SizeSource& wrong :
+       {delmesher::SizeSource{{0, 0, 0}, 0}, delmesher::SizeSource{{0, 0, 0}, HUGE_VAL},
+        delmesher::SizeSource{{0, std::nan(""), 0}, 1}}) {
+    options = {};
+    options.size_field = {{{0, 0, 0}, 1}, wrong};
+    expect_refused(options, "source 1 of the size field has no finite point or no size above 0");
+  }
   options = {};
   options.threads = 1025;
   expect_refused(options, "threads must be between 0 and 1024");

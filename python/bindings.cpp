@@ -86,6 +86,13 @@ Surface surface_of(const Array<double>& points, const Array<std::uint32_t>& tria
 void set_options(Options& options, const py::dict& given) {
   for (const auto& [key, value] : given) {
     const auto name = py::cast<std::string>(key);
+    if (name == "size_field") {
+      for (const auto& [x, y, z, size] :
+           rows_of<double, 4>(py::cast<Array<double>>(value), "size_field")) {
+        options.size_field.push_back({{x, y, z}, size});
+      }
+      continue;
+    }
     const auto number = py::cast<double>(value);
     if (!set_option(options, name, number)) {
       throw py::value_error("option " + name + " cannot be " +

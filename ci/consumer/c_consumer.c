@@ -28,6 +28,10 @@ int main(void) {
   }
   delmesher_options* options = delmesher_options_new();
   if (delmesher_options_set(options, "max_edge", 0.5) != 0) return fail("max_edge is no option");
+  const double sources[] = {0, 0, 0, 0.25, 1, 1, 1, 0.25};
+  if (delmesher_options_size_field(options, sources, 2) != 0) return fail("no size field");
+  if (delmesher_options_size_field(options, NULL, 1) != -1) return fail("a size field of nothing");
+  if (delmesher_options_size_field(NULL, sources, 2) != -1) return fail("a size field of nobody");
   if (delmesher_options_set(options, "threads", 2) != 0) return fail("threads is no option");
   if (delmesher_options_set(options, "max_egde", 1) != -1) return fail("max_egde is an option");
   if (delmesher_options_set(options, "threads", 1.5) != -1) return fail("one and a half threads");

@@ -211,6 +211,14 @@ void add_writing(CLI::App& app, Command& command) {
   add_ascii(app, command);
 }
 
+void add_sizes(CLI::App& app, Command& command, Given& given) {
+  app.add_option("--size-field", command.sizes_file,
+                 "smaller edges in places: lines X Y Z SIZE, or a .pos of Gmsh")
+      ->type_name("FILE");
+  add_number(app, given, "size-growth",
+             "how much larger edges may be per distance from there (0.3)", kBounds.growth);
+}
+
 void add_mesh(CLI::App& app, Command& command, Given& given) {
   add_common(app, command, given);
   add_run(app, command, given);
@@ -240,6 +248,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
                "stop before restoring the input: a mesh of the chamfered surface");
   add_number(app, given, "chamfer-radius", "how far a chamfer may reach", positive(kBounds.length));
   add_number(app, given, "max-edge", "largest edge", positive(kBounds.length));
+  add_sizes(app, command, given);
   add_as_paper(app, given, paper_options().as_paper);
   app.add_flag("--no-bridge-simplification", given.no_bridges, "keep every bridge (section 4.4)");
   app.add_option_function<std::string>(
@@ -261,6 +270,7 @@ void add_improve(CLI::App& app, Command& command, Given& given) {
   add_writing(app, command);
   add_number(app, given, "delta", "no smaller face angle is made, degrees (14.47)", kBounds.delta);
   add_number(app, given, "max-edge", "no longer edge is made", positive(kBounds.length));
+  add_sizes(app, command, given);
   add_threads(app, given);
 }
 
@@ -330,6 +340,7 @@ void apply(const Given& given, Command& command) {
   options.gabriel |= given.gabriel;
   number("chamfer-radius", options.chamfer_radius);
   number("max-edge", options.max_edge);
+  number("size-growth", options.size_growth);
   number("weld", command.repair.weld);
   number("time-limit", options.time_limit_seconds);
   double vertices = 0, budget = 0, threads = 1;
@@ -412,8 +423,10 @@ std::string output_error(const Command& command, bool several,
     std::error_code error;
     if (!std::filesystem::is_character_file(where(file), error)) seen.push_back(where(file));
   }
-  // This file is only read, by every run.
-  if (!command.names_file.empty() && clash(command.names_file)) return command.names_file + kClash;
+  // These files are only read, by every run.
+  for (const std::string* file : {&command.names_file, &command.sizes_file}) {
+    if (!file->empty() && clash(*file)) return *file + kClash;
+  }
   return {};
 }
 

@@ -22,6 +22,7 @@ struct Command {
   Options options;
   std::string stats_file, chamfered_file, exact_file;  // empty: not wanted
   std::string names_file;                              // empty: names of the input
+  std::string sizes_file;                              // empty: no size field
   std::string defects_file;                            // of check
   io::WriteOptions write;
   io::RepairOptions repair;

@@ -61,6 +61,10 @@ TEST(Arguments, AllOptions) {
                                "0.25",
                                "--max-edge",
                                "3",
+                               "--size-field",
+                               "sizes.pos",
+                               "--size-growth",
+                               "0.2",
                                "--region",
                                "hull",
                                "--max-vertices",
@@ -87,6 +91,8 @@ TEST(Arguments, AllOptions) {
   EXPECT_TRUE(o.approximate);
   EXPECT_EQ(o.chamfer_radius, 0.25);
   EXPECT_EQ(o.max_edge, 3);
+  EXPECT_EQ(parsed.command.sizes_file, "sizes.pos");
+  EXPECT_EQ(o.size_growth, 0.2);
   EXPECT_EQ(o.region, Region::hull);
   EXPECT_EQ(o.max_vertices, 1000U);
   EXPECT_EQ(o.time_limit_seconds, 2.5);
@@ -216,6 +222,8 @@ TEST(Arguments, WhatIsMistypedIsNamedWithWhatMayBeMeant) {
   expect_usage_error({"in.off", "-o", "a.mesh", "--tau", "2"},
                      "out of range: 2 (at least 0, at most 1)");
   expect_usage_error({"in.off", "-o", "a.mesh", "--max-edge", "0"}, "out of range: 0 (above 0)");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--size-growth", "2"}, "out of range: 2");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--size-field", "a.mesh"}, "a.mesh: named twice");
 }
 
 TEST(Arguments, HelpFitsAScreen) {

@@ -39,7 +39,8 @@ int ImproveRunner::read() {
   mesh_ = std::move(input.mesh);
   names_ = std::move(input.names);
   note_input(input.format, mesh_.vertices.size(), mesh_.tetrahedra.size(), "tetrahedra");
-  return read_names(names_);
+  const int code = read_sizes();
+  return code == kDone ? read_names(names_) : code;
 }
 
 // The line of quality, with the quality before.

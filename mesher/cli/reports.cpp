@@ -83,6 +83,8 @@ Json parameters_json(const Command& command) {
           {"bridge_simplification", o.simplify_bridges},
           {"chamfer_radius", o.chamfer_radius},
           {"max_edge", o.max_edge},
+          {"size_field", command.sizes_file},
+          {"size_growth", o.size_growth},
           {"region", o.region == Region::hull ? "hull" : "interior"},
           {"max_vertices", o.max_vertices},
           {"time_limit", o.time_limit_seconds},

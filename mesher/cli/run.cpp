@@ -44,7 +44,8 @@ int Runner::read() {
   names_ = std::move(input.names);
   note_input(input.format, surface_.vertices.size(), surface_.triangles.size(), "triangles");
   for (const std::string& note : input.notes) tell(command_.input + ": " + note);
-  return read_names(names_);
+  const int code = read_sizes();
+  return code == kDone ? read_names(names_) : code;
 }
 
 int Runner::check() {

@@ -79,6 +79,14 @@ int RunSteps::read_names(io::LabelNames& names) const {
   return kDone;
 }
 
+int RunSteps::read_sizes() {
+  if (command_.sizes_file.empty()) return kDone;
+  io::SizeFieldResult field = io::read_size_field(command_.sizes_file);
+  if (!field.ok()) return fail(kUnreadable, field.error);
+  sizes_ = std::move(field.sources);
+  return kDone;
+}
+
 int RunSteps::fail_reading(io::ReadCode code, const std::string& error) const {
   switch (code) {
     case io::ReadCode::stopped:
@@ -103,6 +111,7 @@ void RunSteps::note_input(const std::string& format, std::uint64_t vertices, std
 
 Options RunSteps::options_with_progress(ProgressLine& line) const {
   Options options = command_.options;
+  options.size_field = sizes_;
   double& limit = options.time_limit_seconds;
   if (limit > 0) limit = std::max(limit - seconds(), 1e-9);  // 0 would be none
   options.progress = [&line](const Progress& progress) {

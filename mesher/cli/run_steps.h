@@ -37,6 +37,8 @@ class RunSteps {
   std::function<bool()> goes_on() const;
   // Adds the names of --names to those of the input.
   int read_names(io::LabelNames& names) const;
+  // Reads the file of --size-field for the call().
+  int read_sizes();
   // Prints why nothing was read and returns the code.
   int fail_reading(io::ReadCode code, const std::string& error) const;
 
@@ -87,6 +89,7 @@ class RunSteps {
   io::WriteStatus write_stats(const Outcome& outcome);
   double seconds() const;  // since the start
 
+  std::vector<SizeSource> sizes_;
   Clock::time_point start_ = Clock::now();
 };
 

@@ -20,6 +20,7 @@ struct OptionBounds {
   Bounds delta, tau, acute, corner;
   Bounds planar{.low = 0, .high = 0.01};      // or kPlanarAuto
   Bounds length{.low = 0, .high = kNoBound};  // chamfer_radius and max_edge
+  Bounds growth{.low = 0, .high = 1, .above_low = true};
   Bounds seconds{.low = 0, .high = kNoBound};
   Bounds budget{.low = 0, .high = 1e15};
   Bounds max_vertices{.low = 0, .high = 4294967294};  // the largest index

@@ -11,6 +11,7 @@
 #include "mesher/delmesher/run.h"
 #include "mesher/improve/work_mesh.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/predicates/size_field.h"
 #include "mesher/surface/surface_face.h"
 #include "mesher/surface/topology.h"
 
@@ -29,6 +30,7 @@ struct Sparing {
 struct ImproveOptions {
   double delta = 14.47;  // degrees: no face angle below it is made, unless one was there
   double max_edge = 0;   // no edge longer than this is made; 0: any
+  const SizeField* sizes = nullptr;  // nor than these allow
   Region region = Region::interior;  // which tetrahedra are to be good
   bool as_given = false;  // of a stand-in: new tetrahedra are positive on the surface as given, too
   Sparing sparing = {};

@@ -39,6 +39,7 @@ Goals goals_of(const ImproveOptions& options) {
           .promised = squared_sine(options.delta),
           .floor = squared_sine(kFlattestDihedral),
           .max_edge = options.max_edge,
+          .sizes = options.sizes != nullptr && !options.sizes->empty() ? options.sizes : nullptr,
           .as_given = options.as_given,
           .everywhere = options.region == Region::hull};
 }

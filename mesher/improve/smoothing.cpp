@@ -218,8 +218,10 @@ bool Smoothing::becomes_too_long(TetId t, int i, const Vec3& x) const {
   const Tet& tet = state_.mesh.tet(t);
   for (int k = 0; k < 4; ++k) {
     const Vec3& end = state_.position(tet[k]);
-    if (k != i && state_.counts(t) && state_.too_long(x, end) &&
-        squared_norm(subtract(end, x)) > squared_norm(subtract(end, state_.position(v_)))) {
+    if (k == i || !state_.counts(t) || !state_.too_long(x, end)) continue;
+    const Vec3& before = state_.position(v_);
+    if (squared_norm(subtract(end, x)) > squared_norm(subtract(end, before)) ||
+        !state_.too_long(before, end)) {  // shorter, but nearer to where sizes are smaller
       return true;
     }
   }

@@ -13,6 +13,7 @@
 #include "mesher/improve/quality.h"
 #include "mesher/improve/work_mesh.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/predicates/size_field.h"
 #include "mesher/surface/facet_locator.h"
 #include "mesher/surface/topology.h"
 
@@ -54,9 +55,10 @@ struct Goals {
   // Squared sines: no face angle below `promised` and no dihedral angle flatter than `floor` is
   // made, unless one as bad was there.
   float promised = 0, floor = 0;
-  double max_edge = 0;      // no edge longer than this is made; 0: any
-  bool as_given = false;    // tetrahedra are positive on the surface as given, too
-  bool everywhere = false;  // tetrahedra outside count as well
+  double max_edge = 0;               // no edge longer than this is made; 0: any
+  const SizeField* sizes = nullptr;  // nor than these allow; null: any
+  bool as_given = false;             // tetrahedra are positive on the surface as given, too
+  bool everywhere = false;           // tetrahedra outside count as well
 };
 
 // Where a vertex is or could be: a point of the store, and as it will be written, before repairs of
@@ -158,7 +160,9 @@ class State {
 
   // Is an edge between these longer than wanted? Edges that exist may stay.
   bool too_long(const Vec3& x, const Vec3& y) const {
-    return goals_.max_edge > 0 && squared_norm(subtract(y, x)) > goals_.max_edge * goals_.max_edge;
+    return (goals_.max_edge > 0 &&
+            squared_norm(subtract(y, x)) > goals_.max_edge * goals_.max_edge) ||
+           (goals_.sizes != nullptr && goals_.sizes->is_too_long(x, y));
   }
 
   // --- changes

@@ -12,6 +12,7 @@ double predict(const chamfer::ChamferedSurface& surface, const Session& session)
   refine::PredictionOptions options;
   options.region = session.options.region;
   options.max_edge = session.options.max_edge;
+  options.sizes = &session.sizes;
   // Every triangle that the filter drops comes back in the final step, with at least one and a half
   // tetrahedra.
   return 1.5 * static_cast<double>(surface.filter.dropped_triangles) +

@@ -9,7 +9,7 @@ std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Se
   constexpr std::size_t kMostTriangles = 1000;
   const Options& options = session.options;
   if (options.as_paper.enrichment || options.region != Region::interior || options.max_edge > 0 ||
-      session.topology.triangles.size() > kMostTriangles) {
+      !session.sizes.empty() || session.topology.triangles.size() > kMostTriangles) {
     return std::nullopt;
   }
   const std::size_t enriched_points = session.points.size();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 #include "mesher/predicates/predicates.h"
 #include "mesher/refine/tetrahedron_shape.h"
@@ -55,12 +56,21 @@ std::uint8_t level_of(double ratio2) {
 
 }  // namespace
 
-Goal::Goal(double delta, bool slivers, double max_edge)
-    : max_cosine_squared_(cosine_squared(delta)), slivers_(slivers), max_edge_(max_edge) {
+Goal::Goal(double delta, bool slivers, double max_edge, const SizeField* sizes)
+    : max_cosine_squared_(cosine_squared(delta)),
+      slivers_(slivers),
+      max_edge_(max_edge),
+      sizes_(sizes != nullptr && !sizes->empty() ? sizes : nullptr) {
   // An isosceles triangle with unit base and the angle delta opposite has height cot(delta / 2) /
   // 2, and cot^2(delta / 2) = (1 + cos delta) / (1 - cos delta).
   const double cosine = std::sqrt(max_cosine_squared_);
   offcentre2_ = (1 + cosine) / (1 - cosine) / 4;
+}
+
+bool Goal::has_edge_above_sizes(const PointStore& points, const VertexId* v) const {
+  return std::any_of(std::begin(kEdge), std::end(kEdge), [&](const auto& e) {
+    return sizes_->is_too_long(points.nearest(v[e[0]]), points.nearest(v[e[1]]));
+  });
 }
 
 std::uint8_t Goal::badness(const PointStore& points, const VertexId* v) const {
@@ -77,6 +87,7 @@ std::uint8_t Goal::badness(const PointStore& points, const VertexId* v) const {
   if (!bad && max_edge_ > 0) {
     bad = *std::max_element(s.length2.begin(), s.length2.end()) > max_edge_ * max_edge_;
   }
+  if (!bad && sizes_ != nullptr) bad = has_edge_above_sizes(points, v);
   if (!bad) return 0;
   add_circumsphere(s);
   return level_of(s.radius2 / shortest2);

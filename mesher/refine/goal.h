@@ -4,14 +4,15 @@
 #include <cstdint>
 
 #include "mesher/predicates/points.h"
+#include "mesher/predicates/size_field.h"
 
 namespace delmesher::refine {
 
 class Goal {
  public:
   // Face angles of at least `delta` degrees; no slivers, if asked; no edge longer than `max_edge`
-  // unless that is 0.
-  Goal(double delta, bool slivers, double max_edge);
+  // unless that is 0, nor than `sizes` allow unless that is null or empty.
+  Goal(double delta, bool slivers, double max_edge, const SizeField* sizes = nullptr);
 
   // Levels of badness grow with the squared radius-edge ratio, by a few per doubling.
   static constexpr std::uint8_t kWorst = 254;
@@ -25,9 +26,12 @@ class Goal {
   double offcentre2() const { return offcentre2_; }
 
  private:
+  bool has_edge_above_sizes(const PointStore& points, const VertexId* v) const;
+
   double max_cosine_squared_;  // a face angle is too small if its squared cosine exceeds this
   bool slivers_;
   double max_edge_;
+  const SizeField* sizes_;  // null: any
   double offcentre2_;
 };
 

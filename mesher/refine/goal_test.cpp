@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "mesher/refine/test_complexes.h"
 
@@ -116,6 +117,21 @@ TEST(Goal, LongEdgesAreBadIfBounded) {
   EXPECT_EQ(badness(Goal(30, true, 0), kRegular), 0);
   EXPECT_EQ(badness(Goal(30, true, edge * 1.001), kRegular), 0);
   EXPECT_GT(badness(Goal(30, true, edge * 0.999), kRegular), 0);
+}
+
+// The source is in the centre, at a distance of 1 from the middle of each edge.
+TEST(Goal, EdgesAboveTheSizeFieldAreBad) {
+  const double edge = std::sqrt(8.0);
+  for (const double growth : {0.1, 0.5, 1.0}) {
+    const auto level = [&](double size) {
+      const SizeField sizes(std::vector<SizeSource>{{{0, 0, 0}, size}}, growth);
+      return badness(Goal(30, true, 0, &sizes), kRegular);
+    };
+    EXPECT_EQ(level(edge - growth + 0.001), 0) << growth;
+    EXPECT_GT(level(edge - growth - 0.001), 0) << growth;
+  }
+  const SizeField none;
+  EXPECT_EQ(badness(Goal(30, true, 0, &none), kRegular), 0);
 }
 
 TEST(Goal, TheOffCentreMeetsTheAngle) {

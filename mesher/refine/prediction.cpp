@@ -331,6 +331,7 @@ class Predictor {
     if (cell.depth < kMinDepth) return divide(cell, cell.parent, where);
     Surroundings around = surroundings(cell.center, cell.side, cell.parent);
     double size = around.size;
+    if (options_.sizes != nullptr) size = std::min(size, options_.sizes->at(cell.center));
     const bool crossed = around.nearest < 0.8660254 * cell.side;
     const bool interior = options_.region == Region::interior;
     if (where == Where::unknown && interior && !crossed) {

@@ -10,6 +10,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher/run.h"
+#include "mesher/predicates/size_field.h"
 #include "mesher/surface/plc.h"
 #include "mesher/surface/topology.h"
 
@@ -17,7 +18,8 @@ namespace delmesher::refine {
 
 struct PredictionOptions {
   Region region = Region::interior;
-  double max_edge = 0;  // of the mesh to come; 0: no bound
+  double max_edge = 0;               // of the mesh to come; 0: no bound
+  const SizeField* sizes = nullptr;  // the same, from place to place
 };
 
 // Tetrahedra of the mesh that refining the complex (without the outer box) will lead to: those

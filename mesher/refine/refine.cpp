@@ -65,8 +65,9 @@ void Refiner::refine_tetrahedra() {
   refining_ = true;
   constexpr std::size_t kUnlimited = ~std::size_t{0};
   constexpr std::size_t kCapFactor = 4;
-  const Goal guaranteed(std::min(options_.delta, kGuaranteedDelta), false, options_.max_edge);
-  const Goal wanted(options_.delta, options_.slivers, options_.max_edge);
+  const Goal guaranteed(std::min(options_.delta, kGuaranteedDelta), false, options_.max_edge,
+                        options_.sizes);
+  const Goal wanted(options_.delta, options_.slivers, options_.max_edge, options_.sizes);
   reach(guaranteed, kUnlimited);
   if (!options_.slivers && options_.delta <= kGuaranteedDelta) return;
   result_.capped = !reach(wanted, kCapFactor * points_.size());

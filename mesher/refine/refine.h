@@ -13,6 +13,7 @@
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/predicates/size_field.h"
 #include "mesher/surface/plc.h"
 #include "mesher/surface/solid.h"
 #include "mesher/surface/topology.h"
@@ -35,7 +36,8 @@ enum class RefineStep : std::uint8_t {
 struct RefineOptions {
   double delta = 14.47;  // degrees
   bool slivers = true;
-  double max_edge = 0;  // 0: no bound
+  double max_edge = 0;               // 0: no bound
+  const SizeField* sizes = nullptr;  // of edges; null or empty: no bound
   // Split the bad tetrahedron with the largest radius-edge ratio first (section 5.4); otherwise by
   // levels of badness.
   bool largest_ratio_first = false;

@@ -419,6 +419,34 @@ TEST(Refine, SegmentsAtAnApexAreSplitOnConcentricShells) {
   }
 }
 
+// Of a source inside, one outside and one on the surface.
+TEST(Refine, SizeFieldBoundsEdgesInside) {
+  const std::vector<SizeSource> sources = {
+      {{0.3, 0.4, 0.5}, 0.02}, {{1.2, 0.5, 0.5}, 0.05}, {{0, 0, 0}, 0.04}};
+  const SizeField sizes(sources, 0.4);
+  RefineOptions options;
+  Refinement coarse(box(), options);
+  options.sizes = &sizes;
+  Refinement r(box(), options);
+  EXPECT_GT(r.result.tetrahedra.size(), 2 * coarse.result.tetrahedra.size());
+  std::size_t checked = 0;
+  for (std::size_t n = 0; n < r.result.tetrahedra.size(); ++n) {
+    if (r.result.side[n] == Side::outside) continue;
+    for (const auto& e : kEdge) {
+      const Vec3 a = r.points.nearest(r.result.tetrahedra[n][e[0]]);
+      const Vec3 b = r.points.nearest(r.result.tetrahedra[n][e[1]]);
+      const Vec3 middle = add_scaled(a, 0.5, subtract(b, a));
+      for (const Vec3& x : {a, b, middle}) {
+        for (const SizeSource& s : sources) {
+          EXPECT_LE(distance(a, b), (s.size + 0.4 * distance(x, s.point)) * (1 + 1e-12));
+        }
+      }
+      ++checked;
+    }
+  }
+  EXPECT_GT(checked, 1000U);
+}
+
 TEST(Refine, MaxEdgeBoundsEdgesInside) {
   RefineOptions options;
   options.max_edge = 0.3;

@@ -24,7 +24,7 @@ Refiner::Refiner(const Plc& plc, const SurfaceTopology& topology, PointStore& po
       constraints_(dt_, subsegments_, subfacets_),
       sides_(plc, topology, points, dt_, subfacets_, options.removed),
       bad_(dt_, points, options.largest_ratio_first),
-      goal_(options.delta, options.slivers, options.max_edge) {}
+      goal_(options.delta, options.slivers, options.max_edge, options.sizes) {}
 
 void Refiner::drain() {
   for (;;) {

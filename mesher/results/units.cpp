@@ -84,6 +84,10 @@ Result scaled_and_back(const Model& model, const Options& options,
   Options units = options;
   units.max_edge = std::ldexp(options.max_edge, -exponent);
   units.chamfer_radius = std::ldexp(options.chamfer_radius, -exponent);
+  for (SizeSource& source : units.size_field) {
+    scale(source.point, -exponent);
+    source.size = std::ldexp(source.size, -exponent);
+  }
   Result result = task(scaled, units);
   // Messages about defects name coordinates; points that become subnormal are not exact.
   if (result.status.code == StatusCode::invalid_surface ||

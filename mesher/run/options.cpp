@@ -1,5 +1,7 @@
 #include "mesher/run/options.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "mesher/delmesher_plane.h"
@@ -40,12 +42,22 @@ std::string options_defect(const Options& o, const OptionBounds& bounds) {
              {"corner", o.corner, bounds.corner, kDegrees},
              {"chamfer radius", o.chamfer_radius, bounds.length},
              {"max edge", o.max_edge, bounds.length},
+             {"size growth", o.size_growth, bounds.growth},
              {"budget", static_cast<double>(o.budget), bounds.budget},
              {"time limit", o.time_limit_seconds, bounds.seconds},
              {"max vertices", static_cast<double>(o.max_vertices), bounds.max_vertices},
              {"threads", static_cast<double>(o.threads), bounds.threads}};
   for (const auto& option : all) {
     if (!option.bounds.allow(option.value)) return defect(option.name, option.bounds, option.unit);
+  }
+  for (std::size_t n = 0; n < o.size_field.size(); ++n) {
+    const auto& [point, size] = o.size_field[n];
+    const bool finite =
+        std::all_of(point.begin(), point.end(), [](double x) { return std::isfinite(x); });
+    if (!finite || !std::isfinite(size) || !(size > 0)) {
+      return "source " + std::to_string(n) +
+             " of the size field has no finite point or no size above 0";
+    }
   }
   return {};
 }

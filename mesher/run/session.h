@@ -7,6 +7,7 @@
 #include "mesher/base/control.h"
 #include "mesher/delmesher.h"
 #include "mesher/predicates/predicates.h"
+#include "mesher/predicates/size_field.h"
 #include "mesher/surface/topology.h"
 
 namespace delmesher::run {
@@ -25,6 +26,7 @@ struct Session {
   // What the stand-in's vertices were, once the session has gone back to the surface as given
   // (policies/as_given.h): its first points, and their planes.
   std::optional<PointStore> stand_in;
+  SizeField sizes;
   double diagonal = 0;  // of the input's bounding box, in its units
 
   std::size_t input_vertices() const { return topology.vertex_half_edge.size(); }

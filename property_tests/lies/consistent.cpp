@@ -316,6 +316,10 @@ const Lie kConsistent[] = {
      [](Told& t) { t.promise.chamfer_radius = 0x1p-8; }},
     {"a run with edges longer than promised", "refined-edges",
      [](Told& t) { t.promise.max_edge = 0x1p-4; }},
+    {"a run without the size field that was promised", "refined-sizes",
+     [](Told& t) {
+       t.promise.size_field = {{t.sample.input.vertices[0], 0x1p-6}};
+     }},
     {"a run of the other region", "promise",
      [](Told& t) { t.promise.region = delmesher::Region::hull; }},
     {"a run that stopped before the last step", "promise",

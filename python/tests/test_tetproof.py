@@ -196,6 +196,23 @@ def test_the_same_for_any_number_of_threads():
     assert np.array_equal(one.points, two.points) and np.array_equal(one.tetrahedra, two.tetrahedra)
 
 
+def test_a_size_field():
+    corner, fine = np.zeros(3), [[0, 0, 0, 0.02]]
+    mesh = tetproof.mesh(POINTS, TRIANGLES, size_field=fine, size_growth=0.5, improve=False, region="interior")
+    edges = np.vstack([mesh.tetrahedra[:, pair] for pair in ([0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3])])
+    ends = mesh.points[edges]
+    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    nearest = np.linalg.norm(ends - corner, axis=2).min(axis=1)
+    assert (lengths <= 0.02 + 0.5 * nearest + 1e-9).all()
+    assert lengths.max() > 0.2
+    again = tetproof.improve(mesh, size_field=fine, size_growth=0.5)
+    assert len(again.tetrahedra) < len(mesh.tetrahedra)
+    assert len(tetproof.improve(mesh).tetrahedra) < len(again.tetrahedra)
+    for wrong in ([[0, 0, 0]], [0, 0, 0, 1], [[0, 0, 0, 0]], [[0, 0, 0, -1]], [[0, 0, float("nan"), 1]]):
+        with pytest.raises(ValueError):
+            tetproof.mesh(POINTS, TRIANGLES, size_field=wrong)
+
+
 def test_cdt_and_improve():
     mesh = tetproof.cdt(POINTS, TRIANGLES)
     assert len(mesh.tetrahedra) in (5, 6) and mesh.volumes().sum() == pytest.approx(1)

@@ -266,7 +266,7 @@ def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Op
 _REGIONS = {"interior": 0, "hull": 1}
 
 
-def _options(given: Mapping[str, Any], names: Mapping[str, Any]) -> Dict[str, float]:
+def _options(given: Mapping[str, Any], names: Mapping[str, Any], size_field: Any = None) -> Dict[str, Any]:
     options = {name: value for name, value in {**names, **given}.items() if value is not None}
     unknown = sorted(set(options) - set(_core.option_names()))
     if unknown:
@@ -279,7 +279,10 @@ def _options(given: Mapping[str, Any], names: Mapping[str, Any]) -> Dict[str, fl
         options["region"] = _REGIONS[options["region"]]
     if options.get("planar") == "auto":
         options["planar"] = -1
-    return {name: float(value) for name, value in options.items()}
+    named: Dict[str, Any] = {name: float(value) for name, value in options.items()}
+    if size_field is not None:
+        named["size_field"] = np.ascontiguousarray(size_field, dtype=np.float64)
+    return named
 
 
 def _raise(result: Dict[str, Any], report: Callable[[], Optional[Report]] = lambda: None) -> None:
@@ -353,8 +356,8 @@ def _shown(progress: Any) -> Iterator[Any]:
         bar.close()
 
 
-def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Optional[float] = None, delta: Optional[float] = None,
-         threads: Optional[int] = None, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
+def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Optional[float] = None, size_field: Any = None,
+         delta: Optional[float] = None, threads: Optional[int] = None, progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
     """Mesh the inside of a closed surface.
 
     Parameters
@@ -367,6 +370,9 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Op
         Come back on the boundary.
     max_edge : float, optional
         Largest edge, in units of the input.
+    size_field : (k, 4) array_like of float, optional
+        Smaller edges in places: rows ``x, y, z, size``. No edge is longer than ``size + size_growth * d`` at a distance ``d`` of any
+        of these points; the option ``size_growth`` is 0.3. Of a function ``f``: ``numpy.column_stack([points, f(points)])``.
     delta : float, default 14.47
         Smallest face angle of the refined mesh, degrees; best effort above the default.
     threads : int, default 1
@@ -392,7 +398,7 @@ def mesh(points: Any, triangles: Any = None, labels: Any = None, *, max_edge: Op
         An option or an array makes no sense.
     """
     arrays = _surface(points, triangles, labels)
-    named = _options(options, {"max_edge": max_edge, "delta": delta, "threads": threads})
+    named = _options(options, {"max_edge": max_edge, "delta": delta, "threads": threads}, size_field)
     with _shown(progress) as shown:
         result = _core.mesh(*arrays, named, shown, False)
     _raise(result, lambda: check(*arrays[:2]))
@@ -410,8 +416,8 @@ def cdt(points: Any, triangles: Any = None, labels: Any = None, *, region: str =
     return _mesh(result, getattr(points, "names", None))
 
 
-def improve(mesh: Mesh, *, max_edge: Optional[float] = None, delta: Optional[float] = None, progress: Union[Progress, bool, None] = None,
-            **options: Any) -> Mesh:
+def improve(mesh: Mesh, *, max_edge: Optional[float] = None, size_field: Any = None, delta: Optional[float] = None,
+            progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
     """Fewer and better tetrahedra of any conforming mesh; its boundary and its regions are kept exactly.
 
     Raises
@@ -419,7 +425,7 @@ def improve(mesh: Mesh, *, max_edge: Optional[float] = None, delta: Optional[flo
     InvalidMesh
         The mesh is not conforming.
     """
-    named = _options(options, {"max_edge": max_edge, "delta": delta})
+    named = _options(options, {"max_edge": max_edge, "delta": delta}, size_field)
     with _shown(progress) as shown:
         result = _core.improve(_fields(mesh), named, shown)
     _raise(result)

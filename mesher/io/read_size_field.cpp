@@ -1,0 +1,153 @@
+#include <utility>
+
+#include "mesher/io/reading.h"
+#include "mesher/io/text.h"
+
+namespace delmesher::io {
+namespace {
+
+double number_of(std::string_view token, Position here) {
+  double value = 0;
+  if (parse_double(token, value) != NumberStatus::ok) fail(here, "no number: " + in_quotes(token));
+  return value;
+}
+
+void add(const SizeSource& source, Position here, std::vector<SizeSource>& sources) {
+  if (!(source.size > 0)) fail(here, "sizes have to be above 0");
+  sources.push_back(source);
+}
+
+std::vector<SizeSource> parse_lines(std::string_view text) {
+  std::vector<SizeSource> sources;
+  TextLines in(text, Comments::at_token_start, ',');
+  for (bool first = true; in.next_line(); first = false) {
+    const Position here = at_line(in.line());
+    double numbers[4];
+    std::size_t count = 0;
+    bool words = false;
+    for (std::string_view token; in.next_token(token); ++count) {
+      double value = 0;
+      words = words || (first && parse_double(token, value) == NumberStatus::malformed);
+      if (words) continue;
+      if (count == 4) fail(here, "more than four numbers: X Y Z SIZE are expected");
+      numbers[count] = number_of(token, here);
+    }
+    if (words) continue;  // names of columns
+    if (count != 4) fail(here, "less than four numbers: X Y Z SIZE are expected");
+    add({{numbers[0], numbers[1], numbers[2]}, numbers[3]}, here, sources);
+  }
+  return sources;
+}
+
+// View "name" { SP(x,y,z){value}; SS(x,y,z, ... four of them){value, ... four}; ... };
+class ViewReader {
+ public:
+  explicit ViewReader(std::string_view text) : text_(text) {}
+
+  std::vector<SizeSource> read() {
+    while (next_view()) {
+      expect('{');
+      while (!accept('}')) read_element();
+      accept(';');
+    }
+    return std::move(sources_);
+  }
+
+ private:
+  Position here() const { return at_line(line_); }
+
+  void skip_space() {
+    for (; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '\n') {
+        ++line_;
+      } else if (text_.substr(at_, 2) == "//") {
+        while (at_ + 1 < text_.size() && text_[at_ + 1] != '\n') ++at_;
+      } else if (text_[at_] != ' ' && text_[at_] != '\t' && text_[at_] != '\r') {
+        return;
+      }
+    }
+  }
+  bool accept(char c) {
+    skip_space();
+    if (at_ >= text_.size() || text_[at_] != c) return false;
+    ++at_;
+    return true;
+  }
+  void expect(char c) {
+    if (!accept(c)) fail(here(), std::string("this is no view of Gmsh: a ") + c + " is missing");
+  }
+  std::string_view word() {
+    skip_space();
+    const std::size_t begin = at_;
+    while (at_ < text_.size() &&
+           std::string_view(" \t\r\n(){},;\"").find(text_[at_]) == std::string_view::npos) {
+      ++at_;
+    }
+    return text_.substr(begin, at_ - begin);
+  }
+
+  bool next_view() {
+    skip_space();
+    if (at_ == text_.size()) return false;
+    const std::string_view name = word();
+    if (name != "View") fail(here(), "not a view: " + in_quotes(name));
+    expect('"');
+    while (at_ < text_.size() && text_[at_] != '"' && text_[at_] != '\n') ++at_;
+    expect('"');
+    return true;
+  }
+
+  std::vector<double> numbers(char open, char close) {
+    std::vector<double> list;
+    expect(open);
+    do {
+      list.push_back(number_of(word(), here()));
+    } while (accept(','));
+    expect(close);
+    return list;
+  }
+
+  // Of several values for a corner, which are steps of time, the first one counts.
+  void read_element() {
+    const std::string_view name = word();
+    if (name.size() != 2 || name[0] != 'S') {
+      fail(here(), "only views of scalars have sizes, no " + in_quotes(name));
+    }
+    const std::vector<double> at = numbers('(', ')'), size = numbers('{', '}');
+    const std::size_t corners = at.size() / 3;
+    if (corners == 0 || at.size() % 3 != 0 || size.size() % corners != 0) {
+      fail(here(), std::to_string(at.size()) + " coordinates, but " + std::to_string(size.size()) +
+                       " values");
+    }
+    for (std::size_t n = 0; n < corners; ++n) {
+      add({{at[3 * n], at[3 * n + 1], at[3 * n + 2]}, size[n]}, here(), sources_);
+    }
+    expect(';');
+  }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::uint64_t line_ = 1;
+  std::vector<SizeSource> sources_;
+};
+
+std::vector<SizeSource> parse(std::string_view text) {
+  TextLines in(text, Comments::none);
+  std::string_view first;
+  const bool is_view = in.next_line() && in.next_token(first) && first == "View";
+  std::vector<SizeSource> sources = is_view ? ViewReader(text).read() : parse_lines(text);
+  if (sources.empty()) fail({}, "no sizes in it");
+  return sources;
+}
+
+}  // namespace
+
+SizeFieldResult read_size_field(const std::string& path) {
+  try {
+    return {{}, parse(read_file(path))};
+  } catch (...) {
+    return {end_of_reading(path).error, {}};
+  }
+}
+
+}  // namespace delmesher::io
