@@ -199,7 +199,7 @@ TEST_F(Told, ImproveSaysWhatThereWasBefore) {
   std::ifstream stats(path("s.json"));
   const auto json = nlohmann::json::parse(stats);
   EXPECT_EQ(json["parameters"]["job"], "improve");
-  EXPECT_EQ(json["parameters"].size(), 6U);
+  EXPECT_EQ(json["parameters"].size(), 8U);
   EXPECT_EQ(json["input"]["tetrahedra"], 1);
   EXPECT_EQ(json["given"]["tetrahedra"], 7);
   EXPECT_EQ(json["final"]["tetrahedra"], 1);

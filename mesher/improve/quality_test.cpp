@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
+#include <vector>
+
+#include "mesher/improve/cone.h"
 
 namespace delmesher::improve {
 namespace {
@@ -105,6 +109,81 @@ TEST(Quality, TheBestApexIsNearlyRegular) {
   EXPECT_GT(quality(apex, a, c, b).gamma + quality(apex, a, b, c).gamma, 0.99);
   EXPECT_LT(apex[2], 0);
   EXPECT_EQ(best_apex(a, a, a), a);
+}
+
+// The sides of a distorted cube around the origin, each cut in two, counter-clockwise from outside.
+std::vector<std::array<Vec3, 3>> faces_around(std::mt19937& random) {
+  std::uniform_real_distribution<double> size(0.8, 1.2);
+  std::array<Vec3, 8> corner;
+  for (std::size_t n = 0; n < 8; ++n) {
+    const double r = size(random);
+    corner[n] = {(n & 1U) != 0 ? r : -r, (n & 2U) != 0 ? r : -r, (n & 4U) != 0 ? r : -r};
+  }
+  constexpr std::size_t kSides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                        {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  std::vector<std::array<Vec3, 3>> faces;
+  for (const auto& [a, b, c, d] : kSides) {
+    faces.push_back({corner[a], corner[b], corner[c]});
+    faces.push_back({corner[a], corner[c], corner[d]});
+  }
+  return faces;
+}
+
+// One by one, however many there are: the last lanes are not full, and lanes are used again.
+TEST(Cone, AgreesWithTetrahedraOneByOne) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-0.3, 0.3);
+  Cone cone;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<std::array<Vec3, 3>> faces = faces_around(random);
+    faces.resize(1 + random() % faces.size());
+    std::ranges::shuffle(faces, random);
+    const std::size_t ignored = random() % faces.size();
+    cone.clear();
+    for (std::size_t n = 0; n < faces.size(); ++n) {
+      cone.add(faces[n][0], faces[n][1], faces[n][2], n != ignored);
+    }
+    ASSERT_EQ(cone.size(), faces.size());
+    for (int place = 0; place < 5; ++place) {
+      const Vec3 x = {unit(random), unit(random), unit(random)};
+      Quality worst = kNotCounted;
+      ASSERT_TRUE(cone.reaches(x, {}));
+      for (std::size_t n = 0; n < faces.size(); ++n) {
+        const Quality one = quality(x, faces[n][0], faces[n][1], faces[n][2]);
+        const Quality lane = cone.quality(n);
+        ASSERT_EQ(cone.counts(n), n != ignored);
+        if (n == ignored) {
+          ASSERT_EQ(lane.gamma, kNotCounted.gamma);
+          continue;
+        }
+        ASSERT_NEAR(lane.dihedral, one.dihedral, 1e-5 * one.dihedral);
+        ASSERT_NEAR(lane.face, one.face, 1e-5 * one.face);
+        ASSERT_NEAR(lane.gamma, one.gamma, 1e-5 * one.gamma);
+        worst = worse(worst, lane);
+      }
+      if (faces.size() == 1) continue;  // nothing counts
+      // What all reach, and what one of them does not in one of three ways.
+      EXPECT_TRUE(cone.reaches(x, worst));
+      EXPECT_FALSE(cone.reaches(x, {1.0001F * worst.dihedral, worst.face, worst.gamma}));
+      EXPECT_FALSE(cone.reaches(x, {worst.dihedral, 1.0001F * worst.face, worst.gamma}));
+      EXPECT_FALSE(cone.reaches(x, {worst.dihedral, worst.face, 1.0001F * worst.gamma}));
+    }
+  }
+}
+
+// Also where the tetrahedron that is not positive does not count.
+TEST(Cone, HasToBePositive) {
+  std::mt19937 random(8);
+  const std::vector<std::array<Vec3, 3>> faces = faces_around(random);
+  for (const bool counts : {true, false}) {
+    Cone cone;
+    for (const auto& [a, b, c] : faces) cone.add(a, b, c, counts);
+    EXPECT_TRUE(cone.reaches({0, 0, 0}, {}));
+    EXPECT_FALSE(cone.reaches({2, 0, 0}, {}));
+    EXPECT_FALSE(cone.reaches(faces[0][0], {}));
+    EXPECT_FALSE(cone.reaches({std::nan(""), 0, 0}, {}));
+    EXPECT_TRUE(cone.reaches({0, 0, 0}, {}));
+  }
 }
 
 }  // namespace

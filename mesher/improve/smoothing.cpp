@@ -16,14 +16,15 @@ bool Smoothing::begin(VertexId v) {
     if (state_.score(t) < state_.score(star_[0])) std::swap(t, star_[0]);
   }
   index_.clear();
+  cone_.clear();
   double shortest2 = HUGE_VAL;
   for (const TetId t : star_) {
     const int i = mesh.index_of(t, v);
     index_.push_back(i);
-    for (int k = 0; k < 4; ++k) {
-      if (k == i) continue;
-      const Vec3 edge = subtract(state_.position(mesh.tet(t)[k]), state_.position(v));
-      shortest2 = std::min(shortest2, squared_norm(edge));
+    const auto at = [&](int k) -> const Vec3& { return state_.position(mesh.tet(t)[kFace[i][k]]); };
+    cone_.add(at(0), at(1), at(2), state_.counts(t));
+    for (int k = 0; k < 3; ++k) {
+      shortest2 = std::min(shortest2, squared_norm(subtract(at(k), state_.position(v))));
     }
   }
   shortest_ = std::sqrt(shortest2);
@@ -101,19 +102,16 @@ Vec3 Smoothing::towards_best_apexes(const Vec3& x) const {
 
 // The worst of the star with v at x; all 0 if it does not reach `least`.
 Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
+  if (!cone_.reaches(x, least)) return {};
   Quality worst = kNotCounted;
-  quality_.clear();
+  float score = HUGE_VALF;
   for (std::size_t n = 0; n < star_.size(); ++n) {
-    const TetId t = star_[n];
-    const bool counts = state_.counts(t);
-    const Quality q =
-        state_.quality_with(state_.mesh.tet(t), index_[n], x, counts ? least : Quality{});
-    if (!(q.dihedral > 0)) return {};
-    quality_.push_back(counts ? q : kNotCounted);
-    if (!counts) continue;
-    if (state_.score(q) < state_.score(worst)) worst_ = n;
+    const Quality q = cone_.quality(n);
+    if (state_.score(q) < score) {
+      worst_ = n;
+      score = state_.score(q);
+    }
     worst = worse(worst, q);
-    if (!State::reaches(worst, least)) return {};
   }
   return worst;
 }
@@ -162,18 +160,10 @@ bool Smoothing::improve_worst(VertexId v) {
 
 // The sum of the gammas of the star with v at x; 0 if it does not reach `least`.
 double Smoothing::roundness_at(const Vec3& x, const Quality& least) {
-  quality_.clear();
+  if (!cone_.reaches(x, least)) return 0;
   double sum = 0;
   for (std::size_t n = 0; n < star_.size(); ++n) {
-    const TetId t = star_[n];
-    const bool counts = state_.counts(t);
-    const Quality q =
-        state_.quality_with(state_.mesh.tet(t), index_[n], x, counts ? least : Quality{});
-    if (!(q.dihedral > 0)) return 0;
-    quality_.push_back(counts ? q : kNotCounted);
-    if (!counts) continue;
-    if (!State::reaches(q, least)) return 0;
-    sum += std::sqrt(q.gamma);
+    if (cone_.counts(n)) sum += std::sqrt(cone_.quality(n).gamma);
   }
   return sum;
 }
@@ -205,13 +195,33 @@ bool Smoothing::round_off(VertexId v) {
   }
   if (!any) return false;
   const Place place = state_.moved(v, best_offset, shortest_ * State::kGrid);
-  return settle(v, place, roundness_at(place.position, least) > before);
+  if (!measure_at(place.position, least)) return settle(v, place, false);
+  double after = 0;
+  for (std::size_t n = 0; n < star_.size(); ++n) {
+    if (cone_.counts(n)) after += std::sqrt(quality_[n].gamma);
+  }
+  return settle(v, place, after > before);
+}
+
+// The star with v at x as it will be measured from then on: where it is flat, the cone's roundings
+// are other ones. False if it does not reach `least`.
+bool Smoothing::measure_at(const Vec3& x, const Quality& least) {
+  quality_.clear();
+  for (std::size_t n = 0; n < star_.size(); ++n) {
+    const TetId t = star_[n];
+    const bool counts = cone_.counts(n);
+    const Quality q =
+        state_.quality_with(state_.mesh.tet(t), index_[n], x, counts ? least : Quality{});
+    if (!(q.dihedral > 0) || (counts && !State::reaches(q, least))) return false;
+    quality_.push_back(counts ? q : kNotCounted);
+  }
+  return true;
 }
 
 // Moves v by the offset, or to a place a little beside, if its star then reaches `least`.
 bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least) {
   const Place place = state_.moved(v, offset, shortest_ * State::kGrid);
-  return settle(v, place, worst_at(place.position, least).dihedral > 0);
+  return settle(v, place, measure_at(place.position, least));
 }
 
 bool Smoothing::becomes_too_long(TetId t, int i, const Vec3& x) const {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "mesher/improve/cone.h"
 #include "mesher/improve/state.h"
 
 namespace delmesher::improve {
@@ -25,6 +26,7 @@ class Smoothing {
   Vec3 towards_best_apex(TetId worst, const Vec3& x) const;
   Quality worst_at(const Vec3& x, const Quality& least);
   double roundness_at(const Vec3& x, const Quality& least);
+  bool measure_at(const Vec3& x, const Quality& least);
   bool commit(VertexId v, const Vec3& offset, const Quality& least);
   bool becomes_too_long(TetId t, int i, const Vec3& x) const;
   bool settle(VertexId v, const Place& place, bool ok);
@@ -33,7 +35,8 @@ class Smoothing {
   VertexId v_ = 0;
   std::vector<TetId> star_;
   std::vector<int> index_;        // of v in each
-  std::vector<Quality> quality_;  // of the star at the place asked last, if it is good enough
+  Cone cone_;                     // v and its star
+  std::vector<Quality> quality_;  // of the star where v goes, by measure_at()
   std::size_t worst_ = 0;         // of the star at the place asked last
   Vec3 axis_{};          // normal of its facet, or direction of its edge; unused if it is free
   double shortest_ = 0;  // edge at v

@@ -13,7 +13,7 @@ constexpr std::uint32_t kLeaf = 8;  // sources
 constexpr double kSlack = 1 - 1e-9;
 
 double distance_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = subtract(b, a), from = subtract(p, a);
+  const Vec3 along = predicates::subtract(b, a), from = predicates::subtract(p, a);
   const double length2 = squared_norm(along);
   const double t = length2 > 0 ? std::clamp(dot(from, along) / length2, 0.0, 1.0) : 0;
   return norm(add_scaled(from, -t, along));
@@ -37,7 +37,7 @@ std::uint32_t SizeField::build(std::uint32_t first, std::uint32_t end) {
   }
   nodes_.push_back(node);
   if (end - first <= kLeaf) return number;
-  const Vec3 extent = subtract(node.box.hi, node.box.lo);
+  const Vec3 extent = predicates::subtract(node.box.hi, node.box.lo);
   const auto axis =
       static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
   const std::uint32_t middle = first + (end - first) / 2;
