@@ -15,7 +15,7 @@ constexpr double kSlack = 1 - 1e-9;
 double distance_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 along = predicates::subtract(b, a), from = predicates::subtract(p, a);
   const double length2 = squared_norm(along);
-  const double t = length2 > 0 ? std::clamp(dot(from, along) / length2, 0.0, 1.0) : 0;
+  const double t = length2 > 0 ? std::clamp(predicates::dot(from, along) / length2, 0.0, 1.0) : 0;
   return norm(add_scaled(from, -t, along));
 }
 
