@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "oracles/text_reader.h"
@@ -140,6 +141,8 @@ class GmshReader {
         const std::uint64_t tags = count();
         for (std::uint64_t k = 0; k < tags; ++k) {
           const std::int64_t value = integer();
+          // Some readers would take the entity's own tag for it, others 0.
+          if (value == 0) reader_.fail("a physical tag of 0, which is none");
           if (k == 0) group = value;
           if (value != group) further_.emplace(dimension, value);
         }
@@ -167,6 +170,17 @@ class GmshReader {
     if (tag < a.least || tag > a.largest) {
       reader_.fail("tag " + std::to_string(tag) + " is not among those announced");
     }
+    least_ = std::min(least_, tag);
+    largest_ = std::max(largest_, tag);
+  }
+
+  // They are the smallest and the largest tag; where there are none, they say nothing.
+  void ends_announced(const Announced& a) {
+    if (a.total > 0 && (least_ != a.least || largest_ != a.largest)) {
+      reader_.fail("the smallest or the largest tag is another one than announced");
+    }
+    least_ = std::numeric_limits<std::int64_t>::max();
+    largest_ = std::numeric_limits<std::int64_t>::min();
   }
 
   // Some programs list no entities, others (meshio) those of the nodes alone.
@@ -195,6 +209,7 @@ class GmshReader {
       }
     }
     if (text_.nodes.size() != a.total) reader_.fail("another number of nodes was announced");
+    ends_announced(a);
   }
 
   void read_nodes_2() {
@@ -226,6 +241,7 @@ class GmshReader {
       }
     }
     if (tags_.size() != a.total) reader_.fail("another number of elements was announced");
+    ends_announced(a);
     distinct_tags();
   }
 
@@ -299,6 +315,9 @@ class GmshReader {
   const std::function<void(const GmshElement&)>& take_;
   GmshText text_;
   bool binary_ = false;
+  // Of the tags read, of the nodes or of the elements.
+  std::int64_t least_ = std::numeric_limits<std::int64_t>::max();
+  std::int64_t largest_ = std::numeric_limits<std::int64_t>::min();
   std::set<std::string> seen_;
   std::map<std::pair<int, std::int64_t>, std::int64_t> group_;  // of an entity
   std::set<std::pair<int, std::int64_t>> further_;  // groups of entities that have another one

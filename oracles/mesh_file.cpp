@@ -30,6 +30,12 @@ std::array<Index, size> read_corners(TextReader& reader, std::int64_t first, std
   return corners;
 }
 
+// A file that has sides and no numbers: these are those that delmesher writes in their place, so
+// that files of one mesh agree whatever their format.
+std::int64_t region_of_side(std::uint8_t inside) {
+  return inside != 0 ? 1 : 2;
+}
+
 // ------------------------------------------------------------------------------------------ MEDIT
 
 class MeditReader {
@@ -191,9 +197,9 @@ MeshFile read_tet(const std::string& path) {
   if (kind == "inner") {
     reader.expect("tets");
     outer = counted(reader, {"outer", "tets"});
-    mesh.regions.assign(inner, 1);
-    mesh.regions.resize(inner + outer, 0);
-    mesh.inside.assign(mesh.regions.begin(), mesh.regions.end());
+    mesh.inside.assign(inner, 1);
+    mesh.inside.resize(inner + outer, 0);
+    for (const std::uint8_t side : mesh.inside) mesh.regions.push_back(region_of_side(side));
   } else if (kind != "tets") {
     reader.fail("no number of tets");
   }
@@ -212,14 +218,13 @@ MeshFile read_tet(const std::string& path) {
 
 // ------------------------------------------------------------------------------------------ Gmsh
 
-// Physical tags are positive. Labels that are not are written in the name: "label -3", and after
-// that what they are called.
-std::optional<std::int64_t> label_in(const std::string& name) {
-  constexpr std::string_view kStart = "label ";
-  if (!name.starts_with(kStart)) return {};
+// Physical tags are positive. Labels and regions that are not are written in the name: "label -3",
+// "region 0", and after that what they are called.
+std::optional<std::int64_t> number_in(const std::string& name, std::string_view start) {
+  if (!name.starts_with(start)) return {};
   const char* const last = name.data() + name.size();
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(name.data() + kStart.size(), last, value);
+  const auto [end, error] = std::from_chars(name.data() + start.size(), last, value);
   if (error != std::errc() || (end != last && *end != ' ')) return {};
   return value;
 }
@@ -250,11 +255,17 @@ MeshFile read_gmsh(const std::string& path) {
   };
   if (called(1, "outside") || called(2, "inside")) {
     for (std::int64_t& region : mesh.regions) region = region == 1 ? 2 : region == 2 ? 1 : region;
+  } else {
+    for (std::int64_t& region : mesh.regions) {
+      const auto named = text.names.find({3, region});
+      if (named == text.names.end()) continue;
+      region = number_in(named->second, "region ").value_or(region);
+    }
   }
   for (const std::int64_t group : groups) {
     const auto named = text.names.find({2, group});
     const std::int64_t label =
-        named == text.names.end() ? group : label_in(named->second).value_or(group);
+        named == text.names.end() ? group : number_in(named->second, "label ").value_or(group);
     mesh.labels_contradict = mesh.labels_contradict || (label > 0 && label != group);
     if (label != static_cast<std::int32_t>(label)) {
       throw ReadError(path + ": label " + std::to_string(label) + " is no integer of 32 bits");
@@ -331,8 +342,11 @@ class VtuReader {
       if (sides_[cell] != 0 && sides_[cell] != 1) text_.fail("a side that is neither 0 nor 1");
       mesh_.inside.push_back(sides_[cell] == 1 ? 1 : 0);
     }
-    const std::vector<double>& values = regions_.empty() ? sides_ : regions_;
-    if (!values.empty()) mesh_.regions.push_back(text_.integer(values[cell]));
+    if (!regions_.empty()) {
+      mesh_.regions.push_back(text_.integer(regions_[cell]));
+    } else if (!sides_.empty()) {
+      mesh_.regions.push_back(region_of_side(mesh_.inside.back()));
+    }
     if (!labels_.empty() && labels_[cell] != 0) text_.fail("a label of a tetrahedron");
     if (!facets_.empty() && facets_[cell] != -1) text_.fail("a facet of a tetrahedron");
   }

@@ -17,8 +17,10 @@ struct MeshFile {
 
   std::vector<Position> vertices;
   std::vector<Tet> tetrahedra;
-  bool names_sides = false;           // the format has regions, which delmesher always writes
-  std::vector<std::int64_t> regions;  // per tetrahedron; empty if the file says nothing
+  bool names_sides = false;  // the format has regions, which delmesher always writes
+  // Per tetrahedron; empty if the file says nothing. Of a file that has sides and no numbers: 1
+  // inside, 2 outside.
+  std::vector<std::int64_t> regions;
   // Per tetrahedron, where the format has words for it (and not just a number for each region);
   // empty if the file does not use them.
   std::vector<std::uint8_t> inside;

@@ -128,33 +128,42 @@ void Verification::check_final_complex(const ExactPoints& points, const InputSur
   }
 }
 
-// The faces that the record puts on facets are those that tile them.
+// The faces that the record puts on facets are those that tile them, seen from outside.
 OracleReport Verification::check_facet_ids(const TetComplex& complex,
                                            const ConformityResult& conformity,
                                            const InputSurface& surface,
                                            const std::vector<FaceOnFacet>& listed) const {
   OracleReport report("facets", "faces");
-  std::vector<std::pair<Face, Index>> facet_of;
+  struct Tile {
+    Face face;
+    Index facet;
+    bool even;  // the permutation of the ascending corners that is seen from outside
+    auto operator<=>(const Tile&) const = default;
+  };
+  std::vector<Tile> facet_of;
   facet_of.reserve(conformity.faces.size());
   for (Index f = 0; f < conformity.faces.size(); ++f) {
-    facet_of.emplace_back(conformity.faces[f], conformity.facets[f]);
-    std::sort(facet_of.back().first.begin(), facet_of.back().first.end());
+    Face face = conformity.faces[f];
+    const bool even = sort_face(face);
+    facet_of.push_back({face, conformity.facets[f], even});
   }
   std::sort(facet_of.begin(), facet_of.end());
   std::vector<std::uint8_t> seen(facet_of.size());
   for (const auto& [a, b, c, id] : listed) {
     Face face = {a, b, c};
-    std::sort(face.begin(), face.end());
+    const bool even = sort_face(face);
     ++report.checked;
     const auto found =
-        std::lower_bound(facet_of.begin(), facet_of.end(), std::pair(face, Index{0}));
-    if (found == facet_of.end() || found->first != face) {
+        std::lower_bound(facet_of.begin(), facet_of.end(), Tile{face, Index{0}, false});
+    if (found == facet_of.end() || found->face != face) {
       report.fail(complex.face_name(face) + " is no boundary face of the solid");
     } else if (seen[found - facet_of.begin()]++ != 0) {
       report.fail(complex.face_name(face) + " is listed twice");
-    } else if (found->second != kNone && surface.facets()[found->second].id != id) {
+    } else if (found->even != even) {
+      report.fail(complex.face_name(face) + " is turned over");
+    } else if (found->facet != kNone && surface.facets()[found->facet].id != id) {
       report.fail(complex.face_name(face) + " is said to tile facet " + std::to_string(id) +
-                  " but tiles " + std::to_string(surface.facets()[found->second].id));
+                  " but tiles " + std::to_string(surface.facets()[found->facet].id));
     }
   }
   if (report.checked != facet_of.size()) report.fail("not every boundary face is listed once");

@@ -211,6 +211,11 @@ const Lie kLies[] = {
     {"msh", "a name twice", "\n2 11 \"label 11\"", "\n2 11 \"label 11\"\n2 11 \"label 12\""},
     {"msh", "more nodes announced", "\\$Nodes\n1 ", "$$Nodes\n1 1"},
     {"msh", "more elements announced", "\\$Elements\n(\\d+) ", "$$Elements\n$1 1"},
+    {"msh", "a larger node announced", "(\\$Nodes\n\\d+ \\d+ 1 \\d+)\n", "$010\n"},
+    {"msh", "a smaller node announced", "(\\$Nodes\n\\d+ \\d+) 1 ", "$01 0 "},
+    {"msh", "a larger element announced", "(\\$Elements\n\\d+ \\d+ 1 \\d+)\n", "$010\n"},
+    {"msh", "a smaller element announced", "(\\$Elements\n\\d+ \\d+) 1 ", "$01 0 "},
+    {"msh", "a side of the label that is none", " 1 11 0\n", " 1 0 0\n"},
     {"msh", "version 4.0", "4.1 0 8", "4 0 8"},
     {"msh", "version 3", "4.1 0 8", "3 0 8"},
     {"msh", "no version", "\\$MeshFormat[^]*\\$EndMeshFormat\n", ""},
@@ -404,6 +409,7 @@ TEST(FileLies, OfBytesAreRefused) {
       changed(gmsh, gmsh.find("4.1 1 8"), "2.2 1 8"),
       changed(gmsh, gmsh.find("4.1 1 8") + 8, std::string("\0\0\0\1", 4)),
       changed(gmsh, nodes + 8, bytes_of(10, 8)),             // as many nodes in all
+      changed(gmsh, nodes + 24, bytes_of(99999, 8)),         // a larger tag
       changed(gmsh, nodes, bytes_of(~std::uint64_t{0}, 8)),  // as many blocks
       changed(gmsh, nodes + 32 + 12, bytes_of(11, 8)),       // as many in the block
       changed(gmsh, nodes + 32 + 20, bytes_of(2, 8)),        // the first one's tag

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
+#include "mesher/delmesher_files.h"
 #include "oracles/angles.h"
 #include "oracles/improved.h"
 #include "property_tests/samples.h"
@@ -452,6 +454,107 @@ TEST(ImproveLies, OneRegionNeedsNoName) {
   EXPECT_EQ(verdict_on(t).verdict, Verdict::exact) << to_text(verdict_on(t));
   t.mesh.regions.clear();
   EXPECT_EQ(verdict_on(t).verdict, Verdict::exact) << to_text(verdict_on(t));
+}
+
+// Sides are words in one format, 1 and 0 in others, 1 and 2 in the rest; numbers of regions that
+// are no tags are names of groups in .msh. Files of each format are improved into each.
+class Formats {
+ public:
+  using Spoil = std::function<void(TetMesh&)>;
+  struct Named {
+    const char* name;
+    Spoil spoil;
+  };
+
+  Formats(const char* name, std::vector<std::string> extensions, std::vector<Named> lies)
+      : folder_(std::filesystem::path(TETPROOF_SCRATCH) / "improve_lies" / name),
+        extensions_(std::move(extensions)),
+        lies_(std::move(lies)) {
+    std::filesystem::create_directories(folder_);
+  }
+
+  // A facet has one label, or readers number the facets anew.
+  void judge(TetMesh mesh) const {
+    mesh.boundary_facets.assign(mesh.boundary_labels.begin(), mesh.boundary_labels.end());
+    for (const std::string& extension : extensions_) {
+      SCOPED_TRACE("given as " + extension);
+      const MeshFile given = written(mesh, "given." + extension);
+      const delmesher::io::MeshReadResult taken =
+          delmesher::io::read_mesh((folder_ / ("given." + extension)).string());
+      ASSERT_TRUE(taken.ok()) << taken.error;
+      const delmesher::Result improved = delmesher::improve_mesh(taken.mesh);
+      ASSERT_TRUE(improved.status.ok()) << improved.status.message;
+      for (const std::string& to : extensions_) {
+        // It has words for sides and none for regions, as which .mesh and .node have the sides.
+        if (to == "tet" && !improved.mesh.regions.empty()) continue;
+        SCOPED_TRACE("improved as " + to);
+        const VerifyReport honest = verdict_on({given, written(improved.mesh, "mesh." + to)});
+        EXPECT_NE(honest.verdict, Verdict::broken) << to_text(honest);
+        ASSERT_NE(honest.find("kept-faces"), nullptr);
+        EXPECT_GT(honest.find("kept-faces")->checked, 0U);
+        for (const Named& lie : lies_) {
+          TetMesh spoilt = improved.mesh;
+          lie.spoil(spoilt);
+          const VerifyReport report = verdict_on({given, written(spoilt, "lie." + to)});
+          ASSERT_NE(report.find("kept-faces"), nullptr);
+          EXPECT_FALSE(report.find("kept-faces")->passed()) << lie.name;
+        }
+      }
+    }
+  }
+
+ private:
+  MeshFile written(const TetMesh& mesh, const std::string& name) const {
+    const std::string path = (folder_ / name).string();
+    const delmesher::io::WriteStatus status = delmesher::io::write_mesh(path, mesh);
+    EXPECT_TRUE(status.ok()) << status.error;
+    return read_mesh(path);
+  }
+
+  std::filesystem::path folder_;
+  std::vector<std::string> extensions_;
+  std::vector<Named> lies_;
+};
+
+// What was read from a format without words for sides has them as regions 1 and 2.
+void exchange_side(TetMesh& mesh, std::size_t t) {
+  if (mesh.regions.empty()) {
+    mesh.inside[t] = mesh.inside[t] == 0 ? 1 : 0;
+  } else {
+    mesh.regions[t] = 3 - mesh.regions[t];
+  }
+}
+
+TEST(ImproveLies, SidesAreTheSameInEveryFormat) {
+  TetMesh mesh = given();
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    mesh.inside[t] = mesh.regions[t] == -3 ? 0 : 1;
+  }
+  mesh.regions.clear();
+  Formats("sides", {"mesh", "msh", "vtu", "node", "tet"},
+          {{"the sides are exchanged",
+            [](TetMesh& m) {
+              for (std::size_t t = 0; t < m.tetrahedra.size(); ++t) exchange_side(m, t);
+            }},
+           {"the sides are one",
+            [](TetMesh& m) {
+              m.regions.clear();
+              m.inside.assign(m.tetrahedra.size(), 1);
+            }},
+           {"a tetrahedron is on the other side", [](TetMesh& m) { exchange_side(m, 0); }}})
+      .judge(mesh);
+}
+
+TEST(ImproveLies, RegionsAreTheSameInEveryFormat) {
+  Formats("regions", {"mesh", "msh", "vtu", "node"},
+          {{"the regions are exchanged",
+            [](TetMesh& mesh) {
+              for (auto& region : mesh.regions) region = region == -3 ? 1000 : -3;
+            }},
+           {"the regions are one", [](TetMesh& mesh) { std::ranges::fill(mesh.regions, 1000); }},
+           {"a tetrahedron is in the other region",
+            [](TetMesh& mesh) { mesh.regions[0] = mesh.regions[0] == -3 ? 1000 : -3; }}})
+      .judge(given());
 }
 
 TEST(ImproveLies, AGivenMeshThatCannotBeImprovedIsRefused) {

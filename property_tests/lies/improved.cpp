@@ -99,6 +99,13 @@ const Lie kImproved[] = {
            face_of(t.record.unrepaired[some(t.record.unrepaired, true)].vertices, 0);
        t.record.unrepaired_facets.push_back({a, b, c, t.record.facets.front().id});
      }},
+    {"a face before turned over", "unrepaired-facets",
+     [](Told& t) {
+       improve(t);
+       auto& face = t.record.unrepaired_facets.front();
+       std::swap(face[0], face[1]);
+     },
+     "passed"},
     {"no faces before, where they were others", "unrepaired-facets",
      [](Told& t) {
        improve(t);

@@ -256,6 +256,14 @@ const Lie kSections[] = {
        t.record.unrepaired_facets.back() = t.record.unrepaired_facets.front();
      },
      "passed"},
+    {"a face before repairs turned over", "unrepaired-facets",
+     [](Told& t) {
+       t.record.unrepaired = t.record.final;
+       t.record.unrepaired_facets = t.record.final_facets;
+       auto& face = t.record.unrepaired_facets.front();
+       std::swap(face[0], face[1]);
+     },
+     "not caught by it"},
     {"no tetrahedra outside before repairs", "unrepaired-hull",
      [](Told& t) {
        t.record.unrepaired = t.record.final;
@@ -296,6 +304,12 @@ const Lie kSections[] = {
        t.sample.mesh.labels.clear();
        t.sample.mesh.facets.clear();
        t.record.final_facets.back() = t.record.final_facets.front();
+     },
+     "caught by exact-second-kernel"},
+    {"a face of the final mesh turned over", "exact-facets",
+     [](Told& t) {
+       auto& face = t.record.final_facets.front();
+       std::swap(face[0], face[1]);
      },
      "caught by exact-second-kernel"},
     {"a refined mesh with a plain tetrahedrization", "promise",
