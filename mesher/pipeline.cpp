@@ -171,8 +171,7 @@ bool put_back(cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
   put_in(std::move(entered.mesh), cdt);
   recorder.put_back(entered.diagonals, entered.missing);
   if (entered.missing == 0 && go_back(cdt, std::move(as_given), s)) return true;
-  if (s.options.max_edge > 0 ||
-      !s.sizes.empty()) {  // another tetrahedrization may have longer edges
+  if (s.bounds_edges()) {  // another tetrahedrization may have longer edges
     recorder.given_up();
     return false;
   }

@@ -76,6 +76,9 @@ class Verification {
   std::string check_refined_promises();
   void check_promises(const RefinedMesh& mesh);
   OracleReport check_contained(const TetComplex& complex, const Places& places) const;
+  template <class Measure>
+  void check_edges(const TetComplex& complex, const std::string& option, double most,
+                   const std::string& figure, const Measure& measure, OracleReport& report) const;
   OracleReport check_edges(const TetComplex& complex) const;
   OracleReport check_sizes(const TetComplex& complex) const;
 

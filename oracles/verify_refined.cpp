@@ -68,32 +68,11 @@ void Verification::check_promises(const RefinedMesh& mesh) {
   if (!options_.promised.approximate) add(check_enrichment(mesh));
 }
 
-// No edge of a tetrahedron of the region is longer than --max-edge.
-OracleReport Verification::check_edges(const TetComplex& complex) const {
-  OracleReport report("edges", "tetrahedra");
-  const double most = options_.promised.max_edge * (1 + 1e-9);
-  double longest = 0;
-  for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
-    ++report.checked;  // there may be none in the region
-    if (complex.inside[t] == 0 && scope() == AngleScope::solid) continue;
-    const Tet& tet = complex.tetrahedra[t];
-    double here = 0;
-    for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < i; ++j) {
-        here = std::max(here, exact::distance(*complex.points, tet[i], tet[j]));
-      }
-    }
-    longest = std::max(longest, here);
-    if (here > most) report.fail(complex.tet_name(t) + " has an edge above --max-edge");
-  }
-  report.figures.emplace_back("longest edge", longest);
-  return report;
-}
-
-// No edge of a tetrahedron of the region is longer than --size-field allows.
-OracleReport Verification::check_sizes(const TetComplex& complex) const {
-  OracleReport report("sizes", "tetrahedra");
-  const EdgeSizes sizes(options_.promised.size_field, options_.promised.size_growth);
+// No edge of a tetrahedron of the region measures more than this.
+template <class Measure>
+void Verification::check_edges(const TetComplex& complex, const std::string& option, double most,
+                               const std::string& figure, const Measure& measure,
+                               OracleReport& report) const {
   double largest = 0;
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
     ++report.checked;  // there may be none in the region
@@ -101,16 +80,31 @@ OracleReport Verification::check_sizes(const TetComplex& complex) const {
     const Tet& tet = complex.tetrahedra[t];
     double here = 0;
     for (int i = 0; i < 4; ++i) {
-      for (int j = 0; j < i; ++j) {
-        here = std::max(
-            here, sizes.excess(complex.points->nearest(tet[i]), complex.points->nearest(tet[j])));
-      }
+      for (int j = 0; j < i; ++j) here = std::max(here, measure(tet[i], tet[j]));
     }
     largest = std::max(largest, here);
-    if (here > EdgeSizes::kMost)
-      report.fail(complex.tet_name(t) + " has an edge above --size-field");
+    if (here > most) report.fail(complex.tet_name(t) + " has an edge above " + option);
   }
-  report.figures.emplace_back("largest edge over its size", largest);
+  report.figures.emplace_back(figure, largest);
+}
+
+OracleReport Verification::check_edges(const TetComplex& complex) const {
+  OracleReport report("edges", "tetrahedra");
+  check_edges(
+      complex, "--max-edge", options_.promised.max_edge * (1 + 1e-9), "longest edge",
+      [&](Index v, Index w) { return exact::distance(*complex.points, v, w); }, report);
+  return report;
+}
+
+OracleReport Verification::check_sizes(const TetComplex& complex) const {
+  OracleReport report("sizes", "tetrahedra");
+  const EdgeSizes sizes(options_.promised.size_field, options_.promised.size_growth);
+  check_edges(
+      complex, "--size-field", EdgeSizes::kMost, "largest edge over its size",
+      [&](Index v, Index w) {
+        return sizes.excess(complex.points->nearest(v), complex.points->nearest(w));
+      },
+      report);
   return report;
 }
 

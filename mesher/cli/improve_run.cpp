@@ -39,8 +39,7 @@ int ImproveRunner::read() {
   mesh_ = std::move(input.mesh);
   names_ = std::move(input.names);
   note_input(input.format, mesh_.vertices.size(), mesh_.tetrahedra.size(), "tetrahedra");
-  const int code = read_sizes();
-  return code == kDone ? read_names(names_) : code;
+  return read_beside(names_);
 }
 
 // The line of quality, with the quality before.

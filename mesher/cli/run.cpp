@@ -44,8 +44,7 @@ int Runner::read() {
   names_ = std::move(input.names);
   note_input(input.format, surface_.vertices.size(), surface_.triangles.size(), "triangles");
   for (const std::string& note : input.notes) tell(command_.input + ": " + note);
-  const int code = read_sizes();
-  return code == kDone ? read_names(names_) : code;
+  return read_beside(names_);
 }
 
 int Runner::check() {

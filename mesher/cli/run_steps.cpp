@@ -70,20 +70,18 @@ std::function<bool()> RunSteps::goes_on() const {
   };
 }
 
-int RunSteps::read_names(io::LabelNames& names) const {
-  if (command_.names_file.empty()) return kDone;
-  io::NamesResult given = io::read_label_names(command_.names_file);
-  if (!given.ok()) return fail(kUnreadable, given.error);
-  given.names.merge(names);
-  names = std::move(given.names);
-  return kDone;
-}
-
-int RunSteps::read_sizes() {
-  if (command_.sizes_file.empty()) return kDone;
-  io::SizeFieldResult field = io::read_size_field(command_.sizes_file);
-  if (!field.ok()) return fail(kUnreadable, field.error);
-  sizes_ = std::move(field.sources);
+int RunSteps::read_beside(io::LabelNames& names) {
+  if (!command_.sizes_file.empty()) {
+    io::SizeFieldResult field = io::read_size_field(command_.sizes_file);
+    if (!field.ok()) return fail(kUnreadable, field.error);
+    sizes_ = std::move(field.sources);
+  }
+  if (!command_.names_file.empty()) {
+    io::NamesResult given = io::read_label_names(command_.names_file);
+    if (!given.ok()) return fail(kUnreadable, given.error);
+    given.names.merge(names);
+    names = std::move(given.names);
+  }
   return kDone;
 }
 

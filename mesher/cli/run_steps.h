@@ -35,10 +35,9 @@ class RunSteps {
   // For ReadOptions::go_on: false when the time of --time-limit, from the start of the run, is
   // over.
   std::function<bool()> goes_on() const;
-  // Adds the names of --names to those of the input.
-  int read_names(io::LabelNames& names) const;
-  // Reads the file of --size-field for the call().
-  int read_sizes();
+  // Reads what is given beside the input: adds the names of --names to its own, and keeps the
+  // sizes of --size-field for the call().
+  int read_beside(io::LabelNames& names);
   // Prints why nothing was read and returns the code.
   int fail_reading(io::ReadCode code, const std::string& error) const;
 

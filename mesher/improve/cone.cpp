@@ -37,7 +37,6 @@ void Cone::add(const Vec3& a, const Vec3& b, const Vec3& c, bool counts) {
       block.c[i][k] = c[i];
       block.normal[i][k] = normal[i];
     }
-    block.n[k] = n;
     block.inverse_n[k] = 1 / n;
     block.length[k] = std::sqrt(n);
     block.ab[k] = pp;

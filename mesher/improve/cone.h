@@ -1,6 +1,6 @@
-// The tetrahedra that one apex makes with several faces: a star without its vertex, or the skin of
-// a cavity. Where a vertex could go is asked for many places, so several tetrahedra are measured at
-// a time, and what belongs to the faces alone is measured once.
+// The tetrahedra that one apex makes with several faces, as a vertex does with its link. Where a
+// vertex could go is asked for many places, so several tetrahedra are measured at a time, and what
+// belongs to the faces alone is measured once.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ class Cone {
   struct alignas(32) Block {
     std::array<Lanes, 3> a, b, c;
     std::array<Lanes, 3> normal;  // as long as twice the area
-    Lanes n, inverse_n, length;   // of the normal: squared, one over that, and its length
+    Lanes inverse_n, length;      // of the normal: one over its square, and its length
     Lanes ab, bc, ca;             // squared edges
     Lanes angle;                  // the squared sine of the smallest angle
     std::array<float, kLanes> dihedral, face, gamma;

@@ -8,8 +8,8 @@ namespace delmesher::policies {
 std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Session& session) {
   constexpr std::size_t kMostTriangles = 1000;
   const Options& options = session.options;
-  if (options.as_paper.enrichment || options.region != Region::interior || options.max_edge > 0 ||
-      !session.sizes.empty() || session.topology.triangles.size() > kMostTriangles) {
+  if (options.as_paper.enrichment || options.region != Region::interior || session.bounds_edges() ||
+      session.topology.triangles.size() > kMostTriangles) {
     return std::nullopt;
   }
   const std::size_t enriched_points = session.points.size();

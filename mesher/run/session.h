@@ -29,6 +29,8 @@ struct Session {
   SizeField sizes;
   double diagonal = 0;  // of the input's bounding box, in its units
 
+  // Are edges inside to be no longer than someone said?
+  bool bounds_edges() const { return options.max_edge > 0 || !sizes.empty(); }
   std::size_t input_vertices() const { return topology.vertex_half_edge.size(); }
 };
 
