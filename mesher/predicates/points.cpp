@@ -180,6 +180,22 @@ VertexId PointStore::add_on_planes(std::uint32_t a, std::uint32_t b, std::uint32
   return add_implicit({PointKind::on_planes, {a, b, c}, 0, 0});
 }
 
+VertexId PointStore::add_on_planes(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                   const PointStore& from, VertexId same) {
+  const Detail& known = from.details_[from.detail_of_[same]];
+  Detail d = known;
+  d.definition.corner = {a, b, c};
+  d.first_limb = limbs_.size();
+  d.first_support = supports_.size();
+  d.planes = d.lines = 0;
+  const Word* limbs = from.limbs_.data() + known.first_limb;
+  limbs_.append(limbs, limbs + limb_count(known));
+  approximations_.push_back(from.approximations_[same]);
+  detail_of_.push_back(static_cast<std::uint32_t>(details_.size()));
+  details_.push_back(d);
+  return static_cast<VertexId>(size() - 1);
+}
+
 VertexId PointStore::add_implicit(const PointDefinition& definition) {
   RationalPoint exact;
   const std::array<VertexId, 3>& c = definition.corner;

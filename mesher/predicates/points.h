@@ -31,6 +31,8 @@ struct PlaneEquation {
   Vec3 normal;
   std::array<Vec3, 3> through;
   bool spanned = false;
+
+  bool operator==(const PlaneEquation&) const = default;
 };
 
 // The nearest doubles of a point (within a hair, with a denominator) and a bound on the error of
@@ -87,6 +89,9 @@ class PointStore {
   const PlaneEquation& plane(std::uint32_t n) const { return equations_[n]; }
   // The planes, by their numbers, must meet in one point: throws InternalError otherwise.
   VertexId add_on_planes(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+  // The same where it is known to be a point on planes of another store, by the same equations.
+  VertexId add_on_planes(std::uint32_t a, std::uint32_t b, std::uint32_t c, const PointStore& from,
+                         VertexId same);
   VertexId add(const PointDefinition& implicit_point);
   // Appends the first `count` points of another store to an empty one; they are explicit or on
   // planes. Supports are left out.

@@ -5,6 +5,7 @@
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/exact_point.h"
+#include "mesher/predicates/stages.h"
 #include "mesher/surface/half_edges.h"
 
 namespace delmesher::surface {
@@ -74,6 +75,19 @@ bool keeps_outline(const ChangedSurface& s, const std::vector<std::uint32_t>& fa
          outline(s.given.triangles, s.given_opposite, facet);
 }
 
+// Is x farther than `bound` from the plane of three points? The sign of what it is farther by;
+// kUnknownSign if that is not certain.
+int far_by_doubles(const PointStore& points, const std::array<VertexId, 3>& t, const Vec3& x,
+                   double bound) {
+  const auto a = stages::bounded_point(points, t[0]);
+  const auto normal = polynomials::cross(stages::bounded_point(points, t[1]) - a,
+                                         stages::bounded_point(points, t[2]) - a);
+  const Bounded height =
+      polynomials::dot(normal, polynomials::Triple<Bounded>{{x[0]}, {x[1]}, {x[2]}} - a);
+  const Bounded least = Bounded{bound} * Bounded{bound} * polynomials::dot(normal, normal);
+  return (height * height - least).sign();
+}
+
 std::vector<std::uint32_t> far_from_plane(const ChangedSurface& s,
                                           const std::vector<std::uint32_t>& facet, double bound,
                                           PointStore& points) {
@@ -81,6 +95,8 @@ std::vector<std::uint32_t> far_from_plane(const ChangedSurface& s,
   const VertexId scale = points.add_explicit(bound, 0, 0);
   const auto is_far = [&](VertexId v) {
     const Vec3& x = s.given.vertices[v];
+    const int sign = far_by_doubles(points, s.triangles[facet.front()], x, bound);
+    if (sign != kUnknownSign) return sign > 0;
     const VertexId as_given = points.add_explicit(x[0], x[1], x[2]);
     const auto& [a, b, c] = s.triangles[facet.front()];
     const std::array<VertexId, 5> asked = {a, b, c, as_given, scale};

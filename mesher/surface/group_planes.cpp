@@ -5,6 +5,7 @@
 #include <map>
 #include <queue>
 
+#include "mesher/arithmetic/bounded.h"
 #include "mesher/base/sort_unique.h"
 #include "mesher/predicates/exact_point.h"
 #include "mesher/predicates/signs_of_doubles.h"
@@ -18,8 +19,19 @@ Fit rough(const PlaneEquation& plane) {
 
 bool exactly_on(const PlaneEquation& plane, const Vec3& p) {
   if (plane.spanned) {
+    if (std::ranges::find(plane.through, p) != plane.through.end()) return true;
     return orient3d_sign(plane.through[0], plane.through[1], plane.through[2], p) == 0;
   }
+  // Most points are off the plane by more than roundings; the others are often on it by what the
+  // numbers are.
+  Bounded height;
+  bool trivial = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (plane.normal[i] == 0 || p[i] == plane.through[0][i]) continue;
+    height = height + Bounded{plane.normal[i]} * (Bounded{p[i]} - Bounded{plane.through[0][i]});
+    trivial = false;
+  }
+  if (trivial || height.sign() != kUnknownSign) return trivial || height.sign() == 0;
   Dyadic sum;
   for (std::size_t i = 0; i < 3; ++i) {
     sum = sum + Dyadic::from_double(plane.normal[i]) *

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "mesher/predicates/box_tree.h"
 #include "mesher/predicates/predicates.h"
@@ -20,6 +21,17 @@ double roundings(const Surface& surface) {
     for (const double x : v) largest = std::max(largest, std::fabs(x));
   }
   return largest > 0 ? 0x1p-51 * std::ldexp(1.0, std::ilogb(largest)) : 0;
+}
+
+// Is v of the earlier store on these planes by definition?
+bool is_same(const PointStore& points, const std::array<std::uint32_t, 3>& planes,
+             const PointStore& earlier, VertexId v) {
+  if (earlier.is_explicit(v)) return false;
+  const PointDefinition before = earlier.definition(v);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!(points.plane(planes[i]) == earlier.plane(before.corner[i]))) return false;
+  }
+  return true;
 }
 
 class StandInBuilder {
@@ -117,8 +129,10 @@ class StandInBuilder {
       if (p[0] != kNone && parallel(p)) good = !planes_.release(v) && good;
     }
     if (!good) return false;
-    PointStore points;
-    add_vertices(given_, stand_in_, points);
+    const PointStore earlier = std::exchange(points_, {});
+    PointStore& points = points_;
+    add_vertices(given_, stand_in_, points, earlier);
+    note_changes(earlier);
     for (VertexId v = 0; v < vertices_.size(); ++v) {
       control_.poll();
       if (points.is_explicit(v)) continue;
@@ -132,6 +146,17 @@ class StandInBuilder {
     Predicates predicates(points);
     return keeps_orientations(predicates) && groups_are_planar(predicates) &&
            meets_nothing_new(predicates) && facets_keep_laws(points, predicates);
+  }
+  // Most vertices stay where the last attempt had them.
+  void note_changes(const PointStore& earlier) {
+    ++attempt_;
+    changed_at_.resize(vertices_.size(), 0);
+    for (VertexId v = 0; v < vertices_.size(); ++v) {
+      const bool same =
+          earlier.size() > 0 && (moves(v) ? is_same(points_, stand_in_.planes_of[v], earlier, v)
+                                          : earlier.is_explicit(v));
+      if (!same) changed_at_[v] = attempt_;
+    }
   }
   bool parallel(const std::array<std::uint32_t, 3>& p) const {
     const auto n = [&](std::size_t i) { return stand_in_.planes[p[i]].normal; };
@@ -233,8 +258,17 @@ class StandInBuilder {
   // A group that is not in one plane gives up its triangles at the vertices off it.
   bool groups_are_planar(Predicates& predicates) {
     bool good = true;
+    planar_at_.resize(growth_.groups().size(), 0);
+    const auto changed_since = [&](std::uint32_t t, std::uint32_t attempt) {
+      return std::ranges::any_of(flat_[t], [&](VertexId v) { return changed_at_[v] > attempt; });
+    };
     for (std::uint32_t g = 0; g < growth_.groups().size(); ++g) {
       if (!growth_.is_group(g)) continue;
+      if (planar_at_[g] > 0 && std::ranges::none_of(growth_.groups()[g].triangles, [&](auto t) {
+            return changed_since(t, planar_at_[g]);
+          })) {
+        continue;  // as it was, or a part of that
+      }
       const auto [a, b, c] = flat_[growth_.groups()[g].triangles.front()];
       std::vector<std::uint32_t> off;
       for (const std::uint32_t t : growth_.groups()[g].triangles) {
@@ -245,6 +279,7 @@ class StandInBuilder {
         if (!on) off.push_back(t);
       }
       for (const std::uint32_t t : off) growth_.detach(t);
+      planar_at_[g] = off.empty() ? attempt_ : 0;
       good = good && off.empty();
     }
     return good;
@@ -360,6 +395,11 @@ class StandInBuilder {
   std::vector<std::uint32_t> twin_;
   std::vector<std::pair<VertexId, VertexId>> flipped_;
   std::vector<Projection> projections_;
+  // Attempts count from 1: the points of the last one, when they last changed, and when groups were
+  // last seen to be planar (0: never).
+  PointStore points_;
+  std::uint32_t attempt_ = 0;
+  std::vector<std::uint32_t> changed_at_, planar_at_;
   StandIn stand_in_;
 };
 
@@ -371,7 +411,8 @@ StandIn find_stand_in(const Surface& surface, double bound, Control& control,
   return StandInBuilder(surface, bound, control, retriangulate).build();
 }
 
-void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points) {
+void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points,
+                  const PointStore& earlier) {
   for (const PlaneEquation& plane : stand_in.planes) points.add_plane(plane);
   points.reserve(surface.vertices.size());
   for (VertexId v = 0; v < surface.vertices.size(); ++v) {
@@ -380,7 +421,11 @@ void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& p
       points.add_explicit(x[0], x[1], x[2]);
     } else {
       const auto& [a, b, c] = stand_in.planes_of[v];
-      points.add_on_planes(a, b, c);
+      if (v < earlier.size() && is_same(points, {a, b, c}, earlier, v)) {
+        points.add_on_planes(a, b, c, earlier, v);
+      } else {
+        points.add_on_planes(a, b, c);
+      }
     }
   }
 }

@@ -43,7 +43,9 @@ enum class Retriangulate : std::uint8_t { no, yes };
 StandIn find_stand_in(const Surface& surface, double bound, Control& control,
                       Retriangulate retriangulate = Retriangulate::yes);
 
-// Adds the vertices of the stand-in to an empty store, as points 0 .. vertices-1.
-void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points);
+// Adds the vertices of the stand-in to an empty store, as points 0 .. vertices-1. `earlier`: those
+// of another stand-in of the surface, or an empty store; where planes are the same, the points are.
+void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points,
+                  const PointStore& earlier = {});
 
 }  // namespace delmesher::surface

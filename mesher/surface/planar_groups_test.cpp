@@ -109,6 +109,67 @@ Grouped grouped(const Surface& s) {
   return Grouped(s, 2 * flatness(s, control));
 }
 
+// (3, -4, 12) . x = 7 contains (1, -1, 0), and whatever integers solve it, as far away as they are;
+// a neighbouring double of any coordinate is off it, by less than roundings of the products.
+TEST(GroupPlanes, APointIsOnAPlaneToTheLastDigitOrNot) {
+  const PlaneEquation plane{{3, -4, 12}, {{{1, -1, 0}}}};
+  const double far = 0x1p40;
+  const Vec3 along = {4 * far + 1, 3 * far - 1, 0}, beyond = {1 - 4 * far, -1, far};
+  const PlaneEquation spanned{{3, -4, 12}, {{{1, -1, 0}, {5, 2, 0}, {-3, -1, 1}}}, true};
+  for (const PlaneEquation& p : {plane, spanned}) {
+    for (const Vec3& on : {p.through[0], Vec3{5, 2, 0}, Vec3{-3, -1, 1}, along, beyond}) {
+      EXPECT_TRUE(exactly_on(p, on));
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (const double towards : {-HUGE_VAL, HUGE_VAL}) {
+          Vec3 off = on;
+          off[axis] = std::nextafter(off[axis], towards);
+          EXPECT_FALSE(exactly_on(p, off)) << off[0] << ' ' << off[1] << ' ' << off[2];
+        }
+      }
+    }
+  }
+}
+
+// The exact coordinates and the denominator: their limbs, signs and exponents.
+std::vector<std::vector<Word>> digits_of(const PointStore& points, VertexId v) {
+  ExactPosition x;
+  points.exact(v, x);
+  std::vector<std::vector<Word>> result;
+  for (const ExactCoordinate& c :
+       {x.coordinate[0], x.coordinate[1], x.coordinate[2], x.denominator}) {
+    result.emplace_back(c.limbs, c.limbs + std::abs(c.size));
+    result.back().push_back(static_cast<Word>(c.size));
+    result.back().push_back(static_cast<Word>(c.exponent));
+  }
+  return result;
+}
+
+// Only those that differ by a plane are others, whatever numbers the planes have.
+TEST(PlanarGroups, PointsOfAnEarlierStandInAreThePointsOfThis) {
+  const Surface s = box({0, 0, 0}, {1, 2, 3});
+  const PlaneEquation a{{1, 0x1p-20, 0}, {{{0.1, 0.2, 0.3}}}}, b{{0, 1, 0x1p-30}, {{{0, 0, 0}}}},
+      c{{0x1p-25, 0, 1}, {{{0, 0, 0.7}}}}, d{{0x1p-25, 0, 1}, {{{0, 0, 0.6}}}};
+  StandIn first, second;
+  first.planes = {a, b, c};
+  second.planes = {d, c, a, b};
+  const std::array<std::uint32_t, 3> stays = {kNone, kNone, kNone};
+  first.planes_of.assign(s.vertices.size(), stays);
+  second.planes_of = first.planes_of;
+  first.planes_of[0] = first.planes_of[1] = first.planes_of[2] = {0, 1, 2};
+  second.planes_of[0] = second.planes_of[3] = {2, 3, 1};
+  second.planes_of[1] = {2, 3, 0};
+  PointStore earlier, anew, reused;
+  add_vertices(s, first, earlier);
+  add_vertices(s, second, anew);
+  add_vertices(s, second, reused, earlier);
+  ASSERT_EQ(reused.size(), anew.size());
+  for (VertexId v = 0; v < anew.size(); ++v) {
+    EXPECT_EQ(reused.nearest(v), anew.nearest(v));
+    EXPECT_EQ(reused.definition(v).corner, anew.definition(v).corner);
+    EXPECT_EQ(digits_of(reused, v), digits_of(anew, v));
+  }
+}
+
 TEST(PlanarGroups, NothingMovesThatIsPlanar) {
   for (const Surface& s : {box({0, 0, 0}, {1, 2, 3}, 3), box({0.1, 0.2, 0.3}, {1.7, 2.1, 3.3}, 2),
                            tetrahedron({0, 0, 0}, {1, 0.3, 0.1}, {0, 1, 0.7}, {0.2, 0.1, 1})}) {
