@@ -205,6 +205,7 @@ void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineRes
   MeshToWrite exact =
       approximate_mesh(chamfered.chamfer, refined, s.topology, s.points, s.given, s.options.region);
   output::RoundingResult rounded = output::round_mesh(std::move(exact.rounding), s.control);
+  s.control.poll_now(rounded.vertices.size(), 1);  // small meshes are hardly asked before
   recorder.written(exact, std::move(rounded));
 }
 

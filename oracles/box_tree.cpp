@@ -31,6 +31,29 @@ double centre(const BoxTree::Box& box, int axis) {
   return box.low[axis] / 2 + box.high[axis] / 2;
 }
 
+// Of so many boxes, as they are divided.
+std::size_t leaves(std::size_t boxes) {
+  if (boxes <= kLeafSize) return 1;
+  return leaves(boxes / 2) + leaves(boxes - boxes / 2);
+}
+
+// Puts at each place the box that its number names. Along the cycles of the permutation, for a copy
+// of a large surface's boxes would be in memory together with most of what is verified.
+void gather(const std::vector<Index>& order, std::vector<BoxTree::Box>& boxes) {
+  std::vector<bool> done(order.size());
+  for (std::size_t first = 0; first < order.size(); ++first) {
+    if (done[first]) continue;
+    const BoxTree::Box moved = boxes[first];
+    std::size_t at = first;
+    for (; order[at] != first; at = order[at]) {
+      boxes[at] = boxes[order[at]];
+      done[at] = true;
+    }
+    boxes[at] = moved;
+    done[at] = true;
+  }
+}
+
 }  // namespace
 
 // The height is that of the box's lowest corner. A sum of three products, each of which rounds
@@ -49,14 +72,11 @@ bool BoxTree::HalfSpace::contains(const Box& box) const {
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   order_.resize(boxes_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<Index>(i);
-  nodes_.reserve(boxes_.size() + 2);
+  nodes_.reserve(2 * leaves(boxes_.size()) - 1);
   nodes_.emplace_back();
   if (boxes_.empty()) return;
   build(0, 0, static_cast<Index>(order_.size()), 0);
-  std::vector<Box> sorted;  // the boxes of a leaf side by side
-  sorted.reserve(boxes_.size());
-  for (const Index i : order_) sorted.push_back(boxes_[i]);
-  boxes_ = std::move(sorted);
+  gather(order_, boxes_);  // the boxes of a leaf side by side
 }
 
 void BoxTree::build(std::size_t node, Index first, Index last, int depth) {

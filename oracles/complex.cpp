@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "oracles/buckets.h"
@@ -150,35 +151,68 @@ void match_face(const TetComplex& complex, const Face& sorted, std::span<const F
   neighbours.across[second] = first;
 }
 
-// Faces by their lowest corner. Only their numbers are held all at once: sorting the faces
-// themselves takes four times the memory and most of the time.
-Buckets faces_by_lowest(const TetComplex& complex) {
-  // The lowest corner of a face is that of the tetrahedron, or else the second one.
-  const auto for_each_face = [&complex](const auto& visit) {
-    for (Index t = 0; t < complex.tetrahedra.size(); ++t) {
-      const Tet& tet = complex.tetrahedra[t];
-      const Tet sorted = ascending(tet);
-      for (Index i = 0; i < 4; ++i) visit(sorted[tet[i] == sorted[0] ? 1 : 0], 4 * t + i);
-    }
-  };
-  Buckets faces(complex.points->size());
-  for_each_face([&faces](Index lowest, Index) { faces.count(lowest); });
-  faces.allot();
-  for_each_face([&faces](Index lowest, Index tet_face) { faces.put(lowest, tet_face); });
-  return faces;
-}
-
-// The edges between the two highest corners of tetrahedra, by the lower one.
-Buckets highest_edges(const TetComplex& complex) {
-  Buckets edges(complex.points->size());
-  for (const Tet& tet : complex.tetrahedra) edges.count(ascending(tet)[2]);
-  edges.allot();
-  for (const Tet& tet : complex.tetrahedra) {
-    const Tet sorted = ascending(tet);
-    edges.put(sorted[2], sorted[3]);
+// The faces with some vertices as their lowest corners, and the edges between the two highest
+// corners of tetrahedra with some as their lower ends, by vertex. Only their numbers are held:
+// sorting the faces themselves takes four times the memory and most of the time. All vertices at
+// once would take as much memory again as the mesh.
+class ByLowest {
+ public:
+  ByLowest(const TetComplex& complex, Index first, Index last)
+      : complex_(complex), first_(first), last_(last), faces_(last - first), edges_(last - first) {
+    for_each([this](Index v, Index) { faces_.count(v); },
+             [this](Index v, Index) { edges_.count(v); });
+    faces_.allot();
+    edges_.allot();
+    for_each([this](Index v, Index tet_face) { faces_.put(v, tet_face); },
+             [this](Index v, Index other) { edges_.put(v, other); });
   }
-  return edges;
-}
+  std::span<const Index> faces(Index v) const { return faces_.of(v - first_); }  // 4 * tet + face
+  std::span<const Index> higher_ends(Index v) const { return edges_.of(v - first_); }
+
+  // Where vertices are divided, so that each part has about the same number of these.
+  static std::vector<Index> parts(const TetComplex& complex) {
+    constexpr std::size_t kParts = 4;
+    const auto vertices = static_cast<Index>(complex.points->size());
+    std::vector<Index> count(vertices);
+    for (const Tet& tet : complex.tetrahedra) {
+      const Tet sorted = ascending(tet);
+      count[sorted[0]] += 3;
+      count[sorted[1]] += 1;
+      count[sorted[2]] += 1;
+    }
+    const std::size_t most = 5 * complex.tetrahedra.size() / kParts + 1;
+    std::vector<Index> parts = {0};
+    std::size_t sum = 0;
+    for (Index v = 0; v < vertices; ++v) {
+      if (sum > 0 && sum + count[v] > most) {
+        parts.push_back(v);
+        sum = 0;
+      }
+      sum += count[v];
+    }
+    parts.push_back(vertices);
+    return parts;
+  }
+
+ private:
+  // The lowest corner of a face is that of the tetrahedron, or else the second one.
+  template <class Face, class Edge>
+  void for_each(const Face& face, const Edge& edge) {
+    for (Index t = 0; t < complex_.tetrahedra.size(); ++t) {
+      const Tet& tet = complex_.tetrahedra[t];
+      const Tet sorted = ascending(tet);
+      for (Index i = 0; i < 4; ++i) {
+        const Index lowest = sorted[tet[i] == sorted[0] ? 1 : 0];
+        if (lowest >= first_ && lowest < last_) face(lowest - first_, 4 * t + i);
+      }
+      if (sorted[2] >= first_ && sorted[2] < last_) edge(sorted[2] - first_, sorted[3]);
+    }
+  }
+
+  const TetComplex& complex_;
+  Index first_, last_;
+  Buckets faces_, edges_;
+};
 
 // The faces with one lowest corner that have a partner: the same face of another tetrahedron, from
 // the other side. Most have one, and few have the same middle corner: sorting takes far longer.
@@ -222,18 +256,25 @@ class Partners {
 // unless the edge is between the two highest corners.
 Counts match_faces(const TetComplex& complex, Neighbours& neighbours, std::vector<Face>& boundary,
                    OracleReport& report) {
-  const Buckets by_lowest = faces_by_lowest(complex), highest = highest_edges(complex);
   std::vector<FaceRecord> faces;
   Partners partners(complex.points->size());
   std::vector<Index> seen_from(complex.points->size(), kNone);
   Counts counts;
+  const std::vector<Index> parts = ByLowest::parts(complex);
+  std::optional<ByLowest> by_lowest;
+  std::size_t part = 0;
   for (Index v = 0; v < complex.points->size(); ++v) {
+    if (v == parts[part]) {
+      by_lowest.reset();  // first, for less memory
+      by_lowest.emplace(complex, parts[part], parts[part + 1]);
+      ++part;
+    }
     const auto see = [&](Index other) {
       counts.edges += seen_from[other] != v;
       seen_from[other] = v;
     };
     faces.clear();
-    for (const Index i : by_lowest.of(v)) {
+    for (const Index i : by_lowest->faces(v)) {
       const Tet& tet = complex.tetrahedra[i / 4];
       Face face = face_of(tet, static_cast<int>(i % 4));
       const bool even = sort_face(face);
@@ -241,7 +282,7 @@ Counts match_faces(const TetComplex& complex, Neighbours& neighbours, std::vecto
       see(face[2]);
       faces.push_back({FaceRecord::pack(face), tet[i % 4], i | (even ? FaceRecord::kEven : 0)});
     }
-    for (const Index other : highest.of(v)) see(other);
+    for (const Index other : by_lowest->higher_ends(v)) see(other);
     if (partners.find(faces)) {
       for (Index f = 0; f < faces.size(); ++f) {
         const Index here = faces[f].tet_face(), other = partners.of(f);

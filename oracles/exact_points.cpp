@@ -411,8 +411,7 @@ std::string ExactPoints::place_on_planes(std::span<const ExactPoint> points, Pla
     all_integers_ = all_integers_ && place.denominator == 1;
     implicit_[i] = static_cast<Index>(defined_.size());
     defined_.emplace_back().placed = static_cast<Index>(placed_.size());
-    placed_.push_back(ExactNumber::over(std::move(place.numerators),
-                                        ExactNumber::Denominator(std::move(place.denominator))));
+    placed_.push_back(place.numerators, ExactNumber::Denominator(std::move(place.denominator)));
   }
   keep_planes(points, planes.size(),
               [&](std::size_t n) { return integer_plane(equations[n], exponent_); });
@@ -426,10 +425,7 @@ void ExactPoints::define(Index i, const ExactPoint& p, Denominators& known) {
   point.v = p.y;
   const bool integers = is_integer(p.i) && is_integer(p.j) &&
                         (point.corners[2] == kNone || is_integer(point.corners[2]));
-  if (!integers) {
-    point.placed = static_cast<Index>(placed_.size());
-    placed_.push_back(combined(point, known));
-  }
+  if (!integers) place_combined(point, known);
   implicit_[i] = static_cast<Index>(defined_.size());
   defined_.push_back(point);
 }
@@ -452,7 +448,7 @@ void ExactPoints::combine_integers(const Defined& point, std::array<mpz_class, 3
 
 // A point is the sum of its corners, each times its share. All points of a segment or triangle have
 // one denominator, the product of those of the corners, so that their differences need none.
-ExactVector ExactPoints::combined(const Defined& point, Denominators& known) const {
+void ExactPoints::place_combined(Defined& point, Denominators& known) {
   const bool segment = point.corners[2] == kNone;
   const Dyadic u = dyadic(point.u), v = segment ? Dyadic{} : dyadic(point.v);
   const auto shift = static_cast<unsigned long>(std::max({0, -u.exponent, -v.exponent}));
@@ -483,16 +479,15 @@ ExactVector ExactPoints::combined(const Defined& point, Denominators& known) con
   for (mpz_class& x : sum) mpz_tdiv_q_2exp(x.get_mpz_t(), x.get_mpz_t(), shift);  // no rest
   const auto [at, fresh] = known.try_emplace(point.corners);
   if (fresh) at->second = ExactNumber::Denominator(std::move(common));
-  return ExactNumber::over(std::move(sum), at->second);
+  point.placed = static_cast<Index>(placed_.size());
+  placed_.push_back(sum, at->second);
 }
 
 void ExactPoints::integers(Index i, std::array<mpz_class, 3>& x) const {
   if (implicit_[i] != kNone) {
     const Defined& point = defined_[implicit_[i]];
     if (point.placed == kNone) return combine_integers(point, x);
-    const ExactVector& placed = placed_[point.placed];
-    for (std::size_t axis = 0; axis < 3; ++axis) x[axis] = placed[axis].numerator();
-    return;
+    return placed_.numerators(point.placed, x);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     set_scaled(dyadic(nearest_[i][axis]), exponent_, x[axis]);
@@ -512,6 +507,9 @@ std::string ExactPoints::assign(std::span<const ExactPoint> points, Planes plane
     if (std::string why = check_point(points, planes.size(), i); !why.empty()) return why;
   }
   implicit_.assign(points.size(), kNone);
+  defined_.reserve(std::count_if(points.begin(), points.end(), [](const ExactPoint& p) {
+    return p.kind != Kind::explicit_point;
+  }));
   if (std::string why = place_on_planes(points, planes); !why.empty()) {
     *this = {};
     return why;

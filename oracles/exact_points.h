@@ -17,6 +17,7 @@
 #include "mesher/delmesher.h"
 #include "oracles/exact_number.h"
 #include "oracles/interval.h"
+#include "oracles/vector_store.h"
 
 namespace tetproof::oracles {
 
@@ -156,12 +157,12 @@ class ExactPoints {
   void define(Index i, const delmesher::ExactPoint& p, Denominators& known);
   // From their corners, which are defined.
   void combine_integers(const Defined& point, std::array<mpz_class, 3>& x) const;
-  ExactVector combined(const Defined& point, Denominators& known) const;
+  void place_combined(Defined& point, Denominators& known);
 
   std::vector<Position> nearest_;
   std::vector<Index> implicit_;  // per point: where in defined_ it is, kNone if it is explicit
   std::vector<Defined> defined_;
-  std::vector<ExactVector> placed_;  // those on planes first
+  VectorStore placed_;  // those on planes first
   std::vector<IntegerPlane> planes_;
   std::vector<std::array<Index, 3>> planes_of_;  // of points on planes; kNone: of too few points
   bool all_integers_ = true;

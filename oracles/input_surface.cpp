@@ -159,6 +159,7 @@ void InputSurface::measure(const ExactPoints& points) {
   std::sort(used_vertices_.begin(), used_vertices_.end());
   used_vertices_.erase(std::unique(used_vertices_.begin(), used_vertices_.end()),
                        used_vertices_.end());
+  used_vertices_.shrink_to_fit();
   std::vector<BoxTree::Box> boxes(triangles_.size());
   BoxTree::Box all = {points.nearest(used_vertices_[0]), points.nearest(used_vertices_[0])};
   largest_coordinate_ = 0;
@@ -245,6 +246,7 @@ void InputSurface::number_facets(const std::function<Index(Index)>& representati
     }
     facet_of_triangle_[t] = facet_of_triangle_[root];
   }
+  facets_.shrink_to_fit();
   find_normals(planar, points);
   count_euler();
 }
@@ -534,6 +536,7 @@ void InputSurface::build_edges() {
       }
     }
   }
+  edges_.shrink_to_fit();
 }
 
 BoxTree::Box enlarged(BoxTree::Box box, double by) {

@@ -551,6 +551,10 @@ MeshFile read_mesh(const std::string& path) {
                   : extension == ".vtu" ? VtuReader(path).read()
                                         : MeditReader(path).read();
   mesh.names_sides = true;
+  // A list that grew as it was read has up to twice the memory, and a large file stays to the end.
+  const auto fit = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
+  fit(mesh.vertices, mesh.tetrahedra, mesh.regions, mesh.inside, mesh.boundary, mesh.labels,
+      mesh.facets);
   return mesh;
 }
 

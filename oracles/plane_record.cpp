@@ -265,6 +265,10 @@ OracleReport check_plane_promise(const PlaneRecord& record, const Promise& promi
   };
   within("delta", record.delta, promise.guaranteed_delta(), promise.delta);
   within("acute", record.acute, promise.acute, promise.acute);
+  if (promise.max_vertices > 0) {
+    within("written vertices", static_cast<double>(record.mesh_vertices.size()), 0,
+           promise.max_vertices);
+  }
   if (record.delta < promise.delta) oracle.figures.emplace_back("delta reached", record.delta);
   return oracle;
 }

@@ -313,6 +313,7 @@ class PromiseCheck {
       demand(record_.final.empty() && record_.final_facets.empty(),
              "the record has a final mesh, or faces of one, promised was --approximate");
     }
+    if (promise_.max_vertices > 0) check_vertices();
     check_planar();
     check_unasked();
     if (promise_.task == Task::mesh) {
@@ -336,6 +337,14 @@ class PromiseCheck {
         recorded == promised || (tightened && recorded == kRight),
         "the record has " + name + " " + number(recorded) + ", promised was " + number(promised));
     if (recorded > promised) report_.figures.emplace_back("stricter: " + name, recorded);
+  }
+
+  // Of those in between, which the limit is also for, nothing is left.
+  void check_vertices() {
+    const auto written = static_cast<double>(record_.mesh_vertices.size());
+    demand(written <= promise_.max_vertices, "the record has " + number(written) +
+                                                 " written vertices, promised were at most " +
+                                                 number(promise_.max_vertices));
   }
 
   // Sections that no oracle would look at.

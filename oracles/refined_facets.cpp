@@ -1,8 +1,7 @@
 #include "oracles/refinement.h"
 
 #include <algorithm>
-
-#include "oracles/edge_key.h"
+#include <utility>
 
 namespace tetproof::oracles {
 namespace {
@@ -22,6 +21,7 @@ class RefinedFacets {
 
   OracleReport run() {
     find_mesh_faces();
+    sides_.reserve(3 * record_.refined_facets.size());
     for (const auto& [a, b, c, id] : record_.refined_facets) check_face({a, b, c}, id);
     report_.checked += surface_.facets().size();
     collect_chains();
@@ -42,14 +42,22 @@ class RefinedFacets {
   const FacetIndex facets_;
   const SimplexSet<3> faces_;
   std::vector<std::uint8_t> in_mesh_;  // per face
-  struct Side {                        // of a face
-    Index facet;
-    std::uint64_t edge;
-    bool forward;  // from its lower to its higher end
-    auto operator<=>(const Side&) const = default;
+  // There are more of these than of anything else, so they are as small as can be.
+  struct EdgeOfFacet {
+    Index facet, low, high;
+    static EdgeOfFacet of(Index facet, Index a, Index b) {
+      return {facet, std::min(a, b), std::max(a, b)};
+    }
+    auto operator<=>(const EdgeOfFacet&) const = default;
+  };
+  struct Side {  // of a face
+    Index facet, from, to;
+    EdgeOfFacet edge() const { return EdgeOfFacet::of(facet, from, to); }
+    bool forward() const { return from < to; }
+    bool operator==(const Side&) const = default;
   };
   std::vector<Side> sides_;
-  std::vector<std::pair<Index, std::uint64_t>> chained_;  // facet, edge of a chain
+  std::vector<EdgeOfFacet> chained_;  // edges of chains
   OracleReport report_{"facets", "facets and faces"};
 };
 
@@ -78,8 +86,7 @@ void RefinedFacets::check_face(Face face, Index id) {
     report_.fail(complex_.face_name(face) + " is folded over on facet " + std::to_string(id));
   }
   for (int i = 0; i < 3; ++i) {
-    const Index a = face[i], b = face[(i + 1) % 3];
-    sides_.push_back({f, edge_key(a, b), a < b});
+    sides_.push_back({f, face[i], face[(i + 1) % 3]});
   }
 }
 
@@ -95,7 +102,7 @@ void RefinedFacets::collect_chains() {
     for (const Index f : of) {
       if (f == kNone || !facets_.kept(f)) continue;
       for (std::size_t i = 1; i < chain.vertices.size(); ++i) {
-        chained_.emplace_back(f, edge_key(chain.vertices[i - 1], chain.vertices[i]));
+        chained_.push_back(EdgeOfFacet::of(f, chain.vertices[i - 1], chain.vertices[i]));
       }
     }
   }
@@ -105,25 +112,25 @@ void RefinedFacets::collect_chains() {
 // A side of a face has its opposite among the faces of the facet, or lies on a chain of the facet;
 // and on every edge of a chain there is exactly one side.
 void RefinedFacets::check_borders() {
-  std::sort(sides_.begin(), sides_.end());
-  const auto name = [&](const std::pair<Index, std::uint64_t>& side) {
-    return "edge " + complex_.vertex_name(static_cast<Index>(side.second >> 32)) + " - " +
-           complex_.vertex_name(static_cast<Index>(side.second)) + " of facet " +
-           std::to_string(surface_.facets()[side.first].id);
+  std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
+    return std::pair(a.edge(), a.forward()) < std::pair(b.edge(), b.forward());
+  });
+  const auto name = [&](const EdgeOfFacet& edge) {
+    return "edge " + complex_.vertex_name(edge.low) + " - " + complex_.vertex_name(edge.high) +
+           " of facet " + std::to_string(surface_.facets()[edge.facet].id);
   };
   if (const auto twice = std::adjacent_find(sides_.begin(), sides_.end()); twice != sides_.end()) {
-    report_.fail(name({twice->facet, twice->edge}) + " has two faces on one side");
+    report_.fail(name(twice->edge()) + " has two faces on one side");
   }
-  std::vector<std::pair<Index, std::uint64_t>> open;
+  std::vector<EdgeOfFacet> open;
   for (std::size_t i = 0; i < sides_.size();) {
     const Side& side = sides_[i];
     bool pair = false;
     std::size_t end = i;
-    for (; end < sides_.size() && sides_[end].facet == side.facet && sides_[end].edge == side.edge;
-         ++end) {
-      pair = pair || sides_[end].forward != side.forward;
+    for (; end < sides_.size() && sides_[end].edge() == side.edge(); ++end) {
+      pair = pair || sides_[end].forward() != side.forward();
     }
-    if (!pair) open.insert(open.end(), end - i, {side.facet, side.edge});
+    if (!pair) open.insert(open.end(), end - i, side.edge());
     i = end;
   }
   for (const auto& side : open) {

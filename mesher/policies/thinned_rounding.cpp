@@ -45,6 +45,7 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
     recorder.thinned(cdt, thinned);
   }
   rounded.signs = signs;
+  control.poll_now(rounded.vertices.size(), 1);  // small meshes are hardly asked before
   recorder.written(exact, std::move(rounded));
 }
 

@@ -6,10 +6,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <fstream>
+#include <string>
 
 #include "oracles/cgal/kernel_opinion.h"
 #include "oracles/heap.h"
@@ -27,11 +31,18 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// The peak of memory so far.
-double megabytes() {
+// The peak of memory, in megabytes: since it was asked for last where Linux forgets it on demand,
+// elsewhere so far.
+double peak_since_last() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return 1024e-6 * static_cast<double>(usage.ru_maxrss);
+  double kilobytes = static_cast<double>(usage.ru_maxrss);
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:")) kilobytes = std::strtod(line.c_str() + 6, nullptr);
+  }
+  std::ofstream("/proc/self/clear_refs") << 5;
+  return 1024e-6 * kilobytes;
 }
 
 struct Delaunay {
@@ -60,8 +71,8 @@ Delaunay measure_delaunay(const char* mesh_path) {
   return result;
 }
 
-// The time since the last oracle is counted for the next one, so each line includes what had to be
-// prepared for it.
+// The time and the peak of memory since the last oracle are counted for the next one, so each line
+// includes what had to be prepared for it.
 void measure(const char* input_path, const char* mesh_path, const char* exact_path) {
   return_large_blocks();
   const auto [unit, delaunay] = measure_delaunay(mesh_path);
@@ -69,7 +80,8 @@ void measure(const char* input_path, const char* mesh_path, const char* exact_pa
   MeshFile mesh = read_mesh(mesh_path);
   delmesher::ExactRecord record;
   if (exact_path != nullptr) record = read_sidecar(exact_path);
-  std::printf("%-32s %42.1f MB\n", "reading", megabytes());
+  double peak = peak_since_last();
+  std::printf("%-32s %42.1f MB\n", "reading", peak);
   std::printf("CGAL's Delaunay: %.3f s for %zu tetrahedra; %zu are written\n", unit, delaunay,
               mesh.tetrahedra.size());
   VerifyReport report;
@@ -78,18 +90,20 @@ void measure(const char* input_path, const char* mesh_path, const char* exact_pa
   const double start = seconds();
   double last = start;
   options.progress = [&, unit = unit](const OracleReport& oracle) {
-    const double now = seconds();
+    const double now = seconds(), here = peak_since_last();
+    peak = std::max(peak, here);
     std::printf("%-32s %8.3f s  %7.2f  %20.1f MB\n", oracle.name.c_str(), now - last,
-                (now - last) / unit, megabytes());
+                (now - last) / unit, here);
     last = now;
   };
   const auto written = static_cast<double>(mesh.tetrahedra.size());
   verify_and_discard(input, mesh, exact_path != nullptr ? &record : nullptr, options, report);
   const double all = seconds() - start;
+  peak = std::max(peak, peak_since_last());
   std::printf("%-32s %8.3f s  %7.2f times CGAL's Delaunay\n", verdict_name(report.verdict), all,
               all / unit);
-  std::printf("at most %.1f MB, what was read included: %.0f bytes per tetrahedron\n", megabytes(),
-              1e6 * megabytes() / written);
+  std::printf("at most %.1f MB, what was read included: %.0f bytes per tetrahedron\n", peak,
+              1e6 * peak / written);
 }
 
 }  // namespace

@@ -316,6 +316,8 @@ const Lie kConsistent[] = {
      [](Told& t) { t.promise.chamfer_radius = 0x1p-8; }},
     {"a run with edges longer than promised", "refined-edges",
      [](Told& t) { t.promise.max_edge = 0x1p-4; }},
+    {"a run of more vertices than were allowed", "promise",
+     [](Told& t) { t.promise.max_vertices = 20; }, "passed"},
     {"a run without the size field that was promised", "refined-sizes",
      [](Told& t) {
        t.promise.size_field = {{t.sample.input.vertices[0], 0x1p-6}};

@@ -214,6 +214,8 @@ const Lie kConsistent[] = {
      [](Told& t) { t.how.promised.chamfer_radius = 0x1p-8; }},
     {"a run with edges longer than promised", "refined-edges",
      [](Told& t) { t.how.promised.max_edge = 0x1p-4; }},
+    {"a run of more vertices than were allowed", "promise",
+     [](Told& t) { t.how.promised.max_vertices = 4; }, "passed"},
     {"a run that drops more than tau allows", "refined-drops",
      [](Told& t) { t.how.promised.tau = 1e-4; }},
     {"a run of the other region", "same-mesh",
