@@ -170,9 +170,14 @@ def test_a_bar_for_every_function(capsys, monkeypatch, with_tqdm):
 
 
 def test_ctrl_c_ends_a_long_run():
-    threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
-    with pytest.raises(KeyboardInterrupt):
-        tetproof.mesh(POINTS, TRIANGLES, max_edge=1e-4)
+    # What a shell runs in the background ignores the signal, and Python then has no handler for it.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with pytest.raises(KeyboardInterrupt):
+            tetproof.mesh(POINTS, TRIANGLES, max_edge=1e-4, time_limit=60)
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_other_threads_run_meanwhile():
