@@ -186,8 +186,9 @@ bool put_back(cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
 // False if it cannot go back.
 bool improve_final(Planes planes, cdt::CdtResult& cdt, Session& s, Recorder& recorder) {
   const bool goes_back = planes == Planes::while_refined && !s.given.empty();
-  // Outside, flat tetrahedra between facets that are nearly in one plane would be in the way.
-  if (goes_back && s.options.region == Region::interior) keep_inside(cdt);
+  // What is outside takes time, and is in the way: of a stand-in, there are flat tetrahedra between
+  // facets that are nearly in one plane.
+  if (s.options.region == Region::interior) keep_inside(cdt);
   if (improve_cdt(cdt, s).changed) recorder.improved(cdt);
   if (!goes_back) return true;
   const std::size_t before = cdt.tetrahedra.size();
