@@ -109,6 +109,24 @@ TEST(Returning, TheModelHasOneEdgeMoreThanItsStandIn) {
   EXPECT_NE(c.facet(true), c.facet(false));
 }
 
+// Whether a vertex that they are given by was moved or not.
+TEST(Returning, PointsAreWrittenOnTheVerticesAsGiven) {
+  Case c;
+  PointStore scratch;
+  const VertexId from = c.vertex(0, 0, 1);
+  for (const VertexId to : {c.raised, c.vertex(1, 1, 0)}) {
+    const VertexId v = c.refined.add_on_segment(from, to, 0.3);
+    PointStore as_given;
+    for (const VertexId end : {from, to}) {
+      const Vec3& x = c.vertices[end];
+      as_given.add_explicit(x[0], x[1], x[2]);
+    }
+    const Vec3 expected = as_given.nearest(as_given.add_on_segment(0, 1, 0.3));
+    EXPECT_EQ(surface::given_place(c.refined, v, c.vertices, scratch), expected);
+    EXPECT_EQ(to == c.raised, expected != c.refined.nearest(v));
+  }
+}
+
 TEST(Returning, PointsOnEdgesStayOnThem) {
   Case c;
   const VertexId a = c.vertex(0, 0, 1), b = c.vertex(1, 0, 1);

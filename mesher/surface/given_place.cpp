@@ -1,5 +1,7 @@
 #include "mesher/surface/given_place.h"
 
+#include <algorithm>
+
 namespace delmesher::surface {
 
 Vec3 given_place(const PointStore& points, VertexId v, std::span<const Vec3> given,
@@ -8,6 +10,11 @@ Vec3 given_place(const PointStore& points, VertexId v, std::span<const Vec3> giv
   const auto corner = [&](VertexId w) { return w < given.size() ? given[w] : points.nearest(w); };
   if (points.is_corner(v)) return corner(v);
   PointDefinition d = points.definition(v);
+  if (std::ranges::all_of(d.corner, [&](VertexId w) {
+        return w == kNone || (points.is_explicit(w) && corner(w) == points.nearest(w));
+      })) {
+    return points.nearest(v);
+  }
   VertexId next = 0;
   for (VertexId& w : d.corner) {
     if (w == kNone) continue;
