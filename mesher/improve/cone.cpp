@@ -24,27 +24,79 @@ void Cone::add(const Vec3& a, const Vec3& b, const Vec3& c, bool counts) {
   }
   Block& block = blocks_[order_.size() - 1];
   ++size_;
-  const Vec3 ab = subtract(b, a), bc = subtract(c, b), ca = subtract(a, c);
-  const Vec3 normal = cross(ab, bc);
-  const double n = dot(normal, normal);
-  const double pp = dot(ab, ab), qq = dot(bc, bc), rr = dot(ca, ca);
-  const double angle = detail::smallest_angle(n, pp, qq, rr);
-  // Lanes behind the last face repeat it.
-  for (std::size_t k = l; k < kLanes; ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      block.a[i][k] = a[i];
-      block.b[i][k] = b[i];
-      block.c[i][k] = c[i];
-      block.normal[i][k] = normal[i];
-    }
-    block.inverse_n[k] = 1 / n;
-    block.length[k] = std::sqrt(n);
-    block.ab[k] = pp;
-    block.bc[k] = qq;
-    block.ca[k] = rr;
-    block.angle[k] = angle;
-    block.counts[k] = counts;
+  for (std::size_t i = 0; i < 3; ++i) {
+    block.a[i][l] = a[i];
+    block.b[i][l] = b[i];
+    block.c[i][l] = c[i];
   }
+  block.counts[l] = counts;
+}
+
+void Cone::finish() {
+  // Lanes behind the last face repeat it.
+  if (const std::size_t used = size_ % kLanes; used != 0) {
+    Block& block = blocks_[order_.size() - 1];
+    for (std::size_t l = used; l < kLanes; ++l) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        block.a[i][l] = block.a[i][used - 1];
+        block.b[i][l] = block.b[i][used - 1];
+        block.c[i][l] = block.c[i][used - 1];
+      }
+      block.counts[l] = block.counts[used - 1];
+    }
+  }
+  for (std::size_t n = 0; n < order_.size(); ++n) find_normals(blocks_[n]);
+}
+
+// All that belongs to the faces alone.
+void Cone::find_normals(Block& block) {
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    const double p0 = block.b[0][l] - block.a[0][l], p1 = block.b[1][l] - block.a[1][l],
+                 p2 = block.b[2][l] - block.a[2][l];
+    const double q0 = block.c[0][l] - block.b[0][l], q1 = block.c[1][l] - block.b[1][l],
+                 q2 = block.c[2][l] - block.b[2][l];
+    const double r0 = block.a[0][l] - block.c[0][l], r1 = block.a[1][l] - block.c[1][l],
+                 r2 = block.a[2][l] - block.c[2][l];
+    const double n0 = p1 * q2 - p2 * q1, n1 = p2 * q0 - p0 * q2, n2 = p0 * q1 - p1 * q0;
+    const double n = n0 * n0 + n1 * n1 + n2 * n2;
+    const double ab = p0 * p0 + p1 * p1 + p2 * p2, bc = q0 * q0 + q1 * q1 + q2 * q2,
+                 ca = r0 * r0 + r1 * r1 + r2 * r2;
+    block.normal[0][l] = n0;
+    block.normal[1][l] = n1;
+    block.normal[2][l] = n2;
+    block.inverse_n[l] = 1 / n;
+    block.length[l] = std::sqrt(n);
+    block.ab[l] = ab;
+    block.bc[l] = bc;
+    block.ca[l] = ca;
+    block.angle[l] = n / larger(ab * bc, larger(bc * ca, ca * ab));
+  }
+}
+
+Vec3 Cone::average_apex() const {
+  Vec3 sum{};
+  double count = 0;
+  for (std::size_t n = 0; n < size_; ++n) {
+    const Block& block = blocks_[n / kLanes];
+    const std::size_t l = n % kLanes;
+    if (!block.counts[l]) continue;
+    const double height = apex_height(block.length[l]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum[i] += (block.a[i][l] + block.b[i][l] + block.c[i][l]) / 3 - height * block.normal[i][l];
+    }
+    ++count;
+  }
+  return {sum[0] / count, sum[1] / count, sum[2] / count};
+}
+
+double Cone::average_squared_edge() const {
+  double sum = 0;
+  for (std::size_t n = 0; n < size_; ++n) {
+    const Block& block = blocks_[n / kLanes];
+    const std::size_t l = n % kLanes;
+    sum += block.ab[l] + block.bc[l] + block.ca[l];
+  }
+  return sum / (3 * static_cast<double>(size_));
 }
 
 bool Cone::reaches(const Vec3& x, const Quality& least) {

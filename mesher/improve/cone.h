@@ -20,7 +20,14 @@ class Cone {
   }
   // The face is counter-clockwise as seen from the side where the apex is not.
   void add(const Vec3& a, const Vec3& b, const Vec3& c, bool counts);
+  // After the last face.
+  void finish();
   std::size_t size() const { return size_; }
+
+  // The average of the apexes that make tetrahedra nearly regular (best_apex()), over those that
+  // count; and of the squared edges of all faces.
+  Vec3 average_apex() const;
+  double average_squared_edge() const;
 
   // With the apex at x: are all tetrahedra positive, and do those that count reach `least`? If so,
   // quality(n) is known for all.
@@ -48,6 +55,7 @@ class Cone {
     std::array<bool, kLanes> counts;
   };
 
+  static void find_normals(Block& block);
   static bool measure(Block& block, const Vec3& x, const Quality& least);
 
   std::size_t size_ = 0;

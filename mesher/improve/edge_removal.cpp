@@ -8,6 +8,7 @@ namespace delmesher::improve {
 bool EdgeRemoval::run(TetId t, int i, int j, std::span<const std::uint32_t> failed) {
   a_ = state_.mesh.tet(t)[i];
   b_ = state_.mesh.tet(t)[j];
+  longest_ = kLongest;
   if (!find_ring(t, failed) || !split_ring()) return false;
   aim_ = Aim::best_worst;
   least_ = state_.to_be_better(state_.worst_of(ring_));
@@ -17,6 +18,7 @@ bool EdgeRemoval::run(TetId t, int i, int j, std::span<const std::uint32_t> fail
 bool EdgeRemoval::flip(TetId t, int i, int j) {
   a_ = state_.mesh.tet(t)[i];
   b_ = state_.mesh.tet(t)[j];
+  longest_ = kLongest;
   aim_ = Aim::best_worst;
   least_ = {};
   return find_ring(t, {}) && split_ring() && !faces_.empty() && refill(-HUGE_VAL);
@@ -27,7 +29,15 @@ bool EdgeRemoval::round_off(TetId t, int i, int j, std::span<const std::uint32_t
   constexpr double kLeastGain = 0.02;
   a_ = state_.mesh.tet(t)[i];
   b_ = state_.mesh.tet(t)[j];
+  for (const int k : opposite_edge(i, j)) {  // most rings are known by one of these
+    if (is_known(state_.mesh.neighbor(t, k), failed)) return false;
+  }
+  const auto is_on_surface = [&](VertexId v) { return state_.mobility(v) != Mobility::free; };
+  longest_ = is_on_surface(a_) && is_on_surface(b_) ? kLongestForRoundness : kLargestForRoundness;
   if (!find_ring(t, failed) || !split_ring()) return false;
+  if (std::ranges::any_of(polygons_,
+                          [](const Polygon& p) { return p.size > kLargestForRoundness; }))
+    return false;
   aim_ = Aim::roundest;
   least_ = state_.to_be_acceptable(state_.worst_of(ring_));
   double before = 0;
@@ -65,16 +75,21 @@ bool EdgeRemoval::find_ring(TetId t, std::span<const std::uint32_t> failed) {
   return first == t || (first != kNone && collect_ring(first, failed));
 }
 
+// Has a-b been tried from t, and no tetrahedron at a or none at b has changed since?
+bool EdgeRemoval::is_known(TetId t, std::span<const std::uint32_t> failed) const {
+  return t < failed.size() &&
+         (failed[t] > state_.changed_at(a_) || failed[t] > state_.changed_at(b_));
+}
+
 // From `first` on, so that (a, b, vertex[n], vertex[n + 1]) is the n-th tetrahedron.
 bool EdgeRemoval::collect_ring(TetId first, std::span<const std::uint32_t> failed) {
   const WorkMesh& mesh = state_.mesh;
-  const std::uint32_t unchanged = std::min(state_.changed_at(a_), state_.changed_at(b_));
   ring_.clear();
   vertex_.clear();
   facet_.clear();
   FacetId only = kNone;
   for (TetId u = first; u != first || ring_.empty();) {
-    if (ring_.size() == kLongest || (u < failed.size() && failed[u] > unchanged)) return false;
+    if (ring_.size() == longest_ || is_known(u, failed)) return false;
     const auto [x, y] = opposite_edge(mesh.index_of(u, a_), mesh.index_of(u, b_));
     const FacetId facet = mesh.facet(u, y);
     // An edge between two facets stays.
@@ -97,7 +112,7 @@ bool EdgeRemoval::collect_ring(TetId first, std::span<const std::uint32_t> faile
 // The first tetrahedron of an open ring; kNone if it is too far away.
 TetId EdgeRemoval::beginning(TetId t) const {
   const WorkMesh& mesh = state_.mesh;
-  for (int steps = 0; steps <= kLongest; ++steps) {
+  for (int steps = 0; steps <= static_cast<int>(longest_); ++steps) {
     const auto [x, y] = opposite_edge(mesh.index_of(t, a_), mesh.index_of(t, b_));
     const TetId previous = mesh.neighbor(t, y);
     if (previous == kNone) return t;

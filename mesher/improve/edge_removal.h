@@ -31,6 +31,8 @@ class EdgeRemoval {
  private:
   // The longest ring that is considered.
   static constexpr int kLongest = 9;
+  // The same for roundness, and its longest polygon: of longer ones hardly any becomes rounder.
+  static constexpr int kLongestForRoundness = 6, kLargestForRoundness = 4;
 
   // The measure by which fillings of a polygon are compared.
   enum class Aim : std::uint8_t { best_worst, roundest };
@@ -53,6 +55,7 @@ class EdgeRemoval {
   };
 
   bool find_ring(TetId t, std::span<const std::uint32_t> failed);
+  bool is_known(TetId t, std::span<const std::uint32_t> failed) const;
   bool collect_ring(TetId first, std::span<const std::uint32_t> failed);
   TetId beginning(TetId t) const;
   bool split_ring();
@@ -64,9 +67,10 @@ class EdgeRemoval {
 
   State& state_;
   VertexId a_ = 0, b_ = 0;
-  std::vector<TetId> ring_;       // tetrahedra a, b, vertex[n], vertex[n + 1]
-  std::vector<VertexId> vertex_;  // one more than tetrahedra if the ring is open
-  std::vector<FacetId> facet_;    // of the face a, b, vertex[n]
+  std::vector<TetId> ring_;         // tetrahedra a, b, vertex[n], vertex[n + 1]
+  std::vector<VertexId> vertex_;    // one more than tetrahedra if the ring is open
+  std::vector<FacetId> facet_;      // of the face a, b, vertex[n]
+  std::size_t longest_ = kLongest;  // ring that is considered now
   Aim aim_ = Aim::best_worst;
   Quality least_;                   // the quality that the new tetrahedra have to reach
   std::vector<std::size_t> walls_;  // numbers of the faces of the surface

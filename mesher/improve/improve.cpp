@@ -97,7 +97,7 @@ class Improvement {
   // one brings little.
   void coarsen_rounder() {
     constexpr int kMostRounds = 8;
-    constexpr std::size_t kLeastGain = 40;  // one tetrahedron in so many
+    constexpr std::size_t kLeastGain = 16;  // one tetrahedron in so many
     for (int round = 0; round < kMostRounds; ++round) {
       const auto share = [&](double of_first) { return round == 0 ? of_first : 0; };
       const std::size_t before = state_.mesh.tetrahedra();

@@ -14,7 +14,7 @@ constexpr std::size_t kLargestCavity = 24, kSmallCavity = 8;
 constexpr std::size_t kLargestOnSurface = 48;  // both sides of it
 // A point has to be worth it: its star is not bad, or much better than the tetrahedra before.
 constexpr float kLeastScore = 0.4F;
-constexpr float kLeastGain = 4;
+constexpr float kLeastGain = 4, kOfWorth = 0.9F;
 
 }  // namespace
 
@@ -64,12 +64,16 @@ bool Insertion::try_from(TetId t, Vec3 x) {
   for (std::size_t size = 0; size < cavity_.size();) {
     size = cavity_.size();
     grow(x);
+    if (crosses_facets_ && site_.mobility != Mobility::free) return false;
     settle(x);
   }
-  if (!(state_.score(worst()->quality) > 0) || !keeps_surface()) return false;
+  const Quality before = state_.worst_of(cavity_);
+  // Where the point really goes is so near that no more can be gained there.
+  if (!(state_.score(worst()->quality) > kOfWorth * worth(before)) || !keeps_surface()) {
+    return false;
+  }
   const Place place = place_at(x, shortest_edge(t) * State::kGrid);
   measure(place.position);
-  const Quality before = state_.worst_of(cavity_);
   const Quality least = state_.to_be_better(before);
   bool ok = is_worth_it(before) && sees_outline(place);
   created_.clear();
@@ -104,8 +108,13 @@ Place Insertion::place_at(const Vec3& x, double tolerance) {
   }
 }
 
+// The least score of the star that is worth a point.
+float Insertion::worth(const Quality& before) const {
+  return std::min(kLeastScore, kLeastGain * state_.score(before));
+}
+
 bool Insertion::is_worth_it(const Quality& before) const {
-  return state_.score(worst()->quality) >= std::min(kLeastScore, kLeastGain * state_.score(before));
+  return state_.score(worst()->quality) >= worth(before);
 }
 
 void Insertion::put_in(const Place& place) {
@@ -262,10 +271,10 @@ void Insertion::add(TetId t, const Vec3& x) {
 
 // Of t with x in place of its i-th vertex, as far as it counts. There is none at faces of the hull
 // whose plane x is in.
-Quality Insertion::quality_from(TetId t, int i, const Vec3& x, const Quality& least) const {
+Quality Insertion::quality_from(TetId t, int i, const Vec3& x) const {
   if (site_.is_on(state_.mesh.facet(t, i))) return kNotCounted;
   const bool counts = state_.counts(t);
-  const Quality q = state_.quality_with(state_.mesh.tet(t), i, x, counts ? least : Quality{});
+  const Quality q = state_.quality_with(state_.mesh.tet(t), i, x);
   return counts || !(q.dihedral > 0) ? q : kNotCounted;
 }
 
@@ -284,29 +293,52 @@ void Insertion::measure(const Vec3& x) {
 // Moves x to where the worst face is better.
 void Insertion::settle(Vec3& x) {
   constexpr int kRounds = 6;
+  build_cone();
   for (int round = 0; round < kRounds; ++round) {
     const Face& worst_face = *worst();
     const float before = state_.score(worst_face.quality);
     const Vec3 towards =
         allowed_offset(site_.mobility, site_.axis,
                        subtract(state_.best_apex_below(worst_face.tet, worst_face.face), x));
-    const Quality least = state_.to_reach(before);
-    const auto better = [&](const Vec3& moved) {
-      return std::ranges::all_of(faces_, [&](const Face& face) {
-        return state_.score(quality_from(face.tet, face.face, moved, least)) > before;
-      });
-    };
     bool success = false;
     for (const double step : {0.5, 0.25, 0.125, 0.0625}) {
       const Vec3 moved = add_scaled(x, step, towards);
-      if (!better(moved)) continue;
+      if (!is_better_at(moved, before)) continue;
       x = moved;
-      measure(x);
       success = true;
       break;
     }
     if (!success) return;
+    std::size_t n = 0;
+    for (Face& face : faces_) {
+      if (in_cone(face)) face.quality = cone_.quality(n++);
+    }
   }
+}
+
+bool Insertion::in_cone(const Face& face) const {
+  return !site_.is_on(state_.mesh.facet(face.tet, face.face));
+}
+
+void Insertion::build_cone() {
+  cone_.clear();
+  for (const Face& face : faces_) {
+    if (!in_cone(face)) continue;
+    const auto at = [&](int k) -> const Vec3& {
+      return state_.position(state_.mesh.tet(face.tet)[kFace[face.face][k]]);
+    };
+    cone_.add(at(0), at(1), at(2), state_.counts(face.tet));
+  }
+  cone_.finish();
+}
+
+// Are all tetrahedra of the cone above this score, with the point at x?
+bool Insertion::is_better_at(const Vec3& x, float score) {
+  if (!cone_.reaches(x, state_.to_reach(score))) return false;
+  for (std::size_t n = 0; n < cone_.size(); ++n) {
+    if (!(state_.score(cone_.quality(n)) > score)) return false;
+  }
+  return true;
 }
 
 }  // namespace delmesher::improve

@@ -10,6 +10,7 @@
 #include <array>
 #include <vector>
 
+#include "mesher/improve/cone.h"
 #include "mesher/improve/site.h"
 #include "mesher/improve/state.h"
 
@@ -34,6 +35,7 @@ class Insertion {
 
   bool try_from(TetId t, Vec3 x);
   Place place_at(const Vec3& x, double tolerance);
+  float worth(const Quality& before) const;
   bool is_worth_it(const Quality& before) const;
   void put_in(const Place& place);
   Vec3 middle(TetId t) const;
@@ -41,7 +43,7 @@ class Insertion {
   void grow(const Vec3& x);
   std::vector<Face>::const_iterator face_to_cross() const;
   void add(TetId t, const Vec3& x);
-  Quality quality_from(TetId t, int i, const Vec3& x, const Quality& least = {}) const;
+  Quality quality_from(TetId t, int i, const Vec3& x) const;
   bool keeps_surface();
   void find_patch();
   bool sees_outline(const Place& place);
@@ -49,6 +51,9 @@ class Insertion {
   void measure(const Vec3& x);
   std::vector<Face>::const_iterator worst() const;
   void settle(Vec3& x);
+  bool in_cone(const Face& face) const;
+  void build_cone();
+  bool is_better_at(const Vec3& x, float score);
 
   // An edge of a face that the point replaces, a tetrahedron at that face, and the index of the
   // corner there that is not on the edge.
@@ -63,6 +68,7 @@ class Insertion {
   Site site_;
   std::vector<TetId> cavity_;
   std::vector<Face> faces_;      // of its skin
+  Cone cone_;                    // the point and these, but for those in its facets
   bool crosses_facets_ = false;  // other ones than the point's
   std::vector<CreatedTet> created_;
   std::vector<FaceEdge> patch_, outline_;  // edges within, and those that are there once

@@ -75,13 +75,18 @@ inline Quality quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
   return result;
 }
 
+// How far below a face the apex of a nearly regular tetrahedron is, in lengths of its normal, which
+// is as long as twice its area.
+inline double apex_height(double area) {
+  constexpr double kHeight = 0.877;  // of a regular one, by the root of twice the area of a face
+  return area > 0 ? kHeight / std::sqrt(area) : 0;
+}
+
 // The apex of a nearly regular tetrahedron below the face abc, which is counter-clockwise from
 // above. A face without area has itself as the apex.
 inline Vec3 best_apex(const Vec3& a, const Vec3& b, const Vec3& c) {
-  constexpr double kHeight = 0.877;  // of a regular one, by the root of twice the area of a face
   const Vec3 normal = cross(subtract(b, a), subtract(c, a));
-  const double area = norm(normal);
-  const double height = area > 0 ? kHeight / std::sqrt(area) : 0;
+  const double height = apex_height(norm(normal));
   Vec3 apex;
   for (int k = 0; k < 3; ++k) apex[k] = (a[k] + b[k] + c[k]) / 3 - height * normal[k];
   return apex;

@@ -143,6 +143,7 @@ TEST(Cone, AgreesWithTetrahedraOneByOne) {
     for (std::size_t n = 0; n < faces.size(); ++n) {
       cone.add(faces[n][0], faces[n][1], faces[n][2], n != ignored);
     }
+    cone.finish();
     ASSERT_EQ(cone.size(), faces.size());
     for (int place = 0; place < 5; ++place) {
       const Vec3 x = {unit(random), unit(random), unit(random)};
@@ -171,6 +172,29 @@ TEST(Cone, AgreesWithTetrahedraOneByOne) {
   }
 }
 
+// Over the faces that count, and over the edges of all.
+TEST(Cone, KnowsItsAverages) {
+  std::mt19937 random(9);
+  for (std::size_t size = 2; size < 8; ++size) {
+    const std::vector<std::array<Vec3, 3>> faces = faces_around(random);
+    Cone cone;
+    Vec3 apex{};
+    double squared = 0;
+    for (std::size_t n = 0; n < size; ++n) {
+      const auto& [a, b, c] = faces[n];
+      cone.add(a, b, c, n != 0);
+      squared += squared_norm(subtract(b, a)) + squared_norm(subtract(c, b)) +
+                 squared_norm(subtract(a, c));
+      if (n != 0) apex = predicates::add(apex, best_apex(a, b, c));
+    }
+    cone.finish();
+    EXPECT_NEAR(cone.average_squared_edge(), squared / static_cast<double>(3 * size), 1e-12);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(cone.average_apex()[i], apex[i] / static_cast<double>(size - 1), 1e-12);
+    }
+  }
+}
+
 // Also where the tetrahedron that is not positive does not count.
 TEST(Cone, HasToBePositive) {
   std::mt19937 random(8);
@@ -178,6 +202,7 @@ TEST(Cone, HasToBePositive) {
   for (const bool counts : {true, false}) {
     Cone cone;
     for (const auto& [a, b, c] : faces) cone.add(a, b, c, counts);
+    cone.finish();
     EXPECT_TRUE(cone.reaches({0, 0, 0}, {}));
     EXPECT_FALSE(cone.reaches({2, 0, 0}, {}));
     EXPECT_FALSE(cone.reaches(faces[0][0], {}));

@@ -17,18 +17,26 @@ bool Smoothing::begin(VertexId v) {
   }
   index_.clear();
   cone_.clear();
-  double shortest2 = HUGE_VAL;
   for (const TetId t : star_) {
     const int i = mesh.index_of(t, v);
     index_.push_back(i);
     const auto at = [&](int k) -> const Vec3& { return state_.position(mesh.tet(t)[kFace[i][k]]); };
     cone_.add(at(0), at(1), at(2), state_.counts(t));
-    for (int k = 0; k < 3; ++k) {
-      shortest2 = std::min(shortest2, squared_norm(subtract(at(k), state_.position(v))));
+  }
+  cone_.finish();
+  return find_axis();
+}
+
+// The length of the shortest edge at v.
+double Smoothing::shortest() const {
+  double squared = HUGE_VAL;
+  for (const TetId t : star_) {
+    for (const VertexId w : state_.mesh.tet(t)) {
+      if (w == v_) continue;
+      squared = std::min(squared, squared_norm(subtract(state_.position(w), state_.position(v_))));
     }
   }
-  shortest_ = std::sqrt(shortest2);
-  return shortest_ > 0 && find_axis();
+  return std::sqrt(squared);
 }
 
 // Of the neighbours, each as often as it has tetrahedra of the star; on the surface, of those
@@ -88,18 +96,6 @@ Vec3 Smoothing::towards_best_apex(TetId t, const Vec3& x) const {
   return subtract(state_.best_apex_below(t, state_.mesh.index_of(t, v_)), x);
 }
 
-// The average of that over the tetrahedra that count.
-Vec3 Smoothing::towards_best_apexes(const Vec3& x) const {
-  Vec3 sum{};
-  double count = 0;
-  for (const TetId t : star_) {
-    if (!state_.counts(t)) continue;
-    sum = predicates::add(sum, towards_best_apex(t, x));
-    ++count;
-  }
-  return {sum[0] / count, sum[1] / count, sum[2] / count};
-}
-
 // The worst of the star with v at x; all 0 if it does not reach `least`.
 Quality Smoothing::worst_at(const Vec3& x, const Quality& least) {
   if (!cone_.reaches(x, least)) return {};
@@ -155,12 +151,16 @@ bool Smoothing::improve_worst(VertexId v) {
     any = true;
     if (state_.good(best)) break;
   }
-  return any && commit(v, subtract(x, state_.position(v)), least);
+  return any && commit(v, subtract(x, state_.position(v)), least, 0);
 }
 
 // The sum of the gammas of the star with v at x; 0 if it does not reach `least`.
 double Smoothing::roundness_at(const Vec3& x, const Quality& least) {
-  if (!cone_.reaches(x, least)) return 0;
+  return cone_.reaches(x, least) ? sum_of_roundness() : 0;
+}
+
+// Of the cone as it was measured last.
+double Smoothing::sum_of_roundness() const {
   double sum = 0;
   for (std::size_t n = 0; n < star_.size(); ++n) {
     if (cone_.counts(n)) sum += std::sqrt(cone_.quality(n).gamma);
@@ -170,58 +170,53 @@ double Smoothing::roundness_at(const Vec3& x, const Quality& least) {
 
 bool Smoothing::round_off(VertexId v) {
   constexpr double kLeastGain = 1.002;
+  // A step below this, in lengths of edges, hardly ever gains so much.
+  constexpr double kLeastStep = 0.02;
   if (!begin(v)) return false;
+  const Vec3 x = state_.position(v);
+  const Vec3 direction = allowed(subtract(cone_.average_apex(), x));
+  if (!(squared_norm(direction) > kLeastStep * kLeastStep * cone_.average_squared_edge())) {
+    return false;
+  }
   const Quality least = state_.to_be_acceptable(state_.worst_of(star_));
   double before = 0;
   for (const TetId t : star_) {
     if (state_.counts(t)) before += std::sqrt(state_.quality(t).gamma);
   }
   if (!(before > 0)) return false;
-  double best = before * kLeastGain;
-  Vec3 best_offset{};
-  bool any = false;
-  const Vec3 x = state_.position(v);
-  const Vec3 direction = allowed(towards_best_apexes(x));
   for (const double step : {1.0, 0.5, 0.25}) {
     const Vec3 offset = {step * direction[0], step * direction[1], step * direction[2]};
     const double sum = roundness_at(predicates::add(x, offset), least);
-    if (sum > best) {
-      best = sum;
-      best_offset = offset;
-      any = true;
-    } else if (any) {
-      break;
-    }
+    // Where a step is possible and gains little, a part of it seldom gains more.
+    if (sum > 0) return sum > before * kLeastGain && commit(v, offset, least, before);
   }
-  if (!any) return false;
-  const Place place = state_.moved(v, best_offset, shortest_ * State::kGrid);
-  if (!measure_at(place.position, least)) return settle(v, place, false);
-  double after = 0;
-  for (std::size_t n = 0; n < star_.size(); ++n) {
-    if (cone_.counts(n)) after += std::sqrt(quality_[n].gamma);
-  }
-  return settle(v, place, after > before);
+  return false;
 }
 
-// The star with v at x as it will be measured from then on: where it is flat, the cone's roundings
-// are other ones. False if it does not reach `least`.
+// The star with v at x, exactly where it will be. False if it does not reach `least`.
 bool Smoothing::measure_at(const Vec3& x, const Quality& least) {
+  // Flatter ones are measured as they will be from then on: the cone's roundings are other ones.
+  constexpr float kFlat = 1e-8F;
+  if (!cone_.reaches(x, least)) return false;
   quality_.clear();
   for (std::size_t n = 0; n < star_.size(); ++n) {
-    const TetId t = star_[n];
-    const bool counts = cone_.counts(n);
-    const Quality q =
-        state_.quality_with(state_.mesh.tet(t), index_[n], x, counts ? least : Quality{});
-    if (!(q.dihedral > 0) || (counts && !State::reaches(q, least))) return false;
-    quality_.push_back(counts ? q : kNotCounted);
+    Quality q = cone_.quality(n);
+    if (q.dihedral < kFlat) {
+      q = state_.quality_with(state_.mesh.tet(star_[n]), index_[n], x, least);
+      if (!(q.dihedral > 0) || !State::reaches(q, least)) return false;
+    }
+    quality_.push_back(q);
   }
   return true;
 }
 
-// Moves v by the offset, or to a place a little beside, if its star then reaches `least`.
-bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least) {
-  const Place place = state_.moved(v, offset, shortest_ * State::kGrid);
-  return settle(v, place, measure_at(place.position, least));
+// Moves v by the offset, or to a place a little beside, if its star then reaches `least`, and its
+// roundness is above this.
+bool Smoothing::commit(VertexId v, const Vec3& offset, const Quality& least, double roundness) {
+  const double tolerance = shortest() * State::kGrid;
+  if (!(tolerance > 0)) return false;
+  const Place place = state_.moved(v, offset, tolerance);
+  return settle(v, place, measure_at(place.position, least) && sum_of_roundness() > roundness);
 }
 
 bool Smoothing::becomes_too_long(TetId t, int i, const Vec3& x) const {

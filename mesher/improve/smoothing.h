@@ -22,12 +22,13 @@ class Smoothing {
   void find_center();
   bool find_axis();
   Vec3 allowed(const Vec3& offset) const;
-  Vec3 towards_best_apexes(const Vec3& x) const;
   Vec3 towards_best_apex(TetId worst, const Vec3& x) const;
   Quality worst_at(const Vec3& x, const Quality& least);
   double roundness_at(const Vec3& x, const Quality& least);
   bool measure_at(const Vec3& x, const Quality& least);
-  bool commit(VertexId v, const Vec3& offset, const Quality& least);
+  double sum_of_roundness() const;
+  double shortest() const;
+  bool commit(VertexId v, const Vec3& offset, const Quality& least, double roundness);
   bool becomes_too_long(TetId t, int i, const Vec3& x) const;
   bool settle(VertexId v, const Place& place, bool ok);
 
@@ -38,9 +39,8 @@ class Smoothing {
   Cone cone_;                     // v and its star
   std::vector<Quality> quality_;  // of the star where v goes, by measure_at()
   std::size_t worst_ = 0;         // of the star at the place asked last
-  Vec3 axis_{};          // normal of its facet, or direction of its edge; unused if it is free
-  double shortest_ = 0;  // edge at v
-  Vec3 center_{};        // of the neighbours, if it is asked for
+  Vec3 axis_{};    // normal of its facet, or direction of its edge; unused if it is free
+  Vec3 center_{};  // of the neighbours, if it is asked for
 };
 
 }  // namespace delmesher::improve
