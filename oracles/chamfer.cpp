@@ -8,7 +8,6 @@
 #include "oracles/angles.h"
 #include "oracles/buckets.h"
 #include "oracles/corners.h"
-#include "oracles/edge_key.h"
 #include "oracles/enrichment.h"
 
 namespace tetproof::oracles {
@@ -106,28 +105,47 @@ class ChamferedSurface {
   Buckets at_{0};
 };
 
-void ChamferedSurface::collect_segments() {
-  // Only the faces on the facet tell on which side of an artificial segment the facet is.
-  std::vector<std::pair<Index, std::uint64_t>> sides;
-  const bool any_artificial =
-      std::any_of(record_.segments.begin(), record_.segments.end(),
-                  [](const ExactRecord::Chain& chain) { return chain.artificial; });
-  for (const auto& [a, b, c, id] : record_.refined_facets) {
-    if (!any_artificial) break;
-    for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-      sides.emplace_back(id, directed_key(p, q));
+// Only the faces on its facet tell on which side of an artificial segment the facet is.
+class SidesOfFacets {
+ public:
+  explicit SidesOfFacets(const ExactRecord& record) {
+    for (const ExactRecord::Chain& chain : record.segments) {
+      if (chain.artificial && chain.vertices.size() > 1) asked_.push_back(side(chain));
+    }
+    std::sort(asked_.begin(), asked_.end());
+    found_.resize(asked_.size());
+    if (asked_.empty()) return;
+    for (const auto& [a, b, c, id] : record.refined_facets) {
+      for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+        const auto place = std::lower_bound(asked_.begin(), asked_.end(), Side{id, p, q});
+        if (place != asked_.end() && *place == Side{id, p, q}) found_[place - asked_.begin()] = 1;
+      }
     }
   }
-  std::sort(sides.begin(), sides.end());
+  // Has a face on the facet of this artificial segment the segment's first edge on its left?
+  bool has_left_of(const ExactRecord::Chain& chain) const {
+    const auto place = std::lower_bound(asked_.begin(), asked_.end(), side(chain));
+    return found_[place - asked_.begin()] != 0;
+  }
+
+ private:
+  using Side = std::array<Index, 3>;  // facet, from, to
+  static Side side(const ExactRecord::Chain& chain) {
+    return {chain.facet, chain.vertices[0], chain.vertices[1]};
+  }
+
+  std::vector<Side> asked_;
+  std::vector<std::uint8_t> found_;  // per side
+};
+
+void ChamferedSurface::collect_segments() {
+  const SidesOfFacets sides(record_);
   const InputEdges input_edges(surface_);
   for (const ExactRecord::Chain& chain : record_.segments) {
     if (chain.vertices.size() < 2) continue;  // the segment oracle reports it
     Segment s{chain.vertices.front(), chain.vertices.back(), chain.artificial, kNone, kNone, kNone};
     if (chain.artificial) {
-      const std::uint64_t first = directed_key(chain.vertices[0], chain.vertices[1]);
-      const bool left =
-          std::binary_search(sides.begin(), sides.end(), std::pair(chain.facet, first));
-      (left ? s.left : s.right) = facets_.find(chain.facet);
+      (sides.has_left_of(chain) ? s.left : s.right) = facets_.find(chain.facet);
     } else {
       s.input_edge = input_edges.of_chain(record_, chain.vertices);
       if (s.input_edge == kNone) continue;

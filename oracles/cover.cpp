@@ -50,6 +50,7 @@ class Uncovered {
   // Sides between two faces of one facet cancel.
   void collect_sides_of_faces() {
     std::vector<Side> all;
+    all.reserve(3 * record_.refined_facets.size());
     for (const auto& [a, b, c, id] : record_.refined_facets) {
       const Index f = facets_.find(id);
       if (f == kNone || std::max({a, b, c}) >= points_.size()) continue;
@@ -71,6 +72,7 @@ class Uncovered {
       const Index e = input_edges_.of_chain(record_, segment.vertices);
       if (e != kNone) chain[e] = &segment;
     }
+    of_facets_.reserve(2 * chain.size());
     std::vector<Index> way;
     for (std::size_t e = 0; e < chain.size(); ++e) {
       const InputSurface::Edge& edge = surface_.edges()[e];

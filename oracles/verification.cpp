@@ -16,26 +16,32 @@ std::vector<Verification::Part> Verification::parts(const delmesher::ExactRecord
   }
   list.push_back({&Verification::check_input, 4, {}, {}});
   if (exact == nullptr) return list;
-  list.push_back({&Verification::check_sidecar,
-                  0,
-                  {Bulk::file, Bulk::file_tetrahedra, Bulk::refined_tetrahedra,
-                   Bulk::refined_elements, Bulk::final_meshes},
-                  {}});
+  list.push_back(
+      {&Verification::check_sidecar,
+       0,
+       {Bulk::file, Bulk::file_tetrahedra, Bulk::refined_tetrahedra, Bulk::refined_elements,
+        Bulk::final_tetrahedra, Bulk::unrepaired_tetrahedra, Bulk::final_meshes},
+       {}});
   if (stage != Stage::refined) {
-    list.push_back({&Verification::check_exact_final, 2, {Bulk::final_meshes}, {}});
+    list.push_back({&Verification::check_exact_final,
+                    2,
+                    {Bulk::final_meshes},
+                    {Bulk::final_tetrahedra, Bulk::unrepaired_tetrahedra}});
   }
   if (stage == Stage::final) return list;
   const std::vector<Bulk> needs = {Bulk::refined_elements, Bulk::refined_complex};
   // The first that asks makes the complex, out of the tetrahedra.
   list.push_back({&Verification::check_refined_complex,
                   1,
-                  {Bulk::refined_elements, Bulk::refined_complex, Bulk::final_meshes},
+                  {Bulk::refined_elements, Bulk::refined_complex, Bulk::final_tetrahedra,
+                   Bulk::unrepaired_tetrahedra, Bulk::final_meshes},
                   {Bulk::refined_tetrahedra}});
   list.push_back({&Verification::check_refined_angles, 1, needs, {}});
   list.push_back({&Verification::check_refined_inside, 1, needs, {}});
   list.push_back({&Verification::check_refined_promises,
                   1,
-                  {Bulk::refined_elements, Bulk::refined_complex, Bulk::final_meshes},
+                  {Bulk::refined_elements, Bulk::refined_complex, Bulk::final_tetrahedra,
+                   Bulk::unrepaired_tetrahedra, Bulk::final_meshes},
                   {}});
   return list;
 }

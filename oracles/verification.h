@@ -57,6 +57,7 @@ class Verification {
 
   // The record, and its final mesh (verify_record.cpp).
   std::string check_sidecar();
+  OracleReport check_written();
   OracleReport check_facet_list(const InputSurface& surface) const;
   std::string check_exact_final();
   void check_exact_hull(const TetComplex& complex, const Neighbours& neighbours);

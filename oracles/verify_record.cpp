@@ -66,21 +66,28 @@ std::string Verification::check_sidecar() {
   if (!sidecar.usable) return sidecar.why;
   ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);
   diagonal_ = sidecar.diagonal;
+  // First, as the points that are written take much memory; told last.
+  OracleReport rounding = check_written();
   add(check_promise(options_.promised, *exact_, options_.record_version, diagonal_));
   if (!exact_->planes.empty() || !exact_->triangles.empty()) {
     add(check_stand_in(input_, *exact_, sidecar.surface));
   }
   add(check_facet_list(sidecar.surface));
   add(check_same_mesh(mesh_, *exact_, options_.promised, input_.labels));
-  add(check_rounding(mesh_, *exact_, sidecar.written(),
-                     {.ulp = ulp_,
-                      .allowed = options_.declared_deviation * diagonal_,
-                      .input_vertices = static_cast<Index>(input_.vertices.size())}));
+  add(std::move(rounding));
+  return {};
+}
+
+OracleReport Verification::check_written() {
+  const std::shared_ptr<const ExactPoints> written = shared_.written();
   // Otherwise the oracles of the file measure it, on its surface.
   if (options_.stage == Stage::refined) {
-    report_.deviation = largest_rounding(mesh_, *exact_, sidecar.written());
+    report_.deviation = largest_rounding(mesh_, *exact_, *written);
   }
-  return {};
+  return check_rounding(mesh_, *exact_, *written,
+                        {.ulp = ulp_,
+                         .allowed = options_.declared_deviation * diagonal_,
+                         .input_vertices = static_cast<Index>(input_.vertices.size())});
 }
 
 // The facets of the record are those of the input, once each, with their triangles.
@@ -102,10 +109,14 @@ std::string Verification::check_exact_final() {
   check_final_complex(points, surface);
   const bool usable = shared_.final()->shape.passed();
   shared_.forget_final();
+#ifdef TETPROOF_SECOND_OPINIONS
+  // Before the mesh that has not been improved takes the memory of this one; told after it.
+  OracleReport second =
+      check_second_kernel(input_, surface, *exact_, points, options_.sidecar, sidecar.as_given);
+#endif
   if (usable && !exact_->unrepaired.empty()) check_unrepaired();
 #ifdef TETPROOF_SECOND_OPINIONS
-  add(check_second_kernel(input_, surface, *exact_, points, options_.sidecar, sidecar.as_given),
-      "exact-");
+  add(std::move(second), "exact-");
 #endif
   return {};
 }
@@ -230,10 +241,15 @@ void Verification::check_constrained(const TetComplex& complex, const Neighbours
 // A mesh of the surface that was refined.
 void Verification::check_unrepaired() {
   const SharedData::Sidecar& sidecar = shared_.sidecar();
-  add(options_.promised.improve
-          ? check_improvement(*exact_, sidecar.written(), options_.promised, returned_vertices())
-          : check_repairs(*exact_, sidecar.written(), options_.promised));
+  {
+    const std::shared_ptr<const ExactPoints> written = shared_.written();
+    add(options_.promised.improve
+            ? check_improvement(*exact_, *written, options_.promised, returned_vertices())
+            : check_repairs(*exact_, *written, options_.promised));
+  }
+  shared_.done_with(Bulk::final_tetrahedra);
   const TetComplex before = complex_of(exact_->unrepaired, sidecar.points);
+  shared_.done_with(Bulk::unrepaired_tetrahedra);
   Neighbours neighbours;
   OracleReport shape = check_complex(before, neighbours);
   const bool usable = shape.passed();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "oracles/delaunay.h"
 #include "oracles/heap.h"
@@ -116,6 +117,8 @@ void SharedData::give_up(Bulk bulk) {
   if (bulk == Bulk::refined_elements) {
     empty(record->segments, record->chamfer_points, record->refined_facets, record->balls);
   }
+  if (bulk == Bulk::final_tetrahedra) empty(record->final);
+  if (bulk == Bulk::unrepaired_tetrahedra) empty(record->unrepaired);
   if (bulk == Bulk::final_meshes) {
     empty(record->final, record->final_facets, record->unrepaired, record->unrepaired_facets);
   }
@@ -152,6 +155,27 @@ void SharedData::make_final() {
   final_ = made;
 }
 
+std::string SharedData::place_as_given(ExactPoints& points) const {
+  std::vector<delmesher::ExactPoint> definitions = exact_->points;
+  const auto given = explicit_points(input_.vertices);
+  std::copy(given.begin(), given.end(), definitions.begin());
+  return points.assign(definitions);
+}
+
+std::shared_ptr<const ExactPoints> SharedData::written() {
+  const Sidecar& s = sidecar();
+  if (!s.moved || s.as_given) {
+    return {std::shared_ptr<const void>(), s.moved ? &s.given : &s.points};  // they stay
+  }
+  {
+    const std::lock_guard<std::mutex> lock(written_mutex_);
+    if (written_ != nullptr) return std::exchange(written_, nullptr);
+  }
+  const auto points = std::make_shared<ExactPoints>();
+  place_as_given(*points);  // without defect, as it was done before
+  return points;
+}
+
 void SharedData::read_sidecar() {
   Sidecar& s = sidecar_;
   if (const std::string why = s.points.assign(exact_->points, exact_->planes); !why.empty()) {
@@ -160,12 +184,11 @@ void SharedData::read_sidecar() {
     s.report.fail("the sidecar's " + why);
     return;
   }
-  bool moved = false;
   for (Index v = 0; v < input_.vertices.size(); ++v) {
     ++s.report.checked;
     using Kind = delmesher::ExactPoint::Kind;
     const bool there = v < s.points.size();
-    moved = moved || (there && exact_->points[v].kind == Kind::on_planes);
+    s.moved = s.moved || (there && exact_->points[v].kind == Kind::on_planes);
     if (there && exact_->points[v].kind == Kind::on_planes) continue;  // for the stand-in oracle
     if (!there || exact_->points[v].kind != Kind::explicit_point ||
         s.points.nearest(v) != input_.vertices[v]) {
@@ -189,18 +212,15 @@ void SharedData::read_sidecar() {
   s.diagonal = diagonal_of(input_);
   // The stand-in oracle says how far a vertex may be moved. Beyond the whole input nothing is left
   // to ask, and intervals around such places decide nothing, which takes very long.
-  for (Index v = 0; moved && v < input_.vertices.size() && s.report.passed(); ++v) {
+  for (Index v = 0; s.moved && v < input_.vertices.size() && s.report.passed(); ++v) {
     if (!(distance(s.points.nearest(v), input_.vertices[v]) <= s.diagonal)) {
       s.report.fail("input vertex " + std::to_string(v) +
                     " was moved by more than the input's size");
     }
   }
   if (!s.report.passed()) return;
-  if (moved) {
-    std::vector<delmesher::ExactPoint> definitions = exact_->points;
-    const auto given = explicit_points(input_.vertices);
-    std::copy(given.begin(), given.end(), definitions.begin());
-    if (const std::string why = s.given.assign(definitions); !why.empty()) {
+  if (s.moved) {
+    if (const std::string why = place_as_given(s.given); !why.empty()) {
       s.report.fail("with the vertices as given: " + why);
       return;
     }
@@ -209,13 +229,16 @@ void SharedData::read_sidecar() {
   if (!exact_->triangles.empty()) meshed.triangles = exact_->triangles;
   s.why = s.surface.assign(meshed, s.points);
   s.usable = s.why.empty();
-  if (!s.usable && (moved || !exact_->triangles.empty())) {
+  if (!s.usable && (s.moved || !exact_->triangles.empty())) {
     s.report.fail("the surface that was meshed: " + s.why);
     s.why.clear();
   }
   // What was promised as given is judged as given; so is a mesh that claims to be more than was
   // promised.
-  s.as_given = s.usable && moved && (promise_.planar == 0 || names_other_facets(*exact_));
+  s.as_given = s.usable && s.moved && (promise_.planar == 0 || names_other_facets(*exact_));
+  if (s.moved && !s.as_given) {
+    written_ = std::make_shared<const ExactPoints>(std::exchange(s.given, {}));
+  }
   if (!s.as_given) return;
   s.why = s.surface_as_given.assign(input_, s.given);
   s.usable = s.why.empty();

@@ -26,16 +26,19 @@ TetComplex complex_of(const std::vector<delmesher::ExactRecord::Tet>& tets,
 
 // What takes most of the memory of a verification, and is given up when the last part that needs it
 // is done: of the file, all of it or its tetrahedra; of the record, the tetrahedra of the refined
-// mesh, its other elements, and the meshes after it; and the complex made of the refined mesh.
+// mesh, its other elements, the tetrahedra of the final mesh, those before local operations, and
+// all of these two meshes; and the complex made of the refined mesh.
 enum class Bulk : std::uint8_t {
   file,
   file_tetrahedra,
   refined_tetrahedra,
   refined_elements,
+  final_tetrahedra,
+  unrepaired_tetrahedra,
   final_meshes,
   refined_complex
 };
-inline constexpr std::size_t kBulks = 6;
+inline constexpr std::size_t kBulks = 8;
 
 // A file and a record that may be emptied, because the caller does not need them any more; or none.
 struct Expendable {
@@ -52,8 +55,9 @@ class SharedData {
  public:
   struct Sidecar {
     ExactPoints points;
-    // The same points on the vertices as given, if some were moved: these are written.
+    // The same points on the vertices as given, if the final mesh has them; else see written().
     ExactPoints given;
+    bool moved = false;    // are some vertices not where they were given?
     InputSurface surface;  // that was meshed
     // Is the final mesh one of the surface as given, although another was refined?
     bool as_given = false;
@@ -63,7 +67,6 @@ class SharedData {
     std::string why;      // the input bounds no solid
     bool usable = false;  // points and surface have been made
 
-    const ExactPoints& written() const { return given.size() > 0 ? given : points; }
     // Of the final mesh.
     const ExactPoints& final_points() const { return as_given ? given : points; }
     const InputSurface& final_surface() const { return as_given ? surface_as_given : surface; }
@@ -98,6 +101,10 @@ class SharedData {
     sidecar_once_([this] { read_sidecar(); });
     return sidecar_;
   }
+  // The points on the vertices as given: these are written. Only for a usable sidecar. They take as
+  // much memory as the tetrahedra, and are asked for at the beginning and at the end: the first who
+  // asks takes them away, others get them made anew.
+  std::shared_ptr<const ExactPoints> written();
   // The final mesh of the record. Only for a usable sidecar.
   std::shared_ptr<const Final> final() {
     const std::lock_guard<std::mutex> lock(final_mutex_);
@@ -149,6 +156,7 @@ class SharedData {
 
  private:
   void read_sidecar();
+  std::string place_as_given(ExactPoints& points) const;
   void make_final();
   void give_up(Bulk bulk);
 
@@ -163,6 +171,8 @@ class SharedData {
   std::shared_ptr<const Final> final_;
   Chains final_chains_;
   std::vector<std::uint8_t> in_refined_;
+  std::mutex written_mutex_;
+  std::shared_ptr<const ExactPoints> written_;
   bool final_chains_known_ = false;
   Sidecar sidecar_;
   Refined refined_;
