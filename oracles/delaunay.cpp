@@ -166,6 +166,13 @@ class Sight {
   std::vector<Index> found_;
 };
 
+// Numbers near each other become numbers that seem to have nothing in common.
+std::uint32_t scattered(std::uint32_t x) {
+  x = (x ^ (x >> 16)) * 0x7feb352dU;
+  x = (x ^ (x >> 15)) * 0x846ca68bU;
+  return x ^ (x >> 16);
+}
+
 }  // namespace
 
 std::vector<Index> used_vertices(const TetComplex& complex) {
@@ -182,24 +189,25 @@ std::vector<Index> used_vertices(const TetComplex& complex) {
 
 std::vector<std::uint8_t> in_both(const std::vector<delmesher::ExactRecord::Tet>& tetrahedra,
                                   const TetComplex& other) {
-  Buckets by_lowest(other.points->size());
-  const auto lowest = [](const Tet& tet) {
-    return std::min(std::min(tet[0], tet[1]), std::min(tet[2], tet[3]));
+  // By a number that is the same for all orders of the corners. By one of the corners, there would
+  // be as many to compare as have it in common: on a large flat facet, most of the mesh.
+  constexpr Index kInEach = 4;
+  const auto slots = static_cast<Index>(other.tetrahedra.size() / kInEach + 1);
+  const auto slot = [slots](const Tet& tet) {
+    std::uint32_t sum = 0;
+    for (const Index v : tet) sum += scattered(v);
+    return sum % slots;
   };
-  const auto sum = [](const Tet& tet) { return tet[0] + tet[1] + tet[2] + tet[3]; };
-  for (const Tet& tet : other.tetrahedra) by_lowest.count(lowest(tet));
-  by_lowest.allot();
-  for (Index t = 0; t < other.tetrahedra.size(); ++t) {
-    by_lowest.put(lowest(other.tetrahedra[t]), t);
-  }
+  Buckets by_slot(slots);
+  for (const Tet& tet : other.tetrahedra) by_slot.count(slot(tet));
+  by_slot.allot();
+  for (Index t = 0; t < other.tetrahedra.size(); ++t) by_slot.put(slot(other.tetrahedra[t]), t);
   std::vector<std::uint8_t> found(tetrahedra.size());
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     const Tet& tet = tetrahedra[t].vertices;
-    const std::span<const Index> candidates = by_lowest.of(lowest(tet));
+    const std::span<const Index> candidates = by_slot.of(slot(tet));
     found[t] = std::any_of(candidates.begin(), candidates.end(), [&](Index c) {
-      const Tet& candidate = other.tetrahedra[c];
-      return sum(tet) == sum(candidate) &&
-             std::is_permutation(tet.begin(), tet.end(), candidate.begin());
+      return std::is_permutation(tet.begin(), tet.end(), other.tetrahedra[c].begin());
     });
   }
   return found;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <optional>
 #include <string>
 #include <utility>
@@ -223,6 +224,25 @@ TEST(Delaunay, AFaceIsLeftOutOnlyIfBothOfItsTetrahedraAreKnown) {
   EXPECT_EQ(violations({{0, 1, 2, 3}}), 1U);
   EXPECT_EQ(violations({{0, 1, 2, 3}, {0, 3, 1, 4}}), 1U);
   EXPECT_EQ(violations({{3, 2, 1, 0}, {4, 0, 1, 2}}), 0U);
+}
+
+// Comparing all of them with each other takes twenty times as long as is allowed.
+TEST(Delaunay, TetrahedraInBothAreFoundAroundAVertexOfAlmostAll) {
+  constexpr Index kMany = 200000;
+  const ExactPoints points;
+  TetComplex other{&points, {}, {}, 0, 0};
+  std::vector<delmesher::ExactRecord::Tet> tets;
+  for (Index v = 1; v <= kMany; ++v) {
+    other.tetrahedra.push_back({0, v, v + 1, v + 2});
+    // The same in another order, or with the same sum of its corners.
+    tets.push_back(v % 2 == 0 ? delmesher::ExactRecord::Tet{{v + 2, v, 0, v + 1}, true}
+                              : delmesher::ExactRecord::Tet{{0, v, v, v + 3}, true});
+  }
+  const std::clock_t start = std::clock();
+  const std::vector<std::uint8_t> found = in_both(tets, other);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2);
+  ASSERT_EQ(found.size(), tets.size());
+  for (Index v = 1; v <= kMany; ++v) ASSERT_EQ(found[v - 1] != 0, v % 2 == 0) << v;
 }
 
 }  // namespace
