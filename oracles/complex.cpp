@@ -221,15 +221,20 @@ class Partners {
   explicit Partners(std::size_t vertices) : first_(vertices, kNone) {}
 
   // False if more than two tetrahedra have a face, or two have it on the same side, or the same
-  // four corners.
+  // four corners; or if so many faces have a middle corner in common that sorting is faster.
   bool find(const std::vector<FaceRecord>& faces) {
+    constexpr std::size_t kSteps = 64;  // for each face
+    std::size_t steps = kSteps * faces.size();
     of_.assign(faces.size(), kNone);
     next_.resize(faces.size());
     for (const FaceRecord& face : faces) first_[face.middle()] = kNone;
     for (Index f = 0; f < faces.size(); ++f) {
       Index& first = first_[faces[f].middle()];
       Index other = first;
-      while (other != kNone && faces[other].corners != faces[f].corners) other = next_[other];
+      while (other != kNone && faces[other].corners != faces[f].corners) {
+        if (--steps == 0) return false;
+        other = next_[other];
+      }
       if (other == kNone) {
         next_[f] = first;
         first = f;
@@ -295,7 +300,7 @@ Counts match_faces(const TetComplex& complex, Neighbours& neighbours, std::vecto
       }
       continue;
     }
-    // Something is wrong, and is reported in order.
+    // If something is wrong, it is reported in order.
     std::sort(faces.begin(), faces.end());
     for (std::size_t i = 0; i < faces.size(); ++counts.faces) {
       std::size_t j = i + 1;

@@ -245,5 +245,29 @@ TEST(Delaunay, TetrahedraInBothAreFoundAroundAVertexOfAlmostAll) {
   for (Index v = 1; v <= kMany; ++v) ASSERT_EQ(found[v - 1] != 0, v % 2 == 0) << v;
 }
 
+// Tetrahedra around one edge, in an order in which none follows its neighbour. As they come, each
+// face would be compared with a quarter of all.
+TEST(Complex, ManyTetrahedraAroundAnEdgeTakeNoQuadraticTime) {
+  constexpr Index kMany = 100003, kStep = 31607;  // without a common divisor
+  ExactPoints points;
+  std::vector<Position> vertices = {{0, 0, -1}, {0, 0, 1}};
+  for (Index v = 0; v < kMany; ++v) {
+    const double angle = 2 * std::acos(-1.0) * v / kMany;
+    vertices.push_back({std::cos(angle), std::sin(angle), 0});
+  }
+  ASSERT_EQ(points.assign(vertices), "");
+  TetComplex complex{&points, {}, {}, 0, kMany + 2};
+  for (std::uint64_t n = 0; n < kMany; ++n) {
+    const auto v = static_cast<Index>(n * kStep % kMany);
+    complex.tetrahedra.push_back({0, 1, v + 2, (v + 1) % kMany + 2});
+  }
+  Neighbours neighbours;
+  const std::clock_t start = std::clock();
+  const OracleReport report = check_complex(complex, neighbours);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2);
+  EXPECT_TRUE(report.passed());
+  EXPECT_EQ(std::count(neighbours.across.begin(), neighbours.across.end(), kNone), 2 * kMany);
+}
+
 }  // namespace
 }  // namespace tetproof
