@@ -26,7 +26,7 @@ class CMakeBuild(build_ext):
         ninja = ["-G", "Ninja"] if not os.path.exists(os.path.join(build, "CMakeCache.txt")) else []
         # Read together, the files of a target take the compiler a third of the time.
         subprocess.run(["cmake", *ninja, "-S", str(ROOT), "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
-                        "-DTETPROOF_HARNESS=OFF", "-DTETPROOF_TESTS=OFF", "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF",
+                        "-DCMAKE_SKIP_RPATH=ON", "-DTETPROOF_HARNESS=OFF", "-DTETPROOF_TESTS=OFF", "-DDELMESHER_COMMAND=OFF", "-DDELMESHER_INSTALL=OFF",
                         "-DTETPROOF_PYTHON=%s" % target, "-DPython3_EXECUTABLE=%s" % sys.executable,
                         "-Dpybind11_DIR=%s" % pybind11.get_cmake_dir(), *shlex.split(os.environ.get("CMAKE_ARGS", ""))],
                        check=True)
