@@ -36,8 +36,9 @@ bool EdgeRemoval::round_off(TetId t, int i, int j, std::span<const std::uint32_t
   longest_ = is_on_surface(a_) && is_on_surface(b_) ? kLongestForRoundness : kLargestForRoundness;
   if (!find_ring(t, failed) || !split_ring()) return false;
   if (std::ranges::any_of(polygons_,
-                          [](const Polygon& p) { return p.size > kLargestForRoundness; }))
+                          [](const Polygon& p) { return p.size > kLargestForRoundness; })) {
     return false;
+  }
   aim_ = Aim::roundest;
   least_ = state_.to_be_acceptable(state_.worst_of(ring_));
   double before = 0;

@@ -190,9 +190,7 @@ VertexId PointStore::add_on_planes(std::uint32_t a, std::uint32_t b, std::uint32
   d.planes = d.lines = 0;
   const Word* limbs = from.limbs_.data() + known.first_limb;
   limbs_.append(limbs, limbs + limb_count(known));
-  approximations_.push_back(from.approximations_[same]);
-  detail_of_.push_back(static_cast<std::uint32_t>(details_.size()));
-  details_.push_back(d);
+  put(from.approximations_[same], d);
   return static_cast<VertexId>(size() - 1);
 }
 
@@ -244,8 +242,12 @@ void PointStore::append(const PointDefinition& definition, const RationalPoint& 
     const double error = std::max({r[0].error, r[1].error, r[2].error});
     return {r[0].value, r[1].value, r[2].value, error};
   };
-  approximations_.push_back(combined(nearest));
   d.remainder = combined(rest);
+  put(combined(nearest), d);
+}
+
+void PointStore::put(const Approximation& approximation, const Detail& d) {
+  approximations_.push_back(approximation);
   detail_of_.push_back(static_cast<std::uint32_t>(details_.size()));
   details_.push_back(d);
 }

@@ -156,6 +156,7 @@ class PointStore {
   Detail& detail(VertexId v);
   VertexId add_implicit(const PointDefinition& definition);
   void append(const PointDefinition& definition, const RationalPoint& exact);
+  void put(const Approximation& approximation, const Detail& d);
   // The limbs of details are stored in the order of the points, x before y before z before the
   // denominator.
   static std::size_t limb_count(const Detail& d);

@@ -24,14 +24,12 @@ bool exactly_on(const PlaneEquation& plane, const Vec3& p) {
   }
   // Most points are off the plane by more than roundings; the others are often on it by what the
   // numbers are.
-  Bounded height;
-  bool trivial = true;
+  Bounded height;  // nothing is added where a difference or a component is 0
   for (std::size_t i = 0; i < 3; ++i) {
     if (plane.normal[i] == 0 || p[i] == plane.through[0][i]) continue;
     height = height + Bounded{plane.normal[i]} * (Bounded{p[i]} - Bounded{plane.through[0][i]});
-    trivial = false;
   }
-  if (trivial || height.sign() != kUnknownSign) return trivial || height.sign() == 0;
+  if (const int sign = height.sign(); sign != kUnknownSign) return sign == 0;
   Dyadic sum;
   for (std::size_t i = 0; i < 3; ++i) {
     sum = sum + Dyadic::from_double(plane.normal[i]) *

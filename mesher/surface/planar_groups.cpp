@@ -131,8 +131,13 @@ class StandInBuilder {
     if (!good) return false;
     const PointStore earlier = std::exchange(points_, {});
     PointStore& points = points_;
-    add_vertices(given_, stand_in_, points, earlier);
-    note_changes(earlier);
+    const std::vector<std::uint8_t> same = add_vertices(given_, stand_in_, points, earlier);
+    // Most vertices stay where the last attempt had them.
+    ++attempt_;
+    changed_at_.resize(vertices_.size(), 0);
+    for (VertexId v = 0; v < vertices_.size(); ++v) {
+      if (same[v] == 0) changed_at_[v] = attempt_;
+    }
     for (VertexId v = 0; v < vertices_.size(); ++v) {
       control_.poll();
       if (points.is_explicit(v)) continue;
@@ -146,17 +151,6 @@ class StandInBuilder {
     Predicates predicates(points);
     return keeps_orientations(predicates) && groups_are_planar(predicates) &&
            meets_nothing_new(predicates) && facets_keep_laws(points, predicates);
-  }
-  // Most vertices stay where the last attempt had them.
-  void note_changes(const PointStore& earlier) {
-    ++attempt_;
-    changed_at_.resize(vertices_.size(), 0);
-    for (VertexId v = 0; v < vertices_.size(); ++v) {
-      const bool same =
-          earlier.size() > 0 && (moves(v) ? is_same(points_, stand_in_.planes_of[v], earlier, v)
-                                          : earlier.is_explicit(v));
-      if (!same) changed_at_[v] = attempt_;
-    }
   }
   bool parallel(const std::array<std::uint32_t, 3>& p) const {
     const auto n = [&](std::size_t i) { return stand_in_.planes[p[i]].normal; };
@@ -259,16 +253,9 @@ class StandInBuilder {
   bool groups_are_planar(Predicates& predicates) {
     bool good = true;
     planar_at_.resize(growth_.groups().size(), 0);
-    const auto changed_since = [&](std::uint32_t t, std::uint32_t attempt) {
-      return std::ranges::any_of(flat_[t], [&](VertexId v) { return changed_at_[v] > attempt; });
-    };
     for (std::uint32_t g = 0; g < growth_.groups().size(); ++g) {
       if (!growth_.is_group(g)) continue;
-      if (planar_at_[g] > 0 && std::ranges::none_of(growth_.groups()[g].triangles, [&](auto t) {
-            return changed_since(t, planar_at_[g]);
-          })) {
-        continue;  // as it was, or a part of that
-      }
+      if (is_still_planar(g)) continue;
       const auto [a, b, c] = flat_[growth_.groups()[g].triangles.front()];
       std::vector<std::uint32_t> off;
       for (const std::uint32_t t : growth_.groups()[g].triangles) {
@@ -283,6 +270,14 @@ class StandInBuilder {
       good = good && off.empty();
     }
     return good;
+  }
+  // Is it what was seen to be planar, or a part of that, at the same places?
+  bool is_still_planar(std::uint32_t g) const {
+    return planar_at_[g] > 0 &&
+           std::ranges::all_of(growth_.groups()[g].triangles, [&](std::uint32_t t) {
+             return std::ranges::all_of(
+                 flat_[t], [&](VertexId v) { return changed_at_[v] <= planar_at_[g]; });
+           });
   }
   // The groups of all neighbours give up their triangles at this one.
   bool release_around(std::uint32_t t) {
@@ -411,23 +406,27 @@ StandIn find_stand_in(const Surface& surface, double bound, Control& control,
   return StandInBuilder(surface, bound, control, retriangulate).build();
 }
 
-void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points,
-                  const PointStore& earlier) {
+std::vector<std::uint8_t> add_vertices(const Surface& surface, const StandIn& stand_in,
+                                       PointStore& points, const PointStore& earlier) {
+  std::vector<std::uint8_t> same(surface.vertices.size(), 0);
   for (const PlaneEquation& plane : stand_in.planes) points.add_plane(plane);
   points.reserve(surface.vertices.size());
   for (VertexId v = 0; v < surface.vertices.size(); ++v) {
     const Vec3& x = surface.vertices[v];
     if (stand_in.planes_of.empty() || stand_in.planes_of[v][0] == kNone) {
       points.add_explicit(x[0], x[1], x[2]);
+      same[v] = v < earlier.size() && earlier.is_explicit(v);
+      continue;
+    }
+    const auto& [a, b, c] = stand_in.planes_of[v];
+    same[v] = v < earlier.size() && is_same(points, {a, b, c}, earlier, v);
+    if (same[v] != 0) {
+      points.add_on_planes(a, b, c, earlier, v);
     } else {
-      const auto& [a, b, c] = stand_in.planes_of[v];
-      if (v < earlier.size() && is_same(points, {a, b, c}, earlier, v)) {
-        points.add_on_planes(a, b, c, earlier, v);
-      } else {
-        points.add_on_planes(a, b, c);
-      }
+      points.add_on_planes(a, b, c);
     }
   }
+  return same;
 }
 
 }  // namespace delmesher::surface

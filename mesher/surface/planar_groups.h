@@ -45,7 +45,8 @@ StandIn find_stand_in(const Surface& surface, double bound, Control& control,
 
 // Adds the vertices of the stand-in to an empty store, as points 0 .. vertices-1. `earlier`: those
 // of another stand-in of the surface, or an empty store; where planes are the same, the points are.
-void add_vertices(const Surface& surface, const StandIn& stand_in, PointStore& points,
-                  const PointStore& earlier = {});
+// Returns, for each vertex, whether it is.
+std::vector<std::uint8_t> add_vertices(const Surface& surface, const StandIn& stand_in,
+                                       PointStore& points, const PointStore& earlier = {});
 
 }  // namespace delmesher::surface

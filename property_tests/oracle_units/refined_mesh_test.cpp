@@ -226,7 +226,7 @@ TEST(Delaunay, AFaceIsLeftOutOnlyIfBothOfItsTetrahedraAreKnown) {
   EXPECT_EQ(violations({{3, 2, 1, 0}, {4, 0, 1, 2}}), 0U);
 }
 
-// Comparing all of them with each other takes twenty times as long as is allowed.
+// Comparing all of them with each other would take 2e10 comparisons.
 TEST(Delaunay, TetrahedraInBothAreFoundAroundAVertexOfAlmostAll) {
   constexpr Index kMany = 200000;
   const ExactPoints points;
