@@ -224,7 +224,7 @@ class Partners {
   // four corners; or if so many faces have a middle corner in common that sorting is faster.
   bool find(const std::vector<FaceRecord>& faces) {
     constexpr std::size_t kSteps = 64;  // for each face
-    std::size_t steps = kSteps * faces.size();
+    const std::uint64_t most = compared_ + kSteps * faces.size();
     of_.assign(faces.size(), kNone);
     next_.resize(faces.size());
     for (const FaceRecord& face : faces) first_[face.middle()] = kNone;
@@ -232,7 +232,7 @@ class Partners {
       Index& first = first_[faces[f].middle()];
       Index other = first;
       while (other != kNone && faces[other].corners != faces[f].corners) {
-        if (--steps == 0) return false;
+        if (++compared_ == most) return false;
         other = next_[other];
       }
       if (other == kNone) {
@@ -250,8 +250,11 @@ class Partners {
   }
   // kNone: none.
   Index of(Index face) const { return of_[face]; }
+  // How many pairs of faces were compared.
+  std::uint64_t compared() const { return compared_; }
 
  private:
+  std::uint64_t compared_ = 0;
   std::vector<Index> first_;  // by middle corner: the last face that had no partner then
   std::vector<Index> next_,
       of_;  // per face: the one before it with the same middle corner, its partner
@@ -301,7 +304,10 @@ Counts match_faces(const TetComplex& complex, Neighbours& neighbours, std::vecto
       continue;
     }
     // If something is wrong, it is reported in order.
-    std::sort(faces.begin(), faces.end());
+    std::sort(faces.begin(), faces.end(), [&](const FaceRecord& a, const FaceRecord& b) {
+      ++neighbours.compared;
+      return a < b;
+    });
     for (std::size_t i = 0; i < faces.size(); ++counts.faces) {
       std::size_t j = i + 1;
       while (j < faces.size() && faces[j].corners == faces[i].corners) ++j;
@@ -310,6 +316,7 @@ Counts match_faces(const TetComplex& complex, Neighbours& neighbours, std::vecto
       i = j;
     }
   }
+  neighbours.compared += partners.compared();
   return counts;
 }
 
@@ -343,6 +350,7 @@ OracleReport check_complex(const TetComplex& complex, Neighbours& neighbours, bo
   OracleReport report("complex", "tetrahedra");
   report.checked = complex.tetrahedra.size();
   neighbours.across.assign(4 * complex.tetrahedra.size(), kNone);
+  neighbours.compared = 0;
   if (complex.tetrahedra.empty() && !is_part) report.fail("there are no tetrahedra");
   if (complex.tetrahedra.size() >= FaceRecord::kEven / 4) {
     report.fail("there are more tetrahedra than this program can number");

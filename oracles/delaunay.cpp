@@ -188,7 +188,7 @@ std::vector<Index> used_vertices(const TetComplex& complex) {
 }
 
 std::vector<std::uint8_t> in_both(const std::vector<delmesher::ExactRecord::Tet>& tetrahedra,
-                                  const TetComplex& other) {
+                                  const TetComplex& other, std::uint64_t* compared) {
   // By a number that is the same for all orders of the corners. By one of the corners, there would
   // be as many to compare as have it in common: on a large flat facet, most of the mesh.
   constexpr Index kInEach = 4;
@@ -203,13 +203,16 @@ std::vector<std::uint8_t> in_both(const std::vector<delmesher::ExactRecord::Tet>
   by_slot.allot();
   for (Index t = 0; t < other.tetrahedra.size(); ++t) by_slot.put(slot(other.tetrahedra[t]), t);
   std::vector<std::uint8_t> found(tetrahedra.size());
+  std::uint64_t pairs = 0;
   for (std::size_t t = 0; t < tetrahedra.size(); ++t) {
     const Tet& tet = tetrahedra[t].vertices;
     const std::span<const Index> candidates = by_slot.of(slot(tet));
     found[t] = std::any_of(candidates.begin(), candidates.end(), [&](Index c) {
+      ++pairs;
       return std::is_permutation(tet.begin(), tet.end(), other.tetrahedra[c].begin());
     });
   }
+  if (compared != nullptr) *compared = pairs;
   return found;
 }
 

@@ -31,8 +31,9 @@ OracleReport check_constrained_delaunay(const TetComplex& complex, const Neighbo
                                         const std::vector<Face>& constraints,
                                         const ConstrainedDelaunayOptions& options = {});
 
-// Which of these tetrahedra are in a complex on the same points.
+// Which of these tetrahedra are in a complex on the same points. `compared`, if given, becomes the
+// number of pairs that were compared.
 std::vector<std::uint8_t> in_both(const std::vector<delmesher::ExactRecord::Tet>& tetrahedra,
-                                  const TetComplex& other);
+                                  const TetComplex& other, std::uint64_t* compared = nullptr);
 
 }  // namespace tetproof::oracles

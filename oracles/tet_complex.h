@@ -48,6 +48,8 @@ inline bool sort_face(Face& face) {
 // Across each face: tetrahedron * 4 + face, or kNone.
 struct Neighbours {
   std::vector<Index> across;
+  // How many pairs of faces were compared to find them; no time is quadratic while that is not.
+  std::uint64_t compared = 0;
 };
 
 // Complex oracle: indices in range, corners distinct, no duplicate tetrahedra, every face shared by
