@@ -10,9 +10,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
-#include <system_error>
 #include <utility>
+
+#include "mesher/cli/signals.h"
+#include "mesher/io/output.h"
 
 namespace delmesher::cli {
 namespace {
@@ -33,7 +36,7 @@ class Batch {
   int run(unsigned jobs);
 
  private:
-  std::string without_folder() const;
+  std::string folder_error() const;
   bool start(std::size_t command);
   void wait_for_one();
   void count(int code) { ++codes_[code]; }
@@ -76,8 +79,7 @@ void copy_and_close(std::FILE* from, const std::function<void(const std::string&
 
 bool Batch::start(std::size_t command) {
   Child child = {command, std::tmpfile(), std::tmpfile(), Clock::now()};
-  const pid_t pid =
-      child.out != nullptr && child.error != nullptr ? ::fork() : static_cast<pid_t>(-1);
+  const pid_t pid = child.out != nullptr && child.error != nullptr ? fork_child() : -1;
   if (pid < 0) {
     for (std::FILE* file : {child.out, child.error}) {
       if (file != nullptr) std::fclose(file);
@@ -109,6 +111,7 @@ void Batch::wait_for_one() {
   const pid_t pid = ::waitpid(-1, &status, 0);
   const auto found = running_.find(pid);
   if (found == running_.end()) return;
+  forget_child(pid);
   const Child child = found->second;
   running_.erase(found);
   copy_and_close(child.out, streams_.out);
@@ -123,13 +126,14 @@ void Batch::wait_for_one() {
   summarize(child.command, code, how);
 }
 
-// The first output whose folder is not there; empty if there is none.
-std::string Batch::without_folder() const {
+// Why a folder of outputs can neither be written to nor be made; empty if all can.
+std::string Batch::folder_error() const {
+  std::set<std::filesystem::path> seen;
   for (const Command& command : commands_) {
     for (const std::string& output : command.outputs) {
-      const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-      std::error_code ignored;
-      if (!folder.empty() && !std::filesystem::is_directory(folder, ignored)) return output;
+      if (!seen.insert(std::filesystem::path(output).parent_path()).second) continue;
+      const io::WriteStatus status = io::check_writable(output, io::MissingFolder::is_made);
+      if (!status.ok()) return status.error;
     }
   }
   return {};
@@ -137,13 +141,15 @@ std::string Batch::without_folder() const {
 
 int Batch::run(unsigned jobs) {
   // Once, not for every input.
-  if (const std::string output = without_folder(); !output.empty()) {
-    streams_.error("delmesher: " + output + ": cannot write: there is no such folder\n");
+  if (const std::string error = folder_error(); !error.empty()) {
+    streams_.error("delmesher: " + error + "\n");
     return kUnreadable;
   }
-  std::fflush(stdout);  // or every child would write it, too
-  for (std::size_t next = 0; next < commands_.size() || !running_.empty();) {
-    const bool room = running_.size() < jobs && next < commands_.size();
+  std::fflush(stdout);        // or every child would write it, too
+  const Deferring deferring;  // those that run are interrupted, and say so
+  std::size_t next = 0;
+  while ((next < commands_.size() && !interrupted()) || !running_.empty()) {
+    const bool room = running_.size() < jobs && next < commands_.size() && !interrupted();
     if (room && start(next)) {
       ++next;
     } else if (room && running_.empty()) {  // no process to be had, and none that would end
@@ -163,8 +169,12 @@ int Batch::run(unsigned jobs) {
       line += ", " + std::to_string(files) + " " + meaning(code) + " (exit " +
               std::to_string(code) + ")";
     }
+    if (next < commands_.size()) {
+      line += ", " + std::to_string(commands_.size() - next) + " not begun";
+    }
     streams_.error(line + "\n");
   }
+  if (interrupted()) return kInterrupted;
   return all ? kDone : kFailed;
 }
 

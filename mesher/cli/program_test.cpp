@@ -234,8 +234,8 @@ TEST_F(Program, MissingAndUnwritableFilesAreSaid) {
   expect_error("in.none.off", "");
   EXPECT_EQ(run("mesh . -o mesh.mesh"), 3);
   expect_error(".", "");
-  EXPECT_EQ(run("mesh in.off -o nowhere/mesh.mesh"), 3);
-  expect_error("nowhere/mesh.mesh", "");
+  EXPECT_EQ(run("mesh in.off -o in.off/mesh.mesh"), 3);
+  expect_error("in.off/mesh.mesh", "Not a directory");
   expect_no_output();
 }
 
@@ -585,8 +585,14 @@ TEST_F(Program, AWholeFolder) {
   write("in.b.off", replaced(replaced(cube(), "8 12", "8 11"), "3 1 7 5\n", ""));
   write("in.c.off", cube());
   write("in.d.off", "OFF\nnothing\n");
-  EXPECT_EQ(run("mesh in.a.off in.b.off -o none/{name}.tet --jobs 2"), 3);
-  EXPECT_EQ(text("err.txt"), "delmesher: none/in.a.tet: cannot write: there is no such folder\n");
+  EXPECT_EQ(run("mesh in.a.off in.b.off -o in.a.off/{name}.tet --jobs 2"), 3);
+  EXPECT_EQ(text("err.txt"), "delmesher: in.a.off/in.a.tet: cannot write: Not a directory\n")
+      << "once, not for every input";
+  EXPECT_EQ(run("mesh in.b.off in.d.off -o out/{name}.tet --jobs 2 -q"), 1);
+  EXPECT_FALSE(fs::exists(path("out"))) << "nothing was written";
+  EXPECT_EQ(run("mesh in.a.off in.b.off in.c.off -o out/{name}.tet --jobs 2 -q"), 1);
+  EXPECT_EQ(text("out/in.a.tet"), text("out/in.c.tet"));
+  EXPECT_FALSE(text("out/in.a.tet").empty());
   EXPECT_EQ(run("mesh in.a.off in.b.off in.c.off in.d.off -o {name}.tet --jobs 2"), 1);
   const std::string said = text("err.txt");
   for (const char* line :
@@ -617,6 +623,33 @@ TEST_F(Program, SignalsEndIt) {
     expect_error("in.off", "interrupted");
   }
   expect_no_output();
+}
+
+// Those that run end, too, and say so; no other begins.
+TEST_F(Program, ASignalEndsAWholeFolder) {
+  write("in.off", cube());
+  write("in.2.off", cube());
+  write("in.3.off", cube());
+  EXPECT_EQ(run("mesh in.off in.2.off in.3.off -o out/{name}.mesh --max-edge 0.0005 --jobs 2",
+                "timeout --foreground --preserve-status -s TERM 2"),
+            130);
+  const std::string said = text("err.txt");
+  EXPECT_NE(said.find("delmesher: in.off: interrupted\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("delmesher: in.2.off: interrupted\n"), std::string::npos) << said;
+  EXPECT_NE(said.find("0 of 3 files done, 2 interrupted (exit 130), 1 not begun\n"),
+            std::string::npos)
+      << said;
+  expect_no_output();
+}
+
+// A run of a second or more, which the signal reaches in its middle.
+TEST_F(Program, AnIgnoredSignalDoesNotEndIt) {
+  write("in.off", cube());
+  EXPECT_EQ(run("mesh in.off -o mesh.tet --max-edge 0.05 -q",
+                "timeout --foreground --preserve-status -s INT 0.3 env --ignore-signal=INT"),
+            0)
+      << text("err.txt");
+  EXPECT_TRUE(fs::exists(path("mesh.tet")));
 }
 
 }  // namespace

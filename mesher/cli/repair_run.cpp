@@ -43,6 +43,7 @@ int RepairRunner::read() {
 
 int RepairRunner::write() {
   io::OutputSet outputs(set_temporaries);
+  outputs.make_folders();
   io::WriteStatus status;
   for (const std::string& output : command_.outputs) {
     status = io::write_surface(outputs, output, surface_, names_);

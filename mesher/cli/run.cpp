@@ -66,6 +66,7 @@ int Runner::check() {
 
 int Runner::write_defects(const SurfaceReport& report) const {
   io::OutputSet outputs(set_temporaries);
+  outputs.make_folders();
   io::WriteStatus status;
   io::TextSink* sink = outputs.open(command_.defects_file, status);
   if (sink == nullptr) return fail(kUnreadable, status.error);

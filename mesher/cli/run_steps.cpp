@@ -57,7 +57,7 @@ int RunSteps::check_outputs(std::vector<std::string> (*files_of)(const std::stri
     if (!file->empty()) files.push_back(*file);
   }
   for (const std::string& file : files) {
-    const io::WriteStatus status = io::check_writable(file);
+    const io::WriteStatus status = io::check_writable(file, io::MissingFolder::is_made);
     if (!status.ok()) return fail(kUnreadable, status.error);
   }
   return kDone;
@@ -122,6 +122,7 @@ Options RunSteps::options_with_progress(ProgressLine& line) const {
 io::WriteStatus RunSteps::put_in_place(const Outcome& outcome) {
   const double start = seconds();
   io::OutputSet outputs(set_temporaries);
+  outputs.make_folders();
   io::WriteStatus status = outcome.write(outputs);
   if (!status.ok()) return status;
   const Deferring deferring;  // all files or none
@@ -136,6 +137,7 @@ io::WriteStatus RunSteps::write_stats(const Outcome& outcome) {
   facts_.wall_seconds = seconds();
   measure_process(facts_);
   io::OutputSet outputs(set_temporaries);
+  outputs.make_folders();
   io::TextSink* sink = outputs.open(command_.stats_file, status);
   if (sink == nullptr) return status;
   sink->text(outcome.json());

@@ -52,7 +52,7 @@ TEST_F(Run, InvertedIsOneAndFlatIsSaid) {
 
 TEST_F(Run, UnwritableOutputsAreFoundBeforeTheRun) {
   for (const char* option : {"-o", "--stats", "--exact", "--save-chamfered"}) {
-    const std::string file = path("missing/x.mesh");
+    const std::string file = path("in.off/x.mesh");
     std::vector<std::string> arguments = {path("in.off"), option, file};
     if (std::string(option) != "-o") arguments.insert(arguments.end(), {"-o", path("a.mesh")});
     EXPECT_EQ(go(arguments), kUnreadable);
@@ -94,6 +94,7 @@ TEST_F(Run, ASignalStopsTheLibraryAndLeavesNothing) {
   };
   // In a child process: the flag stays set for the rest of its life.
   const auto child = [this] {
+    std::signal(SIGINT, SIG_DFL);  // ignored, where a shell runs the tests in the background
     install_signal_handlers();
     std::_Exit(go({path("in.off"), "-o", path("a.mesh")}));
   };
@@ -103,18 +104,46 @@ TEST_F(Run, ASignalStopsTheLibraryAndLeavesNothing) {
 
 TEST_F(Run, TheSecondSignalDoesNotWait) {
   library_.tetrahedralize = [this](const Surface&, const Options&) -> Result {
-    std::ofstream(path("left.part0")) << "x";
-    set_temporaries({path("left.part0")});
+    fs::create_directory(path("left"));
+    std::ofstream(path("left/left.part0")) << "x";
+    set_temporaries({path("left/left.part0"), path("left")});
     std::raise(SIGTERM);
-    std::raise(SIGINT);
+    std::raise(SIGHUP);
     std::_Exit(0);
   };
   const auto child = [this] {
+    std::signal(SIGHUP, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
     install_signal_handlers();
     go({path("in.off"), "-o", path("a.mesh")});
   };
   EXPECT_EXIT(child(), testing::ExitedWithCode(kInterrupted), "");
   EXPECT_EQ(files(), 1U);
+}
+
+// As `nohup` and a shell in the background want it.
+TEST_F(Run, AnIgnoredSignalStaysIgnored) {
+  const auto child = [this] {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+    install_signal_handlers();
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::raise(signal);
+    std::_Exit(go({path("in.off"), "-o", path("a.mesh")}));
+  };
+  EXPECT_EXIT(child(), testing::ExitedWithCode(kDone), "");
+  EXPECT_TRUE(fs::exists(path("a.mesh")));
+}
+
+TEST_F(Run, FoldersAreMadeWhereSomethingIsWritten) {
+  EXPECT_EQ(
+      go({path("in.off"), "-o", path("new/er/a.mesh"), "--stats", path("stats/s.json"), "-q"}),
+      kDone);
+  EXPECT_TRUE(fs::exists(path("new/er/a.mesh")));
+  EXPECT_TRUE(fs::exists(path("stats/s.json")));
+  EXPECT_EQ(go({path("none.off"), "-o", path("other/a.mesh")}), kUnreadable);
+  EXPECT_FALSE(fs::exists(path("other")));
+  answer_.status = {StatusCode::invalid_surface, "not closed"};
+  EXPECT_EQ(go({path("in.off"), "-o", path("other/a.mesh")}), kInvalid);
+  EXPECT_FALSE(fs::exists(path("other")));
 }
 
 }  // namespace

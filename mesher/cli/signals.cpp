@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -20,24 +21,56 @@ constexpr std::size_t kMaxTemporaries = 64, kMaxPath = 4096;
 std::array<std::array<char, kMaxPath>, kMaxTemporaries> temporaries;
 std::atomic<std::size_t> temporary_count = 0;
 
-extern "C" void handle_signal(int) {
+// At most as many as --jobs allows; 0 is free.
+constexpr std::size_t kMaxChildren = 1024;
+std::array<std::atomic<pid_t>, kMaxChildren> children;
+
+// A terminal sends its signals to all processes of the group by itself.
+bool is_from_terminal(const siginfo_t* info) {
+#ifdef SI_KERNEL
+  return info != nullptr && info->si_code == SI_KERNEL;
+#else
+  static_cast<void>(info);
+  return false;
+#endif
+}
+
+extern "C" void handle_signal(int signal, siginfo_t* info, void*) {
+  for (const std::atomic<pid_t>& child : children) {
+    if (const pid_t pid = child.load(); pid > 0 && !is_from_terminal(info)) ::kill(pid, signal);
+  }
   const bool first = !signal_seen.exchange(true);
   if (first && deferring.load()) return;
   const std::size_t count = temporary_count.load();
-  for (std::size_t i = 0; i < count; ++i) ::unlink(temporaries[i].data());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (::unlink(temporaries[i].data()) != 0) ::rmdir(temporaries[i].data());
+  }
   ::_exit(kInterrupted);
+}
+
+std::array<int, 3> signals() {
+  return {SIGINT, SIGTERM, SIGHUP};
+}
+
+sigset_t signal_set() {
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int signal : signals()) sigaddset(&set, signal);
+  return set;
 }
 
 }  // namespace
 
 void install_signal_handlers() {
   struct sigaction action = {};
-  action.sa_handler = handle_signal;
-  sigemptyset(&action.sa_mask);
-  sigaddset(&action.sa_mask, SIGINT);
-  sigaddset(&action.sa_mask, SIGTERM);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  action.sa_sigaction = handle_signal;
+  action.sa_flags = SA_SIGINFO;
+  action.sa_mask = signal_set();
+  for (const int signal : signals()) {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
 }
 
 void begin_deferring() {
@@ -60,6 +93,26 @@ void set_temporaries(const std::vector<std::string>& paths) {
     std::memcpy(temporaries[count++].data(), path.c_str(), path.size() + 1);
   }
   temporary_count = count;
+}
+
+int fork_child() {
+  const auto slot = std::find(children.begin(), children.end(), 0);
+  if (slot == children.end()) return -1;
+  const sigset_t ours = signal_set();
+  sigset_t before;
+  sigprocmask(SIG_BLOCK, &ours, &before);  // until it is known to whom they are passed on
+  const pid_t pid = ::fork();
+  if (pid > 0) *slot = pid;
+  if (pid == 0) {
+    for (std::atomic<pid_t>& child : children) child = 0;
+    end_deferring();
+  }
+  sigprocmask(SIG_SETMASK, &before, nullptr);
+  return pid;
+}
+
+void forget_child(int pid) {
+  std::replace(children.begin(), children.end(), pid, 0);
 }
 
 }  // namespace delmesher::cli

@@ -1,5 +1,5 @@
-// Ctrl-C and termination: politely while the library runs, at once otherwise, never leaving
-// temporaries behind.
+// Ctrl-C, termination and the end of a terminal: politely while the library runs, at once
+// otherwise, never leaving temporaries behind.
 #pragma once
 
 #include <string>
@@ -7,8 +7,10 @@
 
 namespace delmesher::cli {
 
-// From now on SIGINT and SIGTERM end the program at once with code 130, removing temporaries;
-// between begin_deferring() and end_deferring() the first one only sets the flag.
+// From now on SIGINT, SIGTERM and SIGHUP end the program at once with code 130, removing
+// temporaries; between begin_deferring() and end_deferring() the first one only sets the flag. One
+// that is ignored stays so: whoever started the program (nohup, or a shell in the background) wants
+// it to go on.
 void install_signal_handlers();
 void begin_deferring();
 void end_deferring();
@@ -23,7 +25,13 @@ class Deferring {
   Deferring& operator=(const Deferring&) = delete;
 };
 
-// The files to remove should a signal end the program.
+// The files, and empty folders, to remove should a signal end the program.
 void set_temporaries(const std::vector<std::string>& paths);
+
+// Like fork(), but signals are passed on to the new process, unless it gets them anyway (from a
+// terminal), until it is forgotten. The new process has no children to pass them on to, and defers
+// nothing.
+int fork_child();
+void forget_child(int pid);
 
 }  // namespace delmesher::cli

@@ -1,5 +1,6 @@
 #include "mesher/io/output.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -61,6 +62,14 @@ std::FILE* create_beside(const fs::path& target, std::string& name) {
   return file;
 }
 
+// The folder that a file is to be in; "." if the path names none.
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+// Folders of other runs may go at any time, of those that make some and then write nothing.
+constexpr int kMakingAttempts = 20;
+
 }  // namespace
 
 void TextSink::number(double value) {
@@ -101,6 +110,7 @@ void OutputSet::tell_watcher() {
   for (const File& file : files_) {
     if (!file.temporary.empty()) names.push_back(file.temporary);
   }
+  names.insert(names.end(), made_folders_.rbegin(), made_folders_.rend());
   watcher_(names);
 }
 
@@ -110,7 +120,44 @@ void OutputSet::discard() {
     if (!file.temporary.empty()) std::remove(file.temporary.c_str());
   }
   files_.clear();
+  // A folder in which others have put something meanwhile stays.
+  for (; !made_folders_.empty(); made_folders_.pop_back()) ::rmdir(made_folders_.back().c_str());
   tell_watcher();
+}
+
+// False with errno if it is neither there nor could be made.
+bool OutputSet::make_folder(const std::string& target) {
+  std::error_code error;
+  std::vector<fs::path> missing;
+  for (fs::path folder = folder_of(target); !fs::exists(folder, error);
+       folder = folder_of(folder)) {
+    missing.push_back(folder);
+    if (folder == folder_of(folder)) break;
+  }
+  for (; !missing.empty(); missing.pop_back()) {
+    made_folders_.push_back(missing.back().string());  // known before it is there, as with files
+    tell_watcher();
+    if (::mkdir(made_folders_.back().c_str(), 0777) == 0) continue;
+    const int why = errno;
+    made_folders_.pop_back();
+    tell_watcher();
+    if (why == EEXIST) continue;  // another run was faster
+    errno = why;
+    return false;
+  }
+  return true;
+}
+
+// Null with errno.
+std::FILE* OutputSet::create(const std::string& target, std::string& temporary) {
+  if (!makes_folders_) return create_beside(target, temporary);
+  std::FILE* file = nullptr;
+  for (int attempt = 0; attempt < kMakingAttempts && file == nullptr; ++attempt) {
+    const bool there = make_folder(target);
+    if (there) file = create_beside(target, temporary);
+    if (file == nullptr && errno != ENOENT) break;
+  }
+  return file;
 }
 
 bool is_standard_stream(const std::string& path) {
@@ -132,7 +179,7 @@ TextSink* OutputSet::open(const std::string& path, WriteStatus& status) {
   } else if (is_special(target)) {
     file.file = std::fopen(file.target.c_str(), "wb");
   } else {
-    file.file = create_beside(target, file.temporary);
+    file.file = create(file.target, file.temporary);
   }
   if (file.file == nullptr) {
     const int why = errno;
@@ -162,6 +209,7 @@ WriteStatus OutputSet::commit() {
     }
   }
   if (status.ok()) status = put_in_place();
+  if (status.ok()) made_folders_.clear();
   discard();
   return status;
 }
@@ -216,10 +264,21 @@ void OutputSet::restore_targets() noexcept {
   }
 }
 
-WriteStatus check_writable(const std::string& path) {
+WriteStatus check_writable(const std::string& path, MissingFolder missing) {
   // Opening a special file could have effects (a pipe blocks); its turn comes when it is written.
   WriteStatus status;
-  if (is_special(resolve(path))) return status;
+  const fs::path target = resolve(path);
+  if (is_special(target)) return status;
+  std::error_code error;
+  fs::path folder = folder_of(target);
+  if (missing == MissingFolder::is_made && !fs::exists(folder, error)) {
+    while (folder != folder_of(folder) && !fs::exists(folder, error)) folder = folder_of(folder);
+    errno = ENOTDIR;
+    if (!fs::is_directory(folder, error) || ::access(folder.c_str(), W_OK | X_OK) != 0) {
+      status.error = path + ": cannot make its folder: " + folder.string() + ": " + reason(errno);
+    }
+    return status;
+  }
   OutputSet trial;
   trial.open(path, status);
   return status;

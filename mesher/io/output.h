@@ -66,13 +66,18 @@ class TextSink {
 class OutputSet {
  public:
   // Told the paths of the temporaries whenever there is one more (and the empty list when there are
-  // none left), so that a program can remove them should it be killed.
+  // none left), so that a program can remove them should it be killed; after them the folders that
+  // were made, inner ones first.
   using Watcher = std::function<void(const std::vector<std::string>&)>;
 
   explicit OutputSet(Watcher watcher = nullptr) : watcher_(std::move(watcher)) {}
   ~OutputSet();  // removes the files that were not committed
   OutputSet(const OutputSet&) = delete;
   OutputSet& operator=(const OutputSet&) = delete;
+
+  // From now on open() makes the folders that are missing; those it made go with the files, should
+  // they not be committed.
+  void make_folders() { makes_folders_ = true; }
 
   // Begins a file. A symbolic link is followed; something that exists and is no regular file (a
   // device, a pipe) is written directly. Returns null with status.error on failure.
@@ -96,8 +101,12 @@ class OutputSet {
   void restore_targets() noexcept;  // without memory, too
   void discard();
   void tell_watcher();
+  bool make_folder(const std::string& target);
+  std::FILE* create(const std::string& target, std::string& temporary);
 
   Watcher watcher_;
+  bool makes_folders_ = false;
+  std::vector<std::string> made_folders_;  // outer ones first
   std::vector<File> files_;
 };
 
@@ -105,7 +114,9 @@ class OutputSet {
 // where it is written. ("./-" is a file of that name.)
 bool is_standard_stream(const std::string& path);
 
-// Whether a file could be created at `path` now; leaves nothing behind.
-WriteStatus check_writable(const std::string& path);
+// Whether a file could be created at `path` now; leaves nothing behind. What is missing of its
+// folder may be made later.
+enum class MissingFolder { is_an_error, is_made };
+WriteStatus check_writable(const std::string& path, MissingFolder missing);
 
 }  // namespace delmesher::io

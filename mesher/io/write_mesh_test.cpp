@@ -349,8 +349,9 @@ TEST_F(WriteMesh, FailuresAreValues) {
   fs::create_directory(path("dir.mesh"));
   const WriteStatus status = write_mesh(outputs, path("dir.mesh"), sample());
   EXPECT_NE(status.error.find("directory"), std::string::npos) << status.error;
-  EXPECT_FALSE(check_writable(path("no/such/a.mesh")).ok());
-  EXPECT_TRUE(check_writable(path("b.mesh")).ok());
+  EXPECT_FALSE(check_writable(path("no/such/a.mesh"), MissingFolder::is_an_error).ok());
+  EXPECT_TRUE(check_writable(path("no/such/a.mesh"), MissingFolder::is_made).ok());
+  EXPECT_TRUE(check_writable(path("b.mesh"), MissingFolder::is_an_error).ok());
   EXPECT_EQ(files(), 1U);
   TetMesh broken = sample();
   broken.tetrahedra[0][0] = 77;
@@ -358,6 +359,59 @@ TEST_F(WriteMesh, FailuresAreValues) {
   broken = sample();
   broken.boundary_facets.pop_back();
   EXPECT_FALSE(write_mesh(outputs, path("a.mesh"), broken).ok());
+}
+
+// Those that were there stay, those that were made stay with files alone.
+TEST_F(WriteMesh, FoldersAreMade) {
+  fs::create_directory(path("there"));
+  {
+    OutputSet outputs;
+    outputs.make_folders();
+    ASSERT_TRUE(write_mesh(outputs, path("there/new/a.mesh"), sample()).ok());
+    ASSERT_TRUE(write_mesh(outputs, path("there/new/er/a.mesh"), sample()).ok());
+    EXPECT_TRUE(fs::is_directory(path("there/new/er")));
+  }
+  EXPECT_TRUE(fs::is_directory(path("there")));
+  EXPECT_FALSE(fs::exists(path("there/new")));
+  std::vector<std::string> seen;
+  OutputSet outputs([&](const std::vector<std::string>& names) { seen = names; });
+  outputs.make_folders();
+  ASSERT_TRUE(write_mesh(outputs, path("there/new/er/a.mesh"), sample()).ok());
+  ASSERT_EQ(seen.size(), 3U);
+  EXPECT_EQ(seen[1], path("there/new/er"));
+  EXPECT_EQ(seen[2], path("there/new"));
+  ASSERT_TRUE(outputs.commit().ok());
+  EXPECT_TRUE(seen.empty());
+  EXPECT_TRUE(content(path("there/new/er/a.mesh")).starts_with("MeshVersion"));
+}
+
+TEST_F(WriteMesh, WhatIsInTheWayOfAFolderIsSaid) {
+  std::ofstream(path("file")) << "x";
+  OutputSet outputs;
+  outputs.make_folders();
+  for (const char* name : {"file/a.mesh", "file/b/a.mesh"}) {
+    EXPECT_NE(write_mesh(outputs, path(name), sample()).error.find("Not a directory"),
+              std::string::npos);
+    const std::string error = check_writable(path(name), MissingFolder::is_made).error;
+    EXPECT_NE(error.find("Not a directory"), std::string::npos) << error;
+  }
+  EXPECT_EQ(files(), 1U);
+}
+
+// Another run may put a file into a folder that this one made, or take one away that it needs.
+TEST_F(WriteMesh, FoldersAreSharedWithOtherRuns) {
+  OutputSet outputs;
+  outputs.make_folders();
+  ASSERT_TRUE(write_mesh(outputs, path("out/a.mesh"), sample()).ok());
+  {
+    OutputSet other;
+    other.make_folders();
+    ASSERT_TRUE(write_mesh(other, path("out/b.mesh"), sample()).ok());
+    ASSERT_TRUE(other.commit().ok());
+  }
+  ASSERT_TRUE(outputs.commit().ok());
+  EXPECT_TRUE(fs::exists(path("out/a.mesh")));
+  EXPECT_TRUE(fs::exists(path("out/b.mesh")));
 }
 
 TEST_F(WriteMesh, AFullDiskIsReported) {
