@@ -258,6 +258,7 @@ class GmshReader {
         if (k == 0) element.group = value;
         if (k == 1) element.entity = value;
       }
+      if (element.group == 0) element.group = element.entity;  // 0 is no group
       take(element);
     }
     distinct_tags();

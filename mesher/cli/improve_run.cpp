@@ -1,10 +1,14 @@
 #include "mesher/cli/improve_run.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 
 #include "mesher/cli/quality.h"
 #include "mesher/cli/run_steps.h"
 #include "mesher/io/read_mesh.h"
+#include "mesher/io/text.h"
 #include "mesher/io/write_mesh.h"
 
 namespace delmesher::cli {
@@ -24,6 +28,7 @@ class ImproveRunner : RunSteps {
  private:
   int read();
   int improve();
+  void warn_of_lost_regions() const;
 
   TetMesh mesh_;
   io::LabelNames names_;
@@ -37,9 +42,24 @@ int ImproveRunner::read() {
     warn("its elements are of second order, those written are not (--order 2)");
   }
   mesh_ = std::move(input.mesh);
+  warn_of_lost_regions();
   names_ = std::move(input.names);
   note_input(input.format, mesh_.vertices.size(), mesh_.tetrahedra.size(), "tetrahedra");
   return read_beside(names_);
+}
+
+// A .tet file tells sides, but no regions.
+void ImproveRunner::warn_of_lost_regions() const {
+  const auto& regions = mesh_.regions;
+  if (std::adjacent_find(regions.begin(), regions.end(), std::not_equal_to()) == regions.end()) {
+    return;
+  }
+  for (const std::string& output : command_.outputs) {
+    const std::string extension = std::filesystem::path(output).extension().string();
+    if (io::equal_ignoring_case(extension, ".tet")) {
+      warn("it has several regions, of which " + output + " can tell nothing");
+    }
+  }
 }
 
 // The line of quality, with the quality before.

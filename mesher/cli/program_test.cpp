@@ -199,6 +199,21 @@ TEST_F(Program, AnyMeshIsImproved) {
   EXPECT_EQ(text("out.txt") + text("err.txt"), "");
 }
 
+TEST_F(Program, ALossOfRegionsIsSaid) {
+  const std::string mesh =
+      "MeshVersionFormatted 2\nDimension 3\nVertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+      "1 1 1 0\nTetrahedra\n2\n1 2 3 4 1\n2 3 4 5 ";
+  const std::string lost = "warning: it has several regions, of which mesh.tet can tell nothing";
+  write("in.mesh", mesh + "7\nEnd\n");
+  EXPECT_EQ(run("improve in.mesh -o mesh.tet -o mesh.vtu"), 0);
+  EXPECT_NE(text("err.txt").find(lost), std::string::npos) << text("err.txt");
+  EXPECT_EQ(run("improve in.mesh -o mesh.vtu"), 0);
+  EXPECT_EQ(text("err.txt").find("regions"), std::string::npos) << text("err.txt");
+  write("in.mesh", mesh + "1\nEnd\n");
+  EXPECT_EQ(run("improve in.mesh -o mesh.tet"), 0);
+  EXPECT_EQ(text("err.txt").find("regions"), std::string::npos) << text("err.txt");
+}
+
 TEST_F(Program, MeshesThatCannotBeImprovedEndWithTheirCodeAndOneLine) {
   const std::string tet = "5 vertices\n2 tets\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n4 0 1 2 3\n";
   write("in.tet", tet + "4 1 2 3 4\n");

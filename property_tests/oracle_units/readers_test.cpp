@@ -28,6 +28,22 @@ using namespace oracles;  // NOLINT
 using delmesher::io::packed_by_zlib;
 using delmesher::io::Wrapping;
 
+// In version 2.2 every element has a group, and 0 stands for none; then its entity tells.
+TEST(GmshText, AGroupOfZeroIsNone) {
+  const auto read = [](const std::string& triangle, const std::string& tetrahedron) {
+    return read_mesh(written(
+        "zero.msh",
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n"
+        "$EndNodes\n$Elements\n2\n1 2 2 " +
+            triangle + " 1 3 2\n2 4 2 " + tetrahedron + " 1 2 3 4\n$EndElements\n"));
+  };
+  const MeshFile none = read("0 6", "0 9"), some = read("5 6", "8 9");
+  EXPECT_EQ(none.labels, std::vector<std::int32_t>{6});
+  EXPECT_EQ(none.regions, std::vector<std::int64_t>{9});
+  EXPECT_EQ(some.labels, std::vector<std::int32_t>{5});
+  EXPECT_EQ(some.regions, std::vector<std::int64_t>{8});
+}
+
 TEST(TextReader, ReadsWordsAndCountsLines) {
   TextReader reader("file", "one two # three\n\n\t four\r\nfive");
   EXPECT_EQ(reader.word(), "one");
