@@ -60,6 +60,9 @@ class Improved {
     check_walls();
     if (mesh_.lists_boundary && !(given_.boundary.empty() && mesh_.boundary.empty())) check_list();
     check_nodes();
+    if (options_.promised.max_vertices > 0) {
+      add(check_written_vertices(options_.promised, mesh_.vertices.size()));
+    }
     check_angles();
     return {};
   }

@@ -9,6 +9,7 @@
 #include "oracles/plane_final.h"
 #include "oracles/plane_record.h"
 #include "oracles/plane_refined.h"
+#include "oracles/promise.h"
 
 namespace tetproof {
 namespace {
@@ -86,6 +87,9 @@ std::string verify_plane(const PlanarGraph& graph, const PlaneFile& file, const 
   if (record != nullptr) {
     report.deviation =
         std::max(report.deviation, verify_record(input, file, *record, options, report));
+  } else if (options.promised.max_vertices > 0) {
+    report.oracles.push_back(
+        oracles::check_written_vertices(options.promised, file.vertices.size()));
   }
   report.deviation_ulps = ulp > 0 ? report.deviation / ulp : 0;
   report.deviation_share = input.diagonal() > 0 ? report.deviation / input.diagonal() : 0;

@@ -508,4 +508,15 @@ OracleReport check_promise(const Promise& promise, const ExactRecord& record, un
   return PromiseCheck(promise, record, diagonal).run(version);
 }
 
+OracleReport check_written_vertices(const Promise& promise, std::size_t written) {
+  OracleReport report("promise", "promises");
+  report.checked = 1;
+  const auto vertices = static_cast<double>(written);
+  if (vertices > promise.max_vertices) {
+    report.fail("the file has " + number(vertices) + " vertices, promised were at most " +
+                number(promise.max_vertices));
+  }
+  return report;
+}
+
 }  // namespace tetproof::oracles

@@ -75,6 +75,9 @@ Promise promise_of(const delmesher::Options& options, Task task = Task::mesh);
 OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord& record,
                            unsigned version, double diagonal);
 
+// The same of a file without a record: has it no more vertices than --max-vertices?
+OracleReport check_written_vertices(const Promise& promise, std::size_t written);
+
 // The version of the sidecar that has all sections the oracles ask for.
 inline constexpr unsigned kRecordVersion = 5;
 

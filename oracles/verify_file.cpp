@@ -87,6 +87,9 @@ std::string Verification::check_file() {
     }
     add(std::move(nodes));
   }
+  if (exact_ == nullptr && options_.promised.max_vertices > 0) {
+    add(check_written_vertices(options_.promised, mesh_.vertices.size()));
+  }
 
   const auto offset = static_cast<Index>(input_.vertices.size());
   TetComplex complex{&points, mesh_.tetrahedra, {}, offset, static_cast<Index>(points.size())};

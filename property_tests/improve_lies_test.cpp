@@ -387,6 +387,10 @@ std::vector<Lie> inner_lies() {
        [](Told& t) { flatten(t.mesh, 0.95); }},
       {"edges are longer than promised", "improvement",
        [](Told& t) { t.options.promised.max_edge = 0.1; }},
+      {"a vertex more than promised", "promise",
+       [](Told& t) {
+         t.options.promised.max_vertices = static_cast<double>(t.mesh.vertices.size()) - 1;
+       }},
       {"elements of second order were promised", "edge-nodes",
        [](Told& t) { t.options.promised.second_order = true; }},
       {"the node of an edge is off its middle", "edge-nodes",
@@ -413,6 +417,14 @@ TEST(ImproveLies, AnHonestMeshPasses) {
     ASSERT_NE(report.find(oracle), nullptr) << oracle;
     EXPECT_TRUE(report.find(oracle)->passed()) << to_text(report);
   }
+}
+
+TEST(ImproveLies, AsManyVerticesAsPromisedPass) {
+  Told t = told();
+  t.options.promised.max_vertices = static_cast<double>(t.mesh.vertices.size());
+  const VerifyReport report = verdict_on(t);
+  EXPECT_NE(report.find("promise"), nullptr);
+  EXPECT_EQ(report.verdict, Verdict::exact) << to_text(report);
 }
 
 TEST(ImproveLies, AreCaught) {

@@ -211,6 +211,16 @@ TEST(PlaneLies, AboutTheInsideOfASingleRingShowInItsArea) {
   EXPECT_EQ(bad.find("exact-area")->violations, 1U);
 }
 
+TEST(PlaneLies, AboutTheVerticesOfAFileAlone) {
+  Told told = honest();
+  told.how.promised.max_vertices = static_cast<double>(told.file.vertices.size());
+  const oracles::VerifyReport good = verdict_on(told, false);
+  ASSERT_NE(good.find("promise"), nullptr);
+  EXPECT_TRUE(good.all_passed()) << to_text(good);
+  told.how.promised.max_vertices -= 1;
+  EXPECT_TRUE(says(verdict_on(told, false), "promise", "vertices, promised were at most"));
+}
+
 // A square within a rectangle, with and without the sides exchanged. However far away the rectangle
 // is, no vertex of the square is known worse for it.
 TEST(PlaneLies, AboutSidesWithinARectangleFarAway) {

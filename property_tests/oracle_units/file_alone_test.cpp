@@ -167,6 +167,21 @@ TEST(FileAlone, IsComparedWithTheWholeSurface) {
   EXPECT_EQ(figures.at("input vertices"), 8);
 }
 
+TEST(FileAlone, HasNoMoreVerticesThanWerePromised) {
+  const samples::Sample cube = samples::cube();
+  const auto report_on = [&cube](std::size_t vertices) {
+    VerifyReport report;
+    const Promise promise{.max_vertices = static_cast<double>(vertices)};
+    EXPECT_EQ(verify(cube.input, cube.mesh, nullptr, {.promised = promise}, report), "");
+    return report;
+  };
+  EXPECT_EQ(report_on(cube.mesh.vertices.size()).verdict, Verdict::exact);
+  const VerifyReport report = report_on(cube.mesh.vertices.size() - 1);
+  EXPECT_EQ(report.verdict, Verdict::broken);
+  ASSERT_NE(report.find("promise"), nullptr);
+  EXPECT_FALSE(report.find("promise")->passed()) << to_text(report);
+}
+
 // The inside of a refined mesh may be empty; a mesh may not.
 TEST(Complex, OnlyAPartMayBeEmpty) {
   TetComplex complex;
