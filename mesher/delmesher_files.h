@@ -89,7 +89,8 @@ struct MeshReadResult {
   ReadCode code = ReadCode::ok;
   std::string error;  // "file:line: reason" or "file: reason"
   TetMesh mesh;
-  LabelNames names;    // of physical groups, in .msh
+  LabelNames names;  // of physical groups, in .msh and .vtu
+  LabelNames region_names;
   std::string format;  // "MEDIT", "Gmsh", "VTU", "TetGen", "tet"
   // 2: there are elements of second order. Their corners are the mesh; nodes in the middle of edges
   // are left out, and a warning says how far off the middle they are.
@@ -147,14 +148,19 @@ struct WriteOptions {
   int order = 1;
   // As text where a format has both, .msh and .vtu; else as bytes.
   bool ascii = false;
+  // The names of TetMesh::regions.
+  LabelNames region_names = {};
 };
 
 // Each file, or set of files, is complete or what it was before. The format is that of the
 // extension: .mesh (MEDIT), .msh (Gmsh 4.1), .vtu, .node (TetGen, with .ele and .face beside it),
 // .tet, .inp (Abaqus), .bdf (Nastran), .vtk (legacy), .xdmf, and of the boundary alone .stl, .ply
-// and .off. formats.md says where names are written.
+// and .off. formats.md says where names are written; of equal ones all but the first get a number.
 WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const LabelNames& names = {},
                        const WriteOptions& options = {});
+// A surface, as .stl, .ply or .off.
+WriteStatus write_surface(const std::string& path, const Surface& surface,
+                          const LabelNames& names = {});
 // OFF; labels are not kept, as the format has none.
 WriteStatus write_off(const std::string& path, const Surface& surface);
 // .node (Triangle, with .ele and .poly), .vtu, .off, .msh, .svg. The holes and regions of `graph`,

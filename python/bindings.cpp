@@ -129,7 +129,10 @@ class Watch {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (progress_.is_none()) return true;
       const py::object answer = progress_(phase_name(p.phase), p.done, p.vertices);
-      if (answer.is_none() || py::cast<bool>(answer)) return true;
+      if (answer.is_none()) return true;
+      const int goes_on = PyObject_IsTrue(answer.ptr());  // as Python means it: of anything
+      if (goes_on < 0) throw py::error_already_set();
+      if (goes_on != 0) return true;
     } catch (...) {
       error_ = std::current_exception();
     }
@@ -348,16 +351,23 @@ py::dict read_mesh_file(const std::string& path) {
   ok_or_throw(read);
   py::dict d;
   d["names"] = read.names;
+  d["region_names"] = read.region_names;
   d["warnings"] = read.warnings;
   put_mesh(d, std::move(read.mesh));
   return d;
 }
 
 void write_mesh_file(const std::string& path, const py::dict& given, const io::LabelNames& names,
-                     int order, bool ascii) {
-  const io::WriteStatus status =
-      io::write_mesh(path, mesh_of(given), names, {.order = order, .ascii = ascii});
+                     const io::LabelNames& region_names, int order, bool ascii) {
+  const io::WriteStatus status = io::write_mesh(
+      path, mesh_of(given), names, {.order = order, .ascii = ascii, .region_names = region_names});
   ok_or_throw(status);
+}
+
+void write_surface_file(const std::string& path, const Array<double>& points,
+                        const Array<std::uint32_t>& triangles, const Labels& labels,
+                        const io::LabelNames& names) {
+  ok_or_throw(io::write_surface(path, surface_of(points, triangles, labels), names));
 }
 
 }  // namespace
@@ -374,4 +384,5 @@ PYBIND11_MODULE(_core, module) {
   module.def("read_surface", &read_surface_file);
   module.def("read_mesh", &read_mesh_file);
   module.def("write_mesh", &write_mesh_file);
+  module.def("write_surface", &write_surface_file);
 }

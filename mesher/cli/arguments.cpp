@@ -381,6 +381,11 @@ std::string output_error(const Command& command, bool several,
     const std::vector<std::string> made = plane     ? io::plane_files_of(output)
                                           : surface ? io::boundary_files_of(output)
                                                     : io::mesh_files_of(output);
+    if (made.empty() && output == "-") {
+      return "-: standard output needs a format: -.EXT, as in " + std::string(surface ? "-.stl"
+                                                                              : plane ? "-.vtu"
+                                                                                      : "-.msh");
+    }
     if (made.empty()) {
       return output + ": unknown " + (surface ? "surface" : "mesh") + " format (" +
              (plane     ? io::plane_extensions()
@@ -464,6 +469,18 @@ void default_to_mesh(std::vector<std::string>& arguments) {
   }
 }
 
+// `help`, `help COMMAND` and `version`, as many programs have them, unless there are such files.
+void as_options(std::vector<std::string>& arguments) {
+  std::error_code ignored;
+  if (std::filesystem::exists(arguments[0], ignored)) return;
+  if (arguments[0] == "version" && arguments.size() == 1) arguments[0] = "--version";
+  if (arguments[0] != "help") return;
+  arguments[0] = "--help";
+  if (arguments.size() > 1 && contains(kCommands, arguments[1])) {
+    std::swap(arguments[0], arguments[1]);
+  }
+}
+
 // A first word that is no file and nearly a command.
 std::string mistyped_command(const std::vector<std::string>& arguments) {
   if (arguments.empty() || arguments[0].find_first_of("./-") != std::string::npos) return {};
@@ -474,9 +491,20 @@ std::string mistyped_command(const std::vector<std::string>& arguments) {
   return meant.empty() ? "" : "no command or file " + io::in_quotes(arguments[0]) + meant;
 }
 
+// ", but of repair and union": the commands that have an option.
+std::string commands_with(const std::vector<CLI::App*>& subcommands, const std::string& name) {
+  std::string commands;
+  for (const CLI::App* command : subcommands) {
+    if (command->get_option_no_throw(name) == nullptr) continue;
+    commands += (commands.empty() ? ", but of " : " and ") + command->get_name();
+  }
+  return commands;
+}
+
 // The first option of the command line that the command has not; CLI11 would name something else
 // first.
-std::string unknown_option(const CLI::App& app, const std::vector<std::string>& arguments) {
+std::string unknown_option(const CLI::App& app, const std::vector<CLI::App*>& subcommands,
+                           const std::vector<std::string>& arguments) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -488,8 +516,9 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
     const bool is_long = word[1] == '-';
     const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
     if (!contains(names, name)) {
+      const std::string others = commands_with(subcommands, name);
       return io::in_quotes(word) + ": no such option of " + app.get_name() +
-             suggestion(name, names);
+             (others.empty() ? suggestion(name, names) : others);
     }
     const CLI::Option* option = app.get_option(name);
     const bool has_value = is_long ? name.size() < word.size() : word.size() > 2;
@@ -609,7 +638,10 @@ struct Subcommands {
 // line that helps.
 std::string misspelt(const Subcommands& subcommands, const std::vector<std::string>& arguments) {
   for (const CLI::App* subcommand : subcommands.all()) {
-    if (subcommand->get_name() == arguments[0]) return unknown_option(*subcommand, arguments);
+    if (subcommand->get_name() == arguments[0]) {
+      const auto all = subcommands.all();
+      return unknown_option(*subcommand, {all.begin(), all.end()}, arguments);
+    }
   }
   return {};
 }
@@ -643,9 +675,15 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
   app.footer(std::string(kExamples) + "\n" + kExitCodes);
   app.set_version_flag("--version", std::string("delmesher ") + version());
   const Subcommands subcommands(app, command, given);
+  if (arguments.empty()) {
+    Parsed parsed = usage_error("nothing to do");
+    parsed.error += "\n" + app.help();
+    return parsed;
+  }
   if (const std::string error = mistyped_command(arguments); !error.empty()) {
     return usage_error(error);
   }
+  as_options(arguments);
   default_to_mesh(arguments);
   if (const std::string error = misspelt(subcommands, arguments); !error.empty()) {
     return usage_error(error);
@@ -662,6 +700,9 @@ Parsed parse_arguments(std::vector<std::string> arguments) {
     return parsed;
   } catch (const CLI::RequiredError& error) {
     return usage_error(error.what() + see);
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string line = error.what();
+    return usage_error(line.substr(0, line.find(':')) + ": its value is missing" + see);
   } catch (const CLI::ParseError& error) {
     std::string line = error.what();
     std::replace(line.begin(), line.end(), '\n', ' ');

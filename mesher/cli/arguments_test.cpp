@@ -204,6 +204,12 @@ TEST(Arguments, HelpAndVersion) {
   }
   EXPECT_NE(parse({"mesh", "--help"}).out.find("--chamfer-radius"), std::string::npos);
   EXPECT_EQ(parse({"--version"}).out, std::string("delmesher ") + version() + "\n");
+  EXPECT_EQ(parse({"version"}).out, parse({"--version"}).out);
+  EXPECT_EQ(parse({"help"}).out, parse({"--help"}).out);
+  EXPECT_EQ(parse({"help", "repair"}).out, parse({"repair", "--help"}).out);
+  const Parsed nothing = parse({});
+  EXPECT_EQ(nothing.exit_code, kUsage);
+  EXPECT_EQ(nothing.error, "delmesher: nothing to do\n\n" + parse({"--help"}).out);
 }
 
 TEST(Arguments, WhatIsMistypedIsNamedWithWhatMayBeMeant) {
@@ -213,6 +219,11 @@ TEST(Arguments, WhatIsMistypedIsNamedWithWhatMayBeMeant) {
   expect_usage_error({"in.off", "-o", "a.mesh", "--max-egde=2"}, "did you mean --max-edge?");
   expect_usage_error({"in.off", "-o", "a.mesh", "-x"}, "'-x': no such option of mesh");
   expect_usage_error({"improve", "a.msh", "--tau", "1"}, "'--tau': no such option of improve");
+  expect_usage_error({"check", "cube.off", "--weld", "1"},
+                     "'--weld': no such option of check, but of repair\n");
+  expect_usage_error({"in.off", "-o", "a.mesh", "--delta"}, "--delta: its value is missing, see");
+  expect_usage_error({"in.off", "-o", "-"}, "standard output needs a format: -.EXT, as in -.msh");
+  expect_usage_error({"repair", "in.off", "-o", "-"}, "as in -.stl");
   expect_usage_error({"meshh", "cube.off"}, "no command or file 'meshh': did you mean mesh?");
   expect_usage_error({"chekc", "cube.off"}, "did you mean check?");
   // A word that stands where a value is expected is no option, and a file may be called like a
@@ -282,13 +293,12 @@ TEST(Arguments, StandardStreams) {
   ASSERT_TRUE(parsed.run) << parsed.error;
   EXPECT_EQ(parsed.command.input, "-");
   EXPECT_EQ(parsed.command.outputs[0], "-.vtu");
-  expect_usage_error({"a.off", "-o", "-"}, "unknown mesh format");
+  expect_usage_error({"a.off", "-o", "-"}, "standard output needs a format");
   expect_usage_error({"a.off", "-o", "-.vtu", "--stats", "-"}, "standard output can take one file");
   expect_usage_error({"a.off", "-o", "-.node"}, "standard output can take one file");
 }
 
 TEST(Arguments, MistakesAreTwo) {
-  expect_usage_error({});
   expect_usage_error({"in.off"}, "--output is required, see delmesher mesh --help\n");
   expect_usage_error({"-o", "out.mesh"}, "input");
   expect_usage_error({"in.off", "-o", "out.xyz"},

@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/cli/inner_walls.h"
 #include "mesher/io/projected_face.h"
 #include "mesher/io/repair.h"
 #include "mesher/io/text.h"
+#include "mesher/predicates/signs_of_doubles.h"
 
 namespace delmesher::cli {
 namespace {
@@ -81,6 +83,74 @@ std::vector<std::string> advice_on_holes(const Surface& surface) {
   return lines;
 }
 
+const std::vector<std::array<std::uint32_t, 2>>& places_of(const SurfaceReport& report, Kind kind) {
+  return report.places[static_cast<std::size_t>(kind)];
+}
+
+// Pairs of triangles with the same vertices that look in opposite directions: faces of two bodies.
+std::uint64_t opposite_duplicates(const Surface& surface, const SurfaceReport& report) {
+  const auto starts_at_lowest = [&](std::uint32_t triangle) {
+    auto corners = surface.triangles[triangle];
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return corners;
+  };
+  const auto& pairs = places_of(report, Kind::duplicate_triangle);
+  return static_cast<std::uint64_t>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& p) {
+    return starts_at_lowest(p[0]) != starts_at_lowest(p[1]);
+  }));
+}
+
+// Whether triangles of a pair that meets lie on both sides of each other.
+bool any_cross(const Surface& surface, const SurfaceReport& report) {
+  const auto corner = [&](std::uint32_t triangle, std::size_t k) {
+    return surface.vertices[surface.triangles[triangle][k]];
+  };
+  const auto on_both_sides = [&](std::uint32_t plane, std::uint32_t triangle) {
+    bool above = false, below = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int sign =
+          orient3d_sign(corner(plane, 0), corner(plane, 1), corner(plane, 2), corner(triangle, k));
+      above |= sign > 0;
+      below |= sign < 0;
+    }
+    return above && below;
+  };
+  const auto& pairs = places_of(report, Kind::self_intersection);
+  return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+    return on_both_sides(pair[0], pair[1]) && on_both_sides(pair[1], pair[0]);
+  });
+}
+
+constexpr const char* kMoveApart =
+    "`tetproof union --separate 1e-4` moves them apart, or mesh them one by one";
+
+// What has more than two triangles at an edge.
+Contact contact_at_edges(const Surface& surface, const SurfaceReport& report) {
+  const std::optional<Enclosed> enclosed =
+      count_of(report, Kind::index_out_of_range) == 0 && count_of(report, Kind::non_finite) == 0
+          ? enclosed_by(surface)
+          : std::nullopt;
+  if (!enclosed) {
+    return {"more than two triangles at an edge",
+            "an inner wall, or bodies that share an edge; only surfaces that bound one solid are "
+            "meshed, so mesh the bodies one by one or leave the wall out"};
+  }
+  if (enclosed->walls.empty()) {
+    return {"bodies, or parts of one, touch along " +
+                counted(count_of(report, Kind::non_manifold_edge), "edge"),
+            kMoveApart};
+  }
+  const std::uint32_t first = enclosed->walls[0];
+  return {(enclosed->sheets == 1 ? "an inner wall of "
+                                 : std::to_string(enclosed->sheets) + " inner walls of ") +
+              counted(enclosed->walls.size(), "triangle"),
+          "triangle " + std::to_string(first) + " at " +
+              point(surface.vertices[surface.triangles[first][0]]) + " is the first; with " +
+              counted(enclosed->parts, "part") +
+              " inside this is no one solid, and only such are meshed: leave walls out, or mesh "
+              "the parts one by one"};
+}
+
 using Colour = std::array<int, 3>;
 constexpr Colour kGrey = {190, 190, 190}, kRed = {220, 40, 40}, kOrange = {250, 150, 30},
                  kViolet = {150, 60, 190}, kBlue = {50, 90, 220}, kGreen = {40, 160, 70};
@@ -136,10 +206,6 @@ std::vector<WrongEdge> wrong_edges(const Surface& surface) {
     wrong.push_back({vertices, std::move(use.triangles), kind});
   }
   return wrong;
-}
-
-const std::vector<std::array<std::uint32_t, 2>>& places_of(const SurfaceReport& report, Kind kind) {
-  return report.places[static_cast<std::size_t>(kind)];
 }
 
 // What is wrong at each triangle, if anything is. What says most comes last, so that it is seen: a
@@ -213,6 +279,35 @@ std::string defects_line(const SurfaceReport& report) {
   return std::to_string(total) + " defects of " + std::to_string(kinds) + " kinds (" + list + ")";
 }
 
+std::vector<Contact> contacts(const Surface& surface, const SurfaceReport& report) {
+  std::vector<Contact> found;
+  const std::uint64_t opposite = opposite_duplicates(surface, report);
+  if (opposite > 0) {
+    found.push_back({"bodies touch in " + counted(opposite, "triangle"),
+                     "`tetproof union` makes one of them, or mesh them one by one"});
+  }
+  // Triangles without area, and doubled ones, make such edges themselves: first things first.
+  if (count_of(report, Kind::degenerate_triangle) > 0 ||
+      count_of(report, Kind::duplicate_triangle) > 0) {
+    return found;
+  }
+  if (count_of(report, Kind::non_manifold_edge) > 0) {
+    found.push_back(contact_at_edges(surface, report));
+  } else if (count_of(report, Kind::self_intersection) > 0) {
+    if (report.components > 1 && !any_cross(surface, report)) {
+      found.push_back({"bodies touch, and do not cross",
+                       "`tetproof union` makes one of them, or mesh them one by one"});
+    }
+  } else if (count_of(report, Kind::non_manifold_vertex) > 0 &&
+             count_of(report, Kind::open_edge) == 0) {
+    const std::uint64_t vertices = count_of(report, Kind::non_manifold_vertex);
+    found.push_back({"bodies, or parts of one, touch at " +
+                         (vertices == 1 ? "a vertex" : std::to_string(vertices) + " vertices"),
+                     kMoveApart});
+  }
+  return found;
+}
+
 std::vector<std::string> advice(const Surface& surface, const SurfaceReport& report) {
   std::vector<std::string> lines;
   const bool indices = count_of(report, Kind::index_out_of_range) == 0;
@@ -226,33 +321,26 @@ std::vector<std::string> advice(const Surface& surface, const SurfaceReport& rep
     }
     for (std::string& line : advice_on_holes(surface)) lines.push_back(std::move(line));
   }
-  for (const Kind kind :
-       {Kind::degenerate_triangle, Kind::duplicate_triangle, Kind::inconsistent_orientation}) {
-    if (count_of(report, kind) == 0) continue;
-    lines.push_back("delmesher repair mends triangles without area, duplicates and orientation");
-    break;
-  }
-  // Triangles without area, and doubled ones, make such edges themselves: first things first.
+  const std::vector<Contact> touching = contacts(surface, report);
+  const bool all_opposite =
+      count_of(report, Kind::duplicate_triangle) > 0 &&
+      opposite_duplicates(surface, report) == count_of(report, Kind::duplicate_triangle);
   const bool more_first = count_of(report, Kind::degenerate_triangle) > 0 ||
-                          count_of(report, Kind::duplicate_triangle) > 0;
+                          (count_of(report, Kind::duplicate_triangle) > 0 && !all_opposite);
+  if (more_first || count_of(report, Kind::inconsistent_orientation) > 0) {
+    lines.push_back("delmesher repair mends triangles without area, duplicates and orientation");
+  }
   if (count_of(report, Kind::non_manifold_edge) > 0 && more_first) {
     lines.push_back("that may make the edges manifold as well: check the mended surface");
-  } else if (count_of(report, Kind::non_manifold_edge) > 0) {
-    lines.push_back(
-        "more than two triangles at an edge: an inner wall, or bodies that share an edge; only "
-        "surfaces "
-        "that bound one solid are meshed, so mesh the bodies one by one or leave the wall out");
-  } else if (count_of(report, Kind::self_intersection) > 0) {
+  }
+  for (const Contact& contact : touching) lines.push_back(contact.what + ": " + contact.advice);
+  if (touching.empty() && !more_first && count_of(report, Kind::self_intersection) > 0) {
     lines.push_back(
         report.components > 1
             ? "triangles meet: if bodies overlap, `tetproof union` makes one of them; or mesh them "
               "one by one"
             : "triangles meet: `tetproof union` cuts them there and keeps the outside, if the "
               "surface closes up");
-  } else if (count_of(report, Kind::non_manifold_vertex) > 0 &&
-             count_of(report, Kind::open_edge) == 0) {
-    lines.push_back(
-        "bodies or parts of one that touch at a vertex: move them apart, or mesh them one by one");
   }
   return lines;
 }

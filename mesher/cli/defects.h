@@ -12,6 +12,12 @@ namespace delmesher::cli {
 // "18 defects of 2 kinds (12 open edges, 6 self-intersections)"; with one kind "12 open edges".
 std::string defects_line(const SurfaceReport& report);
 
+// What bodies or walls that meet are, and what to do about it.
+struct Contact {
+  std::string what, advice;
+};
+std::vector<Contact> contacts(const Surface& surface, const SurfaceReport& report);
+
 // Remedies or likely causes, a line each; empty if none is known.
 std::vector<std::string> advice(const Surface& surface, const SurfaceReport& report);
 

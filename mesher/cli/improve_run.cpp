@@ -32,6 +32,7 @@ class ImproveRunner : RunSteps {
 
   TetMesh mesh_;
   io::LabelNames names_;
+  io::WriteOptions write_ = command_.write;
 };
 
 int ImproveRunner::read() {
@@ -44,8 +45,9 @@ int ImproveRunner::read() {
   mesh_ = std::move(input.mesh);
   warn_of_lost_regions();
   names_ = std::move(input.names);
+  write_.region_names = std::move(input.region_names);
   note_input(input.format, mesh_.vertices.size(), mesh_.tetrahedra.size(), "tetrahedra");
-  return read_beside(names_);
+  return read_beside(names_, mesh_.boundary_labels);
 }
 
 // A .tet file tells sides, but no regions.
@@ -86,7 +88,7 @@ int ImproveRunner::improve() {
                  [&](io::OutputSet& outputs) {
                    io::WriteStatus status;
                    for (const std::string& output : command_.outputs) {
-                     status = io::write_mesh(outputs, output, result.mesh, names_, command_.write);
+                     status = io::write_mesh(outputs, output, result.mesh, names_, write_);
                      if (!status.ok()) break;
                    }
                    return status;

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -503,7 +504,95 @@ TEST_F(Program, CheckHintsAtWhatIsTheMatter) {
   const std::string of_touch = hints(
       "OFF\n7 8 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n-1 0 0\n0 -1 0\n0 0 -1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n"
       "3 0 3 2\n3 0 4 5\n3 0 6 4\n3 4 6 5\n3 0 5 6\n");
-  EXPECT_TRUE(says(of_touch, "touch at a vertex: move them apart")) << of_touch;
+  EXPECT_TRUE(says(of_touch, "touch at a vertex: `tetproof union --separate 1e-4` moves"))
+      << of_touch;
+}
+
+// Boxes side by side, of the vertices of a grid of 3 x 3 x 2, with and without what is between
+// them: what is the matter stands in the line of `mesh`, too.
+TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
+  const auto box = [](int x, int y) {  // its faces outwards: at x, at x + 1, and the other four
+    const auto v = [&](int i, int j, int k) { return std::to_string(x + i + 3 * (y + j) + 9 * k); };
+    const auto quad = [](const std::string& a, const std::string& b, const std::string& c,
+                         const std::string& d) {
+      return "3 " + a + " " + b + " " + c + "\n3 " + a + " " + c + " " + d + "\n";
+    };
+    return std::array<std::string, 3>{quad(v(0, 0, 0), v(0, 0, 1), v(0, 1, 1), v(0, 1, 0)),
+                                      quad(v(1, 0, 0), v(1, 1, 0), v(1, 1, 1), v(1, 0, 1)),
+                                      quad(v(0, 0, 0), v(1, 0, 0), v(1, 0, 1), v(0, 0, 1)) +
+                                          quad(v(0, 1, 0), v(0, 1, 1), v(1, 1, 1), v(1, 1, 0)) +
+                                          quad(v(0, 0, 0), v(0, 1, 0), v(1, 1, 0), v(1, 0, 0)) +
+                                          quad(v(0, 0, 1), v(1, 0, 1), v(1, 1, 1), v(0, 1, 1))};
+  };
+  const auto hints_of = [&](const std::string& faces, const std::string& vertices = "") {
+    std::string grid = vertices;
+    for (int i = 0; i < 18 && vertices.empty(); ++i) {
+      grid += std::to_string(i % 3) + " " + std::to_string(i / 3 % 3) + " " +
+              std::to_string(i / 9) + "\n";
+    }
+    write("in.off", "OFF\n" + std::to_string(std::count(grid.begin(), grid.end(), '\n')) + " " +
+                        std::to_string(std::count(faces.begin(), faces.end(), '\n')) + " 0\n" +
+                        grid + faces);
+    EXPECT_EQ(run("check in.off"), 4);
+    const std::string said = text("out.txt");
+    EXPECT_EQ(run("mesh in.off -o mesh.tet -q"), 4);
+    return said.substr(std::min(said.find("  hint:"), said.size()));
+  };
+  const auto [a0, a1, a] = box(0, 0);
+  const auto [b0, b1, b] = box(1, 0);
+  const auto [c0, c1, c] = box(1, 1);
+  EXPECT_EQ(hints_of(a0 + a1 + a + b1 + b),
+            "  hint: an inner wall of 2 triangles: triangle 2 at (1, 0, 0) is the first; with 2 "
+            "parts inside this is no one solid, and only such are meshed: leave walls out, or mesh "
+            "the parts one by one\n");
+  EXPECT_NE(
+      text("err.txt").find("(in all 4 non-manifold edges: an inner wall of 2 triangles; see "),
+      std::string::npos)
+      << text("err.txt");
+  // The same from the other side, with the wall turned round.
+  EXPECT_NE(hints_of(b + b1 + a0 + a + b0).find("an inner wall of 2 triangles: triangle 20 at"),
+            std::string::npos);
+  EXPECT_EQ(hints_of(a0 + a1 + a + b0 + b1 + b),
+            "  hint: bodies touch in 2 triangles: `tetproof union` makes one of them, or mesh them "
+            "one by one\n");
+  EXPECT_EQ(hints_of(a0 + a1 + a + c0 + c1 + c),
+            "  hint: bodies, or parts of one, touch along 1 edge: `tetproof union --separate 1e-4` "
+            "moves them apart, or mesh them one by one\n");
+  // A cube of half the size that stands on another one's side, and one that is stuck in it.
+  for (const char* low : {"1", "0.75"}) {
+    std::string vertices;
+    for (const std::string at : {"0", low}) {
+      for (int i = 0; i < 8; ++i) {
+        const bool small = at == low;
+        const double half = small ? 0.5 : 1;
+        vertices += std::to_string((small ? std::stod(low) : 0) + half * (i & 1)) + " " +
+                    std::to_string((small ? 0.25 : 0) + half * (i >> 1 & 1)) + " " +
+                    std::to_string((small ? 0.25 : 0) + half * (i >> 2)) + "\n";
+      }
+    }
+    std::istringstream numbers(kCubeTriangles);
+    std::string second;
+    for (int three, i, j, k; numbers >> three >> i >> j >> k;) {
+      second += "3 " + std::to_string(i + 8) + " " + std::to_string(j + 8) + " " +
+                std::to_string(k + 8) + "\n";
+    }
+    const std::string hint = hints_of(kCubeTriangles + second, vertices);
+    EXPECT_TRUE(hint.starts_with(std::string(low) == "1" ? "  hint: bodies touch, and do not cross"
+                                                         : "  hint: triangles meet: if bodies"))
+        << hint;
+  }
+}
+
+TEST_F(Program, NamesOfLabelsThatAreNotThereAreSaid) {
+  write("in.off", cube());
+  write("in.names", "0 all\n4 inlet\n9 outlet\n");
+  EXPECT_EQ(run("in.off -o mesh.tet --names in.names"), 0);
+  EXPECT_NE(text("err.txt").find("warning: in.names: no triangle has label 4, 9\n"),
+            std::string::npos)
+      << text("err.txt");
+  write("in.names", "0 all\n");
+  EXPECT_EQ(run("in.off -o mesh.tet --names in.names"), 0);
+  EXPECT_EQ(text("err.txt").find("warning: in.names"), std::string::npos);
 }
 
 // A file from a pipe to a pipe is the same as from a file to a file.
@@ -518,6 +607,10 @@ TEST_F(Program, StandardInputAndOutput) {
   EXPECT_EQ(run("check -", "echo nothing |"), 3);
   expect_error("-", "not a known format");
   EXPECT_FALSE(fs::exists(path("-.vtu")));
+  EXPECT_EQ(run("check - < /dev/null"), 3);
+  expect_error("-", "the file is empty");
+  EXPECT_EQ(run("check mesh.vtu"), 3);
+  expect_error("mesh.vtu", "a mesh, not a surface");
 }
 
 #ifdef DELMESHER_ZLIB

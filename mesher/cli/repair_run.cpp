@@ -38,7 +38,7 @@ int RepairRunner::read() {
   for (const std::string& line : mended.done) say(command_.input + ": " + line);
   if (mended.done.empty()) say(command_.input + ": nothing to mend");
   surface_ = std::move(mended.surface);
-  return read_beside(names_);
+  return read_beside(names_, surface_.labels);
 }
 
 int RepairRunner::write() {

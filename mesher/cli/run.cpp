@@ -44,7 +44,7 @@ int Runner::read() {
   names_ = std::move(input.names);
   note_input(input.format, surface_.vertices.size(), surface_.triangles.size(), "triangles");
   for (const std::string& note : input.notes) tell(command_.input + ": " + note);
-  return read_beside(names_);
+  return read_beside(names_, surface_.labels);
 }
 
 int Runner::check() {
@@ -84,7 +84,9 @@ void Runner::count_defects(Status& status) const {
       call([&](const Options& options) { return library_.check_surface(surface_, options); });
   const std::string line = defects_line(report);
   if (report.status.code != StatusCode::invalid_surface || line.empty()) return;
-  status.message += " (in all " + line + "; see delmesher check)";
+  status.message += " (in all " + line;
+  for (const Contact& contact : contacts(surface_, report)) status.message += ": " + contact.what;
+  status.message += "; see delmesher check)";
 }
 
 io::WriteStatus Runner::write_all(io::OutputSet& outputs, const Result& result) const {

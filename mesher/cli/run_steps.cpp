@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 namespace delmesher::cli {
 namespace {
@@ -70,7 +71,7 @@ std::function<bool()> RunSteps::goes_on() const {
   };
 }
 
-int RunSteps::read_beside(io::LabelNames& names) {
+int RunSteps::read_beside(io::LabelNames& names, const std::vector<std::int32_t>& labels) {
   if (!command_.sizes_file.empty()) {
     io::SizeFieldResult field = io::read_size_field(command_.sizes_file);
     if (!field.ok()) return fail(kUnreadable, field.error);
@@ -79,6 +80,13 @@ int RunSteps::read_beside(io::LabelNames& names) {
   if (!command_.names_file.empty()) {
     io::NamesResult given = io::read_label_names(command_.names_file);
     if (!given.ok()) return fail(kUnreadable, given.error);
+    std::set<std::int32_t> there(labels.begin(), labels.end());
+    if (labels.empty()) there.insert(0);
+    std::string missing;
+    for (const auto& [label, name] : given.names) {
+      if (!there.contains(label)) missing += (missing.empty() ? "" : ", ") + std::to_string(label);
+    }
+    if (!missing.empty()) warn(command_.names_file + ": no triangle has label " + missing);
     given.names.merge(names);
     names = std::move(given.names);
   }

@@ -36,8 +36,9 @@ class RunSteps {
   // over.
   std::function<bool()> goes_on() const;
   // Reads what is given beside the input: adds the names of --names to its own, and keeps the
-  // sizes of --size-field for the call().
-  int read_beside(io::LabelNames& names);
+  // sizes of --size-field for the call(). Warns of names of labels that no triangle has; without
+  // `labels` all have 0.
+  int read_beside(io::LabelNames& names, const std::vector<std::int32_t>& labels);
   // Prints why nothing was read and returns the code.
   int fail_reading(io::ReadCode code, const std::string& error) const;
 

@@ -23,6 +23,11 @@ WriteStatus write_mesh(const std::string& path, const TetMesh& mesh, const Label
       [&](OutputSet& outputs) { return write_mesh(outputs, path, mesh, names, options); });
 }
 
+WriteStatus write_surface(const std::string& path, const Surface& surface,
+                          const LabelNames& names) {
+  return written([&](OutputSet& outputs) { return write_surface(outputs, path, surface, names); });
+}
+
 WriteStatus write_off(const std::string& path, const Surface& surface) {
   return written([&](OutputSet& outputs) { return write_off(outputs, path, surface); });
 }

@@ -109,7 +109,11 @@ class MeshBuilder {
   void name_label(std::int32_t label, std::string_view name) {
     if (!name.empty()) names_[label] = name;
   }
+  void name_region(std::int32_t region, std::string_view name) {
+    if (!name.empty()) region_names_[region] = name;
+  }
   const LabelNames& names() const { return names_; }
+  const LabelNames& region_names() const { return region_names_; }
   // 2 if there are elements of second order, else 1.
   int order() const { return is_edge_node_.empty() ? 1 : 2; }
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -122,7 +126,7 @@ class MeshBuilder {
   void choose_facets();
 
   TetMesh mesh_;
-  LabelNames names_;
+  LabelNames names_, region_names_;
   bool all_facets_ = true;
   std::vector<bool> is_edge_node_;  // of the vertices; empty if all elements are of first order
   std::uint64_t curved_ = 0;        // elements with a node that is not in the middle of an edge

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace delmesher::io {
 namespace {
@@ -29,6 +30,17 @@ char lower(char c) {
 // The ends of the edges, in the order of CellNodes.
 constexpr std::array<std::array<std::size_t, 2>, 6> kEdges = {
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+// In one line.
+std::string name_of(const LabelNames& names, std::int32_t number, const char* unnamed) {
+  const auto found = names.find(number);
+  if (found == names.end()) return unnamed + std::to_string(number);
+  std::string name = found->second;
+  for (char& c : name) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  }
+  return name;
+}
 
 template <class Cell>
 CellNodes nodes_of(const Cell& cell, std::size_t edges, const EdgeNodes* edge_nodes) {
@@ -71,19 +83,39 @@ Members triangles_of_labels(const TetMesh& mesh) {
   return triangles;
 }
 
-std::string region_name(const TetMesh& mesh, std::int32_t region) {
-  if (!mesh.regions.empty()) return "region " + std::to_string(region);
+std::string region_name(const NamedMesh& named, std::int32_t region) {
+  if (!named.mesh.regions.empty()) return name_of(named.region_names, region, "region ");
   return region == kRegionInside ? "inside" : "outside";
 }
 
 std::string label_name(const LabelNames& names, std::int32_t label) {
-  const auto found = names.find(label);
-  if (found == names.end()) return "label " + std::to_string(label);
-  std::string name = found->second;
-  for (char& c : name) {
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  return name_of(names, label, "label ");
+}
+
+std::vector<GivenName> given_names(const NamedMesh& named) {
+  std::vector<GivenName> given;
+  for (const auto& [label, triangles] : triangles_of_labels(named.mesh)) {
+    if (named.names.contains(label)) given.push_back({label, 2, label_name(named.names, label)});
   }
-  return name;
+  for (const auto& [number, tetrahedra] : tetrahedra_of_regions(named.mesh)) {
+    if (!named.mesh.regions.empty() && named.region_names.contains(number)) {
+      given.push_back({number, 3, region_name(named, number)});
+    }
+  }
+  return given;
+}
+
+LabelNames distinct_names(LabelNames names) {
+  std::set<std::string> given, used;
+  for (const auto& [number, name] : names) given.insert(name);
+  for (auto& [number, name] : names) {
+    const std::string first = name;
+    for (int next = 2; !used.insert(name).second; ++next) {
+      name = first + " " + std::to_string(next);
+      while (given.contains(name)) name = first + " " + std::to_string(++next);
+    }
+  }
+  return names;
 }
 
 std::string Identifiers::make(const std::string& name) {

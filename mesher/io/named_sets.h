@@ -30,6 +30,7 @@ struct NamedMesh {
   const LabelNames& names;
   const EdgeNodes* edge_nodes = nullptr;  // of elements of second order
   bool ascii = true;                      // else bytes, in formats that have both
+  LabelNames region_names = {};
 
   bool second_order() const { return edge_nodes != nullptr; }
   // All nodes: the vertices, then those of the edges.
@@ -54,10 +55,21 @@ using Members = std::map<std::int32_t, std::vector<std::size_t>>;  // by number,
 Members tetrahedra_of_regions(const TetMesh& mesh);
 Members triangles_of_labels(const TetMesh& mesh);
 
-// "inside" and "outside", or "region R" of a mesh from elsewhere.
-std::string region_name(const TetMesh& mesh, std::int32_t region);
+// "inside" and "outside", or of a mesh from elsewhere the name given, or "region R".
+std::string region_name(const NamedMesh& named, std::int32_t region);
 // The name given, in one line, or "label L".
 std::string label_name(const LabelNames& names, std::int32_t label);
+
+// The labels (dimension 2) and regions (3) of the mesh that were given names.
+struct GivenName {
+  std::int32_t number;
+  int dimension;
+  std::string name;
+};
+std::vector<GivenName> given_names(const NamedMesh& named);
+
+// The same names, but of equal ones all but the first end in a number: programs find sets by them.
+LabelNames distinct_names(LabelNames names);
 
 // Names for formats that take letters, digits and '_' alone: other characters become '_', the first
 // is a letter, and of names that are equal but for case all but one end in a number.

@@ -18,6 +18,13 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
+// Of Gmsh, MEDIT or VTK.
+bool looks_like_mesh(std::string_view bytes) {
+  const std::string_view head = bytes.substr(0, 256);
+  return head.starts_with("$MeshFormat") || head.starts_with("MeshVersionFormatted") ||
+         head.starts_with("# vtk DataFile") || head.find("<VTKFile") != std::string_view::npos;
+}
+
 // Formats with a signature are known by it whatever the file is called; the others by name.
 Format detect(std::string_view bytes, const std::string& path) {
   if (looks_like_ply(bytes)) return Format::ply;
@@ -59,11 +66,15 @@ void read(std::string_view bytes, Format format, const NodeFile& node_file,
     case Format::unknown:
       break;
   }
+  if (looks_like_mesh(bytes)) {
+    fail({}, "a mesh, not a surface: if it is of tetrahedra, delmesher improve reads it");
+  }
   fail({}, "not a known format (OFF, OBJ, STL, PLY, 3MF, .smesh, .poly)");
 }
 
 void parse(std::string_view bytes, const std::string& path, const NodeFile& node_file,
            const ReadOptions& options, ReadResult& result) {
+  if (bytes.empty()) fail({}, "the file is empty");
   SurfaceBuilder builder(options.go_on);
   const Format format = detect(bytes, path);
   result.format = kNames[static_cast<std::size_t>(format)];

@@ -62,7 +62,7 @@ TEST(ReadSurface, FormatsWithASignatureAreKnownUnderAnyName) {
   EXPECT_EQ(parse_surface(tet_binary_stl("solid"), "wrong.obj").format, "STL");
   EXPECT_EQ(parse_surface(tet_ply("ascii"), "wrong.off").format, "PLY");
   expect_error("hello world\n", "noname", "noname: not a known format");
-  expect_error("", "noname", "noname: not a known format");
+  expect_error("", "noname", "noname: the file is empty");
 }
 
 TEST(ReadSurface, Labels) {
@@ -155,7 +155,7 @@ TEST(ReadOff, ErrorsNameTheLine) {
   expect_error("4OFF\n3 1 0\n", "x.off", "not a surface in three");
   expect_error("OFF\n1000000000 1000000000 0\n0 0 0\n", "x.off", "too short for 1000000000");
   expect_error("OFF\n99999999999999999999 1 0\n0 0 0\n", "x.off", "bad number of vertices");
-  expect_error("", "x.off", "x.off:1: the file is empty");
+  expect_error("", "x.off", "x.off: the file is empty");
 }
 
 TEST(ReadOff, UnusedVerticesAreKeptAndReported) {
@@ -335,7 +335,18 @@ TEST(ParseSurface, OtherFilesAreKnownByTheirFirstBytes) {
   const std::string text = tet_off();
   std::string utf16 = "\xff\xfe";
   for (const char c : text) utf16 += {c, '\0'};
-  const std::pair<std::string, std::string> files[] = {{"BZh9" + text, "bunzip2"},
+  const std::string utf16_without_mark = utf16.substr(2), card(72, ' ');
+  const std::pair<std::string, std::string> files[] = {{utf16_without_mark, "UTF-16"},
+                                                       {'\0' + utf16_without_mark, "UTF-16"},
+                                                       {card + "S      1\n", "IGES"},
+                                                       {"#VRML V2.0 utf8\n", "VRML"},
+                                                       {"Kaydara FBX Binary  ", "FBX"},
+                                                       {"version https://git-lfs.x\n", "lfs pull"},
+                                                       {"<?xml?>\n<COLLADA>", "COLLADA"},
+                                                       {"<?xml?>\n<X3D>", "X3D"},
+                                                       {"{\"asset\":{}}", "glTF"},
+                                                       {"\x1f\x8b\x08", "compressed twice"},
+                                                       {"BZh9" + text, "bunzip2"},
                                                        {"PK\x03\x04" + text, "zip archive"},
                                                        {"ISO-10303-21;\nHEADER;\n", "STEP"},
                                                        {utf16, "UTF-16"},

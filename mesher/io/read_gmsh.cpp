@@ -154,6 +154,7 @@ class GmshReader {
       }
       groups_[{dimension, tag}] = group;
       if (dimension == kSurface) builder_.name_label(group.number, name);
+      if (dimension == kVolume) builder_.name_region(group.number, name);
     }
   }
 

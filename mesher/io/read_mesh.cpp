@@ -55,6 +55,7 @@ void parse(std::string_view bytes, const std::string& path, const FileBeside& be
   if (format == nullptr) {
     throw FileError{path + ": not a known mesh format (" + read_mesh_extensions() + ")"};
   }
+  if (bytes.empty()) throw FileError{path + ": the file is empty"};
   if (const std::string_view foreign = foreign_content(bytes); !foreign.empty()) {
     throw FileError{path + ": " + std::string(foreign)};
   }
@@ -65,6 +66,7 @@ void parse(std::string_view bytes, const std::string& path, const FileBeside& be
   if (builder.tetrahedra() == 0) throw FileError{path + ": no tetrahedra"};
   result.mesh = builder.finish();
   result.names = builder.names();
+  if (!result.mesh.regions.empty()) result.region_names = builder.region_names();
   result.order = builder.order();
   result.warnings = builder.warnings();
 }

@@ -98,12 +98,13 @@ TEST_F(Files, AreReadAsTheyWereWritten) {
   }
 }
 
-// Also where two labels have the same name.
+// Of two labels with the same name one gets a number.
 TEST_F(Files, KeepNamesOfLabels) {
-  const LabelNames names = {{-7, "in & <out> 'x'"}, {5, "in & <out> 'x'"}, {0, "0"}};
+  const LabelNames given = {{-7, "in & <out> 'x'"}, {5, "in & <out> 'x'"}, {0, "0"}};
+  const LabelNames names = {{-7, "in & <out> 'x'"}, {5, "in & <out> 'x' 2"}, {0, "0"}};
   for (const char* extension : {".msh", ".vtu"}) {
     for (const bool ascii : {false, true}) {
-      ASSERT_TRUE(write_mesh(path("a") + extension, pair(), names, {.ascii = ascii}).ok());
+      ASSERT_TRUE(write_mesh(path("a") + extension, pair(), given, {.ascii = ascii}).ok());
       EXPECT_EQ(read_mesh(path("a") + extension).names, names) << extension;
     }
   }
@@ -121,6 +122,28 @@ TEST_F(Files, KeepRegions) {
       EXPECT_EQ(triangles(mesh), triangles(given));
     }
   }
+}
+
+TEST_F(Files, KeepNamesOfRegions) {
+  TetMesh given = pair();
+  for (const std::vector<std::int32_t>& regions :
+       {std::vector<std::int32_t>{0, 7}, {-5, 2147483647}, {2, 1}}) {
+    given.regions = regions;
+    const LabelNames names = {{regions[0], "steel"}, {regions[1], "inside"}};
+    for (const char* extension : {".msh", ".vtu"}) {
+      for (const bool ascii : {false, true}) {
+        SCOPED_TRACE(extension);
+        const std::string file = path("a") + extension;
+        ASSERT_TRUE(write_mesh(file, given, {}, {.ascii = ascii, .region_names = names}).ok());
+        const MeshReadResult back = read_mesh(file);
+        EXPECT_EQ(back.region_names, names);
+        EXPECT_EQ(tetrahedra(back.mesh), tetrahedra(given));
+      }
+    }
+  }
+  given.regions.clear();
+  ASSERT_TRUE(write_mesh(path("a.msh"), given).ok());
+  EXPECT_TRUE(read_mesh(path("a.msh")).region_names.empty());
 }
 
 TEST_F(Files, TellTheOutsideWhereTheFormatDoes) {
@@ -238,7 +261,7 @@ const std::string kNode = "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n";
 const Garbage kGarbage[] = {
     {"UnknownFormat", "a.xyz", "",
      "a.xyz: not a known mesh format (.mesh, .msh, .vtu, .node, .ele or .tet)"},
-    {"EmptyMedit", "a.mesh", "", "a.mesh:1: not a text file of MEDIT"},
+    {"EmptyMedit", "a.mesh", "", "a.mesh: the file is empty"},
     {"Plane", "a.mesh", replaced(kMedit, "Dimension 3", "Dimension 2"),
      "a.mesh:2: dimension 2, not 3"},
     {"UnknownSection", "a.mesh", replaced(kMedit, "Triangles", "Nonsense"),
@@ -282,7 +305,8 @@ const Garbage kGarbage[] = {
      "a.msh:2: version '4.0' is not read, only 4.1 and 2.2"},
     {"GmshWithoutFormat", "a.msh", "$Nodes\n0\n$EndNodes\n",
      "a.msh:1: $MeshFormat is expected, not '$Nodes'"},
-    {"GmshEmpty", "a.msh", "", "a.msh:1: no $MeshFormat: not a file of Gmsh"},
+    {"GmshEmpty", "a.msh", "", "a.msh: the file is empty"},
+    {"GmshBlank", "a.msh", "\n", "a.msh:1: no $MeshFormat: not a file of Gmsh"},
     {"GmshNoSuchNode", "a.msh", replaced(kGmsh2, "7 1 10 20 5 7", "7 1 10 20 5 8"),
      "a.msh:20: there is no node with the tag 8"},
     {"GmshNodeTwice", "a.msh", replaced(kGmsh2, "\n20 1", "\n10 1"),

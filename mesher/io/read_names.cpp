@@ -1,3 +1,4 @@
+#include "mesher/io/foreign_content.h"
 #include "mesher/io/reading.h"
 #include "mesher/io/text.h"
 
@@ -26,7 +27,11 @@ LabelNames parse_names(std::string_view text) {
 
 NamesResult read_label_names(const std::string& path) {
   try {
-    return {{}, parse_names(read_file(path))};
+    const std::string bytes = read_file(path);
+    if (const std::string_view foreign = foreign_content(bytes); !foreign.empty()) {
+      return {path + ": " + std::string(foreign), {}};
+    }
+    return {{}, parse_names(bytes)};
   } catch (...) {
     return {end_of_reading(path).error, {}};
   }

@@ -49,10 +49,10 @@ class VtuReader {
     label_ = arrays_.integers<std::int32_t>("CellData label");
     facet_ = arrays_.integers<std::int64_t>("CellData facet");
     check_sizes();
-    arrays_.each_field_of_two([&](const std::string& name, std::int64_t label, std::int64_t two) {
-      if (two == 2 && std::in_range<std::int32_t>(label)) {
-        builder_.name_label(static_cast<std::int32_t>(label), name);
-      }
+    arrays_.each_field_of_two([&](const std::string& name, std::int64_t number, std::int64_t dim) {
+      if (!std::in_range<std::int32_t>(number)) return;
+      if (dim == 2) builder_.name_label(static_cast<std::int32_t>(number), name);
+      if (dim == 3) builder_.name_region(static_cast<std::int32_t>(number), name);
     });
     std::uint64_t begin = 0;
     for (std::size_t n = 0; n < types_.size(); begin = offsets_[n++]) {

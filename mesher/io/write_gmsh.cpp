@@ -54,7 +54,8 @@ class GmshWriter {
   static bool fits_bytes(const NamedMesh& named);
   void number_regions();
   void order_triangles();
-  std::string group_name(std::int32_t label) const;
+  static std::string group_name(const LabelNames& names, std::int32_t number,
+                                const std::string& name, const char* unnamed);
   void write_physical_names();
   void write_entities();
   void write_volume(std::int32_t number, const std::set<std::int64_t>& surfaces);
@@ -135,12 +136,13 @@ void GmshWriter::order_triangles() {
   each_facet([&](std::size_t, std::size_t) { ++facets_; });
 }
 
-// A label that is not positive cannot be the tag, so its name tells it.
-std::string GmshWriter::group_name(std::int32_t label) const {
-  std::string name = label_name(names_, label);
-  std::replace(name.begin(), name.end(), '"', '\'');
-  const bool told = label > 0 || !names_.contains(label);
-  return told ? name : "label " + std::to_string(label) + " " + name;
+// A number that is not positive cannot be the tag, so its name tells it.
+std::string GmshWriter::group_name(const LabelNames& names, std::int32_t number,
+                                   const std::string& name, const char* unnamed) {
+  const bool told = number > 0 || !names.contains(number);
+  std::string group = told ? name : unnamed + std::to_string(number) + " " + name;
+  std::replace(group.begin(), group.end(), '"', '\'');
+  return group;
 }
 
 void GmshWriter::write_physical_names() {
@@ -150,12 +152,14 @@ void GmshWriter::write_physical_names() {
   for (const auto& [label, tag] : physical_) {
     out_.text("2 ");
     out_.integers(tag);
-    out_.text("\"" + group_name(label) + "\"\n");
+    out_.text("\"" + group_name(names_, label, label_name(names_, label), "label ") + "\"\n");
   }
   for (const auto& [number, tag] : volume_) {
     out_.text("3 ");
     out_.integers(tag);
-    out_.text("\"" + region_name(mesh_, number) + "\"\n");
+    out_.text("\"" +
+              group_name(named_.region_names, number, region_name(named_, number), "region ") +
+              "\"\n");
   }
   out_.text("$EndPhysicalNames\n");
 }

@@ -95,7 +95,9 @@ WriteStatus write_mesh(OutputSet& outputs, const std::string& path, const TetMes
   const char* reason = mesh_files_of(path).empty() ? nullptr : inconsistency(mesh);
   if (reason != nullptr) return {path + ": inconsistent mesh: " + reason};
   if (options.order != 1 && options.order != 2) return {path + ": the order is neither 1 nor 2"};
-  const NamedMesh named{mesh, names, nullptr, options.ascii};
+  const LabelNames distinct = distinct_names(names);
+  const NamedMesh named{mesh, distinct, nullptr, options.ascii,
+                        distinct_names(options.region_names)};
   return options.order == 2 ? write_second_order(outputs, path, named)
                             : write_by_extension(kFormats, outputs, path, named);
 }
@@ -109,7 +111,8 @@ WriteStatus write_surface(OutputSet& outputs, const std::string& path, const Sur
   boundary.boundary_labels.resize(surface.triangles.size());
   boundary.boundary_facets.resize(surface.triangles.size());
   if (const char* reason = inconsistency(boundary)) return {path + ": " + reason};
-  return write_by_extension(kBoundaryFormats, outputs, path, NamedMesh{boundary, names});
+  const LabelNames distinct = distinct_names(names);
+  return write_by_extension(kBoundaryFormats, outputs, path, NamedMesh{boundary, distinct});
 }
 
 WriteStatus write_off(OutputSet& outputs, const std::string& path, const Surface& surface) {

@@ -62,7 +62,7 @@ class WriteMesh : public testing::Test {
   fs::path folder_;
 };
 
-constexpr WriteOptions kAscii = {.order = 1, .ascii = true};
+const WriteOptions kAscii = {.order = 1, .ascii = true};
 
 const char* const kPoints =
     "0.1 1e-310 -0\n1.7976931348623157e+308 0 0\n0 0.3333333333333333 0\n0 0 1e+22\n"
@@ -183,6 +183,41 @@ TEST_F(WriteMesh, LabelNamesAreRead) {
   EXPECT_EQ(read("one a\n").error, path("names.txt") + ":1: no label: 'one'");
   EXPECT_EQ(read("1 a\n1 b\n").error, path("names.txt") + ":2: label 1 is named twice");
   EXPECT_FALSE(read_label_names(path("none.txt")).ok());
+}
+
+TEST(DistinctNames, EndInNumbersThatAreFree) {
+  const LabelNames names = {{1, "wall"}, {2, "wall 2"}, {3, "wall"}, {4, "inlet"}, {9, "wall"}};
+  const LabelNames distinct = {
+      {1, "wall"}, {2, "wall 2"}, {3, "wall 3"}, {4, "inlet"}, {9, "wall 4"}};
+  EXPECT_EQ(distinct_names(names), distinct);
+  EXPECT_EQ(distinct_names(distinct), distinct);
+}
+
+// Programs find sets by their names: each label has one of its own.
+TEST_F(WriteMesh, EqualNamesAreToldApart) {
+  const LabelNames names = {{7, "wall"}, {0, "wall"}, {-2, "a \"b\""}};
+  for (const char* extension : {".msh", ".vtu", ".xdmf", ".bdf", ".stl", ".ply"}) {
+    const std::string file = path(std::string("a") + extension);
+    ASSERT_TRUE(write_mesh(file, sample(), names, kAscii).ok());
+    const std::string text = content(file);
+    EXPECT_NE(text.find("wall 2"), std::string::npos) << extension;
+  }
+  EXPECT_NE(content(path("a.bdf")).find("\"a 'b'\"\n"), std::string::npos);
+}
+
+TEST_F(WriteMesh, RegionsHaveNames) {
+  TetMesh mesh = sample();
+  mesh.regions = {5, -3};
+  const WriteOptions options = {.ascii = true, .region_names = {{5, "steel"}, {-3, "air gap"}}};
+  for (const auto& [extension, words] :
+       {std::pair(".msh", "3 5 \"steel\"\n"), std::pair(".msh", "\"region -3 air gap\"\n"),
+        std::pair(".inp", "ELSET=steel\n"), std::pair(".inp", "ELSET=air_gap\n"),
+        std::pair(".bdf", "\"air gap\"\n"),
+        std::pair(".xdmf", "<map key=\"steel\" dim=\"3\">5<")}) {
+    const std::string file = path(std::string("a") + extension);
+    ASSERT_TRUE(write_mesh(file, mesh, {}, options).ok());
+    EXPECT_NE(content(file).find(words), std::string::npos) << extension << content(file);
+  }
 }
 
 TEST(Identifiers, AreDifferentAndPlain) {

@@ -84,7 +84,7 @@ void AbaqusWriter::write_elements() {
   for (const auto& [number, tetrahedra] : tetrahedra_of_regions(mesh_)) {
     out_.text(named_.second_order() ? "*ELEMENT, TYPE=C3D10, ELSET="
                                     : "*ELEMENT, TYPE=C3D4, ELSET=");
-    out_.text(identifiers_.make(region_name(mesh_, number)));
+    out_.text(identifiers_.make(region_name(named_, number)));
     out_.text("\n");
     for (const std::size_t t : tetrahedra) {
       out_.integer(element_[t] = next++);
@@ -147,7 +147,8 @@ class NastranWriter {
     const std::string text = decimal_within(value, kBdfWidth);
     out_.text(text + std::string(kBdfWidth - text.size(), ' '));
   }
-  void component(std::uint64_t property, const std::string& name) {
+  void component(std::uint64_t property, std::string name) {
+    std::replace(name.begin(), name.end(), '"', '\'');
     const std::string digits = std::to_string(property);
     out_.text("$HMNAME COMP" + std::string(20 - digits.size(), ' ') + digits + "\"" + name +
               "\"\n");
@@ -187,7 +188,7 @@ void NastranWriter::write() {
   out_.text("$ delmesher\n");
   for (const auto& [label, triangles] : labels)
     component(property[label], label_name(names_, label));
-  for (const auto& [number, tetrahedra] : regions) component(next++, region_name(mesh_, number));
+  for (const auto& [number, tetrahedra] : regions) component(next++, region_name(named_, number));
   out_.text("BEGIN BULK\n");
   for (std::size_t i = 0; i < named_.nodes(); ++i) grid(i);
   const char* const triangle = named_.second_order() ? "CTRIA6  " : "CTRIA3  ";

@@ -142,12 +142,10 @@ void write_xdmf(TextSink& out, const NamedMesh& named) {
         item("Int", "8", tets + triangles, 1);
       },
       [&] { out.text("</DataItem>\n</Attribute>\n"); });
-  const Members labels = triangles_of_labels(mesh);
   std::string maps;  // as meshio writes and reads them
-  for (const auto& [label, unused] : labels) {
-    if (!named.names.contains(label)) continue;
-    maps += "<map key=\"" + xml_escaped(label_name(named.names, label)) + "\" dim=\"2\">" +
-            std::to_string(label) + "</map>";
+  for (const GivenName& given : given_names(named)) {
+    maps += "<map key=\"" + xml_escaped(given.name) + "\" dim=\"" +
+            std::to_string(given.dimension) + "\">" + std::to_string(given.number) + "</map>";
   }
   if (!maps.empty()) {
     out.text("<Information Name=\"names\"><![CDATA[<main>" + maps + "</main>]]></Information>\n");

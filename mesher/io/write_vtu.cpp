@@ -129,15 +129,14 @@ class CellArrays {
   std::size_t first_, second_;
 };
 
-// For each name an array with its label and 2, the dimension of triangles. So meshio writes Gmsh's
-// groups.
+// For each name an array with its label and 2, the dimension of triangles, or its region and 3. So
+// meshio writes Gmsh's groups.
 std::string field_data(const NamedMesh& named) {
   std::string arrays;
-  for (const auto& [label, triangles] : triangles_of_labels(named.mesh)) {
-    if (!named.names.contains(label)) continue;
-    arrays += "<DataArray type=\"Int64\" Name=\"" + xml_escaped(label_name(named.names, label)) +
-              "\" NumberOfTuples=\"2\" format=\"ascii\">\n" + std::to_string(label) +
-              " 2\n</DataArray>\n";
+  for (const GivenName& given : given_names(named)) {
+    arrays += "<DataArray type=\"Int64\" Name=\"" + xml_escaped(given.name) +
+              "\" NumberOfTuples=\"2\" format=\"ascii\">\n" + std::to_string(given.number) + " " +
+              std::to_string(given.dimension) + "\n</DataArray>\n";
   }
   return arrays.empty() ? arrays : "<FieldData>\n" + arrays + "</FieldData>\n";
 }

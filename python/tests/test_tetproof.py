@@ -1,6 +1,7 @@
 """The package as users see it. Run with pytest where tetproof is installed."""
 import gzip
 import os
+import pickle
 import signal
 import sys
 import threading
@@ -58,7 +59,7 @@ def test_inputs_of_any_kind():
 
 @pytest.mark.parametrize("wrong", [
     dict(triangles=[[0, 1, -1]]), dict(triangles=[[0, 1, 2, 3]]), dict(points=[[0, 0]]), dict(labels=[1, 2]),
-    dict(delta=99), dict(max_edge=float("nan")), dict(threads=-1), dict(threads=1.5), dict(region="all"), dict(improve=2)])
+    dict(labels=[1 << 40] * 12), dict(labels=[0xffffffff] * 12), dict(delta=99), dict(max_edge=float("nan")), dict(threads=-1), dict(threads=1.5), dict(region="all"), dict(improve=2)])
 def test_what_makes_no_sense_is_a_value_error(wrong):
     arguments = {"points": POINTS, "triangles": TRIANGLES, **wrong}
     with pytest.raises(ValueError):
@@ -66,6 +67,13 @@ def test_what_makes_no_sense_is_a_value_error(wrong):
 
 
 def test_unknown_options_and_types():
+    for labels in ([0.5] * 12, ["inlet"] * 12, [float("nan")] * 12):
+        with pytest.raises(TypeError, match="labels must be whole numbers"):
+            tetproof.mesh(POINTS, TRIANGLES, labels=labels)
+    assert set(tetproof.mesh(POINTS, TRIANGLES, labels=LABELS * -1.0).labels) == set(range(-6, 0))
+    for nothing in (POINTS, None, "part.msh"):
+        with pytest.raises(TypeError, match="`read_mesh` makes one"):
+            tetproof.improve(nothing)
     with pytest.raises(TypeError, match="no such option: detla: did you mean delta?"):
         tetproof.mesh(POINTS, TRIANGLES, detla=3)
     with pytest.raises(TypeError, match="no such option: colour .there are "):
@@ -112,6 +120,9 @@ def test_repair():
     assert mended.done == ["28 vertices welded to others at the same place"]
     assert tetproof.mesh(mended).volumes().sum() == pytest.approx(1)
     assert tetproof.check(tetproof.repair(POINTS, TRIANGLES[:-1], fill=True)).valid
+    for weld in (-1, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="weld"):
+            tetproof.repair(POINTS, TRIANGLES, weld=weld)
 
 
 def test_limits():
@@ -128,6 +139,64 @@ def test_progress():
         tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: False)
     with pytest.raises(ZeroDivisionError):
         tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: 1 / 0)
+    assert len(tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: "going on").points) == 8
+    with pytest.raises(ValueError, match="ambiguous"):
+        tetproof.mesh(POINTS, TRIANGLES, progress=lambda *_: np.array([1, 2]))
+
+
+def test_errors_and_results_go_to_other_processes():
+    for error in (tetproof.LimitReached("too many", "size"), tetproof.InvalidMesh("not one"), tetproof.Interrupted("stopped")):
+        back = pickle.loads(pickle.dumps(error))
+        assert type(back) is type(error) and back.args == error.args and getattr(back, "limit", "") == getattr(error, "limit", "")
+    with pytest.raises(tetproof.InvalidSurface) as caught:
+        tetproof.mesh(POINTS, TRIANGLES[:-1])
+    assert pickle.loads(pickle.dumps(caught.value)).counts == {"open edge": 3}
+    mesh = tetproof.mesh(POINTS, TRIANGLES)
+    again = pickle.loads(pickle.dumps(mesh))
+    assert np.array_equal(again.points, mesh.points) and again != mesh and mesh == mesh
+
+
+def test_meshes_of_others_are_improved():
+    mesh = tetproof.mesh(POINTS, TRIANGLES, max_edge=0.3, improve=False)
+
+    class Meshio:
+        points, cells_dict = mesh.points, {"tetra": mesh.tetrahedra, "triangle": mesh.boundary}
+
+    class Pyvista:
+        points, cells_dict = mesh.points, {10: mesh.tetrahedra}
+
+    for given in (Meshio(), Pyvista()):
+        better = tetproof.improve(given)
+        assert better.volumes().sum() == pytest.approx(1) and len(better.tetrahedra) < len(mesh.tetrahedra)
+
+
+def test_surfaces_are_written_and_given_to_others(tmp_path):
+    surface = tetproof.Surface(POINTS, TRIANGLES, LABELS, {1: "inlet", 2: "inlet"})
+    surface.write(tmp_path / "cube.stl")
+    back = tetproof.read(tmp_path / "cube.stl")
+    assert back.names[1] == "inlet" and back.names[2] == "inlet 2" and np.array_equal(np.sort(back.labels), LABELS)
+    tetproof.write(tmp_path / "cube.ply", tetproof.repair(surface), {1: "outlet"})
+    assert "comment label 1 outlet" in (tmp_path / "cube.ply").read_text()
+    for wrong in ({"a": "b"}, {1: 2}, [1]):
+        with pytest.raises(TypeError, match="names must be a dict"):
+            tetproof.write(tmp_path / "cube.stl", surface, wrong)
+    with pytest.raises(TypeError, match="a mesh or a surface is expected, not int"):
+        tetproof.write(tmp_path / "cube.stl", 3)
+    with pytest.raises(ValueError, match="unknown mesh format"):
+        surface.write(tmp_path / "cube.msh")
+    meshio = pytest.importorskip("meshio")
+    assert isinstance(surface.to_meshio(), meshio.Mesh) and np.array_equal(surface.to_meshio().cells_dict["triangle"], TRIANGLES)
+
+
+def test_names_of_regions_come_back(tmp_path):
+    mesh = tetproof.mesh(POINTS, TRIANGLES, max_edge=0.5)
+    mesh.regions = np.where(np.arange(len(mesh.tetrahedra)) % 2 == 0, 7, 9).astype(np.int32)
+    mesh.region_names = {7: "steel", 9: "copper"}
+    for name in ("cube.msh", "cube.vtu"):
+        mesh.write(tmp_path / name)
+        back = tetproof.read_mesh(tmp_path / name)
+        assert back.region_names == mesh.region_names and np.array_equal(np.sort(back.regions), np.sort(mesh.regions))
+        assert tetproof.improve(back).region_names == mesh.region_names
 
 
 @pytest.mark.parametrize("with_tqdm", [False, True])

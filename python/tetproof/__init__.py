@@ -47,7 +47,7 @@ class LimitReached(Error):
         "size", "time", "memory" or "precision".
     """
 
-    def __init__(self, message: str, limit: str):
+    def __init__(self, message: str, limit: str = ""):  # with a default, or it could not leave another process
         super().__init__(message)
         self.limit = limit
 
@@ -91,7 +91,7 @@ class InvalidSurface(Error, ValueError):
         self.places = report.places if report else {}
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)  # arrays have no one truth to compare by
 class Surface:
     """A triangulated surface.
 
@@ -110,14 +110,39 @@ class Surface:
     names: Dict[int, str] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
 
+    def write(self, path: "Union[str, os.PathLike[str]]") -> None:
+        """Write an .stl, .ply or .off, see `write`."""
+        write(path, self)
 
-@dataclasses.dataclass
+    def to_meshio(self) -> Any:
+        """A `meshio.Mesh` of the triangles, with cell data ``label``."""
+        import meshio
+
+        return meshio.Mesh(self.points, [("triangle", self.triangles.astype(np.int64))], cell_data={"label": [self.labels]})
+
+    def to_trimesh(self) -> Any:
+        """A `trimesh.Trimesh` with the same points and triangles."""
+        import trimesh
+
+        return trimesh.Trimesh(self.points, self.triangles, process=False)
+
+    def to_pyvista(self) -> Any:
+        """A `pyvista.PolyData`, with cell data ``label``."""
+        import pyvista
+
+        faces = np.hstack([np.full((len(self.triangles), 1), 3), self.triangles]).ravel()
+        data = pyvista.PolyData(self.points, faces)
+        data.cell_data["label"] = self.labels
+        return data
+
+
+@dataclasses.dataclass(eq=False)
 class Repaired(Surface):
     """A mended surface; `done` says what was done to it, a line each."""
     done: List[str] = dataclasses.field(default_factory=list)
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Mesh:
     """A mesh of tetrahedra.
 
@@ -134,8 +159,8 @@ class Mesh:
         The triangles that tile the surface, counter-clockwise seen from outside.
     labels, facets : (b,) int32, (b,) uint32
         The label of the input, and the facet that the triangle is a part of.
-    names : dict of int to str
-        What labels are called in files.
+    names, region_names : dict of int to str
+        What labels, and regions, are called in files.
     stats : dict
         Sizes, angles in degrees, shapes and seconds.
     warnings : list of str
@@ -150,6 +175,7 @@ class Mesh:
     names: Dict[int, str] = dataclasses.field(default_factory=dict)
     stats: Dict[str, Any] = dataclasses.field(default_factory=dict)
     warnings: List[str] = dataclasses.field(default_factory=list)
+    region_names: Dict[int, str] = dataclasses.field(default_factory=dict)
 
     def volumes(self) -> Array:
         """The volume of each tetrahedron, in doubles."""
@@ -176,7 +202,7 @@ class Mesh:
         return pyvista.UnstructuredGrid({pyvista.CellType.TETRA: self.tetrahedra}, self.points)
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class PlaneMesh:
     """A mesh of triangles in the plane; `edges` tile the segments, with their `markers` and the numbers of the `segments`."""
     points: Array
@@ -189,7 +215,7 @@ class PlaneMesh:
     warnings: List[str] = dataclasses.field(default_factory=list)
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Report:
     """What `check` found.
 
@@ -241,8 +267,16 @@ def _points(values: Any) -> Array:
     return np.ascontiguousarray(values, dtype=np.float64)
 
 
-def _labels(values: Any) -> Optional[Array]:
-    return None if values is None else np.ascontiguousarray(values, dtype=np.int32)
+def _labels(values: Any, name: str = "labels") -> Optional[Array]:
+    if values is None:
+        return None
+    array = np.asarray(values)
+    if array.size and not np.issubdtype(array.dtype, np.integer):
+        if not np.issubdtype(array.dtype, np.floating) or not (array == np.round(array)).all():
+            raise TypeError("%s must be whole numbers, not %s" % (name, array.dtype))
+    if array.size and (array.min() < -0x80000000 or array.max() > 0x7fffffff):
+        raise ValueError("%s are from -2^31 to 2^31 - 1" % name)
+    return np.ascontiguousarray(array, dtype=np.int32)
 
 
 def _surface(points: Any, triangles: Any, labels: Any) -> Tuple[Array, Array, Optional[Array]]:
@@ -416,9 +450,28 @@ def cdt(points: Any, triangles: Any = None, labels: Any = None, *, region: str =
     return _mesh(result, getattr(points, "names", None))
 
 
-def improve(mesh: Mesh, *, max_edge: Optional[float] = None, size_field: Any = None, delta: Optional[float] = None,
+def _tetrahedra(given: Any) -> Mesh:
+    """A mesh, or an object that has tetrahedra: of meshio (points, cells_dict) or pyvista."""
+    if all(hasattr(given, name) for name in ("points", "tetrahedra", "boundary")):
+        mesh: Mesh = given
+        return mesh
+    if hasattr(given, "cells_dict"):
+        cells = given.cells_dict
+        for kind in ("tetra", 10):  # meshio's name, and VTK's number, of which pyvista has a dict
+            if kind in cells:
+                none = np.zeros(0, np.int32)
+                return Mesh(given.points, cells[kind], np.ones(len(cells[kind]), bool), np.zeros((0, 3), np.uint32), none, none)
+    raise TypeError("a mesh of tetrahedra is expected; `read_mesh` makes one of a file")
+
+
+def improve(mesh: Any, *, max_edge: Optional[float] = None, size_field: Any = None, delta: Optional[float] = None,
             progress: Union[Progress, bool, None] = None, **options: Any) -> Mesh:
     """Fewer and better tetrahedra of any conforming mesh; its boundary and its regions are kept exactly.
+
+    Parameters
+    ----------
+    mesh : Mesh, or an object with tetrahedra
+        What meshio or pyvista have, of which the tetrahedra are taken; their hull is kept.
 
     Raises
     ------
@@ -427,9 +480,11 @@ def improve(mesh: Mesh, *, max_edge: Optional[float] = None, size_field: Any = N
     """
     named = _options(options, {"max_edge": max_edge, "delta": delta}, size_field)
     with _shown(progress) as shown:
-        result = _core.improve(_fields(mesh), named, shown)
+        result = _core.improve(_fields(_tetrahedra(mesh)), named, shown)
     _raise(result)
-    return _mesh(result, mesh.names)
+    better = _mesh(result, getattr(mesh, "names", None))
+    better.region_names = dict(getattr(mesh, "region_names", {}))
+    return better
 
 
 def check(points: Any, triangles: Any = None, **options: Any) -> Report:
@@ -461,6 +516,8 @@ def repair(points: Any, triangles: Any = None, labels: Any = None, *, weld: floa
     fill : bool
         Fill holes that are planar within 1e-6 of the diagonal, or no wider than a twentieth of it.
     """
+    if not 0 <= weld < np.inf:
+        raise ValueError("weld must be at least 0, and finite")
     result = _core.repair(*_surface(points, triangles, labels), float(weld), bool(fill))
     return Repaired(**result, names=dict(getattr(points, "names", {})))
 
@@ -481,7 +538,7 @@ def plane(points: Any, segments: Any, markers: Any = None, *, holes: Any = None,
     no_holes = np.zeros((0, 2)) if holes is None else holes
     named = _options(options, {"max_edge": max_edge, "delta": delta})
     with _shown(progress) as shown:
-        result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers), _points(no_holes), named, shown)
+        result = _core.plane(_points(points), _indices(segments, "segments"), _labels(markers, "markers"), _points(no_holes), named, shown)
     _raise(result)
     fields = {f.name: result[f.name] for f in dataclasses.fields(PlaneMesh)}
     fields["inside"] = fields["inside"].view(np.bool_)
@@ -516,12 +573,28 @@ def _fields(mesh: Mesh) -> Dict[str, Array]:
             "labels": np.ascontiguousarray(mesh.labels, np.int32), "facets": _indices(mesh.facets, "facets")}
 
 
-def write(path: "Union[str, os.PathLike[str]]", mesh: Mesh, names: Optional[Mapping[int, str]] = None, *, order: int = 1,
-          ascii: bool = False) -> None:
-    """Write a mesh in the format of the extension; labels are called by `names` (of the mesh).
+def _called(names: Mapping[int, str]) -> Dict[int, str]:
+    try:
+        called = {int(number): name for number, name in names.items()}
+    except (AttributeError, TypeError, ValueError):
+        called = {0: None}  # type: ignore
+    if not all(isinstance(name, str) for name in called.values()):
+        raise TypeError("names must be a dict from whole numbers to strings")
+    return called
+
+
+def write(path: "Union[str, os.PathLike[str]]", mesh: Union[Mesh, Surface], names: Optional[Mapping[int, str]] = None, *,
+          order: int = 1, ascii: bool = False) -> None:
+    """Write a mesh, or a surface, in the format of the extension; labels are called by `names` (of the mesh).
 
     .mesh, .msh, .vtu, .vtk, .xdmf, .inp, .bdf, .node, .tet; .stl, .ply and .off hold the boundary alone. ValueError says why a file
     could not be written; it is complete or not there. With ``order=2`` the elements have a node in the middle of every edge, too
     (.mesh, .msh, .vtu, .vtk, .inp, .bdf). .msh and .vtu hold bytes, with ``ascii=True`` text.
     """
-    _core.write_mesh(os.fspath(path), _fields(mesh), dict(mesh.names if names is None else names), order, ascii)
+    called = _called(getattr(mesh, "names", {}) if names is None else names)
+    if hasattr(mesh, "tetrahedra"):
+        _core.write_mesh(os.fspath(path), _fields(mesh), called, _called(mesh.region_names), order, ascii)
+    elif hasattr(mesh, "triangles"):
+        _core.write_surface(os.fspath(path), *_surface(mesh, None, None), called)
+    else:
+        raise TypeError("a mesh or a surface is expected, not %s" % type(mesh).__name__)

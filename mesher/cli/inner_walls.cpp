@@ -1,0 +1,136 @@
+#include "mesher/cli/inner_walls.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace delmesher::cli {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector difference(const Vector& a, const Vector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+  }
+  std::uint32_t find(std::uint32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+// A triangle at an edge, which goes from the lower to the higher vertex.
+struct Leaf {
+  double angle;
+  std::uint32_t triangle;
+  bool forward;  // the triangle runs along the edge in its direction
+};
+using Leaves = std::map<std::array<std::uint32_t, 2>, std::vector<Leaf>>;
+
+Leaves leaves_of(const Surface& surface) {
+  Leaves leaves;
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& corners = surface.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = corners[k], b = corners[(k + 1) % 3];
+      leaves[{std::min(a, b), std::max(a, b)}].push_back({0, t, a < b});
+    }
+  }
+  return leaves;
+}
+
+// Sorts the triangles around an edge counter-clockwise, as seen against its direction.
+void sort_around(const Surface& surface, const std::array<std::uint32_t, 2>& edge,
+                 std::vector<Leaf>& leaves) {
+  const Vector& start = surface.vertices[edge[0]];
+  const Vector along = difference(surface.vertices[edge[1]], start);
+  const auto radius = [&](const Leaf& leaf) {
+    for (const std::uint32_t v : surface.triangles[leaf.triangle]) {
+      if (v != edge[0] && v != edge[1]) return difference(surface.vertices[v], start);
+    }
+    return Vector{};
+  };
+  const Vector up = cross(along, radius(leaves[0])), zero = cross(up, along);
+  const double scale = std::sqrt(dot(along, along));
+  for (Leaf& leaf : leaves) {
+    const Vector r = radius(leaf);
+    leaf.angle = std::atan2(scale * dot(r, up), dot(r, zero));
+  }
+  std::stable_sort(leaves.begin(), leaves.end(),
+                   [](const Leaf& a, const Leaf& b) { return a.angle < b.angle; });
+}
+
+// The side of a triangle from which it is seen counter-clockwise, and the other.
+std::uint32_t front(std::uint32_t triangle) {
+  return 2 * triangle;
+}
+std::uint32_t back(std::uint32_t triangle) {
+  return 2 * triangle + 1;
+}
+
+// Six times the volume of each set of sides that see each other; that of the outside is negative.
+std::map<std::uint32_t, double> volumes(const Surface& surface, Sets& sides) {
+  std::map<std::uint32_t, double> volume;
+  const Vector& origin = surface.vertices[surface.triangles[0][0]];
+  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto& [a, b, c] = surface.triangles[t];
+    const double v = dot(
+        difference(surface.vertices[a], origin),
+        cross(difference(surface.vertices[b], origin), difference(surface.vertices[c], origin)));
+    volume[sides.find(back(t))] += v;
+    volume[sides.find(front(t))] -= v;
+  }
+  return volume;
+}
+
+}  // namespace
+
+std::optional<Enclosed> enclosed_by(const Surface& surface) {
+  const auto count = static_cast<std::uint32_t>(surface.triangles.size());
+  if (count == 0) return std::nullopt;
+  Sets sides(std::size_t{2} * count), sheets(count);
+  Leaves edges = leaves_of(surface);
+  for (auto& [edge, leaves] : edges) {
+    if (leaves.size() == 1) return std::nullopt;
+    if (leaves.size() == 2) sheets.join(leaves[0].triangle, leaves[1].triangle);
+    sort_around(surface, edge, leaves);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      const Leaf& leaf = leaves[i];
+      const Leaf& next = leaves[(i + 1) % leaves.size()];
+      sides.join(leaf.forward ? front(leaf.triangle) : back(leaf.triangle),
+                 next.forward ? back(next.triangle) : front(next.triangle));
+    }
+  }
+  const std::map<std::uint32_t, double> volume = volumes(surface, sides);
+  Enclosed enclosed;
+  for (const auto& [side, v] : volume) enclosed.parts += v > 0 ? 1 : 0;
+  std::set<std::uint32_t> of_walls;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    if (volume.at(sides.find(front(t))) <= 0 || volume.at(sides.find(back(t))) <= 0) continue;
+    enclosed.walls.push_back(t);
+    of_walls.insert(sheets.find(t));
+  }
+  enclosed.sheets = of_walls.size();
+  return enclosed;
+}
+
+}  // namespace delmesher::cli

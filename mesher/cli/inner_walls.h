@@ -1,0 +1,23 @@
+// What a closed surface encloses whose edges may belong to more than two triangles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mesher/delmesher/surface.h"
+
+namespace delmesher::cli {
+
+struct Enclosed {
+  std::uint64_t parts = 0;           // of space that triangles keep from the outside
+  std::vector<std::uint32_t> walls;  // triangles that have such parts on both sides
+  std::uint64_t sheets = 0;  // of the walls, what hangs together without going round a corner
+};
+
+// Around each edge the triangles are put in the order of their angles, in doubles: for a hint, no
+// more. Nullopt if an edge belongs to one triangle alone: it has no two sides. Triangles have to
+// refer to vertices, and to three different ones.
+std::optional<Enclosed> enclosed_by(const Surface& surface);
+
+}  // namespace delmesher::cli
