@@ -10,7 +10,7 @@ import subprocess
 import sys
 
 SOURCE = (".h", ".cpp")
-TOP = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports", "ci")
+TOP = ("mesher", "oracles", "property_tests", "fuzz", "corpus", "reports", "python", "ci")
 
 STANDARD = set("""algorithm any array atomic barrier bit bitset cassert cctype cerrno cfenv cfloat charconv chrono
 cinttypes climits clocale cmath codecvt compare complex concepts condition_variable coroutine csetjmp csignal cstdarg
@@ -61,12 +61,14 @@ FOLDERS = {
     "reports": ("oracles",),
     "property_tests": ("oracles", "mesher"),
     "fuzz": ("property_tests", "oracles", "corpus", "mesher"),
+    "python": (),
     "ci": (),
 }
 
 # The benchmarks time the kernels. The adapters of peers and the table of plane meshers read and write with the very code of the mesher's command line, so that every mesher
 # sees the same doubles; the io library needs nothing of the mesher but the public header.
-ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/tetgen_adapter/": "mesher/io/", "corpus/peer_adapters/": "mesher/io/", "corpus/plane/": "mesher/io/"}
+ADAPTERS = {"reports/benchmark/": "mesher/", "corpus/tetgen_adapter/": "mesher/io/", "corpus/peer_adapters/": "mesher/io/", "corpus/plane/": "mesher/io/",
+            "python/": "mesher/named_options.h"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 OPENED = re.compile(r"^(?:inline )?namespace(?: ([\w:]+))? \{$")

@@ -34,6 +34,8 @@ GOOD = {
     "mesher/io/inflate.cpp": "#include <zlib.h>\n",
     "oracles/report.h": "#pragma once\n#include <gmpxx.h>\n#include \"mesher/delmesher.h\"\n",
     "property_tests/laws_test.cpp": "#include \"oracles/report.h\"\n#include \"mesher/refine/refine.h\"\n",
+    "mesher/named_options.h": "#pragma once\n",
+    "python/bindings.cpp": "#include <pybind11/stl.h>\n#include \"mesher/delmesher.h\"\n#include \"mesher/named_options.h\"\n",
     "corpus/tetgen_adapter/adapter.cpp": "#include <tetgen.h>\n",
     "corpus/tetgen_adapter/LICENSE.md": "Links TetGen, which is under the AGPL.\n",
 }
@@ -58,6 +60,7 @@ BAD = {
                                        "no other than public headers"),
     "public header includes nothing": ({"mesher/delmesher/run.h": '#pragma once\n#include "gone.h"\n'}, "no such file"),
     "oracle includes stage": ({"oracles/a.cpp": '#include "mesher/base/ids.h"\n'}, "no stage of the mesher"),
+    "package includes stage": ({"python/bindings.cpp": '#include "mesher/base/ids.h"\n'}, "no stage of the mesher"),
     "oracle includes corpus": ({"oracles/a.cpp": '#include "corpus/x.h"\n', "corpus/x.h": "#pragma once\n"},
                                "oracles must not"),
     "oracle sneaks in with angles": ({"oracles/a.cpp": "#include <mesher/base/ids.h>\n"}, "installed headers"),

@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -119,6 +121,27 @@ bool any_cross(const Surface& surface, const SurfaceReport& report) {
   return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
     return on_both_sides(pair[0], pair[1]) && on_both_sides(pair[1], pair[0]);
   });
+}
+
+// The triangles of open components that meet closed ones. What has a vertex in common is one
+// component.
+std::uint64_t triangles_of_sheets(const Surface& surface, const SurfaceReport& report) {
+  std::vector<std::uint32_t> root(surface.vertices.size());
+  std::iota(root.begin(), root.end(), std::uint32_t{0});
+  const auto find = [&](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : surface.triangles) root[find(a)] = root[find(b)] = find(c);
+  std::set<std::uint32_t> open, sheets;
+  for (const auto& edge : places_of(report, Kind::open_edge)) open.insert(find(edge[0]));
+  for (const auto& [one, other] : places_of(report, Kind::self_intersection)) {
+    const std::uint32_t a = find(surface.triangles[one][0]), b = find(surface.triangles[other][0]);
+    if (open.contains(a) != open.contains(b)) sheets.insert(open.contains(a) ? a : b);
+  }
+  return static_cast<std::uint64_t>(
+      std::count_if(surface.triangles.begin(), surface.triangles.end(),
+                    [&](const auto& corners) { return sheets.contains(find(corners[0])); }));
 }
 
 constexpr const char* kMoveApart =
@@ -284,7 +307,7 @@ std::vector<Contact> contacts(const Surface& surface, const SurfaceReport& repor
   const std::uint64_t opposite = opposite_duplicates(surface, report);
   if (opposite > 0) {
     found.push_back({"bodies touch in " + counted(opposite, "triangle"),
-                     "`tetproof union` makes one of them, or mesh them one by one"});
+                     "`delmesher repair` makes one of them, or mesh them one by one"});
   }
   // Triangles without area, and doubled ones, make such edges themselves: first things first.
   if (count_of(report, Kind::degenerate_triangle) > 0 ||
@@ -294,7 +317,15 @@ std::vector<Contact> contacts(const Surface& surface, const SurfaceReport& repor
   if (count_of(report, Kind::non_manifold_edge) > 0) {
     found.push_back(contact_at_edges(surface, report));
   } else if (count_of(report, Kind::self_intersection) > 0) {
-    if (report.components > 1 && !any_cross(surface, report)) {
+    if (count_of(report, Kind::open_edge) > 0) {
+      const std::uint64_t sheet = triangles_of_sheets(surface, report);
+      if (sheet > 0) {
+        found.push_back(
+            {"a sheet of " + counted(sheet, "triangle") + " meets a closed body",
+             "an inner wall, or what sticks out: only what closes up bounds a solid, so "
+             "leave it out"});
+      }
+    } else if (report.components > 1 && !any_cross(surface, report)) {
       found.push_back({"bodies touch, and do not cross",
                        "`tetproof union` makes one of them, or mesh them one by one"});
     }

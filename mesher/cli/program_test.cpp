@@ -552,12 +552,26 @@ TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
   // The same from the other side, with the wall turned round.
   EXPECT_NE(hints_of(b + b1 + a0 + a + b0).find("an inner wall of 2 triangles: triangle 20 at"),
             std::string::npos);
-  EXPECT_EQ(hints_of(a0 + a1 + a + b0 + b1 + b),
-            "  hint: bodies touch in 2 triangles: `tetproof union` makes one of them, or mesh them "
-            "one by one\n");
+  EXPECT_EQ(
+      hints_of(a0 + a1 + a + b0 + b1 + b),
+      "  hint: bodies touch in 2 triangles: `delmesher repair` makes one of them, or mesh them "
+      "one by one\n");
+  EXPECT_EQ(run("repair in.off -o mended.off"), 0) << text("err.txt");
+  EXPECT_EQ(hints_of(a0 + a1 + a + b1 + b).substr(0, 40),
+            "  hint: an inner wall of 2 triangles: tr");
+  EXPECT_EQ(run("repair in.off -o mended.off"), 1);
+  EXPECT_NE(text("err.txt").find(": 4 non-manifold edges left: an inner wall of 2 triangles: "),
+            std::string::npos)
+      << text("err.txt");
   EXPECT_EQ(hints_of(a0 + a1 + a + c0 + c1 + c),
             "  hint: bodies, or parts of one, touch along 1 edge: `tetproof union --separate 1e-4` "
             "moves them apart, or mesh them one by one\n");
+  // A wall that has no vertices in common with the box around it.
+  const std::string long_box =
+      "0 0 0\n2 0 0\n0 1 0\n2 1 0\n0 0 1\n2 0 1\n0 1 1\n2 1 1\n1 0 0\n1 1 0\n1 0 1\n1 1 1\n";
+  EXPECT_NE(hints_of(kCubeTriangles + "3 8 9 11\n3 8 11 10\n", long_box)
+                .find("  hint: a sheet of 2 triangles meets a closed body: an inner wall, or "),
+            std::string::npos);
   // A cube of half the size that stands on another one's side, and one that is stuck in it.
   for (const char* low : {"1", "0.75"}) {
     std::string vertices;

@@ -66,8 +66,11 @@ int RepairRunner::judge() {
   }
   const std::uint64_t open = io::holes_of(surface_).open_edges;
   const bool fills = open > 0 && !command_.repair.fill;
-  return fail(kFailed, command_.outputs.front() + ": " + defects_line(report) + " left" +
-                           (fills ? ", see --fill" : ""));
+  std::string left = defects_line(report) + " left";
+  for (const Contact& contact : contacts(surface_, report)) {
+    left += ": " + contact.what + ": " + contact.advice;
+  }
+  return fail(kFailed, command_.outputs.front() + ": " + left + (fills ? ", see --fill" : ""));
 }
 
 int RepairRunner::run() {

@@ -147,8 +147,7 @@ class NastranWriter {
     const std::string text = decimal_within(value, kBdfWidth);
     out_.text(text + std::string(kBdfWidth - text.size(), ' '));
   }
-  void component(std::uint64_t property, std::string name) {
-    std::replace(name.begin(), name.end(), '"', '\'');
+  void component(std::uint64_t property, const std::string& name) {
     const std::string digits = std::to_string(property);
     out_.text("$HMNAME COMP" + std::string(20 - digits.size(), ' ') + digits + "\"" + name +
               "\"\n");
