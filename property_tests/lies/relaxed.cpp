@@ -163,6 +163,8 @@ const Lie kRelaxed[] = {
      [](Told& t) { t.record.corners.front().threshold = 61; }, "caught by refined-chamfer-angles"},
     {"a bound of planar facets, of which there are none", "promise",
      [](Told& t) { t.record.parameters.planar = 0x1p-40; }, "passed"},
+    {"a denormal bound of planar facets, of which there are none", "promise",
+     [](Told& t) { t.record.parameters.planar = 0x1p-1074; }, "passed"},
     {"a bound of planar facets below nothing", "promise",
      [](Told& t) { t.record.parameters.planar = -0x1p-30; }},
     {"threshold of one corner raised to a right angle", "refined-chamfer-angles",
