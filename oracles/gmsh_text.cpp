@@ -1,6 +1,7 @@
 #include "oracles/gmsh_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -14,6 +15,23 @@ namespace {
 struct Announced {
   std::uint64_t blocks = 0, total = 0;
   std::int64_t least = 0, largest = 0;  // tags
+};
+
+struct Box {
+  Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void add(const Position& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  bool operator==(const Box&) const = default;
+};
+
+// What an entity says, and what its elements have.
+struct Boxes {
+  Box told, found;
 };
 
 class GmshReader {
@@ -39,6 +57,10 @@ class GmshReader {
       if (!seen_.contains(section)) reader_.fail(std::string("there is no ") + section);
     }
     check_further_groups();
+    text_.boxes_differ = std::any_of(boxes_.begin(), boxes_.end(), [](const auto& entity) {
+      const Boxes& boxes = entity.second;
+      return boxes.found != Box() && boxes.found != boxes.told;
+    });
     return std::move(text_);
   }
 
@@ -136,7 +158,11 @@ class GmshReader {
     for (int dimension = 0; dimension < 4; ++dimension) {
       for (std::uint64_t i = 0; i < counts[dimension]; ++i) {
         const std::int64_t tag = integer();
-        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) number();
+        std::array<double, 6> box{};
+        for (std::size_t k = 0; k < (dimension == 0 ? 3 : 6); ++k) box[k] = number();
+        if (dimension >= 2) {
+          boxes_[{dimension, tag}].told = {{box[0], box[1], box[2]}, {box[3], box[4], box[5]}};
+        }
         std::int64_t group = tag;
         const std::uint64_t tags = count();
         for (std::uint64_t k = 0; k < tags; ++k) {
@@ -231,6 +257,8 @@ class GmshReader {
       if (dimension != kind(element.type).dimension) {
         reader_.fail("elements of another dimension than their entity");
       }
+      const auto boxes = boxes_.find({dimension, element.entity});
+      box_ = boxes == boxes_.end() ? nullptr : &boxes->second.found;
       const auto found = group_.find({dimension, element.entity});
       // Some programs list no entities, or not all of them.
       element.group = found == group_.end() ? element.entity : found->second;
@@ -297,6 +325,10 @@ class GmshReader {
       const auto found = number_.find(tag);
       if (found == number_.end()) reader_.fail("there is no node " + std::to_string(tag));
       element.nodes[static_cast<std::size_t>(i)] = found->second;
+      // The corners come first; there is one more than dimensions.
+      if (box_ != nullptr && i <= kind(element.type).dimension) {
+        box_->add(text_.nodes[found->second]);
+      }
     }
     take_(element);
   }
@@ -316,6 +348,8 @@ class GmshReader {
   const std::function<void(const GmshElement&)>& take_;
   GmshText text_;
   bool binary_ = false;
+  std::map<std::pair<int, std::int64_t>, Boxes> boxes_;  // of surfaces and volumes
+  Box* box_ = nullptr;                                   // of the elements being read
   // Of the tags read, of the nodes or of the elements.
   std::int64_t least_ = std::numeric_limits<std::int64_t>::max();
   std::int64_t largest_ = std::numeric_limits<std::int64_t>::min();

@@ -30,6 +30,9 @@ struct GmshText {
   std::vector<Position> nodes;
   // Of physical groups, by dimension and tag; without quotation marks.
   std::map<std::pair<int, std::int64_t>, std::string> names;
+  // The box of some surface or volume is not the smallest one of its elements' corners. Delmesher
+  // writes no such file of a mesh in space.
+  bool boxes_differ = false;
 };
 
 // Calls `take` with the elements in their order. The sections that matter are there once, with the

@@ -247,6 +247,7 @@ MeshFile read_gmsh(const std::string& path) {
     }
   });
   mesh.vertices = std::move(text.nodes);
+  mesh.boxes_differ = text.boxes_differ;
   take_out_edge_nodes(mesh, nodes, path);
   // Where the names say the opposite of the numbers 1 and 2, these count as exchanged.
   const auto called = [&](std::int64_t group, const char* name) {

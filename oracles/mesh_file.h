@@ -33,6 +33,8 @@ struct MeshFile {
   // A label that could be the number of its group is the name of a group of another number, so that
   // readers differ in what it is. Delmesher writes no such file.
   bool labels_contradict = false;
+  // An entity of Gmsh's is not as large as it says. Delmesher writes no such file.
+  bool boxes_differ = false;
   std::vector<EdgeNode> edge_nodes;  // one of each edge; empty if the elements are linear
   bool lists_boundary = true;        // false for a format that has no triangles
   bool has_second_order = true;      // false for a format that has only linear elements

@@ -362,6 +362,9 @@ class SameMesh {
     if (mesh_.labels_contradict) {
       report_.fail("the file has a group of triangles that is called by the label of another one");
     }
+    if (mesh_.boxes_differ) {
+      report_.fail("the file has an entity whose box is not that of its elements");
+    }
     const std::vector<LabelledFace> recorded = recorded_faces();
     std::vector<std::uint8_t> seen(recorded.size());
     for (std::size_t n = 0; n < mesh_.boundary.size(); ++n) {

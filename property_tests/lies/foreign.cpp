@@ -143,6 +143,8 @@ const Lie kForeign[] = {
      "passed"},
     {"labels of boundary triangles of a surface without labels", "same-mesh",
      [](Told& t) { t.sample.mesh.labels.back() = 4; }, "passed"},
+    {"a box of an entity that is not that of its elements", "same-mesh",
+     [](Told& t) { t.sample.mesh.boxes_differ = true; }, "passed"},
     {"no sides in a file that should have them", "same-mesh",
      [](Told& t) { t.sample.mesh.regions.clear(); }, "passed"},
     {"sides of the file in words, which contradict its numbers", "same-mesh",

@@ -44,6 +44,23 @@ TEST(GmshText, AGroupOfZeroIsNone) {
   EXPECT_EQ(some.regions, std::vector<std::int64_t>{8});
 }
 
+// The smallest boxes of a triangle and of the tetrahedron on it, then larger and smaller ones.
+TEST(GmshText, BoxesAreThoseOfTheElements) {
+  const auto differ = [](const std::string& surface, const std::string& volume) {
+    return read_mesh(written("boxes.msh",
+                             "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 1\n3 " +
+                                 surface + " 0 0\n4 " + volume +
+                                 " 0 0\n$EndEntities\n$Nodes\n1 4 1 4\n3 4 0 4\n1\n2\n3\n4\n"
+                                 "0 0 0\n1 0 0\n0 1 0\n0 0 5\n$EndNodes\n$Elements\n2 2 1 2\n"
+                                 "2 3 2 1\n1 1 3 2\n3 4 4 1\n2 1 2 3 4\n$EndElements\n"))
+        .boxes_differ;
+  };
+  EXPECT_FALSE(differ("0 0 0 1 1 0", "0 0 0 1 1 5"));
+  EXPECT_TRUE(differ("0 0 0 1 1 5", "0 0 0 1 1 5"));
+  EXPECT_TRUE(differ("0 0 0 1 0.5 0", "0 0 0 1 1 5"));
+  EXPECT_TRUE(differ("0 0 0 1 1 0", "-1 0 0 1 1 5"));
+}
+
 TEST(TextReader, ReadsWordsAndCountsLines) {
   TextReader reader("file", "one two # three\n\n\t four\r\nfive");
   EXPECT_EQ(reader.word(), "one");
