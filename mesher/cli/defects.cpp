@@ -124,7 +124,8 @@ bool any_cross(const Surface& surface, const SurfaceReport& report) {
 }
 
 // The triangles of open components that meet closed ones. What has a vertex in common is one
-// component.
+// component; one with few open edges for its size is a body with holes: a sheet of n triangles has
+// more of them than the root of n.
 std::uint64_t triangles_of_sheets(const Surface& surface, const SurfaceReport& report) {
   std::vector<std::uint32_t> root(surface.vertices.size());
   std::iota(root.begin(), root.end(), std::uint32_t{0});
@@ -133,11 +134,15 @@ std::uint64_t triangles_of_sheets(const Surface& surface, const SurfaceReport& r
     return v;
   };
   for (const auto& [a, b, c] : surface.triangles) root[find(a)] = root[find(b)] = find(c);
-  std::set<std::uint32_t> open, sheets;
-  for (const auto& edge : places_of(report, Kind::open_edge)) open.insert(find(edge[0]));
+  std::map<std::uint32_t, std::uint64_t> open, size;
+  for (const auto& edge : places_of(report, Kind::open_edge)) ++open[find(edge[0])];
+  for (const auto& corners : surface.triangles) ++size[find(corners[0])];
+  std::set<std::uint32_t> sheets;
   for (const auto& [one, other] : places_of(report, Kind::self_intersection)) {
     const std::uint32_t a = find(surface.triangles[one][0]), b = find(surface.triangles[other][0]);
-    if (open.contains(a) != open.contains(b)) sheets.insert(open.contains(a) ? a : b);
+    if (open.contains(a) == open.contains(b)) continue;
+    const std::uint32_t sheet = open.contains(a) ? a : b;
+    if (open[sheet] * open[sheet] >= size[sheet]) sheets.insert(sheet);
   }
   return static_cast<std::uint64_t>(
       std::count_if(surface.triangles.begin(), surface.triangles.end(),
@@ -170,8 +175,9 @@ Contact contact_at_edges(const Surface& surface, const SurfaceReport& report) {
           "triangle " + std::to_string(first) + " at " +
               point(surface.vertices[surface.triangles[first][0]]) + " is the first; with " +
               counted(enclosed->parts, "part") +
-              " inside this is no one solid, and only such are meshed: leave walls out, or mesh "
-              "the parts one by one"};
+              " inside this is no one solid, and only such are meshed: " +
+              (enclosed->closes ? "`tetproof union` unites them" : "leave walls out") +
+              ", or mesh the parts one by one"};
 }
 
 using Colour = std::array<int, 3>;
@@ -306,7 +312,7 @@ std::vector<Contact> contacts(const Surface& surface, const SurfaceReport& repor
   std::vector<Contact> found;
   const std::uint64_t opposite = opposite_duplicates(surface, report);
   if (opposite > 0) {
-    found.push_back({"bodies touch in " + counted(opposite, "triangle"),
+    found.push_back({"bodies, or parts of one, touch in " + counted(opposite, "triangle"),
                      "`delmesher repair` makes one of them, or mesh them one by one"});
   }
   // Triangles without area, and doubled ones, make such edges themselves: first things first.

@@ -108,9 +108,11 @@ std::optional<Enclosed> enclosed_by(const Surface& surface) {
   const auto count = static_cast<std::uint32_t>(surface.triangles.size());
   if (count == 0) return std::nullopt;
   Sets sides(std::size_t{2} * count), sheets(count);
+  Enclosed enclosed;
   Leaves edges = leaves_of(surface);
   for (auto& [edge, leaves] : edges) {
     if (leaves.size() == 1) return std::nullopt;
+    enclosed.closes &= leaves.size() % 2 == 0;
     if (leaves.size() == 2) sheets.join(leaves[0].triangle, leaves[1].triangle);
     sort_around(surface, edge, leaves);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
@@ -121,7 +123,6 @@ std::optional<Enclosed> enclosed_by(const Surface& surface) {
     }
   }
   const std::map<std::uint32_t, double> volume = volumes(surface, sides);
-  Enclosed enclosed;
   for (const auto& [side, v] : volume) enclosed.parts += v > 0 ? 1 : 0;
   std::set<std::uint32_t> of_walls;
   for (std::uint32_t t = 0; t < count; ++t) {

@@ -12,6 +12,7 @@ namespace delmesher::cli {
 struct Enclosed {
   std::uint64_t parts = 0;           // of space that triangles keep from the outside
   std::vector<std::uint32_t> walls;  // triangles that have such parts on both sides
+  bool closes = true;                // every edge belongs to an even number of triangles
   std::uint64_t sheets = 0;  // of the walls, what hangs together without going round a corner
 };
 

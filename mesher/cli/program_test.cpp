@@ -552,10 +552,10 @@ TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
   // The same from the other side, with the wall turned round.
   EXPECT_NE(hints_of(b + b1 + a0 + a + b0).find("an inner wall of 2 triangles: triangle 20 at"),
             std::string::npos);
-  EXPECT_EQ(
-      hints_of(a0 + a1 + a + b0 + b1 + b),
-      "  hint: bodies touch in 2 triangles: `delmesher repair` makes one of them, or mesh them "
-      "one by one\n");
+  EXPECT_EQ(hints_of(a0 + a1 + a + b0 + b1 + b),
+            "  hint: bodies, or parts of one, touch in 2 triangles: `delmesher repair` makes one "
+            "of them, or mesh them "
+            "one by one\n");
   EXPECT_EQ(run("repair in.off -o mended.off"), 0) << text("err.txt");
   EXPECT_EQ(hints_of(a0 + a1 + a + b1 + b).substr(0, 40),
             "  hint: an inner wall of 2 triangles: tr");
@@ -572,6 +572,46 @@ TEST_F(Program, WhatTouchesIsSaidToBeWhatItIs) {
   EXPECT_NE(hints_of(kCubeTriangles + "3 8 9 11\n3 8 11 10\n", long_box)
                 .find("  hint: a sheet of 2 triangles meets a closed body: an inner wall, or "),
             std::string::npos);
+  // A body with a hole is no sheet, whatever sticks in it: here a sphere-like box of 1452
+  // triangles.
+  std::string many, faces;
+  std::map<std::array<int, 3>, int> numbers_of;
+  const auto vertex = [&](std::array<int, 3> p) {
+    const auto [found, is_new] = numbers_of.try_emplace(p, static_cast<int>(numbers_of.size()));
+    if (is_new) {
+      for (const int x : p) many += std::to_string(x) + " ";
+      many += "\n";
+    }
+    return " " + std::to_string(found->second);
+  };
+  constexpr int kSide = 11;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const int end : {0, kSide}) {
+      for (int i = 0; i < kSide * kSide; ++i) {
+        std::array<std::array<int, 3>, 4> q{};
+        for (std::size_t k = 0; k < 4; ++k) {
+          q[k][axis] = end;
+          q[k][(axis + 1) % 3] = i % kSide + (k == 1 || k == 2 ? 1 : 0);
+          q[k][(axis + 2) % 3] = i / kSide + (k >= 2 ? 1 : 0);
+        }
+        if (end == 0) std::swap(q[1], q[3]);
+        faces += "3" + vertex(q[0]) + vertex(q[1]) + vertex(q[2]) + "\n";
+        faces += "3" + vertex(q[0]) + vertex(q[2]) + vertex(q[3]) + "\n";
+      }
+    }
+  }
+  faces = faces.substr(faces.find('\n') + 1);  // the hole
+  const int first = static_cast<int>(numbers_of.size());
+  many += "5.5 5.5 -1\n6.5 5.5 1\n5.5 6.5 1\n5.3 5.3 1\n";
+  for (const std::array<int, 3>& f :
+       {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{1, 2, 3}, std::array{0, 3, 2}}) {
+    faces += "3";
+    for (const int v : f) faces += " " + std::to_string(first + v);
+    faces += "\n";
+  }
+  const std::string pierced = hints_of(faces, many);
+  EXPECT_EQ(pierced.find("sheet"), std::string::npos) << pierced;
+  EXPECT_NE(pierced.find("hint: triangles meet: if bodies overlap"), std::string::npos) << pierced;
   // A cube of half the size that stands on another one's side, and one that is stuck in it.
   for (const char* low : {"1", "0.75"}) {
     std::string vertices;
