@@ -38,9 +38,9 @@ constexpr OwnVariant kOwn[] = {
 // One deviation from the default at a time, towards the paper: of the parameters and of
 // section 8.3. Each of the choices of --as-paper is another one.
 constexpr OwnVariant kDeviations[] = {
-    {"gabriel", "mesh --gabriel"},    {"acute-90", "mesh --acute 90 --corner 90"},
-    {"planar-0", "mesh --planar 0"},  {"improve-off", "mesh --improve off --slivers off"},
-    {"slivers", "mesh --slivers on"}, {"hull", "mesh --region hull"}};
+    {"gabriel", "mesh --gabriel"},         {"acute-90", "mesh --acute 90 --corner 90"},
+    {"planar-0", "mesh --planar 0"},       {"improve-off", "mesh --improve off --slivers off"},
+    {"slivers-off", "mesh --slivers off"}, {"hull", "mesh --region hull"}};
 
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream in(text);

@@ -54,7 +54,7 @@ struct Mesher {
 //   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges cdt
 //   tetgen tetgen-T0 netgen gmsh-delaunay ...     the peers of peers.h
 //   delmesher+NAME                     one departure of its default from the paper undone: gabriel,
-//                                      acute-90, planar-0, improve-off, slivers, hull, or a name
+//                                      acute-90, planar-0, improve-off, slivers-off, hull, or a name
 //                                      of --as-paper
 //   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options
 //   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it, and

@@ -236,7 +236,7 @@ void add_mesh(CLI::App& app, Command& command, Given& given) {
                "split constraints until their diametral balls are empty");
   app.add_option_function<std::string>(
          "--slivers", [&given](const std::string& text) { given.slivers = text == "on"; },
-         "treat slivers in the refinement: on or off (off; on if nothing is improved)")
+         "treat slivers in the refinement: on or off (on)")
       ->check(CLI::IsMember({"on", "off"}))
       ->type_name("on|off");
   app.add_option_function<std::string>(
@@ -351,7 +351,7 @@ void apply(const Given& given, Command& command) {
   options.budget = static_cast<std::uint64_t>(budget);
   options.max_vertices = static_cast<std::uint64_t>(vertices);
   options.improve = given.improve.value_or(options.improve);
-  options.slivers = given.slivers.value_or(options.slivers || !options.improve);
+  options.slivers = given.slivers.value_or(options.slivers);
   options.as_paper = given.as_paper.value_or(options.as_paper);
   options.region = given.region.value_or(options.region);
   options.approximate = given.approximate;

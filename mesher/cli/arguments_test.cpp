@@ -36,7 +36,7 @@ TEST(Arguments, DefaultsAreTheLibrarys) {
   EXPECT_EQ(parsed.command.options.acute, defaults.acute);
   EXPECT_EQ(parsed.command.options.region, Region::interior);
   EXPECT_TRUE(parsed.command.options.improve);
-  EXPECT_FALSE(parsed.command.options.slivers);
+  EXPECT_TRUE(parsed.command.options.slivers);
   EXPECT_TRUE(parsed.command.options.simplify_bridges);
   EXPECT_FALSE(parsed.command.options.want_exact);
 }

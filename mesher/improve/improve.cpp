@@ -35,25 +35,21 @@ class Improvement {
   // Vertices that are not needed go first; then less is left to repair. Points are put in when
   // everything else has been tried.
   void run() {
-    begin(0.11);
+    begin(0.1);
     coarsen();
-    begin(0.33);
+    begin(0.25);
     repair(kFirst);
     insert_ = true;
     tried_.clear();
-    begin(0.05);
+    begin(0.08);
     coarsen();
-    begin(0.07);
-    repair(kAgain);
+    begin(0.05);
+    repair({});
     coarsen_rounder();
     spare();
-    begin(0.06);
+    begin(0.1);
     polish_vertices();
-    begin(0.05);
-    polish_edges();
-    begin(0.05);
-    polish_vertices();
-    begin(0.02);
+    begin(0.03);
     repair({});
     mend();
   }
@@ -63,7 +59,7 @@ class Improvement {
  private:
   // The score below which tetrahedra are tried, pass by pass: later ones take as long as the first,
   // but bring less, except to bad tetrahedra.
-  static constexpr float kFirst[] = {1, 0.8F, 0.6F, 0.5F}, kAgain[] = {0.7F, 0.5F};
+  static constexpr float kFirst[] = {0.7F}, kAgain[] = {0.7F, 0.5F};
   static constexpr int kPassesForBad = 10;
 
   // Goes on to a step that takes this part of the time, as measured on scans and printed parts.
@@ -101,13 +97,13 @@ class Improvement {
     for (int round = 0; round < kMostRounds; ++round) {
       const auto share = [&](double of_first) { return round == 0 ? of_first : 0; };
       const std::size_t before = state_.mesh.tetrahedra();
-      begin(share(0.1));
+      begin(share(0.12));
       polish_vertices();
-      begin(share(0.06));
+      begin(share(0.1));
       polish_edges();
-      begin(share(0.02));
-      coarsen();
       begin(share(0.08));
+      coarsen();
+      begin(share(0.06));
       repair(kAgain);
       if (state_.mesh.tetrahedra() >= before - before / kLeastGain) break;
     }

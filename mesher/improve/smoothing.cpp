@@ -184,11 +184,13 @@ bool Smoothing::round_off(VertexId v) {
     if (state_.counts(t)) before += std::sqrt(state_.quality(t).gamma);
   }
   if (!(before > 0)) return false;
-  for (const double step : {1.0, 0.5, 0.25}) {
+  // Beyond the average first, since its neighbours will follow.
+  for (const double step : {1.5, 1.0, 0.5, 0.25}) {
     const Vec3 offset = {step * direction[0], step * direction[1], step * direction[2]};
     const double sum = roundness_at(predicates::add(x, offset), least);
-    // Where a step is possible and gains little, a part of it seldom gains more.
-    if (sum > 0) return sum > before * kLeastGain && commit(v, offset, least, before);
+    if (sum > before * kLeastGain) return commit(v, offset, least, before);
+    // Where the whole way is possible and gains little, a part of it seldom gains more.
+    if (sum > 0 && step <= 1) return false;
   }
   return false;
 }

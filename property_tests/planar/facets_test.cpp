@@ -210,12 +210,12 @@ TEST(PlanarZero, PointsOnEdgesThatCameBackAreSpared) {
 }
 
 // Where no neighbour on its edge can replace a point, it goes into the volume. Else these have
-// about 1 600, 750, 540 and 350 tetrahedra; as drawn they have 251, 101, 101 and 81.
+// about 1 800, 940, 830 and 680 tetrahedra.
 TEST(PlanarZero, PointsOnEdgesThatCameBackGoIntoTheVolume) {
   for (const Part& part : {Part{rotated(flat_prism(24, 0.02, 0.05), as_it_is), 500},
                            Part{rotated(flat_prism(24, 0.1, 0.05), as_it_is), 350},
                            Part{rotated(flat_prism(24, 0.1, 0.05), to_single), 300},
-                           Part{rotated(flat_prism(16, 0.1, 0.05), to_single), 200}}) {
+                           Part{rotated(flat_prism(16, 0.1, 0.05), to_single), 400}}) {
     expect_kept(part);
   }
 }
