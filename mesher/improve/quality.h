@@ -41,38 +41,77 @@ inline float positive_or_zero(double x) {
 
 }  // namespace detail
 
-// As soon as one value is below `least`, the values after it stay 0.
+namespace detail {
+
+// Of a tetrahedron abcd: six times its volume, its squared edges from a (u, v, w to b, c, d) and
+// between these (p bc, q bd, r cd), and the squares of twice the areas of its faces.
+struct Sizes {
+  double volume, uu, vv, ww, pp, qq, rr, abc, abd, acd, bcd;
+};
+
+// `center_squared`: of the circumcentre from a, times twice the volume.
+template <class CenterSquared>
+inline Quality quality_of(const Sizes& s, const Quality& least, CenterSquared&& center_squared) {
+  // |n_f| |n_g| sin = 6 V |edge| for the two faces at an edge.
+  const double h_abc = s.volume / s.abc, h_abd = s.volume / s.abd, h_acd = s.volume / s.acd,
+               h_bcd = s.volume / s.bcd;
+  const double dihedral =
+      std::min({s.uu * h_abc * h_abd, s.vv * h_abc * h_acd, s.ww * h_abd * h_acd,
+                s.pp * h_abc * h_bcd, s.qq * h_abd * h_bcd, s.rr * h_acd * h_bcd});
+  Quality result;
+  result.dihedral = positive_or_zero(dihedral);
+  if (result.dihedral < least.dihedral) return result;
+  const double face =
+      std::min({smallest_angle(s.abc, s.uu, s.vv, s.pp), smallest_angle(s.abd, s.uu, s.ww, s.qq),
+                smallest_angle(s.acd, s.vv, s.ww, s.rr), smallest_angle(s.bcd, s.pp, s.qq, s.rr)});
+  result.face = positive_or_zero(face);
+  if (result.face < least.face) return result;
+  const double surface = std::sqrt(s.abc) + std::sqrt(s.abd) + std::sqrt(s.acd) + std::sqrt(s.bcd);
+  const double inverse = s.volume / surface;
+  const double gamma = 36 * inverse * inverse * (s.volume * s.volume / center_squared());
+  result.gamma = positive_or_zero(gamma);
+  return result;
+}
+
+// As quality(), by pairs of doubles.
+Quality accurate_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
+                         const Quality& least);
+
+}  // namespace detail
+
+// As soon as one value is below `least`, the values after it stay 0. All are good to about 1e-6 of
+// themselves, however flat or thin the tetrahedron is: otherwise what has to be no worse than
+// something flat could be flatter by as much as doubles round, or inverted ones.
 inline Quality quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                        const Quality& least = {}) {
+  // Below this, six times the volume over the product of three edges, doubles tell little.
+  constexpr double kFlat = 1e-10;
   const Vec3 u = subtract(b, a), v = subtract(c, a), w = subtract(d, a);
-  const Vec3 p = subtract(c, b), q = subtract(d, b), r = subtract(d, c);
-  const Vec3 abc = cross(u, v), abd = cross(w, u), acd = cross(v, w), bcd = cross(p, q);
+  const Vec3 abc = cross(u, v);
   const double volume = dot(abc, w);
+  const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  if (volume * volume <= kFlat * kFlat * (uu * vv * ww)) {
+    return detail::accurate_quality(a, b, c, d, least);
+  }
   if (!(volume > 0)) return {};
-  const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w), pp = dot(p, p), qq = dot(q, q),
-               rr = dot(r, r);
-  const double n_abc = dot(abc, abc), n_abd = dot(abd, abd), n_acd = dot(acd, acd),
-               n_bcd = dot(bcd, bcd);
-  // |n_f| |n_g| sin = 6 V |edge| for the two faces at an edge.
-  const double h_abc = volume / n_abc, h_abd = volume / n_abd, h_acd = volume / n_acd,
-               h_bcd = volume / n_bcd;
-  const double dihedral = std::min({uu * h_abc * h_abd, vv * h_abc * h_acd, ww * h_abd * h_acd,
-                                    pp * h_abc * h_bcd, qq * h_abd * h_bcd, rr * h_acd * h_bcd});
-  Quality result;
-  result.dihedral = detail::positive_or_zero(dihedral);
-  if (result.dihedral < least.dihedral) return result;
-  const double face = std::min(
-      {detail::smallest_angle(n_abc, uu, vv, pp), detail::smallest_angle(n_abd, uu, ww, qq),
-       detail::smallest_angle(n_acd, vv, ww, rr), detail::smallest_angle(n_bcd, pp, qq, rr)});
-  result.face = detail::positive_or_zero(face);
-  if (result.face < least.face) return result;
-  const double surface = std::sqrt(n_abc) + std::sqrt(n_abd) + std::sqrt(n_acd) + std::sqrt(n_bcd);
-  Vec3 center;  // the circumcentre from a, times twice the volume
-  for (int i = 0; i < 3; ++i) center[i] = ww * abc[i] + vv * abd[i] + uu * acd[i];
-  const double inverse = volume / surface;
-  const double gamma = 36 * inverse * inverse * (volume * volume / dot(center, center));
-  result.gamma = detail::positive_or_zero(gamma);
-  return result;
+  const Vec3 p = subtract(c, b), q = subtract(d, b), r = subtract(d, c);
+  const Vec3 abd = cross(w, u), acd = cross(v, w), bcd = cross(p, q);
+  const detail::Sizes sizes = {volume,
+                               uu,
+                               vv,
+                               ww,
+                               dot(p, p),
+                               dot(q, q),
+                               dot(r, r),
+                               dot(abc, abc),
+                               dot(abd, abd),
+                               dot(acd, acd),
+                               dot(bcd, bcd)};
+  return detail::quality_of(sizes, least, [&] {
+    Vec3 center;
+    for (int i = 0; i < 3; ++i) center[i] = ww * abc[i] + vv * abd[i] + uu * acd[i];
+    return dot(center, center);
+  });
 }
 
 // How far below a face the apex of a nearly regular tetrahedron is, in lengths of its normal, which

@@ -1,5 +1,6 @@
 #include "mesher/improve/quality.h"
 
+#include <gmpxx.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,6 +34,45 @@ Points random_points(std::mt19937& random) {
   for (Vec3& x : p) x = {unit(random), unit(random), unit(random)};
   return positive(p);
 }
+
+// By rational arithmetic: squared sines of the smallest dihedral and face angles.
+struct ExactQuality {
+  using Rational = mpq_class;
+  using Vector = std::array<Rational, 3>;
+
+  explicit ExactQuality(const Points& p) {
+    const auto between = [&](int i, int j) {
+      Vector x;
+      for (std::size_t k = 0; k < 3; ++k) x[k] = Rational(p[j][k]) - Rational(p[i][k]);
+      return x;
+    };
+    const auto product = [](const Vector& x, const Vector& y) {
+      return Vector{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2],
+                    x[0] * y[1] - x[1] * y[0]};
+    };
+    const auto scalar = [](const Vector& x, const Vector& y) -> Rational {
+      return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    };
+    positive = scalar(product(between(0, 1), between(0, 2)), between(0, 3)) > 0;
+    if (!positive) return;
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 4; ++j) {
+        for (int k = 0; k < 4; ++k) {
+          if (i == j || j == k || i == k) continue;
+          const Vector a = between(i, j), b = between(i, k), c = between(i, 6 - i - j - k);
+          const Vector ab = product(a, b), ac = product(a, c), n = product(ab, ac);
+          const Rational of_face = scalar(ab, ab) / (scalar(a, a) * scalar(b, b)),
+                         of_edge = scalar(n, n) / (scalar(ab, ab) * scalar(ac, ac));
+          face = std::min(face, of_face.get_d());
+          dihedral = std::min(dihedral, of_edge.get_d());
+        }
+      }
+    }
+  }
+
+  bool positive = false;
+  double dihedral = 1, face = 1;
+};
 
 // The dihedral angle of a regular one has a cosine of 1/3. In the corner of a cube the smallest
 // dihedral angle has a cosine of 1/sqrt(3), the smallest face angle is 45 degrees, the circumradius
@@ -90,6 +130,40 @@ TEST(Quality, AgreesWithAnglesOneByOne) {
     EXPECT_EQ(of(scaled).face, q.face);
     EXPECT_EQ(of(scaled).gamma, q.gamma);
   }
+}
+
+// Three corners within 1e-10 of the fourth's distance, and flat ones, as exact arithmetic has them.
+TEST(Quality, OfNeedlesAndFlatTetrahedraIsAccurate) {
+  const Points needle = {{{0.547332763671875, 0.60345458984375, 0.563568115234375},
+                          {0.6241694207870403, 0.67485945465581865, 0.3041489110208454},
+                          {0.6241694207870403, 0.67485945486560561, 0.3041489110208454},
+                          {0.62416942078951099, 0.67485945465581865, 0.3041489110208454}}};
+  std::vector<Points> all = {needle};
+  std::mt19937 random(3);
+  for (int n = 0; n < 60; ++n) {
+    Points p = random_points(random);
+    // The last corner goes towards a corner, or into the plane of the others.
+    const double left = std::ldexp(1, -20 - n / 2);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double there = n % 2 == 0 ? p[2][i] : (p[0][i] + p[1][i] + p[2][i]) / 3;
+      p[3][i] = there + left * (p[3][i] - there);
+    }
+    all.push_back(p);
+  }
+  int positive = 0;
+  for (const Points& p : all) {
+    for (const auto& [i, j, k, l] : {std::array{0, 1, 2, 3}, {1, 2, 0, 3}, {3, 2, 1, 0}}) {
+      const Points turned = {p[i], p[j], p[k], p[l]};
+      const ExactQuality exact(turned);
+      const Quality q = of(turned);
+      EXPECT_EQ(q.dihedral > 0, exact.positive);
+      if (!exact.positive) continue;
+      ++positive;
+      EXPECT_NEAR(q.dihedral, exact.dihedral, 1e-5 * exact.dihedral);
+      EXPECT_NEAR(q.face, exact.face, 1e-5 * exact.face);
+    }
+  }
+  EXPECT_GT(positive, 100);
 }
 
 TEST(Quality, IsIncompleteBelowTheLeast) {

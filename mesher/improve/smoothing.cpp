@@ -197,13 +197,14 @@ bool Smoothing::round_off(VertexId v) {
 
 // The star with v at x, exactly where it will be. False if it does not reach `least`.
 bool Smoothing::measure_at(const Vec3& x, const Quality& least) {
-  // Flatter ones are measured as they will be from then on: the cone's roundings are other ones.
+  // Flatter or thinner ones are measured as they will be from then on: the cone's roundings are
+  // other ones, and may be all that it sees of them.
   constexpr float kFlat = 1e-8F;
   if (!cone_.reaches(x, least)) return false;
   quality_.clear();
   for (std::size_t n = 0; n < star_.size(); ++n) {
     Quality q = cone_.quality(n);
-    if (q.dihedral < kFlat) {
+    if (q.dihedral < kFlat || q.face < kFlat) {
       q = state_.quality_with(state_.mesh.tet(star_[n]), index_[n], x, least);
       if (!(q.dihedral > 0) || !State::reaches(q, least)) return false;
     }
