@@ -54,8 +54,8 @@ struct Mesher {
 //   delmesher delmesher-e4 safe-delmesher-e4 delmesher-nofilter delmesher-nobridges cdt
 //   tetgen tetgen-T0 netgen gmsh-delaunay ...     the peers of peers.h
 //   delmesher+NAME                     one departure of its default from the paper undone: gabriel,
-//                                      acute-90, planar-0, improve-off, slivers-off, hull, or a name
-//                                      of --as-paper
+//                                      acute-90, planar-0, improve-off, slivers-off, hull, or a
+//                                      name of --as-paper
 //   NAME=delmesher:'mesh OPTIONS...'   our mesher with other options
 //   cmd:'prog {in} {out.mesh}'         any program; or NAME=cmd:'...' to name it, and
 //   NAME=cmd,region=hull,deviation=1e-8:'...'   to say what it meshes and by how much it may miss;
