@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "mesher/base/disjoint_sets.h"
 #include "mesher/cli/inner_walls.h"
 #include "mesher/io/projected_face.h"
 #include "mesher/io/repair.h"
@@ -127,26 +127,25 @@ bool any_cross(const Surface& surface, const SurfaceReport& report) {
 // component; one with few open edges for its size is a body with holes: a sheet of n triangles has
 // more of them than the root of n.
 std::uint64_t triangles_of_sheets(const Surface& surface, const SurfaceReport& report) {
-  std::vector<std::uint32_t> root(surface.vertices.size());
-  std::iota(root.begin(), root.end(), std::uint32_t{0});
-  const auto find = [&](std::uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : surface.triangles) root[find(a)] = root[find(b)] = find(c);
+  DisjointSets components(surface.vertices.size());
+  for (const auto& [a, b, c] : surface.triangles) {
+    components.join(a, b);
+    components.join(b, c);
+  }
   std::map<std::uint32_t, std::uint64_t> open, size;
-  for (const auto& edge : places_of(report, Kind::open_edge)) ++open[find(edge[0])];
-  for (const auto& corners : surface.triangles) ++size[find(corners[0])];
+  for (const auto& edge : places_of(report, Kind::open_edge)) ++open[components.smallest(edge[0])];
+  for (const auto& corners : surface.triangles) ++size[components.smallest(corners[0])];
   std::set<std::uint32_t> sheets;
   for (const auto& [one, other] : places_of(report, Kind::self_intersection)) {
-    const std::uint32_t a = find(surface.triangles[one][0]), b = find(surface.triangles[other][0]);
+    const std::uint32_t a = components.smallest(surface.triangles[one][0]),
+                        b = components.smallest(surface.triangles[other][0]);
     if (open.contains(a) == open.contains(b)) continue;
     const std::uint32_t sheet = open.contains(a) ? a : b;
     if (open[sheet] * open[sheet] >= size[sheet]) sheets.insert(sheet);
   }
-  return static_cast<std::uint64_t>(
-      std::count_if(surface.triangles.begin(), surface.triangles.end(),
-                    [&](const auto& corners) { return sheets.contains(find(corners[0])); }));
+  return static_cast<std::uint64_t>(std::count_if(
+      surface.triangles.begin(), surface.triangles.end(),
+      [&](const auto& corners) { return sheets.contains(components.smallest(corners[0])); }));
 }
 
 constexpr const char* kMoveApart =

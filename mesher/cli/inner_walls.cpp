@@ -4,39 +4,14 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
+#include "mesher/base/disjoint_sets.h"
+#include "mesher/predicates/vector.h"
+
 namespace delmesher::cli {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-Vector difference(const Vector& a, const Vector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-  }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 // A triangle at an edge, which goes from the lower to the higher vertex.
 struct Leaf {
@@ -61,18 +36,18 @@ Leaves leaves_of(const Surface& surface) {
 // Sorts the triangles around an edge counter-clockwise, as seen against its direction.
 void sort_around(const Surface& surface, const std::array<std::uint32_t, 2>& edge,
                  std::vector<Leaf>& leaves) {
-  const Vector& start = surface.vertices[edge[0]];
-  const Vector along = difference(surface.vertices[edge[1]], start);
+  const Vec3& start = surface.vertices[edge[0]];
+  const Vec3 along = subtract(surface.vertices[edge[1]], start);
   const auto radius = [&](const Leaf& leaf) {
     for (const std::uint32_t v : surface.triangles[leaf.triangle]) {
-      if (v != edge[0] && v != edge[1]) return difference(surface.vertices[v], start);
+      if (v != edge[0] && v != edge[1]) return subtract(surface.vertices[v], start);
     }
-    return Vector{};
+    return Vec3{};
   };
-  const Vector up = cross(along, radius(leaves[0])), zero = cross(up, along);
+  const Vec3 up = cross(along, radius(leaves[0])), zero = cross(up, along);
   const double scale = std::sqrt(dot(along, along));
   for (Leaf& leaf : leaves) {
-    const Vector r = radius(leaf);
+    const Vec3 r = radius(leaf);
     leaf.angle = std::atan2(scale * dot(r, up), dot(r, zero));
   }
   std::stable_sort(leaves.begin(), leaves.end(),
@@ -88,16 +63,16 @@ std::uint32_t back(std::uint32_t triangle) {
 }
 
 // Six times the volume of each set of sides that see each other; that of the outside is negative.
-std::map<std::uint32_t, double> volumes(const Surface& surface, Sets& sides) {
+std::map<std::uint32_t, double> volumes(const Surface& surface, DisjointSets& sides) {
   std::map<std::uint32_t, double> volume;
-  const Vector& origin = surface.vertices[surface.triangles[0][0]];
+  const Vec3& origin = surface.vertices[surface.triangles[0][0]];
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
-    const double v = dot(
-        difference(surface.vertices[a], origin),
-        cross(difference(surface.vertices[b], origin), difference(surface.vertices[c], origin)));
-    volume[sides.find(back(t))] += v;
-    volume[sides.find(front(t))] -= v;
+    const double v =
+        dot(subtract(surface.vertices[a], origin),
+            cross(subtract(surface.vertices[b], origin), subtract(surface.vertices[c], origin)));
+    volume[sides.smallest(back(t))] += v;
+    volume[sides.smallest(front(t))] -= v;
   }
   return volume;
 }
@@ -107,7 +82,7 @@ std::map<std::uint32_t, double> volumes(const Surface& surface, Sets& sides) {
 std::optional<Enclosed> enclosed_by(const Surface& surface) {
   const auto count = static_cast<std::uint32_t>(surface.triangles.size());
   if (count == 0) return std::nullopt;
-  Sets sides(std::size_t{2} * count), sheets(count);
+  DisjointSets sides(std::size_t{2} * count), sheets(count);
   Enclosed enclosed;
   Leaves edges = leaves_of(surface);
   for (auto& [edge, leaves] : edges) {
@@ -126,9 +101,10 @@ std::optional<Enclosed> enclosed_by(const Surface& surface) {
   for (const auto& [side, v] : volume) enclosed.parts += v > 0 ? 1 : 0;
   std::set<std::uint32_t> of_walls;
   for (std::uint32_t t = 0; t < count; ++t) {
-    if (volume.at(sides.find(front(t))) <= 0 || volume.at(sides.find(back(t))) <= 0) continue;
+    if (volume.at(sides.smallest(front(t))) <= 0 || volume.at(sides.smallest(back(t))) <= 0)
+      continue;
     enclosed.walls.push_back(t);
-    of_walls.insert(sheets.find(t));
+    of_walls.insert(sheets.smallest(t));
   }
   enclosed.sheets = of_walls.size();
   return enclosed;

@@ -3,50 +3,47 @@
 #include <array>
 
 #include "mesher/arithmetic/bounded.h"
+#include "mesher/predicates/polynomials.h"
 
 namespace delmesher::improve::detail {
 namespace {
 
 using Pair = arithmetic::BoundedPair;
-using PairVec = std::array<Pair, 3>;
+namespace polynomials = predicates::polynomials;
+using polynomials::Triple;
 
 // Exact, unless the difference is far below the last place of the larger one.
-PairVec difference(const Vec3& x, const Vec3& y) {
-  PairVec result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    arithmetic::two_sum(x[i], -y[i], result[i].high, result[i].low);
-  }
-  return result;
+Triple<Pair> difference(const Vec3& x, const Vec3& y) {
+  std::array<Pair, 3> d;
+  for (std::size_t i = 0; i < 3; ++i) arithmetic::two_sum(x[i], -y[i], d[i].high, d[i].low);
+  return {d[0], d[1], d[2]};
 }
 
-PairVec cross_of(const PairVec& x, const PairVec& y) {
-  return {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
-}
-
-Pair dot_of(const PairVec& x, const PairVec& y) {
-  return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-}
-
-double square(const PairVec& x) {
-  return dot_of(x, x).high;
+double square(const Triple<Pair>& x) {
+  return polynomials::dot(x, x).high;
 }
 
 }  // namespace
 
 Quality accurate_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                          const Quality& least) {
-  const PairVec u = difference(b, a), v = difference(c, a), w = difference(d, a);
-  const PairVec abc = cross_of(u, v);
-  const Pair volume = dot_of(abc, w);
+  const Triple<Pair> u = difference(b, a), v = difference(c, a), w = difference(d, a);
+  const Triple<Pair> abc = polynomials::cross(u, v);
+  const Pair volume = polynomials::dot(abc, w);
   if (volume.sign() != 1) return {};
-  const PairVec p = difference(c, b), q = difference(d, b), r = difference(d, c);
-  const PairVec abd = cross_of(w, u), acd = cross_of(v, w), bcd = cross_of(p, q);
+  const Triple<Pair> p = difference(c, b), q = difference(d, b), r = difference(d, c);
+  const Triple<Pair> abd = polynomials::cross(w, u), acd = polynomials::cross(v, w),
+                     bcd = polynomials::cross(p, q);
   const Sizes sizes = {volume.high, square(u),   square(v),   square(w),   square(p),  square(q),
                        square(r),   square(abc), square(abd), square(acd), square(bcd)};
   return quality_of(sizes, least, [&] {
-    const Pair uu = dot_of(u, u), vv = dot_of(v, v), ww = dot_of(w, w);
-    PairVec center;
-    for (std::size_t i = 0; i < 3; ++i) center[i] = ww * abc[i] + vv * abd[i] + uu * acd[i];
+    const Pair uu = polynomials::dot(u, u), vv = polynomials::dot(v, v),
+               ww = polynomials::dot(w, w);
+    const auto along = [&](Pair Triple<Pair>::*axis) {
+      return ww * abc.*axis + vv * abd.*axis + uu * acd.*axis;
+    };
+    const Triple<Pair> center = {along(&Triple<Pair>::x), along(&Triple<Pair>::y),
+                                 along(&Triple<Pair>::z)};
     return square(center);
   });
 }

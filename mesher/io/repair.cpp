@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "mesher/base/disjoint_sets.h"
 #include "mesher/io/text.h"
 #include "mesher/io/triangulate.h"
 #include "mesher/predicates/signs_of_doubles.h"
@@ -95,27 +96,9 @@ Triangle from_smallest(Triangle t) {
   return t;
 }
 
-// Vertices that become one: the root is the smallest of them.
-class Groups {
- public:
-  explicit Groups(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t root(std::uint32_t v) {
-    while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-    return v;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 // Joins the vertices of `which` that are no farther apart than `weld`; equal ones, if that is 0.
 void join_near(const std::vector<Point3>& vertices, const std::vector<std::uint32_t>& which,
-               double weld, Groups& groups) {
+               double weld, DisjointSets& groups) {
   std::map<Point3, std::vector<std::uint32_t>> cells;
   const auto cell_of = [&](const Point3& p) {
     Point3 cell;
@@ -218,14 +201,14 @@ void Repair::weld() {
   }
   std::erase_if(all, [&](std::uint32_t v) { return !used[v]; });
   const auto weld_within = [&](double reach) {
-    Groups groups(surface_.vertices.size());
+    DisjointSets groups(surface_.vertices.size());
     join_near(surface_.vertices, all, reach, groups);
     std::uint64_t joined = 0;
-    for (const std::uint32_t v : all) joined += groups.root(v) != v ? 1 : 0;
+    for (const std::uint32_t v : all) joined += groups.smallest(v) != v ? 1 : 0;
     for (Triangle& t : surface_.triangles) {
-      for (std::uint32_t& v : t) v = groups.root(v);
+      for (std::uint32_t& v : t) v = groups.smallest(v);
     }
-    std::erase_if(all, [&](std::uint32_t v) { return groups.root(v) != v; });
+    std::erase_if(all, [&](std::uint32_t v) { return groups.smallest(v) != v; });
     return joined;
   };
   tell(weld_within(0), "vertex welded to another at the same place",
@@ -517,11 +500,11 @@ WeldHint weld_hint(const Surface& surface) {
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   const double all = diagonal(surface);
   const auto still_open = [&](double reach) {
-    Groups groups(surface.vertices.size());
+    DisjointSets groups(surface.vertices.size());
     join_near(surface.vertices, ends, reach, groups);
     std::map<Edge, int> left;
     for (const auto& [edge, once] : count) {
-      const std::uint32_t a = groups.root(edge.first), b = groups.root(edge.second);
+      const std::uint32_t a = groups.smallest(edge.first), b = groups.smallest(edge.second);
       if (a != b) ++left[edge_of(a, b)];
     }
     return static_cast<std::uint64_t>(
