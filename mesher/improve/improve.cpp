@@ -38,14 +38,16 @@ class Improvement {
     begin(0.1);
     coarsen();
     begin(0.25);
-    repair(kFirst);
+    repair(kRepair);
     insert_ = true;
     tried_.clear();
     begin(0.08);
     coarsen();
     begin(0.05);
     repair({});
+    in_rounds_ = true;
     coarsen_rounder();
+    in_rounds_ = false;
     spare();
     begin(0.1);
     polish_vertices();
@@ -59,7 +61,7 @@ class Improvement {
  private:
   // The score below which tetrahedra are tried, pass by pass: later ones take as long as the first,
   // but bring less, except to bad tetrahedra.
-  static constexpr float kFirst[] = {0.7F}, kAgain[] = {0.7F, 0.5F};
+  static constexpr float kRepair[] = {0.7F};
   static constexpr int kPassesForBad = 10;
 
   // Goes on to a step that takes this part of the time, as measured on scans and printed parts.
@@ -104,7 +106,7 @@ class Improvement {
       begin(share(0.08));
       coarsen();
       begin(share(0.06));
-      repair(kAgain);
+      repair(kRepair);
       if (state_.mesh.tetrahedra() >= before - before / kLeastGain) break;
     }
   }
@@ -136,7 +138,7 @@ class Improvement {
       spared_ += gone ? 1 : 0;
     });
     coarsen();
-    repair(kAgain);
+    repair(kRepair);
   }
   bool is_too_much() const { return state_.mesh.tetrahedra() > sparing_.tetrahedra; }
   bool is_to_be_spared(VertexId v) const {
@@ -177,10 +179,13 @@ class Improvement {
     for (std::size_t pass = 0; pass < limits.size() + kPassesForBad; ++pass) {
       const float limit = pass < limits.size() ? limits[pass] : State::kBad;
       tried_.resize(state_.mesh.slots(), 0);
+      failed_score_.resize(state_.mesh.slots(), -1);
       work.clear();
       for (TetId t = 0; t < state_.mesh.slots(); ++t) {
-        if (!state_.mesh.alive(t) || !is_to_be_tried(t, limit) || !changed_since(t, tried_[t]))
+        if (!state_.mesh.alive(t) || !is_to_be_tried(t, limit) || !changed_since(t, tried_[t]) ||
+            is_as_it_failed(t)) {
           continue;
+        }
         work.emplace_back(state_.score(t), t);
       }
       std::sort(work.begin(), work.end());
@@ -193,6 +198,7 @@ class Improvement {
           ++successes;
         } else {
           tried_[t] = state_.clock() + 1;
+          failed_score_[t] = score;
         }
       }
       left /= 2;
@@ -202,21 +208,23 @@ class Improvement {
     }
   }
 
-  // The last resort for what is bad by its dihedral angles: they alone count, first beside the face
-  // angles that are promised, and points are put in on the surface, too.
+  // The last resort for what is bad by its dihedral angles: they alone count, and points are put in
+  // on the surface, too.
   void mend() {
     mending_ = true;
-    for (const Measure measure : {Measure::angles, Measure::dihedrals}) {
-      state_.measure_by(measure);
-      for (auto* tried : {&tried_, &smooth_tried_, &collapse_tried_}) tried->clear();
-      begin(0);
-      repair({});
-    }
+    state_.measure_by(Measure::dihedrals);
+    for (auto* tried : {&tried_, &smooth_tried_, &collapse_tried_}) tried->clear();
+    begin(0);
+    repair({});
   }
 
   bool is_to_be_tried(TetId t, float limit) const {
     return mending_ ? state_.dihedral_score(t) < State::kMended : state_.score(t) < limit;
   }
+
+  // In the rounds most changes are beside tetrahedra that nothing has mended before. They are tried
+  // again when the rounds are over.
+  bool is_as_it_failed(TetId t) const { return in_rounds_ && failed_score_[t] == state_.score(t); }
 
   bool in_vain(std::size_t attempts, std::size_t successes) const {
     return attempts > state_.mesh.slots() / 100 && successes < attempts / 6;
@@ -240,10 +248,12 @@ class Improvement {
     for (const VertexId v : tet) {
       if (smooth(v)) return true;
     }
+    // Later on contractions mend one in a thousand; in the rounds those of the vertices follow.
     for (const VertexId v : tet) {
-      if (collapse(v)) return true;
+      if (!in_rounds_ && !mending_ && collapse(v)) return true;
     }
-    return (insert_ && insertion_.run(t)) || (mending_ && insertion_.run_on_surface(t));
+    return (insert_ && !in_rounds_ && insertion_.run(t)) ||
+           (mending_ && insertion_.run_on_surface(t));
   }
 
   // From the other side, and neither side has changed since.
@@ -283,12 +293,13 @@ class Improvement {
   Smoothing smoothing_;
   Insertion insertion_;
   Relocation relocation_;
-  bool insert_ = false, mending_ = false;
+  bool insert_ = false, in_rounds_ = false, mending_ = false;
   std::uint64_t spared_ = 0;
   std::int64_t vertices_ = 0;             // at the beginning
   double step_begin_ = 0, step_end_ = 0;  // of the stage, in [0, 1]
   // The clock when attempts failed, plus 1: per slot, and per vertex.
   std::vector<std::uint32_t> tried_, edges_tried_, smooth_tried_, collapse_tried_, polish_tried_;
+  std::vector<float> failed_score_;  // of the tetrahedron of the slot when it was tried last
 };
 
 }  // namespace

@@ -15,13 +15,20 @@ constexpr std::size_t kLargestOnSurface = 48;  // both sides of it
 // A point has to be worth it: its star is not bad, or much better than the tetrahedra before.
 constexpr float kLeastScore = 0.4F;
 constexpr float kLeastGain = 4, kOfWorth = 0.9F;
+// One point is no use where an edge is so many times shorter than another of the tetrahedron: edges
+// of lengths between have no room there. Squared; for what is measured, and for dihedral angles.
+constexpr double kTooUnequal = 8 * 8, kTooUnequalForAngles = 32 * 32;
+// Nor does one on the surface mend flatter ones: the squared sine of 5.1 degrees.
+constexpr float kTooFlat = 0x1p-7F;
 
 }  // namespace
 
 bool Insertion::run(TetId t) {
   // A point does not mend a face with a small angle, which is mostly one of the surface.
-  if (!state_.counts(t) || state_.score(t) >= State::kBad || state_.face_score(t) < State::kBad)
+  if (!state_.counts(t) || state_.score(t) >= State::kBad || state_.face_score(t) < State::kBad ||
+      is_too_unequal(t)) {
     return false;
+  }
   site_ = {};
   if (try_from(t, middle(t))) return true;
   // Below each of its faces, where their tetrahedra would be the best.
@@ -32,8 +39,10 @@ bool Insertion::run(TetId t) {
 }
 
 bool Insertion::run_on_surface(TetId t) {
-  if (!state_.has_places_on_surface() || !state_.counts(t) || state_.score(t) >= State::kBad)
+  if (!state_.has_places_on_surface() || !state_.counts(t) || state_.score(t) >= State::kBad ||
+      state_.quality(t).dihedral < kTooFlat) {
     return false;
+  }
   const Tet v = state_.mesh.tet(t);
   const auto middle_of = [&](std::span<const int> corners) {
     Vec3 sum{};
@@ -72,7 +81,7 @@ bool Insertion::try_from(TetId t, Vec3 x) {
   if (!(state_.score(worst()->quality) > kOfWorth * worth(before)) || !keeps_surface()) {
     return false;
   }
-  const Place place = place_at(x, shortest_edge(t) * State::kGrid);
+  const Place place = place_at(x, std::sqrt(extreme_edges(t).first) * State::kGrid);
   measure(place.position);
   const Quality least = state_.to_be_better(before);
   bool ok = is_worth_it(before) && sees_outline(place);
@@ -214,14 +223,21 @@ Vec3 Insertion::middle(TetId t) const {
   return {sum[0] / count, sum[1] / count, sum[2] / count};
 }
 
-double Insertion::shortest_edge(TetId t) const {
+// Squared: the shortest and the longest.
+std::pair<double, double> Insertion::extreme_edges(TetId t) const {
   const Tet& tet = state_.mesh.tet(t);
-  double shortest2 = HUGE_VAL;
+  std::pair<double, double> result{HUGE_VAL, 0};
   for (const auto& [i, j] : kEdge) {
-    shortest2 = std::min(shortest2,
-                         squared_norm(subtract(state_.position(tet[i]), state_.position(tet[j]))));
+    const double squared = squared_norm(subtract(state_.position(tet[i]), state_.position(tet[j])));
+    result = {std::min(result.first, squared), std::max(result.second, squared)};
   }
-  return std::sqrt(shortest2);
+  return result;
+}
+
+bool Insertion::is_too_unequal(TetId t) const {
+  const auto [shortest, longest] = extreme_edges(t);
+  const bool shape = state_.measures() == Measure::shape;
+  return longest > (shape ? kTooUnequal : kTooUnequalForAngles) * shortest;
 }
 
 // Grows the cavity of x across its worst face, until that is on the surface or good, or the

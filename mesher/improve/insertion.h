@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "mesher/improve/cone.h"
@@ -39,7 +40,8 @@ class Insertion {
   bool is_worth_it(const Quality& before) const;
   void put_in(const Place& place);
   Vec3 middle(TetId t) const;
-  double shortest_edge(TetId t) const;
+  std::pair<double, double> extreme_edges(TetId t) const;
+  bool is_too_unequal(TetId t) const;
   void grow(const Vec3& x);
   std::vector<Face>::const_iterator face_to_cross() const;
   void add(TetId t, const Vec3& x);

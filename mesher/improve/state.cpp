@@ -42,10 +42,9 @@ State::State(WorkMesh work_mesh, std::vector<VertexId> point, const SurfaceTopol
 void State::measure_by(Measure measure) {
   // Better than every value that counts, so that what is not measured is never the worst.
   constexpr float kIgnored = 1e30F;
-  // Of a face angle that just keeps the promise.
-  constexpr float kScoreOfPromise = 0.5F;
   // However flat, tetrahedra are not to lose all of their volume.
   constexpr float kLeastGamma = 0.01F;
+  measure_ = measure;
   target_ = goals_.target;
   per_target_ = {1 / target_.dihedral, 1 / target_.face, 1 / target_.gamma};
   least_score_ = least_gamma_ = 0;
@@ -54,9 +53,8 @@ void State::measure_by(Measure measure) {
   least_gamma_ = kLeastGamma;
   target_.gamma = 0;
   per_target_.gamma = kIgnored;
-  const bool promises = measure == Measure::angles && goals_.promised > 0;
-  target_.face = promises ? goals_.promised / kScoreOfPromise : 0;
-  per_target_.face = promises ? 1 / target_.face : kIgnored;
+  target_.face = 0;
+  per_target_.face = kIgnored;
 }
 
 // A Steiner point of the surface is on a segment or on a triangle; explicit points there are of the

@@ -46,7 +46,6 @@ inline Vec3 allowed_offset(Mobility mobility, const Vec3& axis, const Vec3& offs
 // What the score of a tetrahedron tells: how near the worst of these is to its target.
 enum class Measure : std::uint8_t {
   shape,     // dihedral angles, face angles and gamma
-  angles,    // dihedral angles, and whether face angles keep the promise
   dihedrals  // dihedral angles alone
 };
 
@@ -120,6 +119,7 @@ class State {
   // From now on scores tell of this. If it is not the shape, all that a change makes is mended: a
   // mesh is not to get many tetrahedra that are bad instead of one that is worse.
   void measure_by(Measure measure);
+  Measure measures() const { return measure_; }
   // Fineness of the grid of new points, in the shortest edge where they go.
   static constexpr double kGrid = 1.0 / 1024;
   // Below this score it is worth trying hard.
@@ -245,6 +245,7 @@ class State {
   std::span<const Vec3> given_;
   std::unique_ptr<GivenPoints> as_given_;  // null: nobody asks
   Goals goals_;
+  Measure measure_ = Measure::shape;
   Quality target_, per_target_;              // of what is measured
   float least_score_ = 0, least_gamma_ = 0;  // of what a change makes
   std::size_t first_new_;                    // point of the store
