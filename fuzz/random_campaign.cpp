@@ -14,7 +14,6 @@
 #include <iterator>
 #include <map>
 #include <system_error>
-#include <vector>
 
 #include "corpus/generate/random.h"
 
@@ -66,10 +65,18 @@ std::size_t mutate_bytes(std::uint8_t* data, std::size_t size, std::size_t max_s
   return size;
 }
 
+Input bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  Input bytes((std::istreambuf_iterator<char>(in)), {});
+  if (!in) throw std::system_error(errno, std::generic_category(), path.string());
+  return bytes;
+}
+
 class Campaign {
  public:
   explicit Campaign(const RandomCampaign& campaign) : campaign_(campaign), random_(campaign.seed) {
     plain_mutations = Random(campaign.seed);
+    for (const fs::path& path : files_of(campaign.seeds)) seeds_.push_back(bytes_of(path));
     if (campaign.findings.empty()) return;
     fs::create_directories(campaign.findings);
     said_ = fs::path(campaign.findings) / (".running-" + std::to_string(getpid()));
@@ -99,11 +106,12 @@ class Campaign {
   static constexpr std::size_t kPool = 64;
 
   Input next() {
-    Input input(kLargest);
+    Input& input = buffer_;
     std::size_t size = 1;
-    if (!pool_.empty()) {
-      const Input& from = pool_[random_.below(pool_.size())];
-      const Input& other = pool_[random_.below(pool_.size())];
+    input[0] = 0;
+    if (!pool_.empty() || !seeds_.empty()) {
+      const Input& from = earlier();
+      const Input& other = earlier();
       size = 0;
       if (LLVMFuzzerCustomCrossOver != nullptr && random_.chance(0.1)) {
         size = LLVMFuzzerCustomCrossOver(from.data(), from.size(), other.data(), other.size(),
@@ -119,8 +127,12 @@ class Campaign {
                  ? LLVMFuzzerCustomMutator(input.data(), size, kLargest, seed())
                  : mutate_bytes(input.data(), size, kLargest);
     }
-    input.resize(size);
-    return input;
+    return {input.begin(), input.begin() + static_cast<std::ptrdiff_t>(size)};
+  }
+  const Input& earlier() {
+    const bool seed = pool_.empty() || (!seeds_.empty() && random_.chance(0.5));
+    const std::vector<Input>& inputs = seed ? seeds_ : pool_;
+    return inputs[random_.below(inputs.size())];
   }
   unsigned seed() { return static_cast<unsigned>(random_.below(std::uint64_t{1} << 32)); }
 
@@ -190,12 +202,29 @@ class Campaign {
   RandomCampaign campaign_;
   Random random_;
   fs::path said_;
-  std::vector<Input> pool_;
+  std::vector<Input> seeds_, pool_;
+  Input buffer_ = Input(kLargest);  // where inputs are made: filling a megabyte takes longer
   std::uint64_t found_ = 0;
   std::map<std::string, int> kinds_;
 };
 
 }  // namespace
+
+std::vector<fs::path> files_of(std::span<const std::string> paths) {
+  std::vector<fs::path> files;
+  for (const fs::path path : paths) {
+    if (fs::is_directory(path)) {
+      for (const auto& entry : fs::recursive_directory_iterator(path)) {
+        if (entry.is_regular_file()) files.push_back(entry.path());
+      }
+    } else if (fs::exists(path)) {
+      files.push_back(path);
+    }
+  }
+  std::sort(files.begin(), files.end());
+  for (fs::path& file : files) file = fs::absolute(file);  // targets may change the folder
+  return files;
+}
 
 std::uint64_t run_random_campaign(const RandomCampaign& campaign) {
   return Campaign(campaign).run();

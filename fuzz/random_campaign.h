@@ -5,7 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace tetproof::fuzz {
 
@@ -16,11 +19,18 @@ struct RandomCampaign {
   // of its own then, and leniencies are not counted. If empty, all run in this process, which the
   // first finding ends.
   std::string findings;
+  // Files, or folders of them, that half of the inputs are made from; with none, all come from the
+  // pool, where files that are refused for their first lines soon are alone.
+  std::vector<std::string> seeds;
   unsigned seconds_each = 120;  // an input that takes longer is a finding too
 };
 
+// The files, and those in the folders, in order, as absolute paths. What does not exist is left
+// out.
+std::vector<std::filesystem::path> files_of(std::span<const std::string> paths);
+
 // Returns the number of findings; prints how many inputs there were and, per kind of finding, one
-// line. Throws std::system_error where a file or a process cannot be made.
+// line. Throws std::system_error where a file or a process cannot be made, or a seed not read.
 std::uint64_t run_random_campaign(const RandomCampaign& campaign);
 
 }  // namespace tetproof::fuzz

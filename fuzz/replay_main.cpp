@@ -1,7 +1,7 @@
 // Runs a fuzz target over files and folders, so that every target is also an ordinary test, with
 // any compiler. Prints how many inputs there were, and which leniencies they took; no input at all
-// is a failure. `TARGET --random SECONDS SEED [FOLDER]` is a campaign without instrumentation.
-#include <algorithm>
+// is a failure. `TARGET --random SECONDS SEED [FOLDER|- [SEEDS...]]` is a campaign
+// without instrumentation.
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,23 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> files_of(int argc, char** argv) {
-  std::vector<fs::path> files;
-  for (int i = 1; i < argc; ++i) {
-    const fs::path path = argv[i];
-    if (fs::is_directory(path)) {
-      for (const auto& entry : fs::recursive_directory_iterator(path)) {
-        if (entry.is_regular_file()) files.push_back(entry.path());
-      }
-    } else if (fs::exists(path)) {
-      files.push_back(path);
-    }
-  }
-  std::sort(files.begin(), files.end());
-  for (fs::path& file : files) file = fs::absolute(file);  // targets may change the folder
-  return files;
-}
-
 int campaign(int argc, char** argv) {
   tetproof::fuzz::RandomCampaign campaign;
   campaign.seconds = std::atof(argv[2]);
@@ -48,10 +32,11 @@ int campaign(int argc, char** argv) {
     return 2;
   }
   campaign.seed = std::strtoull(argv[3], nullptr, 10);
-  if (argc > 4) campaign.findings = argv[4];
+  if (argc > 4 && std::string_view(argv[4]) != "-") campaign.findings = argv[4];
+  if (argc > 5) campaign.seeds.assign(argv + 5, argv + argc);
   try {
     const std::uint64_t found = run_random_campaign(campaign);
-    if (argc == 4) std::fputs(tetproof::leniency_table().c_str(), stdout);
+    if (campaign.findings.empty()) std::fputs(tetproof::leniency_table().c_str(), stdout);
     return found > 0 ? 1 : 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
@@ -62,11 +47,12 @@ int campaign(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if ((argc == 4 || argc == 5) && std::string_view(argv[1]) == "--random") {
+  if (argc >= 4 && std::string_view(argv[1]) == "--random") {
     return campaign(argc, argv);
   }
   constexpr double kSlowSeconds = 2;
-  const std::vector<fs::path> files = files_of(argc, argv);
+  const std::vector<std::string> paths(argv + 1, argv + argc);
+  const std::vector<fs::path> files = tetproof::fuzz::files_of(paths);
   for (const fs::path& file : files) {
     std::ifstream in(file, std::ios::binary);
     const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
