@@ -38,13 +38,13 @@ class Improvement {
     begin(0.1);
     coarsen();
     begin(0.25);
-    repair(kRepair);
+    repair(kNotGood);
     insert_ = true;
     tried_.clear();
     begin(0.08);
     coarsen();
     begin(0.05);
-    repair({});
+    repair();
     in_rounds_ = true;
     coarsen_rounder();
     in_rounds_ = false;
@@ -52,16 +52,16 @@ class Improvement {
     begin(0.1);
     polish_vertices();
     begin(0.03);
-    repair({});
+    repair();
     mend();
   }
 
   std::uint64_t spared() const { return spared_; }
 
  private:
-  // The score below which tetrahedra are tried, pass by pass: later ones take as long as the first,
-  // but bring less, except to bad tetrahedra.
-  static constexpr float kRepair[] = {0.7F};
+  // The score below which tetrahedra are tried in one pass: later ones take as long, but bring
+  // less, except to bad tetrahedra.
+  static constexpr float kNotGood = 0.7F;
   static constexpr int kPassesForBad = 10;
 
   // Goes on to a step that takes this part of the time, as measured on scans and printed parts.
@@ -106,7 +106,7 @@ class Improvement {
       begin(share(0.08));
       coarsen();
       begin(share(0.06));
-      repair(kRepair);
+      repair(kNotGood);
       if (state_.mesh.tetrahedra() >= before - before / kLeastGain) break;
     }
   }
@@ -138,7 +138,7 @@ class Improvement {
       spared_ += gone ? 1 : 0;
     });
     coarsen();
-    repair(kRepair);
+    repair(kNotGood);
   }
   bool is_too_much() const { return state_.mesh.tetrahedra() > sparing_.tetrahedra; }
   bool is_to_be_spared(VertexId v) const {
@@ -171,13 +171,14 @@ class Improvement {
     validate();
   }
 
-  // Tries all operations on the tetrahedra that are not good, the worst first, until nothing helps
-  // or hardly anything is left to gain.
-  void repair(std::span<const float> limits) {
+  // Tries all operations on the tetrahedra below this score, the worst first, and then on bad ones,
+  // pass by pass, until nothing helps or hardly anything is left to gain.
+  void repair(float first = State::kBad) {
     std::vector<std::pair<float, TetId>> work;
     double left = 1;  // each pass counts as half of the rest
-    for (std::size_t pass = 0; pass < limits.size() + kPassesForBad; ++pass) {
-      const float limit = pass < limits.size() ? limits[pass] : State::kBad;
+    const int passes = kPassesForBad + (first > State::kBad ? 1 : 0);
+    for (int pass = 0; pass < passes; ++pass) {
+      const float limit = pass == 0 ? first : State::kBad;
       tried_.resize(state_.mesh.slots(), 0);
       failed_score_.resize(state_.mesh.slots(), -1);
       work.clear();
@@ -215,7 +216,7 @@ class Improvement {
     state_.measure_by(Measure::dihedrals);
     for (auto* tried : {&tried_, &smooth_tried_, &collapse_tried_}) tried->clear();
     begin(0);
-    repair({});
+    repair();
   }
 
   bool is_to_be_tried(TetId t, float limit) const {
