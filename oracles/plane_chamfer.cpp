@@ -319,10 +319,21 @@ class ChamferChecker {
     return reason;
   }
 
-  // Coordinates relative to the first end of a piece, rounded once.
-  Vector relative(Index v, Index origin) const {
-    const Point &p = graph_.vertex(v), &o = graph_.vertex(origin);
-    return {mpq_class(p.x - o.x).get_d(), mpq_class(p.y - o.y).get_d()};
+  // Coordinates relative to the first of these ends, rounded once, in a unit of 2^exponent in which
+  // squares of lengths are no subnormal numbers.
+  std::array<Vector, 4> relative(const std::array<Index, 4>& ends, int& exponent) const {
+    std::array<Vector, 4> at;
+    double largest = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Point &p = graph_.vertex(ends[k]), &o = graph_.vertex(ends[0]);
+      at[k] = {mpq_class(p.x - o.x).get_d(), mpq_class(p.y - o.y).get_d()};
+      for (const double x : at[k]) largest = std::max(largest, std::fabs(x));
+    }
+    std::frexp(largest, &exponent);
+    for (Vector& v : at) {
+      for (double& x : v) x = std::ldexp(x, -exponent);
+    }
+    return at;
   }
 
   // Is there a channel between the parts that chamfering leaves of two pieces? It is not known
@@ -330,13 +341,14 @@ class ChamferChecker {
   // the pieces meet they have to be cut.
   Reason reason_between(Index p, Index q) {
     const std::array<Index, 4> ends = {pieces()[p].a, pieces()[p].b, pieces()[q].a, pieces()[q].b};
+    int exponent = 0;
+    const auto [a, b, c, d] = relative(ends, exponent);
     std::array<double, 4> radius;
     for (std::size_t k = 0; k < 4; ++k) {
       radius[k] = feature_size(ends[k]) / 3;
       if (promise_.chamfer_radius > 0) radius[k] = std::min(radius[k], promise_.chamfer_radius);
+      radius[k] = std::ldexp(radius[k], -exponent);
     }
-    const Vector a = {0, 0}, b = relative(ends[1], ends[0]), c = relative(ends[2], ends[0]),
-                 d = relative(ends[3], ends[0]);
     const double size = std::max(magnitude(ends[0]), magnitude(ends[1]));
     for (unsigned cut = 0; cut < 16; ++cut) {
       std::array<double, 4> r{};
@@ -356,7 +368,7 @@ class ChamferChecker {
         return Stretch{whole.at(near / length), whole.at(1 - far / length)};
       };
       const Channel between = channel(rest(a, b, r[0], r[1]), rest(c, d, r[2], r[3]));
-      if (no_room(between.width, size)) return Reason::crowded;
+      if (no_room(std::ldexp(between.width, exponent), size)) return Reason::crowded;
       if (between.length * promise_.tau > between.width * (1 - 1e-6)) return Reason::narrow;
     }
     return Reason::none;

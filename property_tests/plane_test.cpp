@@ -412,6 +412,16 @@ TEST(Plane, ExtremeScales) {
   }
 }
 
+// The oracle's doubles: squares of these lengths vanish where it measures channels.
+TEST(Plane, ReasonsOfDropsAtAllScales) {
+  const auto needle = shapes::polygon({{0, 0}, {0.33, 0}, {0.08, -0x1p-30}});
+  for (const int k : {0, -300, -528, -700, -850, 500}) {
+    PlanarGraph graph = needle;
+    graph.vertices = scaled(graph.vertices, k);
+    EXPECT_GT(expect_verified(graph).statistics.dropped_segments, 0U) << k;
+  }
+}
+
 TEST(Plane, SubnormalSizes) {
   // Below the normal doubles there is less and less room for points, in the end none.
   int refused = 0, dropped = 0;
