@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fuzz/feature_size.h"
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"
 #include "oracles/verify.h"
@@ -25,6 +26,7 @@ Leniency too_precise("stopped-features-below-2^-40", 0.05);
 Leniency nothing_refined("refined-oracle-without-work", 0.2);
 Leniency too_large_to_scale("too-large-to-mesh-twice", 0.1);
 Leniency out_of_range("out-of-range-when-scaled", 0.1);
+Leniency within_roundings("file-of-features-below-8-ulp", 0.01);
 
 using Points = std::vector<std::array<double, 3>>;
 
@@ -54,6 +56,19 @@ std::string first_failure(const oracles::VerifyReport& report) {
   return "verdict: " + std::string(oracles::verdict_name(report.verdict));
 }
 
+// Where features are a few roundings apart and points were added, the written file may have other
+// sides of the surface than the exact mesh, which is judged all the same.
+bool rounded_beyond_features(const Surface& surface, const oracles::VerifyReport& report) {
+  for (const auto& oracle : report.oracles) {
+    const bool of_file = oracle.name == "conformity" || oracle.name == "volume" ||
+                         oracle.name == "boundary-list" || oracle.name == "regions" ||
+                         oracle.name == "hull";
+    if (oracle.violations > 0 && !of_file) return false;
+  }
+  FeatureSizes sizes;
+  return sizes.assign(surface).empty() && sizes.smallest() < sizes.largest_coordinate() * 0x1p-49;
+}
+
 Finding verified(const Surface& surface, const Result& result, Stage stage, const Options& options,
                  oracles::Task task = oracles::Task::mesh) {
   const oracles::Polyhedron input = {surface.vertices, surface.triangles, surface.labels, {}};
@@ -69,6 +84,10 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
   // An oracle that had nothing to look at (for instance because the filter left no facet) makes the
   // verdict of the refined stage "broken", but is no finding.
   if (!violated && !oracles::failed(report, wanted)) return {};
+  if (stage == Stage::final && rounded_beyond_features(surface, report)) {
+    within_roundings.take();
+    return {};
+  }
   if (violated || stage == Stage::final) {
     return (stage == Stage::refined ? "refined " : "final ") + first_failure(report);
   }
@@ -223,7 +242,7 @@ Result meshed(const Surface& surface, Options& options) {
 }  // namespace
 
 Finding cdt_holds(const Surface& surface) {
-  judging({&too_many_vertices, &too_precise});
+  judging({&too_many_vertices, &too_precise, &within_roundings});
   Options options;
   options.want_exact = true;
   options.max_vertices = kMostVertices;
@@ -243,7 +262,7 @@ Finding refinement_holds(const Surface& surface) {
 
 Finding pipeline_holds(const Surface& surface) {
   judging({&too_many_vertices, &less_planar, &too_precise, &nothing_refined, &too_large_to_scale,
-           &out_of_range});
+           &out_of_range, &within_roundings});
   Options options = options_for(surface);
   const Result result = meshed(surface, options);
   if (Finding f = judged(surface, result, options, true); !f.empty()) return f;
