@@ -303,6 +303,9 @@ class FilterCheck {
     report_.figures.emplace_back("dropped facets", first.size() + second.size());
     report_.figures.emplace_back("dropped for what chamfering made of them", second.size());
     report_.figures.emplace_back("tolerance", tolerance);
+    if (within_roundings_ > 0) {
+      report_.figures.emplace_back("dropped for features within two roundings", within_roundings_);
+    }
     return std::move(report_);
   }
 
@@ -399,6 +402,12 @@ class FilterCheck {
     return feature.size < 2 * tolerance && feature.times >= kLongGap / 2;
   }
 
+  // The mesher measures between rounded points, which may be two roundings nearer to each other
+  // than the exact ones.
+  bool is_within_roundings(const ChamferFeatures::Feature& feature) const {
+    return feature.size < 0x1p-51 * surface_.largest_coordinate();
+  }
+
   // The second step, read backwards: the facet dropped last was dropped from the present surface,
   // so chamfering has to make too small a feature of that facet, and so on. Where both sides of a
   // feature go, one of them may be all facets at a vertex, so that any feature near them will do.
@@ -407,10 +416,12 @@ class FilterCheck {
     const auto put_back = [&](Index f) {
       features_.set_present(f, true);
       for (const Index v : features_.vertices_of(f, both_sides_)) {
-        const auto features = chamfers_.at(v, present);
-        if (std::any_of(features.begin(), features.end(), [&](const auto& feature) {
-              return (both_sides_ || feature.is_of(f)) && is_too_small(feature, tolerance);
-            })) {
+        auto features = chamfers_.at(v, present);
+        if (!both_sides_) std::erase_if(features, [&](const auto& x) { return !x.is_of(f); });
+        const auto any = [&](auto is_small) { return std::ranges::any_of(features, is_small); };
+        if (any([&](const auto& x) { return is_too_small(x, tolerance); })) return true;
+        if (any([&](const auto& x) { return is_within_roundings(x); })) {
+          ++within_roundings_;
           return true;
         }
       }
@@ -492,6 +503,7 @@ class FilterCheck {
   bool pairs_, both_sides_;
   bool guarded_ = false;  // some threshold is stricter than was asked for
   OracleReport report_{"filter", "vertices, edges and dropped facets"};
+  double within_roundings_ = 0;  // facets
 };
 
 }  // namespace

@@ -196,21 +196,20 @@ class FileChecker {
     m.y = (p.y + q.y) / 2;
     m.dx = m.x.get_d();
     m.dy = m.y.get_d();
-    bool found = false;
-    cells_.visit(box_of({&m}, 0), [&](Index t) {
-      if (found) return;
+    bool in_one = false, at_border = false;  // of any triangle: m may be one of its vertices
+    cells_.visit(box_of({&m}, tolerance_), [&](Index t) {
       const auto& v = file_.triangles[t];
       const auto& all = points_.all();
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (points_.orient(all[v[i]], all[v[(i + 1) % 3]], m) < 0) return;
-      }
+      bool in_this = true;
       for (std::size_t i = 0; i < 3; ++i) {
         const Index a = v[i], b = v[(i + 1) % 3];
-        if (!left_of_.contains({b, a}) && distance(m, all[a], all[b]) <= tolerance_) return;
+        in_this = in_this && points_.orient(all[a], all[b], m) >= 0;
+        at_border =
+            at_border || (!left_of_.contains({b, a}) && distance(m, all[a], all[b]) <= tolerance_);
       }
-      found = true;
+      in_one = in_one || in_this;
     });
-    return found;
+    return in_one && !at_border;
   }
 
   void check_conformity() {
