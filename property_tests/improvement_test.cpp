@@ -320,6 +320,27 @@ TEST(Improvement, IsNotExcusedByRoundingElsewhere) {
   EXPECT_FALSE(far.passed());
 }
 
+// Two slivers over the same square, the later one half as high: roundings do not tell, more does.
+TEST(Improvement, WhichIsFlatterByRoundingsIsNotTold) {
+  const auto passes = [](double before, double after) {
+    ExactRecord record;
+    const std::array<double, 3> places[] = {
+        {0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, before}, {1, 1, after}};
+    for (const auto& [x, y, z] : places) {
+      record.points.push_back({delmesher::ExactPoint::Kind::explicit_point, 0, 0, 0, x, y, z});
+    }
+    record.unrepaired = {{{0, 2, 1, 3}, true}};
+    record.final = {{{0, 2, 1, 4}, true}};
+    ExactPoints points;
+    points.assign(record.points);
+    return check_improvement(record, points, {}).passed();
+  };
+  EXPECT_TRUE(passes(1e-9, 1e-9));
+  EXPECT_FALSE(passes(1e-9, 5e-10));
+  EXPECT_FALSE(passes(1e-9, -1e-9));
+  EXPECT_TRUE(passes(1e-15, 5e-16));
+}
+
 // A worst tetrahedron that was there before allows no other one as bad at another place.
 TEST(Improvement, IsNotExcusedByWhatIsAsBadElsewhere) {
   Options options;
