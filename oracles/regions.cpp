@@ -100,7 +100,10 @@ bool clearly_fills(const TetComplex& complex, const InputSurface& surface) {
 
 Regions::Regions(TetComplex& complex, const std::vector<std::int64_t>& regions)
     : complex_(complex), regions_(regions) {
-  const std::map<std::int64_t, bool> is_inside = inside_regions(complex, regions);
+  std::map<std::int64_t, bool> is_inside = inside_regions(complex, regions);
+  // A file of one region is of the inside, or of nothing: in a solid that is thinner than roundings
+  // more of it may be beside the surface. Its boundary and its volume are judged all the same.
+  if (is_inside.size() == 1) is_inside.begin()->second = true;
   count_ = is_inside.size();
   for (std::size_t t = 0; t < regions.size(); ++t) {
     const std::uint8_t side = is_inside.at(regions[t]);
