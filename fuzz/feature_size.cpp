@@ -149,9 +149,9 @@ bool FeatureSizes::closer(Index triangle, Index other, double distance) const {
   return nearest.length < distance;
 }
 
-bool roomy(const delmesher::Surface& surface) {
+bool roomy(const delmesher::Surface& surface, double share) {
   FeatureSizes sizes;
-  return sizes.assign(surface).empty() && sizes.smallest() > sizes.largest_coordinate() * 0x1p-40;
+  return sizes.assign(surface).empty() && sizes.smallest() > sizes.largest_coordinate() * share;
 }
 
 }  // namespace tetproof::fuzz

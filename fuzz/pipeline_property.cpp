@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fuzz/feature_size.h"
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"
 #include "oracles/verify.h"
@@ -65,8 +64,7 @@ bool rounded_beyond_features(const Surface& surface, const oracles::VerifyReport
                          oracle.name == "hull";
     if (oracle.violations > 0 && !of_file) return false;
   }
-  FeatureSizes sizes;
-  return sizes.assign(surface).empty() && sizes.smallest() < sizes.largest_coordinate() * 0x1p-49;
+  return !roomy(surface, 0x1p-49);
 }
 
 Finding verified(const Surface& surface, const Result& result, Stage stage, const Options& options,

@@ -28,7 +28,8 @@ struct Stages {
   delmesher::surface::SurfaceTopology topology;
 };
 
-// Are doubles fine enough for the surface? Its features are thousands of roundings apart.
-bool roomy(const delmesher::Surface& surface);
+// Are doubles fine enough for the surface? Its features are farther apart than this share of its
+// largest coordinate: thousands of roundings, unless something else is said.
+bool roomy(const delmesher::Surface& surface, double share = 0x1p-40);
 
 }  // namespace tetproof::fuzz

@@ -62,9 +62,14 @@ std::map<std::int64_t, std::array<Number, 2>> volumes_of(const TetComplex& compl
 }
 
 // Is more of a region inside than outside? Exact volumes are computed only where the two are nearly
-// equal.
+// equal. A file of one region is of the inside, or of nothing: in a solid that is thinner than
+// roundings more of it may be beside the surface. Its boundary and its volume are judged all the
+// same.
 std::map<std::int64_t, bool> inside_regions(const TetComplex& complex,
                                             const std::vector<std::int64_t>& regions) {
+  if (!regions.empty() && std::ranges::count(regions, regions.front()) == std::ssize(regions)) {
+    return {{regions.front(), true}};
+  }
   std::map<std::int64_t, bool> result;
   bool certain = true;
   for (const auto& [region, sides] :
@@ -100,10 +105,7 @@ bool clearly_fills(const TetComplex& complex, const InputSurface& surface) {
 
 Regions::Regions(TetComplex& complex, const std::vector<std::int64_t>& regions)
     : complex_(complex), regions_(regions) {
-  std::map<std::int64_t, bool> is_inside = inside_regions(complex, regions);
-  // A file of one region is of the inside, or of nothing: in a solid that is thinner than roundings
-  // more of it may be beside the surface. Its boundary and its volume are judged all the same.
-  if (is_inside.size() == 1) is_inside.begin()->second = true;
+  const std::map<std::int64_t, bool> is_inside = inside_regions(complex, regions);
   count_ = is_inside.size();
   for (std::size_t t = 0; t < regions.size(); ++t) {
     const std::uint8_t side = is_inside.at(regions[t]);
