@@ -6,6 +6,7 @@
 #include "oracles/angles.h"
 #include "oracles/edge_key.h"
 #include "oracles/edge_sizes.h"
+#include "oracles/input_surface.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -157,6 +158,7 @@ class Improvement {
                        {"not positive on doubles", static_cast<double>(defects_)},
                        {"below the goals after", static_cast<double>(bad_.size())}};
     explain();
+    if (!bad_.empty()) explain_by_place();
     if (!returned_.empty()) excuse();
     for (const Bad& bad : bad_) {
       report_.fail(name_of(bad.tet) + " has a face angle of " + std::to_string(bad.angles.face) +
@@ -180,6 +182,7 @@ class Improvement {
   struct Bad {
     Tet tet;
     WorstAngles angles;
+    WorstAngles there_before{};  // the worst near its place, once that is asked
   };
 
   static WorstAngles worse(const WorstAngles& a, const WorstAngles& b) {
@@ -236,6 +239,27 @@ class Improvement {
       spread();
     }
     report_.figures.emplace_back("edges from what was as bad", edges);
+  }
+
+  // Where all vertices of a neighbourhood have moved, none of their names leads to the mesh before:
+  // then what was where the bad tetrahedron is now tells what was near. How many need this is told.
+  void explain_by_place() {
+    std::vector<BoxTree::Box> boxes;
+    boxes.reserve(bad_.size());
+    for (const Bad& bad : bad_) boxes.push_back(box_around(doubles_, bad.tet));
+    const BoxTree tree(std::move(boxes));
+    std::vector<Index> here;
+    for (const ExactRecord::Tet& tet : record_.unrepaired) {
+      if (!counts(tet)) continue;
+      here.clear();
+      tree.query(box_around(doubles_, tet.vertices), here);
+      WorstAngles least;
+      for (const Index v : tet.vertices) least = worse(least, worst_[v]);
+      for (const Index b : here) bad_[b].there_before = worse(bad_[b].there_before, least);
+    }
+    const std::size_t explained =
+        std::erase_if(bad_, [&](const Bad& bad) { return reaches(bad.angles, bad.there_before); });
+    report_.figures.emplace_back(kByPlace, static_cast<double>(explained));
   }
 
   // What is left may be beside an edge of the surface that the mesh before did not have. How many,

@@ -22,12 +22,15 @@ OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoin
 // whichever is smaller), a tetrahedron at least as bad was there before, at most kOperationsReach
 // edges away along edges of either mesh; so neither the smallest nor the flattest one becomes
 // worse, and nothing bad is made where all was good. One that was not positive on the nearest
-// doubles counts as flat, as repairs of rounding may follow there. No edge longer than --max-edge
-// or than --size-field allows is new.
+// doubles counts as flat, as repairs of rounding may follow there. Where all vertices have moved so
+// far around, the edges are counted from a tetrahedron of the mesh before whose bounding box meets
+// that of the bad one; how many need this is the figure kByPlace, which a report has only then. No
+// edge longer than --max-edge or than --size-field allows is new.
 //
 // Measured on the nearest doubles, where the improvement weighs its steps, by doubles with a
 // relative slack of 1e-6.
 inline constexpr double kImprovedDihedral = 17;
+inline constexpr char kByPlace[] = "explained by their place";
 // `returned`: the vertices on edges of the surface that the mesh before did not have, because it
 // was one of a stand-in; near them, as far as along as many edges, anything may be bad.
 OracleReport check_improvement(const delmesher::ExactRecord& record, const ExactPoints& points,

@@ -365,6 +365,48 @@ TEST(Improvement, IsNotExcusedByWhatIsAsBadElsewhere) {
   EXPECT_FALSE(check_improvement(r, points, told.promise).passed());
 }
 
+// If all vertices have moved, none of them is in the mesh before. Then its tetrahedra at the same
+// place tell what was near, and the report how often.
+TEST(Improvement, IsExcusedByWhatWasThereWhereAllVerticesMoved) {
+  Options options;
+  options.improve = false;
+  const Told plain = run_of(bar(40), options);
+  const auto judged = [&plain](double before, double after) {
+    Told told = plain;
+    told.promise.improve = true;
+    ExactRecord& r = told.record;
+    const auto flatten_at = [&told, &r](double x) {
+      const auto found = std::find_if(r.final.begin(), r.final.end(), [&r, x](const auto& tet) {
+        return tet.inside && std::fabs(along_bar(r, tet) - x) < 1;
+      });
+      flatten(told, static_cast<std::size_t>(found - r.final.begin()));
+    };
+    flatten_at(before);
+    r.unrepaired = r.final;
+    r.final = plain.record.final;
+    told.sample.mesh = plain.sample.mesh;
+    r.mesh_vertices = plain.record.mesh_vertices;
+    flatten_at(after);
+    const auto count = static_cast<Index>(r.points.size());
+    const std::vector<delmesher::ExactPoint> same = r.points;
+    r.points.insert(r.points.end(), same.begin(), same.end());
+    for (ExactRecord::Tet& tet : r.final) {
+      for (Index& v : tet.vertices) v += count;
+    }
+    ExactPoints points;
+    points.assign(r.points);
+    return check_improvement(r, points, told.promise);
+  };
+  const auto by_place = [](const OracleReport& report) {
+    const std::map<std::string, double> figures(report.figures.begin(), report.figures.end());
+    return figures.at(kByPlace);
+  };
+  const OracleReport there = judged(2, 2), elsewhere = judged(2, 36);
+  EXPECT_TRUE(there.passed()) << there.findings.at(0);
+  EXPECT_GT(by_place(there), 0);
+  EXPECT_FALSE(elsewhere.passed());
+}
+
 // The refined mesh keeps the promise, the improvement has made longer edges.
 TEST(Improvement, MakesNoEdgeLongerThanPromised) {
   Told told = run_of(ball(3));
