@@ -18,8 +18,7 @@ bool ReferenceFinder::meets(VertexId a, VertexId b, VertexId p, VertexId q, Vert
 }
 
 VertexId ReferenceFinder::find(VertexId a, VertexId b) {
-  const Vec3 p = points_.nearest(a), q = points_.nearest(b);
-  const double length = safe_distance(p, q);
+  const double length = safe_distance(points_.difference(a, b), {});
   VertexId best = kNone;
   double best_sine = 2;
   if (mark_.size() < mesh_.capacity()) mark_.resize(mesh_.capacity() * 3 / 2, 0);
@@ -31,7 +30,7 @@ VertexId ReferenceFinder::find(VertexId a, VertexId b) {
     const TetId t = crossed_[n];
     for (int i = 0; i < 4; ++i) {
       const VertexId v = mesh_.vertex(t, i);
-      if (v != a && v != b) consider(v, p, q, length, best, best_sine);
+      if (v != a && v != b) consider(v, a, b, length, best, best_sine);
       const TetId next = mesh_.neighbor(t, i);
       if (mark_[next] == epoch_ || mesh_.is_ghost(next)) continue;
       const VertexId x = mesh_.vertex(t, kFace[i][0]), y = mesh_.vertex(t, kFace[i][1]),
@@ -49,11 +48,12 @@ void ReferenceFinder::visit(TetId t) {
   crossed_.push_back(t);
 }
 
-void ReferenceFinder::consider(VertexId v, const Vec3& p, const Vec3& q, double length,
-                               VertexId& best, double& best_sine) const {
+// By differences: far from the origin the nearest doubles of all three may be the same.
+void ReferenceFinder::consider(VertexId v, VertexId a, VertexId b, double length, VertexId& best,
+                               double& best_sine) const {
   if (v == best) return;
-  const Vec3 x = points_.nearest(v);
-  const Vec3 f = scaled_difference(p, x, length), g = scaled_difference(q, x, length);
+  const Vec3 f = scaled_difference(points_.difference(v, a), {}, length),
+             g = scaled_difference(points_.difference(v, b), {}, length);
   if (!(dot(f, g) < 0)) return;
   const Vec3 normal = cross(f, g);
   const double sine = dot(normal, normal) / (dot(f, f) * dot(g, g));

@@ -24,7 +24,7 @@ class ReferenceFinder {
  private:
   bool meets(VertexId a, VertexId b, VertexId p, VertexId q, VertexId r);
   void visit(TetId t);
-  void consider(VertexId v, const Vec3& p, const Vec3& q, double length, VertexId& best,
+  void consider(VertexId v, VertexId a, VertexId b, double length, VertexId& best,
                 double& best_sine) const;
 
   Tetrahedrization& mesh_;

@@ -25,13 +25,12 @@ SplitTarget SplitRule::target(std::uint32_t n, Centre centre, VertexId reference
   const SplitTarget middle = target_in_the_middle(u, w);
   if (centre == Centre::both || reference == kNone) return middle;
   const double length = chains_.length(u.edge);
-  const Vec3 r = points_.nearest(reference);
   if (centre == Centre::none) {
     bool soon = false;
     if (SplitTarget t{}; target_opposite(u, w, reference, t, soon)) return t;
     if (soon) return middle;
-    const double to_u = safe_distance(r, points_.nearest(u.vertex)) / length;
-    const double to_w = safe_distance(r, points_.nearest(w.vertex)) / length;
+    const double to_u = distance(u.vertex, reference) / length;
+    const double to_w = distance(w.vertex, reference) / length;
     const double step = std::min(to_u, to_w);
     // Written so that a NaN means the middle, here and below.
     if (!(step > 0 && step <= width / 2)) return middle;
@@ -147,10 +146,9 @@ SplitTarget SplitRule::on_sphere(const ChainNode& u, const ChainNode& w, int cen
   t.from[centre] = radius;
   t.from[1 - centre] = 1 - radius;
   sharpen(t, u.edge, reference);
-  const Vec3 p = points_.nearest(near.vertex), q = points_.nearest(far.vertex);
-  Vec3 x;
-  for (int k = 0; k < 3; ++k) x[k] = p[k] + (q[k] - p[k]) * (step / width);
-  if (!deep && rest * length < safe_distance(x, points_.nearest(reference))) return middle;
+  const Vec3 x = scaled_difference(points_.difference(near.vertex, far.vertex), {}, width / step);
+  const Vec3 to_reference = points_.difference(near.vertex, reference);
+  if (!deep && rest * length < safe_distance(x, to_reference)) return middle;
   return t;
 }
 
@@ -164,7 +162,11 @@ double SplitRule::distance_from_apex(VertexId apex, VertexId v) const {
       if (end[k] == apex) return chains_.node(n).from[k] * chains_.length(edge);
     }
   }
-  return safe_distance(points_.nearest(apex), points_.nearest(v));
+  return distance(apex, v);
+}
+
+double SplitRule::distance(VertexId a, VertexId b) const {
+  return safe_distance(points_.difference(a, b), {});
 }
 
 // At angles below 2^-40 a radius of 53 bits is not enough for two points to be on the same sphere
@@ -178,8 +180,7 @@ void SplitRule::sharpen(SplitTarget& target, std::uint32_t edge, VertexId refere
   double& fraction = target.from[target.anchor];
   const double length = chains_.length(edge);
   const Vec3 d = scaled_difference(points_.nearest(other), points_.nearest(apex), length);
-  const Vec3 f =
-      scaled_difference(points_.nearest(reference), points_.nearest(apex), fraction * length);
+  const Vec3 f = scaled_difference(points_.difference(apex, reference), {}, fraction * length);
   const double squared_sine = dot(cross(d, f), cross(d, f));
   if (!(squared_sine < 0x1p-20)) return;
   // At a smaller sine than 2^-106 no two points can be matched by the parameters that a point has,
