@@ -27,6 +27,7 @@ Leniency nothing_refined("refined-oracle-without-work", 0.2);
 Leniency too_large_to_scale("too-large-to-mesh-twice", 0.1);
 Leniency out_of_range("out-of-range-when-scaled", 0.1);
 Leniency within_roundings("file-of-features-below-8-ulp", 0.01);
+Leniency inexact_repairs("file-of-inexact-repairs-below-8-ulp", 0.01);
 Leniency explained_by_place("bad-tetrahedra-explained-by-place", 0.01);
 
 using Points = std::vector<std::array<double, 3>>;
@@ -37,6 +38,10 @@ double largest_coordinate(const Points& points) {
     for (const double x : p) largest = std::max(largest, std::fabs(x));
   }
   return largest;
+}
+
+oracles::Polyhedron as_polyhedron(const Surface& surface) {
+  return {surface.vertices, surface.triangles, surface.labels, {}};
 }
 
 oracles::MeshFile as_file(const delmesher::TetMesh& mesh) {
@@ -57,6 +62,11 @@ std::string first_failure(const oracles::VerifyReport& report) {
   return "verdict: " + std::string(oracles::verdict_name(report.verdict));
 }
 
+// Features of a few roundings.
+bool below_8_ulp(const Surface& surface) {
+  return !roomy(surface, 0x1p-49);
+}
+
 // Where features are a few roundings apart and points were added, the written file may have other
 // sides of the surface than the exact mesh, which is judged all the same.
 bool rounded_beyond_features(const Surface& surface, const oracles::VerifyReport& report) {
@@ -66,18 +76,17 @@ bool rounded_beyond_features(const Surface& surface, const oracles::VerifyReport
                          oracle.name == "hull";
     if (oracle.violations > 0 && !of_file) return false;
   }
-  return !roomy(surface, 0x1p-49);
+  return below_8_ulp(surface);
 }
 
 Finding verified(const Surface& surface, const Result& result, Stage stage, const Options& options,
                  oracles::Task task = oracles::Task::mesh) {
-  const oracles::Polyhedron input = {surface.vertices, surface.triangles, surface.labels, {}};
   oracles::VerifyOptions wanted;
   wanted.stage = stage;
   wanted.promised = oracles::promise_of(options, task);
   oracles::VerifyReport report;
   const std::string refusal =
-      oracles::verify(input, as_file(result.mesh), &result.exact, wanted, report);
+      oracles::verify(as_polyhedron(surface), as_file(result.mesh), &result.exact, wanted, report);
   if (!refusal.empty()) return "oracles refuse: " + refusal;
   if (const oracles::OracleReport* improvement = report.find("improvement")) {
     for (const auto& [name, value] : improvement->figures) {
@@ -134,6 +143,16 @@ Finding judged(const Surface& surface, const Result& result, const Options& opti
     return {};
   }
   if (left > 0) return "rounding: inverted or flat tetrahedra are left";
+  // Then no exact mesh is what the file says, so that the file alone is judged.
+  if (s.rounding_inexact > 0) {
+    if (!below_8_ulp(surface)) return "rounding: repairs are not exact";
+    inexact_repairs.take();
+    oracles::VerifyReport report;
+    const std::string refusal =
+        oracles::verify(as_polyhedron(surface), as_file(result.mesh), nullptr, {}, report);
+    if (!refusal.empty()) return "oracles refuse: " + refusal;
+    return report.any_failed() ? "file " + first_failure(report) : "";
+  }
   if (refined) {
     if (Finding f = verified(surface, result, Stage::refined, options); !f.empty()) return f;
   }
@@ -247,7 +266,7 @@ Result meshed(const Surface& surface, Options& options) {
 }  // namespace
 
 Finding cdt_holds(const Surface& surface) {
-  judging({&too_many_vertices, &too_precise, &within_roundings});
+  judging({&too_many_vertices, &too_precise, &within_roundings, &inexact_repairs});
   Options options;
   options.want_exact = true;
   options.max_vertices = kMostVertices;
@@ -267,7 +286,7 @@ Finding refinement_holds(const Surface& surface) {
 
 Finding pipeline_holds(const Surface& surface) {
   judging({&too_many_vertices, &less_planar, &too_precise, &nothing_refined, &too_large_to_scale,
-           &out_of_range, &within_roundings, &explained_by_place});
+           &out_of_range, &within_roundings, &inexact_repairs, &explained_by_place});
   Options options = options_for(surface);
   const Result result = meshed(surface, options);
   if (Finding f = judged(surface, result, options, true); !f.empty()) return f;

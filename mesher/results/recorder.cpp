@@ -1,6 +1,7 @@
 #include "mesher/results/recorder.h"
 
 #include <algorithm>
+#include <string>
 
 #include "mesher/output/statistics.h"
 #include "mesher/results/record_stages.h"
@@ -124,6 +125,11 @@ void Recorder::written(MeshToWrite& exact_mesh, output::RoundingResult rounded) 
   s.rounding_inexact = rounded.inexact_operations;
   s.rounding_signs = rounded.signs;
   s.max_surface_deviation = rounded.max_surface_deviation;
+  if (s.rounding_inexact > 0) {
+    result_.warnings.push_back(
+        "repairs of rounding that hold as written, but not on exact coordinates: " +
+        std::to_string(s.rounding_inexact) + "; features there are a few roundings apart");
+  }
   std::uint64_t interior = 0;
   for (const std::uint8_t inside : rounded.inside) interior += inside;
   // After local operations they are other tetrahedra.
