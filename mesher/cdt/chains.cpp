@@ -54,15 +54,14 @@ std::array<double, 2> Chains::fractions(std::uint32_t edge, VertexId v) const {
     if (d.corner[0] == end[1] && d.corner[1] == end[0]) return {d.u, 1 - d.u};
     if (d.corner[0] == end[0] && d.corner[1] == end[1]) return {1 - d.u, d.u};
   }
-  const Vec3 p = points_.nearest(v);
-  const double a = safe_distance(p, points_.nearest(end[0])),
-               b = safe_distance(p, points_.nearest(end[1]));
+  const double a = safe_distance(points_.difference(end[0], v), {}),
+               b = safe_distance(points_.difference(end[1], v), {});
   return {a / (a + b), b / (a + b)};
 }
 
 double Chains::length(std::uint32_t edge) const {
   const std::array<VertexId, 2> end = topology_->edge_vertices(edge);
-  return safe_distance(points_.nearest(end[0]), points_.nearest(end[1]));
+  return safe_distance(points_.difference(end[0], end[1]), {});
 }
 
 std::vector<VertexId> Chains::vertices(std::uint32_t edge) const {

@@ -106,8 +106,7 @@ bool SplitRule::runs_along(std::uint32_t edge, VertexId v, double sine) const {
 double SplitRule::sine_between(std::uint32_t e, std::uint32_t f) const {
   const auto direction = [&](std::uint32_t edge) {
     const std::array<VertexId, 2> end = chains_.topology().edge_vertices(edge);
-    return scaled_difference(points_.nearest(end[1]), points_.nearest(end[0]),
-                             chains_.length(edge));
+    return scaled_difference(points_.difference(end[0], end[1]), {}, chains_.length(edge));
   };
   return norm(cross(direction(e), direction(f)));
 }
@@ -179,7 +178,7 @@ void SplitRule::sharpen(SplitTarget& target, std::uint32_t edge, VertexId refere
   const VertexId apex = end[target.anchor], other = end[1 - target.anchor];
   double& fraction = target.from[target.anchor];
   const double length = chains_.length(edge);
-  const Vec3 d = scaled_difference(points_.nearest(other), points_.nearest(apex), length);
+  const Vec3 d = scaled_difference(points_.difference(apex, other), {}, length);
   const Vec3 f = scaled_difference(points_.difference(apex, reference), {}, fraction * length);
   const double squared_sine = dot(cross(d, f), cross(d, f));
   if (!(squared_sine < 0x1p-20)) return;
