@@ -5,6 +5,8 @@
 #include <new>
 #include <stdexcept>
 
+#include "mesher/base/guarded.h"
+
 namespace delmesher::base {
 namespace {
 
@@ -35,6 +37,23 @@ TEST(Control, WhatTheCallbackThrowsInterrupts) {
 TEST(Control, MemoryIsALimitInTheCallbackToo) {
   EXPECT_THROW(status_with([](const Progress&) -> bool { throw std::bad_alloc(); }),
                std::bad_alloc);
+}
+
+TEST(Guarded, TurnsAllThatIsThrownIntoAStatus) {
+  const auto status_of = [](auto thrown) {
+    const Limits options;
+    Control control(options);
+    return guarded(control, [&]() -> Status { throw thrown; });
+  };
+  const Stopped stopped{{StatusCode::limit_reached, "too many", Limit::size}};
+  EXPECT_EQ(status_of(stopped).message, "too many");
+  EXPECT_EQ(status_of(stopped).limit, Limit::size);
+  EXPECT_EQ(status_of(InternalError("a law is broken")).code, StatusCode::internal_error);
+  EXPECT_EQ(status_of(std::bad_alloc()).limit, Limit::memory);
+  const Status other = status_of(std::runtime_error("what nobody expected"));
+  EXPECT_EQ(other.code, StatusCode::internal_error);
+  EXPECT_EQ(other.message, "what nobody expected");
+  EXPECT_EQ(status_of(3).message, "an exception of an unknown type");
 }
 
 }  // namespace

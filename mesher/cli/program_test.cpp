@@ -416,6 +416,71 @@ TEST_F(Program, EveryTriangleThatMeetsAnotherIsColoured) {
   EXPECT_EQ(red, 23) << ply;
 }
 
+// A tetrahedron with a third triangle at an edge, and one with a face turned over and a triangle
+// of two corners.
+TEST_F(Program, DefectsOfEveryKindHaveTheirColour) {
+  write("in.off",
+        "OFF\n9 10 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n5 0 0\n6 0 0\n5 1 0\n5 0 1\n3 0 2 1\n"
+        "3 0 1 3\n3 1 2 3\n3 0 3 2\n3 0 1 4\n3 5 7 6\n3 5 6 8\n3 6 7 8\n3 5 7 8\n3 5 6 6\n");
+  EXPECT_EQ(run("check in.off --defects in.ply"), 4);
+  const std::string ply = text("in.ply");
+  for (const char* triangle : {"3 0 2 1 150 60 190",  // not manifold
+                               "3 1 2 3 220 40 40",   // met by another one
+                               "3 0 3 2 190 190 190", "3 5 7 8 50 90 220", "3 5 6 6 40 160 70"}) {
+    EXPECT_NE(ply.find(std::string(triangle) + "\n"), std::string::npos) << triangle << '\n' << ply;
+  }
+}
+
+// A needle of 6 degrees: its sharp vertex is cut off, all else is on the faces that were given.
+TEST_F(Program, SavesTheChamferedSurface) {
+  write("in.off",
+        "OFF\n4 4 0\n0 0 0\n10 0 0\n10 1 0\n10 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  EXPECT_EQ(run("mesh in.off -o mesh.vtu --save-chamfered chamfered.off"), 0);
+  std::istringstream chamfered(text("chamfered.off"));
+  std::string head;
+  std::size_t vertices = 0, triangles = 0, edges = 0;
+  chamfered >> head >> vertices >> triangles >> edges;
+  EXPECT_EQ(head, "OFF");
+  ASSERT_GT(vertices, 4U);
+  ASSERT_GT(triangles, 4U);
+  for (std::size_t n = 0; n < vertices; ++n) {
+    double x = 0, y = 0, z = 0;
+    ASSERT_TRUE(chamfered >> x >> y >> z);
+    EXPECT_GT(x, 0.1);
+    EXPECT_LT(std::min({std::fabs(y), std::fabs(z), std::fabs(x - 10), std::fabs(x / 10 - y - z)}),
+              1e-14)
+        << x << ' ' << y << ' ' << z;
+  }
+}
+
+TEST_F(Program, SavesTheChamferedGraph) {
+  write("in.poly", "3 2 0 0\n1 0 0\n2 10 0\n3 10 1\n3 1\n1 1 2 5\n2 2 3 6\n3 3 1 7\n1\n1 9 0.5\n");
+  EXPECT_EQ(run("plane in.poly -o mesh.off --save-chamfered chamfered.poly"), 4);  // all is a hole
+  EXPECT_FALSE(fs::exists(path("chamfered.poly")));
+  write("in.poly", replaced(text("in.poly"), "1\n1 9 0.5\n", "0\n"));
+  EXPECT_EQ(run("plane in.poly -o mesh.off --save-chamfered chamfered.poly"), 0);
+  std::istringstream chamfered(text("chamfered.poly"));
+  std::size_t vertices = 0, segments = 0, number = 0, a = 0, b = 0;
+  int zero = 0, marker = 0;
+  double x = 0, y = 0;
+  chamfered >> vertices >> number >> zero >> zero;
+  ASSERT_EQ(vertices, 4U);
+  for (std::size_t n = 0; n < vertices; ++n) {
+    ASSERT_TRUE(chamfered >> number >> x >> y);
+    EXPECT_GT(x, 1);
+    EXPECT_LT(std::min({std::fabs(y), std::fabs(x - 10), std::fabs(x / 10 - y)}), 1e-14);
+  }
+  chamfered >> segments >> marker;
+  ASSERT_EQ(segments, 3U);
+  std::string markers;
+  for (std::size_t n = 0; n < segments; ++n) {
+    ASSERT_TRUE(chamfered >> number >> a >> b >> marker);
+    markers += std::to_string(marker);
+  }
+  std::sort(markers.begin(), markers.end());
+  EXPECT_EQ(markers, "567");
+}
+
 // A cube with a corner torn into three and a triangle missing: refused with its defects, shown,
 // mended, meshed.
 TEST_F(Program, ATornSurfaceIsShownAndMended) {
@@ -768,6 +833,9 @@ TEST_F(Program, AWholeFolder) {
   EXPECT_EQ(text("in.a.tet"), text("in.c.tet"));
   EXPECT_EQ(run("mesh in.a.off in.c.off -o {name}.tet -q"), 0);
   EXPECT_EQ(text("err.txt"), "");
+  EXPECT_EQ(run("mesh in.a.off in.c.off -o {name}.vtu --max-vertices 6"), 1);
+  EXPECT_TRUE(text("err.txt").ends_with("0 of 2 files done, 2 limit reached (exit 5)\n"))
+      << text("err.txt");
   EXPECT_EQ(run("check in.a.off in.c.off -q"), 0);
   const std::string reports = text("out.txt");
   EXPECT_NE(reports.find("in.a.off: a valid surface"), std::string::npos);

@@ -259,6 +259,44 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   EXPECT_GT(json["peak_rss_bytes"], 1000000);
 }
 
+TEST_F(Told, StatsOfThePlaneHaveExactlyTheDocumentedKeys) {
+  std::ofstream(path("in.txt")) << "0 0\n1 0\n0 1\n0 0\n";
+  library_.triangulate_polygon = [](const PlanarGraph&, const Options&) {
+    PlaneResult result;
+    result.mesh.vertices = {{0, 0}, {1, 0}, {0, 1}};
+    result.mesh.triangles = {{0, 1, 2}};
+    result.mesh.inside = {1};
+    result.statistics.final.triangles = 42;
+    result.statistics.guaranteed_delta = 20.7;
+    return result;
+  };
+  ASSERT_EQ(go({"plane", path("in.txt"), "-o", path("a.off"), "--stats", path("s.json")}), kDone)
+      << error_;
+  std::ifstream in(path("s.json"));
+  const auto json = nlohmann::ordered_json::parse(in);
+  const auto keys = [](const nlohmann::ordered_json& object) {
+    std::string out;
+    for (const auto& item : object.items()) out += item.key() + " ";
+    return out;
+  };
+  EXPECT_EQ(keys(json),
+            "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes "
+            "refined final filter chamfer guarantee steiner rounding ");
+  EXPECT_EQ(keys(json["input"]), "file vertices segments bbox_diagonal ");
+  EXPECT_EQ(keys(json["parameters"]),
+            "job delta tau acute as_paper approximate chamfer_radius max_edge size_field "
+            "size_growth region max_vertices time_limit ");
+  for (const char* mesh : {"refined", "final"}) {
+    EXPECT_EQ(keys(json[mesh]),
+              "vertices triangles interior_triangles edges min_angle max_angle mean_min_angle "
+              "mean_max_angle angle_histogram ");
+  }
+  EXPECT_EQ(keys(json["rounding"]), "inverted flat repaired max_segment_deviation ");
+  EXPECT_EQ(json["final"]["triangles"], 42);
+  EXPECT_EQ(json["guarantee"]["delta"], 20.7);
+  EXPECT_EQ(json["input"]["segments"], 3);
+}
+
 TEST_F(Told, CheckReportsAsTextAndJson) {
   report_.facets = 4;
   EXPECT_EQ(go({"check", path("in.off")}), kDone);

@@ -97,6 +97,24 @@ std::string painted(const std::array<std::string, 4>& triangles) {
   return text;
 }
 
+// What means no character stays as it is.
+TEST(ThreeMf, CharactersOfNamesMayBeNumbers) {
+  const std::pair<const char*, const char*> names[] = {
+      {"&#65;&#xe9;&#x20ac;&#x1f600;", "A\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80"},
+      {"&#0;&#xd800;&#x110000;&#65x;&#;&bad;&quot;&apos;&gt;&",
+       "&#0;&#xd800;&#x110000;&#65x;&#;&bad;\"'>&"}};
+  for (const auto& [written, meant] : names) {
+    const ReadResult read =
+        parse_surface(package(model("<![CDATA[ <object id='7'/> ]]><object id='7' name=\"" +
+                                        std::string(written) + "\">" + kTet +
+                                        "</object><object id='8'>" + kTet + "</object>",
+                                    "<item objectid='7'/><item objectid='8'/>")),
+                      "a.3mf");
+    ASSERT_TRUE(read.ok()) << read.error;
+    EXPECT_EQ(read.names.at(1), meant);
+  }
+}
+
 // A triangle's own material, else the object's; a group of its own, else the object's.
 TEST(ThreeMf, MaterialsOfTheOnlyObjectAreLabels) {
   const auto read = [](const std::string& object, const std::array<std::string, 4>& triangles,

@@ -156,6 +156,9 @@ TEST(ReadOff, ErrorsNameTheLine) {
   expect_error("OFF\n1000000000 1000000000 0\n0 0 0\n", "x.off", "too short for 1000000000");
   expect_error("OFF\n99999999999999999999 1 0\n0 0 0\n", "x.off", "bad number of vertices");
   expect_error("", "x.off", "x.off: the file is empty");
+  std::string wide = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n20001";
+  for (int n = 0; n < 20001; ++n) wide += " " + std::to_string(n % 3);
+  expect_error(wide + "\n", "x.off", "x.off:6: a face with 20001 corners (the limit is 20000)");
 }
 
 TEST(ReadOff, UnusedVerticesAreKeptAndReported) {
@@ -197,6 +200,11 @@ TEST(ReadObj, IndicesGroupsAndForwardReferences) {
   EXPECT_EQ(by_group.names, (LabelNames{{1, "a"}, {2, "b"}}));
   EXPECT_EQ(by_group.notes.at(0), "labels by group: 1 = 'a', 2 = 'b'");
   EXPECT_TRUE(read(points + "g a\nusemtl b\nf 1 2 3\nf 3 2 1\n", "x.obj").surface.labels.empty());
+}
+
+TEST(ReadObj, CoordinatesAreFinite) {
+  expect_error("v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n", "x.obj",
+               "x.obj:2: non-finite coordinate 'nan'");
 }
 
 TEST(ReadStl, WeldsEqualCoordinatesOnly) {
@@ -250,6 +258,16 @@ TEST(ReadPly, HeaderErrors) {
   EXPECT_TRUE(read(ply(body), "x.ply").ok());
 }
 
+TEST(ReadPly, LabelsAreIntegersOf32Bits) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+      "z\nelement face 1\nproperty list uchar int vertex_index\nproperty double label\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 ";
+  EXPECT_EQ(read(head + "-7\n", "x.ply").surface.labels, (std::vector<std::int32_t>{-7}));
+  expect_error(head + "2147483648\n", "x.ply", "x.ply:14: a label that is no 32-bit integer");
+  expect_error(head + "0.5\n", "x.ply", "x.ply:14: a label that is no 32-bit integer");
+}
+
 TEST(ReadTetgen, FacetsWithHolesAndNodeFiles) {
   const std::string points =
       "8 3\n1 0 0 0\n2 4 0 0\n3 4 4 0\n4 0 4 0\n5 1 1 0\n6 3 1 0\n7 3 3 0\n8 1 3 0\n";
@@ -264,6 +282,9 @@ TEST(ReadTetgen, FacetsWithHolesAndNodeFiles) {
   expect_error("1 3\n5 0 0 0\n0 0\n", "x.smesh", "x.smesh:2: points have to be numbered");
   expect_error("2 3\n0 0 0 0\n2 0 0 0\n", "x.smesh", "x.smesh:3: point number 2 where 1");
   expect_error("0 3\n1 0\n3 0 1 2\n", "x.smesh", "no .node file");
+  expect_error("1 3\n1 0 0 inf\n", "x.smesh", "x.smesh:2: non-finite coordinate 'inf'");
+  expect_error(points + "1 0\n20001 1 2 3\n", "x.smesh",
+               "x.smesh:11: a face with 20001 corners (the limit is 20000)");
 
   const auto folder =
       std::filesystem::temp_directory_path() / ("delmesher_read_test_" + std::to_string(getpid()));
@@ -273,6 +294,11 @@ TEST(ReadTetgen, FacetsWithHolesAndNodeFiles) {
   const ReadResult beside = read_surface((folder / "t.smesh").string());
   EXPECT_TRUE(beside.ok()) << beside.error;
   EXPECT_EQ(beside.surface.vertices.size(), 4U);
+  std::ofstream(folder / "t.node") << "4 3 0 0\n0 0 0 0\n1 1 0\n";
+  EXPECT_NE(read_surface((folder / "t.smesh").string())
+                .error.find("t.smesh:1: in the .node file, line 3: fewer than 3 coordinates"),
+            std::string::npos)
+      << read_surface((folder / "t.smesh").string()).error;
   std::filesystem::remove_all(folder);
 }
 

@@ -49,6 +49,9 @@ TEST(ReadPlane, NodeFileBesidePoly) {
   ASSERT_TRUE(result.ok()) << result.error;
   EXPECT_EQ(result.graph.vertices.size(), 3U);
   EXPECT_NE(error_of("0 2 0 0\n0\n").find("no .node"), std::string::npos);
+  const auto bad = [] { return std::optional<std::string>("2 2 0 0\n0 0 0\n1 1 x\n"); };
+  EXPECT_EQ(parse_plane("0 2 0 0\n1 0\n0 0 1\n0\n", "f.poly", bad).error,
+            "f.poly:1: in the .node file, line 3: bad number 'x'");
 }
 
 TEST(ReadPlane, ErrorsNameTheLine) {
@@ -61,6 +64,7 @@ TEST(ReadPlane, ErrorsNameTheLine) {
   EXPECT_NE(error_of("2 2\n1 0 0\n").find("file ends"), std::string::npos);
   EXPECT_NE(error_of("", "f.txt").find("no points"), std::string::npos);
   EXPECT_EQ(error_of("0 0\n1\n", "f.txt"), "f.txt:2: y is missing");
+  EXPECT_EQ(error_of("0 0\n1 two\n", "f.txt"), "f.txt:2: bad number 'two'");
 }
 
 TEST(ReadPlane, PolygonsShareBorders) {
@@ -89,6 +93,9 @@ TEST(ReadPlane, FlatSurfaces) {
             std::string::npos);
   const char* overlapping = "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n.2 .2 0\n3 0 1 2\n3 0 1 3\n";
   EXPECT_EQ(error_of(overlapping, "f.off"), "f.off: triangles 0 and 1 overlap");
+  EXPECT_EQ(error_of("OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n1 1 0\n3 0 1 2\n3 1 0 3\n3 0 1 4\n",
+                     "f.off"),
+            "f.off: edge 0-1 has 3 triangles");
 }
 
 TEST(ReadPlane, PolylinesOfObj) {

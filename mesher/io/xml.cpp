@@ -57,6 +57,7 @@ bool append_reference(std::string& out, std::string_view reference) {
   const char* const last = reference.data() + reference.size();
   const auto [end, error] = std::from_chars(reference.data(), last, code, hexadecimal ? 16 : 10);
   if (error != std::errc() || end != last || code == 0 || code > 0x10ffff) return false;
+  if (code >= 0xd800 && code < 0xe000) return false;  // half of a UTF-16 character
   append_utf8(out, code);
   return true;
 }
