@@ -102,6 +102,22 @@ TEST(Arguments, AllOptions) {
   EXPECT_TRUE(parsed.command.verbose);
 }
 
+TEST(Arguments, PlanarIsANumberOrAuto) {
+  const auto planar = [](std::vector<std::string> more) {
+    std::vector<std::string> all = {"a.off", "-o", "a.mesh", "--planar"};
+    all.insert(all.end(), more.begin(), more.end());
+    const Parsed parsed = parse(all);
+    EXPECT_TRUE(parsed.run) << parsed.error;
+    return parsed.command.options.planar;
+  };
+  EXPECT_EQ(planar({"0"}), 0);
+  EXPECT_EQ(planar({"1e-4"}), 1e-4);
+  EXPECT_EQ(planar({"auto"}), kPlanarAuto);
+  EXPECT_EQ(planar({"auto", "--preset", "paper"}), kPlanarAuto);
+  expect_usage_error({"a.off", "-o", "a.mesh", "--planar", "0.02"}, "--planar");
+  expect_usage_error({"a.off", "-o", "a.mesh", "--planar", "some"}, "--planar");
+}
+
 TEST(Arguments, ExplicitOptionsOverrideThePresetInAnyOrder) {
   const Options paper = parse({"i.off", "-o", "o.mesh", "--preset", "paper"}).command.options;
   EXPECT_EQ(paper.threads, 1U);

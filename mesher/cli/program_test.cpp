@@ -431,6 +431,18 @@ TEST_F(Program, DefectsOfEveryKindHaveTheirColour) {
   }
 }
 
+TEST_F(Program, SizesStandInAFile) {
+  write("in.off", cube());
+  write("in.sizes", "0 0 0 0.05\n");
+  ASSERT_EQ(run("mesh in.off -q -o coarse.tet"), 0);
+  ASSERT_EQ(run("mesh in.off -q -o fine.tet --size-field in.sizes"), 0) << text("err.txt");
+  EXPECT_GT(text("fine.tet").size(), 10 * text("coarse.tet").size());
+  write("in.sizes", "0 0 0 0.05\n0 0 1 -1\n");
+  EXPECT_EQ(run("mesh in.off -o no.tet --size-field in.sizes"), 3);
+  EXPECT_EQ(text("err.txt"), "delmesher: in.sizes:2: sizes have to be above 0\n");
+  EXPECT_FALSE(fs::exists(path("no.tet")));
+}
+
 // A needle of 6 degrees: its sharp vertex is cut off, all else is on the faces that were given.
 TEST_F(Program, SavesTheChamferedSurface) {
   write("in.off",

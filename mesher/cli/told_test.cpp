@@ -21,6 +21,27 @@ TEST(ProgressText, SaysWhatIsKnown) {
   EXPECT_EQ(progress_text({Phase::check, 7, 0}), "check     100 %");
 }
 
+// Within a tenth of a second only another phase is shown; at the end the line is empty.
+TEST(ProgressLine, IsWrittenOverAndWipedOut) {
+  const auto written = [](bool enabled, bool escapes) {
+    std::FILE* const file = std::tmpfile();
+    EXPECT_NE(file, nullptr);
+    {
+      ProgressLine line(file, enabled, escapes);
+      line.show({Phase::refine, 0.5, 0});
+      line.show({Phase::check, -1, 0});
+    }
+    std::string text(200, ' ');
+    std::rewind(file);
+    text.resize(std::fread(text.data(), 1, text.size(), file));
+    std::fclose(file);
+    return text;
+  };
+  EXPECT_EQ(written(false, true), "");
+  EXPECT_EQ(written(true, true), "\rrefine    50 %\x1b[K\rcheck\x1b[K\r\x1b[K\r");
+  EXPECT_EQ(written(true, false), "\rrefine    50 %\rcheck         \r     \r");
+}
+
 TEST(ProgressText, TellsTheRestOfThePhase) {
   EXPECT_EQ(progress_text({Phase::improve, 0.25, 0}, 30), "improve   25 %, 90 s left");
   EXPECT_EQ(progress_text({Phase::improve, 0.25, 0}, 60), "improve   25 %, 3 min left");
