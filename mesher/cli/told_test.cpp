@@ -9,6 +9,12 @@
 namespace delmesher::cli {
 namespace {
 
+std::string keys(const nlohmann::ordered_json& object) {
+  std::string out;
+  for (const auto& item : object.items()) out += item.key() + " ";
+  return out;
+}
+
 class Told : public RunTest {};
 
 TEST(ProgressText, SaysWhatIsKnown) {
@@ -240,11 +246,6 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
   ASSERT_EQ(go({path("in.off"), "-o", path("a.mesh"), "--stats", path("s.json")}), kDone);
   std::ifstream in(path("s.json"));
   const auto json = nlohmann::ordered_json::parse(in);
-  const auto keys = [](const nlohmann::ordered_json& object) {
-    std::string out;
-    for (const auto& item : object.items()) out += item.key() + " ";
-    return out;
-  };
   EXPECT_EQ(
       keys(json),
       "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes refined "
@@ -295,11 +296,6 @@ TEST_F(Told, StatsOfThePlaneHaveExactlyTheDocumentedKeys) {
       << error_;
   std::ifstream in(path("s.json"));
   const auto json = nlohmann::ordered_json::parse(in);
-  const auto keys = [](const nlohmann::ordered_json& object) {
-    std::string out;
-    for (const auto& item : object.items()) out += item.key() + " ";
-    return out;
-  };
   EXPECT_EQ(keys(json),
             "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes "
             "refined final filter chamfer guarantee steiner rounding ");
