@@ -438,7 +438,10 @@ TEST(Precision, EndsWithALimitThatNamesTheEdge) {
   for (const double gap : {1e-6, 1e-16, 1e-20}) {
     expect_right({"gap " + std::to_string(gap), crossing_edges(gap)}, default_options());
   }
-  for (const double gap : {1e-40, 1e-100, 1e-323}) {
+  Options unfiltered = default_options();
+  unfiltered.tau = 0;
+  expect_right({"gap 1e-40", crossing_edges(1e-40)}, unfiltered);
+  for (const double gap : {1e-60, 1e-100, 1e-323}) {
     for (const double tau : {1e-4, 0.0}) {
       Options options;
       options.tau = tau;
