@@ -287,6 +287,15 @@ double along_bar(const ExactRecord& record, const ExactRecord::Tet& tet) {
   return x;
 }
 
+// The first one inside whose centre is near x; as many as there are if there is none.
+std::size_t inside_near(const ExactRecord& record, const std::vector<ExactRecord::Tet>& tets,
+                        double x) {
+  const auto found = std::find_if(tets.begin(), tets.end(), [&](const auto& tet) {
+    return tet.inside && std::fabs(along_bar(record, tet) - x) < 1;
+  });
+  return static_cast<std::size_t>(found - tets.begin());
+}
+
 // A tetrahedron that was inverted before the improvement excuses a flat one near it afterwards, and
 // none far from it.
 TEST(Improvement, IsNotExcusedByRoundingElsewhere) {
@@ -300,17 +309,12 @@ TEST(Improvement, IsNotExcusedByRoundingElsewhere) {
     ExactRecord& r = told.record;
     r.unrepaired = r.final;
     r.unrepaired_facets = r.final_facets;
-    const auto at = [&r](std::vector<ExactRecord::Tet>& tets, double x) {
-      return std::find_if(tets.begin(), tets.end(), [&r, x](const auto& tet) {
-        return tet.inside && std::fabs(along_bar(r, tet) - x) < 1;
-      });
-    };
-    const auto defect = at(r.unrepaired, defect_at);
-    EXPECT_NE(defect, r.unrepaired.end());
-    std::swap(defect->vertices[0], defect->vertices[1]);
-    const auto flat = at(r.final, flat_at);
-    EXPECT_NE(flat, r.final.end());
-    flatten(told, static_cast<std::size_t>(flat - r.final.begin()));
+    const std::size_t defect = inside_near(r, r.unrepaired, defect_at);
+    EXPECT_LT(defect, r.unrepaired.size());
+    std::swap(r.unrepaired[defect].vertices[0], r.unrepaired[defect].vertices[1]);
+    const std::size_t flat = inside_near(r, r.final, flat_at);
+    EXPECT_LT(flat, r.final.size());
+    flatten(told, flat);
     ExactPoints points;
     points.assign(r.points);
     return check_improvement(r, points, told.promise);
@@ -348,19 +352,13 @@ TEST(Improvement, IsNotExcusedByWhatIsAsBadElsewhere) {
   Told told = run_of(bar(40), options);
   told.promise.improve = true;
   ExactRecord& r = told.record;
-  const auto at = [&r](double x) {
-    const auto found = std::find_if(r.final.begin(), r.final.end(), [&r, x](const auto& tet) {
-      return tet.inside && std::fabs(along_bar(r, tet) - x) < 1;
-    });
-    return static_cast<std::size_t>(found - r.final.begin());
-  };
   ExactPoints points;
-  flatten(told, at(2));
+  flatten(told, inside_near(r, r.final, 2));
   r.unrepaired = r.final;
   r.unrepaired_facets = r.final_facets;
   points.assign(r.points);
   EXPECT_TRUE(check_improvement(r, points, told.promise).passed());
-  flatten(told, at(36));
+  flatten(told, inside_near(r, r.final, 36));
   points.assign(r.points);
   EXPECT_FALSE(check_improvement(r, points, told.promise).passed());
 }
@@ -375,18 +373,12 @@ TEST(Improvement, IsExcusedByWhatWasThereWhereAllVerticesMoved) {
     Told told = plain;
     told.promise.improve = true;
     ExactRecord& r = told.record;
-    const auto flatten_at = [&told, &r](double x) {
-      const auto found = std::find_if(r.final.begin(), r.final.end(), [&r, x](const auto& tet) {
-        return tet.inside && std::fabs(along_bar(r, tet) - x) < 1;
-      });
-      flatten(told, static_cast<std::size_t>(found - r.final.begin()));
-    };
-    flatten_at(before);
+    flatten(told, inside_near(r, r.final, before));
     r.unrepaired = r.final;
     r.final = plain.record.final;
     told.sample.mesh = plain.sample.mesh;
     r.mesh_vertices = plain.record.mesh_vertices;
-    flatten_at(after);
+    flatten(told, inside_near(r, r.final, after));
     const auto count = static_cast<Index>(r.points.size());
     const std::vector<delmesher::ExactPoint> same = r.points;
     r.points.insert(r.points.end(), same.begin(), same.end());

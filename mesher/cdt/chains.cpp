@@ -15,6 +15,10 @@ double safe_distance(const Vec3& a, const Vec3& b) {
   return m * std::sqrt(x * x + y * y + z * z);
 }
 
+double distance_between(const PointStore& points, VertexId a, VertexId b) {
+  return safe_distance(points.difference(a, b), {});
+}
+
 Chains::Chains(const CdtInput& input, const PointStore& points)
     : topology_(input.topology),
       points_(points),
@@ -54,14 +58,13 @@ std::array<double, 2> Chains::fractions(std::uint32_t edge, VertexId v) const {
     if (d.corner[0] == end[1] && d.corner[1] == end[0]) return {d.u, 1 - d.u};
     if (d.corner[0] == end[0] && d.corner[1] == end[1]) return {1 - d.u, d.u};
   }
-  const double a = safe_distance(points_.difference(end[0], v), {}),
-               b = safe_distance(points_.difference(end[1], v), {});
+  const double a = distance_between(points_, end[0], v), b = distance_between(points_, end[1], v);
   return {a / (a + b), b / (a + b)};
 }
 
 double Chains::length(std::uint32_t edge) const {
   const std::array<VertexId, 2> end = topology_->edge_vertices(edge);
-  return safe_distance(points_.difference(end[0], end[1]), {});
+  return distance_between(points_, end[0], end[1]);
 }
 
 std::vector<VertexId> Chains::vertices(std::uint32_t edge) const {

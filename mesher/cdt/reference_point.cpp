@@ -18,7 +18,7 @@ bool ReferenceFinder::meets(VertexId a, VertexId b, VertexId p, VertexId q, Vert
 }
 
 VertexId ReferenceFinder::find(VertexId a, VertexId b) {
-  const double length = safe_distance(points_.difference(a, b), {});
+  const double length = distance_between(points_, a, b);
   VertexId best = kNone;
   double best_sine = 2;
   if (mark_.size() < mesh_.capacity()) mark_.resize(mesh_.capacity() * 3 / 2, 0);

@@ -29,8 +29,8 @@ SplitTarget SplitRule::target(std::uint32_t n, Centre centre, VertexId reference
     bool soon = false;
     if (SplitTarget t{}; target_opposite(u, w, reference, t, soon)) return t;
     if (soon) return middle;
-    const double to_u = distance(u.vertex, reference) / length;
-    const double to_w = distance(w.vertex, reference) / length;
+    const double to_u = distance_between(points_, u.vertex, reference) / length;
+    const double to_w = distance_between(points_, w.vertex, reference) / length;
     const double step = std::min(to_u, to_w);
     // Written so that a NaN means the middle, here and below.
     if (!(step > 0 && step <= width / 2)) return middle;
@@ -161,11 +161,7 @@ double SplitRule::distance_from_apex(VertexId apex, VertexId v) const {
       if (end[k] == apex) return chains_.node(n).from[k] * chains_.length(edge);
     }
   }
-  return distance(apex, v);
-}
-
-double SplitRule::distance(VertexId a, VertexId b) const {
-  return safe_distance(points_.difference(a, b), {});
+  return distance_between(points_, apex, v);
 }
 
 // At angles below 2^-40 a radius of 53 bits is not enough for two points to be on the same sphere

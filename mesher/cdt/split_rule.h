@@ -35,7 +35,6 @@ class SplitRule {
   SplitTarget on_sphere(const ChainNode& u, const ChainNode& w, int centre, VertexId reference,
                         const SplitTarget& middle);
   double distance_from_apex(VertexId apex, VertexId v) const;
-  double distance(VertexId a, VertexId b) const;
   void sharpen(SplitTarget& target, std::uint32_t edge, VertexId reference);
   Dyadic product(VertexId a, VertexId v, VertexId b) const;
   Dyadic squared_distance(VertexId a, VertexId b) const { return product(a, b, b); }
