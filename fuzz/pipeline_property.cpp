@@ -285,12 +285,15 @@ Finding cdt_holds(const Surface& surface) {
 }
 
 Finding refinement_holds(const Surface& surface) {
-  judging({&too_many_vertices, &too_precise, &nothing_refined});
+  judging({&too_many_vertices, &too_precise, &nothing_refined, &left_by_rounding});
   Options options = options_for(surface);
   options.approximate = true;
   const Result result = meshed(surface, options);
   if (result.status.code == StatusCode::limit_reached) return at_limit(surface, result.status);
   if (!result.status.ok()) return "status: " + result.status.message;
+  // The refined mesh keeps all its points, also where there is no room for them as written.
+  const delmesher::Statistics& s = result.statistics;
+  if (s.rounding_inverted + s.rounding_flat > 0) return judged_as_written(surface, result);
   return verified(surface, result, Stage::refined, options);
 }
 

@@ -91,7 +91,7 @@ chamfer::ChamferedSurface filter_to_budget(Budget& budget, const Fallback& fallb
 
 refine::RefineResult refine_mesh(chamfer::ChamferedSurface& chamfered, double tau,
                                  Fallback& fallback, Session& s) {
-  refine::add_outer_box(s.topology, s.points, chamfered.chamfer.plc);
+  refine::add_outer_box(s.topology, s.points, chamfered.chamfer.plc, s.frame);
   refine::RefineOptions options;
   options.delta = s.options.delta;
   options.slivers = s.options.slivers;
@@ -203,8 +203,7 @@ void write_refined(const chamfer::ChamferedSurface& chamfered, refine::RefineRes
                    Session& s, Recorder& recorder) {
   refined.delaunay.reset();
   s.control.enter(Phase::round);
-  MeshToWrite exact =
-      approximate_mesh(chamfered.chamfer, refined, s.topology, s.points, s.given, s.options.region);
+  MeshToWrite exact = approximate_mesh(chamfered.chamfer, refined, s);
   output::RoundingResult rounded = output::round_mesh(std::move(exact.rounding), s.control);
   s.control.poll_now(rounded.vertices.size(), 1);  // small meshes are hardly asked before
   recorder.written(exact, std::move(rounded));
@@ -271,10 +270,11 @@ Status plain_cdt(const Surface& surface, Session& s, Recorder& recorder) {
 
 using Pipeline = Status (*)(const Surface&, Session&, Recorder&);
 
-Result run(Pipeline pipeline, const Surface& surface, const Options& options) {
+Result run(Pipeline pipeline, const Surface& surface, const Options& options,
+           const LocalFrame& frame) {
   Result result;
   Control control(options);
-  Session session(options, control);
+  Session session(options, control, frame);
   Recorder recorder(session, result);
   result.status = guarded(control, [&]() -> Status {
     if (const std::string defect = options_defect(options, kBounds); !defect.empty()) {
@@ -287,18 +287,18 @@ Result run(Pipeline pipeline, const Surface& surface, const Options& options) {
   return result;
 }
 
-Result run_mesh(const Surface& surface, const Options& options) {
+Result run_mesh(const Surface& surface, const Options& options, const LocalFrame& frame) {
   FinerPlanes planes(options);
-  Result best = run(mesh, surface, options);
+  Result best = run(mesh, surface, options, frame);
   while (planes.plan_run_after(best)) {
     FinerPlanes::keep_better(
-        run(planes.directly() ? mesh_directly : mesh, surface, planes.options()), best);
+        run(planes.directly() ? mesh_directly : mesh, surface, planes.options(), frame), best);
   }
   return best;
 }
 
-Result run_plain_cdt(const Surface& surface, const Options& options) {
-  return run(plain_cdt, surface, options);
+Result run_plain_cdt(const Surface& surface, const Options& options, const LocalFrame& frame) {
+  return run(plain_cdt, surface, options, frame);
 }
 
 }  // namespace

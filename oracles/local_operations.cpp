@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "oracles/angles.h"
 #include "oracles/edge_key.h"
 #include "oracles/edge_sizes.h"
 #include "oracles/input_surface.h"
+#include "oracles/record_origin.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -33,9 +35,15 @@ Position rounded(const ExactPoints& points, Index v) {
   return result;
 }
 
-ExactPoints all_rounded(const ExactPoints& points) {
+// As doubles; those that are doubles in given coordinates, too, if these have another origin.
+ExactPoints all_rounded(const ExactPoints& points, const Position& origin) {
   std::vector<Position> nearest(points.size());
-  for (Index v = 0; v < points.size(); ++v) nearest[v] = rounded(points, v);
+  for (Index v = 0; v < points.size(); ++v) {
+    nearest[v] = rounded(points, v);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (origin[i] != 0) nearest[v][i] = (origin[i] + nearest[v][i]) - origin[i];
+    }
+  }
   ExactPoints doubles;
   doubles.assign(nearest);
   return doubles;
@@ -101,7 +109,7 @@ class Repairs {
   }
 
   void find_defects() {
-    const ExactPoints doubles = all_rounded(points_);
+    const ExactPoints doubles = all_rounded(points_, record_.origin);
     ring_.assign(points_.size(), kFar);
     for (const ExactRecord::Tet& tet : record_.unrepaired) {
       if (!all_ && !tet.inside) continue;
@@ -140,12 +148,14 @@ class Improvement {
   Improvement(const ExactRecord& record, const ExactPoints& points, const Promise& promise,
               const std::vector<Index>& returned)
       : record_(record),
-        doubles_(all_rounded(points)),
+        doubles_(all_rounded(points, {})),
         all_(promise.region == delmesher::Region::hull),
         goal_{promise.guaranteed_delta(), kImprovedDihedral},
         longest_(promise.max_edge),
         sizes_(promise.size_field, promise.size_growth),
-        returned_(returned) {}
+        returned_(returned) {
+    if (names_origin(record)) written_ = all_rounded(points, record.origin);
+  }
 
   OracleReport run() {
     measure_before();
@@ -202,6 +212,7 @@ class Improvement {
   WorstAngles angles_of(const ExactRecord::Tet& tet) const {
     const auto& [a, b, c, d] = tet.vertices;
     if (exact::orient3d(doubles_, a, b, c, d) <= 0) return {0, 0};
+    if (written_ && exact::orient3d(*written_, a, b, c, d) <= 0) return {0, 0};
     return worst_angles(doubles_, tet.vertices);
   }
 
@@ -366,7 +377,8 @@ class Improvement {
   }
 
   const ExactRecord& record_;
-  const ExactPoints doubles_;  // the nearest ones
+  const ExactPoints doubles_;           // the nearest ones
+  std::optional<ExactPoints> written_;  // in given coordinates, where these have another origin
   const bool all_;
   const WorstAngles goal_;
   const double longest_;

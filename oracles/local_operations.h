@@ -22,7 +22,8 @@ OracleReport check_repairs(const delmesher::ExactRecord& record, const ExactPoin
 // whichever is smaller), a tetrahedron at least as bad was there before, at most kOperationsReach
 // edges away along edges of either mesh; so neither the smallest nor the flattest one becomes
 // worse, and nothing bad is made where all was good. One that was not positive on the nearest
-// doubles counts as flat, as repairs of rounding may follow there. Where all vertices have moved so
+// doubles, or on those that are doubles in given coordinates, too, counts as flat, as repairs of
+// rounding may follow there. Where all vertices have moved so
 // far around, the edges are counted from a tetrahedron of the mesh before whose bounding box meets
 // that of the bad one; how many need this is the figure kByPlace, which a report has only then. No
 // edge longer than --max-edge or than --size-field allows is new.

@@ -29,6 +29,7 @@ void scale(delmesher::ExactRecord& record, Scaling& scaled) {
   using Kind = delmesher::ExactPoint::Kind;
   scaled(record.parameters.tolerance);
   scaled(record.parameters.planar);
+  scaled(record.origin);
   for (auto& plane : record.planes) {
     for (auto& point : plane.through) scaled(point);
   }

@@ -79,6 +79,6 @@ OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord&
 OracleReport check_written_vertices(const Promise& promise, std::size_t written);
 
 // The version of the sidecar that has all sections the oracles ask for.
-inline constexpr unsigned kRecordVersion = 5;
+inline constexpr unsigned kRecordVersion = 6;
 
 }  // namespace tetproof::oracles

@@ -19,9 +19,10 @@ class SidecarReader {
 
   ExactRecord read() {
     reader_.expect("delmesher-exact");
-    version_ = reader_.index(0, 6);
+    version_ = reader_.index(0, 7);
     if (version_ == 0) reader_.fail("unknown version 0");
     if (version_ >= 2) read_parameters();
+    if (version_ >= 6) read_origin();
     if (version_ >= 4) read_surface();
     read_points();
     reader_.list("facets", record_.facets, [&](auto& facet) {
@@ -66,6 +67,12 @@ class SidecarReader {
     p.region = flag() ? delmesher::Region::hull : delmesher::Region::interior;
     p.gabriel = flag();
     if (version_ >= 4) p.planar = reader_.exact_number();
+  }
+
+  void read_origin() {
+    reader_.expect("origin");
+    reader_.expect("1");
+    coordinates(record_.origin);
   }
 
   void read_surface() {

@@ -1,6 +1,7 @@
 #include "oracles/verification.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace tetproof::oracles {
@@ -44,6 +45,11 @@ std::vector<Verification::Part> Verification::parts(const delmesher::ExactRecord
                    Bulk::unrepaired_tetrahedra, Bulk::final_meshes},
                   {}});
   return list;
+}
+
+double Verification::ulp_of(const InputSurface& surface) const {
+  const double largest = std::max(surface.largest_coordinate(), shared_.largest_given);
+  return std::ldexp(1.0, std::ilogb(largest) - 52);
 }
 
 void Verification::move_to(VerifyReport& report, double& ulp, double& diagonal) {

@@ -83,6 +83,8 @@ class Verification {
   OracleReport check_edges(const TetComplex& complex) const;
   OracleReport check_sizes(const TetComplex& complex) const;
 
+  // The unit in the last place of the largest coordinate as given.
+  double ulp_of(const InputSurface& surface) const;
   double delta() const;
   AngleScope scope() const;
   void add(OracleReport oracle, const std::string& prefix = {}) {

@@ -8,6 +8,7 @@
 #include "oracles/input_digits.h"
 #include "oracles/ordinary_units.h"
 #include "oracles/parallel.h"
+#include "oracles/record_origin.h"
 #include "oracles/verdict.h"
 #include "oracles/verification.h"
 
@@ -22,11 +23,13 @@ std::string scope_of(const VerifyOptions& options, bool recorded) {
   return more ? "the refined mesh" : "";
 }
 
-// Runs all parts in the order of their turns.
+// Runs all parts in the order of their turns. `largest`: coordinate of the input as given, where it
+// has been moved; else 0.
 std::string run_parts(const Polyhedron& input, const MeshFile& mesh,
                       const delmesher::ExactRecord* exact, const VerifyOptions& options,
-                      const Expendable& expendable, VerifyReport& report) {
+                      double largest, const Expendable& expendable, VerifyReport& report) {
   SharedData shared(input, exact, options.promised, expendable);
+  shared.largest_given = largest;
   const std::vector<Verification::Part> list = Verification::parts(exact, options.stage);
   std::vector<Verification> parts(list.size(), {input, mesh, exact, options, shared});
   std::vector<std::size_t> order(list.size());
@@ -56,13 +59,15 @@ std::string run_parts(const Polyhedron& input, const MeshFile& mesh,
 }
 
 // Of which every deviation is in input units again; other figures of lengths are not.
-std::string verify_scaled(InOrdinaryUnits& task, VerifyOptions options, VerifyReport& report) {
+std::string verify_scaled(InOrdinaryUnits& task, VerifyOptions options, double largest,
+                          VerifyReport& report) {
   options.promised = task.promise;
   const bool text_skipped = task.record.has_value() && !options.sidecar.empty();
   options.sidecar.clear();  // its text is in the other units
   delmesher::ExactRecord* record = task.record ? &*task.record : nullptr;
   std::string refusal =
-      run_parts(task.input, task.mesh, record, options, {&task.mesh, record}, report);
+      run_parts(task.input, task.mesh, record, options, std::ldexp(largest, -task.exponent),
+                {&task.mesh, record}, report);
   report.deviation = std::ldexp(report.deviation, task.exponent);
   report.slab = std::ldexp(report.slab, task.exponent);
   for (OracleReport& oracle : report.oracles) {
@@ -76,15 +81,38 @@ std::string verify_scaled(InOrdinaryUnits& task, VerifyOptions options, VerifyRe
 
 std::string verify_in_units(const Polyhedron& input, const MeshFile& mesh,
                             const delmesher::ExactRecord* exact, const VerifyOptions& options,
+                            double largest, const Expendable& expendable, VerifyReport& report) {
+  if (auto scaled = in_ordinary_units(input, mesh, exact, options.promised)) {
+    return verify_scaled(*scaled, options, largest, report);
+  }
+  return run_parts(input, mesh, exact, options, largest, expendable, report);
+}
+
+std::string verify_beside_origin(BesideOrigin task, VerifyOptions options, VerifyReport& report) {
+  OracleReport origin = move_to_origin(task);
+  if (options.progress) options.progress(origin);
+  const bool exact = origin.passed();
+  report.oracles.push_back(std::move(origin));
+  if (!exact) {
+    conclude(0, 0, report);
+    return {};
+  }
+  options.promised = task.promise;
+  return verify_in_units(task.input, task.mesh, &task.record, options, task.largest,
+                         {&task.mesh, &task.record}, report);
+}
+
+std::string verify_as_given(const Polyhedron& input, const MeshFile& mesh,
+                            const delmesher::ExactRecord* exact, const VerifyOptions& options,
                             const Expendable& expendable, VerifyReport& report) {
   VerifyOptions known = options;
   known.promised.automatic_planar = automatic_planar_share(input);
   report = {};
   report.planar_share = known.promised.planar_share();
-  if (auto scaled = in_ordinary_units(input, mesh, exact, known.promised)) {
-    return verify_scaled(*scaled, known, report);
+  if (exact != nullptr && names_origin(*exact)) {
+    return verify_beside_origin({input, mesh, *exact, known.promised}, known, report);
   }
-  return run_parts(input, mesh, exact, known, expendable, report);
+  return verify_in_units(input, mesh, exact, known, 0, expendable, report);
 }
 
 }  // namespace
@@ -92,13 +120,13 @@ std::string verify_in_units(const Polyhedron& input, const MeshFile& mesh,
 std::string verify(const Polyhedron& input, const MeshFile& mesh,
                    const delmesher::ExactRecord* exact, const VerifyOptions& options,
                    VerifyReport& report) {
-  return verify_in_units(input, mesh, exact, options, {}, report);
+  return verify_as_given(input, mesh, exact, options, {}, report);
 }
 
 std::string verify_and_discard(const Polyhedron& input, MeshFile& mesh,
                                delmesher::ExactRecord* exact, const VerifyOptions& options,
                                VerifyReport& report) {
-  return verify_in_units(input, mesh, exact, options, {&mesh, exact}, report);
+  return verify_as_given(input, mesh, exact, options, {&mesh, exact}, report);
 }
 
 }  // namespace tetproof::oracles

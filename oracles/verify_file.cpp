@@ -76,7 +76,7 @@ std::string Verification::check_file() {
     if (std::string why = points.assign(positions); !why.empty()) return why;
   }
   if (std::string why = surface.assign(input_, points); !why.empty()) return why;
-  ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
+  ulp_ = ulp_of(surface);
   diagonal_ = surface.diagonal();
   if (!mesh_.edge_nodes.empty() || (options_.promised.second_order && mesh_.has_second_order)) {
     OracleReport nodes = check_edge_nodes(

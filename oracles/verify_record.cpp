@@ -64,7 +64,7 @@ std::string Verification::check_sidecar() {
   if (sidecar.usable) check_all_is_used(*exact_, input_.vertices.size(), report);
   add(std::move(report));
   if (!sidecar.usable) return sidecar.why;
-  ulp_ = std::ldexp(1.0, std::ilogb(sidecar.surface.largest_coordinate()) - 52);
+  ulp_ = ulp_of(sidecar.surface);
   diagonal_ = sidecar.diagonal;
   // First, as the points that are written take much memory; told last.
   OracleReport rounding = check_written();
@@ -105,7 +105,7 @@ std::string Verification::check_exact_final() {
   if (!sidecar.usable) return {};
   const ExactPoints& points = sidecar.final_points();
   const InputSurface& surface = sidecar.final_surface();
-  ulp_ = std::ldexp(1.0, std::ilogb(surface.largest_coordinate()) - 52);
+  ulp_ = ulp_of(surface);
   check_final_complex(points, surface);
   const bool usable = shared_.final()->shape.passed();
   shared_.forget_final();

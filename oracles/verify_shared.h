@@ -153,6 +153,7 @@ class SharedData {
     return std::move(in_refined_);
   }
   std::mutex progress;
+  double largest_given = 0;  // coordinate of the input, if it is larger than those told
 
  private:
   void read_sidecar();

@@ -32,7 +32,7 @@ std::vector<Family> sharp_families();
 std::vector<Family> close_families();
 // Ties: points on common spheres and cylinders, booleans on common planes; large and small numbers.
 std::vector<Family> tied_families();
-// Other surfaces, changed: moved, scaled, damaged, edited; rotated and noisy ones.
+// Other surfaces, changed: moved, coarse, scaled, damaged, edited; rotated and noisy ones.
 std::vector<Family> derived_families();
 
 // All of them.

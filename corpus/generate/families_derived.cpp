@@ -40,6 +40,12 @@ Surface offset(FamilyMember& m) {
   return s;
 }
 
+// So small, far away, that few doubles lie in it. Candidates that did not survive make it larger.
+Surface coarse(FamilyMember& m) {
+  const Surface s = some_surface(m, 10);
+  return coarsened(s, m.random.integer(1, 30) + (50 - m.bits) / 3, m.random);
+}
+
 // Very large, very small, or both in different directions.
 Surface scale(FamilyMember& m) {
   Random& r = m.random;
@@ -101,13 +107,15 @@ Surface noisy(FamilyMember& m) {
 }  // namespace
 
 std::vector<Family> derived_families() {
-  return {{"offset", "surfaces moved until few bits of their shape are left", offset},
-          {"scale", "surfaces times powers of two, down to 2^-300 and up to 2^300", scale},
-          {"damaged", "vertices pulled to within 2^-50 of a facet (see --model)", damaged},
-          {"edited", "half-edge edits of other surfaces (see --model)", edited},
-          {"rotated", "facets bent by rounding: rotated, to doubles, float32 or six digits",
-           rotated_member},
-          {"noisy", "facets bent by noise of 2^-52 to 2^-16, or split at rounded points", noisy}};
+  return {
+      {"offset", "surfaces moved until few bits of their shape are left", offset},
+      {"coarse", "surfaces of 2 to 2^30 roundings of their coordinates, and a few more", coarse},
+      {"scale", "surfaces times powers of two, down to 2^-300 and up to 2^300", scale},
+      {"damaged", "vertices pulled to within 2^-50 of a facet (see --model)", damaged},
+      {"edited", "half-edge edits of other surfaces (see --model)", edited},
+      {"rotated", "facets bent by rounding: rotated, to doubles, float32 or six digits",
+       rotated_member},
+      {"noisy", "facets bent by noise of 2^-52 to 2^-16, or split at rounded points", noisy}};
 }
 
 const std::vector<Family>& families() {

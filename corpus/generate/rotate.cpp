@@ -77,6 +77,34 @@ Surface rotated(const Surface& surface, const Quaternion& rotation, Precision pr
   return result;
 }
 
+Surface coarsened(const Surface& surface, int bits, Random& random) {
+  if (surface.vertices.empty()) return surface;
+  Point low = surface.vertices[0], high = low, origin{};
+  for (const Point& p : surface.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  double longest = 0, farthest = 0;
+  const std::size_t moved = random.below(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    longest = std::max(longest, high[i] - low[i]);
+    if (i != moved && random.chance(0.3)) continue;
+    // Below a power of two roundings are half as large as above it.
+    const double power = std::ldexp(1.0, random.integer(-2, 25));
+    origin[i] = random.sign() * power * (random.chance(0.5) ? 1 : 1 + random.unit());
+    farthest = std::max(farthest, std::fabs(origin[i]));
+  }
+  if (!(longest > 0) || !std::isfinite(longest)) return surface;
+  const double size = std::ldexp(1.0, std::ilogb(farthest) - 52 + bits);
+  Surface result = surface;
+  for (Point& p : result.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) p[i] = origin[i] + (p[i] - low[i]) / longest * size;
+  }
+  return result;
+}
+
 void add_noise(Surface& surface, double amplitude, Random& random) {
   double largest = 0;
   for (const Point& p : surface.vertices) {

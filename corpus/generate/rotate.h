@@ -30,6 +30,11 @@ Quaternion rotation_from(Random& random);
 delmesher::Surface rotated(const delmesher::Surface& surface, const Quaternion& rotation,
                            Precision precision);
 
+// Somewhere else, at most 2^26 away, and so small there that its longest side is 2^bits roundings
+// of the largest of the new origin's coordinates: each vertex is rounded, and few doubles are left
+// for the points that a mesher adds. Flat surfaces and single points stay as they are.
+delmesher::Surface coarsened(const delmesher::Surface& surface, int bits, Random& random);
+
 // Every coordinate moved by up to `amplitude` times the largest coordinate.
 void add_noise(delmesher::Surface& surface, double amplitude, Random& random);
 

@@ -32,6 +32,34 @@ double largest_coordinate(const Surface& s) {
   return largest;
 }
 
+// Width 2^bits roundings of the farthest coordinate, up to the rounding of both ends.
+TEST(Coarsened, IsAsManyRoundingsWideAsAskedFor) {
+  Random random(5);
+  for (int bits = 2; bits <= 30; bits += 4) {
+    for (int k = 0; k < 20; ++k) {
+      const Surface coarse = coarsened(a_box(), bits, random);
+      double widest = 0, unit = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [low, high] =
+            std::minmax_element(coarse.vertices.begin(), coarse.vertices.end(),
+                                [i](const Point& p, const Point& q) { return p[i] < q[i]; });
+        widest = std::max(widest, (*high)[i] - (*low)[i]);
+      }
+      for (const Point& p : coarse.vertices) {
+        for (const double c : p) {
+          const double x = std::fabs(c);
+          unit = std::max(unit, std::nextafter(x, HUGE_VAL) - x);
+        }
+      }
+      // Half as many where the solid reaches beyond the next power of two.
+      EXPECT_LE(widest / unit, std::ldexp(1, bits) + 1);
+      EXPECT_GE(widest / unit, std::ldexp(0.5, bits) - 1);
+      EXPECT_LE(largest_coordinate(coarse), 0x1p26 + 1);
+      EXPECT_TRUE(certified_valid(coarse) || bits < 8) << bits;
+    }
+  }
+}
+
 TEST(Rotated, KeepsDistancesAndOrientation) {
   const Surface given = a_box();
   for (const Quaternion& q : kRotations) {

@@ -44,6 +44,9 @@ struct ExactRecord {
     std::array<double, 3> normal{};
     std::array<std::array<double, 3>, 3> through{};
   };
+  // What explicit points, and the points that planes go through, are relative to: exact coordinates
+  // are sums. Not 0 for surfaces far from the origin, which are meshed beside it.
+  std::array<double, 3> origin{};
   std::vector<Plane> planes;  // of points on planes
   // Of the surface that was meshed, where a planar facet has another triangulation than as given;
   // empty: those of the input. The same number of triangles, and the same numbers in each facet,

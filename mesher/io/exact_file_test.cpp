@@ -19,6 +19,7 @@ ExactRecord sample() {
               {Kind::on_segment, 1, 2, 0, 0.375, 0, 0},
               {Kind::on_triangle, 0, 1, 2, 0.25, 0.5, 0},
               {Kind::on_planes, 1, 0, 1, 0, 0, 0}};
+  r.origin = {0x1p33, -0.5, 0};
   r.planes = {{false, {1, 0, -0.5}, {{{1, 2, 3}, {}, {}}}},
               {true, {}, {{{1, 2, 3}, {4, 5, 6}, {7, 8, 0.1}}}}};
   r.triangles = {{0, 1, 2}};
@@ -53,8 +54,8 @@ std::string written(const ExactRecord& record) {
 TEST(ExactRecord, TextIsAsDocumented) {
   const std::string text = written(sample());
   EXPECT_TRUE(text.starts_with(
-      "delmesher-exact 5\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0 0x1p-1\n"
-      "planes 2\nN 0x1p+0 0x0p+0 -0x1p-1 0x1p+0 0x1p+1 0x1.8p+1\n"
+      "delmesher-exact 6\nparameters 1\n0x1.dp+3 0x1.ep+5 0x1.4p+4 0x1p-2 1 0 0x1p-1\n"
+      "origin 1\n0x1p+33 -0x1p-1 0x0p+0\nplanes 2\nN 0x1p+0 0x0p+0 -0x1p-1 0x1p+0 0x1p+1 0x1.8p+1\n"
       "T 0x1p+0 0x1p+1 0x1.8p+1 0x1p+2 0x1.4p+2 0x1.8p+2 0x1.cp+2 0x1p+3 0x1.999999999999ap-4\n"
       "triangles 1\n0 1 2\npoints 6\nE 0x1.999999999999ap-4 -0x0p+0 "))
       << text;
@@ -101,7 +102,7 @@ TEST(ExactRecord, DamageIsFound) {
     }
   }
   EXPECT_GT(refused, 300);
-  EXPECT_EQ(parse_exact("delmesher-exact 6\n", "x").error, "x:1: unknown version 6");
+  EXPECT_EQ(parse_exact("delmesher-exact 7\n", "x").error, "x:1: unknown version 7");
   EXPECT_EQ(parse_exact("delmesher-exact 1\npoints 1\nS 0 0 0x1p+0\nfacets 0\n", "x").error,
             "x:3: a point refers to one that is itself on others");
   EXPECT_EQ(parse_exact("delmesher-exact 1\npoints 99999999999\n", "x").error,

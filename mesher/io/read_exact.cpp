@@ -252,6 +252,11 @@ ExactRecord ExactReader::read() {
     fail(here(), "unknown version " + std::to_string(version));
   }
   if (version >= 2) items("parameters", [&] { read_parameters(version); });
+  if (version >= 6) {
+    items("origin", [&] {
+      for (double& x : record_.origin) x = number();
+    });
+  }
   if (version >= 4) {
     items("planes", [&] { read_plane(); });
     items("triangles", [&] { read_triangle(); });

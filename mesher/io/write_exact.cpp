@@ -90,8 +90,15 @@ void write_parameters(TextSink& out, const ExactRecord::Parameters& p) {
   out.text("\n");
 }
 
-// Planes, triangles and points.
+// Origin, planes, triangles and points.
 void write_meshed_surface(TextSink& out, const ExactRecord& record) {
+  out.section("origin", 1);
+  out.hex(record.origin[0]);
+  out.text(" ");
+  out.hex(record.origin[1]);
+  out.text(" ");
+  out.hex(record.origin[2]);
+  out.text("\n");
   out.section("planes", record.planes.size());
   for (const ExactRecord::Plane& plane : record.planes) write_plane(out, plane);
   out.section("triangles", record.triangles.size());

@@ -5,6 +5,7 @@
 #include "mesher/base/check.h"
 #include "mesher/base/face_key.h"
 #include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/predicates/vector.h"
 
 namespace delmesher::output {
 namespace {
@@ -25,6 +26,13 @@ RoundedMesh::RoundedMesh(RoundingInput& input, Control& control)
                   "there are not as many inside flags as tetrahedra");
   number_vertices();
   certify(control);
+}
+
+double RoundedMesh::home_error(std::uint32_t v) const {
+  const double error = approximation(v).error;
+  if (!frame().moved()) return error;
+  const Vec3 d = subtract(home(v), nearest(store_id_[v]));
+  return (error + largest_component(d)) * (1 + 0x1p-50);
 }
 
 void RoundedMesh::number_vertices() {

@@ -35,7 +35,8 @@ class RoundedMesh {
   const Vec3& position(std::uint32_t v) const { return position_[v]; }
   // Nearest doubles of the exact position (or RoundingInput::place), and the bound of their error.
   Vec3 home(std::uint32_t v) const { return placed(store_id_[v]); }
-  double home_error(std::uint32_t v) const { return approximation(v).error; }
+  double home_error(std::uint32_t v) const;
+  const LocalFrame& frame() const { return input_.frame; }
   bool fixed(std::uint32_t v) const { return input_.fixed[store_id_[v]] != 0; }
   bool on_surface(std::uint32_t v) const { return input_.on_surface[store_id_[v]] != 0; }
   bool moves_far(std::uint32_t v) const { return !on_surface(v) && input_.place.empty(); }
@@ -86,7 +87,8 @@ class RoundedMesh {
   std::vector<std::uint32_t>& editable_star(std::uint32_t v);
 
   // Where a point of the store is meant to be, as doubles.
-  Vec3 placed(VertexId v) const {
+  Vec3 placed(VertexId v) const { return frame().written(nearest(v)); }
+  Vec3 nearest(VertexId v) const {
     return input_.place.empty() ? input_.points->nearest(v) : input_.place[v];
   }
 

@@ -12,6 +12,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher/run.h"
+#include "mesher/predicates/local_frame.h"
 #include "mesher/predicates/points.h"
 
 namespace delmesher::output {
@@ -21,6 +22,7 @@ namespace delmesher::output {
 // operations that keep the boundary faces.
 struct RoundingInput {
   const PointStore* points;
+  LocalFrame frame;  // coordinates are doubles in the given frame, too
   std::vector<std::array<VertexId, 4>> tetrahedra;
   std::vector<std::uint8_t> inside;  // per tetrahedron
   // Where vertices go that are not simply rounded; by point of the store, empty if there are none.

@@ -110,7 +110,7 @@ VertexMoves::VertexMoves(RoundedMesh& mesh) : mesh_(mesh), chains_budget_(kAllCh
   // are no faces of the surface, what is held in place says it.
   double largest = 0;
   const auto take = [&](std::uint32_t v) {
-    largest = std::max(largest, largest_component(mesh.home(v)));
+    largest = std::max(largest, largest_component(mesh.frame().given(mesh.home(v))));
   };
   for (const auto& face : mesh.boundary()) {
     for (const std::uint32_t v : face) take(v);
@@ -167,13 +167,16 @@ void VertexMoves::near_candidates(std::uint32_t v, bool wide) {
   const auto add = [&](const Vec3& unit, int reach) {
     for (const auto& s : steps_) {
       if (std::abs(s[0]) > reach || std::abs(s[1]) > reach || std::abs(s[2]) > reach) continue;
-      const Vec3 q{p[0] + s[0] * unit[0], p[1] + s[1] * unit[1], p[2] + s[2] * unit[2]};
+      const Vec3 q = mesh_.frame().written(
+          {p[0] + s[0] * unit[0], p[1] + s[1] * unit[1], p[2] + s[2] * unit[2]});
       if (allowed(v, q)) candidates_.push_back(q);
     }
   };
-  const double own = unit_in_last_place(largest_component(p));
+  const Vec3 given = mesh_.frame().given(p);
+  const double own = unit_in_last_place(largest_component(given));
   if (!wide) {
-    add({unit_in_last_place(p[0]), unit_in_last_place(p[1]), unit_in_last_place(p[2])}, 1);
+    add({unit_in_last_place(given[0]), unit_in_last_place(given[1]), unit_in_last_place(given[2])},
+        1);
     add({own, own, own}, 2);
     return;
   }
@@ -193,7 +196,7 @@ void VertexMoves::far_candidates(std::uint32_t v) {
   for (int k = 40; k >= 0; k -= 2) {
     Vec3 x = target;
     for (double& c : x) c = std::ldexp(c, -k);
-    const Vec3 p = frame.to_mesh(x);
+    const Vec3 p = mesh_.frame().written(frame.to_mesh(x));
     if (allowed(v, p)) candidates_.push_back(p);
   }
 }

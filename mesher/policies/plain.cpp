@@ -5,7 +5,7 @@
 
 namespace delmesher::policies {
 
-std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Session& session) {
+std::optional<cdt::CdtResult> plain_without_points(Session& session) {
   constexpr std::size_t kMostTriangles = 1000;
   const Options& options = session.options;
   if (options.as_paper.enrichment || options.region != Region::interior || session.bounds_edges() ||
@@ -17,12 +17,18 @@ std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Se
       enrich::plain_input(session.topology), session.points, session.predicates, session.control);
   session.points.truncate(enriched_points);
   if (!plain.steiner.empty()) return std::nullopt;
-  const MeshStatistics p = interior_statistics(plain, session.points, session.control);
-  if (p.min_face_angle < options.delta) return std::nullopt;
+  return plain;
+}
+
+std::optional<cdt::CdtResult> plain_if_better(const cdt::CdtResult& enriched, Session& session) {
+  std::optional<cdt::CdtResult> plain = plain_without_points(session);
+  if (!plain) return std::nullopt;
+  const MeshStatistics p = interior_statistics(*plain, session.points, session.control);
+  if (p.min_face_angle < session.options.delta) return std::nullopt;
   const MeshStatistics e = interior_statistics(enriched, session.points, session.control);
   const bool better = p.min_face_angle >= e.min_face_angle && p.min_dihedral >= e.min_dihedral &&
                       p.tetrahedra <= e.tetrahedra;
-  return better ? std::optional(std::move(plain)) : std::nullopt;
+  return better ? std::move(plain) : std::nullopt;
 }
 
 }  // namespace delmesher::policies

@@ -1,7 +1,9 @@
 #include "mesher/policies/thinned_rounding.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "mesher/policies/plain.h"
 #include "mesher/policies/thinning.h"
 
 namespace delmesher::policies {
@@ -17,10 +19,7 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
   // this much, and of little more than half of what is beyond (measured on degenerate solids).
   constexpr std::size_t kFew = 8;
   Control& control = session.control;
-  const auto to_write = [&] {
-    return conforming_mesh(cdt, session.topology, session.points, session.given,
-                           session.options.region);
-  };
+  const auto to_write = [&] { return conforming_mesh(cdt, session); };
   MeshToWrite exact = to_write();
   const std::size_t most =
       std::min(kMostRepairs, std::max(kSmall, exact.rounding.tetrahedra.size() / kShare));
@@ -28,8 +27,9 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
       output::round_mesh(std::move(exact.rounding), control, {kFew, most});
   std::uint64_t thinned = 0, signs = rounded.signs;
   for (int rings = 0; rings <= kMostRings && defects(rounded) != output::kNoDefects; ++rings) {
-    const std::size_t gone = thin_out(rounded.disturbed, rings, session.input_vertices(),
-                                      session.points, session.predicates, control, cdt);
+    const std::size_t gone =
+        thin_out(rounded.disturbed, rings, session.input_vertices(), session.frame, session.points,
+                 session.predicates, control, cdt);
     thinned += gone;
     const bool last = rings == kMostRings;
     const bool all_tried = thinned == 0 && defects(rounded).first <= kFew;
@@ -43,6 +43,22 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
     rounded = std::move(other);
     exact = std::move(thinner);
     recorder.thinned(cdt, thinned);
+  }
+  // As a last resort without any added point: in a solid of a few roundings there may be no place
+  // for them.
+  std::optional<cdt::CdtResult> plain;
+  if (defects(rounded).first > 0) plain = plain_without_points(session);
+  if (plain) {
+    const std::size_t before = rounded.vertices.size();
+    cdt = std::move(*plain);
+    MeshToWrite bare = to_write();
+    output::RoundingResult other = output::round_mesh(std::move(bare.rounding), control);
+    signs += other.signs;
+    if (defects(other) < defects(rounded)) {
+      rounded = std::move(other);
+      exact = std::move(bare);
+      recorder.thinned(cdt, thinned + before - std::min(before, rounded.vertices.size()));
+    }
   }
   rounded.signs = signs;
   control.poll_now(rounded.vertices.size(), 1);  // small meshes are hardly asked before

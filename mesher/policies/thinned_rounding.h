@@ -12,7 +12,8 @@ namespace delmesher::policies {
 // then those up to one, two and three edges away. Of these
 // meshes the one with the fewest defects is written. Where more than a thousand, or more than an
 // eighth of the mesh, are left by plain rounding, points are taken out before anything is repaired,
-// and where the first repairs leave more than a few, before others are tried.
+// and where the first repairs leave more than a few, before others are tried. What is left then may
+// be the mesh of the input's vertices alone (plain_without_points).
 void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder);
 
 }  // namespace delmesher::policies

@@ -20,9 +20,13 @@ bool has(const Simplex& simplex, VertexId v) {
 
 class Thinning {
  public:
-  Thinning(std::size_t fixed_vertices, const PointStore& points, Predicates& predicates,
-           cdt::CdtResult& mesh)
-      : fixed_vertices_(fixed_vertices), points_(points), predicates_(predicates), mesh_(mesh) {
+  Thinning(std::size_t fixed_vertices, const LocalFrame& frame, const PointStore& points,
+           Predicates& predicates, cdt::CdtResult& mesh)
+      : fixed_vertices_(fixed_vertices),
+        frame_(frame),
+        points_(points),
+        predicates_(predicates),
+        mesh_(mesh) {
     tets_.resize(points.size());
     faces_.resize(points.size());
     for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
@@ -155,8 +159,8 @@ class Thinning {
   }
 
   bool bad_as_written(const std::array<VertexId, 4>& t) {
-    return orient3d_sign(points_.nearest(t[0]), points_.nearest(t[1]), points_.nearest(t[2]),
-                         points_.nearest(t[3])) <= 0;
+    const auto at = [&](int i) { return frame_.written(points_.nearest(t[i])); };
+    return orient3d_sign(at(0), at(1), at(2), at(3)) <= 0;
   }
 
   std::size_t bad_around(VertexId v) {
@@ -227,6 +231,7 @@ class Thinning {
   }
 
   std::size_t fixed_vertices_;
+  const LocalFrame& frame_;
   const PointStore& points_;
   Predicates& predicates_;
   cdt::CdtResult& mesh_;
@@ -236,9 +241,9 @@ class Thinning {
 }  // namespace
 
 std::size_t thin_out(std::span<const VertexId> around, int rings, std::size_t fixed_vertices,
-                     const PointStore& points, Predicates& predicates, Control& control,
-                     cdt::CdtResult& mesh) {
-  Thinning thinning(fixed_vertices, points, predicates, mesh);
+                     const LocalFrame& frame, const PointStore& points, Predicates& predicates,
+                     Control& control, cdt::CdtResult& mesh) {
+  Thinning thinning(fixed_vertices, frame, points, predicates, mesh);
   std::vector<VertexId> left = thinning.removable_around(around, rings);
   const std::size_t candidates = left.size();
   // One that could not go may be able to when its neighbours have gone.

@@ -6,6 +6,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/cdt/cdt.h"
+#include "mesher/predicates/local_frame.h"
 #include "mesher/predicates/predicates.h"
 
 namespace delmesher::policies {
@@ -13,11 +14,11 @@ namespace delmesher::policies {
 // Collapses vertices of a conforming mesh along its edges: `around` and the vertices up to `rings`
 // edges away, except the first `fixed_vertices` of the store and explicit points of the surface and
 // the box. The tetrahedra stay positive on exact coordinates, the faces on the surface tile the
-// same facets, and no more tetrahedra than before are inverted or flat on nearest doubles. They are
+// same facets, and no more tetrahedra than before are inverted or flat as written. They are
 // not constrained Delaunay any more; repeated_faces is emptied. Returns how many vertices have
 // gone.
 std::size_t thin_out(std::span<const VertexId> around, int rings, std::size_t fixed_vertices,
-                     const PointStore& points, Predicates& predicates, Control& control,
-                     cdt::CdtResult& mesh);
+                     const LocalFrame& frame, const PointStore& points, Predicates& predicates,
+                     Control& control, cdt::CdtResult& mesh);
 
 }  // namespace delmesher::policies

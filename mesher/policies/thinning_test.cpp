@@ -20,7 +20,7 @@ std::size_t input_vertices(const Model& model) {
 }
 
 std::size_t thin(Model& model, std::span<const VertexId> around, int rings, cdt::CdtResult& mesh) {
-  return thin_out(around, rings, input_vertices(model), model.points, model.predicates,
+  return thin_out(around, rings, input_vertices(model), {}, model.points, model.predicates,
                   model.control, mesh);
 }
 

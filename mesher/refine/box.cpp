@@ -23,7 +23,14 @@ struct Interval {
 constexpr int kBoxFace[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                 {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
-std::array<Interval, 3> box_of(const SurfaceTopology& topology, const PointStore& points) {
+// moved_away() among the doubles of given coordinates.
+double beside(double x, double from, double by, double origin) {
+  if (origin == 0) return moved_away(x, from, by);
+  return moved_away(origin + x, origin + from, by) - origin;
+}
+
+std::array<Interval, 3> box_of(const SurfaceTopology& topology, const PointStore& points,
+                               const LocalFrame& frame) {
   std::array<Interval, 3> box;
   for (Interval& axis : box) axis = {HUGE_VAL, -HUGE_VAL};
   for (const auto& triangle : topology.triangles) {
@@ -39,23 +46,25 @@ std::array<Interval, 3> box_of(const SurfaceTopology& topology, const PointStore
   for (const Interval& axis : box) largest = std::max(largest, axis.high - axis.low);
   // Coordinates on a coarse power-of-two grid, so that they are short.
   const double grid = std::ldexp(1.0, std::ilogb(largest) - 6);
-  for (Interval& axis : box) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    Interval& axis = box[k];
     const double margin =
         std::max(kMarginOfAxis * (axis.high - axis.low), kMarginOfLargest * largest);
     const Interval inner = axis;
     axis.low = std::floor((inner.low - margin) / grid) * grid;
     axis.high = std::ceil((inner.high + margin) / grid) * grid;
     // A side of the box on the solid would be refined for ever.
-    axis.low = moved_away(axis.low, inner.low, -margin / 2);
-    axis.high = moved_away(axis.high, inner.high, margin / 2);
+    axis.low = beside(axis.low, inner.low, -margin / 2, frame.origin[k]);
+    axis.high = beside(axis.high, inner.high, margin / 2, frame.origin[k]);
   }
   return box;
 }
 
 }  // namespace
 
-void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc) {
-  const std::array<Interval, 3> box = box_of(topology, points);
+void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc,
+                   const LocalFrame& frame) {
+  const std::array<Interval, 3> box = box_of(topology, points, frame);
   std::array<VertexId, 8> corner;
   for (int c = 0; c < 8; ++c) {
     std::array<double, 3> p;

@@ -12,6 +12,7 @@
 #include "mesher/base/validating.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/predicates/box_tree.h"
+#include "mesher/predicates/local_frame.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/size_field.h"
 #include "mesher/surface/plc.h"
@@ -87,7 +88,8 @@ struct RefineResult {
 };
 
 // Appends the outer box (section 5.1) to the complex: six rectangles around all input points.
-void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc);
+void add_outer_box(const SurfaceTopology& topology, PointStore& points, Plc& plc,
+                   const LocalFrame& frame = {});
 
 // Refines the complex, which must include the outer box. Appends Steiner points to the store.
 // Terminates if the complex satisfies the projection condition and delta is at most

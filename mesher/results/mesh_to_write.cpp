@@ -19,26 +19,28 @@ std::vector<Vec3> places(const PointStore& points, std::span<const Vec3> given) 
   return place;
 }
 
-output::RoundingInput rounding_input(const PointStore& points, std::size_t input_vertices,
-                                     std::span<const Vec3> given) {
+output::RoundingInput rounding_input(const Session& session) {
+  const PointStore& points = session.points;
   output::RoundingInput input;
   input.points = &points;
-  input.place = places(points, given);
+  input.frame = session.frame;
+  input.place = places(points, session.given);
   input.fixed.resize(points.size());
   input.on_surface.resize(points.size());
   for (VertexId v = 0; v < points.size(); ++v) {
     // Only points on the surface or on the box have planes.
     input.on_surface[v] = points.planes(v).empty() ? 0 : 1;
-    input.fixed[v] = v < input_vertices || (points.is_explicit(v) && input.on_surface[v] != 0);
+    input.fixed[v] =
+        v < session.input_vertices() || (points.is_explicit(v) && input.on_surface[v] != 0);
   }
   return input;
 }
 
 }  // namespace
 
-MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& topology,
-                            const PointStore& points, std::span<const Vec3> given, Region region) {
-  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size(), given), {}, {}};
+MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const Session& session) {
+  const Region region = session.options.region;
+  MeshToWrite mesh{rounding_input(session), {}, {}};
   output::RoundingInput& input = mesh.rounding;
   const auto inside = static_cast<std::size_t>(std::count(cdt.inside.begin(), cdt.inside.end(), 1));
   input.tetrahedra.reserve(region == Region::interior ? inside : cdt.tetrahedra.size());
@@ -60,9 +62,9 @@ MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& to
 }
 
 MeshToWrite approximate_mesh(const chamfer::ChamferResult& chamfered,
-                             const refine::RefineResult& refined, const SurfaceTopology& topology,
-                             const PointStore& points, std::span<const Vec3> given, Region region) {
-  MeshToWrite mesh{rounding_input(points, topology.vertex_half_edge.size(), given), {}, {}};
+                             const refine::RefineResult& refined, const Session& session) {
+  const Region region = session.options.region;
+  MeshToWrite mesh{rounding_input(session), {}, {}};
   output::RoundingInput& input = mesh.rounding;
   std::vector<std::array<VertexId, 3>> written;
   for (std::size_t n = 0; n < refined.tetrahedra.size(); ++n) {

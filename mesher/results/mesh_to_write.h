@@ -7,6 +7,7 @@
 #include "mesher/chamfer/chamfer.h"
 #include "mesher/output/rounding.h"
 #include "mesher/refine/refine.h"
+#include "mesher/run/session.h"
 
 namespace delmesher::results {
 
@@ -23,15 +24,13 @@ inline std::uint8_t repeated_within(Region region, std::uint8_t repeated) {
   return static_cast<std::uint8_t>(region == Region::interior ? repeated >> 4U : repeated & 15U);
 }
 
-// `given`: the vertices as given, where they were moved so that facets are planar; else empty.
-// Points on the surface are placed anew on the given vertices, with the same parameters.
-MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const SurfaceTopology& topology,
-                            const PointStore& points, std::span<const Vec3> given, Region region);
+// Where vertices were moved so that facets are planar, points on the surface are placed anew on the
+// given ones, with the same parameters.
+MeshToWrite conforming_mesh(const cdt::CdtResult& cdt, const Session& session);
 
 // The refined mesh itself; its boundary is the part of the surface that was neither chamfered nor
 // filtered.
 MeshToWrite approximate_mesh(const chamfer::ChamferResult& chamfered,
-                             const refine::RefineResult& refined, const SurfaceTopology& topology,
-                             const PointStore& points, std::span<const Vec3> given, Region region);
+                             const refine::RefineResult& refined, const Session& session);
 
 }  // namespace delmesher::results

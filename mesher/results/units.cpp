@@ -12,6 +12,7 @@ constexpr int kOrdinary = 64;
 // Coordinates in small units must not become subnormal in the given ones.
 constexpr int kSmallest = -700;
 
+using predicates::LocalFrame;
 using Point = std::array<double, 3>;
 
 void scale(Point& p, int exponent) {
@@ -57,10 +58,9 @@ int unit_exponent(const std::vector<Point>& vertices) {
 
 // For models of extreme size whose numbers do not fit into other units. Where the stages steer by
 // lengths that over- or underflow, nothing is wrong but that.
-template <class Model>
-Result in_given_units(const Model& model, const Options& options,
-                      Result (&task)(const Model&, const Options&)) {
-  Result result = task(model, options);
+template <class Model, class Run>
+Result in_given_units(const Model& model, const Options& options, const Run& run) {
+  Result result = run(model, options, 0);
   if (result.status.code == StatusCode::internal_error) {
     result.status = {StatusCode::limit_reached,
                      "the model is too large or too small for double precision, and some "
@@ -71,13 +71,19 @@ Result in_given_units(const Model& model, const Options& options,
   return result;
 }
 
-template <class Model>
-Result scaled_and_back(const Model& model, const Options& options,
-                       Result (&task)(const Model&, const Options&)) {
+// Messages about defects name coordinates.
+bool names_places(const Result& result) {
+  return result.status.code == StatusCode::invalid_surface ||
+         result.status.code == StatusCode::invalid_mesh;
+}
+
+// `run` is told the exponent of its units.
+template <class Model, class Run>
+Result scaled_and_back(const Model& model, const Options& options, const Run& run) {
   const int exponent = unit_exponent(model.vertices);
-  if (exponent == 0) return task(model, options);
+  if (exponent == 0) return run(model, options, 0);
   if (exponent < kSmallest || !is_exact(model.vertices, -exponent)) {
-    return in_given_units(model, options, task);
+    return in_given_units(model, options, run);
   }
   Model scaled = model;
   for (Point& p : scaled.vertices) scale(p, -exponent);
@@ -88,11 +94,10 @@ Result scaled_and_back(const Model& model, const Options& options,
     scale(source.point, -exponent);
     source.size = std::ldexp(source.size, -exponent);
   }
-  Result result = task(scaled, units);
-  // Messages about defects name coordinates; points that become subnormal are not exact.
-  if (result.status.code == StatusCode::invalid_surface ||
-      result.status.code == StatusCode::invalid_mesh || !is_exact(result.mesh.vertices, exponent)) {
-    return in_given_units(model, options, task);
+  Result result = run(scaled, units, exponent);
+  // Points that become subnormal are not exact.
+  if (names_places(result) || !is_exact(result.mesh.vertices, exponent)) {
+    return in_given_units(model, options, run);
   }
   for (Point& p : result.mesh.vertices) scale(p, exponent);
   for (Point& p : result.chamfered.vertices) scale(p, exponent);
@@ -105,12 +110,68 @@ Result scaled_and_back(const Model& model, const Options& options,
   return result;
 }
 
+// At the least corner of the bounding box, on the axes on which that is far away.
+LocalFrame frame_of(const std::vector<Point>& vertices) {
+  constexpr double kFar = 0x1p26;  // nearer to the origin, real models have doubles enough
+  constexpr double kApart = 16;    // of the size: differences are exact as far as the outer box
+  if (vertices.empty()) return {};
+  Point low = vertices[0], high = low;
+  for (const Point& p : vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  double size = 0, farthest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    size = std::max(size, high[i] - low[i]);
+    farthest = std::max(farthest, std::fabs(low[i]));
+  }
+  LocalFrame frame;
+  if (!(size > 0) || !(farthest >= kFar * size)) return frame;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::fabs(low[i]) >= kApart * size) frame.origin[i] = low[i];
+  }
+  return frame;
+}
+
+bool moves_exactly(Point& p, const LocalFrame& frame) {
+  const Point before = p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] -= frame.origin[i];
+  return frame.given(p) == before;
+}
+
+// Beside the origin, and back.
+Result moved_and_back(const Surface& surface, const Options& options, Task& task) {
+  const auto in_frame = [&](LocalFrame frame) {
+    return [&task, frame](const Surface& s, const Options& o, int exponent) {
+      LocalFrame scaled = frame;
+      scale(scaled.origin, -exponent);
+      return task(s, o, scaled);
+    };
+  };
+  const auto as_given = [&] { return scaled_and_back(surface, options, in_frame({})); };
+  const LocalFrame frame = frame_of(surface.vertices);
+  if (!frame.moved()) return as_given();
+  Surface local = surface;
+  Options beside = options;
+  bool exact = true;
+  for (Point& p : local.vertices) exact = exact && moves_exactly(p, frame);
+  for (SizeSource& source : beside.size_field) exact = exact && moves_exactly(source.point, frame);
+  if (!exact) return as_given();
+  Result result = scaled_and_back(local, beside, in_frame(frame));
+  if (names_places(result)) return as_given();
+  for (Point& p : result.mesh.vertices) p = frame.given(p);
+  for (Point& p : result.chamfered.vertices) p = frame.given(p);
+  if (!result.exact.points.empty()) result.exact.origin = frame.origin;
+  return result;
+}
+
 // The copies, of model and options, are no part of a task: their memory is guarded here.
-template <class Model>
-Result guarded_task(const Model& model, const Options& options,
-                    Result (&task)(const Model&, const Options&)) {
+template <class Run>
+Result guarded_run(const Run& run) {
   try {
-    return scaled_and_back(model, options, task);
+    return run();
   } catch (const std::bad_alloc&) {
     Result result;
     result.status = {StatusCode::limit_reached, "out of memory", Limit::memory};
@@ -121,11 +182,14 @@ Result guarded_task(const Model& model, const Options& options,
 }  // namespace
 
 Result in_ordinary_units(const Surface& surface, const Options& options, Task& task) {
-  return guarded_task(surface, options, task);
+  return guarded_run([&] { return moved_and_back(surface, options, task); });
 }
 
 Result in_ordinary_units(const TetMesh& mesh, const Options& options, MeshTask& task) {
-  return guarded_task(mesh, options, task);
+  return guarded_run([&] {
+    return scaled_and_back(mesh, options,
+                           [&task](const TetMesh& m, const Options& o, int) { return task(m, o); });
+  });
 }
 
 }  // namespace delmesher::results

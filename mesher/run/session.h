@@ -6,6 +6,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher.h"
+#include "mesher/predicates/local_frame.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/size_field.h"
 #include "mesher/surface/topology.h"
@@ -13,11 +14,12 @@
 namespace delmesher::run {
 
 struct Session {
-  Session(const Options& run_options, Control& run_control)
-      : options(run_options), control(run_control) {}
+  Session(const Options& run_options, Control& run_control, const LocalFrame& run_frame = {})
+      : options(run_options), control(run_control), frame(run_frame) {}
 
   const Options& options;
   Control& control;
+  const LocalFrame frame;  // of all coordinates but those that are written
   PointStore points;  // the input vertices, then what the stages append
   Predicates predicates{points};
   SurfaceTopology topology;  // of the input, or of its stand-in; oriented outwards

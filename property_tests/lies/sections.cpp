@@ -115,6 +115,35 @@ const Lie kSections[] = {
      [](Told& t) { t.record.final_facets.clear(); }},
     {"no written vertices", "promise", [](Told& t) { t.record.mesh_vertices.clear(); }},
     {"no points made by chamfering", "promise", [](Told& t) { t.record.chamfer_points.clear(); }},
+    {"no origin of a run far away", "sidecar",
+     [](Told& t) {
+       run_far_away(t);
+       t.record.origin = {};
+     }},
+    {"an origin that is a rounding away", "sidecar",
+     [](Told& t) {
+       run_far_away(t);
+       t.record.origin[0] += 0x1p-12;
+     }},
+    {"an origin so far away that nothing is exact", "frame",
+     [](Told& t) {
+       t.record.origin = {0x1p60, 0, 0};
+     }},
+    {"an origin that is no number", "frame",
+     [](Told& t) {
+       t.record.origin = {0, NAN, 0};
+     }},
+    {"an origin beside an honest record", "sidecar",
+     [](Told& t) {
+       t.record.origin = {0, 0, -1};
+     }},
+    {"a file far away that was moved beside the origin", "frame",
+     [](Told& t) {
+       run_far_away(t);
+       for (auto& p : t.sample.mesh.vertices) {
+         for (std::size_t i = 0; i < 3; ++i) p[i] -= t.record.origin[i];
+       }
+     }},
     {"no corners", "refined-chamfer-need", [](Told& t) { t.record.corners.clear(); }},
     {"no balls", "refined-steiner-balls", [](Told& t) { t.record.balls.clear(); }},
     {"one ball fewer", "refined-steiner-balls", [](Told& t) { t.record.balls.pop_back(); }},

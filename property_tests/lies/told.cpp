@@ -67,6 +67,16 @@ void run_approximate(Told& told, const delmesher::Surface& surface) {
   told = run_of(options, Task::mesh, surface);
 }
 
+void run_far_away(Told& told) {
+  delmesher::Surface surface = samples::wedge_and_slab();
+  for (auto& p : surface.vertices) {
+    p[0] += 0x1p40;
+    p[1] -= 0x1p41;
+  }
+  told = run_of(honest_options(), Task::mesh, surface);
+  ASSERT_EQ(told.record.origin[0], 0x1p40);
+}
+
 void run_cdt(Told& told) {
   run_hull(told, Task::cdt);
 }

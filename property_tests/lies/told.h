@@ -43,6 +43,9 @@ void run_hull(Told& told, oracles::Task task = oracles::Task::mesh);
 // A run of --approximate, told as it was.
 void run_approximate(Told& told, const delmesher::Surface& surface = samples::wedge_and_slab());
 
+// A run far away, where it is meshed beside the origin that the record names; told as it was.
+void run_far_away(Told& told);
+
 // The constrained Delaunay tetrahedrization of the hull, told as it was.
 void run_cdt(Told& told);
 

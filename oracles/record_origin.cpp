@@ -1,0 +1,48 @@
+#include "oracles/record_origin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace tetproof::oracles {
+namespace {
+
+// Is x - origin a double? By the error of the difference (Knuth).
+bool move(double& x, double origin) {
+  const double difference = x - origin, back = difference - x;
+  const double error = (x - (difference - back)) - (origin + back);
+  x = difference;
+  return std::isfinite(difference) && error == 0;
+}
+
+}  // namespace
+
+bool names_origin(const delmesher::ExactRecord& record) {
+  return std::ranges::any_of(record.origin, [](double x) { return x != 0; });
+}
+
+OracleReport move_to_origin(BesideOrigin& task) {
+  OracleReport report("frame", "points of input and file");
+  const Position origin = task.record.origin;
+  const auto take = [&](Position& p, const std::string& what) {
+    ++report.checked;
+    bool exact = true;
+    for (std::size_t i = 0; i < 3; ++i) exact = move(p[i], origin[i]) && exact;
+    if (!exact) report.fail(what + " is no double relative to the origin of the record");
+  };
+  for (std::size_t v = 0; v < task.input.vertices.size(); ++v) {
+    for (const double x : task.input.vertices[v]) {
+      task.largest = std::max(task.largest, std::fabs(x));
+    }
+    take(task.input.vertices[v], "input vertex " + std::to_string(v));
+  }
+  for (std::size_t v = 0; v < task.mesh.vertices.size(); ++v) {
+    take(task.mesh.vertices[v], "vertex " + std::to_string(v) + " of the file");
+  }
+  for (MeshFile::EdgeNode& node : task.mesh.edge_nodes) take(node.at, "a node of the file");
+  for (delmesher::SizeSource& source : task.promise.size_field) take(source.point, "a size");
+  report.notes.emplace_back("places that other oracles name are relative to it");
+  return report;
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,27 @@
+// Records of surfaces far from the origin, whose points are relative to one beside them.
+#pragma once
+
+#include "oracles/input_surface.h"
+#include "oracles/mesh_file.h"
+#include "oracles/promise.h"
+#include "oracles/report.h"
+
+namespace tetproof::oracles {
+
+// All that a verification compares, relative to the origin that the record names. Only oracles that
+// ask what rounding did look at that of `record` again.
+struct BesideOrigin {
+  Polyhedron input;
+  MeshFile mesh;
+  delmesher::ExactRecord record;
+  Promise promise;
+  double largest = 0;  // absolute value of a coordinate of the input as given
+};
+
+bool names_origin(const delmesher::ExactRecord& record);
+
+// Moves everything there. Fails unless that is exact for every number: then the record cannot be of
+// this input and file. Whether it is the right origin, other oracles see: they compare points.
+OracleReport move_to_origin(BesideOrigin& task);
+
+}  // namespace tetproof::oracles
