@@ -1,4 +1,5 @@
-// Netgen alone on a surface, with nothing of this project: g++ reproduce.cpp -lnglib -o reproduce
+// Netgen alone on a surface, with nothing of this project:
+//   d=/usr/lib/x86_64-linux-gnu/netgen; g++ reproduce.cpp -L$d -Wl,-rpath,$d -lnglib -o reproduce
 // && ./reproduce SURFACE.off
 #include <cstddef>
 namespace nglib {
