@@ -144,6 +144,9 @@ int picture_command(const PictureArguments& arguments);
 int gate_command(const GateArguments& arguments);
 int classify_command(const ClassifyArguments& arguments);
 int slurm_command(const SlurmArguments& arguments);
+// Hands the words after `tetproof` to the script of a clone around the current folder; returns only
+// by an exception. \throw UsageError if there is none.
+int bisect_command(char** argv);
 #ifdef TETPROOF_HAS_GENERATE
 int generate_command(const GenerateArguments& arguments);
 int rotate_command(const CopiesArguments& arguments);

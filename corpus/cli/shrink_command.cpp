@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <functional>
 
+#include "corpus/campaign.h"
 #include "corpus/cli/commands.h"
 #include "corpus/files.h"
 #include "corpus/generate/certify.h"
@@ -32,12 +33,19 @@ Prober prober_for(const ShrinkArguments& arguments, const fs::path& folder) {
   prober.limits.wall_seconds = prober.limits.cpu_seconds = arguments.timeout;
   prober.limits.memory_bytes = arguments.memory_mebibytes << 20;
   prober.verify = !arguments.no_verify;
+  prober.stop = campaign_interrupted;
   return prober;
 }
 
 }  // namespace
 
 int shrink_command(const ShrinkArguments& arguments) {
+  if (const auto folder = fs::absolute(arguments.output).parent_path(); !fs::is_directory(folder)) {
+    throw UsageError("-o: " + folder.string() + ": no such folder");
+  }
+  if (access(fs::absolute(arguments.output).parent_path().c_str(), W_OK) != 0) {
+    throw UsageError("-o: " + arguments.output + ": cannot be written");
+  }
   const ScratchFolder scratch("shrink");
   const Prober prober = prober_for(arguments, scratch.path());
   const oracles::Polyhedron read = oracles::read_surface(arguments.input);
@@ -45,7 +53,9 @@ int shrink_command(const ShrinkArguments& arguments) {
   if (const auto defect = first_defect(surface)) {
     throw std::runtime_error(arguments.input + ": not a valid surface");
   }
+  handle_interrupts();
   const Probe first = prober.probe(surface);
+  if (campaign_interrupted()) return 130;
   if (first.failure.empty()) {
     fmt::print("{} does not fail on {}\n", prober.mesher.name, arguments.input);
     return 1;
@@ -57,13 +67,15 @@ int shrink_command(const ShrinkArguments& arguments) {
     std::fflush(stdout);
   };
   SideBySide judges(prober, first);
-  const delmesher::Surface small =
-      shrink(surface, std::ref(judges),
-             {arguments.runs, arguments.seconds, std::max(1U, arguments.jobs)}, progress);
+  const delmesher::Surface small = shrink(
+      surface, std::ref(judges),
+      {arguments.runs, arguments.seconds, std::max(1U, arguments.jobs), campaign_interrupted},
+      progress);
   write_off(arguments.output, small, prober.mesher.name + ": " + first.failure, true);
-  fmt::print("{} triangles in {} after {} runs\n", small.triangles.size(), arguments.output,
-             progress.runs);
-  return 0;
+  const bool interrupted = campaign_interrupted();
+  fmt::print("{}{} triangles in {} after {} runs\n", interrupted ? "interrupted; " : "",
+             small.triangles.size(), arguments.output, progress.runs);
+  return interrupted ? 130 : 0;
 }
 
 }  // namespace tetproof

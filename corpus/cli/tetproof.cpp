@@ -385,6 +385,8 @@ int parse_and_run(int argc, char** argv) {
 #ifdef TETPROOF_HAS_VERIFY
   app.add_subcommand("verify", "Exact checks of a mesh against its input (see verify --help)");
 #endif
+  app.add_subcommand(
+      "bisect", "The commit that changed a model's mesh or a number of it (see bisect --help)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -424,6 +426,8 @@ int main(int argc, char** argv) {
       return tetproof::run_verify(argc - 1, argv + 1);
     }
 #endif
+    // So does the script that it is.
+    if (argc > 1 && std::strcmp(argv[1], "bisect") == 0) return tetproof::bisect_command(argv + 1);
     return tetproof::parse_and_run(argc, argv);
   } catch (const tetproof::UsageError& error) {
     std::fprintf(stderr, "tetproof: %s\n", error.what());

@@ -42,13 +42,13 @@ std::string failed_oracles(const fs::path& verdict) {
 }
 
 Outcome run_until(const fs::path& supervisor, const ProcessSpec& spec,
-                  const std::atomic<bool>& given_up) {
+                  const std::function<bool()>& given_up) {
   constexpr int kMilliseconds = 50;
   SupervisedProcess process(supervisor, spec);
   while (!process.advance()) {
     pollfd wait{process.fd(), POLLIN, 0};
     poll(&wait, 1, kMilliseconds);
-    if (given_up) process.stop();
+    if (given_up()) process.stop();
   }
   return process.outcome();
 }
@@ -74,7 +74,8 @@ Probe Prober::probe(const delmesher::Surface& surface, const std::atomic<bool>& 
   const fs::path verdict = folder / "verdict.json";
   for (const fs::path& old : {files.mesh, files.stats, verdict}) fs::remove(old);
   std::ofstream(files.input, std::ios::binary) << to_off(surface);
-  const Outcome outcome = run_until(supervisor, {mesher.command(files), folder, limits}, given_up);
+  const auto ends = [&] { return given_up || stop(); };
+  const Outcome outcome = run_until(supervisor, {mesher.command(files), folder, limits}, ends);
   const auto ended = [&](const Failure& failure) { return Probe{failure, outcome.cpu_seconds}; };
   const Judgement judgement = judge(outcome, mesher.exit_codes);
   const std::string name = disposition_name(judgement.disposition);
@@ -87,7 +88,7 @@ Probe Prober::probe(const delmesher::Surface& surface, const std::atomic<bool>& 
     return ended(name + ": " + without_numbers(judgement.reason, folder));
   }
   if (!fs::exists(files.mesh)) return ended("wrong-result: no mesh");
-  if (!verify || given_up) return ended({});
+  if (!verify || ends()) return ended({});
   // Through a shell, because only the end of a child's output is kept.
   std::vector<std::string> argv = {"/bin/sh",
                                    "-c",
@@ -97,7 +98,7 @@ Probe Prober::probe(const delmesher::Surface& surface, const std::atomic<bool>& 
                                    files.input.string(),
                                    files.mesh.string()};
   for (const std::string& word : promise_of(mesher)) argv.push_back(word);
-  const Outcome checked = run_until(supervisor, {argv, folder, {.wall_seconds = 300}}, given_up);
+  const Outcome checked = run_until(supervisor, {argv, folder, {.wall_seconds = 300}}, ends);
   if (checked.ending != Ending::exited || checked.exit_code != 1) return ended({});
   return ended("wrong-result: " + failed_oracles(verdict));
 }
@@ -125,7 +126,7 @@ std::optional<std::size_t> SideBySide::operator()(const std::vector<delmesher::S
     fs::create_directories(prober.folder);
     const Probe probe = prober.probe(surfaces[i], given_up);
     const std::lock_guard lock(mutex);
-    if (given_up || probe.failure != wanted_) return;
+    if (given_up || prober.stop() || probe.failure != wanted_) return;
     given_up = true;
     found = i;
     seconds = probe.cpu_seconds;

@@ -130,7 +130,7 @@ class Shrinker {
 
   bool spent() const {
     const std::chrono::duration<double> taken = Clock::now() - start_;
-    return progress_.runs >= limits_.runs || taken.count() > limits_.seconds;
+    return limits_.stop() || progress_.runs >= limits_.runs || taken.count() > limits_.seconds;
   }
 
   template <class Body>

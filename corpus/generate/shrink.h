@@ -31,6 +31,8 @@ struct ShrinkLimits {
   std::uint64_t runs = 5000;  // of the mesher
   double seconds = 600;
   std::size_t at_once = 1;  // surfaces to be judged together
+  // Asked between trials: true ends the search with what it has found.
+  std::function<bool()> stop = [] { return false; };
 };
 
 struct ShrinkProgress {
@@ -55,6 +57,8 @@ struct Prober {
   std::filesystem::path folder;            // for the files of the runs
   Limits limits;
   bool verify = true;  // ask the oracles about meshes that are delivered
+  // Asked during a run: true gives it up.
+  std::function<bool()> stop = [] { return false; };
 
   // Ends early, with any failure, once `given_up` is set.
   Probe probe(const delmesher::Surface& surface, const std::atomic<bool>& given_up) const;
