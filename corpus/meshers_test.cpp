@@ -149,6 +149,11 @@ TEST_F(Meshers, Peers) {
   EXPECT_EQ(command("cgal-mesh3"), folder + "/tetproof-cgal-mesh3 - in.off out.mesh stats.json");
   EXPECT_EQ(make_mesher("cgal-mesh3", programs_).promise(), "envelope 0.005");
 
+  EXPECT_NE(why_not_at_hand("cgal-ccdt", programs_).find("CGAL 6.1"), std::string::npos);
+  script("tetproof-cgal-ccdt", "echo CGAL 6");
+  EXPECT_EQ(command("cgal-ccdt"), folder + "/tetproof-cgal-ccdt - in.off out.mesh stats.json");
+  EXPECT_EQ(make_mesher("cgal-ccdt", programs_).promise(), "exact");
+
   script("adapters/gmsh", "true");
   setenv("GMSH_PROGRAM", (folder_ / "nowhere").c_str(), 1);
   EXPECT_NE(why_not_at_hand("gmsh-hxt", programs_).find("GMSH_PROGRAM"), std::string::npos);

@@ -31,6 +31,10 @@ constexpr double kMesh3 = 5e-3;
 constexpr const char* kMesh3From =
     "package libcgal-dev; cmake --build BUILD --target tetproof-cgal-mesh3";
 
+constexpr const char* kCcdtFrom =
+    "CGAL 6.1 or later, by -D TETPROOF_CGAL6_INCLUDE_DIR=FOLDER where it is not the system's; "
+    "cmake --build BUILD --target tetproof-cgal-ccdt";
+
 // Without T0 TetGen may move the surface by its default tolerance. Envelopes are the defaults of
 // the programs.
 constexpr Peer kPeers[] = {
@@ -52,6 +56,7 @@ constexpr Peer kPeers[] = {
      kMesh3From},
     {"cgal-mesh3-raw", "tetproof-cgal-mesh3", "raw", ".mesh", "interior", 0, kMesh3, "GPL-3.0",
      kMesh3From},
+    {"cgal-ccdt", "tetproof-cgal-ccdt", "-", ".mesh", "hull", 0, 0, "GPL-3.0", kCcdtFrom},
     {"ftetwild", "adapters/ftetwild", "", ".msh", "interior", 0, 1e-3, "MPL-2.0",
      "github.com/wildmeshing/fTetWild", "FloatTetwild_bin", "FTETWILD_PROGRAM", ""},
     {"tetwild", "adapters/tetwild", "", ".msh", "interior", 0, 1e-3, "MPL-2.0",
