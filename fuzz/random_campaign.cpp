@@ -65,13 +65,6 @@ std::size_t mutate_bytes(std::uint8_t* data, std::size_t size, std::size_t max_s
   return size;
 }
 
-Input bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  Input bytes((std::istreambuf_iterator<char>(in)), {});
-  if (!in) throw std::system_error(errno, std::generic_category(), path.string());
-  return bytes;
-}
-
 class Campaign {
  public:
   explicit Campaign(const RandomCampaign& campaign) : campaign_(campaign), random_(campaign.seed) {
@@ -210,6 +203,13 @@ class Campaign {
 
 }  // namespace
 
+std::vector<std::uint8_t> bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes((std::istreambuf_iterator<char>(in)), {});
+  if (!in) throw std::system_error(errno, std::generic_category(), path.string());
+  return bytes;
+}
+
 std::vector<fs::path> files_of(std::span<const std::string> paths) {
   std::vector<fs::path> files;
   for (const fs::path path : paths) {
@@ -219,6 +219,8 @@ std::vector<fs::path> files_of(std::span<const std::string> paths) {
       }
     } else if (fs::exists(path)) {
       files.push_back(path);
+    } else {
+      std::fprintf(stderr, "%s: no such file or folder\n", path.c_str());
     }
   }
   std::sort(files.begin(), files.end());

@@ -26,8 +26,11 @@ struct RandomCampaign {
 };
 
 // The files, and those in the folders, in order, as absolute paths. What does not exist is left
-// out.
+// out, with a line on the error stream.
 std::vector<std::filesystem::path> files_of(std::span<const std::string> paths);
+
+// Throws std::system_error if the file cannot be read.
+std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path);
 
 // Returns the number of findings; prints how many inputs there were and, per kind of finding, one
 // line. Throws std::system_error where a file or a process cannot be made, or a seed not read.

@@ -9,8 +9,6 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,11 +52,10 @@ int main(int argc, char** argv) {
   const std::vector<std::string> paths(argv + 1, argv + argc);
   const std::vector<fs::path> files = tetproof::fuzz::files_of(paths);
   for (const fs::path& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
+    const std::vector<std::uint8_t> bytes = tetproof::fuzz::bytes_of(file);
     std::fprintf(stderr, "%s\n", file.c_str());  // so that a crash says where
     const auto start = std::chrono::steady_clock::now();
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     if (taken.count() > kSlowSeconds) std::fprintf(stderr, "  slow: %.1f s\n", taken.count());
   }
