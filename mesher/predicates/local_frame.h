@@ -17,9 +17,7 @@ struct LocalFrame {
 
   bool moved() const { return origin != std::array<double, 3>{}; }
   // In given coordinates, rounded.
-  Vec3 given(const Vec3& p) const {
-    return {origin[0] + p[0], origin[1] + p[1], origin[2] + p[2]};
-  }
+  Vec3 given(const Vec3& p) const { return {origin[0] + p[0], origin[1] + p[1], origin[2] + p[2]}; }
   // The nearest place that is exact in given coordinates. Differences of these from the origin are
   // exact within twice its distance from 0 (Sterbenz' lemma).
   Vec3 written(const Vec3& p) const {

@@ -20,7 +20,7 @@ struct Session {
   const Options& options;
   Control& control;
   const LocalFrame frame;  // of all coordinates but those that are written
-  PointStore points;  // the input vertices, then what the stages append
+  PointStore points;       // the input vertices, then what the stages append
   Predicates predicates{points};
   SurfaceTopology topology;  // of the input, or of its stand-in; oriented outwards
   // The vertices as given, if there is a stand-in; else empty.
