@@ -122,7 +122,7 @@ struct ShrinkArguments {
 };
 
 // \throw UsageError if the folder of the file does not exist.
-void demand_folder_of(const std::string& database);
+void demand_folder_of(const std::string& file, const std::string& option);
 
 // From now on Ctrl-C and other signals to end the program end campaigns cleanly.
 void handle_interrupts();

@@ -105,15 +105,15 @@ void handle_interrupts() {
   signal(SIGPIPE, SIG_IGN);
 }
 
-void demand_folder_of(const std::string& database) {
-  const auto folder = std::filesystem::absolute(database).parent_path();
+void demand_folder_of(const std::string& file, const std::string& option) {
+  const auto folder = std::filesystem::absolute(file).parent_path();
   if (!std::filesystem::is_directory(folder)) {
-    throw UsageError("--db: " + folder.string() + ": no such folder");
+    throw UsageError(option + ": " + folder.string() + ": no such folder");
   }
 }
 
 int run_command(const RunArguments& arguments) {
-  demand_folder_of(arguments.database);
+  demand_folder_of(arguments.database, "--db");
   const auto models = chosen_models(arguments);
   const auto meshers = chosen_meshers(arguments);
   handle_interrupts();

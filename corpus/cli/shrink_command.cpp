@@ -40,9 +40,7 @@ Prober prober_for(const ShrinkArguments& arguments, const fs::path& folder) {
 }  // namespace
 
 int shrink_command(const ShrinkArguments& arguments) {
-  if (const auto folder = fs::absolute(arguments.output).parent_path(); !fs::is_directory(folder)) {
-    throw UsageError("-o: " + folder.string() + ": no such folder");
-  }
+  demand_folder_of(arguments.output, "-o");
   if (access(fs::absolute(arguments.output).parent_path().c_str(), W_OK) != 0) {
     throw UsageError("-o: " + arguments.output + ": cannot be written");
   }

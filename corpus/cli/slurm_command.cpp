@@ -88,7 +88,7 @@ int slurm_command(const SlurmArguments& arguments) {
   if (!run.shard.empty() || run.stop_after > 0) {
     throw UsageError("--shard and --stop-after make no sense here");
   }
-  demand_folder_of(run.database);
+  demand_folder_of(run.database, "--db");
   SlurmCampaign campaign;
   Sha256 models;
   for (const Model& model : collect_models({run.paths.begin(), run.paths.end()}).models) {

@@ -3,7 +3,6 @@
 // hull; what is inside is told by the constrained facets that are crossed from outside.
 // SWITCHES: "-"; it has no step of optimization.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_conforming_constrained_Delaunay_triangulation_3.h>
 #include <CGAL/version.h>
@@ -14,21 +13,12 @@
 #include <vector>
 
 #include "corpus/peer_adapters/adapter.h"
+#include "corpus/peer_adapters/cgal_polyhedron.h"
 
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Polyhedron = CGAL::Surface_mesh<Kernel::Point_3>;
-
-Polyhedron polyhedron_of(const delmesher::Surface& surface) {
-  std::vector<Kernel::Point_3> points;
-  for (const auto& [x, y, z] : surface.vertices) points.emplace_back(x, y, z);
-  std::vector<std::vector<std::size_t>> triangles;
-  for (const auto& [a, b, c] : surface.triangles) triangles.push_back({a, b, c});
-  Polyhedron polyhedron;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, triangles, polyhedron);
-  return polyhedron;
-}
 
 // How many constrained facets lie between a cell and what is outside: even without, odd within.
 template <class Constrained, class Triangulation>
@@ -52,7 +42,8 @@ std::unordered_map<const void*, bool> sides_of(const Constrained& constrained,
 
 delmesher::TetMesh mesh(const delmesher::Surface& surface, bool raw) {
   if (raw) throw std::runtime_error("there is nothing that could be left out");
-  const Polyhedron polyhedron = polyhedron_of(surface);
+  const Polyhedron polyhedron =
+      tetproof::adapter::polyhedron_of<Polyhedron, Kernel::Point_3>(surface);
   const auto constrained = CGAL::make_conforming_constrained_Delaunay_triangulation_3(polyhedron);
   const auto& cells = constrained.triangulation();
   const auto inside = sides_of(constrained, cells);

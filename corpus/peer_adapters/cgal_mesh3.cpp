@@ -7,7 +7,6 @@
 #include <CGAL/Mesh_criteria_3.h>
 #include <CGAL/Mesh_polyhedron_3.h>
 #include <CGAL/Mesh_triangulation_3.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polyhedral_mesh_domain_with_features_3.h>
 #include <CGAL/make_mesh_3.h>
 #include <CGAL/version.h>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "corpus/peer_adapters/adapter.h"
+#include "corpus/peer_adapters/cgal_polyhedron.h"
 
 namespace {
 
@@ -37,16 +37,6 @@ constexpr double kFacetDistance = 0.5e-3;
 constexpr double kEdgeSize = 0.025;
 constexpr double kFacetSize = 0.05;
 constexpr double kCellSize = 0.05;
-
-Polyhedron polyhedron_of(const delmesher::Surface& surface) {
-  std::vector<Kernel::Point_3> points;
-  for (const auto& [x, y, z] : surface.vertices) points.emplace_back(x, y, z);
-  std::vector<std::vector<std::size_t>> triangles;
-  for (const auto& [a, b, c] : surface.triangles) triangles.push_back({a, b, c});
-  Polyhedron polyhedron;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, triangles, polyhedron);
-  return polyhedron;
-}
 
 double diagonal_of(const Polyhedron& polyhedron) {
   CGAL::Bbox_3 box;
@@ -96,7 +86,8 @@ delmesher::TetMesh take(const Complex& complex) {
 }
 
 delmesher::TetMesh mesh(const delmesher::Surface& surface, bool raw) {
-  delmesher::TetMesh taken = take(complex_in(polyhedron_of(surface), !raw));
+  delmesher::TetMesh taken = take(
+      complex_in(tetproof::adapter::polyhedron_of<Polyhedron, Kernel::Point_3>(surface), !raw));
   if (taken.tetrahedra.empty()) throw std::runtime_error("no tetrahedron inside");
   return taken;
 }

@@ -6,10 +6,8 @@ namespace delmesher::policies {
 
 namespace {
 
-// How finely coordinates are written is seen in those that were given.
-Surface given(const Surface& surface, const Session& s) {
+Surface in_given_coordinates(const Surface& surface, const Session& s) {
   Surface result = surface;
-  if (!s.frame.moved()) return result;
   for (Vec3& p : result.vertices) p = s.frame.given(p);
   return result;
 }
@@ -21,8 +19,14 @@ PlanarSurface enter_surface(const Surface& surface, const ValidityResult& validi
   const Surface outwards = oriented_outwards(surface, validity);
   Options options = s.options;
   if (planes == Planes::while_refined) options.planar = kPlanarAuto;
-  const double bound =
-      planes == Planes::none ? 0 : planar_bound(given(outwards, s), options, s.diagonal, s.control);
+  const auto bound_of = [&](const Surface& seen) {
+    return planar_bound(seen, options, s.diagonal, s.control);
+  };
+  double bound = 0;
+  if (planes != Planes::none) {
+    // How finely coordinates are written is seen in those that were given.
+    bound = s.frame.moved() ? bound_of(in_given_coordinates(outwards, s)) : bound_of(outwards);
+  }
   StandIn stand_in =
       find_stand_in(outwards, bound, s.control,
                     planes == Planes::while_refined ? Retriangulate::no : Retriangulate::yes);
