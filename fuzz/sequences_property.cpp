@@ -72,8 +72,9 @@ bool same(const Surface& s, const Surface& t) {
 auto counters(const delmesher::Statistics& s) {
   return std::tie(s.final.tetrahedra, s.final.min_dihedral, s.final.mean_gamma, s.refined.vertices,
                   s.steiner_on_segments, s.steiner_on_facets, s.steiner_in_volume,
-                  s.predicate_filter, s.predicate_extended, s.predicate_exact, s.predicate_symbolic,
-                  s.predicate_by_support, s.predicted_tetrahedra, s.guard_stops, s.cdt_restarts);
+                  s.predicate_filter, s.predicate_extended, s.predicate_fixed, s.predicate_exact,
+                  s.predicate_symbolic, s.predicate_by_support, s.predicted_tetrahedra,
+                  s.guard_stops, s.cdt_restarts);
 }
 
 // What differs between two answers to one call; empty if nothing does.

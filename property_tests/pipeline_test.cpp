@@ -342,6 +342,7 @@ TEST(Threads, AnyNumberInOneRunGivesTheSameMeshStatisticsAndPredicateCalls) {
         EXPECT_EQ(alone.statistics.refined.mean_min_dihedral,
                   shared.statistics.refined.mean_min_dihedral);
         EXPECT_EQ(alone.statistics.predicate_filter, shared.statistics.predicate_filter);
+        EXPECT_EQ(alone.statistics.predicate_fixed, shared.statistics.predicate_fixed);
         EXPECT_EQ(alone.statistics.predicate_exact, shared.statistics.predicate_exact);
       }
     }

@@ -201,11 +201,9 @@ std::string stats_json(const Command& command, const Result& result, const RunFa
   json["rounding"]["signs"] = s.rounding_signs;
   json["rounding"]["thinned"] = s.rounding_thinned;
   json["rounding"]["max_surface_deviation"] = s.max_surface_deviation;
-  json["predicates"] = {{"filter", s.predicate_filter},
-                        {"support", s.predicate_by_support},
-                        {"extended", s.predicate_extended},
-                        {"exact", s.predicate_exact},
-                        {"symbolic", s.predicate_symbolic}};
+  json["predicates"] = {{"filter", s.predicate_filter},     {"support", s.predicate_by_support},
+                        {"extended", s.predicate_extended}, {"fixed", s.predicate_fixed},
+                        {"exact", s.predicate_exact},       {"symbolic", s.predicate_symbolic}};
   return dump(json);
 }
 

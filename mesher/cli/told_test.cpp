@@ -250,7 +250,7 @@ TEST_F(Told, StatsHaveExactlyTheDocumentedKeys) {
       keys(json),
       "input parameters status phases_seconds wall_seconds cpu_seconds peak_rss_bytes refined "
       "final planar filter prediction chamfer guarantee limits steiner rounding predicates ");
-  EXPECT_EQ(keys(json["predicates"]), "filter support extended exact symbolic ");
+  EXPECT_EQ(keys(json["predicates"]), "filter support extended fixed exact symbolic ");
   EXPECT_EQ(keys(json["input"]), "file vertices triangles bbox_diagonal ");
   EXPECT_EQ(keys(json["phases_seconds"]),
             "read check filter chamfer delaunay segments facets refine enrich classify improve "

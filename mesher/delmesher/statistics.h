@@ -80,8 +80,10 @@ struct Statistics {
   // Signs of tetrahedra in doubles that rounding and its repairs decided: their work.
   std::uint64_t rounding_signs = 0;
   double max_surface_deviation = 0;  // input units
-  std::uint64_t predicate_filter = 0, predicate_extended = 0, predicate_exact = 0;
-  std::uint64_t predicate_symbolic = 0, predicate_by_support = 0;
+  // Signs of predicates by what decided them: doubles, double-doubles, integers of a few words,
+  // integers of any size, a plane or line that all points share; and ties that were broken.
+  std::uint64_t predicate_filter = 0, predicate_extended = 0, predicate_fixed = 0;
+  std::uint64_t predicate_exact = 0, predicate_by_support = 0, predicate_symbolic = 0;
 };
 
 }  // namespace delmesher

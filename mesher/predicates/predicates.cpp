@@ -88,7 +88,7 @@ int Predicates::sign_unfiltered(const Polynomial& polynomial, const VertexId* id
       return s;
     }
   }
-  ++counters.exact;
+  ++(stages::fits_fixed<Polynomial>(arguments) ? counters.fixed : counters.exact);
   return stages::exact(arguments, polynomial);
 }
 

@@ -20,17 +20,22 @@ struct PredicateCounters {
   std::uint64_t filter = 0;    // decided by the double filter
   std::uint64_t support = 0;   // zero proved by a shared plane or line
   std::uint64_t extended = 0;  // decided by the extended-precision stage
-  std::uint64_t exact = 0;     // decided by big integers
+  std::uint64_t fixed = 0;     // decided by integers of a few words
+  std::uint64_t exact = 0;     // decided by integers of any size
   std::uint64_t symbolic = 0;  // ties broken by symbolic perturbation
 
   PredicateCounters& operator+=(const PredicateCounters& other) {
     filter += other.filter;
     support += other.support;
     extended += other.extended;
+    fixed += other.fixed;
     exact += other.exact;
     symbolic += other.symbolic;
     return *this;
   }
+
+  // Signs that were asked for.
+  std::uint64_t decided() const { return filter + support + extended + fixed + exact; }
 };
 
 // One object per thread: it owns scratch memory and counters. The points must outlive it; points

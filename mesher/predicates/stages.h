@@ -148,8 +148,14 @@ inline int limbs_needed(const ExactArguments& arguments) {
 }
 
 template <class Polynomial>
+bool fits_fixed(const ExactArguments& arguments) {
+  return Polynomial::kFixedSize && arguments.factor.empty() &&
+         limbs_needed(arguments) <= kLargestFixed;
+}
+
+template <class Polynomial>
 bool exact_is_cheap(const ExactArguments& arguments) {
-  return Polynomial::kFixedSize && arguments.factor.empty() && limbs_needed(arguments) <= 3;
+  return fits_fixed<Polynomial>(arguments) && limbs_needed(arguments) <= 3;
 }
 
 template <class Polynomial>

@@ -162,6 +162,7 @@ void Recorder::finish() {
   s.phase_seconds = session_.control.phase_seconds();
   s.predicate_filter = c.filter;
   s.predicate_extended = c.extended;
+  s.predicate_fixed = c.fixed;
   s.predicate_exact = c.exact;
   s.predicate_symbolic = c.symbolic;
   s.predicate_by_support = c.support;
