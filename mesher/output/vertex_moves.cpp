@@ -1,7 +1,9 @@
 #include "mesher/output/vertex_moves.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <unordered_map>
 
 #include "mesher/predicates/vector.h"
 
@@ -15,6 +17,9 @@ constexpr std::int64_t kAllChainsBudget = 10'000'000;
 constexpr int kChainDepth = 3;
 // Most signs that untangling may decide.
 constexpr std::int64_t kUntangleBudget = 1'000'000;
+// Most rounds of untangling that end with all vertices where they were after an earlier one. Each
+// makes something heavier, so it may be left after some; those that were left took 4.
+constexpr int kMostReturns = 50;
 
 // The distance from |x| to the next larger double; 0 for 0, whose neighbours say nothing about the
 // scale of the mesh.
@@ -23,6 +28,16 @@ double unit_in_last_place(double x) {
   int exponent = 0;
   std::frexp(x, &exponent);
   return std::ldexp(1.0, std::max(exponent - 53, -1074));
+}
+
+// The sum over all vertices tells different positions of them apart, but for chance.
+std::uint64_t fingerprint(std::uint32_t v, const Vec3& p) {
+  std::uint64_t h = v;
+  for (const double x : p) {
+    h = (h ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15U;
+    h ^= h >> 32U;
+  }
+  return h;
 }
 
 bool is_finite(const Vec3& p) {
@@ -374,6 +389,8 @@ bool VertexMoves::lighten(std::uint32_t t) {
     if (lighten_by(v, best, best_position)) best_vertex = v;
   }
   if (best_vertex == kNone) return false;
+  positions_ += fingerprint(best_vertex, best_position) -
+                fingerprint(best_vertex, mesh_.position(best_vertex));
   mesh_.move(best_vertex, best_position);
   mesh_.note_change(best_vertex);
   return true;
@@ -381,16 +398,17 @@ bool VertexMoves::lighten(std::uint32_t t) {
 
 // The breakout method of constraint satisfaction (Morris, AAAI 1993): a tetrahedron that stays bad,
 // although nothing around it can be moved without harm, becomes heavier, until it pays to exchange
-// it for another bad one.
+// it for another bad one. Where it goes round between the same few places it will not.
 bool VertexMoves::untangle(Control& control) {
   weight_.clear();
   untangle_budget_ = kUntangleBudget;
-  while (untangle_budget_ > 0) {
+  std::unordered_map<std::uint64_t, int> returns;
+  while (untangle_budget_ > 0 && returns[positions_]++ <= kMostReturns) {
     std::vector<std::uint32_t> work(mesh_.bad().begin(), mesh_.bad().end());
     std::erase_if(work, [&](std::uint32_t t) { return movable(t).empty(); });
     if (work.empty()) break;
     for (const std::uint32_t t : work) {
-      control.poll_now(0, -1);
+      control.poll();
       if (mesh_.sign(t) <= 0 && !lighten(t)) weight_[t] = weight(t) + 1;
     }
   }

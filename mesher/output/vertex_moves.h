@@ -55,6 +55,7 @@ class VertexMoves {
   std::int64_t chains_budget_;
   std::map<std::uint32_t, std::int64_t> weight_;  // where not 1
   std::int64_t untangle_budget_ = 0;
+  std::uint64_t positions_ = 0;  // fingerprint of the positions of all vertices
 };
 
 }  // namespace delmesher::output

@@ -25,7 +25,18 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
       std::min(kMostRepairs, std::max(kSmall, exact.rounding.tetrahedra.size() / kShare));
   output::RoundingResult rounded =
       output::round_mesh(std::move(exact.rounding), control, {kFew, most});
-  std::uint64_t thinned = 0, signs = rounded.signs;
+  std::uint64_t signs = rounded.signs;
+  // Takes the mesh of `cdt` instead if fewer of its tetrahedra are not positive when rounded.
+  const auto try_instead = [&](std::uint64_t thinned, const output::RepairLimits& limits) {
+    MeshToWrite other = to_write();
+    output::RoundingResult result = output::round_mesh(std::move(other.rounding), control, limits);
+    signs += result.signs;
+    if (!(defects(result) < defects(rounded))) return;
+    rounded = std::move(result);
+    exact = std::move(other);
+    recorder.thinned(cdt, thinned);
+  };
+  std::uint64_t thinned = 0;
   for (int rings = 0; rings <= kMostRings && defects(rounded) != output::kNoDefects; ++rings) {
     const std::size_t gone =
         thin_out(rounded.disturbed, rings, session.input_vertices(), session.frame, session.points,
@@ -34,32 +45,20 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
     const bool last = rings == kMostRings;
     const bool all_tried = thinned == 0 && defects(rounded).first <= kFew;
     if (gone == 0 && (!last || all_tried)) continue;
-    MeshToWrite thinner = to_write();
-    const output::RepairLimits limits =
-        last ? output::RepairLimits{} : output::RepairLimits{0, most};
-    output::RoundingResult other = output::round_mesh(std::move(thinner.rounding), control, limits);
-    signs += other.signs;
-    if (!(defects(other) < defects(rounded))) continue;
-    rounded = std::move(other);
-    exact = std::move(thinner);
-    recorder.thinned(cdt, thinned);
+    try_instead(thinned, last ? output::RepairLimits{.thorough = kFew}
+                              : output::RepairLimits{.thorough = 0, .most = most});
   }
-  // As a last resort without any added point: in a solid of a few roundings there may be no place
-  // for them.
-  std::optional<cdt::CdtResult> plain;
-  if (defects(rounded).first > 0) plain = plain_without_points(session);
-  if (plain) {
-    const std::size_t before = rounded.vertices.size();
-    cdt = std::move(*plain);
-    MeshToWrite bare = to_write();
-    output::RoundingResult other = output::round_mesh(std::move(bare.rounding), control);
-    signs += other.signs;
-    if (defects(other) < defects(rounded)) {
-      rounded = std::move(other);
-      exact = std::move(bare);
-      recorder.thinned(cdt, thinned + before - std::min(before, rounded.vertices.size()));
+  // In a solid of a few roundings there may be no place for any added point.
+  if (defects(rounded).first > 0) {
+    if (std::optional<cdt::CdtResult> plain = plain_without_points(session)) {
+      std::swap(cdt, *plain);
+      const std::size_t before = rounded.vertices.size();
+      try_instead(thinned + before - std::min(before, session.input_vertices()), {});
+      std::swap(cdt, *plain);
     }
   }
+  // As a last resort all repairs, however much there is to repair.
+  if (defects(rounded).first > kFew) try_instead(thinned, {});
   rounded.signs = signs;
   control.poll_now(rounded.vertices.size(), 1);  // small meshes are hardly asked before
   recorder.written(exact, std::move(rounded));
