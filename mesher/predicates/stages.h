@@ -161,7 +161,7 @@ bool exact_is_cheap(const ExactArguments& arguments) {
 template <class Polynomial>
 int exact(const ExactArguments& arguments, const Polynomial& polynomial) {
   if constexpr (Polynomial::kFixedSize) {
-    switch (arguments.factor.empty() ? limbs_needed(arguments) : 0) {
+    switch (fits_fixed<Polynomial>(arguments) ? limbs_needed(arguments) : 0) {
       case 1:
         return fixed_integers<1>(arguments, polynomial);
       case 2:
