@@ -90,9 +90,7 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
       oracles::verify(as_polyhedron(surface), as_file(result.mesh), &result.exact, wanted, report);
   if (!refusal.empty()) return "oracles refuse: " + refusal;
   if (const oracles::OracleReport* improvement = report.find("improvement")) {
-    for (const auto& [name, value] : improvement->figures) {
-      if (name == oracles::kByPlace) explained_by_place.take();
-    }
+    if (improvement->figure(oracles::kByPlace)) explained_by_place.take();
   }
   bool violated = false;
   for (const auto& oracle : report.oracles) violated = violated || oracle.violations > 0;

@@ -15,6 +15,13 @@ std::string number(double value) {
 
 }  // namespace
 
+std::optional<double> OracleReport::figure(std::string_view figure_name) const {
+  for (const auto& [key, value] : figures) {
+    if (key == figure_name) return value;
+  }
+  return std::nullopt;
+}
+
 OracleReport surface_not_decided(const std::string& oracle) {
   OracleReport report(oracle, "boundary faces");
   report.undecided = true;

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -35,6 +37,8 @@ struct OracleReport {
     ++violations;
     if (findings.size() < 5) findings.push_back(finding);
   }
+  // Nothing if this oracle has no such figure.
+  std::optional<double> figure(std::string_view figure_name) const;
   // An oracle that has looked at nothing has not passed.
   bool passed() const { return violations == 0 && checked > 0; }
   // "pass", "FAIL", "info" for what was not promised, or "undecided".

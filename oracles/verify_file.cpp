@@ -14,16 +14,6 @@
 #include "oracles/verification.h"
 
 namespace tetproof::oracles {
-namespace {
-
-double figure(const OracleReport& report, const std::string& name) {
-  for (const auto& [key, value] : report.figures) {
-    if (key == name) return value;
-  }
-  return 0;
-}
-
-}  // namespace
 
 // Some formats have no convention: there the sign of the majority is the right one. A file with a
 // record was written by delmesher, which has one.
@@ -106,8 +96,8 @@ std::string Verification::check_file() {
   add(check_complex(complex, neighbours, options_.stage == Stage::refined));
   if (!in_range) return {};  // the complex oracle has reported it
   OracleReport orientation = check_orientation(complex);
-  report_.inverted = static_cast<std::uint64_t>(figure(orientation, "inverted"));
-  report_.flat = static_cast<std::uint64_t>(figure(orientation, "flat"));
+  report_.inverted = static_cast<std::uint64_t>(orientation.figure("inverted").value_or(0));
+  report_.flat = static_cast<std::uint64_t>(orientation.figure("flat").value_or(0));
   add(std::move(orientation));
   complex.inside = inside_by_parity(complex, surface);
   if (options_.stage == Stage::refined) {

@@ -314,10 +314,7 @@ TEST(MetamorphicVolume, RigidMotionsKeepTheVolumeAndACopyDoublesIt) {
   const auto volume = [](const Surface& s) {
     const Result result = mesh(s);
     const VerifyReport report = verified(s, result, oracles::Stage::final);
-    for (const auto& [name, value] : report.find("exact-volume")->figures) {
-      if (name == "volume") return value;
-    }
-    return 0.0;
+    return report.find("exact-volume")->figure("volume").value();
   };
   const double before = volume(surface);
   EXPECT_GT(before, 0);

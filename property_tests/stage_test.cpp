@@ -107,14 +107,6 @@ Surface figure_3() {
   return s;
 }
 
-double figure(const oracles::OracleReport& report, const std::string& name) {
-  for (const auto& [key, value] : report.figures) {
-    if (key == name) return value;
-  }
-  ADD_FAILURE() << "no figure " << name;
-  return 0;
-}
-
 // The chamfer angles of a record, as the oracle sees them.
 oracles::OracleReport chamfer_angles(const Surface& surface, const delmesher::ExactRecord& record) {
   oracles::ExactPoints points;
@@ -158,7 +150,7 @@ TEST(Figure3, NaiveChamferingLeavesAcuteAnglesAtTheHole) {
   EXPECT_GT(report.checked, 10U);
   EXPECT_GE(report.violations, 3U);
   // The hole is a nearly equilateral triangle.
-  EXPECT_NEAR(figure(report, "smallest angle"), 60, 15);
+  EXPECT_NEAR(report.figure("smallest angle").value(), 60, 15);
 }
 
 // Chamfers all that is acute, and drops nothing.
@@ -180,7 +172,7 @@ TEST(Figure3, OrthogonalChamferingLeavesNone) {
     const oracles::OracleReport report = chamfer_angles(surface, result.exact);
     EXPECT_TRUE(report.passed()) << report.findings[0];
     EXPECT_GT(report.checked, 20U);
-    EXPECT_LE(figure(report, "largest shortfall in degrees"), 1e-3);
+    EXPECT_LE(report.figure("largest shortfall in degrees").value(), 1e-3);
   }
 }
 
@@ -307,7 +299,7 @@ TEST(FilterStage, DropsWhatIsCloserThanTheToleranceAndNothingElse) {
         "");
     EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
     ASSERT_NE(report.find("refined-filter"), nullptr);
-    EXPECT_EQ(figure(*report.find("refined-filter"), "dropped that could return"), 0) << gap;
+    EXPECT_EQ(report.find("refined-filter")->figure("dropped that could return"), 0) << gap;
   }
 }
 
@@ -331,7 +323,8 @@ TEST(FilterStage, DropsWhatIsBesideALongGap) {
     EXPECT_TRUE(samples::exact_or_rounded(report)) << to_text(report);
     ASSERT_NE(report.find("refined-filter"), nullptr);
     EXPECT_EQ(
-        figure(*report.find("refined-filter"), "dropped for what chamfering made of them") > 0,
+        report.find("refined-filter")->figure("dropped for what chamfering made of them").value() >
+            0,
         length == 2000)
         << length;
   }

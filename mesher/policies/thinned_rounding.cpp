@@ -19,22 +19,22 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
   // this much, and of little more than half of what is beyond (measured on degenerate solids).
   constexpr std::size_t kFew = 8;
   Control& control = session.control;
-  const auto to_write = [&] { return conforming_mesh(cdt, session); };
-  MeshToWrite exact = to_write();
+  MeshToWrite exact = conforming_mesh(cdt, session);
   const std::size_t most =
       std::min(kMostRepairs, std::max(kSmall, exact.rounding.tetrahedra.size() / kShare));
   output::RoundingResult rounded =
       output::round_mesh(std::move(exact.rounding), control, {kFew, most});
   std::uint64_t signs = rounded.signs;
-  // Takes the mesh of `cdt` instead if fewer of its tetrahedra are not positive when rounded.
-  const auto try_instead = [&](std::uint64_t thinned, const output::RepairLimits& limits) {
-    MeshToWrite other = to_write();
+  // Takes `mesh` instead if fewer of its tetrahedra are not positive when rounded.
+  const auto try_instead = [&](const cdt::CdtResult& mesh, std::uint64_t points_gone,
+                               const output::RepairLimits& limits) {
+    MeshToWrite other = conforming_mesh(mesh, session);
     output::RoundingResult result = output::round_mesh(std::move(other.rounding), control, limits);
     signs += result.signs;
     if (!(defects(result) < defects(rounded))) return;
     rounded = std::move(result);
     exact = std::move(other);
-    recorder.thinned(cdt, thinned);
+    recorder.thinned(mesh, points_gone);
   };
   std::uint64_t thinned = 0;
   for (int rings = 0; rings <= kMostRings && defects(rounded) != output::kNoDefects; ++rings) {
@@ -45,20 +45,19 @@ void round_and_record(cdt::CdtResult cdt, Session& session, Recorder& recorder) 
     const bool last = rings == kMostRings;
     const bool all_tried = thinned == 0 && defects(rounded).first <= kFew;
     if (gone == 0 && (!last || all_tried)) continue;
-    try_instead(thinned, last ? output::RepairLimits{.thorough = kFew}
-                              : output::RepairLimits{.thorough = 0, .most = most});
+    try_instead(cdt, thinned,
+                last ? output::RepairLimits{.thorough = kFew}
+                     : output::RepairLimits{.thorough = 0, .most = most});
   }
   // In a solid of a few roundings there may be no place for any added point.
   if (defects(rounded).first > 0) {
-    if (std::optional<cdt::CdtResult> plain = plain_without_points(session)) {
-      std::swap(cdt, *plain);
+    if (const std::optional<cdt::CdtResult> plain = plain_without_points(session)) {
       const std::size_t before = rounded.vertices.size();
-      try_instead(thinned + before - std::min(before, session.input_vertices()), {});
-      std::swap(cdt, *plain);
+      try_instead(*plain, thinned + before - std::min(before, session.input_vertices()), {});
     }
   }
   // As a last resort all repairs, however much there is to repair.
-  if (defects(rounded).first > kFew) try_instead(thinned, {});
+  if (defects(rounded).first > kFew) try_instead(cdt, thinned, {});
   rounded.signs = signs;
   control.poll_now(rounded.vertices.size(), 1);  // small meshes are hardly asked before
   recorder.written(exact, std::move(rounded));

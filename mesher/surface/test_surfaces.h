@@ -144,12 +144,14 @@ inline Surface rotated(Surface s, double a = 0.3, double b = 0.7, double c = 1.1
 }
 
 // Rounded by adding and subtracting: gcc 12 at -O3 leaves out some conversions to float and back.
+inline double to_single(double x) {
+  const double large = std::ldexp(x < 0 ? -1.5 : 1.5, std::ilogb(x) + 29);
+  return (x + large) - large;
+}
+
 inline Surface in_single_precision(Surface s) {
   for (Point& p : s.vertices) {
-    for (double& x : p) {
-      const double large = std::ldexp(x < 0 ? -1.5 : 1.5, std::ilogb(x) + 29);
-      x = (x + large) - large;
-    }
+    for (double& x : p) x = to_single(x);
   }
   return s;
 }

@@ -307,14 +307,6 @@ TEST(RefinedDamage, ASegmentThatTurnsBackIsSaidToDoSo) {
   })) << to_text(report);
 }
 
-double figure_of(const OracleReport& report, const std::string& name) {
-  for (const auto& [key, value] : report.figures) {
-    if (key == name) return value;
-  }
-  ADD_FAILURE() << report.name << " says nothing of " << name;
-  return -1;
-}
-
 // The figures of the filter and the chamfer agree with the record, and the distance of a chamfer is
 // at most a third of the local feature size (section 4.1).
 TEST(RefinedFigures, AreThoseOfTheRecord) {
@@ -325,14 +317,15 @@ TEST(RefinedFigures, AreThoseOfTheRecord) {
   for (const auto& facet : good.record.facets) ++facets.at(facet.filtered);
   EXPECT_GT(facets[1], 0U);
   const OracleReport& filter = *report.find("refined-filter");
-  EXPECT_EQ(figure_of(filter, "dropped facets"), facets[1] + facets[2]);
-  EXPECT_EQ(figure_of(filter, "dropped for what chamfering made of them"), facets[2]);
-  EXPECT_EQ(figure_of(filter, "tolerance"), good.record.parameters.tolerance);
+  EXPECT_EQ(filter.figure("dropped facets"), facets[1] + facets[2]);
+  EXPECT_EQ(filter.figure("dropped for what chamfering made of them"), facets[2]);
+  EXPECT_EQ(filter.figure("tolerance"), good.record.parameters.tolerance);
   const OracleReport& need = *report.find("refined-chamfer-need");
   EXPECT_GT(good.record.corners.size(), 0U);
-  EXPECT_EQ(figure_of(need, "corners"), good.record.corners.size());
-  EXPECT_GT(figure_of(need, "largest distance over local feature size"), 0);
-  EXPECT_LE(figure_of(need, "largest distance over local feature size"), (1 + 1e-9) / 3);
+  EXPECT_EQ(need.figure("corners"), good.record.corners.size());
+  const double distance = need.figure("largest distance over local feature size").value();
+  EXPECT_GT(distance, 0);
+  EXPECT_LE(distance, (1 + 1e-9) / 3);
 }
 
 // A tetrahedron with an edge of 1.2 across from one of 1.5, ten apart. No features are closer than
@@ -359,8 +352,8 @@ TEST(RefinedFigures, FacetsDroppedForTheirChamfersAreAccountedFor) {
   // Nothing is close among what the first step kept, which is the tetrahedron with its four corners
   // and six edges, and what the second dropped has a reason.
   EXPECT_EQ(filter.checked, 4U + 6U + facets[2]);
-  EXPECT_EQ(figure_of(filter, "dropped facets"), facets[2]);
-  EXPECT_EQ(figure_of(filter, "dropped for what chamfering made of them"), facets[2]);
+  EXPECT_EQ(filter.figure("dropped facets"), facets[2]);
+  EXPECT_EQ(filter.figure("dropped for what chamfering made of them"), facets[2]);
 }
 
 TEST(ConstrainedDamage, AFlippedFaceIsCaught) {

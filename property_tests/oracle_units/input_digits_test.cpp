@@ -11,10 +11,13 @@
 #include <random>
 #include <vector>
 
+#include "mesher/surface/test_surfaces.h"
 #include "oracles/edge_noise.h"
 
 namespace tetproof::oracles {
 namespace {
+
+using delmesher::surface::test_surfaces::to_single;
 
 constexpr double kAlways = 0x1p-18;
 
@@ -36,12 +39,6 @@ std::vector<Position> numbers(double unit) {
 // Six halves of a unit per axis, over the diagonal.
 double share(double unit, double size) {
   return 6 * (unit / 2) / size;
-}
-
-// gcc 12 at -O3 leaves out some conversions to float and back.
-double single_precision(double x) {
-  volatile float nearest = static_cast<float>(x);
-  return static_cast<double>(nearest);
 }
 
 TEST(InputDigits, DecimalsLetDeviateByTheirLastPlace) {
@@ -71,7 +68,7 @@ TEST(InputDigits, SixDigitsArePrintedDigits) {
 TEST(InputDigits, SinglePrecisionFarAway) {
   std::vector<Position> p = numbers(0);
   for (Position& q : p) {
-    for (double& x : q) x = single_precision(x + 5000);  // up to 8191
+    for (double& x : q) x = to_single(x + 5000);  // up to 8191
   }
   EXPECT_NEAR(automatic_planar_share(p), share(0x1p-11, 100), 1e-15);
   for (Position& q : p) {
@@ -100,7 +97,7 @@ TEST(InputDigits, OfModelsTimesPowersOfTwo) {
     for (double& x : q) x = std::round(x * 800) / 1e5;  // up to 0.8
   }
   for (Position& q : single) {
-    for (double& x : q) x = single_precision(x + 5000);
+    for (double& x : q) x = to_single(x + 5000);
   }
   for (const int power : {-300, -90, 0, 90, 300}) {
     const auto scaled = [power](std::vector<Position> p) {

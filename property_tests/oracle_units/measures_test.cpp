@@ -145,18 +145,12 @@ TEST(Angles, OfAFileAreThoseOfTheMeshBeforeItWasWritten) {
   const auto checked = [&](const BeforeWriting& how) {
     return check_angles(complex, neighbours, places, 20, AngleScope::all, how);
   };
-  const auto figure = [](const OracleReport& report, const std::string& name) {
-    for (const auto& [key, value] : report.figures) {
-      if (key == name) return value;
-    }
-    return std::nan("");
-  };
   EXPECT_STREQ(checked({}).status(), "FAIL");
   const OracleReport kept = checked({&before, {0, 1, 2, 3}});
   EXPECT_STREQ(kept.status(), "pass");
-  EXPECT_EQ(figure(kept, "bad as written alone"), 1);
-  EXPECT_NEAR(figure(kept, "smallest angle of these"), std::atan(0.1) * 180 / std::acos(-1.0),
-              1e-6);
+  EXPECT_EQ(kept.figure("bad as written alone"), 1);
+  EXPECT_NEAR(kept.figure("smallest angle of these").value(),
+              std::atan(0.1) * 180 / std::acos(-1.0), 1e-6);
   // The record has another tetrahedron there, which is as flat, or none.
   EXPECT_STREQ(checked({&points, {0, 1, 2, 3}}).status(), "FAIL");
   EXPECT_STREQ(checked({&before, {0, 1, 2}}).status(), "FAIL");

@@ -251,26 +251,20 @@ TEST(Repairs, AllIsCounted) {
   ExactPoints points;
   ASSERT_EQ(points.assign(sample.exact.points), "");
   const auto run = [&] { return check_repairs(sample.exact, points, Promise()); };
-  const auto figure = [](const OracleReport& report, const std::string& name) {
-    for (const auto& [key, value] : report.figures) {
-      if (key == name) return value;
-    }
-    return -1.0;
-  };
   OracleReport report = run();
   EXPECT_EQ(report.checked, 6U + 4U);
   EXPECT_EQ(report.violations, 0U);
-  EXPECT_EQ(figure(report, "tetrahedra changed"), 0);
-  EXPECT_EQ(figure(report, "not positive on doubles"), 0);
+  EXPECT_EQ(report.figure("tetrahedra changed"), 0);
+  EXPECT_EQ(report.figure("not positive on doubles"), 0);
   // An inverted tetrahedron is not positive; the last mesh lacks it.
   std::swap(sample.exact.unrepaired[1].vertices[0], sample.exact.unrepaired[1].vertices[1]);
   sample.exact.final.erase(sample.exact.final.begin() + 1);
   report = run();
   EXPECT_EQ(report.checked, 6U + 4U);
   EXPECT_EQ(report.violations, 0U);
-  EXPECT_EQ(figure(report, "tetrahedra changed"), 1);
-  EXPECT_EQ(figure(report, "not positive on doubles"), 1);
-  EXPECT_EQ(figure(report, "edges from there"), 0);
+  EXPECT_EQ(report.figure("tetrahedra changed"), 1);
+  EXPECT_EQ(report.figure("not positive on doubles"), 1);
+  EXPECT_EQ(report.figure("edges from there"), 0);
   // A point that no tetrahedron had came with the repairs.
   sample.exact.final = sample.exact.unrepaired;
   sample.exact.unrepaired = {sample.exact.final[0]};

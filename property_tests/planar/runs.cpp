@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "mesher/surface/test_surfaces.h"
-
 namespace tetproof::planar {
 
 using namespace oracles;  // NOLINT
@@ -19,11 +15,6 @@ Surface rotated(const Surface& surface, const std::function<double(double)>& rou
     for (double& x : p) x = round(x);
   }
   return s;
-}
-
-double to_single(double x) {
-  const double large = std::ldexp(x < 0 ? -1.5 : 1.5, std::ilogb(x) + 29);
-  return (x + large) - large;
 }
 
 Surface stairs() {

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "mesher/delmesher.h"
+#include "mesher/surface/test_surfaces.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 
@@ -13,7 +14,7 @@ namespace tetproof::planar {
 delmesher::Surface rotated(const delmesher::Surface& surface,
                            const std::function<double(double)>& round);
 
-double to_single(double x);
+using delmesher::surface::test_surfaces::to_single;
 
 // Stairs of four steps with a square hole through the second: flat faces of many triangles, concave
 // edges.
