@@ -166,13 +166,22 @@ class Pages(unittest.TestCase):
 
         text = self.page(self.campaign(
             row("fan-1", "delmesher", solver=seen(1000, 20, 0.01)), row("fan-2", "delmesher", solver=seen(8, 1, 0.5)),
-            row("fan-1", "netgen", solver=seen(8000, 80, 0.005)), row("fan-2", "netgen", solver=seen(1000, 1, 1)), row("x3", "netgen")))
+            row("fan-1", "netgen", solver=seen(8000, 80, 0.005)), row("fan-2", "netgen", solver=seen(1000, 1, 1)), row("x3", "netgen"),
+            row("fan-1", "cdt", solver=seen(49, 1, 1)), row("fan-1", "tetgen")))
+        self.assertIn("\nNo mesh with so many unknowns was solved of `cdt`, `tetgen`.\n", text)
         found = rows_under(text, "What a solver sees")
         # 0.01 x 100 and 0.005 x 400; 20 / 10 and 80 / 20; of eight unknowns nothing is told.
         self.assertEqual([found[0]["Meshes"], found[0]["error x n^(2/3)"], found[0]["iterations / n^(1/3)"]], ["1", "1.000", "2.00"])
         self.assertEqual([found[1]["meshes in common with `delmesher`"], found[1]["error x n^(2/3), it / ours"],
                           found[1]["iterations / n^(1/3), it / ours"]], ["1", "2.00", "2.00"])
         self.assertNotIn("What a solver", self.page(self.campaign(row("fan-1", "delmesher"))))
+
+    def test_a_later_run_with_a_solver_takes_the_place_of_one_without(self):
+        solver = {"unknowns": 1000, "iterations": 20, "condition": 1.0, "mean_error": 0.01, "converged": True}
+        self.page(self.campaign(row("fan-1", "netgen", tetrahedra=1), row("fan-2", "netgen", tetrahedra=1, solver=solver)))
+        earlier = self.path("page.csv")
+        self.page(self.campaign(row("fan-1", "netgen", tetrahedra=2, solver=solver), row("fan-2", "netgen", tetrahedra=2)), "--merge", earlier)
+        self.assertEqual([(r["tetrahedra"], r["unknowns"]) for r in self.runs()], [("2", "1000"), ("1", "1000")])
 
     def test_runs_of_equal_versions_stay_and_others_take_their_place(self):
         self.page(self.campaign(row("fan-1", "netgen", tetrahedra=1), row("fan-2", "netgen", "killed"), row("fan-1", "delmesher", tetrahedra=1),

@@ -32,6 +32,7 @@ TEST(FaceKey, EqualExactlyForEqualFaces) {
     for (const Face& g : faces) {
       const bool rotation = g == Face{a, b, c} || g == Face{b, c, a} || g == Face{c, a, b};
       const bool reversal = g == Face{a, c, b} || g == Face{c, b, a} || g == Face{b, a, c};
+      EXPECT_EQ(directed_face(f) == directed_face(g), rotation);
       EXPECT_EQ(directed_face_key(f, vertices) == directed_face_key(g, vertices), rotation);
       EXPECT_EQ(undirected_face(a, b, c) == undirected_face(g[0], g[1], g[2]),
                 rotation || reversal);

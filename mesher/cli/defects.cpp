@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "mesher/base/disjoint_sets.h"
+#include "mesher/base/face_key.h"
 #include "mesher/cli/inner_walls.h"
 #include "mesher/io/projected_face.h"
 #include "mesher/io/repair.h"
@@ -91,15 +92,12 @@ const std::vector<std::array<std::uint32_t, 2>>& places_of(const SurfaceReport& 
 
 // Pairs of triangles with the same vertices that look in opposite directions: faces of two bodies.
 std::uint64_t opposite_duplicates(const Surface& surface, const SurfaceReport& report) {
-  const auto starts_at_lowest = [&](std::uint32_t triangle) {
-    auto corners = surface.triangles[triangle];
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    return corners;
+  const auto side = [&](std::uint32_t triangle) {
+    return base::directed_face(surface.triangles[triangle]);
   };
   const auto& pairs = places_of(report, Kind::duplicate_triangle);
-  return static_cast<std::uint64_t>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& p) {
-    return starts_at_lowest(p[0]) != starts_at_lowest(p[1]);
-  }));
+  return static_cast<std::uint64_t>(std::count_if(
+      pairs.begin(), pairs.end(), [&](const auto& p) { return side(p[0]) != side(p[1]); }));
 }
 
 // Whether triangles of a pair that meets lie on both sides of each other.

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "mesher/base/face_key.h"
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
 #include "mesher/improve/quality.h"
@@ -162,9 +163,7 @@ TEST(Improve, KeepsTheBoundaryOfAnyMesh) {
     const auto faces = [](const cdt::CdtResult& mesh) {
       std::multiset<std::array<VertexId, 3>> keys;
       for (const SurfaceFace& face : mesh.boundary) {
-        std::array<VertexId, 3> v = face.vertices;
-        std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-        keys.insert(v);
+        keys.insert(base::directed_face(face.vertices));
       }
       return keys;
     };

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "mesher/base/disjoint_sets.h"
+#include "mesher/base/face_key.h"
 #include "mesher/io/text.h"
 #include "mesher/io/triangulate.h"
 #include "mesher/predicates/signs_of_doubles.h"
@@ -88,12 +89,6 @@ std::map<Edge, std::vector<std::uint32_t>> triangles_of_edges(
     }
   }
   return edges;
-}
-
-// The same triangle, as seen from the same side.
-Triangle from_smallest(Triangle t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
 }
 
 // Joins the vertices of `which` that are no farther apart than `weld`; equal ones, if that is 0.
@@ -338,7 +333,7 @@ void Repair::fill() {
   std::uint64_t holes = 0, added = 0;
   std::map<Triangle, std::uint32_t> there;  // from the smallest corner on
   for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
-    there[from_smallest(surface_.triangles[t])] = t;
+    there[base::directed_face(surface_.triangles[t])] = t;
   }
   std::vector<bool> fins(surface_.triangles.size());
   for (const Hole& hole : holes_of(surface_).holes) {
@@ -349,7 +344,7 @@ void Repair::fill() {
     std::uint64_t of_hole = 0;
     for (const Triangle& t : face.triangles) {
       // What would lie on its back does not close a hole: it sticks out of the surface.
-      const auto back = there.find(from_smallest({t[0], t[2], t[1]}));
+      const auto back = there.find(base::directed_face({t[0], t[2], t[1]}));
       if (back != there.end()) {
         fins[back->second] = true;
         continue;
