@@ -4,6 +4,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -18,6 +20,7 @@
 #include "corpus/process.h"
 #include "corpus/progress.h"
 #include "corpus/runnable.h"
+#include "corpus/sha256.h"
 #include "corpus/shell.h"
 
 namespace tetproof {
@@ -75,9 +78,22 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+bool is_file(const fs::path& path) {
+  std::error_code none;
+  return fs::is_regular_file(path, none);
+}
+
+// Is the file still what was to be run?
+bool unchanged(const Model& model) {
+  try {
+    return is_file(model.path) && sha256_of_file(model.path) == model.sha256;
+  } catch (const std::runtime_error&) {
+    return false;  // gone meanwhile
+  }
+}
+
 bool same_bytes(const fs::path& a, const fs::path& b) {
-  return fs::exists(b) && fs::file_size(a) == fs::file_size(b) &&
-         read_if_there(a) == read_if_there(b);
+  return is_file(b) && fs::file_size(a) == fs::file_size(b) && read_if_there(a) == read_if_there(b);
 }
 
 std::string without(const fs::path& folder, std::string text) {
@@ -229,7 +245,7 @@ class Job {
     row_.mesh_seconds = mesh_seconds(row_.stats_json);
     row_.refined = mesh_columns(row_.stats_json, "refined");
     if (!judgement.mesh_expected) return false;
-    if (!fs::exists(files_.mesh)) {
+    if (!is_file(files_.mesh)) {
       wrong("no mesh was written");
       return false;
     }
@@ -265,7 +281,7 @@ class Job {
 
   // Starts the oracles, whether there is a sidecar or not.
   bool after_sidecar() {
-    if (sidecar_wanted_ && !fs::exists(files_.exact)) {
+    if (sidecar_wanted_ && !is_file(files_.exact)) {
       const Judgement judgement = judge(process_->outcome(), mesher_.exit_codes);
       const std::string reason = without_folder(judgement.reason);
       if (is_limit(judgement.disposition)) {
@@ -276,8 +292,6 @@ class Job {
     } else if (sidecar_wanted_ && !same_bytes(files_.mesh, files_.again)) {
       wrong("a second run wrote another mesh");
     }
-    std::ostringstream deviation;
-    deviation << mesher_.declared_deviation;
     // Through a shell, because only the end of a child's output is kept.
     std::vector<std::string> argv = {"/bin/sh",
                                      "-c",
@@ -287,10 +301,10 @@ class Job {
                                      files_.input.string(),
                                      files_.mesh.string(),
                                      "--declared-deviation",
-                                     deviation.str()};
-    if (fs::exists(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
+                                     fmt::format("{}", mesher_.declared_deviation)};
+    if (is_file(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
     if (mesher_.envelope > 0) {
-      argv.insert(argv.end(), {"--envelope", std::to_string(mesher_.envelope)});
+      argv.insert(argv.end(), {"--envelope", fmt::format("{}", mesher_.envelope)});
     } else {
       argv.insert(argv.end(), {"--promised", mesher_.promised()});
     }
@@ -485,6 +499,11 @@ class Campaign {
         progress_.already_done(*present);
         continue;
       }
+      if (!unchanged(model)) {
+        summary_.models_changed.insert(model.name);
+        ++next_;
+        continue;
+      }
       row.model_name = model.name;
       row.model_path = model.path.string();
       row.model_bytes = model.bytes;
@@ -522,10 +541,14 @@ class Campaign {
         progress_.finish();
         throw CannotRun(mesher + ": " + job.row().reason);
       }
-      ran_.insert(mesher);
-      database_.store(job.row());
-      count_of(mesher).add(job.row());
-      progress_.done(job.row(), job.seconds());
+      if (unchanged(job.model())) {
+        ran_.insert(mesher);
+        database_.store(job.row());
+        count_of(mesher).add(job.row());
+        progress_.done(job.row(), job.seconds());
+      } else {
+        summary_.models_changed.insert(job.model().name);
+      }
       it = running_.erase(it);
     }
   }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <thread>
@@ -411,6 +412,57 @@ TEST_F(CampaignTest, WhatCannotBeRunEndsTheCampaign) {
   EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
 }
 
+// A file that goes or changes says nothing of the mesher that was to read it.
+TEST_F(CampaignTest, AModelThatGoesOrChangesHasNoRow) {
+  const std::vector<Model> found = models();
+  fs::remove(found[0].path);
+  std::ofstream(found[1].path) << "OFF changed";
+  EXPECT_EQ(run_campaign(found, {shell("m", "exit 3")}, options_).models_changed,
+            (std::set<std::string>{"m0.off", "m1.off"}));
+  EXPECT_EQ(row_count(), 1U);
+  EXPECT_EQ(call_count(), 1);
+  // While it runs.
+  const std::vector<Model> now = models();
+  ASSERT_EQ(now.size(), 2U);
+  const std::string gone = "rm '" + now[0].path.string() + "'; exit 3";
+  const std::string other =
+      "printf '" + kCorner + "' > mesh.tet; echo more >> '" + now[1].path.string() + "'";
+  EXPECT_EQ(run_campaign({now[0]}, {shell("gone", gone)}, options_).models_changed,
+            (std::set<std::string>{"m1.off"}));
+  EXPECT_EQ(run_campaign({now[1]}, {shell("other", other)}, options_).models_changed,
+            (std::set<std::string>{"m2.off"}));
+  EXPECT_EQ(row_count(), 1U);
+}
+
+// The oracles hold a mesh to the digits of what was declared.
+TEST_F(CampaignTest, SmallSharesArriveAsTheyAre) {
+  options_.verify = true;
+  options_.self = self_that("true");
+  Mesher mesher = shell("m", "printf '" + kCorner + "' > mesh.tet");
+  mesher.envelope = 6.25e-8;
+  run_campaign({models()[0]}, {mesher}, options_);
+  mesher.envelope = 0;
+  mesher.declared_deviation = 1.2345678901e-7;
+  run_campaign({models()[1]}, {mesher}, options_);
+  std::ifstream in(calls());
+  const std::string said(std::istreambuf_iterator<char>(in), {});
+  EXPECT_NE(said.find("--envelope 6.25e-08 "), std::string::npos) << said;
+  EXPECT_NE(said.find("--declared-deviation 1.2345678901e-07 "), std::string::npos) << said;
+}
+
+// Whatever a mesher leaves there: a link to itself, a pipe that nobody writes to.
+TEST_F(CampaignTest, WhatIsNoFileIsNoMesh) {
+  run_campaign({models()[0]},
+               {shell("link", "ln -s mesh.tet mesh.tet"), shell("pipe", "mkfifo mesh.tet"),
+                shell("folder", "mkdir mesh.tet")},
+               options_);
+  auto rows = rows_of_model(0);
+  for (const char* name : {"link", "pipe", "folder"}) {
+    EXPECT_EQ(rows[name].disposition, Disposition::wrong_result) << name;
+    EXPECT_EQ(rows[name].reason, "no mesh was written") << name;
+  }
+}
+
 TEST_F(CampaignTest, NothingStaysBesideTheDatabase) {
   run_campaign({models()[0]}, {shell("a", "exit 4")}, options_);
   for (const char* suffix : {"-wal", "-shm", "-journal", ".lock", ".scratch"}) {
@@ -476,6 +528,34 @@ TEST_F(InterruptedCampaign, ResumesAfterKill9) {
   EXPECT_EQ(row_count(), 9u);
   EXPECT_EQ(call_count(), 3 + 7);  // only the run that was cut off is repeated
   EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
+}
+
+// What is said to be a number is one.
+TEST_F(CampaignTest, TheCommandLineTakesNoLimitThatIsNone) {
+  const auto code = [&](const std::string& words) {
+    const std::string line = std::string("'") + TETPROOF_PATH + "' " + words + " > '" +
+                             (folder_ / "said").string() + "' 2>&1";
+    return WEXITSTATUS(std::system(line.c_str()));
+  };
+  const std::string run = "run '" + (folder_ / "models").string() + "' --no-verify --db '" +
+                          options_.database.string() + "' ";
+  const std::string mesher = "-m 'a=cmd:exit 4 # {in} {out.tet}' ";
+  for (const char* wrong :
+       {"--timeout nan", "--timeout -5", "--timeout inf", "--timeout 0", "--cpu nan", "--cpu -3",
+        "--memory -1", "--memory 0", "--memory 17592186044416", "--memory x", "--stop-after nan",
+        "--shard 1/4294967297", "--shard 0/3", "--shard 4/3", "--shard 1/3x", "--shard 1", "-j -1",
+        "-m 'a=cmd:exit 5 # {in} {out.tet}'"}) {
+    EXPECT_EQ(code(run + mesher + wrong), 2) << wrong;
+    EXPECT_FALSE(fs::exists(options_.database)) << wrong;
+  }
+  EXPECT_EQ(code(run + mesher + "--timeout 5.5 --cpu 2 --memory 100 --stop-after 60 --shard 1/1"),
+            0);
+  const std::string gate = "gate --base '" + options_.database.string() + "' --new '" +
+                           options_.database.string() + "' ";
+  EXPECT_EQ(code(gate), 0);
+  for (const char* wrong : {"--time-factor nan", "--time-factor 0.5", "--least-seconds nan"}) {
+    EXPECT_EQ(code(gate + wrong), 2) << wrong;
+  }
 }
 
 TEST(MeshSeconds, WithoutReadingCheckingAndWriting) {

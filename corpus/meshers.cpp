@@ -234,6 +234,10 @@ void take_declarations(const std::string& text, Mesher& mesher) {
   }
 }
 
+// Of the files that `tetproof measure` and `verify` read.
+constexpr const char* kMeshExtensions[] = {".mesh", ".msh",  ".vtu", ".node",
+                                           ".ele",  ".face", ".tet"};
+
 Mesher command_mesher(const std::string& name, const std::string& text) {
   const auto colon = text.find(':');
   const std::string line = text.substr(colon + 1);
@@ -250,6 +254,13 @@ Mesher command_mesher(const std::string& name, const std::string& text) {
   mesher.flags = line;
   mesher.line = line;
   mesher.mesh_extension = line.substr(start + 4, end - start - 4);
+  const fs::path plain = mesher.mesh_extension.ends_with(".gz")
+                             ? fs::path("mesh" + mesher.mesh_extension).stem()
+                             : fs::path("mesh" + mesher.mesh_extension);
+  if (std::ranges::find(kMeshExtensions, plain.extension()) == std::end(kMeshExtensions)) {
+    throw std::runtime_error("{out" + mesher.mesh_extension +
+                             "}: .mesh, .msh, .vtu, .node, .ele, .face or .tet is expected");
+  }
   mesher.command = [line, place = line.substr(start, end + 1 - start)](const RunFiles& files) {
     std::string command = line;
     replace_all(command, place, shell_quoted(files.mesh.string()));

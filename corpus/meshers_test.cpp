@@ -95,6 +95,17 @@ TEST_F(Meshers, Commands) {
             "mesh --slivers off");
 }
 
+TEST_F(Meshers, CommandsWriteFilesThatCanBeRead) {
+  for (const char* known : {".mesh", ".msh", ".vtu", ".node", ".tet", ".msh.gz"}) {
+    const std::string text = "cmd:prog {in} {out" + std::string(known) + "}";
+    EXPECT_EQ(make_mesher(text, programs_).mesh_extension, known);
+  }
+  for (const char* other : {".foo", ".", ".gz", ".vtk"}) {
+    const std::string text = "cmd:prog {in} {out" + std::string(other) + "}";
+    EXPECT_THROW(make_mesher(text, programs_), std::runtime_error) << other;
+  }
+}
+
 TEST_F(Meshers, CommandsDeclareWhatTheyMesh) {
   const Mesher mesher =
       make_mesher("g=cmd,region=hull,deviation=1e-8:prog a:b {in} {out.msh}", programs_);

@@ -18,6 +18,7 @@ constexpr std::size_t kSmokeModels = 30, kNightlyModels = 300;
 constexpr std::uint64_t kSmokeBytes = 200'000, kNightlyBytes = 5'000'000;
 
 bool is_surface_file(const fs::path& path) {
+  if (path.extension() == ".gz") return is_surface_file(path.stem());
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -44,9 +45,10 @@ class Walk {
     if (!entered_.insert(fs::canonical(folder)).second) return;
     std::set<fs::path> folders;
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.is_directory()) {
+      std::error_code leads_nowhere;  // a link to itself, say
+      if (entry.is_directory(leads_nowhere)) {
         (entry.is_symlink() ? links_ : folders).insert(entry.path());
-      } else if (entry.is_regular_file() && is_surface_file(entry.path())) {
+      } else if (entry.is_regular_file(leads_nowhere) && is_surface_file(entry.path())) {
         files_.push_back(entry.path());
       }
     }
@@ -85,7 +87,8 @@ ModelList collect_models(const std::vector<fs::path>& paths) {
     }
   };
   for (const fs::path& path : paths) {
-    if (fs::is_directory(path)) {
+    std::error_code leads_nowhere;
+    if (fs::is_directory(path, leads_nowhere)) {
       const std::vector<fs::path> files = Walk().files_in(path);
       if (files.empty()) {
         throw std::runtime_error(path.string() +
@@ -94,7 +97,7 @@ ModelList collect_models(const std::vector<fs::path>& paths) {
       for (const fs::path& file : files) {
         add(make_model(file, file.lexically_relative(path).string()));
       }
-    } else if (fs::exists(path)) {
+    } else if (fs::is_regular_file(path, leads_nowhere)) {
       add(make_model(path, path.filename().string()));
     } else {
       throw std::runtime_error(path.string() + ": no such file or folder");

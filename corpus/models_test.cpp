@@ -83,6 +83,25 @@ TEST_F(Models, LinksToFoldersAreFollowedAndEveryFolderEnteredOnce) {
   fs::remove_all(other);
 }
 
+TEST_F(Models, LinksThatLeadNowhereArePassedOver) {
+  write("a.off", "a");
+  fs::create_symlink("me.off", folder_ / "me.off");
+  fs::create_symlink("me", folder_ / "me");
+  fs::create_symlink("none.off", folder_ / "dangling.off");
+  EXPECT_EQ(collect_models({folder_}).models.size(), 1U);
+  EXPECT_THROW(collect_models({folder_ / "me.off"}), std::runtime_error);
+}
+
+TEST_F(Models, CompressedFilesAreTaken) {
+  write("a.off.gz", "a");
+  write("sub/b.STL.gz", "b");
+  write("c.txt.gz", "c");
+  write(".gz", "d");
+  const ModelList list = collect_models({folder_});
+  ASSERT_EQ(list.models.size(), 2U);
+  EXPECT_EQ(list.models[0].name, "a.off.gz");
+}
+
 TEST_F(Models, ShardsPartition) {
   for (int i = 0; i < 40; ++i) write(std::to_string(i) + ".off", std::to_string(i));
   const auto models = collect_models({folder_}).models;

@@ -77,11 +77,18 @@ constexpr std::size_t kColumnCount = 39 + std::size(kQualityColumns);
 constexpr const char* kWhereKey =
     " WHERE model_sha256 = ? AND mesher = ? AND version = ? AND flags = ? AND limits = ?";
 
+// What programs say may be in any encoding; what is stored goes into JSON, XML and pages.
+std::string in_utf8(const std::string& text) {
+  const auto plain = [](char c) { return static_cast<unsigned char>(c) < 128; };
+  if (std::all_of(text.begin(), text.end(), plain)) return text;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
 // Binds values to consecutive parameters; absent ones become NULL.
 class Binder {
  public:
   explicit Binder(SQLite::Statement& statement) : statement_(statement) {}
-  void operator()(const std::string& value) { statement_.bind(++at_, value); }
+  void operator()(const std::string& value) { statement_.bind(++at_, in_utf8(value)); }
   void operator()(double value) { statement_.bind(++at_, value); }
   void operator()(int value) { statement_.bind(++at_, value); }
   void operator()(std::uint64_t value) { statement_.bind(++at_, static_cast<std::int64_t>(value)); }
@@ -282,6 +289,7 @@ std::optional<SolverColumns> solver_columns(const std::string& mesh_json) {
   const Json json = Json::parse(mesh_json, nullptr, false);
   if (!json.is_object() || !json.contains("solver")) return std::nullopt;
   const Json& solver = json["solver"];
+  if (!solver.is_object()) return std::nullopt;
   return SolverColumns{.unknowns = solver.value("unknowns", std::uint64_t{0}),
                        .iterations = solver.value("iterations", std::uint64_t{0}),
                        .converged = solver.value("converged", false),
@@ -416,6 +424,16 @@ ResultsDatabase::~ResultsDatabase() {
   unlock(path_, lock_fd_);
 }
 
+// Errors name the file.
+template <typename Action>
+auto ResultsDatabase::named(const Action& action) {
+  try {
+    return action();
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(path_.string() + ": " + error.what());
+  }
+}
+
 bool ResultsDatabase::has(const RunKey& key) {
   SQLite::Statement query(*database_, std::string("SELECT 1 FROM runs") + kWhereKey);
   Binder bind(query);
@@ -428,12 +446,14 @@ void ResultsDatabase::store(const RunRow& row) {
   for (std::size_t i = 1; i < kColumnCount; ++i) places += ", ?";
   std::string columns = std::string(kColumns) + kLaterColumns;
   for (const QualityColumn& quality : kQualityColumns) columns += std::string(", ") + quality.name;
-  SQLite::Statement insert(*database_,
-                           "INSERT OR REPLACE INTO runs (" + columns + ") VALUES (" + places + ")");
   RunRow honest = row;
   demand_verdict(honest);
-  bind_row(insert, honest);
-  insert.exec();
+  named([&] {
+    SQLite::Statement insert(
+        *database_, "INSERT OR REPLACE INTO runs (" + columns + ") VALUES (" + places + ")");
+    bind_row(insert, honest);
+    return insert.exec();
+  });
 }
 
 std::string ResultsDatabase::selected_columns() const {
@@ -445,11 +465,13 @@ std::string ResultsDatabase::selected_columns() const {
 }
 
 std::optional<RunRow> ResultsDatabase::find(const RunKey& key) {
-  SQLite::Statement query(*database_, "SELECT " + selected_columns() + " FROM runs" + kWhereKey);
-  Binder bind(query);
-  visit_key(bind, key);
-  if (!query.executeStep()) return std::nullopt;
-  return read_row(query);
+  return named([&]() -> std::optional<RunRow> {
+    SQLite::Statement query(*database_, "SELECT " + selected_columns() + " FROM runs" + kWhereKey);
+    Binder bind(query);
+    visit_key(bind, key);
+    if (!query.executeStep()) return std::nullopt;
+    return read_row(query);
+  });
 }
 
 bool ResultsDatabase::merge(const RunRow& row) {
@@ -460,10 +482,12 @@ bool ResultsDatabase::merge(const RunRow& row) {
 }
 
 std::vector<RunRow> ResultsDatabase::rows() {
-  std::vector<RunRow> result;
-  SQLite::Statement query(*database_, "SELECT " + selected_columns() + " FROM runs ORDER BY id");
-  while (query.executeStep()) result.push_back(read_row(query));
-  return result;
+  return named([&] {
+    std::vector<RunRow> result;
+    SQLite::Statement query(*database_, "SELECT " + selected_columns() + " FROM runs ORDER BY id");
+    while (query.executeStep()) result.push_back(read_row(query));
+    return result;
+  });
 }
 
 std::string verdict_of(const RunRow& row) {

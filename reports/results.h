@@ -128,6 +128,8 @@ class ResultsDatabase {
   void demand_verdicts();
   // The text between SELECT and FROM for read_row().
   std::string selected_columns() const;
+  template <typename Action>
+  auto named(const Action& action);
 
   std::unique_ptr<SQLite::Database> database_;
   std::filesystem::path path_;

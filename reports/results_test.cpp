@@ -77,6 +77,34 @@ TEST_F(Results, RoundTrip) {
   EXPECT_EQ(r.started, sample().started);
 }
 
+// Programs speak in the encoding of the place; a database is read by others.
+TEST_F(Results, TextsAreUtf8) {
+  RunRow row = sample();
+  row.key.flags = "-n Geh\xe4use";
+  row.reason = "ung\xfcltig";
+  row.stderr_tail = "g\xc3\xbcltig";
+  ResultsDatabase database(path_, Mode::write);
+  database.store(row);
+  database.store(row);
+  const auto rows = database.rows();
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].reason, "ung\xef\xbf\xbdltig");
+  EXPECT_EQ(rows[0].stderr_tail, row.stderr_tail);
+  EXPECT_TRUE(database.find(row.key).has_value());
+}
+
+TEST_F(Results, ErrorsNameTheFile) {
+  { ResultsDatabase(path_, Mode::write).store(sample()); }
+  SQLite::Database(path_.string(), SQLite::OPEN_READWRITE)
+      .exec("UPDATE runs SET disposition = 'great'");
+  try {
+    ResultsDatabase(path_, Mode::read).rows();
+    ADD_FAILURE() << "a disposition that does not exist is read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), path_.string() + ": unknown disposition: great");
+  }
+}
+
 TEST_F(Results, EveryPartOfTheKeyCounts) {
   ResultsDatabase database(path_, Mode::write);
   database.store(sample());

@@ -10,6 +10,7 @@
 #include "corpus/cli/commands.h"
 #include "corpus/csv.h"
 #include "corpus/files.h"
+#include "corpus/printable.h"
 #include "corpus/process.h"
 
 namespace tetproof {
@@ -97,9 +98,9 @@ int classify_command(const ClassifyArguments& arguments) {
     manifest.add(c);
     if (++done % 100 == 0) manifest.save();
     if (terminal) {
-      fmt::print(stderr, "\r\033[K{}/{} {}", done, list.models.size(), c.file);
+      fmt::print(stderr, "\r\033[K{}/{} {}", done, list.models.size(), printable(c.file));
     } else if (!quiet) {
-      fmt::print("[{}/{}] {}: {}{}{}\n", done, list.models.size(), c.file,
+      fmt::print("[{}/{}] {}: {}{}{}\n", done, list.models.size(), printable(c.file),
                  validity_name(c.validity), c.reason.empty() ? "" : ": ", c.reason);
       std::fflush(stdout);
     }
@@ -110,7 +111,7 @@ int classify_command(const ClassifyArguments& arguments) {
   if (quiet) fmt::print("{}", manifest.text());
   if (!quiet) {
     for (const auto& path : list.duplicates) {
-      fmt::print("same content as another file, left out: {}\n", path.string());
+      fmt::print("same content as another file, left out: {}\n", printable(path.string()));
     }
     fmt::print("{}{}\n", campaign_interrupted() ? "interrupted; " : "", manifest.summary());
   }

@@ -3,11 +3,14 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <set>
 
 #include "corpus/generate/certify.h"
 #include "corpus/generate/generate.h"
 #include "corpus/models.h"
+#include "corpus/printable.h"
 #include "oracles/surface_file.h"
+#include "oracles/text_reader.h"
 
 namespace tetproof {
 namespace {
@@ -21,11 +24,16 @@ struct Summary {
 // `name`: a path within the folder, without extension.
 void copy(const fs::path& file, const std::string& name, const fs::path& folder,
           const CopyKind& kind, Summary& sum) {
-  const auto leave_out = [&](const std::string& which, const char* why) {
-    fmt::print("left out: {}: {}\n", which, why);
+  const auto leave_out = [&](const std::string& which, const std::string& why) {
+    fmt::print("left out: {}: {}\n", printable(which), printable(why));
     ++sum.left_out;
   };
-  const oracles::Polyhedron read = oracles::read_surface(file);
+  oracles::Polyhedron read;
+  try {
+    read = oracles::read_surface(file);
+  } catch (const oracles::ReadError& error) {
+    return leave_out(name, error.what());
+  }
   const delmesher::Surface given{read.vertices, read.triangles, read.labels};
   if (!certified_valid(given)) return leave_out(name, "no valid surface");
   write_off(folder / (name + ".off"), given);
@@ -40,13 +48,22 @@ void copy(const fs::path& file, const std::string& name, const fs::path& folder,
   }
 }
 
+std::string name_without_extension(fs::path name) {
+  if (name.extension() == ".gz") name.replace_extension();
+  return name.replace_extension();
+}
+
 }  // namespace
 
 int write_copies(const CopiesArguments& arguments, const CopyKind& kind) {
   Summary sum;
+  std::set<std::string> taken;
   for (const Model& model :
        collect_models({arguments.paths.begin(), arguments.paths.end()}).models) {
-    copy(model.path, fs::path(model.name).replace_extension(), arguments.folder, kind, sum);
+    const std::string name = name_without_extension(model.name);
+    std::string free = name;
+    for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{}-{}", name, n);
+    copy(model.path, free, arguments.folder, kind, sum);
   }
   fmt::print("{} surfaces and {} {} in {}, {} left out\n", sum.given, sum.copies, kind.name,
              arguments.folder, sum.left_out);

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <map>
 
 #include "corpus/cli/commands.h"
 #include "corpus/files.h"
@@ -11,10 +12,15 @@ namespace tetproof {
 namespace fs = std::filesystem;
 
 int export_command(const ExportArguments& arguments) {
-  std::vector<RunRow> rows;
+  std::map<RunKey, RunRow> by_key;
   for (const std::string& database : arguments.databases) {
-    for (RunRow& row : read_rows(database)) rows.push_back(std::move(row));
+    for (RunRow& row : read_rows(database)) {
+      const auto [there, is_new] = by_key.try_emplace(row.key, row);
+      if (!is_new && supersedes(row, there->second)) there->second = std::move(row);
+    }
   }
+  std::vector<RunRow> rows;
+  for (auto& [key, row] : by_key) rows.push_back(std::move(row));
   const ExportOptions options = {arguments.brief, arguments.stable};
   const fs::path extension = fs::path(arguments.output).extension();
   const std::size_t count = rows.size();
@@ -32,16 +38,16 @@ int export_command(const ExportArguments& arguments) {
 }
 
 int merge_command(const MergeArguments& arguments) {
-  ResultsDatabase target(arguments.output, ResultsDatabase::Mode::write);
-  std::size_t rows = 0, changed = 0;
+  // All or nothing: what cannot be read leaves the target as it was.
+  std::vector<RunRow> rows;
   for (const std::string& path : arguments.databases) {
     if (fs::exists(arguments.output) && fs::equivalent(path, arguments.output)) continue;
-    for (const RunRow& row : read_rows(path)) {
-      ++rows;
-      changed += target.merge(row);
-    }
+    for (RunRow& row : read_rows(path)) rows.push_back(std::move(row));
   }
-  fmt::print("{} rows read, {} new or newer in {}\n", rows, changed, arguments.output);
+  ResultsDatabase target(arguments.output, ResultsDatabase::Mode::write);
+  std::size_t changed = 0;
+  for (const RunRow& row : rows) changed += target.merge(row);
+  fmt::print("{} rows read, {} new or newer in {}\n", rows.size(), changed, arguments.output);
   return 0;
 }
 

@@ -1,8 +1,11 @@
 #include <fmt/core.h>
 
 #include <fstream>
+#include <stdexcept>
 
 #include "corpus/cli/commands.h"
+#include "oracles/mesh_file.h"
+#include "oracles/vectors.h"
 #include "reports/mesh_quality.h"
 #include "reports/poisson.h"
 
@@ -10,6 +13,11 @@ namespace tetproof {
 
 int measure_command(const MeasureArguments& arguments) {
   const oracles::MeshFile mesh = oracles::read_mesh(arguments.mesh);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (!oracles::is_finite(mesh.vertices[v])) {
+      throw std::runtime_error(fmt::format("{}: vertex {} is not finite", arguments.mesh, v));
+    }
+  }
   std::string json = to_json(measure(mesh));
   if (arguments.solver) {
     json.replace(json.rfind('}'), 1, ",\"solver\":" + to_json(solve_poisson(mesh)) + "}");

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -12,6 +13,12 @@
 namespace tetproof {
 
 int picture_command(const PictureArguments& arguments) {
+  if (arguments.verdict.empty() && arguments.sentence.empty()) {
+    throw UsageError("--verdict or --sentence is required");
+  }
+  if (std::filesystem::path(arguments.output).extension() != ".svg") {
+    throw UsageError("-o: a name that ends in .svg is expected");
+  }
   std::string sentence = arguments.sentence;
   if (sentence.empty()) {
     std::ostringstream verdict;
@@ -25,7 +32,8 @@ int picture_command(const PictureArguments& arguments) {
   if (is_own) surface = oracles::boundary_of(mesh);
   const std::string svg = picture_of(surface, mesh, sentence);
   if (svg.empty()) {
-    fmt::print(stderr, "tetproof: {}: no oracle names a place\n", arguments.verdict);
+    fmt::print(stderr, "tetproof: {}: no place is named\n",
+               arguments.verdict.empty() ? arguments.sentence : arguments.verdict);
     return 1;
   }
   std::ofstream file(arguments.output);

@@ -3,7 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdio>
+#include <set>
 
 #include "corpus/campaign.h"
 #include "corpus/cli/commands.h"
@@ -17,6 +20,19 @@ void on_interrupt(int) {
   interrupt_campaign();
 }
 
+std::array<unsigned, 2> shard_from(const std::string& text) {
+  std::array<unsigned, 2> shard{};
+  const char *at = text.data(), *end = at + text.size();
+  const auto first = std::from_chars(at, end, shard[0]);
+  const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second = slash ? std::from_chars(first.ptr + 1, end, shard[1]) : first;
+  if (!slash || second.ec != std::errc() || second.ptr != end || shard[0] < 1 ||
+      shard[0] > shard[1]) {
+    throw UsageError("--shard: I/N with 1 <= I <= N is expected");
+  }
+  return shard;
+}
+
 std::vector<Model> chosen_models(const RunArguments& arguments) {
   const ModelList list = collect_models({arguments.paths.begin(), arguments.paths.end()});
   for (const auto& path : list.duplicates) {
@@ -25,12 +41,7 @@ std::vector<Model> chosen_models(const RunArguments& arguments) {
   std::vector<Model> models = list.models;
   if (!arguments.tier.empty()) models = tier_of(models, tier_from_name(arguments.tier));
   if (arguments.shard.empty()) return models;
-  unsigned index = 0, count = 0;
-  char rest = 0;
-  if (std::sscanf(arguments.shard.c_str(), "%u/%u%c", &index, &count, &rest) != 2 || index < 1 ||
-      index > count) {
-    throw UsageError("--shard: I/N with 1 <= I <= N is expected");
-  }
+  const auto [index, count] = shard_from(arguments.shard);
   return shard_of(models, index, count);
 }
 
@@ -55,9 +66,16 @@ std::vector<Mesher> chosen_meshers(const RunArguments& arguments) {
     programs.delmesher = std::filesystem::absolute(arguments.delmesher);
   }
   std::vector<Mesher> meshers;
+  std::set<std::string> names;
   try {
-    for (const std::string& name : asked_meshers(arguments))
+    for (const std::string& name : asked_meshers(arguments)) {
       meshers.push_back(make_mesher(name, programs));
+      // Tables know them by their names.
+      if (!names.insert(meshers.back().name).second) {
+        throw std::runtime_error("two meshers are called " + meshers.back().name +
+                                 "; NAME=cmd:'...' gives another name");
+      }
+    }
   } catch (const std::runtime_error& error) {
     throw UsageError(std::string("-m: ") + error.what());
   }
@@ -134,7 +152,12 @@ int run_command(const RunArguments& arguments) {
     fmt::print("{} models were not begun within {} s; run again to go on\n",
                summary.models_left_out, arguments.stop_after);
   }
+  for (const std::string& name : summary.models_changed) {
+    fmt::print(stderr, "tetproof: {}: has gone or changed; nothing is stored of its run\n",
+               printable(name));
+  }
   if (summary.interrupted) return 130;
+  if (!summary.models_changed.empty()) return 3;
   return summary.models_left_out > 0 ? 5 : 0;
 }
 

@@ -12,6 +12,7 @@
 #include "corpus/generate/generate.h"
 #include "corpus/generate/shrink.h"
 #include "corpus/process.h"
+#include "corpus/runnable.h"
 #include "oracles/surface_file.h"
 
 namespace tetproof {
@@ -27,6 +28,8 @@ Prober prober_for(const ShrinkArguments& arguments, const fs::path& folder) {
   } catch (const std::runtime_error& error) {
     throw UsageError(std::string("-m: ") + error.what());
   }
+  const std::string why = why_not_runnable(prober.mesher.line, programs.supervisor);
+  if (!why.empty()) throw UsageError("cannot be run: " + prober.mesher.name + ": " + why);
   prober.supervisor = programs.supervisor;
   prober.self = fs::read_symlink("/proc/self/exe");
   prober.folder = folder;

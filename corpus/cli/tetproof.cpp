@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "corpus/cli/commands.h"
+#include "corpus/cli/numbers.h"
 #include "corpus/meshers.h"
 #ifdef TETPROOF_HAS_VERIFY
 #include "oracles/verify_command.h"
@@ -14,6 +15,8 @@
 
 namespace tetproof {
 namespace {
+
+constexpr double kMostJobs = 4096;
 
 void add_tier(CLI::App& app, std::string& tier) {
   app.add_option("--tier", tier,
@@ -29,7 +32,8 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
   CLI::App* app = tetproof.add_subcommand(command, description);
   std::string names;
   for (const std::string& name : mesher_names()) names += name + ", ";
-  app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
+  app->add_option("paths", a.paths,
+                  "Surface files, or folders of .off .obj .stl .ply files, also .gz")
       ->required();
   app->add_option("-m,--mesher", a.meshers,
                   names +
@@ -39,12 +43,20 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
                 "Also our mesher with its default, with each departure from the paper undone "
                 "alone (delmesher+NAME), and as the paper says (delmesher-e4)");
   app->add_option("--db", a.database, "SQLite file of the results")->required();
-  app->add_option("-j,--jobs", a.jobs, "Runs at a time")->capture_default_str();
-  app->add_option("--timeout", a.timeout, "Wall seconds per run")->capture_default_str();
-  app->add_option("--cpu", a.cpu, "Processor seconds per run (default: as --timeout)");
-  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")->capture_default_str();
+  app->add_option("-j,--jobs", a.jobs, "Runs at a time")
+      ->check(number_in(0, kMostJobs))
+      ->capture_default_str();
+  app->add_option("--timeout", a.timeout, "Wall seconds per run")
+      ->check(seconds_of_a_run())
+      ->capture_default_str();
+  app->add_option("--cpu", a.cpu, "Processor seconds per run (default: as --timeout)")
+      ->check(seconds_of_a_run());
+  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")
+      ->check(mebibytes_of_a_run())
+      ->capture_default_str();
   app->add_option("--stop-after", a.stop_after,
-                  "Begin no further model after this many seconds (exit 5 if some are left)");
+                  "Begin no further model after this many seconds (exit 5 if some are left)")
+      ->check(seconds_of_a_run());
   add_tier(*app, a.tier);
   app->add_option("--shard", a.shard, "I/N: only the I-th of N parts of the models");
   app->add_option("--retry", a.retry,
@@ -170,7 +182,7 @@ CLI::App* declare_gate(CLI::App& tetproof, GateArguments& a) {
   const auto limit = [&](const char* group, const char* name, double& value, const char* what,
                          double low, double high) {
     app->add_option(name, value, what)
-        ->check(CLI::Range(low, high))
+        ->check(number_in(low, high))
         ->capture_default_str()
         ->group(group);
   };
@@ -218,7 +230,8 @@ CLI::App* declare_classify(CLI::App& tetproof, ClassifyArguments& a) {
       "classify",
       "Which files are valid surfaces: closed, manifold, oriented, not intersecting "
       "themselves; writes the manifest of a collection");
-  app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
+  app->add_option("paths", a.paths,
+                  "Surface files, or folders of .off .obj .stl .ply files, also .gz")
       ->required();
   app->add_option("-o,--output", a.output,
                   "Manifest; files decided in an earlier one of this name (CSV) are not looked at "
@@ -227,9 +240,15 @@ CLI::App* declare_classify(CLI::App& tetproof, ClassifyArguments& a) {
   app->add_option("--licences", a.licences, "CSV with columns file and licence")
       ->check(CLI::ExistingFile);
   add_tier(*app, a.tier);
-  app->add_option("-j,--jobs", a.jobs, "Files at a time")->capture_default_str();
-  app->add_option("--timeout", a.timeout, "Seconds per file")->capture_default_str();
-  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per file")->capture_default_str();
+  app->add_option("-j,--jobs", a.jobs, "Files at a time")
+      ->check(number_in(0, kMostJobs))
+      ->capture_default_str();
+  app->add_option("--timeout", a.timeout, "Seconds per file")
+      ->check(seconds_of_a_run())
+      ->capture_default_str();
+  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per file")
+      ->check(mebibytes_of_a_run())
+      ->capture_default_str();
   return app;
 }
 
@@ -273,7 +292,8 @@ CLI::App* declare_generate(CLI::App& tetproof, GenerateArguments& a) {
 CLI::App* declare_copies(CLI::App& tetproof, const char* name, const char* about,
                          CopiesArguments& a) {
   CLI::App* app = tetproof.add_subcommand(name, about);
-  app->add_option("paths", a.paths, "Surface files, or folders of .off .obj .stl .ply files")
+  app->add_option("paths", a.paths,
+                  "Surface files, or folders of .off .obj .stl .ply files, also .gz")
       ->required();
   app->add_option("-o,--output", a.folder, "Folder for the files")->required();
   return app;
@@ -305,11 +325,19 @@ CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
   app->add_option("-m,--mesher", a.mesher, "As for run")->required();
   app->add_option("-o,--output", a.output, "OFF file of the result")->required();
   app->add_option("--timeout", a.timeout, "Seconds per run of the mesher; more is a failure")
+      ->check(seconds_of_a_run())
       ->capture_default_str();
-  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")->capture_default_str();
-  app->add_option("--seconds", a.seconds, "In all")->capture_default_str();
-  app->add_option("--runs", a.runs, "Of the mesher, at most")->capture_default_str();
+  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")
+      ->check(mebibytes_of_a_run())
+      ->capture_default_str();
+  app->add_option("--seconds", a.seconds, "In all")
+      ->check(seconds_of_a_run())
+      ->capture_default_str();
+  app->add_option("--runs", a.runs, "Of the mesher, at most")
+      ->check(number_in(1, 1e9))
+      ->capture_default_str();
   app->add_option("-j,--jobs", a.jobs, "Runs at a time (1: the same result each time)")
+      ->check(number_in(0, kMostJobs))
       ->capture_default_str();
   app->add_flag("--no-verify", a.no_verify, "Look at how it ends only, not at what it delivers");
   return app;
@@ -331,7 +359,7 @@ CLI::App* declare_union(CLI::App& tetproof, UnionArguments& a) {
                   "Parts that touch at edges and vertices are moved apart, each vertex there by at "
                   "most this fraction of the diagonal (0: they stay as they are)")
       ->capture_default_str()
-      ->check(CLI::Range(0.0, 0.01));
+      ->check(number_in(0, 0.01));
   app->footer(
       "Exit codes: 0 done, 1 parts touch so that it is not manifold there, 2 usage, 3 unreadable "
       "or cannot be written, 4 it does not close up, 5 memory, the precision of doubles, or "

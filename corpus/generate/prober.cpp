@@ -1,4 +1,5 @@
 // One supervised run of a mesher on a surface, and what kind of failure it was.
+#include <fmt/core.h>
 #include <poll.h>
 
 #include <algorithm>
@@ -7,7 +8,6 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <sstream>
 
 #include "corpus/generate/generate.h"
 #include "corpus/generate/shrink.h"
@@ -55,10 +55,9 @@ Outcome run_until(const fs::path& supervisor, const ProcessSpec& spec,
 
 // What `tetproof verify` is to hold the mesh to.
 std::vector<std::string> promise_of(const Mesher& mesher) {
-  std::ostringstream share;
-  share << (mesher.envelope > 0 ? mesher.envelope : mesher.declared_deviation);
-  if (mesher.envelope > 0) return {"--envelope", share.str()};
-  return {"--declared-deviation", share.str(), "--promised", mesher.promised()};
+  if (mesher.envelope > 0) return {"--envelope", fmt::format("{}", mesher.envelope)};
+  return {"--declared-deviation", fmt::format("{}", mesher.declared_deviation), "--promised",
+          mesher.promised()};
 }
 
 }  // namespace
