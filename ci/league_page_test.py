@@ -24,7 +24,7 @@ loader.exec_module(league)
 TETPROOF = None
 
 COLUMNS = ("model_sha256", "mesher", "version", "flags", "limits", "model_name", "disposition", "reason", "cpu_seconds", "peak_rss_bytes",
-           "mesh_json", "promise")
+           "mesh_json", "verdict_json", "promise")
 
 
 def row(model, mesher, disposition="ok", reason="", version="peer 1.2 (build 00)", limits="60 s", cpu=1.0, solver=None,
@@ -35,7 +35,8 @@ def row(model, mesher, disposition="ok", reason="", version="peer 1.2 (build 00)
         measured["solver"] = solver
     return {"model_sha256": model[-1] * 64, "mesher": mesher, "version": version, "flags": "-x", "limits": limits, "model_name": model + ".off",
             "disposition": disposition, "reason": reason, "cpu_seconds": cpu, "peak_rss_bytes": rss,
-            "mesh_json": json.dumps(measured) if disposition in ("ok", "wrong-result") else "", "promise": "exact"}
+            "mesh_json": json.dumps(measured) if disposition in ("ok", "wrong-result") else "",
+            "verdict_json": json.dumps({"verdict": "exact"}) if disposition == "ok" else "", "promise": "exact"}
 
 
 def rows_under(text, title):
@@ -225,6 +226,68 @@ class Pages(unittest.TestCase):
         for arguments in (["--merge", self.path("other.csv")], [self.path("none.sqlite")], []):
             with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()):
                 self.page(*arguments)
+
+    def test_no_mesh_is_ok_that_nobody_has_verified(self):
+        rows = [row("fan-%d" % i, "netgen") for i in range(4)]
+        for i, verdict in enumerate(("", '{"error": "own limit"}', '{"verdict": "unknown"}')):
+            rows[i]["verdict_json"] = verdict
+        self.page(self.campaign(*rows))
+        self.assertEqual([(r["disposition"], r["tetrahedra"]) for r in self.runs()], 3 * [("unverified", "")] + [("ok", "100")])
+
+    def test_a_limit_of_zero_is_none(self):
+        text = self.page(self.campaign(row("fan-1", "netgen", limits="wall 9 s, cpu 9 s, memory 0 MiB"),
+                                       row("fan-1", "delmesher", limits="wall 9 s, cpu 9 s, memory 5 MiB")))
+        self.assertEqual(text.count("| 1 | 1 | 100.0 "), 2)
+
+    def test_a_path_is_no_query(self):
+        path = self.campaign(row("fan-1", "netgen"))
+        odd = self.path("a#b?mode=rwc&x%41.sqlite")
+        os.rename(path, odd)
+        self.page(odd)
+        self.assertEqual(len(self.runs()), 1)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), sorted([os.path.basename(odd), "families.csv", "page.csv", "page.md",
+                                                                       "page_meshers.csv"]))
+
+    def test_texts_in_another_encoding(self):
+        path = self.campaign(row("fan-1", "netgen", "rejected"))
+        with contextlib.closing(sqlite3.connect(path)) as connection:
+            connection.execute("update runs set reason = cast(x'756e67fc6c746967' as text), mesh_json = 'no json'")
+            connection.commit()
+        self.page(path)
+        self.assertEqual(self.runs()[0]["reason"], "ung\ufffdltig")
+
+    def test_what_is_wrong_is_said_in_a_line(self):
+        def refused(*arguments):
+            with self.assertRaises(SystemExit) as said:
+                self.page(*arguments)
+            self.assertNotIn("\n", str(said.exception))
+            return str(said.exception)
+
+        path = self.campaign(row("fan-1", "netgen"))
+        odd = self.campaign(row("fan-1", "netgen", "great"))
+        self.assertIn("unknown disposition: great", refused(odd))
+        with contextlib.closing(sqlite3.connect(odd)) as connection:
+            connection.execute("alter table runs drop column promise")
+        self.assertIn("no results of this version (promise)", refused(odd))
+        self.page(path)
+        with open(self.path("page.csv"), encoding="utf-8") as stream:
+            head, line = stream.read().splitlines()
+        for text in (line + ",1", line[:line.rindex(",")], line.replace(",100,", ",abc,")):
+            with open(self.path("page.csv"), "w", encoding="utf-8") as stream:
+                stream.write(head + "\n" + text + "\n")
+            self.assertIn("page.csv:2: ", refused(path, "--merge", self.path("page.csv")))
+        with open(self.path("page.csv"), "w", encoding="utf-8") as stream:
+            stream.write(head + "\n" + line.replace("netgen", "gmsh") + "\n")
+        self.assertIn("no row for gmsh of version", refused(path, "--merge", self.path("page.csv")))
+        with open(self.families, "w", encoding="utf-8") as stream:
+            stream.write("# comment\nfan-*\n")
+        self.assertIn("families.csv:2: PATTERN,FAMILY is expected", refused(path))
+
+    def test_all_files_or_none(self):
+        os.mkdir(self.path("page.md"))
+        with self.assertRaises(OSError):
+            self.page(self.campaign(row("fan-1", "netgen")))
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["families.csv", "page.md", "runs1.sqlite"])
 
     def test_numbers_are_short(self):
         self.assertEqual([league.number(v) for v in (None, 12.34567, 1234567.0, 0.000012345, 7)], ["", "12.35", "1234567", "1.234e-05", "7"])
