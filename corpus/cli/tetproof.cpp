@@ -25,6 +25,17 @@ void add_tier(CLI::App& app, std::string& tier) {
       ->check(CLI::IsMember({"smoke", "nightly", "weekly"}));
 }
 
+// Of children: how many at a time, how long, how large.
+template <typename Arguments>
+void add_limits(CLI::App& app, Arguments& a, const char* jobs, const char* seconds,
+                const char* mebibytes) {
+  app.add_option("-j,--jobs", a.jobs, jobs)->check(number_in(0, kMostJobs))->capture_default_str();
+  app.add_option("--timeout", a.timeout, seconds)->check(seconds_of_a_run())->capture_default_str();
+  app.add_option("--memory", a.memory_mebibytes, mebibytes)
+      ->check(mebibytes_of_a_run())
+      ->capture_default_str();
+}
+
 CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command = "run",
                       const char* description =
                           "Run meshers on models, each in a child process under limits; resumes "
@@ -43,17 +54,9 @@ CLI::App* declare_run(CLI::App& tetproof, RunArguments& a, const char* command =
                 "Also our mesher with its default, with each departure from the paper undone "
                 "alone (delmesher+NAME), and as the paper says (delmesher-e4)");
   app->add_option("--db", a.database, "SQLite file of the results")->required();
-  app->add_option("-j,--jobs", a.jobs, "Runs at a time")
-      ->check(number_in(0, kMostJobs))
-      ->capture_default_str();
-  app->add_option("--timeout", a.timeout, "Wall seconds per run")
-      ->check(seconds_of_a_run())
-      ->capture_default_str();
+  add_limits(*app, a, "Runs at a time", "Wall seconds per run", "Resident MiB per run");
   app->add_option("--cpu", a.cpu, "Processor seconds per run (default: as --timeout)")
       ->check(seconds_of_a_run());
-  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")
-      ->check(mebibytes_of_a_run())
-      ->capture_default_str();
   app->add_option("--stop-after", a.stop_after,
                   "Begin no further model after this many seconds (exit 5 if some are left)")
       ->check(seconds_of_a_run());
@@ -240,15 +243,7 @@ CLI::App* declare_classify(CLI::App& tetproof, ClassifyArguments& a) {
   app->add_option("--licences", a.licences, "CSV with columns file and licence")
       ->check(CLI::ExistingFile);
   add_tier(*app, a.tier);
-  app->add_option("-j,--jobs", a.jobs, "Files at a time")
-      ->check(number_in(0, kMostJobs))
-      ->capture_default_str();
-  app->add_option("--timeout", a.timeout, "Seconds per file")
-      ->check(seconds_of_a_run())
-      ->capture_default_str();
-  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per file")
-      ->check(mebibytes_of_a_run())
-      ->capture_default_str();
+  add_limits(*app, a, "Files at a time", "Seconds per file", "Resident MiB per file");
   return app;
 }
 
@@ -324,20 +319,13 @@ CLI::App* declare_shrink(CLI::App& tetproof, ShrinkArguments& a) {
   app->add_option("input", a.input, "A surface on which it fails")->required();
   app->add_option("-m,--mesher", a.mesher, "As for run")->required();
   app->add_option("-o,--output", a.output, "OFF file of the result")->required();
-  app->add_option("--timeout", a.timeout, "Seconds per run of the mesher; more is a failure")
-      ->check(seconds_of_a_run())
-      ->capture_default_str();
-  app->add_option("--memory", a.memory_mebibytes, "Resident MiB per run")
-      ->check(mebibytes_of_a_run())
-      ->capture_default_str();
+  add_limits(*app, a, "Runs at a time (1: the same result each time)",
+             "Seconds per run of the mesher; more is a failure", "Resident MiB per run");
   app->add_option("--seconds", a.seconds, "In all")
       ->check(seconds_of_a_run())
       ->capture_default_str();
   app->add_option("--runs", a.runs, "Of the mesher, at most")
       ->check(number_in(1, 1e9))
-      ->capture_default_str();
-  app->add_option("-j,--jobs", a.jobs, "Runs at a time (1: the same result each time)")
-      ->check(number_in(0, kMostJobs))
       ->capture_default_str();
   app->add_flag("--no-verify", a.no_verify, "Look at how it ends only, not at what it delivers");
   return app;
