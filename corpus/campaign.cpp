@@ -299,15 +299,9 @@ class Job {
                                      options_.self.string(),
                                      verdict().string(),
                                      files_.input.string(),
-                                     files_.mesh.string(),
-                                     "--declared-deviation",
-                                     fmt::format("{}", mesher_.declared_deviation)};
+                                     files_.mesh.string()};
+    for (const std::string& word : mesher_.verify_options()) argv.push_back(word);
     if (is_file(files_.exact)) argv.insert(argv.end(), {"--exact", files_.exact.string()});
-    if (mesher_.envelope > 0) {
-      argv.insert(argv.end(), {"--envelope", fmt::format("{}", mesher_.envelope)});
-    } else {
-      argv.insert(argv.end(), {"--promised", mesher_.promised()});
-    }
     start(argv, options_.verify_limits);
     return true;
   }

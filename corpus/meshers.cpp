@@ -1,5 +1,6 @@
 #include "corpus/meshers.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "corpus/sha256.h"
 #include "corpus/shell.h"
 #include "mesher/delmesher.h"
+#include "oracles/text_reader.h"
 
 namespace tetproof {
 namespace {
@@ -254,9 +256,7 @@ Mesher command_mesher(const std::string& name, const std::string& text) {
   mesher.flags = line;
   mesher.line = line;
   mesher.mesh_extension = line.substr(start + 4, end - start - 4);
-  const fs::path plain = mesher.mesh_extension.ends_with(".gz")
-                             ? fs::path("mesh" + mesher.mesh_extension).stem()
-                             : fs::path("mesh" + mesher.mesh_extension);
+  const fs::path plain = oracles::without_gz("mesh" + mesher.mesh_extension);
   if (std::ranges::find(kMeshExtensions, plain.extension()) == std::end(kMeshExtensions)) {
     throw std::runtime_error("{out" + mesher.mesh_extension +
                              "}: .mesh, .msh, .vtu, .node, .ele, .face or .tet is expected");
@@ -277,6 +277,12 @@ bool is_command(const std::string& text) {
 }
 
 }  // namespace
+
+std::vector<std::string> Mesher::verify_options() const {
+  if (envelope > 0) return {"--envelope", fmt::format("{}", envelope)};
+  return {"--declared-deviation", fmt::format("{}", declared_deviation), "--promised",
+          sidecar_command ? flags : "mesh --planar 0"};
+}
 
 std::string Mesher::promise() const {
   std::ostringstream text;

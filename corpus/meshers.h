@@ -41,10 +41,10 @@ struct Mesher {
   // Writes the mesh once more, to `again`, with the sidecar beside it; null if it knows none.
   std::function<std::vector<std::string>(const RunFiles&)> sidecar_command;
 
-  // What `tetproof verify --promised` holds its meshes to. Our mesher is held to the options that
-  // it is called with. Other meshers are not asked for planar facets: their surface is the one
-  // given, but for the deviation that they declare.
-  std::string promised() const { return sidecar_command ? flags : "mesh --planar 0"; }
+  // The options of `tetproof verify` by which its meshes are held to what it promises. Our mesher
+  // is held to the options that it is called with. Other meshers are not asked for planar facets:
+  // their surface is the one given, but for the deviation that they declare.
+  std::vector<std::string> verify_options() const;
 
   // In words, for tables: "exact", "planar but for rounding", "within 1e-08", "envelope 0.001".
   std::string promise() const;

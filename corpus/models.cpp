@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "corpus/sha256.h"
+#include "oracles/text_reader.h"
 
 namespace tetproof {
 namespace {
@@ -18,8 +19,7 @@ constexpr std::size_t kSmokeModels = 30, kNightlyModels = 300;
 constexpr std::uint64_t kSmokeBytes = 200'000, kNightlyBytes = 5'000'000;
 
 bool is_surface_file(const fs::path& path) {
-  if (path.extension() == ".gz") return is_surface_file(path.stem());
-  std::string extension = path.extension().string();
+  std::string extension = fs::path(oracles::without_gz(path.string())).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension == ".off" || extension == ".obj" || extension == ".stl" || extension == ".ply";

@@ -330,18 +330,20 @@ Place place_of(const std::string& sentence) {
   return place;
 }
 
-std::string sentence_with_place(const std::string& verdict_json) {
-  const auto json = nlohmann::json::parse(verdict_json, nullptr, false);
-  if (!json.is_object() || !json.contains("oracles")) return {};
-  for (const auto& oracle : json["oracles"]) {
-    if (oracle.value("status", "") != "FAIL") continue;
-    for (const auto& finding : oracle.value("findings", nlohmann::json::array())) {
-      if (finding.is_string() && !place_of(finding.get<std::string>()).empty()) {
-        return oracle.value("name", "") + ": " + finding.get<std::string>();
+std::optional<std::string> sentence_with_place(const std::string& verdict_json) {
+  try {
+    const auto json = nlohmann::json::parse(verdict_json);
+    for (const auto& oracle : json.at("oracles")) {
+      if (oracle.at("status") != "FAIL") continue;
+      for (const auto& finding : oracle.at("findings")) {
+        const auto text = finding.get<std::string>();
+        if (!place_of(text).empty()) return oracle.at("name").get<std::string>() + ": " + text;
       }
     }
+    return std::string();
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
   }
-  return {};
 }
 
 std::string picture_in(const std::string& verdict_json) {

@@ -1,6 +1,7 @@
 // A picture of the place that an oracle names: what the mesh and the input have there.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,8 +26,8 @@ struct Place {
 Place place_of(const std::string& sentence);
 
 // The first sentence that names a place, of the oracles of a verdict (`tetproof verify --json`)
-// that have failed; empty if there is none.
-std::string sentence_with_place(const std::string& verdict_json);
+// that have failed; empty if there is none. Nothing if it is no such verdict.
+std::optional<std::string> sentence_with_place(const std::string& verdict_json);
 
 // The picture that a campaign has put into a verdict; empty if there is none.
 std::string picture_in(const std::string& verdict_json);

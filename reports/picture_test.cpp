@@ -53,8 +53,13 @@ TEST(Picture, TheFirstFailureThatNamesAPlace) {
     {"name": "volume", "status": "FAIL", "findings": ["too large"]},
     {"name": "conformity", "status": "FAIL", "findings": ["somewhere", "vertex 3 is off"]}]})"),
             "conformity: vertex 3 is off");
-  EXPECT_EQ(sentence_with_place(R"({"error": "limit"})"), "");
-  EXPECT_EQ(sentence_with_place("no JSON"), "");
+  EXPECT_EQ(sentence_with_place(R"({"oracles": []})"), "");
+  for (const char* other :
+       {"", "no JSON", "[]", R"({"error": "limit"})", R"({"oracles": 3})", R"({"oracles": [7]})",
+        R"({"oracles": [{"status": "FAIL", "name": 7, "findings": ["vertex 3 is off"]}]})",
+        R"({"oracles": [{"status": "FAIL", "name": "volume", "findings": [7]}]})"}) {
+    EXPECT_EQ(sentence_with_place(other), std::nullopt) << other;
+  }
 }
 
 struct Corner : testing::Test {

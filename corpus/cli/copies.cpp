@@ -48,11 +48,6 @@ void copy(const fs::path& file, const std::string& name, const fs::path& folder,
   }
 }
 
-std::string name_without_extension(fs::path name) {
-  if (name.extension() == ".gz") name.replace_extension();
-  return name.replace_extension();
-}
-
 }  // namespace
 
 int write_copies(const CopiesArguments& arguments, const CopyKind& kind) {
@@ -60,7 +55,7 @@ int write_copies(const CopiesArguments& arguments, const CopyKind& kind) {
   std::set<std::string> taken;
   for (const Model& model :
        collect_models({arguments.paths.begin(), arguments.paths.end()}).models) {
-    const std::string name = name_without_extension(model.name);
+    const std::string name = fs::path(oracles::without_gz(model.name)).replace_extension().string();
     std::string free = name;
     for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{}-{}", name, n);
     copy(model.path, free, arguments.folder, kind, sum);

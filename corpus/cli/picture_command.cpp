@@ -2,12 +2,12 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "corpus/cli/commands.h"
 #include "oracles/envelope.h"
 #include "oracles/mesh_file.h"
 #include "oracles/surface_file.h"
+#include "oracles/text_reader.h"
 #include "reports/picture.h"
 
 namespace tetproof {
@@ -21,9 +21,10 @@ int picture_command(const PictureArguments& arguments) {
   }
   std::string sentence = arguments.sentence;
   if (sentence.empty()) {
-    std::ostringstream verdict;
-    verdict << std::ifstream(arguments.verdict).rdbuf();
-    sentence = sentence_with_place(verdict.str());
+    const auto said = sentence_with_place(oracles::read_whole_file(arguments.verdict));
+    if (!said)
+      throw oracles::ReadError(arguments.verdict + ": no verdict of tetproof verify --json");
+    sentence = *said;
   }
   const oracles::MeshFile mesh = oracles::read_mesh(arguments.mesh);
   oracles::Polyhedron surface = oracles::read_surface(arguments.input);

@@ -53,13 +53,6 @@ Outcome run_until(const fs::path& supervisor, const ProcessSpec& spec,
   return process.outcome();
 }
 
-// What `tetproof verify` is to hold the mesh to.
-std::vector<std::string> promise_of(const Mesher& mesher) {
-  if (mesher.envelope > 0) return {"--envelope", fmt::format("{}", mesher.envelope)};
-  return {"--declared-deviation", fmt::format("{}", mesher.declared_deviation), "--promised",
-          mesher.promised()};
-}
-
 }  // namespace
 
 Probe Prober::probe(const delmesher::Surface& surface) const {
@@ -96,7 +89,7 @@ Probe Prober::probe(const delmesher::Surface& surface, const std::atomic<bool>& 
                                    verdict.string(),
                                    files.input.string(),
                                    files.mesh.string()};
-  for (const std::string& word : promise_of(mesher)) argv.push_back(word);
+  for (const std::string& word : mesher.verify_options()) argv.push_back(word);
   const Outcome checked = run_until(supervisor, {argv, folder, {.wall_seconds = 300}}, ends);
   if (checked.ending != Ending::exited || checked.exit_code != 1) return ended({});
   return ended("wrong-result: " + failed_oracles(verdict));
