@@ -10,6 +10,7 @@
 #include "oracles/distances.h"
 #include "oracles/edge_chains.h"
 #include "oracles/edge_key.h"
+#include "oracles/triangle_distance.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -77,8 +78,15 @@ class Conformity {
   bool is_triangle(Index facet, std::span<const Index> triangles,
                    std::span<const Index> faces) const;
   void check_facet(Index facet, std::span<const Index> triangles, std::span<const Index> faces);
-  std::uint64_t count_folded(Index facet, const std::vector<Face>& faces);
+  std::vector<Face> folded_faces(Index facet, const std::vector<Face>& faces) const;
+  void check_folded(Index facet, const std::vector<Face>& folded, std::span<const Index> triangles);
+  double width_of(const Face& face) const;
   void check_in_plane(Index facet, Index v);
+  // How far a vertex may be off the plane of its facet, in input units.
+  double plane_tolerance(Index facet) const {
+    return options_.off_plane > 0 ? surface_.facets()[facet].slab + options_.off_plane
+                                  : options_.largest_tolerance * surface_.diagonal();
+  }
   double most_off_plane(Index facet, double distance);
   // Is a point certainly no farther from the line of an edge, or the plane of a facet, than the
   // largest deviation so far? Then its distance need not be known.
@@ -310,8 +318,10 @@ void Conformity::check_facet(Index facet, std::span<const Index> triangles,
   }
   make_unique(vertices);
   make_unique(edges);
-  const std::uint64_t folded = count_folded(facet, corners);
   for (const Index v : vertices) check_in_plane(facet, v);
+  if (const std::vector<Face> folded = folded_faces(facet, corners); !folded.empty()) {
+    check_folded(facet, folded, triangles);
+  }
   // Rounded vertices change the area.
   if (options_.exact && surface_.excess2(points_, corners, triangles) != std::array<ExactSum, 3>{})
     fail_facet(facet, "the faces on " + name + " do not add up to it");
@@ -319,30 +329,71 @@ void Conformity::check_facet(Index facet, std::span<const Index> triangles,
                              static_cast<std::int64_t>(edges.size());
   if (euler != input.euler)
     fail_facet(facet, "the faces on " + name + " have another topology than it");
-  if (folded > 0 && !options_.exact) {
-    result_.report.notes.push_back(std::to_string(folded) + " faces folded over on " + name);
-  }
 }
 
-// Faces turned against their facet, which is a failure unless there is a tolerance.
-std::uint64_t Conformity::count_folded(Index facet, const std::vector<Face>& faces) {
-  std::uint64_t folded = 0;
+// Those turned against their facet.
+std::vector<Face> Conformity::folded_faces(Index facet, const std::vector<Face>& faces) const {
+  std::vector<Face> folded;
   for (const Face& face : faces) {
-    if (surface_.facets()[facet].facing(points_, face) > 0) continue;
-    ++folded;
-    if (options_.exact) {
-      fail_facet(facet, "boundary " + complex_.face_name(face) + " is folded over on " +
-                            facet_name(facet));
-    }
+    if (surface_.facets()[facet].facing(points_, face) <= 0) folded.push_back(face);
   }
   return folded;
 }
 
-// How far a vertex may be off the plane of its facet, in input units, where one is so far.
+// The smallest altitude.
+double Conformity::width_of(const Face& face) const {
+  const ExactVector sides[] = {exact::difference(points_, face[0], face[1]),
+                               exact::difference(points_, face[1], face[2]),
+                               exact::difference(points_, face[2], face[0])};
+  const ExactVector area2 = exact::cross(sides[0], sides[1]);
+  double width = HUGE_VAL;
+  for (const ExactVector& side : sides) {
+    if (exact::is_zero(side)) return 0;
+    width = std::min(width, length_over(area2, side, points_.exponent()));
+  }
+  return width;
+}
+
+// Rounding that moves points by some distance turns over a face whose altitude is at most twice
+// that, and leaves it within the distance of the facet.
+void Conformity::check_folded(Index facet, const std::vector<Face>& folded,
+                              std::span<const Index> triangles) {
+  const auto fail_folded = [&](const Face& face) {
+    fail_facet(facet,
+               "boundary " + complex_.face_name(face) + " is folded over on " + facet_name(facet));
+  };
+  if (options_.exact) {
+    for (const Face& face : folded) fail_folded(face);
+    return;
+  }
+  constexpr double kStep = 1.05;  // the distance is known to this factor
+  const double most = plane_tolerance(facet);
+  std::vector<Corners> corners;
+  for (const Index t : triangles) {
+    Corners& triangle = corners.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) triangle[i] = points_.nearest(surface_.triangles()[t][i]);
+  }
+  // Roundings of measuring are below this factor.
+  double distance = std::clamp(result_.deviation * (1 + 1e-9), most / 0x1p12, most);
+  for (const Face& face : folded) {
+    distance = std::max(distance, width_of(face) / 2);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Position &a = points_.nearest(face[i]), &b = points_.nearest(face[(i + 1) % 3]);
+      while (distance < most && !is_segment_near(a, b, corners, distance)) {
+        distance = std::min(distance * kStep, most);
+      }
+      if (!(distance <= most && is_segment_near(a, b, corners, distance))) return fail_folded(face);
+    }
+  }
+  deviate(distance);
+  result_.report.notes.push_back(std::to_string(folded.size()) + " faces folded over on " +
+                                 facet_name(facet));
+}
+
+// The same where one is so far.
 double Conformity::most_off_plane(Index facet, double distance) {
-  if (!(options_.off_plane > 0)) return options_.largest_tolerance * surface_.diagonal();
-  const double most = surface_.facets()[facet].slab + options_.off_plane;
-  if (distance <= most || options_.planar == 0) return most;
+  const double most = plane_tolerance(facet);
+  if (distance <= most || !(options_.off_plane > 0) || options_.planar == 0) return most;
   const auto [known, fresh] = flat_with_another_.try_emplace(facet, false);
   if (fresh) known->second = surface_.is_flat_with_another(facet, options_.planar, points_);
   return known->second ? options_.planar + options_.off_plane : most;

@@ -6,6 +6,11 @@
 // plane with the facet's orientation, and the patch is bounded by exactly the facet's chains, then
 // patch and facet are chains of triangles in one plane with the same boundary, hence equal. As no
 // face is turned over there is no overlap.
+//
+// With a tolerance, rounding may turn faces over, but only where they are about as thin as it moves
+// points, and near their facet. As chains with the same boundary, patch and facet differ by what
+// faces turned over cover as often as others do. So if all that are turned over are thin and near
+// the facet, nothing of the patch is anywhere else, and it covers the facet twice only there.
 #pragma once
 
 #include <span>

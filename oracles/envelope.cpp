@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/triangle_distance.h"
 #include "oracles/vectors.h"
 
 namespace tetproof::oracles {
@@ -19,40 +20,9 @@ double quick_distance(const Position& a, const Position& b) {
   return std::sqrt(dot(d, d));
 }
 
-Position between(const Position& a, const Position& b, double share) {
-  Position p;
-  for (std::size_t i = 0; i < 3; ++i) p[i] = a[i] + share * (b[i] - a[i]);
-  return p;
-}
-
-using Corners = std::array<Position, 3>;
-
 Corners corners_of(const Polyhedron& surface, std::size_t t) {
   const auto& [a, b, c] = surface.triangles[t];
   return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};
-}
-
-double to_segment(const Position& p, const Position& a, const Position& b) {
-  const Position along = minus(b, a);
-  const double length = dot(along, along);
-  const double share = length > 0 ? std::clamp(dot(minus(p, a), along) / length, 0.0, 1.0) : 0;
-  return quick_distance(p, between(a, b, share));
-}
-
-// The plane's distance where the foot is in the triangle, else that of an edge.
-double to_triangle(const Position& p, const Corners& t) {
-  const Position normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
-  bool above = true;
-  double nearest = HUGE_VAL;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Position& a = t[i];
-    const Position& b = t[(i + 1) % 3];
-    nearest = std::min(nearest, to_segment(p, a, b));
-    above = above && dot(cross(normal, minus(b, a)), minus(p, a)) >= 0;
-  }
-  const double length = std::sqrt(dot(normal, normal));
-  if (!above || !(length > 0)) return nearest;
-  return std::min(nearest, std::fabs(dot(normal, minus(p, t[0]))) / length);
 }
 
 std::vector<BoxTree::Box> boxes_of(const Polyhedron& surface) {
@@ -83,8 +53,8 @@ class Farthest {
     while (!pieces.empty()) {
       const Corners piece = pieces.back();
       pieces.pop_back();
-      if (upper_bound(piece) <= std::max(lower_, least_) + precision_) continue;
-      split(piece, pieces);
+      const auto [most, near] = upper_bound(piece);
+      if (most > bound()) split(piece, near, pieces);
     }
   }
   double bound() const { return std::max(lower_, least_) + precision_; }
@@ -92,7 +62,10 @@ class Farthest {
   const Position& place() const { return place_; }
 
  private:
-  static void split(const Corners& piece, std::vector<Corners>& pieces) {
+  // The longest side, where it leaves what is near the triangle `near`, if it does: one part may be
+  // done then. Else in the middle.
+  void split(const Corners& piece, Index near, std::vector<Corners>& pieces) const {
+    constexpr double kLeast = 0.02;  // of the side: else pieces might become no smaller
     std::size_t longest = 0;
     for (std::size_t i = 1; i < 3; ++i) {
       if (quick_distance(piece[i], piece[(i + 1) % 3]) >
@@ -103,13 +76,24 @@ class Farthest {
     const Position& a = piece[longest];
     const Position& b = piece[(longest + 1) % 3];
     const Position& c = piece[(longest + 2) % 3];
-    const Position middle = between(a, b, 0.5);
-    pieces.push_back({a, middle, c});
-    pieces.push_back({middle, b, c});
+    const Corners triangle = corners_of(to_, near);
+    const double reach = bound() / 2;  // roundings of the cut are nothing to the rest
+    const bool from_a = distance_to_triangle(a, triangle) <= reach,
+               from_b = distance_to_triangle(b, triangle) <= reach;
+    double at = 0.5;
+    if (from_a != from_b) {
+      const double share =
+          from_a ? share_near(a, b, triangle, reach) : 1 - share_near(b, a, triangle, reach);
+      if (share >= kLeast && share <= 1 - kLeast) at = share;
+    }
+    const Position cut = between(a, b, at);
+    pieces.push_back({a, cut, c});
+    pieces.push_back({cut, b, c});
   }
 
-  // Of the piece's distance from the surface. Raises the lower bound of all by what it sees.
-  double upper_bound(const Corners& piece) {
+  // Of the piece's distance from the surface, with the triangle that is nearest to its centre.
+  // Raises the lower bound of all by what it sees.
+  std::pair<double, Index> upper_bound(const Corners& piece) {
     Position centre;
     for (std::size_t i = 0; i < 3; ++i) centre[i] = (piece[0][i] + piece[1][i] + piece[2][i]) / 3;
     const auto [at_centre, near_centre] = nearest(centre);
@@ -122,7 +106,7 @@ class Farthest {
       see(p, d);
       if (t != near_centre) bound = std::min(bound, from_triangle(piece, t));
     }
-    return bound;
+    return {bound, near_centre};
   }
 
   void see(const Position& p, double distance) {
@@ -134,7 +118,7 @@ class Farthest {
   double from_triangle(const Corners& piece, Index t) const {
     const Corners c = corners_of(to_, t);
     double most = 0;
-    for (const Position& p : piece) most = std::max(most, to_triangle(p, c));
+    for (const Position& p : piece) most = std::max(most, distance_to_triangle(p, c));
     return most;
   }
 
@@ -150,7 +134,7 @@ class Farthest {
       tree_.query(box, found_);
       std::pair<double, Index> best{HUGE_VAL, kNone};
       for (const Index t : found_) {
-        best = std::min(best, {to_triangle(p, corners_of(to_, t)), t});
+        best = std::min(best, {distance_to_triangle(p, corners_of(to_, t)), t});
       }
       if (best.first <= reach) return best;
     }
@@ -318,6 +302,7 @@ Polyhedron boundary_of(const MeshFile& mesh) {
 std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, double share,
                             const VerifyOptions& options, VerifyReport& report) {
   report = {};
+  if (input.triangles.empty()) return "the surface has no triangles";
   if (!names_places(mesh)) {
     broken(report, "complex", "a tetrahedron names no vertex, or a vertex no place");
     return {};

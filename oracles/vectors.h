@@ -31,4 +31,10 @@ inline double distance(const Position& p, const Position& q) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
+inline Position between(const Position& a, const Position& b, double share) {
+  Position p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = a[i] + share * (b[i] - a[i]);
+  return p;
+}
+
 }  // namespace tetproof::oracles

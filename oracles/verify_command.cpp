@@ -72,9 +72,9 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "deviation that is no failure, as a fraction of the diagonal (0)");
   app.add_option(
          "--envelope", arguments.envelope,
-         "the mesh has a surface of its own, at most this fraction of the diagonal from the "
-         "input, and the input from it")
-      ->check(CLI::PositiveNumber);
+         "the mesh has a surface of its own, at most this fraction of the diagonal (from 1e-7 on) "
+         "from the input, and the input from it")
+      ->check(CLI::Range(1e-7, 1e6));
   app.add_option("--threads", arguments.options.threads,
                  "threads that share the checks, 0: one per core (1)")
       ->check(CLI::Range(0, 1024));

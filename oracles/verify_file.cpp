@@ -122,7 +122,9 @@ std::string Verification::check_file() {
   // The centroid of a tetrahedron is a quarter of its altitude away from its faces.
   const bool sides_known = exact_ != nullptr || !mesh_.all_called_inside;
   add(regions.check_strays(8 * slack_, sides_known ? mesh_.inside : std::vector<std::uint8_t>{}));
-  if (!solid_only || scope() == AngleScope::all) check_file_hull(complex, neighbours);
+  // What is outside is there to fill the hull.
+  const bool beside = std::ranges::find(complex.inside, 0) != complex.inside.end();
+  if (!solid_only || beside || scope() == AngleScope::all) check_file_hull(complex, neighbours);
   return {};
 }
 
@@ -251,8 +253,12 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
     for (Index& v : face) v += complex.first_vertex;
   }
   const bool labelled = !input_.labels.empty() && mesh_.labels.size() == listed.size();
-  add(check_boundary_list(complex, neighbours, surface, conformity, listed,
-                          labelled ? mesh_.labels : std::vector<std::int32_t>{}));
+  OracleReport list = check_boundary_list(complex, neighbours, surface, conformity, listed,
+                                          labelled ? mesh_.labels : std::vector<std::int32_t>{});
+  if (!labelled && !input_.labels.empty()) {
+    list.notes.emplace_back("the input has labels and the file has none");
+  }
+  add(std::move(list));
 }
 
 // The chain of mesh edges on which each edge of the surface lies by the record's exact coordinates,
@@ -302,6 +308,17 @@ void Verification::check_file_quality(const TetComplex& complex, const Neighbour
   angles.promised = false;
   for (const std::uint8_t inside : complex.inside) angles.checked += inside;
   measure_angles(complex, neighbours, complex.inside, angles);
+  const Promise& promised = options_.promised;
+  if (exact_ == nullptr && promised.max_edge > 0) {
+    angles.notes.emplace_back("--max-edge is promised of the refined mesh, which is in the record");
+  }
+  if (exact_ == nullptr && !promised.size_field.empty()) {
+    angles.notes.emplace_back(
+        "--size-field is promised of the refined mesh, which is in the record");
+  }
+  if (exact_ == nullptr && promised.delta != Promise{}.delta) {
+    angles.notes.emplace_back("--delta is promised of the refined mesh, which is in the record");
+  }
   add(std::move(angles));
 }
 

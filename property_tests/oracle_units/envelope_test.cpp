@@ -45,6 +45,13 @@ std::string failed_first(const VerifyReport& report) {
   return report.verdict == Verdict::deviating ? "" : "none named";
 }
 
+TEST(Envelope, IsOfASurfaceWithTriangles) {
+  VerifyReport report;
+  EXPECT_EQ(verify_envelope({cube().vertices, {}, {}, {}}, cube_mesh(), kShare, {}, report),
+            "the surface has no triangles");
+  EXPECT_EQ(verify_envelope({}, cube_mesh(), kShare, {}, report), "the surface has no triangles");
+}
+
 TEST(Envelope, DistancesAreBoundedFromAboveAndNearlySo) {
   Polyhedron spiked = cube();
   spiked.vertices.push_back({0.5, 0.6, 1.25});  // stands on the face z = 1, seen by no corner of it

@@ -1,6 +1,7 @@
 // What is said of a mesh file without a record.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -151,6 +152,94 @@ TEST(FileAlone, IsMeasuredWhereSquaresAreNoDoubles) {
   const VerifyReport hollow = report_on_cut_corner(s, t, {s / 1024, s / 1024, s / 1024});
   ASSERT_NE(hollow.find("conformity"), nullptr);
   EXPECT_FALSE(hollow.find("conformity")->passed()) << to_text(hollow);
+}
+
+void expect_no_conformity(const Polyhedron& input, const MeshFile& mesh,
+                          double declared_deviation) {
+  VerifyReport report;
+  VerifyOptions options{.promised = {.planar = 0}};
+  options.declared_deviation = declared_deviation;
+  EXPECT_EQ(verify(input, mesh, nullptr, options, report), "");
+  EXPECT_EQ(report.verdict, Verdict::broken);
+  EXPECT_FALSE(report.find("conformity")->passed()) << to_text(report);
+}
+
+// Two sheets in the plane of a facet, beyond it: as many faces turned over as faces that are not.
+TEST(FileAlone, HasNoCrackInThePlaneOfAFacet) {
+  samples::Sample l =
+      samples::grid_sample(2, 4, [](int x, int y, int) { return x == 0 || y == 0; });
+  MeshFile& mesh = l.mesh;
+  mesh.boundary.clear();
+  VerifyReport whole;
+  EXPECT_EQ(verify(l.input, mesh, nullptr, {.promised = {.planar = 0}}, whole), "");
+  EXPECT_EQ(whole.verdict, Verdict::exact);
+  // Beyond the facet x = 1/2, y > 1/2; the vertices on the edge of the two facets as well.
+  const auto is_cut = [](const Position& p) {
+    return p[0] == 0.5 && p[1] > 0 && p[1] <= 0.5 && p[2] > 0 && p[2] < 1;
+  };
+  std::map<Index, Index> copies;
+  for (Tet& tet : mesh.tetrahedra) {
+    double x = 0;
+    for (const Index v : tet) x += mesh.vertices[v][0] / 4;
+    if (x < 0.5) continue;
+    for (Index& v : tet) {
+      if (!is_cut(mesh.vertices[v])) continue;
+      const auto [at, fresh] = copies.try_emplace(v, static_cast<Index>(mesh.vertices.size()));
+      if (fresh) mesh.vertices.push_back(Position(mesh.vertices[v]));
+      v = at->second;
+    }
+  }
+  ASSERT_EQ(copies.size(), 28U);
+  expect_no_conformity(l.input, mesh, 0);
+  expect_no_conformity(l.input, mesh, 0.01);
+}
+
+// A tetrahedron on a face, as thin as a rounding and of any length.
+TEST(FileAlone, HasNoFinBesideAFacet) {
+  const samples::Sample cube = samples::cube();
+  for (const double reach : {0.3, 1.5, 3.0, 1e9}) {
+    for (const double thickness : {0x1p-52, 1e-6}) {
+      MeshFile mesh = cube.mesh;
+      Face top{};
+      for (const Face& face : cube.mesh.boundary) {
+        const bool is_inner = std::ranges::all_of(face, [&](Index v) {
+          const Position& p = mesh.vertices[v];
+          return p[2] == 1 && p[0] < 1 && p[1] < 1;
+        });
+        if (is_inner) top = face;
+      }
+      ASSERT_NE(top[0], top[1]);
+      mesh.boundary.clear();
+      mesh.vertices.push_back({reach, 0.3, 1 + thickness});
+      mesh.tetrahedra.push_back(
+          {top[0], top[1], top[2], static_cast<Index>(mesh.vertices.size() - 1)});
+      mesh.regions.resize(mesh.regions.empty() ? 0 : mesh.tetrahedra.size(), 1);
+      mesh.either_orientation = true;
+      SCOPED_TRACE(reach);
+      expect_no_conformity(cube.input, mesh, 0);
+      expect_no_conformity(cube.input, mesh, 1e-5);
+    }
+  }
+}
+
+// Tetrahedra outside are there to fill the hull, however small they are.
+TEST(FileAlone, WhatIsOutsideFillsTheHull) {
+  const samples::Sample cube = samples::cube();
+  MeshFile mesh = cube.mesh;
+  const auto is_on_top = [&mesh](const Face& face) {
+    return std::ranges::all_of(face, [&](Index v) { return mesh.vertices[v][2] == 1; });
+  };
+  const Face top = *std::ranges::find_if(cube.mesh.boundary, is_on_top);
+  mesh.boundary.clear();
+  mesh.vertices.push_back({0.5, 0.5, 1 + 1e-6});
+  mesh.tetrahedra.push_back({top[0], top[1], top[2], static_cast<Index>(mesh.vertices.size() - 1)});
+  mesh.regions.assign(cube.mesh.tetrahedra.size(), 1);
+  mesh.regions.push_back(2);
+  mesh.either_orientation = true;
+  VerifyReport report;
+  EXPECT_EQ(verify(cube.input, mesh, nullptr, {.promised = {.planar = 0}}, report), "");
+  ASSERT_NE(report.find("hull"), nullptr) << to_text(report);
+  EXPECT_FALSE(report.find("hull")->passed()) << to_text(report);
 }
 
 // A cube has six faces, twelve edges and eight corners, however it is triangulated.
