@@ -15,6 +15,33 @@ bool move(double& x, double origin) {
   return std::isfinite(difference) && error == 0;
 }
 
+// Only a surface that is far away is meshed beside an origin, which is then beside it. From
+// anywhere else the coordinates would be larger than those given, and so what counts as their
+// rounding.
+void check_place(const Polyhedron& input, const Position& origin, OracleReport& report) {
+  constexpr double kFar = 0x1p26;  // times its size: mesher/io/exact_format.md
+  if (input.vertices.empty()) return;
+  Position low = input.vertices[0], high = low;
+  for (const Position& p : input.vertices) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  double size = 0, away = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    size = std::max(size, high[i] - low[i]);
+    away = std::max({away, std::fabs(low[i]), std::fabs(high[i])});
+    if (origin[i] != 0 && !(low[i] <= origin[i] && origin[i] <= high[i])) {
+      report.fail("the origin of the record is not beside the input");
+      return;
+    }
+  }
+  if (!(away >= kFar * size)) {
+    report.fail("the record names an origin, and the input is near 0 for its size");
+  }
+}
+
 }  // namespace
 
 bool names_origin(const delmesher::ExactRecord& record) {
@@ -24,6 +51,7 @@ bool names_origin(const delmesher::ExactRecord& record) {
 OracleReport move_to_origin(BesideOrigin& task) {
   OracleReport report("frame", "points of input and file");
   const Position origin = task.record.origin;
+  check_place(task.input, origin, report);
   const auto take = [&](Position& p, const std::string& what) {
     ++report.checked;
     bool exact = true;

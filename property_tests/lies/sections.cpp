@@ -133,9 +133,22 @@ const Lie kSections[] = {
      [](Told& t) {
        t.record.origin = {0, NAN, 0};
      }},
-    {"an origin beside an honest record", "sidecar",
+    {"an origin beside an honest record", "frame",
      [](Told& t) {
        t.record.origin = {0, 0, -1};
+     }},
+    // Roundings of points so far from it would be larger.
+    {"an origin that the points are moved away from", "frame",
+     [](Told& t) {
+       t.record.origin = {-0x1p30, 0, 0};
+       for (auto& p : t.record.points) {
+         if (p.kind == delmesher::ExactPoint::Kind::explicit_point) p.x += 0x1p30;
+       }
+     }},
+    {"an origin of a run far away that is not beside it", "frame",
+     [](Told& t) {
+       run_far_away(t);
+       t.record.origin[0] -= 0x1p10;
      }},
     {"a file far away that was moved beside the origin", "frame",
      [](Told& t) {
