@@ -205,7 +205,10 @@ PlaneFile read_triangle(const std::string& path) {
   const std::string poly_path = beside(path, ".poly"), ele_path = beside(path, ".ele");
   const std::int64_t first = read_written_nodes(beside(path, ".node"), file.vertices);
   const std::vector<double> values = read_written_triangles(ele_path, first, file);
-  if (!std::filesystem::exists(poly_path)) return file;
+  if (!std::filesystem::exists(poly_path)) {
+    file.lacks = poly_path;
+    return file;
+  }
   read_written_poly(poly_path, first, file);
   // Attributes are those of the input's regions if there are any, else they name sides.
   file.names_sides = file.regions.empty();

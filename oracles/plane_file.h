@@ -17,6 +17,7 @@ struct PlaneFile {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   bool names_sides = true;           // the format says which triangles are inside
   std::vector<std::uint8_t> inside;  // per triangle; empty: the file says nothing
+  std::string lacks{};               // a file of the format that is not there
   bool lists_edges = false;          // the file lists the edges that tile the segments
   std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::int32_t> markers;    // per edge

@@ -135,6 +135,7 @@ class SameMesh {
     compare_triangles();
     check_names_of_sides();
     if (file_.lists_edges) compare_edges();
+    if (!file_.lacks.empty()) oracle_.fail(file_.lacks + " is missing");
     return std::move(oracle_);
   }
 

@@ -27,6 +27,9 @@ std::string read(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+// As a text: the file is not there.
+const std::string kRemoved = "removed";
+
 // A model, meshed, and its files by extension. A set of files of one mesh is named by its first.
 class Meshed {
  public:
@@ -56,6 +59,7 @@ class Meshed {
       if (std::ranges::find(set, extension) == set.end()) continue;
       for (const std::string& e : set) {
         std::ofstream(path("lie." + e), std::ios::binary) << (e == extension ? text : files_.at(e));
+        if (e == extension && text == kRemoved) fs::remove(path("lie." + e));
       }
       return verify(path("lie." + set[0]), with_record);
     }
@@ -391,6 +395,13 @@ std::string bytes_of(std::uint64_t number, std::size_t count) {
 }
 
 // Numbers of elements and nodes that are announced, references, and bytes after the end.
+// It lists the segments, their markers and the holes.
+TEST(FileLies, WithARecordThePolyIsThere) {
+  const Meshed& meshed = in_the_plane();
+  EXPECT_EQ(meshed.verify("poly", meshed.files().at("poly"), true), 0);
+  EXPECT_EQ(meshed.verify("poly", kRemoved, true), 1);
+}
+
 TEST(FileLies, OfBytesAreRefused) {
   const std::string &gmsh = of_bytes().files().at("msh"), &vtu = of_bytes().files().at("vtu");
   for (const auto& [extension, text] : of_bytes().files()) {
