@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -31,8 +30,6 @@ struct Pair {
   const Run* base;
   const Run* fresh;
 };
-
-using Getter = std::function<std::optional<double>(const Run&)>;
 
 Getter of(std::optional<MeshColumns> RunRow::*part, double MeshColumns::*column) {
   return [=](const Run& run) -> std::optional<double> {
@@ -201,18 +198,18 @@ class Gate {
       return run.figure("conformity", "input vertices moved");
     };
     const std::string& mesher = base.row.key.mesher;
-    if (both(mesher, "largest deviation", deviation(base), deviation(fresh))) {
-      const double before = *deviation(base), after = *deviation(fresh);
+    const auto off = most(base, deviation), off_now = most(fresh, deviation);
+    if (both(mesher, "largest deviation", off, off_now)) {
+      const double before = *off, after = *off_now;
       if (after > before + options_.deviation_ulps && after > 1.5 * before) {
         add(FindingKind::conformity, base,
             fmt::format("surface off by {:.3g} ulp instead of {:.3g}", after, before));
       }
     }
-    if (both(mesher, "input vertices moved", moved(base), moved(fresh)) &&
-        *moved(fresh) > *moved(base)) {
+    const auto count = most(base, moved), count_now = most(fresh, moved);
+    if (both(mesher, "input vertices moved", count, count_now) && *count_now > *count) {
       add(FindingKind::conformity, base,
-          fmt::format("{:.0f} input vertices moved instead of {:.0f}", *moved(fresh),
-                      *moved(base)));
+          fmt::format("{:.0f} input vertices moved instead of {:.0f}", *count_now, *count));
     }
   }
 
@@ -230,6 +227,28 @@ class Gate {
     compare_texts(mesher, pairs, "versions", [](const Run& r) { return r.row.key.version; });
     compare_texts(mesher, pairs, "limits", [](const Run& r) { return r.row.key.limits; });
     compare_settings(mesher, pairs);
+    compare_repetitions(mesher, pairs);
+  }
+
+  void compare_repetitions(const std::string& mesher, const std::vector<Pair>& pairs) {
+    const auto differs = [](const Run& run) {
+      return std::ranges::any_of(run.others, [&](const Run& other) {
+        return other.row.mesh_json != run.row.mesh_json ||
+               verdict_of(other.row) != verdict_of(run.row);
+      });
+    };
+    std::size_t base = 0, fresh = 0;
+    for (const Pair& pair : pairs) {
+      base += differs(*pair.base);
+      fresh += differs(*pair.fresh);
+    }
+    for (const auto& [count, side] : {std::pair(base, "base"), std::pair(fresh, "new")}) {
+      if (count > 0) {
+        differ(mesher, fmt::format("repetitions differ: {} of {} models of the {} side; the worst "
+                                   "of each measure counts",
+                                   count, pairs.size(), side));
+      }
+    }
   }
 
   template <typename Text>
@@ -295,7 +314,8 @@ class Gate {
     };
     std::vector<Pair> by_oracle, by_mesher;
     for (const Pair& pair : pairs) {
-      (measured(*pair.base) && measured(*pair.fresh) ? by_oracle : by_mesher).push_back(pair);
+      (least(*pair.base, measured) && least(*pair.fresh, measured) ? by_oracle : by_mesher)
+          .push_back(pair);
     }
     Angle angle{FindingKind::face_angle, "refined smallest face angle", measured,
                 options_.angle_factor, options_.total_angle_factor};
@@ -308,7 +328,7 @@ class Gate {
                      const Angle& angle) {
     std::vector<Weighted> logs;
     for (const Pair& pair : pairs) {
-      const auto before = angle.value(*pair.base), after = angle.value(*pair.fresh);
+      const auto before = least(*pair.base, angle.value), after = least(*pair.fresh, angle.value);
       if (!both(mesher, angle.name, before, after)) continue;
       if (*before <= 0) continue;  // nothing was refined, or it cannot be worse
       const double ratio = *after / *before;
@@ -337,10 +357,11 @@ class Gate {
     std::vector<Weighted> differences;
     double before_sum = 0, after_sum = 0;
     for (const Pair& pair : pairs) {
-      const auto before = value(*pair.base), after = value(*pair.fresh);
+      const auto before = most(*pair.base, value), after = most(*pair.fresh, value);
       if (!before && !after) ++lacking_[mesher][{name, "neither side has"}];
       if (!both(mesher, name, before, after)) continue;
-      const double more = *after * *tetrahedra(*pair.fresh) - *before * *tetrahedra(*pair.base);
+      const double more =
+          *after * *most(*pair.fresh, tetrahedra) - *before * *most(*pair.base, tetrahedra);
       if (*after - *before > options_.sliver_share && more >= options_.least_slivers) {
         add(FindingKind::slivers, *pair.base,
             fmt::format("{}: {:.2f} instead of {:.2f} % of the tetrahedra", name, 100 * *after,
@@ -376,8 +397,12 @@ class Gate {
     std::vector<Weighted> ratios;
     std::size_t fewer = 0;
     for (const Pair& pair : pairs) {
-      const auto before = tetrahedra(*pair.base), after = tetrahedra(*pair.fresh);
-      if (!before || !after || *before <= 0) continue;
+      // Of repetitions that differ, the smallest counts where it is too small.
+      const auto of_all = least(*pair.fresh, tetrahedra);
+      const bool shrunk = of_all && of_all < least(*pair.base, tetrahedra);
+      const auto before = shrunk ? least(*pair.base, tetrahedra) : most(*pair.base, tetrahedra),
+                 after = shrunk ? of_all : most(*pair.fresh, tetrahedra);
+      if (!both(mesher, "tetrahedra", before, after) || *before <= 0) continue;
       const double ratio = *after / *before;
       ratios.push_back({ratio, std::min(*before, kMostTetrahedra)});
       if (std::fabs(*after - *before) < options_.least_tetrahedra) continue;
@@ -420,6 +445,7 @@ class Gate {
                       [](const RunRow& r) { return static_cast<double>(r.peak_rss_bytes); }};
     compare_cost(mesher, pairs, time);
     compare_cost(mesher, pairs, memory);
+    say_what_lacks(mesher);
   }
 
   void compare_cost(const std::string& mesher, const std::vector<Pair>& pairs, const Cost& cost) {
@@ -429,7 +455,8 @@ class Gate {
     std::set<std::string> hosts;
     for (const Pair& pair : pairs) {
       const double before = cost.value(pair.base->row), after = cost.value(pair.fresh->row);
-      if (before <= 0 || after <= 0) continue;
+      const auto measured = [](double x) { return x > 0 ? std::optional(x) : std::nullopt; };
+      if (!both(mesher, cost.name, measured(before), measured(after))) continue;
       log_ratios.push_back(std::log(after / before));
       ratios.push_back({after / before, std::min(before, cost.largest_weight)});
       compared.push_back(pair);

@@ -22,21 +22,50 @@ int weight_of_ending(const RunRow& row) {
   return is_verified(row) ? 2 : 1;
 }
 
-Run run_of(std::vector<const RunRow*> repetitions) {
-  const RunRow& decisive = **std::max_element(
-      repetitions.begin(), repetitions.end(),
-      [](const RunRow* a, const RunRow* b) { return weight_of_ending(*a) < weight_of_ending(*b); });
-  Run run{decisive, {}, {}, object_of(decisive.verdict_json), object_of(decisive.stats_json)};
+// Among those that ended alike the verdict decides.
+bool is_worse(const RunRow* a, const RunRow* b) {
+  const auto rank = [](const RunRow& row) {
+    return std::pair(-weight_of_ending(row), verdict_rank(verdict_of(row)));
+  };
+  return rank(*a) < rank(*b);
+}
+
+Run parsed(const RunRow& row) {
+  Run run{row, {}, {}, object_of(row.verdict_json), object_of(row.stats_json), {}};
+  for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
+    run.passed[oracle.value("name", "")] = oracle.value("passed", false);
+  }
+  return run;
+}
+
+void join(std::map<std::string, bool>& passed, const std::map<std::string, bool>& more) {
+  std::erase_if(passed, [&](const auto& oracle) { return !more.contains(oracle.first); });
+  for (auto& [name, has] : passed) has = has && more.at(name);
+}
+
+Run run_of(const std::vector<const RunRow*>& repetitions) {
+  const RunRow* decisive = *std::ranges::min_element(repetitions, is_worse);
+  Run run = parsed(*decisive);
   for (const RunRow* row : repetitions) {
     run.started.push_back(row->started);
     if (!has_mesh(*row)) continue;
     run.row.cpu_seconds = std::min(run.row.cpu_seconds, row->cpu_seconds);
     run.row.peak_rss_bytes = std::min(run.row.peak_rss_bytes, row->peak_rss_bytes);
-  }
-  for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
-    run.passed[oracle.value("name", "")] = oracle.value("passed", false);
+    if (row == decisive) continue;
+    run.others.push_back(parsed(*row));
+    if (is_verified(*row)) join(run.passed, run.others.back().passed);
   }
   return run;
+}
+
+std::optional<double> extreme(const Run& run, const Getter& value,
+                              const double& (*better)(const double&, const double&)) {
+  std::optional<double> result = value(run);
+  for (const Run& other : run.others) {
+    const std::optional<double> x = value(other);
+    result = result && x ? std::optional(better(*result, *x)) : std::nullopt;
+  }
+  return result;
 }
 
 }  // namespace
@@ -63,6 +92,14 @@ std::optional<double> Run::figure(const char* oracle, const char* name) const {
     if (figures.contains(name) && figures.at(name).is_number()) return figures.at(name);
   }
   return std::nullopt;
+}
+
+std::optional<double> least(const Run& run, const Getter& value) {
+  return extreme(run, value, std::min<double>);
+}
+
+std::optional<double> most(const Run& run, const Getter& value) {
+  return extreme(run, value, std::max<double>);
 }
 
 Runs runs_of(const std::vector<RunRow>& rows) {

@@ -234,6 +234,42 @@ TEST(Gate, OfRepetitionsTheLeastTimeCounts) {
   }
 }
 
+// Wherever among the repetitions the worst of a measure is.
+TEST(Gate, OfRepetitionsTheWorstOfEveryOtherMeasureCounts) {
+  const std::vector<RunRow> base = campaign(1);
+  const std::pair<FindingKind, Change> worse[] = {
+      {FindingKind::face_angle, [](Json& m, Json&, Json&) { m["min_face_angle"] = 4; }},
+      {FindingKind::gamma, [](Json& m, Json&, Json&) { m["mean_gamma"] = 0.3; }},
+      {FindingKind::slivers, [](Json& m, Json&, Json&) { m["tetrahedra_below_5_degrees"] = 900; }},
+      {FindingKind::size, [](Json& m, Json&, Json&) { m["tetrahedra"] = 20000; }},
+      {FindingKind::size, [](Json& m, Json&, Json&) { m["tetrahedra"] = 5000; }},
+      {FindingKind::face_angle,
+       [](Json&, Json&, Json& v) { v["oracles"][2]["figures"]["smallest face angle"] = 7; }},
+      {FindingKind::conformity, [](Json&, Json&, Json& v) { v["deviation_ulps"] = 2; }},
+      {FindingKind::conformity,
+       [](Json&, Json&, Json& v) { v["oracles"][1]["figures"]["input vertices moved"] = 1; }},
+      {FindingKind::verdict, [](Json&, Json&, Json& v) { v["verdict"] = "deviating"; }},
+      {FindingKind::oracle, [](Json&, Json&, Json& v) { v["oracles"][0]["passed"] = false; }},
+      {FindingKind::oracle, [](Json&, Json&, Json& v) { v["oracles"].erase(0); }}};
+  std::size_t n = 0;
+  for (const auto& [kind, what] : worse) {
+    for (std::size_t place = 0; place < 3; ++place) {
+      std::vector<RunRow> fresh = {base[0], base[0], base[0]};
+      change(fresh[place], what);
+      const GateReport report = compare_campaigns(base, fresh);
+      const auto found = std::ranges::count_if(
+          report.findings, [kind = kind](const auto& f) { return f.kind == kind; });
+      EXPECT_EQ(found, 1) << n << ", repetition " << place;
+    }
+    ++n;
+  }
+  std::vector<RunRow> fresh = {base[0], base[0]};
+  change(fresh[1], worse[0].second);
+  EXPECT_EQ(compare_campaigns(base, fresh).differences,
+            (std::vector<std::string>{"delmesher: repetitions differ: 1 of 1 models of the new "
+                                      "side; the worst of each measure counts"}));
+}
+
 TEST(Gate, AllModelsSlowerIsOneFinding) {
   auto fresh = campaign(30);
   for (RunRow& row : fresh) row.cpu_seconds *= 2;
