@@ -6,6 +6,7 @@
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -78,7 +79,17 @@ bool vertices_manifold(const Surface& surface) {
   });
 }
 
+// Not every release of CGAL calls two triangles with the same corners an intersection.
+bool covers_one_twice(const Surface& surface) {
+  std::set<std::array<Index, 3>> seen;
+  return !std::ranges::all_of(surface.triangles, [&seen](std::array<Index, 3> t) {
+    std::ranges::sort(t);
+    return seen.insert(t).second;
+  });
+}
+
 bool self_intersects(const Surface& surface) {
+  if (covers_one_twice(surface)) return true;
   Mesh mesh;
   std::vector<Mesh::Vertex_index> ids;
   std::vector<bool> used(surface.vertices.size(), false);

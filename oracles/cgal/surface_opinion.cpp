@@ -11,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tetproof::oracles {
 namespace {
@@ -69,6 +71,19 @@ bool assemble(const Polyhedron& surface, const std::vector<Kernel::Point_3>& poi
   return true;
 }
 
+// Two triangles that are a closed component by themselves: not every release calls that an
+// intersection.
+void add_pairs_of_same_corners(const Mesh& mesh,
+                               std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>>& pairs) {
+  for (const auto face : mesh.faces()) {
+    const auto first = mesh.halfedge(face), second = mesh.next(first), third = mesh.next(second);
+    const auto other = mesh.face(mesh.opposite(first));
+    if (other == mesh.face(mesh.opposite(second)) && other == mesh.face(mesh.opposite(third))) {
+      pairs.emplace_back(face, other);
+    }
+  }
+}
+
 }  // namespace
 
 SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface, const SurfaceQuestions& questions) {
@@ -101,6 +116,7 @@ SurfaceOpinion cgal_surface_opinion(const Polyhedron& surface, const SurfaceQues
   }
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   processing::self_intersections(mesh, std::back_inserter(pairs));
+  add_pairs_of_same_corners(mesh, pairs);
   opinion.free_of_intersections = pairs.empty();
   if (!pairs.empty()) {
     const auto [a, b] = *std::min_element(pairs.begin(), pairs.end());
