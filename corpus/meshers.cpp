@@ -15,6 +15,7 @@
 #include "corpus/sha256.h"
 #include "corpus/shell.h"
 #include "mesher/delmesher.h"
+#include "oracles/envelope.h"
 #include "oracles/text_reader.h"
 
 namespace tetproof {
@@ -226,12 +227,13 @@ void take_declarations(const std::string& text, Mesher& mesher) {
       mesher.region = value;
     } else if (key == "deviation" && share) {
       mesher.declared_deviation = *share;
-    } else if (key == "envelope" && share) {
+    } else if (key == "envelope" && share && *share >= oracles::kLeastEnvelope) {
       mesher.envelope = *share;
     } else {
-      throw std::runtime_error(
-          "cmd," + piece +
-          ": region=hull, region=interior, deviation=FRACTION or envelope=FRACTION is expected");
+      throw std::runtime_error("cmd," + piece +
+                               ": region=hull, region=interior, deviation=FRACTION or "
+                               "envelope=FRACTION (from 1e-7 on) is "
+                               "expected");
     }
   }
 }

@@ -114,9 +114,10 @@ TEST_F(Meshers, CommandsDeclareWhatTheyMesh) {
   EXPECT_EQ(mesher.declared_deviation, 1e-8);
   EXPECT_EQ(mesher.flags, "prog a:b {in} {out.msh}");
   EXPECT_EQ(make_mesher("cmd:prog {in} {out.msh}", programs_).declared_deviation, 0);
-  for (const char* text : {"g=cmd,region=outside:p {in} {out.msh}",
-                           "cmd,deviation=:p {in} {out.msh}", "cmd,deviation=-1:p {in} {out.msh}",
-                           "cmd,envelope=x:p {in} {out.msh}", "cmd,x:p {in} {out.msh}"}) {
+  for (const char* text :
+       {"g=cmd,region=outside:p {in} {out.msh}", "cmd,deviation=:p {in} {out.msh}",
+        "cmd,deviation=-1:p {in} {out.msh}", "cmd,envelope=x:p {in} {out.msh}",
+        "cmd,envelope=1e-8:p {in} {out.msh}", "cmd,x:p {in} {out.msh}"}) {
     EXPECT_THROW(make_mesher(text, programs_), std::runtime_error) << text;
   }
 }

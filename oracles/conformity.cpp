@@ -81,6 +81,8 @@ class Conformity {
   std::vector<Face> folded_faces(Index facet, const std::vector<Face>& faces) const;
   void check_folded(Index facet, const std::vector<Face>& folded, std::span<const Index> triangles);
   double width_of(const Face& face) const;
+  double reach_of(const Face& face, std::span<const Corners> triangles, double least,
+                  double most) const;
   void check_in_plane(Index facet, Index v);
   // How far a vertex may be off the plane of its facet, in input units.
   double plane_tolerance(Index facet) const {
@@ -366,31 +368,57 @@ void Conformity::check_folded(Index facet, const std::vector<Face>& folded,
     for (const Face& face : folded) fail_folded(face);
     return;
   }
-  constexpr double kStep = 1.05;  // the distance is known to this factor
-  const double most = plane_tolerance(facet);
   std::vector<Corners> corners;
   for (const Index t : triangles) {
     Corners& triangle = corners.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) triangle[i] = points_.nearest(surface_.triangles()[t][i]);
   }
-  // Roundings of measuring are below this factor.
-  double distance = std::clamp(result_.deviation * (1 + 1e-9), most / 0x1p12, most);
+  const double widest = 2 * plane_tolerance(facet), most = most_off_plane(facet, HUGE_VAL);
+  double distance = std::min(result_.deviation, most);
   for (const Face& face : folded) {
-    distance = std::max(distance, width_of(face) / 2);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Position &a = points_.nearest(face[i]), &b = points_.nearest(face[(i + 1) % 3]);
-      while (distance < most && !is_segment_near(a, b, corners, distance)) {
-        distance = std::min(distance * kStep, most);
-      }
-      if (!(distance <= most && is_segment_near(a, b, corners, distance))) return fail_folded(face);
-    }
+    const double width = width_of(face);
+    if (!(width <= widest)) return fail_folded(face);
+    distance = reach_of(face, corners, std::max(distance, width / 2), most);
+    if (!(distance <= most)) return fail_folded(face);
   }
   deviate(distance);
   result_.report.notes.push_back(std::to_string(folded.size()) + " faces folded over on " +
                                  facet_name(facet));
 }
 
-// The same where one is so far.
+// A distance, at least `least`, within which every point of the sides of a face is of the
+// triangles, known to a factor; infinite if it is larger than `most`.
+double Conformity::reach_of(const Face& face, std::span<const Corners> triangles, double least,
+                            double most) const {
+  constexpr double kFactor = 1.05;
+  // Doubles tell nothing smaller.
+  double distance = std::max(least, surface_.largest_coordinate() * 0x1p-55);
+  for (const Index v : face) {
+    double nearest = HUGE_VAL;
+    for (const Corners& triangle : triangles) {
+      nearest = std::min(nearest, distance_to_triangle(points_.nearest(v), triangle));
+    }
+    distance = std::max(distance, nearest);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Position &a = points_.nearest(face[i]), &b = points_.nearest(face[(i + 1) % 3]);
+    const auto is_near = [&](double d) { return is_segment_near(a, b, triangles, d); };
+    double below = distance;
+    if (distance <= most && is_near(distance)) continue;
+    while (distance < most && !is_near(distance)) {
+      below = distance;
+      distance = std::min(2 * distance, most);
+    }
+    if (!(distance <= most && is_near(distance))) return HUGE_VAL;
+    while (distance > kFactor * below) {
+      const double middle = std::sqrt(distance) * std::sqrt(below);
+      (is_near(middle) ? distance : below) = middle;
+    }
+  }
+  return distance;
+}
+
+// How far a vertex may be off the plane of its facet, where one is so far.
 double Conformity::most_off_plane(Index facet, double distance) {
   const double most = plane_tolerance(facet);
   if (distance <= most || !(options_.off_plane > 0) || options_.planar == 0) return most;

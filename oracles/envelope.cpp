@@ -14,12 +14,6 @@
 namespace tetproof::oracles {
 namespace {
 
-// Not by hypot: asked for often.
-double quick_distance(const Position& a, const Position& b) {
-  const Position d = minus(a, b);
-  return std::sqrt(dot(d, d));
-}
-
 Corners corners_of(const Polyhedron& surface, std::size_t t) {
   const auto& [a, b, c] = surface.triangles[t];
   return {surface.vertices[a], surface.vertices[b], surface.vertices[c]};

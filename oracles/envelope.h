@@ -15,6 +15,9 @@
 
 namespace tetproof::oracles {
 
+// Fraction of the diagonal: of smaller ones the time has no bound that is worth having.
+inline constexpr double kLeastEnvelope = 1e-7;
+
 // An upper bound of the distance from any point of `from` to `to`, in doubles, in input units.
 // Exact but for `precision`, or for a tenth of `enough` if that is larger: distances so small are
 // not told apart. Neither may be empty, and not both bounds 0. `place` gets a point of `from` that

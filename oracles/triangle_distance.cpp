@@ -10,11 +10,6 @@
 namespace tetproof::oracles {
 namespace {
 
-// Not by hypot: asked for often.
-double quick_distance(const Position& a, const Position& b) {
-  return length(minus(a, b));
-}
-
 double to_segment(const Position& p, const Position& a, const Position& b) {
   const Position along = minus(b, a);
   const double squared = dot(along, along);

@@ -31,6 +31,11 @@ inline double distance(const Position& p, const Position& q) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
+// Not by hypot: for what is asked often.
+inline double quick_distance(const Position& p, const Position& q) {
+  return length(minus(p, q));
+}
+
 inline Position between(const Position& a, const Position& b, double share) {
   Position p;
   for (std::size_t i = 0; i < 3; ++i) p[i] = a[i] + share * (b[i] - a[i]);

@@ -74,7 +74,7 @@ void declare(CLI::App& app, Arguments& arguments) {
          "--envelope", arguments.envelope,
          "the mesh has a surface of its own, at most this fraction of the diagonal (from 1e-7 on) "
          "from the input, and the input from it")
-      ->check(CLI::Range(1e-7, 1e6));
+      ->check(CLI::PositiveNumber);
   app.add_option("--threads", arguments.options.threads,
                  "threads that share the checks, 0: one per core (1)")
       ->check(CLI::Range(0, 1024));
@@ -244,6 +244,10 @@ int run_verify(int argc, char** argv) {
   }
   const Task task = arguments.options.promised.task;
   const bool surface = task == Task::mesh || task == Task::cdt;
+  if (arguments.envelope > 0 && arguments.envelope < kLeastEnvelope) {
+    std::fputs("tetproof: --envelope: a fraction from 1e-7 on is expected\n", stderr);
+    return kUsage;
+  }
   if (arguments.envelope > 0 && (!surface || !arguments.exact.empty())) {
     std::fputs("tetproof: --envelope: of a mesh of a surface, and of a file alone\n", stderr);
     return kUsage;

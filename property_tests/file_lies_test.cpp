@@ -388,13 +388,6 @@ TEST(FileLies, ALabelThatIsNotTheNumberOfItsGroup) {
   EXPECT_EQ(in_space().verify("msh", lie, true), 1);
 }
 
-std::string bytes_of(std::uint64_t number, std::size_t count) {
-  std::string bytes;
-  for (std::size_t i = 0; i < count; ++i) bytes += static_cast<char>(number >> 8 * i & 255);
-  return bytes;
-}
-
-// Numbers of elements and nodes that are announced, references, and bytes after the end.
 // It lists the segments, their markers and the holes.
 TEST(FileLies, WithARecordThePolyIsThere) {
   const Meshed& meshed = in_the_plane();
@@ -402,6 +395,13 @@ TEST(FileLies, WithARecordThePolyIsThere) {
   EXPECT_EQ(meshed.verify("poly", kRemoved, true), 1);
 }
 
+std::string bytes_of(std::uint64_t number, std::size_t count) {
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes += static_cast<char>(number >> 8 * i & 255);
+  return bytes;
+}
+
+// Numbers of elements and nodes that are announced, references, and bytes after the end.
 TEST(FileLies, OfBytesAreRefused) {
   const std::string &gmsh = of_bytes().files().at("msh"), &vtu = of_bytes().files().at("vtu");
   for (const auto& [extension, text] : of_bytes().files()) {

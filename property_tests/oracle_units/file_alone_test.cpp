@@ -222,6 +222,42 @@ TEST(FileAlone, HasNoFinBesideAFacet) {
   }
 }
 
+// A cube around a point, with a face on top whose vertices are an ulp off: it is turned over, and
+// every tetrahedron is positive. That is a deviation of about as much, whatever the tolerance.
+TEST(FileAlone, MayHaveAFaceThatRoundingTurnedOver) {
+  Polyhedron input{
+      {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
+      {{{0, 2, 1}},
+       {{0, 3, 2}},
+       {{0, 1, 5}},
+       {{0, 5, 4}},
+       {{1, 2, 6}},
+       {{1, 6, 5}},
+       {{2, 3, 7}},
+       {{2, 7, 6}},
+       {{3, 0, 4}},
+       {{3, 4, 7}}},
+      {},
+      {}};
+  std::vector<Face> faces(input.triangles.begin(), input.triangles.end());
+  faces.insert(
+      faces.end(),
+      {{8, 9, 10}, {4, 5, 9}, {4, 9, 8}, {5, 6, 9}, {4, 8, 7}, {8, 10, 7}, {10, 9, 6}, {10, 6, 7}});
+  MeshFile mesh;
+  mesh.vertices = input.vertices;
+  for (const Position& p : {Position{0.25, 0.5, 1}, Position{0.75, 0.5, 1},
+                            Position{0.5, 0.5 - 0x1p-54, 1 + 0x1p-52}, Position{0.5, 0.9, 0.5}}) {
+    mesh.vertices.push_back(p);
+  }
+  for (const auto& [a, b, c] : faces) mesh.tetrahedra.push_back({a, c, b, 11});
+  input.triangles.push_back({4, 5, 6});
+  input.triangles.push_back({4, 6, 7});
+  VerifyReport report;
+  EXPECT_EQ(verify(input, mesh, nullptr, {.promised = {.planar = 0}}, report), "");
+  EXPECT_EQ(report.verdict, Verdict::rounded) << to_text(report);
+  EXPECT_NE(to_text(report).find("1 faces folded over"), std::string::npos) << to_text(report);
+}
+
 // Tetrahedra outside are there to fill the hull, however small they are.
 TEST(FileAlone, WhatIsOutsideFillsTheHull) {
   const samples::Sample cube = samples::cube();
