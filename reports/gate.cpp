@@ -233,8 +233,7 @@ class Gate {
   void compare_repetitions(const std::string& mesher, const std::vector<Pair>& pairs) {
     const auto differs = [](const Run& run) {
       return std::ranges::any_of(run.others, [&](const Run& other) {
-        return other.row.mesh_json != run.row.mesh_json ||
-               verdict_of(other.row) != verdict_of(run.row);
+        return other.row.mesh != run.row.mesh || verdict_of(other.row) != verdict_of(run.row);
       });
     };
     std::size_t base = 0, fresh = 0;
@@ -397,11 +396,15 @@ class Gate {
     std::vector<Weighted> ratios;
     std::size_t fewer = 0;
     for (const Pair& pair : pairs) {
-      // Of repetitions that differ, the smallest counts where it is too small.
-      const auto of_all = least(*pair.fresh, tetrahedra);
-      const bool shrunk = of_all && of_all < least(*pair.base, tetrahedra);
-      const auto before = shrunk ? least(*pair.base, tetrahedra) : most(*pair.base, tetrahedra),
-                 after = shrunk ? of_all : most(*pair.fresh, tetrahedra);
+      auto before = most(*pair.base, tetrahedra), after = most(*pair.fresh, tetrahedra);
+      const auto least_before = least(*pair.base, tetrahedra),
+                 least_after = least(*pair.fresh, tetrahedra);
+      // Repetitions may differ both ways; the larger change counts.
+      if (options_.fewer_is_bad && before && after &&
+          *before * *least_before > *after * *least_after) {
+        before = least_before;
+        after = least_after;
+      }
       if (!both(mesher, "tetrahedra", before, after) || *before <= 0) continue;
       const double ratio = *after / *before;
       ratios.push_back({ratio, std::min(*before, kMostTetrahedra)});

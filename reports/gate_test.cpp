@@ -263,6 +263,17 @@ TEST(Gate, OfRepetitionsTheWorstOfEveryOtherMeasureCounts) {
     }
     ++n;
   }
+  // A smaller repetition does not hide a larger one.
+  const auto sizes = [&base](int one, int other) {
+    std::vector<RunRow> rows = {base[0], base[0]};
+    change(rows[0], [one](Json& m, Json&, Json&) { m["tetrahedra"] = one; });
+    change(rows[1], [other](Json& m, Json&, Json&) { m["tetrahedra"] = other; });
+    return std::ranges::count_if(compare_campaigns(base, rows).findings,
+                                 [](const auto& f) { return f.kind == FindingKind::size; });
+  };
+  EXPECT_EQ(sizes(9999, 20000), 1);
+  EXPECT_EQ(sizes(10001, 5000), 1);
+  EXPECT_EQ(sizes(9999, 10001), 0);
   std::vector<RunRow> fresh = {base[0], base[0]};
   change(fresh[1], worse[0].second);
   EXPECT_EQ(compare_campaigns(base, fresh).differences,

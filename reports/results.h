@@ -51,6 +51,8 @@ struct MeshColumns {
   // Nothing in results of versions that did not measure it. Shares are fractions of the tetrahedra.
   std::optional<double> share_below_5, share_below_10, dihedral_percent;
   std::optional<double> min_gamma, mean_gamma, gamma_percent, min_sicn, mean_sicn;
+
+  bool operator==(const MeshColumns&) const = default;
 };
 
 // What a solver sees of the tetrahedra inside (reports/poisson.h).
