@@ -5,6 +5,8 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/intersections.h>
 
+#include <boost/variant/get.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +15,7 @@
 #include <map>
 #include <type_traits>
 #include <unordered_map>
+#include <variant>
 #include <vector>
 
 #include "oracles/cgal/record_text.h"
@@ -194,10 +197,19 @@ class SecondKernel {
       };
       const auto meeting = CGAL::intersection(plane(p.i), plane(p.j), plane(p.k));
       if (meeting) {
-        if (const Place* found = boost::get<Place>(&*meeting)) return with_positive_weight(*found);
+        if (const Place* found = point_in(*meeting)) return with_positive_weight(*found);
       }
     }
     return {Number(0), Number(0), Number(0)};  // other than the oracles' point
+  }
+  // The variants of CGAL 6 are those of the language, before they were Boost's.
+  template <class... Kinds>
+  static const Place* point_in(const std::variant<Kinds...>& meeting) {
+    return std::get_if<Place>(&meeting);
+  }
+  template <class Variant>
+  static const Place* point_in(const Variant& meeting) {
+    return boost::get<Place>(&meeting);
   }
   // Signs of homogeneous polynomials are those of the points only so.
   static Place with_positive_weight(const Place& p) {
