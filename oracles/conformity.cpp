@@ -404,12 +404,11 @@ double Conformity::reach_of(const Face& face, std::span<const Corners> triangles
     const Position &a = points_.nearest(face[i]), &b = points_.nearest(face[(i + 1) % 3]);
     const auto is_near = [&](double d) { return is_segment_near(a, b, triangles, d); };
     double below = distance;
-    if (distance <= most && is_near(distance)) continue;
-    while (distance < most && !is_near(distance)) {
+    while (!(distance <= most && is_near(distance))) {
+      if (!(distance < most)) return HUGE_VAL;
       below = distance;
       distance = std::min(2 * distance, most);
     }
-    if (!(distance <= most && is_near(distance))) return HUGE_VAL;
     while (distance > kFactor * below) {
       const double middle = std::sqrt(distance) * std::sqrt(below);
       (is_near(middle) ? distance : below) = middle;

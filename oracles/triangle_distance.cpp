@@ -39,11 +39,11 @@ std::pair<double, double> near_part(const Position& a, const Position& b, const 
   };
   double low = 0, high = 1;
   for (int n = 0; n < 2 * kHalvings && low < high; ++n) {
-    const double third = (high - low) / 3;
-    if (far(low + third) < far(high - third)) {
-      high -= third;
+    const double third = (high - low) / 3, left = low + third, right = high - third;
+    if (far(left) < far(right)) {
+      high = right;
     } else {
-      low += third;
+      low = left;
     }
   }
   double nearest = (low + high) / 2;

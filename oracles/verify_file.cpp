@@ -1,6 +1,8 @@
 // The oracles on the mesh as it was written.
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "oracles/delaunay.h"
 #include "oracles/edge_nodes.h"
@@ -309,15 +311,13 @@ void Verification::check_file_quality(const TetComplex& complex, const Neighbour
   for (const std::uint8_t inside : complex.inside) angles.checked += inside;
   measure_angles(complex, neighbours, complex.inside, angles);
   const Promise& promised = options_.promised;
-  if (exact_ == nullptr && promised.max_edge > 0) {
-    angles.notes.emplace_back("--max-edge is promised of the refined mesh, which is in the record");
-  }
-  if (exact_ == nullptr && !promised.size_field.empty()) {
-    angles.notes.emplace_back(
-        "--size-field is promised of the refined mesh, which is in the record");
-  }
-  if (exact_ == nullptr && promised.delta != Promise{}.delta) {
-    angles.notes.emplace_back("--delta is promised of the refined mesh, which is in the record");
+  for (const auto& [is_promised, option] :
+       {std::pair(promised.max_edge > 0, "--max-edge"),
+        std::pair(!promised.size_field.empty(), "--size-field"),
+        std::pair(promised.delta != Promise{}.delta, "--delta")}) {
+    if (exact_ != nullptr || !is_promised) continue;
+    angles.notes.push_back(std::string(option) +
+                           " is promised of the refined mesh, which is in the record");
   }
   add(std::move(angles));
 }
