@@ -1,6 +1,7 @@
 #include "oracles/mesh_file.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "oracles/edge_nodes.h"
@@ -250,9 +252,14 @@ MeshFile read_gmsh(const std::string& path) {
   mesh.boxes_differ = text.boxes_differ;
   take_out_edge_nodes(mesh, nodes, path);
   // Where the names say the opposite of the numbers 1 and 2, these count as exchanged.
-  const auto called = [&](std::int64_t group, const char* name) {
+  const auto called = [&](std::int64_t group, std::string_view name) {
     const auto found = text.names.find({3, group});
-    return found != text.names.end() && found->second == name;
+    if (found == text.names.end()) return false;
+    const std::string_view first = std::string_view(found->second).substr(0, name.size());
+    const bool whole = found->second.size() <= name.size() || found->second[name.size()] == ' ';
+    return whole && std::ranges::equal(first, name, [](char a, char b) {
+             return std::tolower(static_cast<unsigned char>(a)) == b;
+           });
   };
   if (called(1, "outside") || called(2, "inside")) {
     for (std::int64_t& region : mesh.regions) region = region == 1 ? 2 : region == 2 ? 1 : region;

@@ -15,6 +15,7 @@ namespace tetproof::oracles {
 VtuText::VtuText(std::string path, std::string_view text) : path_(std::move(path)), text_(text) {
   cut_out_appended();
   remove_comments();
+  check_elements();
   for (const std::string tag : {"<VTKFile", "<Piece", "<Points", "<Cells", "<CellData"}) {
     if (text_.find(tag) != text_.rfind(tag)) fail(tag.substr(1) + " is there twice");
   }
@@ -49,7 +50,8 @@ void VtuText::cut_out_appended() {
   if (encoding != "raw" && encoding != "base64") fail("appended data in no known encoding");
   appended_raw_ = encoding == "raw";
   appended_ = text_.substr(mark + 1, end - mark - 1);
-  without_appended_.append(text_.substr(0, begin)).append(text_.substr(end + kEnd.size()));
+  without_appended_.append(text_.substr(0, begin)).append("<AppendedData/>");
+  without_appended_.append(text_.substr(end + kEnd.size()));
   text_ = without_appended_;
 }
 
@@ -67,6 +69,50 @@ void VtuText::remove_comments() {
     at = end + 3;
   }
   text_ = without_comments_;
+}
+
+namespace {
+
+// Is that where VTK looks for such an element? It skips what it does not know.
+bool may_hold(std::string_view parent, std::string_view element) {
+  if (element == "VTKFile") return parent.empty();
+  if (element == "UnstructuredGrid" || element == "AppendedData") return parent == "VTKFile";
+  if (element == "Piece") return parent == "UnstructuredGrid";
+  if (element == "Points" || element == "Cells" || element == "CellData") return parent == "Piece";
+  if (element != "DataArray") return !parent.empty();
+  return parent.ends_with("Data") || parent == "Points" || parent == "Cells";
+}
+
+}  // namespace
+
+// The elements end in the order in which XML lets them, and are where they are looked for.
+void VtuText::check_elements() const {
+  std::vector<std::string_view> open;
+  for (std::size_t at = text_.find('<'); at != std::string_view::npos; at = text_.find('<', at)) {
+    std::size_t end = at + 1;
+    for (char quote = 0; end < text_.size() && (quote != 0 || text_[end] != '>'); ++end) {
+      const char c = text_[end];
+      if (quote == 0 ? c == '"' || c == '\'' : c == quote) quote = quote == 0 ? c : '\0';
+      if (c == '<' || (quote != 0 && c == '>')) fail("a tag within a tag");
+    }
+    if (end == text_.size()) fail("a tag does not end");
+    const std::string_view tag = text_.substr(at + 1, end - at - 1);
+    at = end;
+    if (tag.starts_with('?')) continue;  // how the text is encoded
+    const bool closes = tag.starts_with('/');
+    const std::size_t begin = closes ? 1 : 0;
+    const std::string_view name = tag.substr(begin, tag.find_first_of(" \t\r\n/", begin) - begin);
+    if (closes) {
+      if (open.empty() || open.back() != name) fail("</" + std::string(name) + "> ends nothing");
+      open.pop_back();
+      continue;
+    }
+    if (!may_hold(open.empty() ? "" : open.back(), name)) {
+      fail("<" + std::string(name) + "> is at another place than readers look for it");
+    }
+    if (!tag.ends_with('/')) open.push_back(name);
+  }
+  if (!open.empty()) fail("<" + std::string(open.back()) + "> does not end");
 }
 
 // Of the piece.

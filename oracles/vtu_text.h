@@ -31,6 +31,7 @@ class VtuText {
  private:
   void cut_out_appended();
   void remove_comments();
+  void check_elements() const;
   std::size_t count(const std::string& name) const;
   // Empty if the tag has none.
   std::string attribute(std::string_view tag, const std::string& name) const;
