@@ -27,7 +27,7 @@ EarlierVertices::EarlierVertices(const ExactPoints& points, std::vector<Index> v
 }
 
 void EarlierVertices::build(std::size_t node, Index begin, Index end) {
-  Box box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+  Box box;
   Index first = vertices_[begin];
   for (Index i = begin; i < end; ++i) {
     first = std::min(first, vertices_[i]);
@@ -55,7 +55,7 @@ void EarlierVertices::build(std::size_t node, Index begin, Index end) {
 
 // With b, c, d relative to a, the centre is (|b|^2 c x d + |c|^2 d x b + |d|^2 b x c) / 2 det(b, c,
 // d) away from a, and the radius is as long as that.
-EarlierVertices::Box EarlierVertices::box_of_ball(const std::array<Index, 4>& tetrahedron) const {
+Box EarlierVertices::box_of_ball(const std::array<Index, 4>& tetrahedron) const {
   const Index a = tetrahedron[0];
   const IntervalVector b = points_.rough_difference(a, tetrahedron[1]),
                        c = points_.rough_difference(a, tetrahedron[2]),

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "oracles/box.h"
 #include "oracles/exact_points.h"
 
 namespace tetproof::oracles {
@@ -20,9 +21,6 @@ class EarlierVertices {
                  const std::function<bool(Index)>& enough) const;
 
  private:
-  struct Box {
-    Position low, high;
-  };
   struct Node {
     Box box;
     Index first_vertex;  // the lowest number in the box

@@ -5,29 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/box.h"
 #include "oracles/edge_key.h"
 #include "oracles/vectors.h"
 
 namespace tetproof::oracles {
 namespace {
-
-struct Size {
-  double diagonal = 0, largest = 0;
-};
-
-Size size_of(const std::vector<Position>& vertices) {
-  Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-  Size size;
-  for (const Position& p : vertices) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-      size.largest = std::max(size.largest, std::fabs(p[i]));
-    }
-  }
-  size.diagonal = vertices.empty() ? 0 : distance(high, low);
-  return size;
-}
 
 struct Bend {
   double size;  // negative: sharp
@@ -80,12 +63,12 @@ std::vector<Bend> bends(const Polyhedron& surface, double scale) {
 
 double noise_of_edges(const Polyhedron& surface, double resolved) {
   constexpr double kRounding = 0x1p-46, kMost = 0x1p-16, kSlack = 1e-6;
-  const Size size = size_of(surface.vertices);
-  if (!(size.diagonal > 0) || !std::isfinite(size.diagonal)) return 0;
+  const Box box = box_of(surface.vertices);
+  if (!(box.diagonal() > 0) || !std::isfinite(box.diagonal())) return 0;
   // Else products of three lengths might be beyond doubles.
-  const double scale = std::ldexp(1, -std::max(std::ilogb(size.diagonal), -1000));
-  const double diagonal = size.diagonal * scale,
-               least = std::max(kRounding * size.largest * scale, resolved * diagonal);
+  const double scale = std::ldexp(1, -std::max(std::ilogb(box.diagonal()), -1000));
+  const double diagonal = box.diagonal() * scale,
+               least = std::max(kRounding * box.largest() * scale, resolved * diagonal);
   std::vector<Bend> noisy = bends(surface, scale);
   std::erase_if(noisy, [&](const Bend& b) { return !(b.size > least); });
   std::ranges::sort(noisy, {}, &Bend::size);

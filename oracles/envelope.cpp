@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "oracles/box.h"
 #include "oracles/triangle_distance.h"
 #include "oracles/vectors.h"
 
@@ -22,14 +23,7 @@ Corners corners_of(const Polyhedron& surface, std::size_t t) {
 std::vector<BoxTree::Box> boxes_of(const Polyhedron& surface) {
   std::vector<BoxTree::Box> boxes;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const Corners c = corners_of(surface, t);
-    BoxTree::Box& box = boxes.emplace_back(BoxTree::Box{c[0], c[0]});
-    for (const Position& p : c) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        box.low[i] = std::min(box.low[i], p[i]);
-        box.high[i] = std::max(box.high[i], p[i]);
-      }
-    }
+    boxes.push_back(box_of(corners_of(surface, t)));
   }
   return boxes;
 }
@@ -141,17 +135,6 @@ class Farthest {
   Position place_{};
   std::vector<Index> found_;
 };
-
-double diagonal_of(const Polyhedron& surface) {
-  Position low = surface.vertices.at(0), high = low;
-  for (const Position& p : surface.vertices) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  }
-  return quick_distance(low, high);
-}
 
 struct Extent {
   double volume = 0, area = 0;
@@ -320,7 +303,7 @@ std::string verify_envelope(const Polyhedron& input, const MeshFile& mesh, doubl
   }
   Polyhedron given = input;
   const int exponent = ordinary_exponent(given, own);
-  const double diagonal = diagonal_of(given), allowed = share * diagonal;
+  const double diagonal = box_of(given.vertices).diagonal(), allowed = share * diagonal;
   for (OracleReport oracle : {check_distances(given, own, allowed, exponent, report.deviation),
                               check_volumes(given, own, allowed)}) {
     if (exponent != 0) {

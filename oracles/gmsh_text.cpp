@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "oracles/box.h"
 #include "oracles/text_reader.h"
 
 namespace tetproof::oracles {
@@ -15,18 +16,6 @@ namespace {
 struct Announced {
   std::uint64_t blocks = 0, total = 0;
   std::int64_t least = 0, largest = 0;  // tags
-};
-
-struct Box {
-  Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-
-  void add(const Position& p) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-  bool operator==(const Box&) const = default;
 };
 
 // What an entity says, and what its elements have.

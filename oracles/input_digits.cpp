@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "oracles/box.h"
 #include "oracles/edge_noise.h"
-#include "oracles/vectors.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -61,21 +61,12 @@ bool has_24_bits(double x) {
   return std::nearbyint(integer) == integer;
 }
 
-struct Extent {
-  Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+struct Extent : Box {
   bool single = true;
 
-  explicit Extent(std::span<const Position> vertices) {
-    for (const Position& p : vertices) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], p[i]);
-        high[i] = std::max(high[i], p[i]);
-        single = single && has_24_bits(p[i]);
-      }
-    }
+  explicit Extent(std::span<const Position> vertices) : Box(box_of(vertices)) {
+    for (const Position& p : vertices) single = single && std::ranges::all_of(p, has_24_bits);
   }
-  double largest(std::size_t axis) const { return std::max(high[axis], -low[axis]); }
-  double diagonal() const { return distance(high, low); }
 };
 
 using Units = std::array<double, 3>;
@@ -132,8 +123,7 @@ double share_in_units(std::span<const Position> vertices) {
 // Empty if it is, or if a number would lose digits.
 std::vector<Position> in_own_units(std::span<const Position> vertices) {
   constexpr int kOrdinary = 64;
-  const Extent extent(vertices);
-  const double largest = std::max({extent.largest(0), extent.largest(1), extent.largest(2)});
+  const double largest = box_of(vertices).largest();
   if (!(largest > 0) || !std::isfinite(largest)) return {};
   const int exponent = std::ilogb(largest) + 1;
   if (std::abs(exponent) <= kOrdinary) return {};

@@ -161,20 +161,13 @@ void InputSurface::measure(const ExactPoints& points) {
                        used_vertices_.end());
   used_vertices_.shrink_to_fit();
   std::vector<BoxTree::Box> boxes(triangles_.size());
-  BoxTree::Box all = {points.nearest(used_vertices_[0]), points.nearest(used_vertices_[0])};
-  largest_coordinate_ = 0;
+  Box all;
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     boxes[t] = box_around(points, triangles_[t]);
-    for (const Index v : triangles_[t]) {
-      const Position p = points.nearest(v);
-      for (int axis = 0; axis < 3; ++axis) {
-        all.low[axis] = std::min(all.low[axis], p[axis]);
-        all.high[axis] = std::max(all.high[axis], p[axis]);
-        largest_coordinate_ = std::max(largest_coordinate_, std::fabs(p[axis]));
-      }
-    }
+    for (const Index v : triangles_[t]) all.add(points.nearest(v));
   }
-  diagonal_ = distance(all.high, all.low);
+  largest_coordinate_ = all.largest();
+  diagonal_ = all.diagonal();
   tree_ = std::make_shared<const BoxTree>(std::move(boxes));
 }
 

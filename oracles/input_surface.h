@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "oracles/box.h"
 #include "oracles/exact_points.h"
 #include "oracles/triangle_sums.h"
 
@@ -28,9 +29,7 @@ struct Polyhedron {
 // A tree of boxes, in doubles.
 class BoxTree {
  public:
-  struct Box {
-    Position low, high;
-  };
+  using Box = oracles::Box;
   explicit BoxTree(std::vector<Box> boxes);
   // All x with normal . x >= offset.
   struct HalfSpace {

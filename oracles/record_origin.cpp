@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "oracles/box.h"
+
 namespace tetproof::oracles {
 namespace {
 
@@ -21,23 +23,16 @@ bool move(double& x, double origin) {
 void check_place(const Polyhedron& input, const Position& origin, OracleReport& report) {
   constexpr double kFar = 0x1p26;  // times its size: mesher/io/exact_format.md
   if (input.vertices.empty()) return;
-  Position low = input.vertices[0], high = low;
-  for (const Position& p : input.vertices) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  }
-  double size = 0, away = 0;
+  const Box box = box_of(input.vertices);
+  double size = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    size = std::max(size, high[i] - low[i]);
-    away = std::max({away, std::fabs(low[i]), std::fabs(high[i])});
-    if (origin[i] != 0 && !(low[i] <= origin[i] && origin[i] <= high[i])) {
+    size = std::max(size, box.high[i] - box.low[i]);
+    if (origin[i] != 0 && !(box.low[i] <= origin[i] && origin[i] <= box.high[i])) {
       report.fail("the origin of the record is not beside the input");
       return;
     }
   }
-  if (!(away >= kFar * size)) {
+  if (!(box.largest() >= kFar * size)) {
     report.fail("the record names an origin, and the input is near 0 for its size");
   }
 }

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "oracles/box.h"
 #include "oracles/delaunay.h"
 #include "oracles/heap.h"
 #include "oracles/vectors.h"
@@ -67,16 +68,13 @@ std::string out_of_range(const ExactRecord& record, std::size_t triangles) {
 
 // The diagonal of the bounding box of the vertices that have triangles.
 double diagonal_of(const Polyhedron& input) {
-  Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  Box box;
   for (const auto& t : input.triangles) {
     for (const Index v : t) {
-      for (std::size_t i = 0; v < input.vertices.size() && i < 3; ++i) {
-        low[i] = std::min(low[i], input.vertices[v][i]);
-        high[i] = std::max(high[i], input.vertices[v][i]);
-      }
+      if (v < input.vertices.size()) box.add(input.vertices[v]);
     }
   }
-  return distance(high, low);
+  return box.diagonal();
 }
 
 // Does a face of the final mesh tile a facet that the record, whose facets are those of the surface
