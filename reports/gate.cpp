@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,7 +25,8 @@ constexpr double kLongestSeconds = 1;      // a run's largest weight in the mean
 constexpr double kLargestBytes = 64e6;     // the same for memory
 constexpr double kMostTetrahedra = 10000;  // and for sizes
 constexpr double kLargestRatio = 4;        // an angle's largest part in the mean of all
-constexpr int kTurns = 3;                  // changes of side in base, new, base, new
+constexpr const char* kOnlyBase = "only the base has";
+constexpr int kTurns = 3;  // changes of side in base, new, base, new
 
 struct Pair {
   const Run* base;
@@ -217,8 +219,7 @@ class Gate {
   bool both(const std::string& mesher, const char* measure, const std::optional<double>& base,
             const std::optional<double>& fresh) {
     if (base && fresh) return true;
-    if (base || fresh)
-      ++lacking_[mesher][{measure, base ? "only the base has" : "only the new side has"}];
+    if (base || fresh) ++lacking_[mesher][{measure, base ? kOnlyBase : "only the new side has"}];
     return false;
   }
 
@@ -226,6 +227,12 @@ class Gate {
     compare_texts(mesher, pairs, "flags", [](const Run& r) { return r.row.key.flags; });
     compare_texts(mesher, pairs, "versions", [](const Run& r) { return r.row.key.version; });
     compare_texts(mesher, pairs, "limits", [](const Run& r) { return r.row.key.limits; });
+    std::vector<Pair> told;  // older results do not
+    std::ranges::copy_if(pairs, std::back_inserter(told), [](const Pair& pair) {
+      return !pair.base->row.promise.empty() && !pair.fresh->row.promise.empty();
+    });
+    compare_texts(mesher, told, "promises", [](const Run& r) { return r.row.promise; });
+    compare_texts(mesher, told, "regions", [](const Run& r) { return r.row.region; });
     compare_settings(mesher, pairs);
     compare_repetitions(mesher, pairs);
   }
@@ -379,10 +386,16 @@ class Gate {
     }
   }
 
+  // What the new side does not measure any more might be anything.
   void say_what_lacks(const std::string& mesher) {
     for (const auto& [what, count] : lacking_[mesher]) {
-      differ(mesher, fmt::format("not compared: {} of {} models, which {} measured", what.first,
-                                 count, what.second));
+      const std::string text =
+          fmt::format("{} of {} models, which {} measured", what.first, count, what.second);
+      if (what.second == kOnlyBase) {
+        add_for_all(FindingKind::unmeasured, mesher, text);
+      } else {
+        differ(mesher, "not compared: " + text);
+      }
     }
     lacking_.erase(mesher);
     for (const auto& [oracle, count] : silent_) {
@@ -459,6 +472,10 @@ class Gate {
     for (const Pair& pair : pairs) {
       const double before = cost.value(pair.base->row), after = cost.value(pair.fresh->row);
       const auto measured = [](double x) { return x > 0 ? std::optional(x) : std::nullopt; };
+      if (before > 0 && before <= cost.least && !(after > 0)) {  // less than can be measured
+        ++lacking_[mesher][{cost.name, "only the base has, and little of it,"}];
+        continue;
+      }
       if (!both(mesher, cost.name, measured(before), measured(after))) continue;
       log_ratios.push_back(std::log(after / before));
       ratios.push_back({after / before, std::min(before, cost.largest_weight)});
@@ -566,9 +583,10 @@ GateReport compare_campaigns(const std::vector<RunRow>& base, const std::vector<
 }
 
 const char* finding_name(FindingKind kind) {
-  static constexpr std::array kNames = {
-      "disposition", "unverified", "verdict", "oracle", "conformity", "face-angle", "dihedral",
-      "slivers",     "mean-angle", "gamma",   "size",   "time",       "memory",     "missing"};
+  static constexpr std::array kNames = {"disposition", "unverified", "verdict",   "oracle",
+                                        "conformity",  "face-angle", "dihedral",  "slivers",
+                                        "mean-angle",  "gamma",      "size",      "time",
+                                        "memory",      "missing",    "unmeasured"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 

@@ -61,7 +61,8 @@ enum class FindingKind : std::uint8_t {
   size,   // more tetrahedra, or fewer
   time,
   memory,
-  missing
+  missing,
+  unmeasured  // the base has a measure, the new side has not
 };
 
 struct Finding {
@@ -76,7 +77,7 @@ struct GateReport {
   std::size_t verified = 0;  // of these, verified on both sides
   std::vector<Finding> findings;
   // What makes the two sides incomparable in part, a line each: other flags, versions, limits or
-  // settings, and measures that one side lacks. Print them beside the count of findings.
+  // settings, and measures that the base lacks. Print them beside the count of findings.
   std::vector<std::string> differences;
   std::vector<std::string> notes;  // measures compared relatively, and improvements
 };

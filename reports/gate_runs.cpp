@@ -1,6 +1,7 @@
 #include "reports/gate_runs.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "reports/gate.h"
 #include "reports/selection.h"
@@ -16,10 +17,11 @@ Json object_of(const std::string& text) {
 }
 
 // The worst of the repetitions decides how the run ended; a run killed from outside tells nothing.
+// One that nobody vouches for is worse than one that is verified.
 int weight_of_ending(const RunRow& row) {
   if (row.disposition == Disposition::killed) return 0;
   if (!has_mesh(row)) return 3;
-  return is_verified(row) ? 2 : 1;
+  return is_verified(row) ? 1 : 2;
 }
 
 // Among those that ended alike the verdict decides.
@@ -32,8 +34,14 @@ bool is_worse(const RunRow* a, const RunRow* b) {
 
 Run parsed(const RunRow& row) {
   Run run{row, {}, {}, object_of(row.verdict_json), object_of(row.stats_json), {}};
-  for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
-    run.passed[oracle.value("name", "")] = oracle.value("passed", false);
+  try {
+    run.verdict.value("error", "");
+    for (const Json& oracle : run.verdict.value("oracles", Json::array())) {
+      run.passed[oracle.value("name", "")] = oracle.value("passed", false);
+    }
+  } catch (const Json::exception&) {
+    throw std::runtime_error(row.key.mesher + " " + row.model_name +
+                             ": a verdict of another shape");
   }
   return run;
 }
@@ -43,14 +51,20 @@ void join(std::map<std::string, bool>& passed, const std::map<std::string, bool>
   for (auto& [name, has] : passed) has = has && more.at(name);
 }
 
+// 0 or less has not been measured.
+template <typename Number>
+void take_less(Number& least, Number value) {
+  if (value > 0 && (!(least > 0) || value < least)) least = value;
+}
+
 Run run_of(const std::vector<const RunRow*>& repetitions) {
   const RunRow* decisive = *std::ranges::min_element(repetitions, is_worse);
   Run run = parsed(*decisive);
   for (const RunRow* row : repetitions) {
     run.started.push_back(row->started);
     if (!has_mesh(*row)) continue;
-    run.row.cpu_seconds = std::min(run.row.cpu_seconds, row->cpu_seconds);
-    run.row.peak_rss_bytes = std::min(run.row.peak_rss_bytes, row->peak_rss_bytes);
+    take_less(run.row.cpu_seconds, row->cpu_seconds);
+    take_less(run.row.peak_rss_bytes, row->peak_rss_bytes);
     if (row == decisive) continue;
     run.others.push_back(parsed(*row));
     if (is_verified(*row)) join(run.passed, run.others.back().passed);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -506,6 +507,12 @@ TEST(Gate, WhatTheSidesDifferInIsSaid) {
   fresh = campaign(10);
   fresh[0].key.limits = "m";
   EXPECT_NE(said(campaign(10), fresh).find("limits differ"), std::string::npos);
+  fresh = campaign(10);
+  fresh[0].promise = "envelope 0.5";
+  EXPECT_EQ(said(campaign(10), fresh), "");  // the base tells none
+  auto base = campaign(10);
+  base[0].promise = "exact";
+  EXPECT_NE(said(base, fresh).find("promises differ"), std::string::npos);
   // A default that changed does not show in the flags.
   fresh = campaign(10);
   change_all(fresh, [](Json&, Json& stats, Json&) { stats["parameters"]["tau"] = 0.0002; });
@@ -527,8 +534,41 @@ TEST(Gate, WhatOneSideDidNotMeasureIsSaid) {
   for (const std::string& text : report.differences) {
     EXPECT_NE(text.find("which only the new side has measured"), std::string::npos) << text;
   }
+  // What is not measured any more might be anything.
   report = compare_campaigns(campaign(10), old);
-  EXPECT_EQ(report.differences.size(), 5U);
+  EXPECT_TRUE(report.differences.empty());
+  expect_only(report, FindingKind::unmeasured, 5);
+}
+
+TEST(Gate, ATimeThatIsGoneIsNoGoodTime) {
+  auto fresh = campaign(10), base = campaign(10);
+  for (RunRow& row : base) row.cpu_seconds = 50;
+  for (RunRow& row : fresh) row.cpu_seconds = 0;
+  expect_only(compare_campaigns(base, fresh), FindingKind::unmeasured, 1);
+  auto again = fresh;  // one repetition without a time, one that took it
+  for (RunRow& row : again) row.cpu_seconds = 500;
+  fresh.insert(fresh.end(), again.begin(), again.end());
+  EXPECT_FALSE(compare_campaigns(base, fresh).findings.empty());
+  fresh.resize(again.size());
+  for (RunRow& row : base) row.cpu_seconds = 0.01;  // less than what can be measured
+  EXPECT_TRUE(compare_campaigns(base, fresh).findings.empty());
+  for (RunRow& row : fresh) row.cpu_seconds = HUGE_VAL;
+  EXPECT_FALSE(compare_campaigns(base, fresh).findings.empty());
+}
+
+TEST(Gate, AVerdictOfAnotherShapeIsNamed) {
+  for (const char* verdict : {R"({"oracles": [7]})", R"({"oracles": [{"name": 5}]})",
+                              R"({"error": 5})", R"({"oracles": [{"passed": "yes"}]})"}) {
+    auto fresh = campaign(3);
+    fresh[1].verdict_json = verdict;
+    try {
+      compare_campaigns(campaign(3), fresh);
+      ADD_FAILURE() << verdict;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(),
+                fresh[1].key.mesher + " " + fresh[1].model_name + ": a verdict of another shape");
+    }
+  }
 }
 
 // A baseline in the repository holds all that is compared.

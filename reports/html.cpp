@@ -204,7 +204,8 @@ std::string verdict_text(const RunRow& row) {
   for (const Json& oracle : json.value("oracles", Json::array())) {
     if (!oracle.value("passed", true)) text += ", not " + oracle.value("name", "?");
   }
-  if (json.contains("error")) text += ": " + json.value("error", "");
+  if (json.contains("error") && json.at("error").is_string())
+    text += ": " + json.value("error", "");
   return text;
 }
 

@@ -79,6 +79,7 @@ std::optional<double> quantile(std::vector<double> values, double p) {
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, values.size() - 1);
   const double share = place - static_cast<double>(below);
+  if (share == 0) return values[below];  // also where the next one is infinite
   return (1 - share) * values[below] + share * values[above];
 }
 
