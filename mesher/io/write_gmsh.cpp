@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mesher/io/gmsh_numbers.h"
+#include "mesher/io/text.h"
 #include "mesher/io/write_formats.h"
 
 namespace delmesher::io {
@@ -54,6 +55,8 @@ class GmshWriter {
   static bool fits_bytes(const NamedMesh& named);
   void number_regions();
   void order_triangles();
+  static bool tells_another(const std::string& name, std::int32_t number,
+                            const std::string& unnamed);
   static std::string group_name(const LabelNames& names, std::int32_t number,
                                 const std::string& name, const char* unnamed);
   void write_physical_names();
@@ -136,10 +139,21 @@ void GmshWriter::order_triangles() {
   each_facet([&](std::size_t, std::size_t) { ++facets_; });
 }
 
-// A number that is not positive cannot be the tag, so its name tells it.
+// Is the name one that tells a number, and not this one alone?
+bool GmshWriter::tells_another(const std::string& name, std::int32_t number,
+                               const std::string& unnamed) {
+  if (!name.starts_with(unnamed) || name == unnamed + std::to_string(number)) return false;
+  const std::string_view rest = std::string_view(name).substr(unnamed.size());
+  std::int32_t told = 0;
+  return parse_integer(rest.substr(0, rest.find(' ')), told);
+}
+
+// A number that is not positive cannot be the tag, so its name tells it; that of a name which would
+// tell one as well, too.
 std::string GmshWriter::group_name(const LabelNames& names, std::int32_t number,
                                    const std::string& name, const char* unnamed) {
-  const bool told = number > 0 || !names.contains(number);
+  const bool told =
+      !names.contains(number) || (number > 0 && !tells_another(name, number, unnamed));
   std::string group = told ? name : unnamed + std::to_string(number) + " " + name;
   std::replace(group.begin(), group.end(), '"', '\'');
   return group;

@@ -146,6 +146,21 @@ TEST_F(WriteMesh, NamesComeBackFromGmsh) {
   EXPECT_EQ(labels, (std::vector<std::int32_t>{-2, 0, 7}));
 }
 
+// A name as delmesher itself would give it to another label tells nothing of numbers.
+TEST_F(WriteMesh, NamesLikeItsOwnComeBackFromGmsh) {
+  for (const std::string name : {"label 0", "label 5 of it", "label 7 old", "label x"}) {
+    OutputSet outputs;
+    ASSERT_TRUE(write_mesh(outputs, path("own.msh"), sample(), {{7, name}}).ok());
+    ASSERT_TRUE(outputs.commit().ok());
+    const MeshReadResult back = read_mesh(path("own.msh"));
+    ASSERT_TRUE(back.ok()) << back.error;
+    EXPECT_EQ(back.names, (LabelNames{{7, name}}));
+    std::vector<std::int32_t> labels = back.mesh.boundary_labels;
+    std::sort(labels.begin(), labels.end());
+    EXPECT_EQ(labels, (std::vector<std::int32_t>{-2, 0, 7}));
+  }
+}
+
 // Fields of sixteen characters: the nearest decimal that fits, with a point.
 TEST_F(WriteMesh, NastranNumbersFitTheirFields) {
   TetMesh mesh;
