@@ -210,7 +210,7 @@ Mesher peer_mesher(const Peer& peer, const MesherPrograms& programs) {
 std::optional<double> share_of(const std::string& text) {
   char* end = nullptr;
   const double share = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != 0 || !(share >= 0)) return std::nullopt;
+  if (text.empty() || *end != 0 || !(share >= 0 && share <= 1)) return std::nullopt;
   return share;
 }
 
@@ -232,7 +232,7 @@ void take_declarations(const std::string& text, Mesher& mesher) {
     } else {
       throw std::runtime_error("cmd," + piece +
                                ": region=hull, region=interior, deviation=FRACTION or "
-                               "envelope=FRACTION (from 1e-7 on) is "
+                               "envelope=FRACTION (from 1e-7 to 1) is "
                                "expected");
     }
   }

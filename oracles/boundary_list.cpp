@@ -26,6 +26,7 @@ OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& ne
     hull.push_back(sorted(face_of(complex.tetrahedra[i / 4], static_cast<int>(i % 4))));
   }
   std::sort(hull.begin(), hull.end());
+  std::uint64_t turned = 0;
   for (std::size_t i = 0; i < listed.size(); ++i) {
     ++report.checked;
     const auto at =
@@ -35,6 +36,10 @@ OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& ne
       report.fail("listed triangle " + std::to_string(i) + " is no boundary face of the solid");
       continue;
     }
+    Face outwards = conformity.faces[at->second];
+    while (outwards[0] != listed[i][0])
+      std::rotate(outwards.begin(), outwards.begin() + 1, outwards.end());
+    turned += outwards != listed[i];
     if (found[at - actual.begin()]++) {
       report.fail("listed triangle " + std::to_string(i) + " is listed twice");
     }
@@ -47,6 +52,9 @@ OracleReport check_boundary_list(const TetComplex& complex, const Neighbours& ne
   }
   for (std::size_t i = 0; i < actual.size(); ++i) {
     if (!found[i]) report.fail("boundary " + complex.face_name(actual[i].first) + " is not listed");
+  }
+  if (turned > 0) {
+    report.notes.push_back(std::to_string(turned) + " listed triangles look into the solid");
   }
   return report;
 }

@@ -161,6 +161,7 @@ class GmshReader {
           if (k == 0) group = value;
           if (value != group) further_.emplace(dimension, value);
         }
+        if (tags != 1) ungrouped_.emplace(dimension, tag);
         if (!group_.emplace(std::pair(dimension, tag), group).second) {
           reader_.fail("entity " + std::to_string(tag) + " is there twice");
         }
@@ -251,6 +252,8 @@ class GmshReader {
       const auto found = group_.find({dimension, element.entity});
       // Some programs list no entities, or not all of them.
       element.group = found == group_.end() ? element.entity : found->second;
+      text_.groups_differ = text_.groups_differ || found == group_.end() ||
+                            ungrouped_.contains({dimension, element.entity});
       for (std::uint64_t left = count(); left > 0; --left) {
         tags_.push_back(large());
         tag_within(tags_.back(), a);
@@ -275,7 +278,10 @@ class GmshReader {
         if (k == 0) element.group = value;
         if (k == 1) element.entity = value;
       }
-      if (element.group == 0) element.group = element.entity;  // 0 is no group
+      if (element.group == 0) {  // which is none
+        element.group = element.entity;
+        text_.groups_differ = true;
+      }
       take(element);
     }
     distinct_tags();
@@ -342,6 +348,7 @@ class GmshReader {
   // Of the tags read, of the nodes or of the elements.
   std::int64_t least_ = std::numeric_limits<std::int64_t>::max();
   std::int64_t largest_ = std::numeric_limits<std::int64_t>::min();
+  std::set<std::pair<int, std::int64_t>> ungrouped_;  // entities of no group, or of several
   std::set<std::string> seen_;
   std::map<std::pair<int, std::int64_t>, std::int64_t> group_;  // of an entity
   std::set<std::pair<int, std::int64_t>> further_;  // groups of entities that have another one

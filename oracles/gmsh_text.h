@@ -33,6 +33,9 @@ struct GmshText {
   // The box of some surface or volume is not the smallest one of its elements' corners. Delmesher
   // writes no such file of a mesh in space.
   bool boxes_differ = false;
+  // An element's entity is in no physical group, so that programs leave the element out or take the
+  // entity for a group, or in several. Delmesher writes no such file.
+  bool groups_differ = false;
 };
 
 // Calls `take` with the elements in their order. The sections that matter are there once, with the

@@ -73,6 +73,7 @@ class Improved {
   void unite_points();
   void check_orientation();
   void check_walls();
+  void check_names(OracleReport& report) const;
   void check_list();
   void check_nodes();
   void check_angles();
@@ -311,6 +312,17 @@ std::vector<Listed> Improved::listed(const MeshFile& file, Index offset,
   return list;
 }
 
+// If both formats have them.
+void Improved::check_names(OracleReport& report) const {
+  if (!given_.has_names || !mesh_.has_names || options_.promised.names) return;
+  compare_names(given_.names, mesh_.names, 2, {given_.labels.begin(), given_.labels.end()}, report);
+  std::vector<std::int64_t> named;  // others are called by their side in one format alone
+  for (const std::int64_t region : given_.regions) {
+    if (given_.names.contains({3, region})) named.push_back(region);
+  }
+  compare_names(given_.names, mesh_.names, 3, named, report);
+}
+
 void Improved::check_list() {
   OracleReport report("boundary-list", "triangles");
   const std::vector<Listed> before = listed(given_, 0, report),
@@ -329,6 +341,9 @@ void Improved::check_list() {
     report.fail(name(l.corners) + " with label " + std::to_string(l.label) + " was not listed");
   }
   if (mesh_.labels_contradict) report.fail("the names of labels contradict them");
+  check_names(report);
+  if (mesh_.groups_differ) report.fail("elements are in no physical group, or in several");
+  if (mesh_.more_than_single) report.fail("coordinates are said to be of single precision");
   add(std::move(report));
 }
 

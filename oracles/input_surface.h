@@ -13,6 +13,7 @@
 
 #include "oracles/box.h"
 #include "oracles/exact_points.h"
+#include "oracles/set_names.h"
 #include "oracles/triangle_sums.h"
 
 namespace tetproof::oracles {
@@ -24,6 +25,8 @@ struct Polyhedron {
   std::vector<std::array<Index, 3>> triangles;
   std::vector<std::int32_t> labels;  // per triangle; empty: all 0
   std::vector<Index> polygons;       // per triangle; empty: all different
+  bool names_read = false;           // of a format whose names of labels are read: STL, OBJ
+  SetNames names = {};
 };
 
 // A tree of boxes, in doubles.

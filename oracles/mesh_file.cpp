@@ -46,7 +46,7 @@ class MeditReader {
 
   MeshFile read() {
     reader_.expect("MeshVersionFormatted");
-    reader_.index(1, 4);
+    single_ = reader_.index(1, 4) == 0;  // of the versions from 1 on
     for (;;) {
       const std::string section(reader_.required_word("a section or End"));
       if (section == "End") break;
@@ -98,14 +98,18 @@ class MeditReader {
     const std::uint64_t count = counts_[section] = reader_.count();
     // No oracle would look at these.
     if (cells && count > 0) reader_.fail("a section of " + section + ", which are not read");
+    reader_.refuse_comments(true);
     for (std::uint64_t i = 0; i < count; ++i) {
       skipped == kSkipped.end() ? read_entry(section) : skip_entry(skipped->second);
     }
+    reader_.refuse_comments(false);
   }
 
   void read_entry(const std::string& section) {
     if (section == "Vertices") {
-      mesh_.vertices.push_back(read_position(reader_));
+      const Position& p = mesh_.vertices.emplace_back(read_position(reader_));
+      const auto is_single = [](double x) { return static_cast<float>(x) == x; };
+      if (single_ && !std::ranges::all_of(p, is_single)) mesh_.more_than_single = true;
       reader_.integer();
     } else if (section.starts_with("Triangles")) {
       mesh_.boundary.push_back(read_corners<3>(reader_, 1, mesh_.vertices.size()));
@@ -167,6 +171,7 @@ class MeditReader {
   std::string path_;
   TextReader reader_;
   MeshFile mesh_;
+  bool single_ = false;  // the file says that numbers have 4 bytes
   NodesOnEdges nodes_;
   std::map<std::string, std::uint64_t> counts_;  // of the sections
   struct Reference {
@@ -251,7 +256,6 @@ MeshFile read_gmsh(const std::string& path) {
   mesh.vertices = std::move(text.nodes);
   mesh.boxes_differ = text.boxes_differ;
   take_out_edge_nodes(mesh, nodes, path);
-  // Where the names say the opposite of the numbers 1 and 2, these count as exchanged.
   const auto called = [&](std::int64_t group, std::string_view name) {
     const auto found = text.names.find({3, group});
     if (found == text.names.end()) return false;
@@ -261,14 +265,25 @@ MeshFile read_gmsh(const std::string& path) {
              return std::tolower(static_cast<unsigned char>(a)) == b;
            });
   };
-  if (called(1, "outside") || called(2, "inside")) {
-    for (std::int64_t& region : mesh.regions) region = region == 1 ? 2 : region == 2 ? 1 : region;
-  } else {
-    for (std::int64_t& region : mesh.regions) {
-      const auto named = text.names.find({3, region});
-      if (named == text.names.end()) continue;
-      region = number_in(named->second, "region ").value_or(region);
-    }
+  mesh.groups_differ = text.groups_differ;
+  mesh.sides_contradict = called(1, "outside") || called(2, "inside");
+  for (std::int64_t& region : mesh.regions) {
+    const auto named = text.names.find({3, region});
+    if (named == text.names.end()) continue;
+    const std::int64_t told = number_in(named->second, "region ").value_or(region);
+    mesh.sides_contradict = mesh.sides_contradict || (told > 0 && told != region);
+    region = told;
+  }
+  mesh.has_names = true;
+  for (const auto& [group, name] : text.names) {
+    if (group.first != 2 && group.first != 3) continue;
+    const std::string_view start = group.first == 2 ? "label " : "region ";
+    const std::optional<std::int64_t> told = number_in(name, start);
+    const std::size_t blank = told ? name.find(' ', start.size()) : std::string::npos;
+    mesh.names[{group.first, told.value_or(group.second)}] = !told ? name
+                                                             : blank == std::string::npos
+                                                                 ? ""
+                                                                 : name.substr(blank + 1);
   }
   for (const std::int64_t group : groups) {
     const auto named = text.names.find({2, group});
@@ -308,6 +323,8 @@ class VtuReader {
     sides_ = text_.array("CellData", "inside");
     labels_ = text_.array("CellData", "label");
     facets_ = text_.array("CellData", "facet");
+    mesh_.has_names = true;
+    mesh_.names = text_.names();
     for (std::size_t cell = 0; cell < types_.size(); ++cell) {
       const std::int64_t end = text_.integer(offsets[cell]);
       read_cell(cell, end - static_cast<std::int64_t>(start_));
@@ -551,7 +568,9 @@ MeshFile read_tetgen(const std::string& stem) {
 
 MeshFile read_mesh(const std::string& path) {
   const std::filesystem::path file(without_gz(path));
-  const std::string extension = file.extension().string();
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".tet") return read_tet(path);
   const bool tetgen = extension == ".node" || extension == ".ele" || extension == ".face";
   MeshFile mesh = tetgen                ? read_tetgen((file.parent_path() / file.stem()).string())

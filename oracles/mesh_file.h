@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "oracles/set_names.h"
 #include "oracles/tet_complex.h"
 
 namespace tetproof::oracles {
@@ -30,11 +31,21 @@ struct MeshFile {
   std::vector<Face> boundary;        // triangles listed in the file
   std::vector<std::int32_t> labels;  // per triangle; empty if the file says nothing
   std::vector<Index> facets;         // per triangle, the facet that it tiles; or empty
+  bool has_names = false;            // the format has names of labels and regions
+  SetNames names = {};
   // A label that could be the number of its group is the name of a group of another number, so that
   // readers differ in what it is. Delmesher writes no such file.
   bool labels_contradict = false;
   // An entity of Gmsh's is not as large as it says. Delmesher writes no such file.
   bool boxes_differ = false;
+  // Elements are in no group of Gmsh's, or in several. Delmesher writes no such file.
+  bool groups_differ = false;
+  // The names of groups say another side, or another region, than their numbers. Of a mesh that it
+  // has made delmesher writes no such file.
+  bool sides_contradict = false;
+  // It says that its coordinates are of single precision, as some readers make them then, and they
+  // are not. Delmesher writes no such file.
+  bool more_than_single = false;
   std::vector<EdgeNode> edge_nodes;  // one of each edge; empty if the elements are linear
   bool lists_boundary = true;        // false for a format that has no triangles
   bool has_second_order = true;      // false for a format that has only linear elements

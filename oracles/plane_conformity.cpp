@@ -6,6 +6,7 @@
 #include <set>
 
 #include "oracles/plane_faces.h"
+#include "oracles/union_find.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -44,6 +45,7 @@ class FileChecker {
       }
       check_conformity();
       check_sides();
+      check_attributes();
       check_list();
       for (OracleReport* r : {&orientation_, &conformity_, &sides_, &list_, &angles_}) {
         if (r != &list_ || file_.lists_edges) report.oracles.push_back(std::move(*r));
@@ -332,15 +334,21 @@ class FileChecker {
         sides_.fail(name(t) + (truth ? " is inside" : " is outside"));
       }
     }
-    // Exactly one of the two triangles beside an edge where the inside ends is inside.
+    // Exactly one of the two triangles beside an edge where the inside ends is inside. Beside any
+    // other one both are there, or none.
     for (const auto& [edge, piece] : chains_) {
-      if (!inside_.ends_at(piece)) continue;
       ++sides_.checked;
       int count = 0, there = 0;
       for (const Edge& side : {edge, Edge(edge.second, edge.first)}) {
         const auto found = left_of_.find(side);
         there += found != left_of_.end();
         count += found != left_of_.end() && inside(found->second);
+      }
+      if (!inside_.ends_at(piece)) {
+        if (hull() || there != 1) continue;
+        sides_.fail("an edge on segment " + std::to_string(segment_of(piece)) +
+                    " has a triangle on one side alone");
+        continue;
       }
       if (hull() ? there != 2 || (!file_.inside.empty() && count != 1) : count != 1) {
         sides_.fail("an edge on segment " + std::to_string(segment_of(piece)) +
@@ -362,6 +370,50 @@ class FileChecker {
           sides_.fail(name(t) + " covers the point of a hole");
         }
       });
+    }
+  }
+
+  // Triangles that no segment parts have the attribute of the last region whose point is in one of
+  // them, or 0. A point on a segment, or outside, means no region.
+  void check_attributes() {
+    const auto& regions = graph_.given().regions;
+    if (regions.empty() || (file_.attributes.empty() && !file_.has_attributes)) return;
+    if (file_.attributes.size() != file_.triangles.size()) {
+      return sides_.fail("the file does not have the attributes of the regions");
+    }
+    UnionFind parts(file_.triangles.size());
+    for (const auto& [edge, t] : left_of_) {
+      const auto other = left_of_.find({edge.second, edge.first});
+      if (other == left_of_.end() || chains_.contains(undirected(edge.first, edge.second)))
+        continue;
+      parts.unite(t, other->second);
+    }
+    std::map<Index, double> attribute;  // of a part
+    for (const auto& region : regions) {
+      const Point p{region.point[0], region.point[1], region.point[0], region.point[1]};
+      if (graph_.on_segment(region.point) || !inside_.contains(p)) continue;
+      if (near_a_segment(p)) {
+        sides_.notes.push_back(
+            "attributes were not compared: a region's point is as close to a "
+            "segment as what rounding moves");
+        return;
+      }
+      const auto& all = points_.all();
+      cells_.visit({region.point, region.point}, [&](Index t) {
+        const auto& c = file_.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) {
+          if (points_.orient(all[c[i]], all[c[(i + 1) % 3]], p) < 0) return;
+        }
+        attribute[parts.find(t)] = region.attribute;
+      });
+    }
+    for (Index t = 0; t < file_.triangles.size(); ++t) {
+      ++sides_.checked;
+      const auto found = attribute.find(parts.find(t));
+      const double wanted = found == attribute.end() ? 0 : found->second;
+      if (file_.attributes[t] != wanted) {
+        sides_.fail(name(t) + " does not have the attribute of its region");
+      }
     }
   }
 

@@ -18,7 +18,9 @@ namespace tetproof::oracles {
 //   chains, or by the outer rectangle where the hull was promised. Triangles beside each other are
 //   on the same side but across chains. Input vertices are vertices;
 // - sides: triangles are inside or outside as rays say, or the faces of the input (plane_faces.h),
-//   each piece where the inside ends is between an inside and an outside, and no hole is covered;
+//   each piece where the inside ends is between an inside and an outside, any other one between two
+//   triangles or none, and no hole is covered; triangles have the attributes of their regions, if
+//   the format has any;
 // - edge-list: the edges listed are those chains, each with the marker of its segment;
 // - angles: for information.
 // Where corners were not to be restored (--approximate): only complex, orientation and angles; the

@@ -210,8 +210,10 @@ PlaneFile read_triangle(const std::string& path) {
     return file;
   }
   read_written_poly(poly_path, first, file);
+  file.has_attributes = true;
   // Attributes are those of the input's regions if there are any, else they name sides.
   file.names_sides = file.regions.empty();
+  if (!file.names_sides) file.attributes = values;
   for (const double value : values) {
     if (!file.names_sides) break;
     if (value != 1 && value != 2) throw ReadError(ele_path + ": an attribute that names no side");
@@ -367,6 +369,7 @@ PlaneFile read_gmsh(const std::string& path) {
     }
   });
   if (text.version != 4.1) fail("no text of version 4.1");
+  if (text.groups_differ) fail("an element is in no physical group, or in several");
   for (const auto& [group, name] : text.names) {
     if (group.first == 2 && name != (group.second == 1 ? "inside" : "outside")) {
       fail("a side by another name");
@@ -387,7 +390,7 @@ class VtuReader {
   VtuReader(const std::string& path, std::string_view text) : vtu_(path, text) {}
 
   PlaneFile read() {
-    file_.lists_edges = file_.names_segments = true;
+    file_.lists_edges = file_.names_segments = file_.has_attributes = true;
     const std::vector<double> points = vtu_.required_array("Points", "");
     for (std::size_t i = 0; i < points.size(); i += 3) {
       file_.vertices.push_back({points[i], points[i + 1]});
@@ -399,6 +402,7 @@ class VtuReader {
     inside_ = vtu_.required_array("CellData", "inside");
     markers_ = vtu_.required_array("CellData", "marker");
     segments_ = vtu_.required_array("CellData", "segment");
+    attributes_ = vtu_.array("CellData", "attribute");
     std::size_t start = 0;
     for (std::size_t cell = 0; cell < types.size(); ++cell) {
       if (types[cell] != 5 && types[cell] != 3) vtu_.fail("a cell that is no line and no triangle");
@@ -428,6 +432,7 @@ class VtuReader {
     file_.inside.push_back(inside_[cell] == 1 ? 1 : 0);
     if (markers_[cell] != 0) vtu_.fail("a marker of a triangle");
     if (segments_[cell] != -1) vtu_.fail("a segment of a triangle");
+    if (!attributes_.empty()) file_.attributes.push_back(attributes_[cell]);
   }
 
   void add_edge(std::size_t cell, std::size_t k) {
@@ -441,7 +446,7 @@ class VtuReader {
 
   const VtuText vtu_;
   PlaneFile file_;
-  std::vector<double> corners_, inside_, markers_, segments_;
+  std::vector<double> corners_, inside_, markers_, segments_, attributes_;
 };
 
 PlaneFile read_off(const std::string& path, std::string_view text) {

@@ -17,8 +17,11 @@ struct PlaneFile {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   bool names_sides = true;           // the format says which triangles are inside
   std::vector<std::uint8_t> inside;  // per triangle; empty: the file says nothing
-  std::string lacks{};               // a file of the format that is not there
-  bool lists_edges = false;          // the file lists the edges that tile the segments
+  // Per triangle, of the input's regions; empty: the file says nothing of them.
+  std::vector<double> attributes{};
+  bool has_attributes = false;  // the format has them
+  std::string lacks{};          // a file of the format that is not there
+  bool lists_edges = false;     // the file lists the edges that tile the segments
   std::vector<std::array<std::uint32_t, 2>> edges;
   std::vector<std::int32_t> markers;    // per edge
   bool names_segments = false;          // the format has a segment for every edge

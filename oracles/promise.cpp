@@ -236,6 +236,7 @@ class PromiseReader {
     if (!value_) return option + ": unknown, or without a value";
     if (file) {
       if (value_->empty()) return option + " without a file";
+      p.names = p.names || option == "--names";
       return option == kSizeField ? read_size_field(*value_, p.size_field) : "";
     }
     return among(kChosen, option, p.task) ? apply_choice(option, p) : apply_number(option, p);

@@ -30,6 +30,7 @@ struct Promise {
   bool gabriel = false;
   bool approximate = false;
   bool improve = true;
+  bool names = false;         // sets are called by names of another file
   bool second_order = false;  // ten-node tetrahedra, in formats that have them
   // The choices of --as-paper that an oracle can see.
   bool link = false;              // chamfers reach a third of the way to the link

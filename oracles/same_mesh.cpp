@@ -362,6 +362,16 @@ class SameMesh {
     if (mesh_.labels_contradict) {
       report_.fail("the file has a group of triangles that is called by the label of another one");
     }
+    if (mesh_.groups_differ) {
+      report_.fail("the file has elements in no physical group, or in several");
+    }
+    if (mesh_.sides_contradict) {
+      report_.fail("the names of the file's regions are not those of their numbers");
+    }
+    if (mesh_.more_than_single) {
+      report_.fail(
+          "the file says that its coordinates are of single precision, which they are not");
+    }
     if (mesh_.boxes_differ) {
       report_.fail("the file has an entity whose box is not that of its elements");
     }

@@ -92,7 +92,9 @@ Polyhedron read_obj(const std::string& path, std::string_view text) {
   for (const NamedLabels& naming : namings) {
     if (!surface.labels.empty() || naming.numbers.size() < 2) continue;
     surface.labels = naming.labels;
+    for (const auto& [name, number] : naming.numbers) surface.names[{2, number}] = name;
   }
+  surface.names_read = true;
   return surface;
 }
 
@@ -134,11 +136,14 @@ Polyhedron read_text_stl(const std::string& path, std::string_view text) {
       surface.labels.push_back(solids);
       corner = 0;
     } else if (keyword == "solid") {
-      ++solids;
-      reader.skip_line();
+      surface.names[{2, ++solids}] = rest_of_line(reader);
     }
   }
-  if (solids < 2) surface.labels.assign(surface.triangles.size(), 0);
+  surface.names_read = true;
+  if (solids < 2) {
+    surface.labels.assign(surface.triangles.size(), 0);
+    surface.names.clear();
+  }
   return surface;
 }
 

@@ -60,6 +60,7 @@ class Verification {
   OracleReport check_written();
   OracleReport check_facet_list(const InputSurface& surface) const;
   std::string check_exact_final();
+  void check_names();
   void check_exact_hull(const TetComplex& complex, const Neighbours& neighbours);
   void check_final_complex(const ExactPoints& points, const InputSurface& surface);
   OracleReport check_facet_ids(const TetComplex& complex, const ConformityResult& conformity,

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -70,10 +71,10 @@ void declare(CLI::App& app, Arguments& arguments) {
                  "'improve OPTIONS' (mesh)");
   app.add_option("--declared-deviation", arguments.options.declared_deviation,
                  "deviation that is no failure, as a fraction of the diagonal (0)");
-  app.add_option(
-         "--envelope", arguments.envelope,
-         "the mesh has a surface of its own, at most this fraction of the diagonal (from 1e-7 on) "
-         "from the input, and the input from it")
+  app.add_option("--envelope", arguments.envelope,
+                 "the mesh has a surface of its own, at most this fraction of the diagonal (from "
+                 "1e-7 to 1) "
+                 "from the input, and the input from it")
       ->check(CLI::PositiveNumber);
   app.add_option("--threads", arguments.options.threads,
                  "threads that share the checks, 0: one per core (1)")
@@ -238,14 +239,16 @@ int run_verify(int argc, char** argv) {
     return kUsage;
   }
   // Nothing is more than no number.
-  if (const double declared = arguments.options.declared_deviation; !(declared >= 0)) {
+  if (const double declared = arguments.options.declared_deviation;
+      !(declared >= 0 && std::isfinite(declared))) {
     std::fprintf(stderr, "tetproof: --declared-deviation: %g is no deviation\n", declared);
     return kUsage;
   }
   const Task task = arguments.options.promised.task;
   const bool surface = task == Task::mesh || task == Task::cdt;
-  if (arguments.envelope > 0 && arguments.envelope < kLeastEnvelope) {
-    std::fputs("tetproof: --envelope: a fraction from 1e-7 on is expected\n", stderr);
+  const double envelope = arguments.envelope;
+  if (envelope != 0 && !(envelope >= kLeastEnvelope && envelope <= 1)) {
+    std::fputs("tetproof: --envelope: a fraction from 1e-7 to 1 is expected\n", stderr);
     return kUsage;
   }
   if (arguments.envelope > 0 && (!surface || !arguments.exact.empty())) {

@@ -261,6 +261,26 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
     list.notes.emplace_back("the input has labels and the file has none");
   }
   add(std::move(list));
+  check_names();
+}
+
+// Others than delmesher promise no names.
+void Verification::check_names() {
+  if (!mesh_.has_names || options_.promised.names) return;
+  const std::vector<std::int64_t> labels(mesh_.labels.begin(), mesh_.labels.end());
+  OracleReport names("names", "labels");
+  compare_names(input_.names, mesh_.names, 2, labels, names);
+  names.promised = exact_ != nullptr && input_.names_read;
+  if (!names.promised && names.violations > 0) {
+    names.notes.push_back(input_.names_read
+                              ? names.findings[0] + ", which is no fault without a record"
+                              : "the names were not compared: those of the input are not read");
+    names.violations = 0;
+    names.findings.clear();
+  }
+  if (names.checked > 0 && !(input_.names.empty() && names.passed() && names.notes.empty())) {
+    add(std::move(names));
+  }
 }
 
 // The chain of mesh edges on which each edge of the surface lies by the record's exact coordinates,

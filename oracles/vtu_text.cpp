@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <utility>
 
 #include "oracles/text_reader.h"
@@ -97,8 +98,9 @@ void VtuText::check_elements() const {
     }
     if (end == text_.size()) fail("a tag does not end");
     const std::string_view tag = text_.substr(at + 1, end - at - 1);
+    const bool first = text_.substr(0, at).find_first_not_of(" \t\r\n") == std::string_view::npos;
     at = end;
-    if (tag.starts_with('?')) continue;  // how the text is encoded
+    if (first && tag.starts_with("?xml ")) continue;  // how the text is encoded
     const bool closes = tag.starts_with('/');
     const std::size_t begin = closes ? 1 : 0;
     const std::string_view name = tag.substr(begin, tag.find_first_of(" \t\r\n/", begin) - begin);
@@ -107,6 +109,7 @@ void VtuText::check_elements() const {
       open.pop_back();
       continue;
     }
+    attributes(tag);
     if (!may_hold(open.empty() ? "" : open.back(), name)) {
       fail("<" + std::string(name) + "> is at another place than readers look for it");
     }
@@ -124,13 +127,33 @@ std::size_t VtuText::count(const std::string& name) const {
   return TextReader(path_, number, '\0').index(0, 0xffffffffU);
 }
 
+// Of a tag from its element's name on: blanks, name="value" and so on. Some readers take more than
+// that, and might find another one.
+VtuText::Attributes VtuText::attributes(std::string_view tag) const {
+  constexpr std::string_view kBlank = " \t\r\n";
+  if (tag.ends_with('/')) tag.remove_suffix(1);
+  Attributes found;
+  tag.remove_prefix(std::min(tag.find_first_of(kBlank), tag.size()));
+  for (std::size_t begin; (begin = tag.find_first_not_of(kBlank)) != std::string_view::npos;) {
+    const std::size_t equals = std::min(tag.find("=\"", begin), tag.size());
+    const std::size_t end = tag.find('"', std::min(equals + 2, tag.size()));
+    const std::string_view name = tag.substr(begin, equals - begin);
+    if (begin == 0 || end == std::string_view::npos ||
+        name.find_first_of(" \t\r\n\"'=<") != std::string_view::npos) {
+      fail("a tag whose attributes are not of the kind name=\"value\"");
+    }
+    if (!found.emplace(name, tag.substr(equals + 2, end - equals - 2)).second) {
+      fail("a tag has " + std::string(name) + " twice");
+    }
+    tag.remove_prefix(end + 1);
+  }
+  return found;
+}
+
 std::string VtuText::attribute(std::string_view tag, const std::string& name) const {
-  const std::string before = " " + name + "=\"";
-  const std::size_t at = tag.find(before);
-  if (at == std::string_view::npos) return {};
-  if (tag.find(before, at + 1) != std::string_view::npos) fail("a tag has " + name + " twice");
-  const std::size_t start = at + before.size();
-  return std::string(tag.substr(start, tag.find('"', start) - start));
+  const Attributes all = attributes(tag);
+  const auto found = all.find(name);
+  return found == all.end() ? std::string() : std::string(found->second);
 }
 
 void VtuText::fail(const std::string& reason) const {
@@ -372,6 +395,47 @@ std::vector<double> VtuText::array(const std::string& section, const std::string
     }
   }
   return result;
+}
+
+namespace {
+
+// What an attribute's value means.
+std::string unescaped(std::string_view value) {
+  static const std::map<std::string_view, char> kEntities = {
+      {"amp", '&'}, {"lt", '<'}, {"gt", '>'}, {"quot", '"'}, {"apos", '\''}};
+  std::string text;
+  for (std::size_t at = 0; at < value.size(); ++at) {
+    const std::size_t end = value[at] == '&' ? value.find(';', at) : std::string_view::npos;
+    const auto found = end == std::string_view::npos
+                           ? kEntities.end()
+                           : kEntities.find(value.substr(at + 1, end - at - 1));
+    text += found == kEntities.end() ? value[at] : found->second;
+    if (found != kEntities.end()) at = end;
+  }
+  return text;
+}
+
+}  // namespace
+
+SetNames VtuText::names() const {
+  SetNames names;
+  std::size_t at = text_.find("<FieldData");
+  const std::size_t end = std::min(text_.find("</FieldData", at), text_.size());
+  while ((at = text_.find("<DataArray", at)) < end) {
+    const std::size_t close = text_.find('>', at);
+    const std::string_view tag = text_.substr(at, close - at);
+    at = close;
+    if (attribute(tag, "NumberOfTuples") != "2" || !attribute(tag, "type").starts_with("Int")) {
+      continue;
+    }
+    const std::vector<double> told = values(tag, close + 1);
+    if (told.size() != 2 || (told[1] != 2 && told[1] != 3)) continue;
+    const std::pair set(static_cast<int>(told[1]), integer(told[0]));
+    if (!names.emplace(set, unescaped(attribute(tag, "Name"))).second) {
+      fail("two field arrays name one set");
+    }
+  }
+  return names;
 }
 
 std::vector<double> VtuText::required_array(const std::string& section,

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "oracles/set_names.h"
 
 namespace tetproof::oracles {
 
@@ -23,6 +26,8 @@ class VtuText {
   std::vector<double> array(const std::string& section, const std::string& name) const;
   // The same, but there has to be one unless it would be empty.
   std::vector<double> required_array(const std::string& section, const std::string& name) const;
+  // Field arrays of two integers, a number and a dimension, by their names.
+  SetNames names() const;
   // An integer of at most 53 bits, and of 32.
   std::int64_t integer(double value) const;
   std::int32_t integer32(double value) const;
@@ -32,6 +37,8 @@ class VtuText {
   void cut_out_appended();
   void remove_comments();
   void check_elements() const;
+  using Attributes = std::map<std::string_view, std::string_view>;
+  Attributes attributes(std::string_view tag) const;
   std::size_t count(const std::string& name) const;
   // Empty if the tag has none.
   std::string attribute(std::string_view tag, const std::string& name) const;

@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -129,6 +132,32 @@ const Meshed& in_the_plane() {
   return meshed;
 }
 
+// A square within another one, each a region.
+const Meshed& of_regions() {
+  static const Meshed meshed(
+      "regions.poly",
+      "8 2 0 0\n1 0 0\n2 4 0\n3 4 4\n4 0 4\n5 1 1\n6 3 1\n7 3 3\n8 1 3\n8 1\n"
+      "1 1 2 5\n2 2 3 5\n3 3 4 5\n4 4 1 5\n5 5 6 9\n6 6 7 9\n7 7 8 9\n8 8 5 9\n"
+      "0\n2\n1 0.5 0.5 77\n2 2 2 99\n",
+      "plane --ascii", {{"vtu"}, {"off"}, {"node", "ele", "poly"}});
+  return meshed;
+}
+
+// A tetrahedron of two solids, which have names.
+const Meshed& of_names() {
+  static const Meshed meshed(
+      "names.stl",
+      "solid inlet\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 "
+      "0\nendloop\n"
+      "endfacet\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 "
+      "1\nendloop\n"
+      "endfacet\nendsolid\nsolid out  let\nfacet normal 0 0 0\nouter loop\nvertex 1 0 0\n"
+      "vertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nfacet normal 0 0 0\nouter loop\n"
+      "vertex 0 1 0\nvertex 0 0 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid\n",
+      "mesh --ascii", {{"msh"}, {"vtu"}});
+  return meshed;
+}
+
 struct Lie {
   const char *extension, *name, *pattern, *replacement;
   int without_record = 3, with_record = 3;  // exit codes
@@ -159,6 +188,8 @@ const Lie kLies[] = {
     {"mesh", "in the plane", "Dimension 3", "Dimension 2"},
     {"mesh", "no dimension", "Dimension 3", ""},
     {"mesh", "version 99", "Formatted 2", "Formatted 99"},
+    {"mesh", "a comment that others take for a vertex", "Vertices\n(\\d+)\n",
+     "Vertices\n$1\n# 1 1 1 0\n"},
     {"mesh", "a label that wraps around", " 11\n", " 4294967307\n"},
     {"mesh", "a number that goes on", "Vertices\n(\\d+)\n0 ", "Vertices\n$1\n0x "},
     {"mesh", "two signs", "Vertices\n(\\d+)\n(\\S+ \\S+ \\S+) 0", "Vertices\n$1\n$2 +-0"},
@@ -207,6 +238,10 @@ const Lie kLies[] = {
      "\"UInt$1\" Name=\"facet\""},
     {"vtu", "points of a type that is none", "\"Float64\"", "\"Real\""},
     {"vtu", "an element within an array", "Name=\"label\"([^>]*)>\n", "Name=\"label\"$1>\n<X/>"},
+    {"vtu", "an instruction", "<Cells>", "<?note?><Cells>"},
+    {"vtu", "an attribute within one in other quotation marks", "<DataArray ",
+     "<DataArray other=' Name=\"label\"' "},
+    {"vtu", "an attribute twice", "Name=\"label\"", "Name=\"label\" Name=\"label\""},
     {"vtu", "elements that do not nest", "</Piece>\n</UnstructuredGrid>",
      "</UnstructuredGrid>\n</Piece>"},
     {"vtu", "an element that does not end", "<CellData>", "<PointData>\n<CellData>"},
@@ -237,6 +272,8 @@ const Lie kLies[] = {
     {"msh", "triangles of no entity", "\n2 \\d+ 2 (\\d+)\n", "\n2 77 2 $1\n", 1, 1},
     {"msh", "tetrahedra in a surface", "\n3 \\d+ 4 (\\d+)\n", "\n2 1 4 $1\n"},
     {"msh", "a side of two labels", " 1 11 0\n", " 2 11 12 0\n"},
+    {"msh", "a side of a label and of a group without a name", " 1 11 0\n", " 2 11 77 0\n", 0, 1},
+    {"msh", "a solid in no group", "\n(1( \\S+){6}) 1 1 ", "\n$1 0 ", 0, 1},
     {"msh", "a solid that is inside and outside", "\n(1( \\S+){6}) 1 1 ", "\n$1 2 1 2 "},
     {"msh", "a label that wraps around", "\"label 11\"", "\"label 4294967307\""},
     {"msh", "names of the sides exchanged", "\"inside\"([^]*)\"outside\"",
@@ -313,8 +350,25 @@ const Lie kPlaneLies[] = {
     {"msh", "elements without an end", "\\$EndElements\n", ""},
 };
 
+const Lie kRegionLies[] = {
+    {"ele", "an attribute of another region", "\n(0 \\d+ \\d+ \\d+) (77|99)\n", "\n$1 88\n", 1, 1},
+    {"ele", "the attributes of a region exchanged", " 77\n([^]*) 99\n", " 99\n$1 77\n", 1, 1},
+    {"vtu", "an attribute of another region", "(Name=\"attribute\"[^>]*)>\n(77|99)\n", "$1>\n88\n",
+     1, 1},
+    {"vtu", "no attributes", "<DataArray[^>]*Name=\"attribute\"[^/]*</DataArray>\n", "", 1, 1},
+};
+
+const Lie kNameLies[] = {
+    {"msh", "names exchanged", "\"inlet\"([^]*)\"out +let\"", "\"out let\"$1\"inlet\"", 0, 1},
+    {"msh", "the name of another set", "\"inlet\"", "\"wing\"", 0, 1},
+    {"vtu", "the name of another set", "Name=\"inlet\"", "Name=\"wing\"", 0, 1},
+    {"vtu", "no names", "<FieldData>[^]*</FieldData>\n", "", 0, 1},
+    {"vtu", "two sets of one name", "<FieldData>([^]*)out +let", "<FieldData>$1inlet", 0, 1},
+};
+
 TEST(FileLies, HonestFilesPass) {
-  for (const Meshed* model : {&in_space(), &of_second_order(), &in_the_plane()}) {
+  for (const Meshed* model :
+       {&in_space(), &of_second_order(), &in_the_plane(), &of_regions(), &of_names()}) {
     for (const auto& [extension, text] : model->files()) {
       for (const bool with_record : {false, true}) {
         EXPECT_EQ(model->verify(extension, text, with_record), 0) << extension;
@@ -334,6 +388,7 @@ TEST(FileLies, HonestFilesOfOthersPass) {
       {"msh", "", "\\$Nodes\n", "$$Comments\nsome words\n$$EndComments\n$$Nodes\n"},
       {"vtu", "", "<VTKFile", "<!--by another program <Points>--><VTKFile"},
       {"vtu", "", "<CellData>", "<PointData></PointData>\n<CellData>"},
+      {"vtu", "", "<DataArray ", "<DataArray other=\" Name=\" "},
       {"node", "", "\n$", "\n# Generated by another program\n"}};
   for (const Lie& change : changes) {
     const std::string& written = in_space().files().at(change.extension);
@@ -358,6 +413,54 @@ TEST(FileLies, AreRefused) {
   for (const Lie& lie : kLies) tell(in_space(), lie);
   for (const Lie& lie : kSecondOrderLies) tell(of_second_order(), lie);
   for (const Lie& lie : kPlaneLies) tell(in_the_plane(), lie);
+  for (const Lie& lie : kRegionLies) tell(of_regions(), lie);
+  for (const Lie& lie : kNameLies) tell(of_names(), lie);
+}
+
+// Some readers make numbers of 4 bytes of all coordinates of such a file.
+TEST(FileLies, CoordinatesOfMoreThanTheAnnouncedPrecision) {
+  const Meshed tenth(
+      "tenth.smesh",
+      "4 3\n0 0 0 0\n1 0.1 0 0\n2 0 0.1 0\n3 0 0 0.1\n4 0\n3 0 2 1\n3 0 1 3\n3 1 2 3\n"
+      "3 2 0 3\n0\n0\n",
+      "mesh", {{"mesh"}});
+  tell(tenth, {"mesh", "numbers of 4 bytes announced", "Formatted 2", "Formatted 1", 0, 1});
+}
+
+// The triangles of the inner square left out, with the vertices that no other one has.
+TEST(FileLies, ARegionThatIsMissingIsMissed) {
+  std::istringstream text(of_regions().files().at("off"));
+  std::string word;
+  std::size_t vertices = 0, faces = 0;
+  text >> word >> vertices >> faces >> word;
+  std::vector<std::array<double, 3>> points(vertices);
+  for (auto& p : points) text >> p[0] >> p[1] >> p[2];
+  std::map<std::size_t, std::size_t> number;
+  std::ostringstream made_points, made_faces;
+  std::size_t left = 0;
+  for (std::size_t f = 0; f < faces; ++f) {
+    std::array<std::size_t, 3> v{};
+    text >> word >> v[0] >> v[1] >> v[2];
+    std::array<double, 2> m{};
+    for (const std::size_t c : v) {
+      for (std::size_t k = 0; k < 2; ++k) m[k] += points[c][k] / 3;
+    }
+    if (m[0] > 1 && m[0] < 3 && m[1] > 1 && m[1] < 3) continue;
+    ++left;
+    made_faces << 3;
+    for (const std::size_t c : v) {
+      const auto [found, fresh] = number.emplace(c, number.size());
+      if (fresh)
+        made_points << std::setprecision(17) << points[c][0] << ' ' << points[c][1] << " 0\n";
+      made_faces << ' ' << found->second;
+    }
+    made_faces << '\n';
+  }
+  ASSERT_TRUE(text && left > 0 && left < faces);
+  const std::string lie = "OFF\n" + std::to_string(number.size()) + " " + std::to_string(left) +
+                          " 0\n" + made_points.str() + made_faces.str();
+  EXPECT_EQ(of_regions().verify("off", lie, false), 1);
+  EXPECT_EQ(of_regions().verify("off", lie, true), 1);
 }
 
 // A .vtu with numbers for regions, as a mesh has that was read: then its sides are not known, and

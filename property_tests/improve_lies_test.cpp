@@ -345,6 +345,18 @@ std::vector<Lie> boundary_lies() {
        [](Told& t) { t.mesh.boundary[0][1] = static_cast<Index>(t.mesh.vertices.size()); }},
       {"names of labels say something else", "boundary-list",
        [](Told& t) { t.mesh.labels_contradict = true; }},
+      {"a set has the name of another one", "boundary-list",
+       [](Told& t) {
+         t.given.has_names = t.mesh.has_names = true;
+         t.given.names[{2, t.given.labels[0]}] = "inlet";
+         t.mesh.names[{2, t.given.labels[0]}] = "outlet";
+       }},
+      {"a region has lost its name", "boundary-list",
+       [](Told& t) {
+         t.given.has_names = t.mesh.has_names = true;
+         t.given.names[{3, t.given.regions[0]}] = "steel";
+       }},
+      {"elements are in no group", "boundary-list", [](Told& t) { t.mesh.groups_differ = true; }},
   };
 }
 

@@ -85,8 +85,10 @@ TEST(VtuText, RefusesWhatIsThereTwice) {
       "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 1 2"
       "</DataArray></Points>";
   const auto text = [&](const std::string& in_piece, const std::string& in_data) {
-    return "<VTKFile type=\"UnstructuredGrid\"><Piece NumberOfPoints=\"1\" NumberOfCells=\"2\">" +
-           points + in_piece + "<CellData>" + array + in_data + "</CellData></Piece></VTKFile>\n";
+    return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"1\" "
+           "NumberOfCells=\"2\">" +
+           points + in_piece + "<CellData>" + array + in_data +
+           "</CellData></Piece></UnstructuredGrid></VTKFile>\n";
   };
   const auto labels = [](const std::string& contents) {
     return VtuText("file", contents).array("CellData", "label");
