@@ -185,9 +185,17 @@ void MeshBuilder::take_out_edge_nodes() {
 
 TetMesh MeshBuilder::finish() {
   if (order() == 2) take_out_edge_nodes();
+  // Regions that are the two sides, and are called so, say nothing more than `inside`.
+  const auto is_named = [&](std::int32_t region, const char* side) {
+    const auto found = region_names_.find(region);
+    return found != region_names_.end() && found->second != side;
+  };
+  const bool solid = is_named(kRegionInside, "inside"), rest = is_named(kRegionOutside, "outside");
   bool told = false;
   for (std::size_t t = 0; t < mesh_.regions.size(); ++t) {
-    told |= mesh_.regions[t] != (mesh_.inside[t] != 0 ? kRegionInside : kRegionOutside);
+    const bool inside = mesh_.inside[t] != 0;
+    told |=
+        mesh_.regions[t] != (inside ? kRegionInside : kRegionOutside) || (inside ? solid : rest);
   }
   if (!told) mesh_.regions.clear();
   choose_facets();

@@ -108,11 +108,14 @@ std::vector<GivenName> given_names(const NamedMesh& named) {
 LabelNames distinct_names(LabelNames names) {
   std::set<std::string> given, used;
   for (const auto& [number, name] : names) given.insert(name);
+  std::map<std::string, int> next;  // number of a name
   for (auto& [number, name] : names) {
     const std::string first = name;
-    for (int next = 2; !used.insert(name).second; ++next) {
-      name = first + " " + std::to_string(next);
-      while (given.contains(name)) name = first + " " + std::to_string(++next);
+    int& last = next.try_emplace(first, 1).first->second;
+    while (!used.insert(name).second) {
+      do {
+        name = first + " " + std::to_string(++last);
+      } while (given.contains(name));
     }
   }
   return names;

@@ -146,6 +146,19 @@ TEST_F(WriteMesh, NamesComeBackFromGmsh) {
   EXPECT_EQ(labels, (std::vector<std::int32_t>{-2, 0, 7}));
 }
 
+TEST_F(WriteMesh, TheNameOfTheOnlyRegionComesBack) {
+  for (const std::string file : {"only.msh", "only.vtu"}) {
+    TetMesh mesh = sample();
+    mesh.regions.assign(mesh.tetrahedra.size(), 1);
+    OutputSet outputs;
+    ASSERT_TRUE(write_mesh(outputs, path(file), mesh, {}, {.region_names = {{1, "fluid"}}}).ok());
+    ASSERT_TRUE(outputs.commit().ok());
+    const MeshReadResult back = read_mesh(path(file));
+    ASSERT_TRUE(back.ok()) << back.error;
+    EXPECT_EQ(back.region_names, (LabelNames{{1, "fluid"}})) << file;
+  }
+}
+
 // A name as delmesher itself would give it to another label tells nothing of numbers.
 TEST_F(WriteMesh, NamesLikeItsOwnComeBackFromGmsh) {
   for (const std::string name : {"label 0", "label 5 of it", "label 7 old", "label x"}) {
