@@ -343,6 +343,7 @@ void Improved::check_list() {
   if (mesh_.labels_contradict) report.fail("the names of labels contradict them");
   check_names(report);
   if (mesh_.groups_differ) report.fail("elements are in no physical group, or in several");
+  if (mesh_.comments_within) report.fail("comments are where some take them for entries");
   if (mesh_.more_than_single) report.fail("coordinates are said to be of single precision");
   add(std::move(report));
 }

@@ -98,11 +98,11 @@ class MeditReader {
     const std::uint64_t count = counts_[section] = reader_.count();
     // No oracle would look at these.
     if (cells && count > 0) reader_.fail("a section of " + section + ", which are not read");
-    reader_.refuse_comments(true);
+    const std::uint64_t before = reader_.comments();
     for (std::uint64_t i = 0; i < count; ++i) {
       skipped == kSkipped.end() ? read_entry(section) : skip_entry(skipped->second);
     }
-    reader_.refuse_comments(false);
+    mesh_.comments_within = mesh_.comments_within || reader_.comments() != before;
   }
 
   void read_entry(const std::string& section) {

@@ -46,6 +46,9 @@ struct MeshFile {
   // It says that its coordinates are of single precision, as some readers make them then, and they
   // are not. Delmesher writes no such file.
   bool more_than_single = false;
+  // Comments among the entries of a section, which some readers take for entries. Delmesher writes
+  // no such file.
+  bool comments_within = false;
   std::vector<EdgeNode> edge_nodes;  // one of each edge; empty if the elements are linear
   bool lists_boundary = true;        // false for a format that has no triangles
   bool has_second_order = true;      // false for a format that has only linear elements

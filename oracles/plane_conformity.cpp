@@ -379,7 +379,10 @@ class FileChecker {
     const auto& regions = graph_.given().regions;
     if (regions.empty() || (file_.attributes.empty() && !file_.has_attributes)) return;
     if (file_.attributes.size() != file_.triangles.size()) {
-      return sides_.fail("the file does not have the attributes of the regions");
+      const std::string why = "the file does not have the attributes of the regions";
+      if (recorded_) sides_.fail(why);
+      if (!recorded_) sides_.notes.push_back(why);
+      return;
     }
     UnionFind parts(file_.triangles.size());
     for (const auto& [edge, t] : left_of_) {
@@ -389,14 +392,13 @@ class FileChecker {
       parts.unite(t, other->second);
     }
     std::map<Index, double> attribute;  // of a part
+    std::set<Index> unknown;            // parts that a point may be in
     for (const auto& region : regions) {
       const Point p{region.point[0], region.point[1], region.point[0], region.point[1]};
       if (graph_.on_segment(region.point) || !inside_.contains(p)) continue;
       if (near_a_segment(p)) {
-        sides_.notes.push_back(
-            "attributes were not compared: a region's point is as close to a "
-            "segment as what rounding moves");
-        return;
+        cells_.visit(box_of({&p}, tolerance_), [&](Index t) { unknown.insert(parts.find(t)); });
+        continue;
       }
       const auto& all = points_.all();
       cells_.visit({region.point, region.point}, [&](Index t) {
@@ -407,7 +409,13 @@ class FileChecker {
         attribute[parts.find(t)] = region.attribute;
       });
     }
+    if (!unknown.empty()) {
+      sides_.notes.push_back("attributes of " + std::to_string(unknown.size()) +
+                             " parts were not compared: a region's point is as close to a segment "
+                             "as what rounding moves");
+    }
     for (Index t = 0; t < file_.triangles.size(); ++t) {
+      if (unknown.contains(parts.find(t))) continue;
       ++sides_.checked;
       const auto found = attribute.find(parts.find(t));
       const double wanted = found == attribute.end() ? 0 : found->second;

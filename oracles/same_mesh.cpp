@@ -368,6 +368,9 @@ class SameMesh {
     if (mesh_.sides_contradict) {
       report_.fail("the names of the file's regions are not those of their numbers");
     }
+    if (mesh_.comments_within) {
+      report_.fail("the file has comments where some readers take them for entries");
+    }
     if (mesh_.more_than_single) {
       report_.fail(
           "the file says that its coordinates are of single precision, which they are not");

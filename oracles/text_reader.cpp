@@ -193,7 +193,7 @@ void TextReader::skip_blanks(bool over_lines) {
       ++line_;
       ++at_;
     } else if (c == comment_ && comment_ != '\0') {
-      if (comments_refused_) fail("a comment within a section, which others read as an entry");
+      ++comments_;
       skip_line();
     } else if (c == ' ' || c == '\t' || c == '\r') {
       ++at_;

@@ -38,8 +38,8 @@ class TextReader {
   TextReader& operator=(TextReader&&) noexcept;
   ~TextReader();
 
-  // Does a comment from here on make the file one that cannot be read?
-  void refuse_comments(bool refused) { comments_refused_ = refused; }
+  // That were passed over so far.
+  std::uint64_t comments() const { return comments_; }
   // From here on a comment sign is a character like any other.
   void without_comments() { comment_ = '\0'; }
   // The next word, empty at the end of the text.
@@ -114,7 +114,7 @@ class TextReader {
   std::string name_;
   std::string_view text_;  // the piece that is there
   char comment_;
-  bool comments_refused_ = false;
+  std::uint64_t comments_ = 0;
   std::unique_ptr<Source> source_;  // null: text_ is the whole text
   std::uint64_t size_;              // of the whole text
   std::size_t at_ = 0, kept_ = 0;   // kept_: where the last word begins

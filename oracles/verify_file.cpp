@@ -268,8 +268,10 @@ void Verification::check_file_surface(const TetComplex& complex, const Neighbour
 void Verification::check_names() {
   if (!mesh_.has_names || options_.promised.names) return;
   const std::vector<std::int64_t> labels(mesh_.labels.begin(), mesh_.labels.end());
-  OracleReport names("names", "labels");
+  OracleReport names("names", "labels"), sides("names", "regions");
   compare_names(input_.names, mesh_.names, 2, labels, names);
+  // The regions of a mesh that was made are its sides, and are called so or not at all.
+  if (exact_ != nullptr) compare_names({}, mesh_.names, 3, mesh_.regions, sides);
   names.promised = exact_ != nullptr && input_.names_read;
   if (!names.promised && names.violations > 0) {
     names.notes.push_back(input_.names_read
@@ -278,6 +280,7 @@ void Verification::check_names() {
     names.violations = 0;
     names.findings.clear();
   }
+  if (sides.violations > 0) return add(std::move(sides));
   if (names.checked > 0 && !(input_.names.empty() && names.passed() && names.notes.empty())) {
     add(std::move(names));
   }

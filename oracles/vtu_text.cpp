@@ -76,12 +76,19 @@ namespace {
 
 // Is that where VTK looks for such an element? It skips what it does not know.
 bool may_hold(std::string_view parent, std::string_view element) {
+  // What begins like an element that is read would be taken for it.
+  for (const std::string_view read : {"VTKFile", "Piece", "Points", "Cells", "CellData",
+                                      "FieldData", "DataArray", "AppendedData"}) {
+    if (element.starts_with(read) && element != read) return false;
+  }
   if (element == "VTKFile") return parent.empty();
   if (element == "UnstructuredGrid" || element == "AppendedData") return parent == "VTKFile";
   if (element == "Piece") return parent == "UnstructuredGrid";
   if (element == "Points" || element == "Cells" || element == "CellData") return parent == "Piece";
+  if (element == "FieldData") return parent == "UnstructuredGrid" || parent == "Piece";
   if (element != "DataArray") return !parent.empty();
-  return parent.ends_with("Data") || parent == "Points" || parent == "Cells";
+  return parent == "Points" || parent == "Cells" || parent == "CellData" || parent == "PointData" ||
+         parent == "FieldData";
 }
 
 }  // namespace
@@ -98,7 +105,8 @@ void VtuText::check_elements() const {
     }
     if (end == text_.size()) fail("a tag does not end");
     const std::string_view tag = text_.substr(at + 1, end - at - 1);
-    const bool first = text_.substr(0, at).find_first_not_of(" \t\r\n") == std::string_view::npos;
+    const bool first =  // but for the mark of UTF-8
+        text_.substr(0, at).find_first_not_of(" \t\r\n\xEF\xBB\xBF") == std::string_view::npos;
     at = end;
     if (first && tag.starts_with("?xml ")) continue;  // how the text is encoded
     const bool closes = tag.starts_with('/');
@@ -417,22 +425,28 @@ std::string unescaped(std::string_view value) {
 
 }  // namespace
 
+// Arrays that tell no name are passed over, whatever they hold.
 SetNames VtuText::names() const {
   SetNames names;
-  std::size_t at = text_.find("<FieldData");
-  const std::size_t end = std::min(text_.find("</FieldData", at), text_.size());
-  while ((at = text_.find("<DataArray", at)) < end) {
-    const std::size_t close = text_.find('>', at);
-    const std::string_view tag = text_.substr(at, close - at);
-    at = close;
-    if (attribute(tag, "NumberOfTuples") != "2" || !attribute(tag, "type").starts_with("Int")) {
-      continue;
-    }
-    const std::vector<double> told = values(tag, close + 1);
-    if (told.size() != 2 || (told[1] != 2 && told[1] != 3)) continue;
-    const std::pair set(static_cast<int>(told[1]), integer(told[0]));
-    if (!names.emplace(set, unescaped(attribute(tag, "Name"))).second) {
-      fail("two field arrays name one set");
+  std::size_t end = 0;
+  for (std::size_t at = text_.find("<FieldData"); at != std::string_view::npos;
+       at = text_.find("<FieldData", end)) {
+    end = std::min(text_.find("</FieldData", at), text_.size());
+    while ((at = text_.find("<DataArray", at)) < end) {
+      const std::size_t close = text_.find('>', at);
+      const std::string_view tag = text_.substr(at, close - at);
+      at = close;
+      const bool plain = text_.substr(text_.find('<', close)).starts_with("</DataArray>");
+      if (!plain || tag.ends_with('/') || attribute(tag, "NumberOfTuples") != "2" ||
+          !attribute(tag, "type").starts_with("Int") || attribute(tag, "format") != "ascii") {
+        continue;
+      }
+      const std::vector<double> told = values(tag, close + 1);
+      if (told.size() != 2 || (told[1] != 2 && told[1] != 3) || std::fabs(told[0]) > 0x1p53) {
+        continue;
+      }
+      std::string& name = names[{static_cast<int>(told[1]), integer(told[0])}];
+      name += (name.empty() ? "" : " and ") + unescaped(attribute(tag, "Name"));
     }
   }
   return names;

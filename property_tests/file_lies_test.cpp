@@ -189,7 +189,7 @@ const Lie kLies[] = {
     {"mesh", "no dimension", "Dimension 3", ""},
     {"mesh", "version 99", "Formatted 2", "Formatted 99"},
     {"mesh", "a comment that others take for a vertex", "Vertices\n(\\d+)\n",
-     "Vertices\n$1\n# 1 1 1 0\n"},
+     "Vertices\n$1\n# 1 1 1 0\n", 0, 1},
     {"mesh", "a label that wraps around", " 11\n", " 4294967307\n"},
     {"mesh", "a number that goes on", "Vertices\n(\\d+)\n0 ", "Vertices\n$1\n0x "},
     {"mesh", "two signs", "Vertices\n(\\d+)\n(\\S+ \\S+ \\S+) 0", "Vertices\n$1\n$2 +-0"},
@@ -355,13 +355,18 @@ const Lie kRegionLies[] = {
     {"ele", "the attributes of a region exchanged", " 77\n([^]*) 99\n", " 99\n$1 77\n", 1, 1},
     {"vtu", "an attribute of another region", "(Name=\"attribute\"[^>]*)>\n(77|99)\n", "$1>\n88\n",
      1, 1},
-    {"vtu", "no attributes", "<DataArray[^>]*Name=\"attribute\"[^/]*</DataArray>\n", "", 1, 1},
+    {"vtu", "no attributes", "<DataArray[^>]*Name=\"attribute\"[^/]*</DataArray>\n", "", 0, 1},
 };
 
 const Lie kNameLies[] = {
     {"msh", "names exchanged", "\"inlet\"([^]*)\"out +let\"", "\"out let\"$1\"inlet\"", 0, 1},
     {"msh", "the name of another set", "\"inlet\"", "\"wing\"", 0, 1},
     {"vtu", "the name of another set", "Name=\"inlet\"", "Name=\"wing\"", 0, 1},
+    {"vtu", "another name in a second field", "<Piece ",
+     "<FieldData><DataArray type=\"Int64\" Name=\"wing\" NumberOfTuples=\"2\" format=\"ascii\">1 2"
+     "</DataArray></FieldData><Piece ",
+     0, 1},
+    {"msh", "a solid that is called by the name of a side of it", "\"inside\"", "\"inlet\"", 0, 1},
     {"vtu", "no names", "<FieldData>[^]*</FieldData>\n", "", 0, 1},
     {"vtu", "two sets of one name", "<FieldData>([^]*)out +let", "<FieldData>$1inlet", 0, 1},
 };
