@@ -356,7 +356,8 @@ std::vector<Lie> boundary_lies() {
          t.given.has_names = t.mesh.has_names = true;
          t.given.names[{3, t.given.regions[0]}] = "steel";
        }},
-      {"elements are in no group", "boundary-list", [](Told& t) { t.mesh.groups_differ = true; }},
+      {"elements are in no group", "boundary-list",
+       [](Told& t) { t.given.has_names = t.mesh.groups_differ = true; }},
   };
 }
 
