@@ -7,12 +7,12 @@
 #include <array>
 #include <cstring>
 #include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "oracles/text_reader.h"
+#include "oracles/xml_text.h"
 
 namespace tetproof::oracles {
 namespace {
@@ -138,98 +138,6 @@ class Archive {
   std::map<std::string, Entry> entries_;
 };
 
-// ---------------------------------------------------------------------------------------- the XML
-
-struct Element {
-  std::string name;
-  std::map<std::string, std::string> attributes;
-  std::vector<std::unique_ptr<Element>> children;
-
-  const std::string* attribute(const std::string& key) const {
-    const auto found = attributes.find(key);
-    return found == attributes.end() ? nullptr : &found->second;
-  }
-  // Those of that name.
-  std::vector<const Element*> all(const std::string& wanted) const {
-    std::vector<const Element*> found;
-    for (const auto& child : children) {
-      if (child->name == wanted) found.push_back(child.get());
-    }
-    return found;
-  }
-};
-
-// Elements and attributes; text is nothing here. References to characters stay as they are.
-class XmlReader {
- public:
-  XmlReader(std::string name, std::string_view text) : name_(std::move(name)), text_(text) {}
-
-  std::unique_ptr<Element> read() {
-    auto top = std::make_unique<Element>();
-    std::vector<Element*> open = {top.get()};
-    for (at_ = text_.find('<'); at_ < text_.size(); at_ = text_.find('<', at_)) {
-      if (skipped("<!--", "-->") || skipped("<?", "?>") || skipped("<![CDATA[", "]]>")) continue;
-      if (text_.substr(at_, 2) == "<!") fail("a declaration");
-      ++at_;
-      const bool end = text_.substr(at_, 1) == "/";
-      if (end) ++at_;
-      const std::string name(word("/> \t\r\n"));
-      if (end) {
-        if (open.back()->name != name || open.size() == 1) fail("</" + name + "> of nothing");
-        open.pop_back();
-        continue;
-      }
-      open.back()->children.push_back(std::make_unique<Element>());
-      Element& element = *open.back()->children.back();
-      element.name = name;
-      if (!read_attributes(element)) open.push_back(&element);
-    }
-    if (open.size() != 1 || top->children.size() != 1) fail("not one element, with its end");
-    return std::move(top->children.front());
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& reason) const {
-    throw ReadError(name_ + ": " + reason.substr(0, 80));
-  }
-  bool skipped(std::string_view begin, std::string_view end) {
-    if (!text_.substr(at_).starts_with(begin)) return false;
-    at_ = std::min(text_.find(end, at_ + begin.size()), text_.size());
-    return true;
-  }
-  std::string_view word(std::string_view ends) {
-    const std::size_t end = std::min(text_.find_first_of(ends, at_), text_.size());
-    const std::string_view found = text_.substr(at_, end - at_);
-    at_ = end;
-    return found;
-  }
-  void skip_blanks() { at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()); }
-
-  // True if the element ends with them.
-  bool read_attributes(Element& element) {
-    for (;;) {
-      skip_blanks();
-      if (at_ >= text_.size()) fail("an element without an end");
-      if (text_[at_] == '>') return false;
-      if (text_[at_] == '/') return true;
-      const std::string name(word("=/> \t\r\n"));
-      skip_blanks();
-      if (text_.substr(at_, 1) != "=") fail("an attribute without a value");
-      ++at_;
-      skip_blanks();
-      const std::string quote(text_.substr(at_, 1));
-      if (quote != "\"" && quote != "'") fail("a value without quotation marks");
-      ++at_;
-      if (!element.attributes.emplace(name, word(quote)).second) fail(name + " is there twice");
-      ++at_;
-    }
-  }
-
-  std::string name_;
-  std::string_view text_;
-  std::size_t at_ = 0;
-};
-
 // -------------------------------------------------------------------------------------- the model
 
 using Matrix = std::array<double, 12>;
@@ -241,8 +149,8 @@ class ModelReader {
 
   Polyhedron read() {
     const std::string root = root_name();
-    for (const Element* build : part(root).all(prefix(root) + "build")) {
-      for (const Element* item : build->all(prefix(root) + "item")) place(root, *item, {});
+    for (const XmlElement* build : part(root).all(prefix(root) + "build")) {
+      for (const XmlElement* item : build->all(prefix(root) + "item")) place(root, *item, {});
     }
     if (labels_.size() == 1) label_by_material();
     if (std::ranges::all_of(surface_.labels, [](auto label) { return label == 1; })) {
@@ -259,23 +167,23 @@ class ModelReader {
   std::string root_name() const {
     if (archive_.contains("_rels/.rels")) {
       const std::string text = archive_.contents("_rels/.rels");
-      const auto relations = XmlReader(path_, text).read();
-      for (const auto& relation : relations->children) {
-        const std::string *type = relation->attribute("Type"),
-                          *target = relation->attribute("Target");
+      const XmlElement relations = read_xml(path_ + ", _rels/.rels", text);
+      for (const XmlElement& relation : relations.children) {
+        const std::string *type = relation.attribute("Type"),
+                          *target = relation.attribute("Target");
         if (type != nullptr && target != nullptr && type->ends_with("/3dmodel")) return *target;
       }
     }
     return "3D/3dmodel.model";
   }
 
-  const Element& part(const std::string& name) {
-    std::unique_ptr<Element>& model = parts_[name];
-    if (model == nullptr) {
+  const XmlElement& part(const std::string& name) {
+    auto model = parts_.find(name);
+    if (model == parts_.end()) {
       const std::string text = archive_.contents(name);
-      model = XmlReader(path_ + ", " + name, text).read();
+      model = parts_.emplace(name, read_xml(path_ + ", " + name, text)).first;
     }
-    return *model;
+    return model->second;
   }
   // Of the names in a part, up to the colon.
   std::string prefix(const std::string& name) {
@@ -284,16 +192,16 @@ class ModelReader {
     return colon == std::string::npos ? "" : root.substr(0, colon + 1);
   }
 
-  const std::string& needed(const Element& element, const std::string& name) const {
+  const std::string& needed(const XmlElement& element, const std::string& name) const {
     const std::string* value = element.attribute(name);
     if (value == nullptr) fail(element.name + " without " + name);
     return *value;
   }
-  double real(const Element& element, const char* name) const {
+  double real(const XmlElement& element, const char* name) const {
     return TextReader(path_, needed(element, name), '\0').number();
   }
 
-  std::optional<Matrix> matrix_of(const Element& element) const {
+  std::optional<Matrix> matrix_of(const XmlElement& element) const {
     const std::string* text = element.attribute("transform");
     if (text == nullptr) return {};
     TextReader reader(path_, *text, '\0');
@@ -304,7 +212,7 @@ class ModelReader {
   }
 
   // The object that an item or a component names; `matrices` are those around it.
-  void place(const std::string& from, const Element& user, std::vector<Matrix> matrices) {
+  void place(const std::string& from, const XmlElement& user, std::vector<Matrix> matrices) {
     if (matrices_deep_ > 40 || ++placed_ > 1100000) fail("components without an end");
     std::string name = from;
     for (const auto& [key, value] : user.attributes) {
@@ -312,35 +220,35 @@ class ModelReader {
     }
     if (const auto matrix = matrix_of(user)) matrices.push_back(*matrix);
     const std::string& id = needed(user, "objectid");
-    const Element& object = find_object(name, id);
+    const XmlElement& object = find_object(name, id);
     const std::string* type = object.attribute("type");
     if (type != nullptr && *type != "model" && *type != "surface") return;
     ++matrices_deep_;
-    for (const Element* components : object.all(prefix(name) + "components")) {
-      for (const Element* component : components->all(prefix(name) + "component")) {
+    for (const XmlElement* components : object.all(prefix(name) + "components")) {
+      for (const XmlElement* component : components->all(prefix(name) + "component")) {
         place(name, *component, matrices);
       }
     }
     --matrices_deep_;
-    for (const Element* mesh : object.all(prefix(name) + "mesh")) {
+    for (const XmlElement* mesh : object.all(prefix(name) + "mesh")) {
       add_mesh(name, id, *mesh, matrices);
     }
   }
 
-  const Element& find_object(const std::string& name, const std::string& id) {
-    for (const Element* resources : part(name).all(prefix(name) + "resources")) {
-      for (const Element* object : resources->all(prefix(name) + "object")) {
+  const XmlElement& find_object(const std::string& name, const std::string& id) {
+    for (const XmlElement* resources : part(name).all(prefix(name) + "resources")) {
+      for (const XmlElement* object : resources->all(prefix(name) + "object")) {
         if (needed(*object, "id") == id) return *object;
       }
     }
     fail("there is no object " + id + " in " + name);
   }
 
-  void add_mesh(const std::string& name, const std::string& id, const Element& mesh,
+  void add_mesh(const std::string& name, const std::string& id, const XmlElement& mesh,
                 const std::vector<Matrix>& matrices) {
     const auto first = static_cast<std::int64_t>(surface_.vertices.size());
-    for (const Element* list : mesh.all(prefix(name) + "vertices")) {
-      for (const Element* vertex : list->all(prefix(name) + "vertex")) {
+    for (const XmlElement* list : mesh.all(prefix(name) + "vertices")) {
+      for (const XmlElement* vertex : list->all(prefix(name) + "vertex")) {
         Position p = {real(*vertex, "x"), real(*vertex, "y"), real(*vertex, "z")};
         for (auto m = matrices.rbegin(); m != matrices.rend(); ++m) p = moved(p, *m);
         surface_.vertices.push_back(p);
@@ -349,11 +257,11 @@ class ModelReader {
     const std::uint64_t count = surface_.vertices.size() - static_cast<std::size_t>(first);
     const bool turned = mirrored(matrices);
     std::int32_t label = 0;
-    const Element& object = find_object(name, id);
+    const XmlElement& object = find_object(name, id);
     const auto modifiers = modifiers_of(id);
     std::uint64_t number = 0;
-    for (const Element* list : mesh.all(prefix(name) + "triangles")) {
-      for (const Element* triangle : list->all(prefix(name) + "triangle")) {
+    for (const XmlElement* list : mesh.all(prefix(name) + "triangles")) {
+      for (const XmlElement* triangle : list->all(prefix(name) + "triangle")) {
         const std::uint64_t own = number++;
         if (std::ranges::any_of(modifiers, [own](const auto& range) {
               return range[0] <= own && own <= range[1];
@@ -386,11 +294,11 @@ class ModelReader {
     const std::string file = "Metadata/Slic3r_PE_model.config";
     if (parts_.size() != 1 || !archive_.contains(file)) return result;
     const std::string text = archive_.contents(file);
-    const auto config = XmlReader(path_ + ", " + file, text).read();
-    for (const Element* object : config->all("object")) {
+    const XmlElement config = read_xml(path_ + ", " + file, text);
+    for (const XmlElement* object : config.all("object")) {
       if (needed(*object, "id") != id) continue;
-      for (const Element* volume : object->all("volume")) {
-        const auto is_other = [](const Element* m) {
+      for (const XmlElement* volume : object->all("volume")) {
+        const auto is_other = [](const XmlElement* m) {
           const std::string *key = m->attribute("key"), *value = m->attribute("value");
           return key != nullptr && *key == "volume_type" && value != nullptr &&
                  *value != "ModelPart";
@@ -408,7 +316,8 @@ class ModelReader {
 
   // The numbers of the group and of its member that a triangle names, or the object for it; empty
   // if that is nothing, or neither a base material nor a colour.
-  std::string material_of(const std::string& name, const Element& object, const Element& triangle) {
+  std::string material_of(const std::string& name, const XmlElement& object,
+                          const XmlElement& triangle) {
     const bool own = triangle.attribute("p1") != nullptr;
     const std::string* index = own ? triangle.attribute("p1") : object.attribute("pindex");
     const std::string* group = own ? triangle.attribute("pid") : nullptr;
@@ -421,17 +330,17 @@ class ModelReader {
   }
 
   std::optional<std::size_t> size_of_group(const std::string& name, const std::string& id) {
-    for (const Element* resources : part(name).all(prefix(name) + "resources")) {
-      for (const auto& group : resources->children) {
-        const std::string* own = group->attribute("id");
+    for (const XmlElement* resources : part(name).all(prefix(name) + "resources")) {
+      for (const XmlElement& group : resources->children) {
+        const std::string* own = group.attribute("id");
         if (own == nullptr || *own != id) continue;
-        if (group->name == prefix(name) + "basematerials") {
-          return group->all(prefix(name) + "base").size();
+        if (group.name == prefix(name) + "basematerials") {
+          return group.all(prefix(name) + "base").size();
         }
         for (const auto& [key, value] : part(name).attributes) {
           if (!key.starts_with("xmlns:") || !value.ends_with("/material/2015/02")) continue;
           const std::string colours = key.substr(6) + ":";
-          if (group->name == colours + "colorgroup") return group->all(colours + "color").size();
+          if (group.name == colours + "colorgroup") return group.all(colours + "color").size();
         }
       }
     }
@@ -474,7 +383,7 @@ class ModelReader {
 
   const std::string path_;
   Archive archive_;
-  std::map<std::string, std::unique_ptr<Element>> parts_;
+  std::map<std::string, XmlElement> parts_;
   std::map<std::pair<std::string, std::string>, std::int32_t> labels_;
   std::vector<std::string> materials_;  // of the triangles
   int matrices_deep_ = 0, placed_ = 0;

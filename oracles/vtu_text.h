@@ -3,16 +3,18 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "oracles/set_names.h"
+#include "oracles/xml_text.h"
 
 namespace tetproof::oracles {
 
-// Nothing may be there twice, and nothing after the end, as readers differ in what they take then.
+// Nothing that is read may be there twice, or at another place than the format's, as readers differ
+// in what they take then.
 // All functions throw ReadError.
 class VtuText {
  public:
@@ -34,28 +36,27 @@ class VtuText {
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
-  void cut_out_appended();
-  void remove_comments();
-  void check_elements() const;
-  using Attributes = std::map<std::string_view, std::string_view>;
-  Attributes attributes(std::string_view tag) const;
+  void take_appended(std::string_view text);
+  void check(const XmlElement& element);
+  // The element of that name; there must be one, and one at most.
+  const XmlElement& only(const XmlElement& parent, const std::string& name) const;
+  // nullptr if there is none.
+  const XmlElement* at_most_one(const XmlElement& parent, const std::string& name) const;
   std::size_t count(const std::string& name) const;
-  // Empty if the tag has none.
-  std::string attribute(std::string_view tag, const std::string& name) const;
-  std::string attribute_of_file(const std::string& name) const;
   std::uint64_t size_at(std::string_view& bytes) const;
   std::string unpacked(std::string_view bytes) const;
   std::vector<double> binary_values(const std::string& type, std::string_view bytes,
                                     bool appended) const;
   std::string_view appended_at(std::uint64_t offset) const;
-  std::uint64_t offset_in(std::string_view text) const;
-  std::vector<double> values(std::string_view tag, std::size_t start) const;
+  std::uint64_t offset_of(const XmlElement& array) const;
+  std::vector<double> values(const XmlElement& array) const;
 
   std::string path_;
-  std::string without_appended_, without_comments_;  // empty if there are none
-  std::string_view appended_;                        // after the '_'
+  std::string_view text_, appended_;  // after the '_'
   bool appended_raw_ = false;
-  std::string_view text_;
+  XmlElement file_;
+  const XmlElement *grid_ = nullptr, *piece_ = nullptr;
+  std::set<std::uint64_t> offsets_;  // of the arrays that are appended
   std::size_t points_ = 0, cells_ = 0;
 };
 
