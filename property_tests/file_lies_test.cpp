@@ -426,6 +426,32 @@ TEST(FileLies, AreRefused) {
   for (const Lie& lie : kNameLies) tell(of_names(), lie);
 }
 
+// Files of others often have names in Latin-1, which XML cannot have, and which Python refuses.
+TEST(FileLies, NamesInLatin1BecomeUtf8) {
+  std::string stl;
+  const char* const kSides[] = {
+      "0 0 0\nvertex 0 1 0\nvertex 1 0 0", "0 0 0\nvertex 1 0 0\nvertex 0 0 1",
+      "1 0 0\nvertex 0 1 0\nvertex 0 0 1", "0 1 0\nvertex 0 0 0\nvertex 0 0 1"};
+  for (int side = 0; side < 4; ++side) {
+    stl += (side == 0   ? "solid Einla\xdf\n"
+            : side == 1 ? "endsolid\nsolid \xc3\xa9t\xc3\xa9\n"
+                        : "");
+    stl += std::string("facet normal 0 0 0\nouter loop\nvertex ") + kSides[side] +
+           "\nendloop\nendfacet\n";
+  }
+  const Meshed model("latin1.stl", (stl + "endsolid\n").c_str(), "mesh --ascii",
+                     {{"msh"}, {"vtu"}});
+  for (const auto& [extension, text] : model.files()) {
+    EXPECT_NE(text.find("\"Einla\xc3\x9f\""), std::string::npos);
+    EXPECT_NE(text.find("\"\xc3\xa9t\xc3\xa9\""), std::string::npos);
+    EXPECT_EQ(model.verify(extension, text, true), 0);
+    const char* const of = extension == "msh" ? "msh" : "vtu";
+    tell(model, {of, "twice in UTF-8", "\xc3\x9f", "\xc3\x83\xc2\x9f", 0, 1});
+    tell(model, {of, "the other name in UTF-8 again", "\xc3\xa9t", "\xc3\x83\xc2\xa9t", 0, 1});
+  }
+  tell(model, {"vtu", "in Latin-1", "\xc3\x9f", "\xdf"});
+}
+
 // Some readers make numbers of 4 bytes of all coordinates of such a file.
 TEST(FileLies, CoordinatesOfMoreThanTheAnnouncedPrecision) {
   const Meshed tenth(

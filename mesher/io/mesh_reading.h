@@ -107,10 +107,10 @@ class MeshBuilder {
   std::size_t triangles() const { return mesh_.boundary.size(); }
   std::size_t tetrahedra() const { return mesh_.tetrahedra.size(); }
   void name_label(std::int32_t label, std::string_view name) {
-    if (!name.empty()) names_[label] = name;
+    if (!name.empty()) names_[label] = as_utf8(name);
   }
   void name_region(std::int32_t region, std::string_view name) {
-    if (!name.empty()) region_names_[region] = name;
+    if (!name.empty()) region_names_[region] = as_utf8(name);
   }
   const LabelNames& names() const { return names_; }
   const LabelNames& region_names() const { return region_names_; }

@@ -11,6 +11,7 @@
 #include "mesher/delmesher_files.h"
 #include "mesher/io/polling.h"
 #include "mesher/io/reading.h"
+#include "mesher/io/text.h"
 
 namespace delmesher::io {
 
@@ -48,7 +49,7 @@ class SurfaceBuilder {
 
   // The name of a label; an empty one is none.
   void name_label(std::int32_t label, std::string_view name) {
-    if (!name.empty()) names_[label] = name;
+    if (!name.empty()) names_[label] = as_utf8(name);
   }
   const LabelNames& names() const { return names_; }
   // Makes one label of all, without a name: the file has told only one apart.

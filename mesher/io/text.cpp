@@ -37,11 +37,70 @@ bool is_too_large(std::string_view digits) {
   return leading + (negative ? -exponent : exponent) > 0;
 }
 
+// Of the character at the front, as the Unicode standard has it (table 3-7): no longer than need
+// be, no halves of characters of UTF-16. 0 if it is none.
+std::size_t size_of_utf8(std::string_view text) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  const auto in = [&](std::size_t i, unsigned low, unsigned high) {
+    return low <= byte(i) && byte(i) <= high;
+  };
+  const auto follow = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!in(i, 0x80, 0xbf)) return std::size_t{0};
+    }
+    return end;
+  };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  if (in(0, 0xc2, 0xdf)) return follow(1, 2);
+  if (in(0, 0xe0, 0xef)) {
+    const bool none = first == 0xef && byte(1) == 0xbf && byte(2) >= 0xbe;  // not in XML
+    return none || !in(1, first == 0xe0 ? 0xa0 : 0x80, first == 0xed ? 0x9f : 0xbf) ? 0
+                                                                                    : follow(2, 3);
+  }
+  if (in(0, 0xf0, 0xf4)) {
+    return !in(1, first == 0xf0 ? 0x90 : 0x80, first == 0xf4 ? 0x8f : 0xbf) ? 0 : follow(2, 4);
+  }
+  return 0;
+}
+
 NumberStatus finite_or_not(double value) {
   return std::isfinite(value) ? NumberStatus::ok : NumberStatus::not_finite;
 }
 
 }  // namespace
+
+void append_utf8(std::string& out, std::uint32_t code) {
+  const auto byte = [&](std::uint32_t value) { out += static_cast<char>(value); };
+  if (code < 0x80) return byte(code);
+  if (code < 0x800) {
+    byte(0xc0U | code >> 6U);
+  } else {
+    if (code < 0x10000) {
+      byte(0xe0U | code >> 12U);
+    } else {
+      byte(0xf0U | code >> 18U);
+      byte(0x80U | (code >> 12U & 0x3fU));
+    }
+    byte(0x80U | (code >> 6U & 0x3fU));
+  }
+  byte(0x80U | (code & 0x3fU));
+}
+
+std::string as_utf8(std::string_view text) {
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t size = size_of_utf8(rest);
+    if (size == 0) {
+      std::string converted;
+      for (const char c : text) append_utf8(converted, static_cast<unsigned char>(c));
+      return converted;
+    }
+    rest.remove_prefix(size);
+  }
+  return std::string(text);
+}
 
 NumberStatus parse_double(std::string_view token, double& value) {
   if (!token.empty() && token[0] == '+') {

@@ -38,6 +38,12 @@ void append_hex(std::string& out, double value);
 // A token made fit for an error message: quoted, printable, at most 40 characters.
 std::string in_quotes(std::string_view token);
 
+// Appends a character by its number.
+void append_utf8(std::string& out, std::uint32_t code);
+// The text itself if it is in UTF-8; else what it is in Latin-1, in UTF-8. Characters that XML
+// cannot have (U+FFFE, U+FFFF) count as no UTF-8.
+std::string as_utf8(std::string_view text);
+
 bool equal_ignoring_case(std::string_view a, std::string_view b);
 
 // How a '#' starts a comment.

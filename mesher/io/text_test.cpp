@@ -136,6 +136,26 @@ TEST(TextLines, AnyLineEndsCommentsAndNoFinalNewline) {
   EXPECT_EQ(names.rest_of_line(), "a#1");
 }
 
+// Every character of Unicode, and every two and three bytes, by what the standard says of them.
+TEST(Utf8, EveryCharacterStaysAndOtherBytesAreLatin1) {
+  for (std::uint32_t code = 0; code < 0x110000; ++code) {
+    if (code >= 0xd800 && code < 0xe000) continue;
+    std::string text;
+    append_utf8(text, code);
+    const bool in_xml = code != 0xfffe && code != 0xffff;
+    ASSERT_EQ(as_utf8(text) == text, in_xml) << code;
+  }
+  EXPECT_EQ(as_utf8("caf\xe9 \x80\xff"), "caf\xc3\xa9 \xc2\x80\xc3\xbf");
+  for (const char* none :
+       {"\xc0\xaf", "\xc1\xbf", "\xe0\x9f\xbf", "\xf0\x8f\xbf\xbf", "\xed\xa0\x80", "\xed\xbf\xbf",
+        "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xc3", "\xe2\x82", "\x80", "\xf0\x9f\x98", "\xc3(",
+        "\xe2(\xa1", "\xf0\x9f(\x8c", "\xc3\xa9\xe9"}) {
+    const std::string converted = as_utf8(none);
+    EXPECT_NE(converted, none);
+    EXPECT_EQ(as_utf8(converted), converted);
+  }
+}
+
 TEST(Quoted, IsPrintableAndShort) {
   EXPECT_EQ(in_quotes("a\x01z"), "'a?z'");
   EXPECT_LT(io::in_quotes(std::string_view(std::string(1000, 'x'))).size(), 50U);

@@ -25,23 +25,6 @@ void skip_space(std::string_view& text) {
   text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
 }
 
-void append_utf8(std::string& out, std::uint32_t code) {
-  const auto byte = [&](std::uint32_t value) { out += static_cast<char>(value); };
-  if (code < 0x80) return byte(code);
-  if (code < 0x800) {
-    byte(0xc0U | code >> 6U);
-  } else {
-    if (code < 0x10000) {
-      byte(0xe0U | code >> 12U);
-    } else {
-      byte(0xf0U | code >> 18U);
-      byte(0x80U | (code >> 12U & 0x3fU));
-    }
-    byte(0x80U | (code >> 6U & 0x3fU));
-  }
-  byte(0x80U | (code & 0x3fU));
-}
-
 // What is between '&' and ';'; false if it means no character.
 bool append_reference(std::string& out, std::string_view reference) {
   static constexpr std::array<std::pair<std::string_view, char>, 5> kNamed = {

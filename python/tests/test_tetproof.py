@@ -188,6 +188,13 @@ def test_surfaces_are_written_and_given_to_others(tmp_path):
     assert isinstance(surface.to_meshio(), meshio.Mesh) and np.array_equal(surface.to_meshio().cells_dict["triangle"], TRIANGLES)
 
 
+def test_names_in_latin_1_are_read(tmp_path):
+    surface = tetproof.Surface(POINTS, TRIANGLES, LABELS, {1: "inlet", 2: "outlet"})
+    surface.write(tmp_path / "cube.stl")
+    (tmp_path / "cube.stl").write_bytes((tmp_path / "cube.stl").read_bytes().replace(b"inlet", "Einla\xdf".encode("latin-1")))
+    assert tetproof.read(tmp_path / "cube.stl").names[1] == "Einla\xdf"
+
+
 def test_names_of_regions_come_back(tmp_path):
     mesh = tetproof.mesh(POINTS, TRIANGLES, max_edge=0.5)
     mesh.regions = np.where(np.arange(len(mesh.tetrahedra)) % 2 == 0, 7, 9).astype(np.int32)
