@@ -361,12 +361,16 @@ class Gate {
                      const Getter& value) {
     std::vector<Weighted> differences;
     double before_sum = 0, after_sum = 0;
+    // Of one repetition: the largest share need not be that of the largest mesh.
+    const Getter number = [&](const Run& run) -> std::optional<double> {
+      const auto share = value(run), all = tetrahedra(run);
+      return share && all ? std::optional(*share * *all) : std::nullopt;
+    };
     for (const Pair& pair : pairs) {
       const auto before = most(*pair.base, value), after = most(*pair.fresh, value);
       if (!before && !after) ++lacking_[mesher][{name, "neither side has"}];
       if (!both(mesher, name, before, after)) continue;
-      const double more =
-          *after * *most(*pair.fresh, tetrahedra) - *before * *most(*pair.base, tetrahedra);
+      const double more = *most(*pair.fresh, number) - *most(*pair.base, number);
       if (*after - *before > options_.sliver_share && more >= options_.least_slivers) {
         add(FindingKind::slivers, *pair.base,
             fmt::format("{}: {:.2f} instead of {:.2f} % of the tetrahedra", name, 100 * *after,

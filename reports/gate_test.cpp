@@ -235,6 +235,26 @@ TEST(Gate, OfRepetitionsTheLeastTimeCounts) {
   }
 }
 
+// A tiny mesh of slivers beside a large one of few: not as if the large one were all slivers.
+TEST(Gate, TheNumberOfSliversIsThatOfOneRepetition) {
+  const auto slivers = [](int one, int other) {
+    std::vector<RunRow> rows = {run(0), run(0)};
+    change(rows[0], [one](Json& m, Json&, Json&) {
+      m["tetrahedra"] = 10;
+      m["tetrahedra_below_5_degrees"] = one;
+    });
+    change(rows[1], [other](Json& m, Json&, Json&) { m["tetrahedra_below_5_degrees"] = other; });
+    return rows;
+  };
+  const auto found = [](const std::vector<RunRow>& base, const std::vector<RunRow>& fresh) {
+    const GateReport report = compare_campaigns(base, fresh);
+    return std::ranges::count_if(report.findings,
+                                 [](const auto& f) { return f.kind == FindingKind::slivers; });
+  };
+  EXPECT_EQ(found(slivers(2, 100), slivers(4, 100)), 0);
+  EXPECT_EQ(found(slivers(2, 1000), slivers(4, 1006)), 1);
+}
+
 // Wherever among the repetitions the worst of a measure is.
 TEST(Gate, OfRepetitionsTheWorstOfEveryOtherMeasureCounts) {
   const std::vector<RunRow> base = campaign(1);
