@@ -19,7 +19,8 @@
 namespace delmesher::io {
 namespace {
 
-constexpr std::string_view kModelType = "/3dmodel", kUsualModel = "3D/3dmodel.model";
+constexpr std::string_view kModelType = "/3dmanufacturing/2013/01/3dmodel",
+                           kUsualModel = "3D/3dmodel.model";
 constexpr std::string_view kNamespaces = "http://schemas.microsoft.com/3dmanufacturing/";
 // What PrusaSlicer tells of the objects of its only model, beside it.
 constexpr const char* kSlicerConfig = "Metadata/Slic3r_PE_model.config";
@@ -385,7 +386,10 @@ class Package {
         XmlTags tags(text, polling_);
         while (tags.next()) {
           if (tags.name() != "Relationship" || !target.empty()) continue;
-          if (!tags.attribute("Type").value_or("").ends_with(kModelType)) continue;
+          if (!tags.attribute("Type").value_or("").ends_with(kModelType) ||
+              tags.attribute("TargetMode").value_or("") == "External") {
+            continue;
+          }
           target = xml_text(tags.attribute("Target").value_or(""));
         }
         return 0;

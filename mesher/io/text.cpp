@@ -89,14 +89,16 @@ void append_utf8(std::string& out, std::uint32_t code) {
   byte(0x80U | (code & 0x3fU));
 }
 
+std::string latin1_in_utf8(std::string_view text) {
+  std::string converted;
+  for (const char c : text) append_utf8(converted, static_cast<unsigned char>(c));
+  return converted;
+}
+
 std::string as_utf8(std::string_view text) {
   for (std::string_view rest = text; !rest.empty();) {
     const std::size_t size = size_of_utf8(rest);
-    if (size == 0) {
-      std::string converted;
-      for (const char c : text) append_utf8(converted, static_cast<unsigned char>(c));
-      return converted;
-    }
+    if (size == 0) return latin1_in_utf8(text);
     rest.remove_prefix(size);
   }
   return std::string(text);

@@ -40,6 +40,8 @@ std::string in_quotes(std::string_view token);
 
 // Appends a character by its number.
 void append_utf8(std::string& out, std::uint32_t code);
+// Latin-1 in UTF-8.
+std::string latin1_in_utf8(std::string_view text);
 // The text itself if it is in UTF-8; else what it is in Latin-1, in UTF-8. Characters that XML
 // cannot have (U+FFFE, U+FFFF) count as no UTF-8.
 std::string as_utf8(std::string_view text);

@@ -30,6 +30,12 @@ bool has_two_integers(const XmlTags& tags) {
 }  // namespace
 
 VtuArrays::VtuArrays(std::string_view text, Polling& polling) : text_(text), polling_(polling) {
+  const std::string_view encoding = xml_encoding(text);
+  in_latin1_ = equal_ignoring_case(encoding, "ISO-8859-1");
+  if (!in_latin1_ && !encoding.empty() && !equal_ignoring_case(encoding, "UTF-8") &&
+      !equal_ignoring_case(encoding, "US-ASCII")) {
+    fail_at_line(1, "text in " + in_quotes(encoding) + ": convert it to UTF-8 first");
+  }
   XmlTags tags(text, polling);
   std::string section;
   std::uint64_t pieces = 0;
@@ -61,11 +67,16 @@ void VtuArrays::read_file_tag(const XmlTags& tags) {
   if (value_of(tags, "type") != "UnstructuredGrid") tags.fail("not an unstructured grid");
   compressor_ = value_of(tags, "compressor");
   big_endian_ = value_of(tags, "byte_order") == "BigEndian";
-  if (value_of(tags, "header_type") == "UInt64") header_size_ = sizeof(std::uint64_t);
+  const std::string_view header = value_of(tags, "header_type");
+  if (!header.empty() && header != "UInt32" && header != "UInt64") {
+    tags.fail("sizes of arrays as " + in_quotes(header) + " are not read");
+  }
+  if (header == "UInt64") header_size_ = sizeof(std::uint64_t);
 }
 
 void VtuArrays::read_array_tag(const XmlTags& tags, const std::string& section) {
   const std::string_view format = value_of(tags, "format"), name = value_of(tags, "Name");
+  if (tags.attribute("TimeStep")) tags.fail("arrays of steps in time are not read");
   Array array;
   array.line = tags.line_at(tags.begin());
   array.type = value_of(tags, "type");
@@ -90,7 +101,7 @@ void VtuArrays::read_array_tag(const XmlTags& tags, const std::string& section) 
               " are not read: save without compression, or with zlib");
   }
   if (field) {
-    fields_.emplace_back(xml_text(name), std::move(array));
+    fields_.emplace_back(xml_text(in_latin1_ ? latin1_in_utf8(name) : name), std::move(array));
     return;
   }
   const std::string key = section == "Points" ? section : section + " " + std::string(name);

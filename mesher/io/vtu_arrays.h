@@ -2,6 +2,7 @@
 // in base 64, compressed with zlib, and appended after the grid.
 #pragma once
 
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -118,7 +119,7 @@ class VtuArrays {
   std::map<std::string, Array> arrays_;
   std::vector<std::pair<std::string, Array>> fields_;  // of two integers, by name
   std::string compressor_;
-  bool big_endian_ = false;
+  bool big_endian_ = false, in_latin1_ = false;
   std::size_t header_size_ = sizeof(std::uint32_t);  // of each number before an array's bytes
   std::string_view appended_;                        // after the '_'
   bool appended_in_base64_ = false;
@@ -134,11 +135,17 @@ void VtuArrays::each_in_text(const Array& array, const Take& take) const {
     const std::uint64_t line = array.line + lines.line() - 1;
     T value{};
     if constexpr (std::is_floating_point_v<T>) {
-      const NumberStatus status = parse_double(token, value);
-      if (status == NumberStatus::malformed) fail_at_line(line, "bad number " + in_quotes(token));
-      if (status == NumberStatus::not_finite) {
-        fail_at_line(line, "non-finite number " + in_quotes(token));
+      double number = 0;
+      if (parse_double(token, number) == NumberStatus::malformed) {
+        fail_at_line(line, "bad number " + in_quotes(token));
       }
+      value = static_cast<T>(number);
+      // Not rounded twice, as programs read such numbers at once.
+      if constexpr (std::is_same_v<T, float>) {
+        token.remove_prefix(token.starts_with('+') ? 1 : 0);
+        std::from_chars(token.data(), token.data() + token.size(), value);
+      }
+      if (!std::isfinite(value)) fail_at_line(line, "non-finite number " + in_quotes(token));
     } else if (!parse_integer(token, value)) {
       fail_at_line(line, "bad number " + in_quotes(token));
     }
@@ -157,6 +164,7 @@ bool VtuArrays::each_number(const std::string& key, const Take& take) const {
 template <class Take>
 void VtuArrays::each_number_in(const Array& array, bool real, const Take& take) const {
   if (!array.binary && !array.offset) {
+    if (array.type == "Float32") return each_in_text<float>(array, take);
     return real || array.type.starts_with("Float") ? each_in_text<double>(array, take)
                                                    : each_in_text<std::int64_t>(array, take);
   }

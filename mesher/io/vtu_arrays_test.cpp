@@ -71,6 +71,56 @@ TEST(Vtu, SaysWhatIsNotReadAndWhere) {
   EXPECT_EQ(parse_mesh(other, "a.vtu").error, "a.vtu:19: an array of type 'Int32  '");
 }
 
+// Just above the middle of two floats: as a double it is the middle, which is rounded to even.
+TEST(Vtu, FloatsInTextAreNotRoundedTwice) {
+  const auto text = [](const char* type) {
+    return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"4\" "
+           "NumberOfCells=\"1\"><Points><DataArray type=\"" +
+           std::string(type) +
+           "\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 +1.000000059604644775390626 0 0 0 "
+           "0.1 "
+           "0 0 0 1</DataArray></Points><Cells><DataArray type=\"Int64\" Name=\"connectivity\" "
+           "format=\"ascii\">0 1 2 3</DataArray><DataArray type=\"Int64\" Name=\"offsets\" "
+           "format=\"ascii\">4</DataArray><DataArray type=\"UInt8\" Name=\"types\" "
+           "format=\"ascii\">10</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+  };
+  const MeshReadResult single = parse_mesh(text("Float32"), "a.vtu");
+  ASSERT_TRUE(single.ok()) << single.error;
+  EXPECT_EQ(single.mesh.vertices[1][0], 0x1.000002p0);
+  EXPECT_EQ(single.mesh.vertices[2][1], static_cast<double>(0.1F));
+  const MeshReadResult wide = parse_mesh(text("Float64"), "a.vtu");
+  ASSERT_TRUE(wide.ok()) << wide.error;
+  EXPECT_EQ(wide.mesh.vertices[1][0], 0x1.000001p0);
+  EXPECT_EQ(wide.mesh.vertices[2][1], 0.1);
+  EXPECT_NE(error_of(text("Float32"), "0.1", "1e39").find("non-finite number '1e39'"),
+            std::string::npos);
+}
+
+TEST(Vtu, WhatOthersReadInAnotherWayIsRefused) {
+  const std::string all = grid(kWays[1]);
+  EXPECT_EQ(error_of(all, "\"UInt64\"", "\"UInt16\""),
+            "a.vtu:3: sizes of arrays as 'UInt16' are not read");
+  EXPECT_NE(
+      error_of(all, "Name=\"Points\"", "Name=\"Points\" TimeStep=\"0\"").find("steps in time"),
+      std::string::npos);
+}
+
+TEST(Vtu, NamesAreInTheEncodingThatIsDeclared) {
+  const auto name_of = [](const std::string& declared, const std::string& name) {
+    std::string text = grid(kWays[0]);
+    text.replace(text.find("in &lt; out"), 11, name);
+    text.replace(text.find("\"1.0\""), 5, "\"1.0\"" + declared);
+    const MeshReadResult read = parse_mesh(text, "a.vtu");
+    return read.ok() ? read.names.at(-7) : read.error;
+  };
+  EXPECT_EQ(name_of("", "\xc3\xbc"), "\xc3\xbc");
+  EXPECT_EQ(name_of(" encoding='utf-8'", "\xc3\xbc"), "\xc3\xbc");
+  EXPECT_EQ(name_of(" encoding=\"ISO-8859-1\"", "\xc3\xbc&#xfc;"), "\xc3\x83\xc2\xbc\xc3\xbc");
+  EXPECT_EQ(name_of(" encoding=\"koi8-r\"", "a"),
+            "a.vtu:1: text in 'koi8-r': convert it to UTF-8 first");
+  EXPECT_EQ(name_of("", "&#xfffe;"), "&#xfffe;");
+}
+
 TEST(Vtu, ABlockThatIsDamagedIsRefused) {
   const std::string packed = grid(kWays[6]);
   const std::string mark = "offset=\"";

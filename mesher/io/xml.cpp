@@ -40,7 +40,8 @@ bool append_reference(std::string& out, std::string_view reference) {
   const char* const last = reference.data() + reference.size();
   const auto [end, error] = std::from_chars(reference.data(), last, code, hexadecimal ? 16 : 10);
   if (error != std::errc() || end != last || code == 0 || code > 0x10ffff) return false;
-  if (code >= 0xd800 && code < 0xe000) return false;  // half of a UTF-16 character
+  if (code >= 0xd800 && code < 0xe000) return false;   // half of a UTF-16 character
+  if (code == 0xfffe || code == 0xffff) return false;  // no characters of XML
   append_utf8(out, code);
   return true;
 }
@@ -135,6 +136,16 @@ std::optional<std::string_view> XmlTags::attribute(std::string_view name) const 
 
 std::string_view XmlTags::text_after() const {
   return text_.substr(end_, std::min(text_.find('<', end_), text_.size()) - end_);
+}
+
+std::string_view xml_encoding(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  if (!text.starts_with("<?xml")) return {};
+  text = text.substr(0, text.find("?>"));
+  const std::size_t name = text.find("encoding");
+  if (name == std::string_view::npos) return {};
+  text.remove_prefix(std::min(text.find_first_of("\"'", name), text.size()));
+  return text.empty() ? text : text.substr(1, text.find(text.front(), 1) - 1);
 }
 
 std::string xml_text(std::string_view text) {

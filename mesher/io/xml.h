@@ -61,6 +61,9 @@ class XmlTags {
   bool is_end_ = false, alone_ = false;
 };
 
+// How the text's declaration says that it is encoded; empty if it says nothing.
+std::string_view xml_encoding(std::string_view text);
+
 // Text with its references to characters replaced ("&lt;", "&#8364;"); other references stay.
 std::string xml_text(std::string_view text);
 
