@@ -147,6 +147,19 @@ std::string maybe_with_gz(const std::string& path) {
   return !std::filesystem::exists(path) && std::filesystem::exists(packed) ? packed : path;
 }
 
+ReadError::ReadError(const std::string& text)
+    : std::runtime_error([&] {
+        constexpr std::size_t kMost = 1000;
+        std::string line = text.size() > kMost ? text.substr(0, kMost) + "..." : text;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+          const auto c = static_cast<unsigned char>(line[i]);
+          const bool in_utf8 = i > 0 && line[i - 1] == '\xc2' && c >= 0x80 && c < 0xa0;
+          if (c < ' ' || c == 0x7f || in_utf8) line[i] = '?';
+          if (in_utf8) line[i - 1] = '?';
+        }
+        return line;
+      }()) {}
+
 struct TextReader::Source {
   explicit Source(const std::string& path) : stream(path) {}
   FileStream stream;
@@ -260,8 +273,8 @@ namespace {
 
 // Of digits without a sign that are a number beyond the range of doubles: is it too small, and not
 // too large? The first digit that is no zero decides, as doubles reach about as far both ways.
-bool underflows(std::string_view digits, bool hexadecimal) {
-  const std::size_t mark = std::min(digits.find_first_of(hexadecimal ? "pP" : "eE"), digits.size());
+bool underflows(std::string_view digits) {
+  const std::size_t mark = std::min(digits.find_first_of("eE"), digits.size());
   const std::string_view mantissa = digits.substr(0, mark);
   const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
   const std::size_t first = std::min(mantissa.find_first_not_of("0."), mantissa.size());
@@ -272,7 +285,7 @@ bool underflows(std::string_view digits, bool hexadecimal) {
   const auto [end, error] =
       std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
   if (error == std::errc::result_out_of_range) return exponent.starts_with('-');
-  return power + (hexadecimal ? 4 : 1) * place < 0;
+  return power + place < 0;
 }
 
 // Does a double hold all of these hexadecimal digits, with a point and an exponent perhaps?
@@ -322,20 +335,25 @@ double TextReader::number() {
   std::string_view digits = text;
   const bool negative = digits.starts_with('-');
   if (negative || digits.starts_with('+')) digits.remove_prefix(1);
-  const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
-  if (hexadecimal) digits.remove_prefix(2);
   double value = 0;
-  const auto [end, error] =
-      std::from_chars(digits.data(), digits.data() + digits.size(), value,
-                      hexadecimal ? std::chars_format::hex : std::chars_format::general);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   // from_chars leaves the value alone if it is out of range. A number that underflows is zero; all
   // others are refused.
-  const bool underflow = error == std::errc::result_out_of_range && underflows(digits, hexadecimal);
+  const bool underflow = error == std::errc::result_out_of_range && underflows(digits);
   if ((error != std::errc() && !underflow) || end != digits.data() + digits.size() ||
       digits.starts_with('-')) {
     fail(quoted(text) + " is no number");
   }
   return negative ? -value : value;
+}
+
+float TextReader::single() {
+  const auto of_double = static_cast<float>(number());
+  std::string_view text = text_.substr(kept_, at_ - kept_);  // of that number
+  if (text.starts_with('+')) text.remove_prefix(1);
+  float value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() ? value : of_double;
 }
 
 void TextReader::expect(const std::string& wanted) {

@@ -14,7 +14,8 @@ namespace tetproof::oracles {
 
 // "file:line: reason"; thrown by the readers, caught at their entry points.
 struct ReadError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  // Of one line: what stands in a file may hold anything. Cut off after 1000 bytes.
+  explicit ReadError(const std::string& text);
 };
 
 // The whole contents of a file, unpacked if it is compressed with gzip. Throws ReadError, also if
@@ -87,7 +88,8 @@ class TextReader {
     return value;
   }
 
-  double number();  // decimal or hexadecimal ("0x1.8p3"), exact to the nearest
+  double number();  // decimal, the nearest double
+  float single();   // decimal, the nearest float
   // Hexadecimal, finite, and with no more digits than a double holds.
   double exact_number();
   std::int64_t integer();

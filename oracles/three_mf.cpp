@@ -8,6 +8,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -171,7 +172,10 @@ class ModelReader {
       for (const XmlElement& relation : relations.children) {
         const std::string *type = relation.attribute("Type"),
                           *target = relation.attribute("Target");
-        if (type != nullptr && target != nullptr && type->ends_with("/3dmodel")) return *target;
+        if (type == nullptr || target == nullptr || relation.value("TargetMode") == "External") {
+          continue;
+        }
+        if (type->ends_with("/3dmanufacturing/2013/01/3dmodel")) return *target;
       }
     }
     return "3D/3dmodel.model";
@@ -182,8 +186,20 @@ class ModelReader {
     if (model == parts_.end()) {
       const std::string text = archive_.contents(name);
       model = parts_.emplace(name, read_xml(path_ + ", " + name, text)).first;
+      check_extensions(model->second);
     }
     return model->second;
+  }
+  // A model says what has to be understood of it.
+  void check_extensions(const XmlElement& model) const {
+    std::istringstream required(model.value("requiredextensions"));
+    for (std::string prefix; required >> prefix;) {
+      const std::string* space = model.attribute("xmlns:" + prefix);
+      if (space == nullptr ||
+          !(space->ends_with("/production/2015/06") || space->ends_with("/material/2015/02"))) {
+        fail("the model requires the extension " + prefix);
+      }
+    }
   }
   // Of the names in a part, up to the colon.
   std::string prefix(const std::string& name) {

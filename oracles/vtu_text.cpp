@@ -13,6 +13,7 @@
 namespace tetproof::oracles {
 
 VtuText::VtuText(std::string path, std::string_view text) : path_(std::move(path)), text_(text) {
+  if (text.starts_with("\xfe\xff") || text.starts_with("\xff\xfe")) fail("text in UTF-16");
   std::size_t end;
   file_ = read_xml_until(path_, text, "AppendedData", end);
   if (file_.name != "VTKFile" || file_.value("type") != "UnstructuredGrid") {
@@ -23,6 +24,10 @@ VtuText::VtuText(std::string path, std::string_view text) : path_(std::move(path
   const std::string order = file_.value("byte_order");
   if (!order.empty() && order != "LittleEndian" && order != "BigEndian") {
     fail("no byte order " + order);
+  }
+  const std::string header = file_.value("header_type");
+  if (!header.empty() && header != "UInt32" && header != "UInt64") {
+    fail("sizes of arrays of type " + header);
   }
   grid_ = &only(file_, "UnstructuredGrid");
   piece_ = &only(*grid_, "Piece");
@@ -58,9 +63,9 @@ bool may_hold(const std::string& parent, const std::string& element) {
   if (element == "Points" || element == "Cells" || element == "CellData") return parent == "Piece";
   if (element == "FieldData") return parent == "UnstructuredGrid" || parent == "Piece";
   if (parent == "DataArray") return element == "InformationKey";
+  if (parent == "Points" || parent == "Cells") return element == "DataArray";
   if (element != "DataArray") return element != "VTKFile";
-  return parent == "Points" || parent == "Cells" || parent == "CellData" || parent == "PointData" ||
-         parent == "FieldData";
+  return parent == "CellData" || parent == "PointData" || parent == "FieldData";
 }
 
 }  // namespace
@@ -69,6 +74,10 @@ void VtuText::check(const XmlElement& element) {
   for (const XmlElement& child : element.children) {
     if (!may_hold(element.name, child.name)) {
       fail("<" + child.name + "> is at another place than readers look for it");
+    }
+    // VTK takes an array of a step in the place of the others.
+    if (child.attribute("TimeStep") != nullptr || child.attribute("TimeValues") != nullptr) {
+      fail("steps in time");
     }
     if (child.name == "DataArray" && child.value("format") == "appended") {
       offsets_.insert(offset_of(child));
@@ -283,10 +292,13 @@ std::vector<double> VtuText::values(const XmlElement& array) const {
     if (!decode(text, bytes)) fail("an array that is not in base 64");
     return binary_values(type, bytes, false);
   }
+  if (!fits(type, 0)) fail("an array of type " + type);
   TextReader reader(path_, text, '\0');
-  while (!reader.at_end()) values.push_back(reader.number());
-  if (type == "Float32") {  // which is what readers make of them
-    for (double& value : values) value = static_cast<float>(value);
+  const bool real = type == "Float64", is_single = type == "Float32";
+  while (!reader.at_end()) {
+    values.push_back(real        ? reader.number()
+                     : is_single ? reader.single()
+                                 : static_cast<double>(reader.integer()));
   }
   const bool fit = std::ranges::all_of(values, [&](double value) { return fits(type, value); });
   if (!fit) fail("an array of type " + type + " with a value that is none of these");
@@ -300,21 +312,22 @@ std::vector<double> VtuText::array(const std::string& section, const std::string
   const std::string wanted = section == "Points" ? "3" : "1";
   const std::string what = "the array " + name + (name.empty() ? "" : " ") + "of " + section;
   bool found = false;
-  for (const XmlElement* array : arrays->all("DataArray")) {
-    const std::string called = array->value("Name");
+  for (const XmlElement& array : arrays->children) {
+    const std::string called = array.value("Name");
     // It could be this one all the same.
     if (!name.empty() && called.empty()) fail("an array of " + section + " without a name");
     if (!name.empty() && called != name) continue;
+    if (array.name != "DataArray") fail(what + " is an element " + array.name);
     if (std::exchange(found, true)) fail(what + " is there twice");
-    const std::string components = array->value("NumberOfComponents");
+    const std::string components = array.value("NumberOfComponents");
     if (components != wanted && !(components.empty() && wanted == "1")) {
       fail(what + " has \"" + components + "\" components, not " + wanted);
     }
-    if (section == "Cells" && array->value("type").starts_with("Float")) {
+    if (section == "Cells" && array.value("type").starts_with("Float")) {
       fail(what + " is of numbers that are no integers");
     }
-    result = values(*array);
-    const std::string tuples = array->value("NumberOfTuples");
+    result = values(array);
+    const std::string tuples = array.value("NumberOfTuples");
     if (!tuples.empty() && tuples != std::to_string(result.size() / std::stoul(wanted))) {
       fail(what + " has not " + tuples + " tuples");
     }

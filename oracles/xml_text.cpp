@@ -3,7 +3,9 @@
 #include <expat.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -15,8 +17,8 @@ namespace {
 
 class XmlReader {
  public:
-  XmlReader(const std::string& name, std::string_view last)
-      : name_(name), last_(last), parser_(XML_ParserCreate(nullptr)) {
+  XmlReader(const std::string& name, std::string_view last, std::uint64_t most)
+      : name_(name), last_(last), most_(most), parser_(XML_ParserCreate(nullptr)) {
     if (parser_ == nullptr) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
     XML_SetElementHandler(
@@ -33,7 +35,7 @@ class XmlReader {
 
   // Returns where the XML ends.
   std::size_t read(std::string_view text) {
-    constexpr std::size_t kPiece = 1U << 20U;  // sizes are int
+    constexpr std::size_t kPiece = 1U << 30U;  // of int; what is cut is read from its start again
     for (std::size_t at = 0;; at += kPiece) {
       const std::string_view piece = text.substr(at, kPiece);
       const bool is_last = text.size() - at <= kPiece;
@@ -69,6 +71,7 @@ class XmlReader {
 
   void begin(const char* name, const char** attributes) {
     if (open_.size() == 64) fail("elements within elements, 64 deep");
+    if (++elements_ > most_) fail("more than a million elements");
     XmlElement& element =
         open_.empty() ? top_ : open_.back()->children.emplace_back();  // never moved while open
     element.name = name;
@@ -100,6 +103,7 @@ class XmlReader {
 
   const std::string& name_;
   std::string_view last_;
+  std::uint64_t most_, elements_ = 0;
   std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
   XmlElement top_;
   std::vector<XmlElement*> open_;
@@ -128,15 +132,16 @@ std::vector<const XmlElement*> XmlElement::all(const std::string& wanted) const 
 }
 
 XmlElement read_xml(const std::string& name, std::string_view text) {
-  std::size_t end;
-  return read_xml_until(name, text, {}, end);
+  XmlReader reader(name, {}, std::numeric_limits<std::uint64_t>::max());
+  reader.read(text);
+  return reader.take();
 }
 
 XmlElement read_xml_until(const std::string& name, std::string_view text, std::string_view last,
                           std::size_t& end) {
-  XmlReader parser(name, last);
-  end = parser.read(text);
-  return parser.take();
+  XmlReader reader(name, last, 1000000);
+  end = reader.read(text);
+  return reader.take();
 }
 
 }  // namespace tetproof::oracles

@@ -30,6 +30,7 @@ XmlElement read_xml(const std::string& name, std::string_view text);
 
 // The same, but the text ends behind the start of the first element `last` in the top element, and
 // bytes that are no XML may follow: they begin at `end`, the size of the text if there is none.
+// More than a million elements are refused.
 XmlElement read_xml_until(const std::string& name, std::string_view text, std::string_view last,
                           std::size_t& end);
 
