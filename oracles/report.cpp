@@ -91,7 +91,8 @@ std::string to_json(const VerifyReport& report) {
     for (const auto& [name, bins] : oracle.histograms) entry["histograms"][name] = bins;
     json["oracles"].push_back(entry);
   }
-  return json.dump(2) + "\n";
+  // Names of files, and in them, need not be UTF-8.
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 namespace {

@@ -99,7 +99,7 @@ void compare_names(const SetNames& names_wanted, const SetNames& found, int dime
     // Names that differ in blanks alone are different ones for delmesher.
     if (name == right || name == plain(wanted, dimension, number)) continue;
     const auto called = [](const std::string& text) {
-      return text.empty() ? std::string("without a name") : "called \"" + text + "\"";
+      return text.empty() ? std::string("without a name") : "called \"" + in_utf8(text) + "\"";
     };
     report.fail(std::string(dimension == 2 ? "label " : "region ") + std::to_string(number) +
                 " is " + called(name) + ", and was " + called(right));

@@ -150,12 +150,17 @@ std::string maybe_with_gz(const std::string& path) {
 ReadError::ReadError(const std::string& text)
     : std::runtime_error([&] {
         constexpr std::size_t kMost = 1000;
-        std::string line = text.size() > kMost ? text.substr(0, kMost) + "..." : text;
+        const auto follows = [&text](std::size_t i) { return (text[i] & 0xc0) == 0x80; };
+        std::size_t size = std::min(kMost, text.size());
+        while (size > 0 && size < text.size() && follows(size)) --size;  // not within a character
+        std::string line = size < text.size() ? text.substr(0, size) + "..." : text;
         for (std::size_t i = 0; i < line.size(); ++i) {
           const auto c = static_cast<unsigned char>(line[i]);
-          const bool in_utf8 = i > 0 && line[i - 1] == '\xc2' && c >= 0x80 && c < 0xa0;
-          if (c < ' ' || c == 0x7f || in_utf8) line[i] = '?';
-          if (in_utf8) line[i - 1] = '?';
+          const unsigned before = i > 0 ? static_cast<unsigned char>(line[i - 1]) : 0U;
+          // Of the second set, alone or as a character of UTF-8.
+          const bool control = c >= 0x80 && c < 0xa0 && (before < 0x80 || before == 0xc2);
+          if (c < ' ' || c == 0x7f || control) line[i] = '?';
+          if (control && before == 0xc2) line[i - 1] = '?';
         }
         return line;
       }()) {}
@@ -348,12 +353,14 @@ double TextReader::number() {
 }
 
 float TextReader::single() {
-  const auto of_double = static_cast<float>(number());
+  const double nearest = number();
   std::string_view text = text_.substr(kept_, at_ - kept_);  // of that number
   if (text.starts_with('+')) text.remove_prefix(1);
   float value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() ? value : of_double;
+  if (error == std::errc()) return value;
+  if (std::fabs(nearest) > 1) fail(quoted(text) + " is beyond single precision");
+  return static_cast<float>(nearest);
 }
 
 void TextReader::expect(const std::string& wanted) {

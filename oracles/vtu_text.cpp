@@ -278,9 +278,8 @@ std::vector<double> VtuText::values(const XmlElement& array) const {
   const std::size_t inner = text.find('<');
   if (inner != std::string_view::npos) {
     // Readers differ in what they take of an array with comments in it, or of its second half.
-    const std::string_view rest = text.substr(text.rfind('>') + 1);
-    if (text.find("<!") != std::string_view::npos || text.find("<?") != std::string_view::npos ||
-        rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
+    if (array.has_text_behind_child || text.find("<!") != std::string_view::npos ||
+        text.find("<?") != std::string_view::npos) {
       fail("an array with more in it than its values");
     }
     text = text.substr(0, inner);
@@ -339,18 +338,20 @@ std::vector<double> VtuText::array(const std::string& section, const std::string
   return result;
 }
 
-// Arrays that tell no name are passed over, whatever they hold.
+// Of those that have two integers; others than a number and a dimension tell no name.
 SetNames VtuText::names() const {
   SetNames names;
   for (const XmlElement* holder : {grid_, piece_}) {
     for (const XmlElement* field : holder->all("FieldData")) {
       for (const XmlElement* array : field->all("DataArray")) {
-        if (array->value("NumberOfTuples") != "2" || array->value("format") != "ascii" ||
-            !array->value("type").starts_with("Int")) {
+        const std::string type = array->value("type");
+        if (array->value("NumberOfTuples") != "2" ||
+            (!type.starts_with("Int") && !type.starts_with("UInt"))) {
           continue;
         }
         const std::vector<double> told = values(*array);
         if (told.size() != 2 || (told[1] != 2 && told[1] != 3)) continue;
+        if (!(std::fabs(told[0]) < 0x1p53)) continue;
         std::string& name = names[{static_cast<int>(told[1]), integer(told[0])}];
         name += (name.empty() ? "" : " and ") + array->value("Name");
       }

@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -27,6 +28,13 @@ class XmlReader {
           of(self).guarded([&](XmlReader& p) { p.begin(element, attributes); });
         },
         [](void* self, const char*) { of(self).finish(); });
+    XML_SetCharacterDataHandler(parser_.get(), [](void* self, const char* text, int size) {
+      XmlReader& reader = of(self);
+      if (reader.open_.empty() || reader.open_.back()->children.empty()) return;
+      const std::string_view behind(text, static_cast<std::size_t>(size));
+      if (behind.find_first_not_of(" \t\r\n") == std::string_view::npos) return;
+      reader.open_.back()->has_text_behind_child = true;
+    });
     XML_SetStartDoctypeDeclHandler(
         parser_.get(), [](void* self, const char*, const char*, const char*, int) {
           of(self).guarded([](XmlReader& p) { p.fail("a document type, which is not read"); });
@@ -35,7 +43,8 @@ class XmlReader {
 
   // Returns where the XML ends.
   std::size_t read(std::string_view text) {
-    constexpr std::size_t kPiece = 1U << 30U;  // of int; what is cut is read from its start again
+    // Expat has a copy of a piece, whose size is an int; what is cut is read from its start again.
+    constexpr std::size_t kPiece = 1U << 26U;
     for (std::size_t at = 0;; at += kPiece) {
       const std::string_view piece = text.substr(at, kPiece);
       const bool is_last = text.size() - at <= kPiece;
@@ -43,7 +52,11 @@ class XmlReader {
           XML_Parse(parser_.get(), piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0);
       if (error_ != nullptr) std::rethrow_exception(error_);
       if (end_ != 0) return end_;
-      if (status != XML_STATUS_OK) fail(XML_ErrorString(XML_GetErrorCode(parser_.get())));
+      if (status != XML_STATUS_OK) {
+        const XML_Error code = XML_GetErrorCode(parser_.get());
+        if (code == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
+        fail(XML_ErrorString(code));
+      }
       if (is_last) return text.size();
     }
   }
@@ -88,6 +101,7 @@ class XmlReader {
   }
 
   void finish() {
+    if (error_ != nullptr) return;  // perhaps of an element that was not begun
     open_.back()->end = std::max(open_.back()->begin, position());  // <a/> has one tag
     open_.pop_back();
   }

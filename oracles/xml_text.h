@@ -14,6 +14,7 @@ struct XmlElement {
   std::map<std::string, std::string> attributes;
   std::vector<XmlElement> children;
   std::size_t begin = 0, end = 0;  // the bytes between its tags
+  bool has_text_behind_child = false;
 
   // nullptr if there is none of that name.
   const std::string* attribute(const std::string& key) const;
@@ -25,7 +26,7 @@ struct XmlElement {
 
 // The element of which a text consists; `name` stands for it in messages. Comments and instructions
 // say nothing. Throws ReadError, with the line: also where there is a document type, which could
-// define entities, and where elements are 64 deep.
+// define entities, and where elements are more than 64 deep.
 XmlElement read_xml(const std::string& name, std::string_view text);
 
 // The same, but the text ends behind the start of the first element `last` in the top element, and

@@ -76,6 +76,7 @@ class Meshed {
   int verify(const std::string& mesh, bool with_record) const {
     std::vector<std::string> arguments = {"verify", input_, mesh, "--promised", promise_};
     if (with_record) arguments.insert(arguments.end(), {"--exact", path("in.exact")});
+    if (!with_record) arguments.emplace_back("--json");
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
     testing::internal::CaptureStdout();
@@ -253,6 +254,8 @@ const Lie kLies[] = {
     {"vtu", "values in a marked section", "(Name=\"label\"[^>]*>)([^<]*)<", "$1<![CDATA[$2]]><"},
     {"vtu", "values behind an element", "(Name=\"label\"[^>]*>)([^<]*)<",
      "$1$2<InformationKey/>0\n<"},
+    {"vtu", "values between elements", "(Name=\"label\"[^>]*>)([^<]*)<",
+     "$1$2<InformationKey/>0\n<InformationKey/><"},
     {"vtu", "a document type", "<VTKFile", "<!DOCTYPE VTKFile><VTKFile"},
     {"vtu", "an attribute twice", "Name=\"label\"", "Name=\"label\" Name=\"label\""},
     {"vtu", "elements that do not nest", "</Piece>\n</UnstructuredGrid>",
@@ -464,6 +467,7 @@ TEST(FileLies, NamesInLatin1BecomeUtf8) {
     tell(model, {of, "the other name in UTF-8 again", "\xc3\xa9t", "\xc3\x83\xc2\xa9t", 0, 1});
   }
   tell(model, {"vtu", "in Latin-1", "\xc3\x9f", "\xdf"});
+  tell(model, {"msh", "in Latin-1 with a letter more", "\xc3\x9f", "\xdf!", 0, 1});
 }
 
 // Some readers make numbers of 4 bytes of all coordinates of such a file.

@@ -109,7 +109,7 @@ std::vector<GivenName> given_names(const NamedMesh& named) {
 
 LabelNames distinct_names(LabelNames names) {
   std::set<std::string> given, used;
-  for (const auto& [number, name] : names) given.insert(name);
+  for (auto& [number, name] : names) given.insert(name = as_utf8(name));
   std::map<std::string, int> next;  // number of a name
   for (auto& [number, name] : names) {
     const std::string first = name;

@@ -14,7 +14,7 @@ LabelNames parse_names(std::string_view text) {
     std::int32_t label = 0;
     const Position here = at_line(in.line());
     if (!parse_integer(token, label)) fail(here, "no label: " + in_quotes(token));
-    const std::string name(in.rest_of_line());
+    const std::string name = as_utf8(in.rest_of_line());
     if (name.empty()) fail(here, "label " + std::to_string(label) + " has no name");
     if (!names.try_emplace(label, name).second) {
       fail(here, "label " + std::to_string(label) + " is named twice");

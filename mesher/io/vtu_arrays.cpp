@@ -34,7 +34,7 @@ VtuArrays::VtuArrays(std::string_view text, Polling& polling) : text_(text), pol
   in_latin1_ = equal_ignoring_case(encoding, "ISO-8859-1");
   if (!in_latin1_ && !encoding.empty() && !equal_ignoring_case(encoding, "UTF-8") &&
       !equal_ignoring_case(encoding, "US-ASCII")) {
-    fail_at_line(1, "text in " + in_quotes(encoding) + ": convert it to UTF-8 first");
+    fail_at_line(1, "text in " + in_quotes(encoding) + " is not read: save it as UTF-8");
   }
   XmlTags tags(text, polling);
   std::string section;

@@ -117,7 +117,7 @@ TEST(Vtu, NamesAreInTheEncodingThatIsDeclared) {
   EXPECT_EQ(name_of(" encoding='utf-8'", "\xc3\xbc"), "\xc3\xbc");
   EXPECT_EQ(name_of(" encoding=\"ISO-8859-1\"", "\xc3\xbc&#xfc;"), "\xc3\x83\xc2\xbc\xc3\xbc");
   EXPECT_EQ(name_of(" encoding=\"koi8-r\"", "a"),
-            "a.vtu:1: text in 'koi8-r': convert it to UTF-8 first");
+            "a.vtu:1: text in 'koi8-r' is not read: save it as UTF-8");
   EXPECT_EQ(name_of("", "&#xfffe;"), "&#xfffe;");
 }
 

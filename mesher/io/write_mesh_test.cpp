@@ -211,6 +211,7 @@ TEST_F(WriteMesh, LabelNamesAreRead) {
   EXPECT_EQ(read("one a\n").error, path("names.txt") + ":1: no label: 'one'");
   EXPECT_EQ(read("1 a\n1 b\n").error, path("names.txt") + ":2: label 1 is named twice");
   EXPECT_FALSE(read_label_names(path("none.txt")).ok());
+  EXPECT_EQ(read("1 caf\xe9\n").names.at(1), "caf\xc3\xa9");
 }
 
 TEST(DistinctNames, EndInNumbersThatAreFree) {
@@ -219,6 +220,9 @@ TEST(DistinctNames, EndInNumbersThatAreFree) {
       {1, "wall"}, {2, "wall 2"}, {3, "wall 3"}, {4, "inlet"}, {9, "wall 4"}};
   EXPECT_EQ(distinct_names(names), distinct);
   EXPECT_EQ(distinct_names(distinct), distinct);
+  // One of them in Latin-1.
+  EXPECT_EQ(distinct_names({{1, "caf\xe9"}, {2, "caf\xc3\xa9"}}),
+            (LabelNames{{1, "caf\xc3\xa9"}, {2, "caf\xc3\xa9 2"}}));
 }
 
 // Programs find sets by their names: each label has one of its own.

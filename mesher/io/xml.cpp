@@ -140,8 +140,8 @@ std::string_view XmlTags::text_after() const {
 
 std::string_view xml_encoding(std::string_view text) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  if (!text.starts_with("<?xml")) return {};
-  text = text.substr(0, text.find("?>"));
+  if (!text.starts_with("<?xml ")) return {};
+  text = text.substr(0, std::min(text.find('>'), text.size()));
   const std::size_t name = text.find("encoding");
   if (name == std::string_view::npos) return {};
   text.remove_prefix(std::min(text.find_first_of("\"'", name), text.size()));

@@ -127,12 +127,71 @@ TEST(TextReader, FloatsAreNotRoundedTwice) {
   EXPECT_EQ(TextReader("file", "1.000000059604644775390626").single(), 0x1.000002p0F);
   EXPECT_EQ(TextReader("file", "-1.000000059604644775390625").single(), -1.0F);
   EXPECT_EQ(TextReader("file", "+1e-50").single(), 0.0F);
-  EXPECT_THROW(TextReader("file", "0x1").single(), ReadError);
+  for (const char* text : {"0x1", "1e39", "-1e39", "1e400"}) {
+    EXPECT_THROW(TextReader("file", text).single(), ReadError) << text;
+  }
 }
 
 TEST(ReadError, IsOneLineOfWhatCanBePrinted) {
   EXPECT_STREQ(ReadError("a\nb\tc\x7f\xc2\x9b \xc3\xa9").what(), "a?b?c??? \xc3\xa9");
-  EXPECT_LT(std::string(ReadError(std::string(5000, 'x')).what()).size(), 1100U);
+  EXPECT_STREQ(ReadError("a\x9b z\xe2\x80\x94").what(), "a? z\xe2\x80\x94");
+  std::string long_text = "x";
+  for (int i = 0; i < 700; ++i) long_text += "\xc3\xa9";
+  EXPECT_EQ(ReadError(long_text).what(), long_text.substr(0, 999) + "...");
+}
+
+// Expat is given pieces of 64 MiB.
+TEST(VtuText, IsReadByPieces) {
+  const std::string comment = "<!--" + std::string((1U << 26U) - 4, 'x') + "-->";
+  const std::string text =
+      "<VTKFile type=\"UnstructuredGrid\">" + comment +
+      "<UnstructuredGrid><Piece NumberOfPoints=\"1\" NumberOfCells=\"0\"><Points><DataArray "
+      "type=\"Float64\" NumberOfComponents=\"3\" format=\"appended\" "
+      "offset=\"0\"/></Points></Piece>"
+      "</UnstructuredGrid><AppendedData "
+      "encoding=\"base64\">_GAAAAAAAAAAAAPA/AAAAAAAAAEAAAAAAAAAIQA=="
+      "</AppendedData></VTKFile>";
+  const std::string file = text.substr(0, 9) + "byte_order=\"LittleEndian\" " + text.substr(9);
+  EXPECT_EQ(VtuText("file", file).array("Points", ""), (std::vector<double>{1, 2, 3}));
+}
+
+TEST(VtuText, ElementsMayBe64Deep) {
+  const auto text = [](int depth) {
+    std::string begin =
+                    "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece "
+                    "NumberOfPoints=\"0\" NumberOfCells=\"0\"/></UnstructuredGrid>",
+                end = "</VTKFile>";
+    for (int i = 1; i < depth; ++i) {
+      begin += "<a>";
+      end = "</a>" + end;
+    }
+    return begin + end;
+  };
+  VtuText("file", text(64));
+  EXPECT_THROW(VtuText("file", text(65)), ReadError);
+}
+
+TEST(VtuText, NamesAreInArraysOfTwoIntegers) {
+  const auto names = [](const std::string& array) {
+    const std::string text =
+        "<VTKFile type=\"UnstructuredGrid\" "
+        "byte_order=\"LittleEndian\"><UnstructuredGrid><FieldData>" +
+        array +
+        "</FieldData><Piece NumberOfPoints=\"0\" "
+        "NumberOfCells=\"0\"/></UnstructuredGrid></VTKFile>";
+    return VtuText("file", text).names();
+  };
+  const SetNames a = {{{2, 5}, "a"}}, none;
+  const std::string two = " NumberOfTuples=\"2\" Name=\"a\" ";
+  EXPECT_EQ(names("<DataArray type=\"Int64\"" + two + "format=\"ascii\">5 2</DataArray>"), a);
+  EXPECT_EQ(names("<DataArray type=\"UInt8\"" + two + "format=\"ascii\">5 2</DataArray>"), a);
+  EXPECT_EQ(
+      names("<DataArray type=\"Int32\"" + two + "format=\"binary\">CAAAAAUAAAACAAAA</DataArray>"),
+      a);
+  EXPECT_EQ(names("<DataArray type=\"Int64\"" + two +
+                  "format=\"ascii\">1234567890123456789 2</DataArray>"),
+            none);
+  EXPECT_EQ(names("<DataArray type=\"Float64\"" + two + "format=\"ascii\">5 2</DataArray>"), none);
 }
 
 TEST(VtuText, RefusesAMillionElements) {
