@@ -380,9 +380,7 @@ class FileChecker {
     if (regions.empty() || (file_.attributes.empty() && !file_.has_attributes)) return;
     if (file_.attributes.size() != file_.triangles.size()) {
       const std::string why = "the file does not have the attributes of the regions";
-      if (recorded_) sides_.fail(why);
-      if (!recorded_) sides_.notes.push_back(why);
-      return;
+      return recorded_ ? sides_.fail(why) : sides_.notes.push_back(why);
     }
     UnionFind parts(file_.triangles.size());
     for (const auto& [edge, t] : left_of_) {

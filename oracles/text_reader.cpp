@@ -28,6 +28,22 @@ std::string quoted(std::string_view word) {
   return text + "\"";
 }
 
+// Of what may hold anything, whole characters of UTF-8, if it is that, of its first 1000 bytes.
+std::string one_line(const std::string& text) {
+  std::size_t size = std::min<std::size_t>(1000, text.size());
+  while (size > 0 && size < text.size() && (text[size] & 0xc0) == 0x80) --size;
+  std::string line = size < text.size() ? text.substr(0, size) + "..." : text;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto c = static_cast<unsigned char>(line[i]);
+    const unsigned before = i > 0 ? static_cast<unsigned char>(line[i - 1]) : 0U;
+    // Of the second set, alone or as a character of UTF-8.
+    const bool control = c >= 0x80 && c < 0xa0 && (before < 0x80 || before == 0xc2);
+    if (c < ' ' || c == 0x7f || control) line[i] = '?';
+    if (control && before == 0xc2) line[i - 1] = '?';
+  }
+  return line;
+}
+
 // A file in pieces; what is compressed with gzip unpacked, which its first bytes tell. zlib's own
 // reader of files would pass over what follows the compressed data.
 class FileStream {
@@ -147,23 +163,7 @@ std::string maybe_with_gz(const std::string& path) {
   return !std::filesystem::exists(path) && std::filesystem::exists(packed) ? packed : path;
 }
 
-ReadError::ReadError(const std::string& text)
-    : std::runtime_error([&] {
-        constexpr std::size_t kMost = 1000;
-        const auto follows = [&text](std::size_t i) { return (text[i] & 0xc0) == 0x80; };
-        std::size_t size = std::min(kMost, text.size());
-        while (size > 0 && size < text.size() && follows(size)) --size;  // not within a character
-        std::string line = size < text.size() ? text.substr(0, size) + "..." : text;
-        for (std::size_t i = 0; i < line.size(); ++i) {
-          const auto c = static_cast<unsigned char>(line[i]);
-          const unsigned before = i > 0 ? static_cast<unsigned char>(line[i - 1]) : 0U;
-          // Of the second set, alone or as a character of UTF-8.
-          const bool control = c >= 0x80 && c < 0xa0 && (before < 0x80 || before == 0xc2);
-          if (c < ' ' || c == 0x7f || control) line[i] = '?';
-          if (control && before == 0xc2) line[i - 1] = '?';
-        }
-        return line;
-      }()) {}
+ReadError::ReadError(const std::string& text) : std::runtime_error(one_line(text)) {}
 
 struct TextReader::Source {
   explicit Source(const std::string& path) : stream(path) {}

@@ -33,11 +33,11 @@ char lower(char c) {
 constexpr std::array<std::array<std::size_t, 2>, 6> kEdges = {
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
-// In one line, and in UTF-8: a program could have given other bytes.
+// In one line.
 std::string name_of(const LabelNames& names, std::int32_t number, const char* unnamed) {
   const auto found = names.find(number);
   if (found == names.end()) return unnamed + std::to_string(number);
-  std::string name = as_utf8(found->second);
+  std::string name = found->second;
   for (char& c : name) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
   }

@@ -68,7 +68,8 @@ struct GivenName {
 };
 std::vector<GivenName> given_names(const NamedMesh& named);
 
-// The same names, but of equal ones all but the first end in a number: programs find sets by them.
+// The same names in UTF-8 (a program may have given other bytes), and of equal ones all but the
+// first end in a number: programs find sets by them.
 LabelNames distinct_names(LabelNames names);
 
 // Names for formats that take letters, digits and '_' alone: other characters become '_', the first
