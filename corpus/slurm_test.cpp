@@ -1,4 +1,4 @@
-// The job array with made-up sbatch and squeue; `ci/campaign_check --slurm` has the real ones.
+// The job array with made-up sbatch and squeue; `ci/full/campaign_check --slurm` has the real ones.
 #include "corpus/slurm.h"
 
 #include <gtest/gtest.h>
