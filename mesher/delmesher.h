@@ -49,7 +49,7 @@ struct Options : Limits {
   // Fewer and better tetrahedra on the same surface, by local operations (section 8.3).
   bool improve = true;
   // Treat slivers in the refinement (section 5.7). The improvement then has less to mend, and ends
-  // with rounder tetrahedra and better worst ones, for a tenth more of them (improve/README.md).
+  // with rounder tetrahedra and better worst ones, for a tenth more of them (docs/options.md).
   bool slivers = true;
   bool approximate = false;      // stop before the enriched CDT (section 6)
   bool simplify_bridges = true;  // section 4.4

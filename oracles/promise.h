@@ -15,7 +15,7 @@ namespace tetproof::oracles {
 
 enum class Task : std::uint8_t { mesh, cdt, plane, improve };
 
-// Options of delmesher as README.md documents them, with its defaults.
+// Options of delmesher as docs/options.md documents them, with its defaults.
 struct Promise {
   static constexpr double kPlanarAuto = -1;
 
