@@ -25,13 +25,14 @@ valarray variant vector version""".split())
 # (mesher/delmesher/). The stages never include each other, nor a header of the root. What stands between stages
 # (enrich), what they share in a run (run), what is told of all of them (results) and what is decided about them
 # (policies) knows those before; only the drivers (pipeline.cpp, plane_pipeline.cpp) know all.
-FOUNDATION = ("base", "arithmetic", "predicates", "surface", "delaunay")
+FOUNDATION = ("base", "arithmetic", "predicates", "geometry", "surface", "delaunay")
 LAYERS = {
     "base": (),
     "arithmetic": ("base",),
     "predicates": ("base", "arithmetic"),
-    "surface": ("base", "arithmetic", "predicates"),
-    "delaunay": ("base", "arithmetic", "predicates"),
+    "geometry": ("base", "arithmetic", "predicates"),
+    "surface": ("base", "arithmetic", "predicates", "geometry"),
+    "delaunay": ("base", "arithmetic", "predicates", "geometry"),
     "chamfer": FOUNDATION,
     "refine": FOUNDATION,
     "cdt": FOUNDATION,
@@ -42,8 +43,8 @@ LAYERS = {
     "run": FOUNDATION + ("plane",),
     "results": FOUNDATION + ("chamfer", "refine", "cdt", "improve", "output", "plane", "run"),
     "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "plane", "run", "results"),
-    "io": ("base", "arithmetic", "predicates"),
-    "cli": ("base", "arithmetic", "predicates", "io"),
+    "io": ("base", "arithmetic", "predicates", "geometry"),
+    "cli": ("base", "arithmetic", "predicates", "geometry", "io"),
 }
 # Folders that are namespaces under delmesher; the public types and the tables of their names are in delmesher itself.
 NAMESPACES = tuple(LAYERS)

@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "fuzz/properties.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/rational_reference.h"
-#include "mesher/predicates/vector.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
 namespace {
 
-using namespace delmesher::predicates;
+using namespace delmesher::geometry;
 
 Leniency no_bound("infinite-error-bound", 0.01);
 

@@ -11,10 +11,10 @@
 #include "mesher/chamfer/filter.h"
 #include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/enrich/enrichment.h"
+#include "mesher/geometry/box_tree.h"
 #include "mesher/improve/improve.h"
 #include "mesher/improve/mesh_in_order.h"
 #include "mesher/improve/quality.h"
-#include "mesher/predicates/box_tree.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {
@@ -109,7 +109,7 @@ Finding kept_is_apart(const FeatureSizes& sizes,
 // are so coarse that they might lie on facets.
 void add_volume_points(const Surface& surface, Random& random, Stages& s,
                        delmesher::cdt::CdtInput& input) {
-  delmesher::predicates::Box box;
+  delmesher::geometry::Box box;
   for (const auto& p : surface.vertices) box.extend({p, p});
   for (std::size_t i = 0; i < 3; ++i) {
     const double largest = std::max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));

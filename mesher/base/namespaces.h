@@ -13,11 +13,14 @@ namespace predicates {
 using namespace base;        // NOLINT(google-build-using-namespace)
 using namespace arithmetic;  // NOLINT(google-build-using-namespace)
 }  // namespace predicates
-namespace surface {
+namespace geometry {
 using namespace predicates;  // NOLINT(google-build-using-namespace): and the folders that it sees
 }
+namespace surface {
+using namespace geometry;  // NOLINT(google-build-using-namespace)
+}
 namespace delaunay {
-using namespace predicates;  // NOLINT(google-build-using-namespace)
+using namespace geometry;  // NOLINT(google-build-using-namespace)
 }
 
 // The folders that all stages share.
@@ -60,10 +63,10 @@ using namespace run;         // NOLINT(google-build-using-namespace)
 using namespace results;     // NOLINT(google-build-using-namespace)
 }  // namespace policies
 namespace io {
-using namespace predicates;  // NOLINT(google-build-using-namespace)
+using namespace geometry;  // NOLINT(google-build-using-namespace)
 }
 namespace cli {
-using namespace predicates;  // NOLINT(google-build-using-namespace)
+using namespace geometry;  // NOLINT(google-build-using-namespace)
 }
 
 }  // namespace delmesher

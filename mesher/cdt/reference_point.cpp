@@ -1,7 +1,7 @@
 #include "mesher/cdt/reference_point.h"
 
 #include "mesher/base/epoch.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::cdt {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/exact_point.h"
-#include "mesher/predicates/vector.h"
 
 namespace delmesher::cdt {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::cdt {
 namespace {

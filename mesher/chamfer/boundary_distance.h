@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesher/chamfer/kept_surface.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 
 namespace delmesher::chamfer {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "mesher/base/check.h"
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 
 namespace delmesher::chamfer {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::chamfer {
 

@@ -7,7 +7,7 @@
 
 #include "mesher/chamfer/boundary_distance.h"
 #include "mesher/chamfer/closest.h"
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 
 namespace delmesher::chamfer {
 

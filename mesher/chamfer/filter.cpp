@@ -11,7 +11,7 @@
 #include "mesher/chamfer/closest.h"
 #include "mesher/chamfer/facet_set.h"
 #include "mesher/chamfer/filter_chamfered.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 
 namespace delmesher::chamfer {
 

@@ -5,7 +5,7 @@
 
 #include "mesher/base/parallel.h"
 #include "mesher/chamfer/closest.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 
 namespace delmesher::chamfer {
 

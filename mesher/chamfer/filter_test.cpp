@@ -10,7 +10,7 @@
 #include "mesher/chamfer/test_model.h"
 #include "mesher/chamfer/test_plc_angles.h"
 #include "mesher/chamfer/test_polyhedra.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/surface/feature_size.h"
 
 namespace delmesher::chamfer {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/points.h"
-#include "mesher/predicates/vector.h"
 #include "mesher/surface/topology.h"
 
 namespace delmesher::chamfer {

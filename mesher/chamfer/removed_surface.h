@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/chamfer/chamfer.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 
 namespace delmesher::chamfer {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "mesher/base/disjoint_sets.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::cli {
 namespace {

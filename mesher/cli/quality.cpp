@@ -8,7 +8,7 @@
 #include <span>
 
 #include "mesher/base/sort_unique.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::cli {
 namespace {

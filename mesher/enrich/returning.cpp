@@ -5,7 +5,7 @@
 
 #include "mesher/base/sort_unique.h"
 #include "mesher/enrich/enrichment.h"
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 #include "mesher/surface/facet_locator.h"
 #include "mesher/surface/feature_size.h"
 

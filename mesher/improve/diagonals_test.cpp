@@ -10,7 +10,7 @@
 
 #include "mesher/cdt/model_reference.h"
 #include "mesher/cdt/test_models.h"
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 #include "mesher/surface/flatness.h"
 #include "mesher/surface/test_surfaces.h"
 

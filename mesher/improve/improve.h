@@ -9,9 +9,9 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher/run.h"
+#include "mesher/geometry/size_field.h"
 #include "mesher/improve/work_mesh.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/predicates/size_field.h"
 #include "mesher/surface/surface_face.h"
 #include "mesher/surface/topology.h"
 

@@ -46,7 +46,7 @@ bool Insertion::run_on_surface(TetId t) {
   const Tet v = state_.mesh.tet(t);
   const auto middle_of = [&](std::span<const int> corners) {
     Vec3 sum{};
-    for (const int k : corners) sum = predicates::add(sum, state_.position(v[k]));
+    for (const int k : corners) sum = geometry::add(sum, state_.position(v[k]));
     for (double& x : sum) x /= static_cast<double>(corners.size());
     return sum;
   };
@@ -212,7 +212,7 @@ Vec3 Insertion::middle(TetId t) const {
   Vec3 sum{};
   double count = 0;
   const auto take = [&](VertexId v) {
-    sum = predicates::add(sum, state_.position(v));
+    sum = geometry::add(sum, state_.position(v));
     ++count;
   };
   for (int i = 0; i < 4; ++i) {

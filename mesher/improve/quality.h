@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "mesher/base/ids.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::improve {
 

@@ -259,7 +259,7 @@ TEST(Cone, KnowsItsAverages) {
       cone.add(a, b, c, n != 0);
       squared += squared_norm(subtract(b, a)) + squared_norm(subtract(c, b)) +
                  squared_norm(subtract(a, c));
-      if (n != 0) apex = predicates::add(apex, best_apex(a, b, c));
+      if (n != 0) apex = geometry::add(apex, best_apex(a, b, c));
     }
     cone.finish();
     EXPECT_NEAR(cone.average_squared_edge(), squared / static_cast<double>(3 * size), 1e-12);

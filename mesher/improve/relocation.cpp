@@ -81,7 +81,7 @@ bool Relocation::tile(FacetId facet) {
   for (const Face& face : old_faces_) {
     if (state_.mesh.facet(face.tet, face.face) != facet) continue;
     fan.push_back(face);
-    normal = predicates::add(normal, state_.face_normal(face.tet, face.face));
+    normal = geometry::add(normal, state_.face_normal(face.tet, face.face));
   }
   std::vector<VertexId> polygon = outline(fan);
   if (polygon.empty()) return false;
@@ -147,7 +147,7 @@ bool Relocation::find_place(Vec3& best) const {
   for (const TetId t : star_) {
     for (const VertexId w : state_.mesh.tet(t)) {
       if (w == v_) continue;
-      centre = predicates::add(centre, subtract(state_.position(w), at));
+      centre = geometry::add(centre, subtract(state_.position(w), at));
       longest = std::max(longest, distance(state_.position(w), at));
       ++count;
     }

@@ -46,7 +46,7 @@ void Smoothing::find_center() {
   double neighbours = 0;
   center_ = {0, 0, 0};
   const auto take = [&](VertexId w) {
-    center_ = predicates::add(center_, state_.position(w));
+    center_ = geometry::add(center_, state_.position(w));
     ++neighbours;
   };
   for (std::size_t n = 0; n < star_.size(); ++n) {
@@ -79,7 +79,7 @@ bool Smoothing::find_axis() {
       if (!state_.mesh.inside(t)) continue;
       for (int k = 0; k < 4; ++k) {
         if (k == index_[n] || state_.mesh.facet(t, k) == kNone) continue;
-        axis_ = predicates::add(axis_, state_.face_normal(t, k));
+        axis_ = geometry::add(axis_, state_.face_normal(t, k));
       }
     }
   }
@@ -187,7 +187,7 @@ bool Smoothing::round_off(VertexId v) {
   // Beyond the average first, since its neighbours will follow.
   for (const double step : {1.5, 1.0, 0.5, 0.25}) {
     const Vec3 offset = {step * direction[0], step * direction[1], step * direction[2]};
-    const double sum = roundness_at(predicates::add(x, offset), least);
+    const double sum = roundness_at(geometry::add(x, offset), least);
     if (sum > before * kLeastGain) return commit(v, offset, least, before);
     // Where the whole way is possible and gains little, a part of it seldom gains more.
     if (sum > 0 && step <= 1) return false;

@@ -5,7 +5,7 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/sort_unique.h"
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 #include "mesher/predicates/signs_of_doubles.h"
 #include "mesher/surface/given_place.h"
 

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "mesher/geometry/size_field.h"
 #include "mesher/improve/quality.h"
 #include "mesher/improve/work_mesh.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/predicates/size_field.h"
 #include "mesher/surface/facet_locator.h"
 #include "mesher/surface/topology.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/signs_of_doubles.h"
-#include "mesher/predicates/vector.h"
 
 namespace delmesher::io {
 namespace {

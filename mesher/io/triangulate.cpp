@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/geometry/vector.h"
 #include "mesher/io/hole_links.h"
 #include "mesher/predicates/signs_of_doubles.h"
-#include "mesher/predicates/vector.h"
 
 namespace delmesher::io {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/face_key.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/signs_of_doubles.h"
-#include "mesher/predicates/vector.h"
 
 namespace delmesher::output {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher/run.h"
-#include "mesher/predicates/local_frame.h"
+#include "mesher/geometry/local_frame.h"
 #include "mesher/predicates/points.h"
 
 namespace delmesher::output {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::output {
 

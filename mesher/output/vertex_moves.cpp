@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::output {
 namespace {

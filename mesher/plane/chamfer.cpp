@@ -6,8 +6,8 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/epoch.h"
+#include "mesher/geometry/placement.h"
 #include "mesher/plane/line.h"
-#include "mesher/predicates/placement.h"
 #include "mesher/predicates/predicates.h"
 
 namespace delmesher::plane {

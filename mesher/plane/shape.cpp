@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::plane {
 namespace {

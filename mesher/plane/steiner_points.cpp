@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 
 namespace delmesher::plane {
 namespace {

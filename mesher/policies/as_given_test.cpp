@@ -7,8 +7,8 @@
 
 #include "mesher/cdt/cdt_reference.h"
 #include "mesher/cdt/test_models.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/policies/planes.h"
-#include "mesher/predicates/vector.h"
 #include "mesher/surface/test_surfaces.h"
 
 namespace delmesher::policies {

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "mesher/base/sort_unique.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/signs_of_doubles.h"
-#include "mesher/predicates/vector.h"
 
 namespace delmesher::policies {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/cdt/cdt.h"
-#include "mesher/predicates/local_frame.h"
+#include "mesher/geometry/local_frame.h"
 #include "mesher/predicates/predicates.h"
 
 namespace delmesher::policies {

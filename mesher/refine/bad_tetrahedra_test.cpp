@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/refine/test_complexes.h"
 #include "mesher/refine/tetrahedron_shape.h"
 

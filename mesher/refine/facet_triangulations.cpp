@@ -6,7 +6,7 @@
 #include "mesher/base/check.h"
 #include "mesher/base/numbering.h"
 #include "mesher/base/sort_unique.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/refine/facet_boundary.h"
 
 namespace delmesher::refine {

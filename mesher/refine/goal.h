@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "mesher/geometry/size_field.h"
 #include "mesher/predicates/points.h"
-#include "mesher/predicates/size_field.h"
 
 namespace delmesher::refine {
 

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "mesher/base/flat_map.h"
-#include "mesher/predicates/box_tree.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/box_tree.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::refine {
 namespace {

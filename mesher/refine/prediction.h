@@ -10,7 +10,7 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher/run.h"
-#include "mesher/predicates/size_field.h"
+#include "mesher/geometry/size_field.h"
 #include "mesher/surface/plc.h"
 #include "mesher/surface/topology.h"
 

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "mesher/delaunay/tetrahedrization.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/refine/prediction.h"
 #include "mesher/refine/refiner.h"
 #include "mesher/refine/test_complexes.h"

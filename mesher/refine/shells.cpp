@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::refine {
 

@@ -5,7 +5,7 @@
 
 #include "mesher/base/check.h"
 #include "mesher/base/parallel.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::refine {
 namespace {

@@ -13,7 +13,7 @@
 
 #include <span>
 
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 #include "mesher/refine/notes.h"
 #include "mesher/refine/subfacets.h"
 #include "mesher/surface/solid.h"

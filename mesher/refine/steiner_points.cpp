@@ -6,7 +6,7 @@
 
 #include "mesher/arithmetic/bounded.h"
 #include "mesher/base/check.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/refine/tetrahedron_shape.h"
 
 namespace delmesher::refine {

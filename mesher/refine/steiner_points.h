@@ -11,7 +11,7 @@
 //  - a point in the volume has short coordinates.
 #pragma once
 
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/refine/goal.h"
 #include "mesher/refine/refine.h"

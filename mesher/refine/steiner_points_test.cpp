@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/polynomials.h"
-#include "mesher/predicates/vector.h"
 #include "mesher/refine/test_complexes.h"
 #include "mesher/refine/tetrahedron_shape.h"
 

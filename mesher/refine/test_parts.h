@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/refine/cavity_constraints.h"
 #include "mesher/refine/subfacets.h"
 #include "mesher/refine/subsegments.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 #include "mesher/predicates/stages.h"
 
 namespace delmesher::refine {

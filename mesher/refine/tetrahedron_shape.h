@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "mesher/delaunay/tetrahedrization.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::refine {
 

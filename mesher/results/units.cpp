@@ -12,7 +12,7 @@ constexpr int kOrdinary = 64;
 // Coordinates in small units must not become subnormal in the given ones.
 constexpr int kSmallest = -700;
 
-using predicates::LocalFrame;
+using geometry::LocalFrame;
 using Point = std::array<double, 3>;
 
 void scale(Point& p, int exponent) {

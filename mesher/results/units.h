@@ -1,16 +1,16 @@
 // Models of extreme size, or far from the origin. The stages work in doubles where they only steer;
 // lengths of about 1e-80 have fourth powers that underflow. So such models are meshed in units of a
 // power of two near their size, which is exact, and the result is given back in theirs. Surfaces
-// that are far from the origin are meshed beside it (predicates/local_frame.h).
+// that are far from the origin are meshed beside it (geometry/local_frame.h).
 #pragma once
 
 #include "mesher/delmesher.h"
-#include "mesher/predicates/local_frame.h"
+#include "mesher/geometry/local_frame.h"
 
 namespace delmesher::results {
 
 // The frame is in the units of the surface.
-using Task = Result(const Surface&, const Options&, const predicates::LocalFrame&);
+using Task = Result(const Surface&, const Options&, const geometry::LocalFrame&);
 using MeshTask = Result(const TetMesh&, const Options&);
 
 // Calls `task` with surface, or mesh, and options, in other units if the model's size calls for it

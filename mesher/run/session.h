@@ -6,9 +6,9 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher.h"
-#include "mesher/predicates/local_frame.h"
+#include "mesher/geometry/local_frame.h"
+#include "mesher/geometry/size_field.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/predicates/size_field.h"
 #include "mesher/surface/topology.h"
 
 namespace delmesher::run {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/surface/half_edges.h"
 
 namespace delmesher::surface {

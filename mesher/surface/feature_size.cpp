@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "mesher/predicates/box_tree.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/box_tree.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::surface {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/surface/edge_bends.h"
 #include "mesher/surface/planar_growth.h"
 #include "mesher/surface/resolution.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/base/control.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/half_edges.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/facet_laws.h"
 #include "mesher/surface/group_planes.h"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "mesher/base/control.h"
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/surface/flatness.h"
 #include "mesher/surface/group_planes.h"
 #include "mesher/surface/planar_growth.h"

@@ -9,8 +9,8 @@
 
 #include "mesher/base/control.h"
 #include "mesher/delmesher/surface.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/points.h"
-#include "mesher/predicates/vector.h"
 
 namespace delmesher::surface {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
 namespace delmesher::surface {
 namespace {

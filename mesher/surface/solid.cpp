@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "mesher/arithmetic/bounded.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 #include "mesher/predicates/exact_point.h"
 #include "mesher/surface/approximate_plane.h"
 #include "mesher/surface/tetrahedron_contact.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/topology.h"
 

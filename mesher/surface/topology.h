@@ -7,7 +7,7 @@
 
 #include "mesher/base/ids.h"
 #include "mesher/delmesher/surface.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 #include "mesher/predicates/predicates.h"
 #include "mesher/surface/planar_groups.h"
 

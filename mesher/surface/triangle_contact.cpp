@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 
 namespace delmesher::surface {
 namespace {

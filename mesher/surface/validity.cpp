@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "mesher/base/parallel.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/predicates.h"
-#include "mesher/predicates/vector.h"
 #include "mesher/surface/half_edges.h"
 #include "mesher/surface/nesting.h"
 #include "mesher/surface/triangle_contact.h"

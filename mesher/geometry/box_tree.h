@@ -12,7 +12,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 
 // A closed axis-parallel box. By default it contains nothing, which is neutral in extend().
 struct Box {
@@ -256,4 +256,4 @@ void ShrinkingBoxTree::visit_within(std::uint32_t n, const Box& query, double bo
   }
 }
 
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

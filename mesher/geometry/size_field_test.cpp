@@ -1,4 +1,4 @@
-#include "mesher/predicates/size_field.h"
+#include "mesher/geometry/size_field.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 namespace {
 
 // On a coarse grid, so that sources coincide and edges run through them.
@@ -104,4 +104,4 @@ TEST(SizeField, AllowsAnythingFarFromItsSources) {
 }
 
 }  // namespace
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

@@ -9,7 +9,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 
 struct Vec2 {
   double x = 0, y = 0;
@@ -83,4 +83,4 @@ inline Vec3 times_power_of_two(const Vec3& a, int exponent) {
   return {std::ldexp(a[0], exponent), std::ldexp(a[1], exponent), std::ldexp(a[2], exponent)};
 }
 
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

@@ -1,4 +1,4 @@
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,10 +7,10 @@
 
 #include "mesher/arithmetic/dyadic.h"
 #include "mesher/base/check.h"
+#include "mesher/geometry/vector.h"
 #include "mesher/predicates/stages.h"
-#include "mesher/predicates/vector.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 namespace {
 
 // The smallest number with at most `bits` significant bits that is not below x > 0.
@@ -182,4 +182,4 @@ Vec3 snap_to_grid(const Vec3& point, double tolerance) {
   return result;
 }
 
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

@@ -6,7 +6,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 
 // Where a model is far from the origin, few doubles lie in it: none, perhaps, in a circumball whose
 // tetrahedron is to be split. So its vertices are moved to the origin, which is exact, and meshed
@@ -27,4 +27,4 @@ struct LocalFrame {
   }
 };
 
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

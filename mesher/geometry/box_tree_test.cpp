@@ -1,4 +1,4 @@
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 namespace {
 
 // Small boxes with integer corners, so that ties and touching boxes are frequent.
@@ -118,4 +118,4 @@ TEST(BoxTrees, HugeBoxesAreSplit) {
 }
 
 }  // namespace
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

@@ -1,4 +1,4 @@
-#include "mesher/predicates/placement.h"
+#include "mesher/geometry/placement.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "mesher/predicates/predicates.h"
 #include "mesher/predicates/rational_reference.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 namespace {
 
 using families::Random;
@@ -364,4 +364,4 @@ TEST(PlaceOnTriangle, ScalesByTheDifferencesOfCorners) {
 }
 
 }  // namespace
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "mesher/delmesher/size_source.h"
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 
 // At x an edge may be as long as the smallest of size + growth |x - point| over all sources.
 // Laws:
@@ -47,4 +47,4 @@ class SizeField {
   double growth_ = 0;
 };
 
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

@@ -1,11 +1,11 @@
-#include "mesher/predicates/size_field.h"
+#include "mesher/geometry/size_field.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mesher/predicates/vector.h"
+#include "mesher/geometry/vector.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 namespace {
 
 constexpr std::uint32_t kLeaf = 8;  // sources
@@ -13,9 +13,9 @@ constexpr std::uint32_t kLeaf = 8;  // sources
 constexpr double kSlack = 1 - 1e-9;
 
 double distance_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = predicates::subtract(b, a), from = predicates::subtract(p, a);
+  const Vec3 along = subtract(b, a), from = subtract(p, a);
   const double length2 = squared_norm(along);
-  const double t = length2 > 0 ? std::clamp(predicates::dot(from, along) / length2, 0.0, 1.0) : 0;
+  const double t = length2 > 0 ? std::clamp(dot(from, along) / length2, 0.0, 1.0) : 0;
   return norm(add_scaled(from, -t, along));
 }
 
@@ -37,7 +37,7 @@ std::uint32_t SizeField::build(std::uint32_t first, std::uint32_t end) {
   }
   nodes_.push_back(node);
   if (end - first <= kLeaf) return number;
-  const Vec3 extent = predicates::subtract(node.box.hi, node.box.lo);
+  const Vec3 extent = subtract(node.box.hi, node.box.lo);
   const auto axis =
       static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
   const std::uint32_t middle = first + (end - first) / 2;
@@ -91,4 +91,4 @@ bool SizeField::is_too_long(const Vec3& a, const Vec3& b) const {
   });
 }
 
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

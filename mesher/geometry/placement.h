@@ -3,7 +3,7 @@
 
 #include "mesher/predicates/points.h"
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 
 // The number with the fewest significant bits in the closed interval [lo, hi] (the one nearest to
 // zero among several). Requires lo <= hi, both finite.
@@ -28,4 +28,4 @@ PointDefinition place_on_triangle(const PointStore& points, VertexId p, VertexId
 // in the volume have short coordinates. Scales with the input: snapping commutes with 2^k.
 Vec3 snap_to_grid(const Vec3& point, double tolerance);
 
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry

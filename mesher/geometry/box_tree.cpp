@@ -1,8 +1,8 @@
-#include "mesher/predicates/box_tree.h"
+#include "mesher/geometry/box_tree.h"
 
 #include <numeric>
 
-namespace delmesher::predicates {
+namespace delmesher::geometry {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
@@ -105,4 +105,4 @@ void ShrinkingBoxTree::remove(std::uint32_t item) {
   }
 }
 
-}  // namespace delmesher::predicates
+}  // namespace delmesher::geometry
