@@ -43,8 +43,8 @@ struct CampaignSummary {
   double elapsed_seconds = 0;
   bool interrupted = false;
   std::size_t models_left_out = 0;  // not begun because of stop_after_seconds
-  // Their files had gone, or had other bytes, before a run or after it: says nothing of a mesher,
-  // so that no row is stored.
+  // Their files had gone, or had other bytes, before a run or after it: says nothing about a
+  // mesher, so that no row is stored.
   std::set<std::string> models_changed;
 };
 

@@ -412,7 +412,7 @@ TEST_F(CampaignTest, WhatCannotBeRunEndsTheCampaign) {
   EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
 }
 
-// A file that goes or changes says nothing of the mesher that was to read it.
+// A file that goes or changes says nothing about the mesher that was to read it.
 TEST_F(CampaignTest, AModelThatGoesOrChangesHasNoRow) {
   const std::vector<Model> found = models();
   fs::remove(found[0].path);

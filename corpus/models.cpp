@@ -26,8 +26,8 @@ bool is_surface_file(const fs::path& path) {
 }
 
 // Follows links to folders, but enters every folder once, whatever leads to it, so that a link to a
-// folder above is no cycle. Folders reached without links come first, so that names do not depend
-// on the links.
+// folder above is not a cycle. Folders reached without links come first, so that names do not
+// depend on the links.
 class Walk {
  public:
   std::vector<fs::path> files_in(const fs::path& folder) {

@@ -1,4 +1,4 @@
-// The generated families: our check agrees with their certificate, and twins are refused for the
+// The generated families: our check agrees with their certificate, and twins are rejected for the
 // right reason. TETPROOF_ITERATIONS widens the test.
 #include <gtest/gtest.h>
 
@@ -230,7 +230,7 @@ TEST(Regressions, ThinWallsEnd) {
   }
 }
 
-// Lengths whose fourth powers are no doubles.
+// Lengths whose fourth powers are not doubles.
 TEST(Scale, ExtremeSizesGiveTheSameMesh) {
   const Surface surface = *generate(*find_family("boolean_boxes"), 1, 0);
   const auto plain = delmesher::tetrahedralize(surface);

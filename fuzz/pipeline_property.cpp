@@ -16,7 +16,7 @@ using delmesher::StatusCode;
 using delmesher::Surface;
 using oracles::Stage;
 
-// A run that reaches this limit is no finding; a campaign is not the place for large meshes.
+// A run that reaches this limit is not a finding; a campaign is not the place for large meshes.
 constexpr std::uint64_t kMostVertices = 3000;
 constexpr std::uint64_t kFewVertices = 1000;
 
@@ -95,7 +95,7 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
   bool violated = false;
   for (const auto& oracle : report.oracles) violated = violated || oracle.violations > 0;
   // An oracle that had nothing to look at (for instance because the filter left no facet) makes the
-  // verdict of the refined stage "broken", but is no finding.
+  // verdict of the refined stage "broken", but is not a finding.
   if (!violated && !oracles::failed(report, wanted)) return {};
   if (stage == Stage::final && rounded_beyond_features(surface, report)) {
     within_roundings.take();
@@ -108,7 +108,7 @@ Finding verified(const Surface& surface, const Result& result, Stage stage, cons
   return {};
 }
 
-// Reaching the limit on vertices is no finding: it is counted by its cause, and features that
+// Reaching the limit on vertices is not a finding: it is counted by its cause, and features that
 // doubles can hardly tell apart take thousands of vertices by themselves. Stopping for want of
 // precision is a finding if there is room. No other limit was set.
 Finding at_limit(const Surface& surface, const delmesher::Status& status) {

@@ -20,7 +20,7 @@ using delmesher::PlaneResult;
 using delmesher::StatusCode;
 using Point = std::array<double, 2>;
 
-// A run that reaches this limit is no finding.
+// A run that reaches this limit is not a finding.
 constexpr std::uint64_t kMostVertices = 3000;
 
 Leniency too_many_vertices("stopped-at-3000-vertices", 0.05);
@@ -206,7 +206,7 @@ bool other_reason(const PlanarGraph& graph, const std::string& message) {
   return false;
 }
 
-// Limits are no findings: the limit on vertices, and that of precision where there is no room.
+// Limits are not findings: the limit on vertices, and that of precision where there is no room.
 Finding at_limit(const PlanarGraph& graph, const delmesher::Status& status) {
   switch (status.limit) {
     case delmesher::Limit::size:
@@ -266,7 +266,7 @@ void print(const PlanarGraph& graph, const Options& options) {
 
 Finding plane_holds(Bytes bytes) {
   judging({&too_many_vertices, &too_precise, &nothing_to_mesh, &no_numbers, &invalid_graph});
-  // Most graphs have one scale, so that they are meshed: others are refused, or stop among
+  // Most graphs have one scale, so that they are meshed: others are rejected, or stop among
   // thousands of vertices between one size and the other. And most have room between near features.
   const std::uint32_t scale = bytes.below(16);
   if (scale != 15) bytes.narrow(6);

@@ -16,7 +16,7 @@ Finding predicates_agree(Bytes bytes);
 // The same with meeting points of planes, and segments and triangles between them.
 Finding predicates_on_planes_agree(Bytes bytes);
 
-// A reader refuses in one line or delivers a surface that can be written and read back unchanged.
+// A reader rejects in one line or delivers a surface that can be written and read back unchanged.
 // `name` gives the format by its extension; of 3MF the text is the model, or the whole archive.
 Finding reader_holds(const std::string& text, const std::string& name);
 
@@ -64,10 +64,10 @@ Finding default_pipeline_holds(const delmesher::Surface& surface);
 // surfaces do, by counters.
 Finding complexity_holds(const delmesher::Surface& surface);
 
-// A planar graph is refused exactly if it is invalid; else its mesh passes the oracles.
+// A planar graph is rejected exactly if it is invalid; else its mesh passes the oracles.
 Finding plane_holds(Bytes bytes);
 
-// A reader of planar graphs refuses in one line or delivers a consistent graph. `name` gives the
+// A reader of planar graphs rejects in one line or delivers a consistent graph. `name` gives the
 // format by its extension.
 Finding plane_reader_holds(const std::string& text, const std::string& name);
 

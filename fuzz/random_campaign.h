@@ -20,7 +20,7 @@ struct RandomCampaign {
   // first finding ends.
   std::string findings;
   // Files, or folders of them, that half of the inputs are made from; with none, all come from the
-  // pool, where files that are refused for their first lines soon are alone.
+  // pool, where files that are rejected for their first lines soon are alone.
   std::vector<std::string> seeds;
   unsigned seconds_each = 120;  // an input that takes longer is a finding too
 };

@@ -1,7 +1,7 @@
 // Files that are not what their formats say: sections missing, twice, cut short or longer than they
 // announce, numbers that are none or wrap around, references to nothing, numbers for cells that the
-// format does not give. Another reader might take something else out of them, so each is refused or
-// fails, with a record and without. Those that a record alone shows are marked.
+// format does not give. Another reader might take something else out of them, so each is rejected
+// or fails, with a record and without. Those that a record alone shows are marked.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -202,7 +202,7 @@ TEST_F(Files, PackagesAreTheSameToBothReaders) {
                                "transform='0 1 0 1 0 0 0 0 3 5 0 0'/>")));
   ASSERT_EQ(run("mesh -q " + path("a.3mf") + " -o " + path("a.msh")), 0);
   EXPECT_EQ(verify({path("a.3mf"), path("a.msh")}), 0);
-  // Within it a modifier of PrusaSlicer, which is no hollow.
+  // Within it a modifier of PrusaSlicer, which is not a hollow.
   std::string with_modifier = kTet;
   with_modifier.insert(with_modifier.find("</vertices>"),
                        "<vertex x='.1' y='.1' z='.01'/><vertex x='.2' y='.1' z='.01'/>"
@@ -233,7 +233,7 @@ TEST_F(Files, WhatSaysNothingIsRefused) {
     return verify({path("in.off"), path(mesh), "--exact", path(exact)});
   };
   ASSERT_EQ(verified("out.mesh", "out.exact"), 0);
-  // No deviation is larger than nan, so that would let all pass. It is refused, as a negative one
+  // No deviation is larger than nan, so that would let all pass. It is rejected, as a negative one
   // is.
   for (const char* deviation : {"nan", "-1"}) {
     EXPECT_EQ(verify({path("in.off"), path("out.mesh"),
@@ -588,7 +588,7 @@ TEST_F(Files, VerifyOfThePlaneTellsInItsExitCode) {
   EXPECT_EQ(verify({in, path("o.svg"), "--promised", "plane"}), 3);
   write("coinciding.poly", "4 2\n0 0 0\n1 1 0\n2 0 1\n3 0 1\n3 0\n0 0 1\n1 1 2\n2 3 0\n0\n");
   EXPECT_EQ(verify({path("coinciding.poly"), mesh, "--promised", "plane"}), 4);
-  // Records cut short are refused; to try all lengths would take too long.
+  // Records cut short are rejected; to try all lengths would take too long.
   const std::string record = contents(exact);
   for (std::size_t size = 0; size + 1 < record.size(); size += 1 + size / 8) {
     write("o.exact", record.substr(0, size));

@@ -482,7 +482,7 @@ TEST(ImproveLies, OneRegionNeedsNoName) {
 }
 
 // Sides are words in one format, 1 and 0 in others, 1 and 2 in the rest; numbers of regions that
-// are no tags are names of groups in .msh. Files of each format are improved into each.
+// are not tags are names of groups in .msh. Files of each format are improved into each.
 class Formats {
  public:
   using Spoil = std::function<void(TetMesh&)>;

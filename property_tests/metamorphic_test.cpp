@@ -222,7 +222,7 @@ TEST_P(Metamorphic, OrientationFlipIsReportedAndGivesTheSameSolid) {
 }
 
 // Exchanges the diagonal of the first flat convex quadrilateral of two triangles whose other
-// diagonal is no edge yet.
+// diagonal is not an edge yet.
 Surface retriangulated(const Surface& surface, std::size_t& changed) {
   oracles::ExactPoints points;
   points.assign(surface.vertices);

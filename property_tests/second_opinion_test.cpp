@@ -192,7 +192,7 @@ TEST(SurfaceValidity, ThreeProgramsAgreeOnSurfacesThatMayOrMayNotCrossThemselves
 }
 
 #ifdef CGAL_DATA
-// Models that come with CGAL, valid or not. Files that are no surfaces are left out.
+// Models that come with CGAL, valid or not. Files that are not surfaces are left out.
 TEST(SurfaceValidity, ThreeProgramsAgreeOnCgalsModels) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(TETPROOF_SCRATCH) / "cgals_models";

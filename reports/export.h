@@ -31,7 +31,7 @@ std::string rows_to_json(std::vector<RunRow> rows, const ExportOptions& options 
 // also a refusal. Nothing is reported as skipped, so that no failure hides there.
 std::string rows_to_junit(std::vector<RunRow> rows);
 
-// \throw std::runtime_error if the text is no export in JSON.
+// \throw std::runtime_error if the text is not an export in JSON.
 std::vector<RunRow> rows_from_json(const std::string& text);
 
 // Rows of a results file or of an export in JSON, told apart by their first bytes.

@@ -90,8 +90,8 @@ bool is_verified(const RunRow& row);
 // are repetitions of one run: the least time and memory count, and the worst of all other measures.
 //
 // If the campaigns ran on different machines, times and memory are compared relative to the median
-// ratio over the pairs of a mesher, so that a slower machine is no regression. On the same machine
-// a single model is slower only if its ratio also stands out of the spread of all (4 robust
+// ratio over the pairs of a mesher, so that a slower machine is not a regression. On the same
+// machine a single model is slower only if its ratio also stands out of the spread of all (4 robust
 // deviations). All models together are slower if the mean of their ratios, each weighted by the
 // seconds of the base up to 1 s, is beyond total_time_factor; for short runs that is the ratio of
 // the sums. This limit is so narrow only if the two sides were measured in turn (at least base,

@@ -21,7 +21,7 @@ struct PoissonRun {
 
 // Solves it on the tetrahedra inside (all, if the file does not tell them apart), with a smooth
 // solution that is known and given on the boundary, preconditioned by the diagonal. The solution
-// has about half a wave along the diagonal of the bounding box, in a direction that is no axis.
+// has about half a wave along the diagonal of the bounding box, in a direction that is not an axis.
 // It is given up after 10 iterations per unknown (and 100), or `most_iterations`.
 PoissonRun solve_poisson(const oracles::MeshFile& mesh, unsigned most_iterations = 5000);
 

@@ -79,7 +79,7 @@ TEST(Shrink, KeepsTheOrderOfVertices) {
   EXPECT_EQ(small.vertices[0][2], std::floor(small.vertices[0][2]));  // simpler than it was
 }
 
-// What was not judged is no result, be it only without the vertices that no triangle has.
+// What was not judged is not a result, be it only without the vertices that no triangle has.
 TEST(Shrink, TheGivenSurfaceStaysIfNothingElseFails) {
   Surface surface = shapes::tetrahedron({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
   surface.vertices.push_back({5, 5, 5});

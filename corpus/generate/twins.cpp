@@ -48,7 +48,7 @@ std::optional<Surface> open(const Surface& surface, Random& random) {
 }
 
 // A triangle of no area between the two sides of an edge. Its third corner is the middle of the
-// edge, or an end if the middle is no double.
+// edge, or an end if the middle is not a double.
 std::optional<Surface> degenerate(const Surface& surface, Random& random) {
   Surface twin = surface;
   const auto t = random.below(twin.triangles.size());

@@ -1,4 +1,4 @@
-// A reader of meshes refuses in one line, or its mesh is read back as written, and improved or
+// A reader of meshes rejects in one line, or its mesh is read back as written, and improved or
 // refused. Compiled once per format.
 #include "fuzz/properties.h"
 

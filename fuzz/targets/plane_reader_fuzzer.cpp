@@ -1,4 +1,4 @@
-// A reader of planar graphs refuses in one line, or delivers a consistent graph. The first byte
+// A reader of planar graphs rejects in one line, or delivers a consistent graph. The first byte
 // chooses the format.
 #include "fuzz/properties.h"
 

@@ -1,4 +1,4 @@
-// A reader refuses in one line, or its surface can be written and read back. Compiled once per
+// A reader rejects in one line, or its surface can be written and read back. Compiled once per
 // format.
 #include "fuzz/properties.h"
 

@@ -23,7 +23,7 @@ inline std::array<VertexId, 3> directed_face(std::array<VertexId, 3> face) {
   return face;
 }
 
-// Of the face as seen from one side, in numbers of its vertices among `vertices`, which are
+// Key of the face as seen from one side, by the numbers of its vertices among `vertices`, which are
 // ascending and fewer than 2^21. Never ~0.
 inline std::uint64_t directed_face_key(std::array<VertexId, 3> face,
                                        std::span<const VertexId> vertices) {

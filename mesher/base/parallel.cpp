@@ -11,7 +11,7 @@
 namespace delmesher::base {
 namespace {
 
-// Thrown out of a chunk that is no longer wanted.
+// Thrown out of a chunk that is no longer needed.
 struct Unwanted {};
 
 }  // namespace

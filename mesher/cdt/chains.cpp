@@ -123,7 +123,7 @@ std::size_t Chains::validate_chain(std::uint32_t edge) const {
   return count;
 }
 
-// Of the node behind n: on the edge, and strictly between its neighbours.
+// The node behind n must lie on the edge, strictly between its neighbours.
 void Chains::validate_order(const ChainNode& n, Predicates& predicates) const {
   const ChainNode& v = nodes_[n.next];
   const std::array<VertexId, 2> end = topology_->edge_vertices(n.edge);

@@ -81,7 +81,7 @@ FaceHandle find_face(Tetrahedrization& mesh, const Chains& chains, std::array<Ve
 
 // Distance of two points given by their coordinates, without overflow or underflow of squares.
 double safe_distance(const Vec3& a, const Vec3& b);
-// Of points, also where their nearest doubles are the same.
+// Distance of two points, also if their nearest doubles are the same.
 double distance_between(const PointStore& points, VertexId a, VertexId b);
 
 }  // namespace delmesher::cdt

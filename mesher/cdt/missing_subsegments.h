@@ -1,10 +1,10 @@
-// The subsegments that are to be recovered: a queue of those that may be no edges of the
+// The subsegments that are to be recovered: a queue of those that may not be edges of the
 // tetrahedrization, and the lookup of all by their ends.
 //
 // Invariant at any time: only subsegments are in the queue. A subsegment may be in it although it
 // is an edge, and may be in it twice.
 // Invariants between two steps (a step splits a subsegment and inserts the point):
-//  - every subsegment that is no edge of the tetrahedrization is in the queue;
+//  - every subsegment that is not an edge of the tetrahedrization is in the queue;
 //  - if find_all() has found a missing one, every subsegment is found by its ends; subsegments that
 //    have been split are still found, too.
 #pragma once

@@ -52,7 +52,7 @@ struct Recovery : Model {
     mesh.build(input.vertices, control);
     missing.find_all(control);
   }
-  // Those that are no edges, by brute force over all tetrahedra.
+  // Those that are not edges, by brute force over all tetrahedra.
   std::vector<std::uint32_t> expected() const {
     std::set<std::uint64_t> edges;
     for (TetId t = 0; t < mesh.capacity(); ++t) {

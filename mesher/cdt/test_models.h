@@ -27,7 +27,7 @@ inline Surface inside_out(Surface s) {
   return s;
 }
 
-// Boundary of a set of cells of a grid with the given planes; `filled(i, j, k)` tells which cells.
+// Boundary of a set of cells of a grid with the given planes; `filled(i, j, k)` selects the cells.
 // Cells that touch in an edge or corner only are not allowed.
 template <typename Filled>
 Surface voxels(const std::array<std::vector<double>, 3>& planes, Filled&& filled) {

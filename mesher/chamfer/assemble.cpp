@@ -156,7 +156,7 @@ class IsolatedVertices {
     return clearance_ > 0 && boundary_.from_point(f, surface_.position(v)) < clearance_;
   }
 
-  // Of vertices closer than the clearance, the one with the smallest id stays.
+  // Among vertices closer than the clearance, the one with the smallest id stays.
   void keep_clearance(std::vector<VertexId>& vertices) const {
     std::vector<Box> boxes;
     for (VertexId v : vertices) {

@@ -41,7 +41,7 @@ double BoundaryDistance::from_vertex(FacetId f, VertexId v) {
   const Vec3& p = surface_.position(v);
   const std::array<Vec3, 1> query = {p};
   return smallest(f, Box::around(query), [&](std::uint32_t, VertexId a, VertexId b) {
-    // Of the edges at v, the other end still counts.
+    // At edges that contain v, the other end still counts.
     if (a == v) return squared_norm(subtract(surface_.position(b), p));
     if (b == v) return squared_norm(subtract(surface_.position(a), p));
     return closest_on_segment(p, surface_.position(a), surface_.position(b)).squared_distance;

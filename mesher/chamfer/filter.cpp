@@ -25,7 +25,7 @@ struct ClosePair {
 
 // The filter's first step. Every vertex and constrained edge knows the closest element it does not
 // touch, as far as that is closer than the tolerance; the closest pairs are resolved first, and
-// only elements whose partner disappeared are asked again.
+// only elements whose partner disappeared are queried again.
 class InputFilter {
  public:
   InputFilter(const KeptSurface& surface, double tolerance, Control& control)
@@ -187,7 +187,7 @@ class InputFilter {
         query, bound_, [&](std::uint32_t t) { judge(vertex_and_triangle(x, t, incident)); });
   }
 
-  // Two elements with their distance, which is infinite where another pair tells it.
+  // Two elements with their distance, infinite if another pair has it.
   static ClosePair no_pair() { return {std::numeric_limits<double>::infinity(), {}, {}}; }
 
   ClosePair vertex_and_edge(VertexId x, std::uint32_t e) const {

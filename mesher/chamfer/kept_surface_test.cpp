@@ -16,7 +16,7 @@
 namespace delmesher::chamfer {
 namespace {
 
-// Of the edges that touch an edge of a unit square, only the far ends count: the opposite edge is
+// Edges that touch an edge of a unit square count by their far ends only: the opposite edge is
 // nearest to the middle half of it, an edge beside it would be as near as a quarter.
 TEST(BoundaryDistance, EdgesAtEitherEndOfAPartCountByTheirFarEnds) {
   Model model(test_polyhedra::prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1));
@@ -31,7 +31,7 @@ TEST(BoundaryDistance, EdgesAtEitherEndOfAPartCountByTheirFarEnds) {
   }
 }
 
-// The reciprocal of subnormal coordinates is no double.
+// The reciprocal of subnormal coordinates is not a double.
 TEST(KeptSurface, IsScaledByNormalNumbers) {
   for (const double factor : {0x1p-1060, 0x1p-500, 1.0, 0x1p1000}) {
     const Surface given =

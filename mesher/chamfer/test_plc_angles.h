@@ -155,7 +155,7 @@ inline Report measure(const Plc& plc, const PointStore& points) {
     Vector normal = cross(direction(frame[0], frame[1]), direction(frame[0], frame[2]));
     const double length = std::sqrt(dot(normal, normal));
     for (double& x : normal) x /= length;
-    // Of a needle nothing is left of the normal in doubles.
+    // A needle's normal vanishes in doubles.
     constexpr double kNeedle = 0x1p-40;
     if (length > kNeedle && (normal[facet.axis] > 0) != (facet.axis_sign > 0)) {
       report.defect = "axis of a facet";

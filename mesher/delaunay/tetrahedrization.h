@@ -103,7 +103,7 @@ class Tetrahedrization {
   std::span<const TetId> star(VertexId v);
   // A tetrahedron having edge ab, or kNone.
   TetId find_edge(VertexId a, VertexId b);
-  // Face abc, of a tetrahedron that is no ghost if possible, or none.
+  // Face abc, of a tetrahedron that is not a ghost if possible, or none.
   FaceHandle find_face(VertexId a, VertexId b, VertexId c);
   // Tetrahedra (ghosts included) around edge ab, in rotation order starting at `t`, which has the
   // edge.
@@ -118,7 +118,7 @@ class Tetrahedrization {
   void find_cavity(VertexId v, TetId start) {
     grow_cavity(v, start, [](TetId) { return true; });
   }
-  // The same, nearest (in steps from face to face) first. visit(t) is told each tetrahedron of the
+  // The same, nearest (in steps from face to face) first. visit(t) gets each tetrahedron of the
   // cavity once it is known which of its neighbours belong to it too, and returns false to give up;
   // so does grow_cavity then, and the cavity is incomplete.
   template <class Visit>
@@ -160,7 +160,7 @@ class Tetrahedrization {
   std::vector<VertexId> in_spatial_order(std::span<const VertexId> vertices) const;
   void collect_hole(VertexId v, std::span<const std::uint8_t> goes);
   void fill_hole(Tetrahedrization& patch);
-  // Inserts vertices that are none yet, each near the one before it, from `hint` on.
+  // Inserts new vertices, each near the one before it, from `hint` on.
   void insert_in_order(std::span<const VertexId> order, TetId hint, Control& control);
   TetId allocate();
   void first_tetrahedron(std::span<VertexId> order);

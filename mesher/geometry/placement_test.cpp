@@ -252,7 +252,7 @@ TEST(Placement, WhatDoublesLeaveOverCounts) {
   }
 }
 
-// So do the remainders of corners that are no doubles themselves: meeting points of planes through
+// So do the remainders of corners that are not doubles themselves: meeting points of planes through
 // different points.
 TEST(Placement, WhatDoublesOfCornersLeaveOverCounts) {
   Random random(11);

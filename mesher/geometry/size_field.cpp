@@ -9,7 +9,7 @@ namespace delmesher::geometry {
 namespace {
 
 constexpr std::uint32_t kLeaf = 8;  // sources
-// Of a bound for many sources, which rounding must not raise above what it is for one of them.
+// Lowers the bound over many sources: rounding must not raise it above that of one of them.
 constexpr double kSlack = 1 - 1e-9;
 
 double distance_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {

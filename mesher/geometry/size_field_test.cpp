@@ -45,8 +45,8 @@ TEST_P(SizeFields, AreTheSmallestOfAllSources) {
   }
 }
 
-// Of an edge the points at thousandths are tried, so that it is known up to a thousandth of its
-// length whether it is too long.
+// Tries the points of an edge at thousandths of its length, so that it is known up to that fraction
+// whether it is too long.
 TEST_P(SizeFields, AnEdgeIsTooLongWhereItIsAtOneOfItsPoints) {
   constexpr double kGrowth = 0.5;
   const SizeField field(random_sources(), kGrowth);

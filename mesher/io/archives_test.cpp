@@ -136,7 +136,8 @@ TEST(ThreeMf, MaterialsOfTheOnlyObjectAreLabels) {
   ASSERT_TRUE(given.ok()) << given.error;
   EXPECT_EQ(given.surface.labels, (std::vector<std::int32_t>{1, 2, 1, 3, 1, 2, 1, 3}));
   EXPECT_EQ(given.names, (LabelNames{{1, "wood"}, {2, "steel & zinc"}, {3, "#FF0000"}}));
-  // One material, and what is none: a texture, a group without a member, a member without a group.
+  // One material, and what is not one: a texture, a group without a member, a member without a
+  // group.
   EXPECT_TRUE(read("pid='3' pindex='1'", {}).surface.labels.empty());
   EXPECT_TRUE(
       read("", {"pid='5' p1='8'", "pid='3'", "p1='1'", "pid='9' p1='1'"}).surface.labels.empty());

@@ -18,7 +18,7 @@ constexpr std::array<std::uint8_t, 256> kValues = [] {
   return values;
 }();
 
-// Of three bytes.
+// The four digits of three bytes.
 std::array<char, 4> digits_of(std::uint32_t group) {
   return {kDigits[group >> 18U & kSixBits], kDigits[group >> 12U & kSixBits],
           kDigits[group >> 6U & kSixBits], kDigits[group & kSixBits]};

@@ -20,7 +20,7 @@ class GmshNumbers {
   void format() {
     out_.text(ascii_ ? "$MeshFormat\n4.1 0 8\n" : "$MeshFormat\n4.1 1 8\n");
     if (!ascii_) {
-      tag(1);  // tells the order of bytes
+      tag(1);  // shows the byte order
       out_.text("\n");
     }
     out_.text("$EndMeshFormat\n");
@@ -33,7 +33,7 @@ class GmshNumbers {
     out_.text((ascii_ ? "$End" : "\n$End") + name + "\n");
   }
 
-  // Of entities, groups, dimensions, types: an int of C.
+  // The number of an entity, group, dimension or type: an int of C.
   void tag(std::int64_t value) {
     ascii_ ? text([&] { out_.integer(value); }) : bytes(static_cast<std::int32_t>(value));
   }

@@ -12,7 +12,7 @@
 namespace delmesher::io {
 namespace {
 
-// As much is unpacked at a time, and from no more, so that whoever waits is asked often.
+// Unpacks this much at a time, from this many bytes at most, so that a caller can cancel often.
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 
 int window_bits(Wrapping wrapping) {
@@ -46,7 +46,7 @@ class Inflater {
     return {piece_.data(), kPiece - stream_.avail_out};
   }
   bool at_end() const { return at_end_; }
-  // Of the bytes, the first that was not used.
+  // The place of the first unused byte.
   std::size_t at() const { return at_; }
   // Begins with other data, from there on.
   void begin_anew() { inflateReset(&stream_); }

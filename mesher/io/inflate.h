@@ -1,5 +1,5 @@
 // Compressed data: DEFLATE (RFC 1951), alone as in archives of zip, or wrapped by gzip (RFC 1952)
-// or zlib (RFC 1950). zlib unpacks them (inflate.cpp); a build without it refuses them
+// or zlib (RFC 1950). zlib unpacks them (inflate.cpp); a build without it rejects them
 // (without_zlib.cpp).
 #pragma once
 

@@ -56,7 +56,7 @@ TEST(Inflate, UnpacksWhatWasPacked) {
   }
 }
 
-// Of RFC 1952, by hand: a header with all its fields, a stored block.
+// A header with all fields of RFC 1952 and a stored block, by hand.
 TEST(Inflate, UnpacksAFileThatZlibDidNotMake) {
   using namespace std::string_literals;
   const std::string bytes =

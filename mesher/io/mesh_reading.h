@@ -100,7 +100,7 @@ class MeshBuilder {
   void add_triangle(const std::array<std::uint32_t, 3>& t, std::int32_t label,
                     std::optional<std::uint32_t> facet);
   // Nodes that an element of second order has besides its corners, each of which is meant to be in
-  // the middle of an edge. They are no vertices of the mesh.
+  // the middle of an edge. They are not vertices of the mesh.
   void add_edge_nodes(std::span<const std::uint32_t> corners, std::span<const std::uint32_t> nodes);
   // For the formats that tell them at the end of a file; of the number of triangles.
   void set_facets(std::vector<std::uint32_t> facets);

@@ -79,7 +79,7 @@ class OutputSet {
   // they not be committed.
   void make_folders() { makes_folders_ = true; }
 
-  // Begins a file. A symbolic link is followed; something that exists and is no regular file (a
+  // Begins a file. A symbolic link is followed; something that exists and is not a regular file (a
   // device, a pipe) is written directly. Returns null with status.error on failure.
   TextSink* open(const std::string& path, WriteStatus& status);
 

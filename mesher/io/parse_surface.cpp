@@ -18,7 +18,7 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
-// Of Gmsh, MEDIT or VTK.
+// Does the file begin like a mesh of Gmsh, MEDIT or VTK?
 bool looks_like_mesh(std::string_view bytes) {
   const std::string_view head = bytes.substr(0, 256);
   return head.starts_with("$MeshFormat") || head.starts_with("MeshVersionFormatted") ||

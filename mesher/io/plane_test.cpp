@@ -84,7 +84,7 @@ TEST(ReadPlane, FlatSurfaces) {
   const PlaneReadResult off =
       parse("OFF\n4 1 0\n0 0 0\n1 0 -0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "f.off");
   ASSERT_TRUE(off.ok()) << off.error;
-  EXPECT_EQ(off.graph.segments.size(), 4U);  // the diagonal is no segment
+  EXPECT_EQ(off.graph.segments.size(), 4U);  // the diagonal is not a segment
   const PlaneReadResult obj =
       parse("v 0 0\nv 1 0\nv 1 1\nv 0 1\ng a\nf 1 2 3\ng b\nf 1 3 4\n", "f.obj");
   ASSERT_TRUE(obj.ok()) << obj.error;

@@ -22,7 +22,7 @@ namespace {
 constexpr std::string_view kModelType = "/3dmanufacturing/2013/01/3dmodel",
                            kUsualModel = "3D/3dmodel.model";
 constexpr std::string_view kNamespaces = "http://schemas.microsoft.com/3dmanufacturing/";
-// What PrusaSlicer tells of the objects of its only model, beside it.
+// What PrusaSlicer's own file says about the objects of its only model.
 constexpr const char* kSlicerConfig = "Metadata/Slic3r_PE_model.config";
 constexpr std::string_view kProduction = "production/2015/06", kMaterials = "material/2015/02";
 
@@ -62,7 +62,7 @@ struct Material {
 struct Object {
   std::string type, name;
   std::optional<std::uint64_t> materials_id;
-  Material material;                // of triangles that tell none
+  Material material;                // of triangles without their own
   std::vector<Material> materials;  // of the triangles
   std::vector<Point> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -451,7 +451,7 @@ class Package {
     return at->second;
   }
 
-  // What PrusaSlicer tells of an object, if it does.
+  // What PrusaSlicer says about an object, if anything.
   const SlicedObject* sliced(const Use& use) const {
     const auto found = sliced_.find(use.id);
     return found == sliced_.end() || parts_.size() > 1 ? nullptr : &found->second;
@@ -464,7 +464,7 @@ class Package {
     return "object " + std::to_string(use.id);
   }
 
-  // Triangles of volumes that are no part of the solid.
+  // Triangles of volumes that are not part of the solid.
   std::vector<bool> left_out(const Use& use) {
     std::vector<bool> result(use.object->triangles.size(), false);
     const SlicedObject* told = sliced(use);

@@ -31,7 +31,7 @@ constexpr std::array<MeshFormat, 6> kFormats = {{{{".mesh"}, "MEDIT", alone<read
                                                  {{".ele"}, "TetGen", read_tetgen_mesh},
                                                  {{".tet"}, "tet", alone<read_tet>}}};
 
-// What a file from standard input is, by its first bytes; null if it is none of these.
+// The format of standard input, by its first bytes; null if it is none of these.
 const MeshFormat* format_of_content(std::string_view bytes) {
   TextLines lines(bytes, Comments::at_token_start);
   std::string_view first, second;

@@ -98,7 +98,7 @@ TEST_F(Files, AreReadAsTheyWereWritten) {
   }
 }
 
-// Of two labels with the same name one gets a number.
+// One of two labels with the same name gets a number.
 TEST_F(Files, KeepNamesOfLabels) {
   const LabelNames given = {{-7, "in & <out> 'x'"}, {5, "in & <out> 'x'"}, {0, "0"}};
   const LabelNames names = {{-7, "in & <out> 'x'"}, {5, "in & <out> 'x' 2"}, {0, "0"}};
@@ -335,7 +335,7 @@ const Garbage kGarbage[] = {
 INSTANTIATE_TEST_SUITE_P(ReadMesh, BadMeshes, testing::ValuesIn(kGarbage),
                          [](const auto& garbage) { return std::string(garbage.param.law); });
 
-// Of every format: cut anywhere, or with a byte changed, it is a mesh in range or one line.
+// In every format, a file cut anywhere or with a changed byte gives a mesh in range or one line.
 TEST_F(Files, DamagedAnywhereAreRefusedOrRead) {
   std::size_t refused = 0;
   for (const std::string name :
@@ -369,7 +369,7 @@ TEST_F(Files, DamagedAnywhereAreRefusedOrRead) {
   EXPECT_GT(refused, 2500U);
 }
 
-// With --order 2 each edge has a node in its middle, which is none of the mesh.
+// With --order 2 each edge has a node in its middle, which is not a vertex of the mesh.
 TEST_F(Files, OfSecondOrderAreReadByTheirCorners) {
   for (const char* extension : {".mesh", ".msh", ".vtu"}) {
     for (const bool ascii : {false, true}) {

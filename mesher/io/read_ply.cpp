@@ -174,7 +174,7 @@ void PlyReader::read_header() {
   fail(line(), "the file ends in the header");
 }
 
-// A binary body may begin with the byte of a line feed, so the header's first line tells how its
+// A binary body may begin with the byte of a line feed, so the header's first line shows how its
 // lines end.
 std::size_t PlyReader::body_offset() const {
   const std::size_t first = data_.find_first_of("\r\n");

@@ -107,7 +107,7 @@ class ViewReader {
     return list;
   }
 
-  // Of several values for a corner, which are steps of time, the first one counts.
+  // If a corner has several values, which are steps of time, the first one counts.
   void read_element() {
     const std::string_view name = word();
     if (name.size() != 2 || name[0] != 'S') {

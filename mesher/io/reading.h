@@ -40,14 +40,14 @@ struct FileError {
   std::string text;
 };
 
-// Larger files are refused.
+// Larger files are rejected.
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{8} << 30;
 
 // A whole file as bytes, unpacked if they are compressed with gzip. Throws FileError and, if
 // `go_on` says no, ReadingStopped.
 std::string read_file(const std::string& path, const std::function<bool()>& go_on = {});
 
-// The path that tells the format: "part.stl" of "part.stl.gz".
+// The path that determines the format: "part.stl" for "part.stl.gz".
 std::string without_gz(const std::string& path);
 
 // The name of the file beside another one, with its own extension.
@@ -66,7 +66,7 @@ struct ReadingEnd {
 };
 
 // To be called in a handler: the meaning of the exception at hand for the caller who asked for
-// `path`. Throws an exception once more if it is none of a reader's.
+// `path`. Rethrows an exception that is not a reader's.
 ReadingEnd end_of_reading(const std::string& path);
 
 // The result that `body` fills. Where it throws, the result is empty but for code and error.

@@ -509,7 +509,7 @@ WeldHint weld_hint(const Surface& surface) {
   if (count.empty() || !(all > 0)) return hint;
   std::uint64_t fewest = count.size();
   for (const double part : {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3}) {
-    char digits[32];  // of one digit, so that it can be told and given
+    char digits[32];  // of one digit, to be printed and entered
     std::snprintf(digits, sizeof digits, "%.0e", all * part);
     double reach = 0;
     parse_double(digits, reach);

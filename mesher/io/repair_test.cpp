@@ -335,7 +335,7 @@ TEST(Repair, HolesBesideEdgesOfThreeTriangles) {
   EXPECT_TRUE(holes_of(filled.surface).holes.empty());
   // The tetrahedron: its opposite edges are at right angles, sqrt(2) and sqrt(1/2) long, 1 apart.
   EXPECT_NEAR(std::abs(volume(filled.surface) - 1), 1.0 / 6, 1e-12);
-  // The rim of a wall that is whole is no hole.
+  // The rim of a wall that is whole is not a hole.
   Surface wall = cube();
   wall.triangles.push_back({0, 1, 7});
   wall.triangles.push_back({0, 7, 6});

@@ -15,7 +15,7 @@
 
 namespace delmesher::io {
 
-// Counts beyond these are refused: indices are 32 bits and so are half-edges.
+// Counts beyond these are rejected: indices are 32 bits and so are half-edges.
 inline constexpr std::uint64_t kMaxVertices = 0xfffffff0ULL;
 inline constexpr std::uint64_t kMaxTriangles = 0xffffffffULL / 3;
 

@@ -37,8 +37,8 @@ bool is_too_large(std::string_view digits) {
   return leading + (negative ? -exponent : exponent) > 0;
 }
 
-// Of the character at the front, as the Unicode standard has it (table 3-7): no longer than need
-// be, no halves of characters of UTF-16. 0 if it is none.
+// Bytes of the character at the front by the Unicode standard (table 3-7): no longer than needed,
+// no halves of UTF-16 characters. 0 if it is not valid.
 std::size_t size_of_utf8(std::string_view text) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;

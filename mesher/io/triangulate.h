@@ -9,7 +9,7 @@
 
 namespace delmesher::io {
 
-// Longer polygons are refused: at worst ear clipping takes quadratic time.
+// Longer polygons are rejected: at worst ear clipping takes quadratic time.
 inline constexpr std::size_t kMaxPolygonCorners = 20000;
 
 struct FaceTriangulation {

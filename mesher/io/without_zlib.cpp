@@ -1,4 +1,4 @@
-// In place of inflate.cpp where there is no zlib: what is compressed is refused.
+// In place of inflate.cpp where there is no zlib: what is compressed is rejected.
 #include <array>
 
 #include "mesher/io/inflate.h"

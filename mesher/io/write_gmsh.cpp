@@ -139,7 +139,7 @@ void GmshWriter::order_triangles() {
   each_facet([&](std::size_t, std::size_t) { ++facets_; });
 }
 
-// Is the name one that tells a number, and not this one alone?
+// Does the name contain a number, other than just this one?
 bool GmshWriter::tells_another(const std::string& name, std::int32_t number,
                                const std::string& unnamed) {
   if (!name.starts_with(unnamed) || name == unnamed + std::to_string(number)) return false;
@@ -148,8 +148,8 @@ bool GmshWriter::tells_another(const std::string& name, std::int32_t number,
   return parse_integer(rest.substr(0, rest.find(' ')), told);
 }
 
-// A number that is not positive cannot be the tag, so its name tells it; that of a name which would
-// tell one as well, too.
+// A number that is not positive cannot be the tag, so its name contains it; that of a name which
+// would tell one as well, too.
 std::string GmshWriter::group_name(const LabelNames& names, std::int32_t number,
                                    const std::string& name, const char* unnamed) {
   const bool told =

@@ -159,7 +159,7 @@ TEST_F(WriteMesh, TheNameOfTheOnlyRegionComesBack) {
   }
 }
 
-// A name as delmesher itself would give it to another label tells nothing of numbers.
+// A name as delmesher itself would give it to another label says nothing about numbers.
 TEST_F(WriteMesh, NamesLikeItsOwnComeBackFromGmsh) {
   for (const std::string name : {"label 0", "label 5 of it", "label 7 old", "label x"}) {
     OutputSet outputs;
@@ -281,7 +281,7 @@ TEST_F(WriteMesh, VtuAndTetgen) {
   EXPECT_EQ(content(path("a.face")), "3 1\n0 0 2 1 7 9\n1 0 1 3 0 4\n2 1 2 3 -2 5\n");
 }
 
-// The middle of the largest doubles is no infinity; the middle of 1e-310 and 0 is exact.
+// The middle of the largest doubles is not an infinity; the middle of 1e-310 and 0 is exact.
 TEST_F(WriteMesh, SecondOrder) {
   TetMesh mesh = sample();
   mesh.vertices[2][0] = std::numeric_limits<double>::max();

@@ -46,8 +46,8 @@ void write_holes_and_regions(TextSink& out, const PlanarGraph& graph) {
   }
 }
 
-// Attributes: of the region if the input has regions, else 1 inside and 2 outside if there are
-// both.
+// The attribute is that of the region if the input has regions, else 1 inside and 2 outside if
+// there are both.
 void write_triangle(TextSink& node, TextSink& ele, TextSink& poly, const PlaneMesh& mesh,
                     const PlanarGraph* graph) {
   node.integer(mesh.vertices.size());

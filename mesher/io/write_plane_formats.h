@@ -12,7 +12,7 @@ namespace delmesher::io {
 
 using Point2 = std::array<double, 2>;
 
-// The region number of a triangle, which tells its side.
+// The region number of a triangle, by its side.
 inline int region(const PlaneMesh& mesh, std::size_t t) {
   return mesh.inside[t] != 0 ? kRegionInside : kRegionOutside;
 }

@@ -14,7 +14,7 @@ namespace {
 // Some programs read so many characters of a number, and no more.
 constexpr std::size_t kInpWidth = 20, kBdfWidth = 16;
 
-// Of `digits` significant digits, with a point, and as short an exponent as there is.
+// `digits` significant digits, with a point and the shortest exponent.
 std::string decimal(double value, int digits) {
   char buffer[64];
   const auto end =

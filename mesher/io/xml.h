@@ -12,7 +12,7 @@
 namespace delmesher::io {
 
 // Comments, processing instructions and CDATA sections are passed over; a document type, which
-// could define entities, is refused. Whether elements are nested as they should be is left to the
+// could define entities, is rejected. Whether elements are nested as they should be is left to the
 // reader. The text must outlive it.
 class XmlTags {
  public:
@@ -21,7 +21,7 @@ class XmlTags {
   // Moves to the next tag; false if there is none. Throws ParseError, with the line.
   bool next();
 
-  // Of the current tag: "a" of <a ...>, <a/> and </a>, with its prefix if it has one.
+  // The name of the current tag: "a" of <a ...>, <a/> and </a>, with its prefix if it has one.
   std::string_view name() const { return name_; }
   bool begins() const { return !is_end_; }         // <a ...> or <a/>
   bool ends() const { return is_end_ || alone_; }  // </a> or <a/>

@@ -12,10 +12,10 @@ namespace delmesher::io {
 
 bool is_zip(std::string_view bytes);
 
-// Of archives in one part and without passwords, whose files are stored or compressed with DEFLATE.
+// Reads archives in one part, without passwords, whose files are stored or compressed with DEFLATE.
 class ZipArchive {
  public:
-  // The bytes must outlive this. Throws ParseError if they are no such archive.
+  // The bytes must outlive this. Throws ParseError if they are not such an archive.
   ZipArchive(std::string_view bytes, Polling& polling);
 
   // Names differ by more than case, and may begin with '/', as in Open Packaging Conventions.

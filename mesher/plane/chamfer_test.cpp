@@ -13,7 +13,7 @@ namespace {
 using namespace test_graphs;
 using Point = std::array<double, 2>;
 
-// Of the angle at the origin between u and w, below 90 degrees.
+// Is the angle at the origin between u and w, below 90 degrees, less than the one with that cosine?
 bool is_below(const Point& u, const Point& w, double cosine_squared) {
   const mpq_class ux = u[0], uy = u[1], wx = w[0], wy = w[1], dot = ux * wx + uy * wy;
   return dot > 0 &&
@@ -58,7 +58,7 @@ TEST(PlaneChamfer, AnglesAtTheThresholdAreDecidedExactly) {
   }
   EXPECT_GT(counts.below, 100);
   EXPECT_LT(counts.below, 400);
-  EXPECT_GT(counts.doubles_err, 10);  // or this is no test
+  EXPECT_GT(counts.doubles_err, 10);  // or this is not a test
 }
 
 // Squares of so short a segment are subnormal numbers, which have few digits.
@@ -76,7 +76,7 @@ TEST(PlaneChamfer, TinyCornersAreDecidedExactly) {
   }
   EXPECT_GT(counts.below, 50);
   EXPECT_LT(counts.below, 150);
-  EXPECT_GT(counts.doubles_err, 5);  // or this is no test
+  EXPECT_GT(counts.doubles_err, 5);  // or this is not a test
 }
 
 }  // namespace

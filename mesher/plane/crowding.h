@@ -1,5 +1,5 @@
 // Where the refinement found no room: between doubles, or in a channel that the filter overlooked.
-// The input vertices and pieces there are to be spared at the next attempt.
+// The next attempt spares the input vertices and pieces there.
 //
 // Invariants:
 //  - a note names a vertex or a piece of the input. any() says so if there is one, or if it is

@@ -18,7 +18,7 @@ struct MeshToWrite {
   std::vector<PieceId> edge_pieces;
 };
 
-// Of a triangulation with sides: the triangles contained in the inside, or all for Region::hull.
+// Selects the triangles contained in the inside, or all for Region::hull.
 MeshToWrite select(const Triangulation& mesh, const std::vector<Side>& side,
                    const std::vector<double>& attributes, Region region);
 

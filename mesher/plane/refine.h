@@ -30,7 +30,7 @@ struct RefineOptions {
   bool circumcentres = false;  // SteinerPoints
   // A piece that is split so often counts as crowded, and the refinement stops; 0: no bound.
   std::uint64_t most_splits = 0;
-  std::function<void(RefineStep)> on_step;  // told when a step begins; empty: nobody asks
+  std::function<void(RefineStep)> on_step;  // called when a step begins, unless empty
   bool validate = kValidating;  // check the invariants after each step (Refiner::validate)
 };
 

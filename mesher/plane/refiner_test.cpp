@@ -156,7 +156,7 @@ TEST(PlaneRefiner, EveryInsertionKeepsTheInvariants) {
   EXPECT_GT(insertions, 200U);
 }
 
-// By the definitions, on the result: nothing is asked of the parts.
+// By the definitions, on the result, without using the parts.
 TEST(PlaneRefiner, WhatIsInsideKeepsTheBoundInTheEnd) {
   for (const PlanarGraph& graph : graphs()) {
     Stages s(graph);

@@ -19,7 +19,7 @@ inline double norm(double x, double y) {
 
 struct Shape {
   double sine_squared;  // of the smallest angle; 0 if it is flat or worse
-  // Of the edges times `scale`, a power of two: 1 but for triangles whose squares would vanish.
+  // Squared lengths of edges times `scale`, a power of two: 1 unless squares would vanish.
   double shortest_squared, longest_squared, scale;
   int sharpest;         // corner opposite the shortest edge: that of the smallest angle
   double circumcentre;  // its distance from the shortest edge, over the length of that edge

@@ -229,8 +229,8 @@ bool Sides::is_along_edge(TriangleId t, const Gap& gap) {
          }) == 2;
 }
 
-// Of a triangle in one face: what pieces and gaps at its edges say, or neighbours where there is
-// neither. In a triangle as small as an ulp there may be no point to locate.
+// The side of a triangle in one face, from the pieces and gaps at its edges, or from neighbours if
+// there are none. In a triangle as small as an ulp there may be no point to locate.
 Side Sides::told_at_edges(TriangleId t) {
   for (int i = 0; i < 3; ++i) {
     if (mesh_.piece(edge_of(t, i)) != kNone) return beside(edge_of(t, i));

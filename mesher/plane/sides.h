@@ -1,10 +1,11 @@
 // Which triangles of the refined mesh are inside, kept up to date during refinement.
 //
-// The segments of the chamfered graph leak at the cut points, so that triangles cannot be told by
-// flooding alone. The missing parts of the segments that separate the inside from the outside, the
-// gaps, are remembered by the triangles that they run through (mixed). Every other triangle lies on
-// one side, although parts of other segments may run through it. If these made it count, it would
-// ask for points at sharp corners that have nothing of the inside in them and are not chamfered.
+// The segments of the chamfered graph leak at the cut points, so that triangles cannot be
+// classified by flooding alone. The missing parts of the segments that separate the inside from the
+// outside, the gaps, are remembered by the triangles that they run through (mixed). Every other
+// triangle lies on one side, although parts of other segments may run through it. If these made it
+// count, it would ask for points at sharp corners that have nothing of the inside in them and are
+// not chamfered.
 //
 // Invariants from start() to settle(), between insertions:
 //  - every triangle has a side; two neighbours that are not mixed have the same one, or there is a

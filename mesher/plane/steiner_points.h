@@ -1,7 +1,7 @@
 // Where new points of the refinement go: in the middle of subsegments, near the circumcentres of
 // bad triangles, and back to where chamfering took a corner away. Points are added to the store.
 // With `circumcentres` a bad triangle gets its circumcentre, as the paper says (section 3), but
-// where that cannot be told in doubles; otherwise an off-centre or a chamfered corner.
+// where doubles cannot decide that; otherwise an off-centre or a chamfered corner.
 //
 // Laws:
 //  - a point of a piece is exactly on its line and strictly inside the subsegment; a point of a

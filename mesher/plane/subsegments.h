@@ -30,7 +30,7 @@ class Subsegments {
   EdgeId find(const Subsegment& s) const;
 
   // Is p in the open disc of which ab is a diameter, and does the triangle beside ab on the side of
-  // p count? p is to be none of the ends.
+  // p count? p must not be one of the ends.
   bool encroached_by(VertexId p, VertexId a, VertexId b, TriangleId beside) {
     return sides_.counts(beside) && predicates_.dot(a, p, b) < 0;
   }

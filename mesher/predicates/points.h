@@ -71,7 +71,7 @@ struct ExactPosition {
 
 struct RationalPoint;
 
-// Of an explicit point.
+// For an explicit point.
 void set_exact(const Vec3& x, ExactPosition& out);
 
 // Append-only list of points with cached exact and approximate coordinates and "supports": ids of
@@ -96,7 +96,7 @@ class PointStore {
   // Appends the first `count` points of another store to an empty one; they are explicit or on
   // planes. Supports are left out.
   void copy_corners(const PointStore& from, std::size_t count);
-  // Moves an explicit point that has no supports and is no corner of others.
+  // Moves an explicit point that has no supports and is not a corner of others.
   void move_explicit(VertexId v, const Vec3& x);
   // Removes the last point.
   void pop_back();

@@ -13,7 +13,7 @@
 #include "mesher/predicates/points.h"
 #include "mesher/predicates/polynomials.h"
 
-// Of the numbers, and beside them: the polynomials find it by its arguments.
+// In the namespace of the numbers, where the polynomials find it by its arguments.
 namespace delmesher::arithmetic {
 
 // Positive multiples of s - constant * t, see AngleExcess.

@@ -15,7 +15,7 @@ namespace {
 using families::Random;
 using families::Sample;
 
-// Every sign that is asked for is decided once, the filter decides no zero and supports nothing
+// Every sign is decided once, the filter decides no zero and supports nothing
 // else.
 TEST(Stages, EachSignIsDecidedByOne) {
   Random random(21);

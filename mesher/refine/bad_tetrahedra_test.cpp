@@ -110,7 +110,7 @@ TEST(BadTetrahedra, LargestRatioFirstWhateverTheLevel) {
   EXPECT_EQ(seen, expected);
 }
 
-// A level that is asked for the first time is in an order in which neighbours are near each other;
+// A level that is used for the first time is in an order in which neighbours are near each other;
 // tetrahedra that are added later are taken first.
 TEST(BadTetrahedra, ALevelIsSortedInSpaceAndThenAStack) {
   Cube cube;

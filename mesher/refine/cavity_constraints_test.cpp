@@ -87,7 +87,7 @@ TEST(CavityConstraints, TheEncroachedAreQueued) {
   EXPECT_GT(most_subfacets, 1U);
 }
 
-// Those with both tetrahedra in the cavity, told before it is filled and found after.
+// Those with both tetrahedra in the cavity, reported before it is filled and found afterwards.
 TEST(CavityConstraints, WhatTheCavityRemovesIsQueued) {
   bool subsegment_lost = false, subfacet_lost = false;
   for (const Vec3& place : kPlaces) {

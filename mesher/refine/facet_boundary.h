@@ -25,7 +25,7 @@ class FacetBoundary {
   std::uint32_t find(VertexId from, VertexId to, bool* inward) const;
 
   // Per triangle of a triangulation of the facet's vertices: 1 if it is in the facet. Throws
-  // InternalError if a side is no edge, or if the sides do not separate inside and outside.
+  // InternalError if a side is not an edge, or if the sides do not separate inside and outside.
   std::vector<std::uint8_t> inside(const PlanarTriangulation& planar) const;
 
  private:

@@ -7,7 +7,7 @@
 //    its edges lies either a subsegment or a neighbour that names it in return;
 //  - the dead are counted; their slots are used again only when all are renumbered.
 // That subsegments name the subfacets beside them is checked by Refiner::validate(). Whether a
-// subfacet is a face of the tetrahedrization is no matter of this class, but of Subfacets.
+// subfacet is a face of the tetrahedrization is the concern of Subfacets, not of this class.
 #pragma once
 
 #include <array>

@@ -16,7 +16,7 @@ struct FacetTriangulationsBreaker {
     while (!part.list_[s].alive) ++s;
     return s;
   }
-  // One with an edge that is no subsegment.
+  // One with an edge that is not a subsegment.
   SubfacetEdge inner() const {
     SubfacetEdge e(live(), 0);
     while (!neighbor(e).exists()) e = {e.subfacet(), e.edge() + 1};

@@ -205,7 +205,7 @@ class Predictor {
   }
 
   // Elements are looked at from the nearest on, until two do not touch. A pair that did not nearby,
-  // in the cell above, tells from the start how far to look.
+  // in the cell above, bounds the search from the start.
   Surroundings surroundings(const Vec3& p, double bound, const Surroundings& nearby) {
     Surroundings found{bound, bound, nearby.witness};
     met_.clear();

@@ -57,7 +57,7 @@ struct RefineOptions {
   std::vector<std::uint8_t> apex;
   // Boxes that cover the part of the input surface that was cut off or dropped.
   std::vector<Box> removed;
-  std::function<void(RefineStep)> on_step;  // told when a step begins; empty: nobody asks
+  std::function<void(RefineStep)> on_step;  // called when a step begins, unless empty
   bool want_balls = false;                  // fill RefineResult::ball
   bool validate = kValidating;  // check the invariants after each step (Refiner::validate)
 };

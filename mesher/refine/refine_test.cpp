@@ -419,7 +419,7 @@ TEST(Refine, SegmentsAtAnApexAreSplitOnConcentricShells) {
   }
 }
 
-// Of a source inside, one outside and one on the surface.
+// With a source inside, one outside and one on the surface.
 TEST(Refine, SizeFieldBoundsEdgesInside) {
   const std::vector<SizeSource> sources = {
       {{0.3, 0.4, 0.5}, 0.02}, {{1.2, 0.5, 0.5}, 0.05}, {{0, 0, 0}, 0.04}};

@@ -18,7 +18,7 @@
 //  - once tetrahedra are judged, every bad one waits, at its level or to be judged, unless it is
 //    known to be outside, where the goal need not be reached;
 //  - queued elements are split before a bad tetrahedron is, so that every subfacet is a face when a
-//    side is asked for.
+//    side is needed.
 #pragma once
 
 #include "mesher/refine/bad_tetrahedra.h"

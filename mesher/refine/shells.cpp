@@ -19,7 +19,7 @@ Shells::Shells(const Plc& plc, const PointStore& points, std::span<const std::ui
 }
 
 // How far from its end v a subsegment of that length crosses a shell in its middle third, as a
-// fraction of the length; 0 if v is no apex.
+// fraction of the length; 0 if v is not an apex.
 double Shells::fraction_from(VertexId v, double length) const {
   if (v >= radius_.size() || radius_[v] == 0) return 0;
   const double ratio = radius_[v] / length;

@@ -16,7 +16,7 @@ namespace delmesher::refine {
 
 class Shells {
  public:
-  // `apex`: per input vertex, 1 if it is one. Later vertices are none.
+  // `apex`: per input vertex, 1 if it is one. Later vertices are not.
   Shells(const Plc& plc, const PointStore& points, std::span<const std::uint8_t> apex);
 
   // Where to split a subsegment ab of that length, as a fraction from a: if an end is an apex,

@@ -7,7 +7,7 @@ namespace delmesher::refine {
 namespace {
 
 // A subsegment of length 1 between two vertices with a segment of the given length at each; 0: the
-// vertex is no apex.
+// vertex is not an apex.
 double split_fraction(double at_a, double at_b) {
   PointStore points;
   Plc plc;

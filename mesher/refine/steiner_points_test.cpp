@@ -155,7 +155,7 @@ TEST(SteinerPoints, CircumcentresAreCertainOrNone) {
     EXPECT_LE(distance(*center, reference_center(points, v)), kFraction) << height;
     EXPECT_EQ(*center, snap_to_grid(*center, kGrid)) << height;
   }
-  // On one plane, or so far away that neighbouring doubles there are farther apart than is asked.
+  // In one plane, or so far away that neighbouring doubles are farther apart than requested.
   const std::array<VertexId, 4> flat = {points.add_explicit(0, 0, 1), points.add_explicit(1, 0, 1),
                                         points.add_explicit(0, 1, 1), points.add_explicit(1, 1, 1)};
   EXPECT_FALSE(certain_circumcentre(points, flat.data(), kGrid, kFraction));

@@ -38,7 +38,7 @@ class SubfacetMarks {
     faces = note(dt_, inner, Note::faces) & bit;
     if (faces != 0) number_[created][face] = number_[inner][face];
   }
-  // To be called before anything is said of tetrahedra that are new.
+  // Call before marking new tetrahedra.
   void make_room() {
     if (dt_.capacity() > number_.size()) number_.resize(dt_.capacity());
   }

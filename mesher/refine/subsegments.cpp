@@ -65,7 +65,7 @@ void Subsegments::mark(std::uint32_t s, TetId having_edge) {
 }
 
 // If the diametral ball of an edge of a Delaunay tetrahedrization contains any vertex, it contains
-// one of those of the tetrahedra around the edge. So only these are asked.
+// one of those of the tetrahedra around the edge. So it checks only these.
 bool Subsegments::encroached(std::uint32_t s, TetId having_edge) {
   const VertexId a = list_[s].a, b = list_[s].b;
   dt_.edge_ring(having_edge, a, b, ring_);

@@ -7,7 +7,7 @@
 //  - only subsegments are in the queue.
 // Invariants between insertions, for a subsegment that is not in the queue:
 //  - it is an edge of the tetrahedrization, and every tetrahedron having that edge has the edge's
-//    bit in its note (Note::edges), which may also have bits of edges that are no subsegments any
+//    bit in its note (Note::edges), which may also have bits of edges that are not subsegments any
 //    more;
 //  - with the Gabriel property, its open diametral ball is empty.
 // FacetTriangulations links the sides of a subsegment; Refiner::validate() checks them.

@@ -78,7 +78,7 @@ struct Complex {
   }
 
   const Plc& plc() const { return chamfered.plc; }
-  // Of all its segments and facets.
+  // The vertices of all its segments and facets.
   std::vector<VertexId> vertices() const {
     std::vector<VertexId> all;
     for (const PlcSegment& s : plc().segments)

@@ -71,7 +71,7 @@ struct Parts : Complex {
     }
   }
 
-  // Insert a point where it is said to be.
+  // Insert a point at its given place.
   VertexId insert_in_volume(const Vec3& p) {
     const VertexId v = points.add_explicit(p[0], p[1], p[2]);
     find_cavity(v);

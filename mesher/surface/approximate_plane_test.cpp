@@ -47,7 +47,7 @@ TEST_F(PlaneSides, CertainSidesAreExactAndMostRandomPointsAreCertain) {
       EXPECT_EQ(answers.approximate, answers.exact);
     }
   }
-  EXPECT_GT(certain, 1990);  // products of the smallest coordinates are not told from underflow
+  EXPECT_GT(certain, 1990);  // products of the smallest coordinates look like underflow
 }
 
 TEST_F(PlaneSides, PointsOnOrNextToThePlaneAreNeverWrong) {

@@ -39,8 +39,8 @@ TEST(EdgeBends, ConvexAndConcaveEdges) {
   const auto like = [&](double x) {
     return std::ranges::count_if(bends, [=](double y) { return std::fabs(x - y) < 1e-4 * height; });
   };
-  // Of two edges each. The triangles' common centroid is at two thirds of the height: two corners
-  // of either triangle are on the edge.
+  // Noise of two edges each. The triangles' common centroid is at two thirds of the height: two
+  // corners of either triangle are on the edge.
   EXPECT_EQ(like(height / 3 * 2), 2);
   EXPECT_EQ(like(-height / 3), 2);
   EXPECT_GT(std::ranges::count(bends, HUGE_VAL), 0);

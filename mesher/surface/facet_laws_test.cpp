@@ -46,7 +46,7 @@ TEST(FacetLaws, FacetsAreConnectedCoplanarAndOfOneLabel) {
   s.labels[0] = 1;
   Changed labelled(s, s);
   EXPECT_EQ(facets_of(labelled.surface(), labelled.predicates).size(), 7U);
-  // Two boxes with a face each in one plane: that is no connection.
+  // Two boxes with a face each in one plane are not connected by that.
   const Surface two = joined(box({0, 0, 0}, {1, 1, 1}), box({2, 0, 0}, {3, 1, 1}));
   Changed apart(two, two);
   EXPECT_EQ(facets_of(apart.surface(), apart.predicates).size(), 12U);

@@ -116,7 +116,7 @@ double flatness(const Surface& surface, Control& control) {
     result = std::max(result, bend_of_noise(*groups, result, noise));
   };
   look_for_noise(least, kFewest);
-  // What the coordinates cannot resolve, or is flat in any case, tells nothing of coarser noise,
+  // What the coordinates cannot resolve, or is flat in any case, says nothing about coarser noise,
   // and may hide it.
   look_for_noise(std::max({least, kExplained * rounding, most / 4}), 2 * kFewest);
   return result;

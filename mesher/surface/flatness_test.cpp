@@ -80,7 +80,8 @@ double diagonal(const Surface& s) {
   return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-// Of radii 40 and 20: edges of all small bends. With `winding` its quadrangles are not flat.
+// A torus of radii 40 and 20 has edges of all small bends. With `winding` its quadrangles are not
+// flat.
 Surface torus(std::uint32_t around, std::uint32_t across, double winding = 0) {
   const double turn = 2 * std::acos(-1.0);
   Surface torus;
@@ -153,8 +154,8 @@ TEST(Flatness, IsWhatBendsTellOfNoiseBelowAFinerRounding) {
   }
 }
 
-// Facets and curves that are hardly larger than the noise, and are not to be told from it by the
-// sizes of the bends.
+// Facets and curves that are hardly larger than the noise, and cannot be distinguished from it by
+// the sizes of the bends.
 TEST(Flatness, CoarserRoundingsDoNotFlattenWhatIsCurved) {
   for (const Surface& curved :
        {rotated(in_decimals(torus(300, 150, 1), 1e-3)), torus(1000, 500, 1),

@@ -240,7 +240,7 @@ class StandInBuilder {
     }
     return false;
   }
-  // Of the surface as given, or by a flip.
+  // Is cd an edge of the surface as given, or by a flip?
   bool is_edge(VertexId c, VertexId d) {
     bool found =
         std::ranges::find(flipped_, std::pair(std::min(c, d), std::max(c, d))) != flipped_.end();

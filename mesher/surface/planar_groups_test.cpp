@@ -294,7 +294,7 @@ TEST(PlanarGroups, OfCoordinatesThatWereRoundedTwice) {
   EXPECT_EQ(grouped(in_decimals(rotated(scaled(s, 1e3)), 1)).facets(), 6U);
 }
 
-// Few groups are left then of very many, and one that is left over says nothing of features.
+// Few groups are left then of very many, and one that is left over says nothing about features.
 TEST(PlanarGroups, OfFewFacesOneMayBeLeftOver) {
   for (int n = 0; n < 12; ++n) {
     const Surface s = scaled(box({0, 0, 0}, {1, 2, 3}, 12), 25 + n);
@@ -709,8 +709,8 @@ TEST(PlanarGroups, StepsBelowTheBoundDoNotShatterWhatIsBesideThem) {
   EXPECT_EQ(grouped(rotated(s)).facets(), before);
 }
 
-// Edges shorter than the noise leave their ends no room to move. That is no reason to give up the
-// whole face around them.
+// Edges shorter than the noise leave their ends no room to move. That is not a reason to give up
+// the whole face around them.
 TEST(PlanarGroups, EdgesShorterThanTheNoiseCostTheirOwnTrianglesAlone) {
   constexpr std::uint32_t kSquares = 16;  // the short edges have others between them
   const Surface given = box({0, 0, 0}, {1, 2, 3}, kSquares);

@@ -185,7 +185,7 @@ void PlanarGrowth::hand_over_needles() {
   }
 }
 
-// Who is asked first is decided by the edges' numbers; two that were refused are asked again once
+// The edges' numbers decide who is first; two that were rejected are tried again once
 // one of them has changed.
 class PlanarGrowth::Merging {
  public:
@@ -283,7 +283,7 @@ void PlanarGrowth::grow_from(std::vector<std::uint32_t> seeds, double noise) {
 
 // A group while it grows. The largest neighbours come first. A triangle joins if it is within the
 // bound of the plane that it helps to find: that of a small seed says nothing about places far
-// away. Whenever the group has doubled, all of it is asked; if it has become a bent one, it goes
+// away. Whenever the group has doubled, all of it is checked; if it has become bent, it goes
 // back to its former members and takes only triangles within the bound of that plane.
 class PlanarGrowth::Growing {
  public:

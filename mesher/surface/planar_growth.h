@@ -113,7 +113,7 @@ class PlanarGrowth {
 
   const std::vector<Group>& groups() const { return groups_; }
   std::uint32_t group_of(std::uint32_t triangle) const { return group_of_[triangle]; }
-  // Of more than one triangle?
+  // Has the group more than one triangle?
   bool is_group(std::uint32_t g) const { return g != kNone && groups_[g].triangles.size() > 1; }
   std::vector<VertexId> vertices_of(std::uint32_t group) const;  // ascending
   bool within(std::uint32_t triangle, const Fit& fit, double noise) const;

@@ -36,7 +36,7 @@ struct PlcFacet {
   std::vector<VertexId> isolated;  // vertices strictly inside (flat input vertices)
 };
 
-// Every point used by a segment or facet is to become a vertex of the mesh.
+// Every point used by a segment or facet becomes a vertex of the mesh.
 struct Plc {
   std::vector<PlcSegment> segments;
   std::vector<PlcFacet> facets;

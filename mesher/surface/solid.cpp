@@ -58,7 +58,7 @@ DyadicPoint operator-(const DyadicPoint& a, const DyadicPoint& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-// ray_crosses() for a point that is no double: the same decisions in exact arithmetic.
+// ray_crosses() for a point that is not a double: the same decisions in exact arithmetic.
 bool exact_ray_crosses(const DyadicPoint& p, std::size_t axis, int direction,
                        const std::array<DyadicPoint, 3>& triangle) {
   const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;

@@ -65,7 +65,7 @@ class SeparatingPlanes {
   }
 
   // If the three are not affinely independent, every sign is 0; if they are, some corner of the
-  // tetrahedron is off their plane and tells on which side the tetrahedron is.
+  // tetrahedron is off their plane and shows on which side the tetrahedron is.
   bool separates(unsigned i, unsigned j, unsigned k) {
     int side = 0;
     for (unsigned l = 0; l < 7; ++l) {

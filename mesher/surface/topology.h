@@ -67,7 +67,7 @@ SurfaceTopology build_topology(const Surface& surface, PointStore& points, Predi
 // The undirected edge between two vertices; kNone if there is none.
 std::uint32_t edge_between(const SurfaceTopology& topology, VertexId a, VertexId b);
 
-// Of the triangles, in their order.
+// Boxes of the triangles, in their order.
 std::vector<Box> triangle_boxes(const SurfaceTopology& topology, const PointStore& points);
 
 }  // namespace delmesher::surface

@@ -17,7 +17,7 @@ constexpr std::uint64_t kMostPlaces = 1'000'000;  // of each kind in SurfaceRepo
 
 // Everything check_surface() reports except facets, acute corners and local feature size. With
 // `stop_at_first`, ends at the first kind of defect found (tetrahedralize() needs no more to refuse
-// a surface). An inside-out surface is no defect but sets `report.flipped`. Components oriented
+// a surface). An inside-out surface is not a defect but sets `report.flipped`. Components oriented
 // otherwise than parity asks for are reported in warnings.
 ValidityResult check_validity(const Surface& surface, bool stop_at_first, Control& control,
                               std::uint64_t most_places = kMostPlaces);

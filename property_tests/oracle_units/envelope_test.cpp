@@ -170,7 +170,7 @@ TEST(Envelope, ACrustIsNoSolid) {
                           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
     if (volume < 0) std::swap(tet[2], tet[3]);
   }
-  // In any units, also those in which volumes, or squares, are no doubles.
+  // In any units, also those in which volumes, or squares, are not doubles.
   for (const int exponent : {0, -370, 340, -560, 600}) {
     const auto in_units = [exponent](std::vector<Position> vertices) {
       for (Position& p : vertices) {

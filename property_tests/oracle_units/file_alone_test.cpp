@@ -137,8 +137,8 @@ VerifyReport report_on_cut_corner(double size, double cut, const Position& spike
   return report;
 }
 
-// Squares of such lengths are no doubles, and where some lengths are the smallest, others cannot be
-// measured in other units.
+// Squares of such lengths are not doubles, and where some lengths are the smallest, others cannot
+// be measured in other units.
 TEST(FileAlone, IsMeasuredWhereSquaresAreNoDoubles) {
   const double s = 0x1p1000, t = 0x1p200;
   for (const double size : {1.0, 0x1p190, 0x1p300, s}) {

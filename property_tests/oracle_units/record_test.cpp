@@ -271,7 +271,7 @@ TEST(Repairs, AllIsCounted) {
   EXPECT_GT(run().violations, 0U);
 }
 
-// Squares and volumes of lengths of 1e-165 and 1e120 are no doubles.
+// Squares and volumes of lengths of 1e-165 and 1e120 are not doubles.
 TEST(Units, TheVerdictIsTheSameInAll) {
   delmesher::Surface surface = samples::random_voxels(3);
   for (auto& p : surface.vertices) {

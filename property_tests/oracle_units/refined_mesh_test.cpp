@@ -91,7 +91,7 @@ TEST(ChamferFeatures, OfASharpPrism) {
   expect_features_of_a_sharp_prism(0);
 }
 
-// Products of exact vectors are no doubles there.
+// Products of exact vectors are not doubles there.
 TEST(ChamferFeatures, OfCoordinatesWithManyBits) {
   expect_features_of_a_sharp_prism(0x1p-600);
 }
