@@ -204,7 +204,7 @@ class Pages(unittest.TestCase):
         text = self.page("--merge", earlier)
         self.assertEqual(sizes()["fan-2", "netgen"], "")
         self.assertIn("2 meshers, 4 runs; 1 models have", text)
-        self.assertEqual({r["Version"] for r in rows_under(text, "Versions")}, {"peer 1.2 (build 00)", "peer 1.2 (build 00) of c0ffee"})
+        self.assertEqual({r["program"] for r in self.runs("page_meshers.csv")}, {"peer 1.2 (build 00)", "peer 1.2 (build 00) of c0ffee"})
         self.page("--merge", earlier, "--drop", "netgen")
         self.assertEqual(len(sizes()), 1)
 
@@ -217,7 +217,7 @@ class Pages(unittest.TestCase):
         self.assertNotIn("`cdt`", text)
 
     def test_limits_that_differ_are_said(self):
-        for limits, said in (("60 s", "under the same limits"), ("600 s", "under limits that differ (last table), on one thread")):
+        for limits, said in (("60 s", "under the same limits"), ("600 s", "under limits that differ, on one thread")):
             self.assertIn(said, self.page(self.campaign(row("fan-1", "cdt"), row("fan-1", "netgen", limits=limits))))
 
     def test_another_table_is_refused(self):
