@@ -20,7 +20,7 @@ use_settings() {
   local name=$0 root variable
   root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
   for variable in "$1_CPU" "$1_MEMORY" "$1_JOBS"; do
-    [[ "${!variable:-1}" =~ ^[1-9][0-9]*$ ]] || { echo "$name: $variable: ${!variable} is no number above 0" >&2; exit 2; }
+    [[ "${!variable:-1}" =~ ^[1-9][0-9]*$ ]] || { echo "$name: $variable: ${!variable} is not a number above 0" >&2; exit 2; }
   done
   variable=$1_BUILD
   bin=$(realpath -m "${!variable:-$root/build/release}")/bin

@@ -55,7 +55,7 @@ class Copies(unittest.TestCase):
     def test_wrong_arguments_are_named(self):
         for name in ("varied", "rotated"):
             for arguments, more, said in (([self.path("none")], {}, "none: no such file"), (["--help"], {}, "usage: "),
-                                          ([], {name.upper() + "_CPU": "x"}, "_CPU: x is no number above 0"),
+                                          ([], {name.upper() + "_CPU": "x"}, "_CPU: x is not a number above 0"),
                                           ([], {name.upper() + "_BUILD": "/none"}, "/none/bin/tetproof is missing")):
                 done = subprocess.run([ROOT + "/ci/" + name, *arguments], text=True, capture_output=True, check=False,
                                       env=dict(os.environ, **more))

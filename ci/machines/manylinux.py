@@ -19,7 +19,7 @@ PRIVATE = "GLIBC_PRIVATE"
 
 
 class NotPortable(Exception):
-    """The module needs what other machines need not have."""
+    """The module needs something that other machines may lack."""
 
 
 def numbers(version):
