@@ -57,7 +57,7 @@ class Copies(unittest.TestCase):
             for arguments, more, said in (([self.path("none")], {}, "none: no such file"), (["--help"], {}, "usage: "),
                                           ([], {name.upper() + "_CPU": "x"}, "_CPU: x is not a number above 0"),
                                           ([], {name.upper() + "_BUILD": "/none"}, "/none/bin/tetproof is missing")):
-                done = subprocess.run([ROOT + "/ci/" + name, *arguments], text=True, capture_output=True, check=False,
+                done = subprocess.run([ROOT + "/ci/campaigns/" + name, *arguments], text=True, capture_output=True, check=False,
                                       env=dict(os.environ, **more))
                 self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
                 self.assertIn(said, done.stderr)
