@@ -338,7 +338,7 @@ class Job {
     return is_wrong;
   }
 
-  // Of the place that an oracle names. Without it the verdict is as good.
+  // A picture of the place that an oracle names. The verdict is as good without it.
   void start_picture() {
     std::vector<std::string> argv = {
         options_.self.string(), "picture", files_.input.string(), files_.mesh.string(), "--verdict",

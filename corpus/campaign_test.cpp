@@ -354,7 +354,7 @@ TEST_F(CampaignTest, ARecordIsTakenWhereTheFileAloneDoesNotTell) {
   EXPECT_EQ(undecided.disposition, Disposition::unverified);
   EXPECT_EQ(undecided.reason, "the oracles have not finished: own limit: why");
   EXPECT_EQ(decided.disposition, Disposition::ok);
-  // A record tells nothing about other failures.
+  // A record says nothing about other failures.
   const auto [bad, worse] = dispositions(
       R"({"verdict": "broken", "oracles": [{"name": "conformity", "passed": true}]})", 1);
   EXPECT_EQ(bad.disposition, Disposition::wrong_result);
@@ -530,7 +530,7 @@ TEST_F(InterruptedCampaign, ResumesAfterKill9) {
   EXPECT_FALSE(fs::exists(options_.database.string() + ".scratch"));
 }
 
-// What is said to be a number is one.
+// Fields that should be numbers are.
 TEST_F(CampaignTest, TheCommandLineTakesNoLimitThatIsNone) {
   const auto code = [&](const std::string& words) {
     const std::string line = std::string("'") + TETPROOF_PATH + "' " + words + " > '" +

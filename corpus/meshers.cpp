@@ -238,7 +238,7 @@ void take_declarations(const std::string& text, Mesher& mesher) {
   }
 }
 
-// Of the files that `tetproof measure` and `verify` read.
+// Extensions of the files that `tetproof measure` and `verify` read.
 constexpr const char* kMeshExtensions[] = {".mesh", ".msh",  ".vtu", ".node",
                                            ".ele",  ".face", ".tet"};
 

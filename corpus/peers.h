@@ -22,8 +22,8 @@ struct Peer {
   double deviation, envelope;
   const char* licence;
   const char* from;  // where one gets it
-  // Of a script: the program that it runs, which an environment variable may name otherwise, and
-  // the option that makes it tell its version ("" if there is none).
+  // For a script: the program that it runs, which an environment variable may replace, and the
+  // option that prints its version ("" if there is none).
   const char* program = nullptr;
   const char* variable = nullptr;
   const char* version_option = nullptr;

@@ -16,7 +16,7 @@ namespace tetproof {
 struct SlurmCampaign {
   std::filesystem::path folder;   // on a file system that all nodes see
   std::vector<std::string> task;  // command of a task, without --shard and --db
-  std::string models;             // tells one collection of models from another
+  std::string models;             // identifies a collection of models
   unsigned shards = 1;
   unsigned retries = 3;
   unsigned processors = 1;             // of a task

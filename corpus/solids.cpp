@@ -18,7 +18,7 @@ void demand(const std::string& why_not) {
   if (!why_not.empty()) throw std::runtime_error(why_not);
 }
 
-// Shells do not meet, so that one vertex tells.
+// Shells do not meet, so one vertex decides.
 bool contains(const InputSurface& outer, const InputSurface& inner, const ExactPoints& points) {
   for (const Index v : inner.used_vertices()) {
     const Index corners[1] = {v};

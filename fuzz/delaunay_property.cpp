@@ -132,7 +132,7 @@ Cell sorted(Cell cell) {
 
 // Every tetrahedron is positive, and no point is in the sphere of any. Among few points all are
 // asked; among more the points beside its faces, which is enough in a complex that fills the hull.
-// `ties` tells whether a point lies on a sphere.
+// `ties`: does a point lie on a sphere?
 class Judge {
  public:
   Judge(const oracles::ExactPoints& points, const std::vector<Cell>& cells)

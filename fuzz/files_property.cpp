@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of a refused input only the message is looked at. Most inputs are rejected, and this leniency
+// For a rejected input only the message is checked. Most inputs are rejected, and this leniency
 // counts them, so the others are the accepted ones.
 Leniency refused("refused-in-one-line", 0.999);
 Leniency no_triangles("read-without-triangles", 0.5);

@@ -28,7 +28,7 @@ Leniency nothing_made("sequence-without-a-mesh", 0.5);
 constexpr std::uint64_t kMostVertices = 1000;
 constexpr unsigned kMostCalls = 12;
 
-// One call of the library: what it is asked, but for the limits. Equal ones have equal answers.
+// One call of the library: its arguments except the limits. Equal ones have equal answers.
 struct Call {
   enum class Kind : std::uint8_t { mesh, cdt, improve };
   Kind kind;

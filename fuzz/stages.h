@@ -29,7 +29,7 @@ struct Stages {
 };
 
 // Are doubles fine enough for the surface? Its features are farther apart than this share of its
-// largest coordinate: thousands of roundings, unless something else is said.
+// largest coordinate: thousands of roundings, unless stated otherwise.
 bool roomy(const delmesher::Surface& surface, double share = 0x1p-40);
 
 }  // namespace tetproof::fuzz

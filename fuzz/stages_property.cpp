@@ -155,7 +155,7 @@ delmesher::improve::ImproveMesh as_measured(const delmesher::improve::ImproveMes
   return mesh;
 }
 
-// Of the tetrahedra inside, as they will be written.
+// The worst quality of the tetrahedra inside, as they will be written.
 delmesher::improve::Quality worst_inside(const delmesher::improve::ImproveMesh& mesh,
                                          const Stages& s) {
   delmesher::improve::Quality worst = delmesher::improve::kNotCounted;

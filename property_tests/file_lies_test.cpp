@@ -614,7 +614,7 @@ TEST(FileLies, OfBytesAreRefused) {
   }
 }
 
-// Of a file cut short nothing is believed, wherever that is.
+// A file cut short is rejected, wherever that is.
 TEST(FileLies, CutShortAreRefused) {
   for (const Meshed* model : {&in_space(), &of_second_order(), &of_bytes(), &in_the_plane()}) {
     for (const auto& [extension, text] : model->files()) {

@@ -543,7 +543,7 @@ TEST_F(Files, EveryMeshOfThePlaneIsVerified) {
       for (const char* format : kPlaneFormats) {
         SCOPED_TRACE(std::string(name) + " " + options + " " + format);
         const std::string mesh = path(std::string("o.") + format), promised = "plane ";
-        // Of a refined mesh a record decides.
+        // For a refined mesh a record decides.
         const bool approximate = std::string(options).find("--approximate") != std::string::npos;
         EXPECT_EQ(verify({path(name), mesh, "--promised", promised + options}),
                   approximate ? 5 : 0);

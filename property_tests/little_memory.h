@@ -15,8 +15,8 @@
 
 namespace tetproof {
 
-// Of a process that may use so much more address space than it has: its exit code, or -1 if it was
-// ended, after two minutes at the latest. What it says is appended to `said`.
+// Runs a process that may use this much more address space than it has: returns its exit code, or
+// -1 if it was killed, after two minutes at the latest. Appends its output to `said`.
 inline int with_more_memory(std::size_t bytes, const std::string& said,
                             const std::function<int()>& work) {
   const pid_t child = fork();

@@ -203,7 +203,7 @@ TetrahedronShape tetrahedron_shape(const Corners& p) {
   const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
   double squared_edges = 0;
   for (const auto& edge : d) squared_edges += dot(edge, edge);
-  // Of a tetrahedron far from flat nothing is lost to rounding.
+  // A tetrahedron far from flat loses nothing to rounding.
   constexpr double kFlat = 1e-5;
   const double size = squared_edges * std::sqrt(squared_edges);
   if (!(det > kFlat * size)) return finite(p) ? exact_shape(p) : TetrahedronShape{};

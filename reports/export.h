@@ -34,7 +34,7 @@ std::string rows_to_junit(std::vector<RunRow> rows);
 // \throw std::runtime_error if the text is not an export in JSON.
 std::vector<RunRow> rows_from_json(const std::string& text);
 
-// Rows of a results file or of an export in JSON, told apart by their first bytes.
+// Rows of a results file or of an export in JSON, distinguished by their first bytes.
 // \throw std::runtime_error if the file cannot be read.
 std::vector<RunRow> read_rows(const std::filesystem::path& path);
 

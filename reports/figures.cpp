@@ -46,7 +46,7 @@ std::vector<std::optional<double>> histogram(const std::vector<double>& values, 
   return percent;
 }
 
-// Of one value of each model.
+// A chart of one value of each model.
 Chart model_chart(const Selection& selection, const std::string& label, const Value& value,
                   const Bins& bins, const std::string& figure) {
   Chart chart;

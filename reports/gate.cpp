@@ -361,7 +361,7 @@ class Gate {
                      const Getter& value) {
     std::vector<Weighted> differences;
     double before_sum = 0, after_sum = 0;
-    // Of one repetition: the largest share need not be that of the largest mesh.
+    // From one repetition: the largest share need not be that of the largest mesh.
     const Getter number = [&](const Run& run) -> std::optional<double> {
       const auto share = value(run), all = tetrahedra(run);
       return share && all ? std::optional(*share * *all) : std::nullopt;

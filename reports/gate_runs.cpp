@@ -16,7 +16,7 @@ Json object_of(const std::string& text) {
   return json.is_object() ? json : Json::object();
 }
 
-// The worst of the repetitions decides how the run ended; a run killed from outside tells nothing.
+// The worst of the repetitions decides how the run ended; a run killed from outside says nothing.
 // One that nobody vouches for is worse than one that is verified.
 int weight_of_ending(const RunRow& row) {
   if (row.disposition == Disposition::killed) return 0;

@@ -437,7 +437,7 @@ TEST(Gate, EveryMeasureOfAllModelsHasItsLimit) {
       change_all(fresh, [&](Json& m, Json& s, Json& v) { limit.set(m, s, v, value); });
       const auto report = compare_campaigns(campaign(10), fresh);
       expect_only(report, limit.kind, value == limit.beyond ? 1 : 0);
-      // Of fewer than eight pairs nothing is concluded about all.
+      // Fewer than eight pairs allow no conclusion about all.
       const std::vector<RunRow> few(fresh.begin(), fresh.begin() + 7);
       EXPECT_TRUE(compare_campaigns(campaign(7), few).findings.empty());
     }
@@ -529,7 +529,7 @@ TEST(Gate, WhatTheSidesDifferInIsSaid) {
   EXPECT_NE(said(campaign(10), fresh).find("limits differ"), std::string::npos);
   fresh = campaign(10);
   fresh[0].promise = "envelope 0.5";
-  EXPECT_EQ(said(campaign(10), fresh), "");  // the base tells none
+  EXPECT_EQ(said(campaign(10), fresh), "");  // the base has none
   auto base = campaign(10);
   base[0].promise = "exact";
   EXPECT_NE(said(base, fresh).find("promises differ"), std::string::npos);

@@ -90,7 +90,7 @@ Chart relative_chart(const std::vector<HistoryStep>& steps, double Sums::*measur
   return chart;
 }
 
-// A measure of a model that may change, and from which ratio (either way) that is told. What is
+// A measure of a model that may change, and from which ratio (either way) that is reported. What is
 // below `least` on both sides is noise.
 struct Watched {
   const char* name;

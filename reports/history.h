@@ -28,7 +28,7 @@ std::vector<HistoryStep> load_history(const std::vector<std::filesystem::path>& 
 Table history_table(const std::vector<HistoryStep>& steps);
 
 // What changed in a model from one campaign to the next, the largest first: another disposition, or
-// a measure by more than its limit. At most 100 rows; a note tells how many there are.
+// a measure by more than its limit. At most 100 rows; a note says how many there are.
 Table history_changes(const std::vector<HistoryStep>& steps);
 
 // Tetrahedra, or processor time, of each mesher's common models relative to its first campaign.

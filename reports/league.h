@@ -2,7 +2,7 @@
 //
 // Laws: success is a mesh that the oracles have nothing against; an unverified one is none. Rates
 // come with Wilson's 95 % interval over all runs of the mesher. Sizes, angles, times and memory are
-// those of its own successes, whose number is told. The matrix has a row for each model and a cell
+// those of its own successes, with their number. The matrix has a row for each model and a cell
 // for each run.
 #pragma once
 

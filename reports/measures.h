@@ -28,7 +28,7 @@ inline Value of(Part part, std::optional<double> MeshColumns::*column) {
   return [=](const RunRow& row) { return row.*part ? (*(row.*part)).*column : std::nullopt; };
 }
 
-// Of the tetrahedra inside, where the file tells them apart; else of all.
+// The value for the tetrahedra inside, if the file distinguishes them; else for all.
 template <typename T>
 Value of_solid(T MeshColumns::*column) {
   const Value inside = of(&RunRow::inside, column), all = of(&RunRow::mesh, column);

@@ -25,8 +25,8 @@ struct AngleStatistics {
   double dihedral_percent = 0;
 };
 
-// Of the tetrahedra: 3 times the radius of the inscribed sphere over that of the circumsphere, and
-// Gmsh's signed inverse condition number, which is negative for inverted tetrahedra.
+// Shapes of tetrahedra: gamma, 3 times the inradius over the circumradius, and Gmsh's signed
+// inverse condition number, which is negative for inverted tetrahedra.
 struct ShapeStatistics {
   double min_gamma = 0, mean_gamma = 0, gamma_percent = 0;  // the last is the 1 % quantile
   double min_sicn = 0, mean_sicn = 0;
@@ -41,7 +41,7 @@ struct PartQuality {
 
 struct MeshQuality {
   PartQuality all;                    // every tetrahedron of the file
-  std::optional<PartQuality> inside;  // only if the file tells inside from outside
+  std::optional<PartQuality> inside;  // only if the file separates inside from outside
   std::uint64_t unused_vertices = 0;
   std::uint64_t inverted = 0, flat = 0;  // exact signs of the doubles as written
   std::uint64_t repeated_corners = 0;    // tetrahedra with a vertex twice (also flat)

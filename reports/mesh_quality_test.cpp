@@ -98,7 +98,7 @@ TEST(MeshQuality, InvertedTetrahedraHaveANegativeConditionNumber) {
   EXPECT_EQ(measure(mesh).all.shapes.min_sicn, s.min_sicn);
 }
 
-// Of 101 slivers of one kind, at angles of 1, 2, ... 101 tenths of a degree, the second one.
+// For 101 slivers of one kind, at angles of 1, 2, ... 101 tenths of a degree, it is the second one.
 TEST(MeshQuality, QuantilesOfOnePercent) {
   MeshFile mesh;
   std::vector<double> gammas;

@@ -76,7 +76,7 @@ void look_along(Position direction, View& view) {
   view.up = oracles::cross(view.right, direction);
 }
 
-// Of some directions the one that shows the points widest.
+// Chooses, among some directions, the one that shows the points widest.
 void choose_direction(const std::vector<Position>& points, View& view) {
   double widest = -1;
   View best = view;
@@ -170,7 +170,7 @@ class Picture {
     std::vector<Position> points = place_.points;
     for (const Index v : place_.vertices) points.push_back(mesh_.vertices[v]);
     for (const Index v : place_.input_vertices) points.push_back(input_.vertices[v]);
-    // A facet may be large: it tells the place only if nothing else does.
+    // A facet may be large: it gives the place only if nothing else does.
     const bool only_facets = points.empty();
     for (const Index t : place_.input_triangles) {
       if (!only_facets) break;
@@ -194,7 +194,7 @@ class Picture {
     return std::isfinite(view_.radius);
   }
 
-  // Of the edges at the vertex nearest to a point, of the mesh or else of the input.
+  // The shortest edge at the vertex nearest to a point, of the mesh or else of the input.
   double shortest_edge_near(const Position& point) const {
     double nearest = std::numeric_limits<double>::infinity(), length = 0;
     const auto visit = [&](const Position& a, const Position& b) {

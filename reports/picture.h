@@ -33,7 +33,7 @@ std::optional<std::string> sentence_with_place(const std::string& verdict_json);
 std::string picture_in(const std::string& verdict_json);
 
 // SVG: what the sentence names in red, the triangles of the input there in blue, edges of
-// tetrahedra there in grey, with a caption that tells where it is and how large. Empty if the
+// tetrahedra there in grey, with a caption that says where it is and how large. Empty if the
 // sentence names nothing that exists.
 std::string picture_of(const oracles::Polyhedron& input, const oracles::MeshFile& mesh,
                        const std::string& sentence);

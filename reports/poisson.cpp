@@ -156,7 +156,7 @@ double inner(const std::vector<double>& u, const std::vector<double>& v) {
 // The tridiagonal matrix that conjugate gradients make on their way (Lanczos).
 class Tridiagonal {
  public:
-  // Of one iteration: the length of its step, and the share of the direction before it that the
+  // Adds one iteration: the length of its step, and the share of the previous direction that the
   // next direction takes.
   void add(double step, double share) {
     diagonal_.push_back(1 / step + (diagonal_.empty() ? 0 : share_ / step_));

@@ -12,8 +12,8 @@ struct PoissonRun {
   std::uint64_t tetrahedra = 0, unknowns = 0;
   unsigned iterations = 0;  // until the residual is 1e-8 of the first one; `converged` says whether
   bool converged = false;
-  // Of the matrix with its preconditioner, as the iterations tell it: the largest over the smallest
-  // eigenvalue that they have met, so at most the true number. 0 without iterations.
+  // Condition number of the preconditioned matrix, estimated from the iterations: the largest over
+  // the smallest eigenvalue that they met, so at most the true number. 0 without iterations.
   double condition = 0;
   double largest_error = 0;  // of the solution at a vertex, relative to the largest value
   double mean_error = 0;     // root of the mean square over the volume, in the same way

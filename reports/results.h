@@ -95,8 +95,8 @@ std::string verdict_of(const RunRow& row);
 // with the reason. Rows are stored and read like that.
 void demand_verdict(RunRow& row);
 
-// Of two rows of one key, does `row` stay in a merge, whatever the order? A row that was killed
-// from outside gives way, then one that is unverified, then the earlier one.
+// Of two rows with one key, does `row` survive a merge, in any order? A row killed from outside
+// gives way, then an unverified one, then the earlier one.
 bool supersedes(const RunRow& row, const RunRow& other);
 
 // The columns found in a measured object (no member), or in its member `inside`, or in the member

@@ -26,7 +26,7 @@ struct Selection {
   std::vector<const RunRow*> ok_runs(const std::string& mesher) const;
 };
 
-// Of several runs of a model with a mesher (other versions, flags or limits) the latest counts.
+// Among several runs of a model with a mesher (other versions, flags or limits) the latest counts.
 Selection select_runs(const std::vector<RunRow>& rows);
 
 // Replaces the wall time of each run by its processor time, because wall time says little on a busy

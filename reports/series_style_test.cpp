@@ -1,4 +1,4 @@
-// Series can be told apart: by colour, seen with any cones, and by pattern. Colours are measured
+// Series can be distinguished: by colour, seen with any cones, and by pattern. Colours are measured
 // here from their definitions (sRGB, CIELAB, WCAG 2), not by the code that chose them.
 #include "reports/series_style.h"
 

@@ -11,7 +11,7 @@ namespace tetproof {
 // All of these give nothing for no values.
 std::optional<double> mean(const std::vector<double>& values);
 std::optional<double> minimum(const std::vector<double>& values);
-// Of an even number of values the mean of the two in the middle.
+// For an even number of values the mean of the two in the middle.
 std::optional<double> median(std::vector<double> values);
 // Linear between the two nearest values, for p from 0 to 1.
 std::optional<double> quantile(std::vector<double> values, double p);

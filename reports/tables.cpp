@@ -243,7 +243,7 @@ Table table_2_all(const Selection& selection) {
 
 Table table_2_inside(const Selection& selection) {
   Table table = comparison(selection, &RunRow::inside);
-  // Without a file that tells its inside the table has no data.
+  // Without a file that marks its inside the table has no data.
   const bool any = std::any_of(
       selection.meshers.begin(), selection.meshers.end(), [&](const std::string& mesher) {
         return !values_of(selection.ok_runs(mesher), of(&RunRow::inside, &MeshColumns::tetrahedra))

@@ -22,7 +22,8 @@ Table table_2(const Selection& selection);
 // The same over all models on which each mesher succeeds.
 Table table_2_all(const Selection& selection);
 
-// Table 2's measures over the tetrahedra inside the model only; no rows if no file tells them.
+// Table 2's measures over the tetrahedra inside the model only; no rows if no file distinguishes
+// them.
 Table table_2_inside(const Selection& selection);
 
 // As the paper's Table 3: one model with all meshers that succeed on it.

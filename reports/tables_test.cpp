@@ -320,7 +320,7 @@ TEST(Tables, LimitsThatStruckAreCounted) {
 }
 
 // A copy that ended in another way than its model is a change of mind, whichever of them is ok.
-// What was killed or not verified tells nothing.
+// Runs that were killed or not verified say nothing.
 TEST(Tables, MeshersThatChangeTheirMindAreReported) {
   std::vector<RunRow> rows;
   for (const Made& made : std::initializer_list<Made>{

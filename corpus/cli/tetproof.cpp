@@ -25,7 +25,7 @@ void add_tier(CLI::App& app, std::string& tier) {
       ->check(CLI::IsMember({"smoke", "nightly", "weekly"}));
 }
 
-// Of children: how many at a time, how long, how large.
+// Limits of children: how many at a time, how long, how large.
 template <typename Arguments>
 void add_limits(CLI::App& app, Arguments& a, const char* jobs, const char* seconds,
                 const char* mebibytes) {

@@ -141,7 +141,7 @@ class Shrinker {
   }
 
   // Keeps the first of the surfaces that is known to fail, of those that are valid. Takes them in
-  // their order, as many at once as are to be judged together.
+  // their order, as many at once as are judged together.
   bool accept(const std::vector<Surface>& candidates) {
     std::vector<Surface> together;
     for (std::size_t i = 0; i < candidates.size() && !spent(); ++i) {
@@ -158,7 +158,7 @@ class Shrinker {
     if (welded.triangles.empty() || !certified_valid(welded)) return std::nullopt;
     return welded;
   }
-  // Of surfaces in their valid form, which are judged together.
+  // Takes the first failing one of these valid surfaces, which are judged together.
   bool take_first_failing(std::vector<Surface>& valid) {
     if (valid.empty()) return false;
     progress_.runs += valid.size();

@@ -7,7 +7,7 @@
 
 namespace tetproof::test_surfaces {
 
-// Of volume 24.
+// A box of volume 24.
 inline delmesher::Surface a_box() {
   return shapes::box({-1, -2, -0.5}, {3, 1, 1.5});
 }

@@ -94,7 +94,7 @@ TEST(Vary, AnEdgeIsSplitWhereDoublesHaveItsMidpoint) {
   }
 }
 
-// Of its edges only one has a midpoint in doubles: the sums of the others have more bits.
+// Only one of its edges has a midpoint in doubles: the sums of the others have more bits.
 TEST(Vary, OtherEdgesAreLeftAlone) {
   const double full = 1 + 0x1p-52;
   const Surface given = shapes::tetrahedron({full, 0, 0}, {0x1p-10 * full, 2, 0},

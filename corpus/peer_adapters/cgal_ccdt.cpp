@@ -1,6 +1,6 @@
 // tetproof-cgal-ccdt SWITCHES INPUT OUT.mesh STATS.json: the conforming constrained Delaunay
 // triangulation of CGAL 6.1 and later, as in the first example of its manual. It fills the convex
-// hull; what is inside is told by the constrained facets that are crossed from outside.
+// hull; a path from outside tells by the constrained facets it crosses what is inside.
 // SWITCHES: "-"; it has no step of optimization.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>

@@ -30,8 +30,8 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::C
                                                         Domain::Curve_index>;
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 
-// Of the diagonal. Facets are a tenth of the envelope that the peer is judged by from the surface,
-// at their centres (corpus/peers.cpp); the other sizes are in proportion as in the manual's
+// Fractions of the diagonal. Facets are, at their centres, a tenth of the peer's envelope
+// (corpus/peers.cpp) from the surface; the other sizes are in proportion as in the manual's
 // example.
 constexpr double kFacetDistance = 0.5e-3;
 constexpr double kEdgeSize = 0.025;

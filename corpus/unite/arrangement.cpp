@@ -51,7 +51,7 @@ class Arranger {
   Arrangement result_;
 };
 
-// Of the plane of a triangle: 1 where its normal points to, 0 on it, -1.
+// Side of the vertex of a triangle's plane: 1 where its normal points, 0 on it, -1 behind it.
 int Arranger::side(Index plane, Index vertex) const {
   const auto point = [&](Index v) {
     const Position& p = soup_.vertices[v];

@@ -5,7 +5,7 @@
 namespace tetproof::unite {
 namespace {
 
-// Of the two doubles around an exact number the one that is closer to it.
+// The double closest to an exact number.
 template <class Number>
 double nearest(const Number& x) {
   const auto [low, high] = CGAL::to_interval(x);

@@ -69,7 +69,7 @@ double farthest_vertex(const Surface& from, const Surface& to) {
   return farthest;
 }
 
-// Of bodies whose union touches itself.
+// Unites bodies whose union touches itself, and separates it.
 UnionResult expect_separated(const std::vector<Surface>& bodies, UnionOptions options = {}) {
   const UnionResult touching = unite(together(bodies), options);
   EXPECT_EQ(touching.code, UnionCode::touching);

@@ -27,7 +27,7 @@ using test_surfaces::together;
 using test_surfaces::volume;
 using Point = std::array<double, 3>;
 
-// Of closed surfaces, one by one.
+// Bodies bounded by closed surfaces, one by one.
 class Bodies {
  public:
   Bodies(const std::vector<Surface>& bodies, const std::vector<Point>& places) {
@@ -111,8 +111,8 @@ TEST(Union, OfOverlappingBoxesIsExactWhereDoublesAre) {
   EXPECT_EQ(result.counts.largest_move, 0);
   EXPECT_GT(result.counts.pairs, 0U);
   EXPECT_GT(result.counts.dropped, 0U);
-  // Of the given vertices the result has all but one of each box, and the line where the boxes meet
-  // has six corners. Where it crosses diagonals of sides, no vertex is left.
+  // The result has all given vertices except one of each box, and the line where the boxes meet has
+  // six corners. Where it crosses diagonals of sides, no vertex is left.
   EXPECT_EQ(result.surface.vertices.size(), 20U);
   EXPECT_EQ(result.counts.new_points, 6 + result.counts.flat_vertices);
   EXPECT_TRUE(says(result, "2 bodies of volume 16 became 1 of 15"));

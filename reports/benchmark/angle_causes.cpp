@@ -63,7 +63,7 @@ class FacetAngles {
     return beyond == triangle_at_.end() || facet_[beyond->second] != facet_[t];
   }
 
-  // Of the tetrahedron with the first vertex.
+  // Volume, times 6, of the tetrahedron with the first vertex.
   double volume6(const std::array<std::uint32_t, 3>& triangle) const {
     double u[3][3];
     for (int i = 0; i < 3; ++i) {
