@@ -49,6 +49,11 @@ LAYERS = {
 # Folders that are namespaces under delmesher; the public types and the tables of their names are in delmesher itself.
 NAMESPACES = tuple(LAYERS)
 OF_NO_FOLDER = ("mesher/base/namespaces.h", "mesher/cli/main.cpp")
+# Rooms of the oracles, from the lowest: each may include those before it, and the headers in oracles/ itself all of them.
+# cgal/ asks other libraries, and is asked by any room.
+ROOMS = ("base", "verdict", "files", "surface", "mesh", "record", "improvement")
+ORACLES = {room: ROOMS[:n] for n, room in enumerate(ROOMS)} | {"plane": ("base", "verdict", "files")}
+OPINIONS = "oracles/cgal/"
 PIPELINE = tuple(layer for layer in LAYERS if layer not in ("io", "cli"))
 
 # Top-level folders: which others each may include. None of these but mesher itself sees more of the mesher
@@ -134,6 +139,14 @@ def mesher_quoted(layer, is_test, header):
     return "mesher/%s must not include mesher/%s" % (layer or "pipeline", target)
 
 
+def between_rooms(path, header):
+    """Reason why a file of the oracles must not include a header of theirs, or None."""
+    parts, target = path.split("/"), header.split("/")
+    if len(parts) < 3 or parts[1] not in ORACLES or header.startswith(OPINIONS) or target[1] in (parts[1],) + ORACLES[parts[1]]:
+        return None
+    return "oracles/%s must not include %s" % (parts[1], header)
+
+
 def public_include(path, kind, header, root):
     """Public headers find each other relative to their own folder, in the sources as where they are installed."""
     if kind == "<":
@@ -166,6 +179,8 @@ def check_include(path, kind, header, root):
             reason = "%s may include %s only, no stage of the mesher" % (parts[0], " and ".join(PUBLIC_HEADERS))
         else:
             reason = "%s must not include %s" % (parts[0], header)
+    if reason is None and kind == '"' and parts[0] == "oracles" and header.startswith("oracles/"):
+        reason = between_rooms(path, header)
     if reason is None and kind == '"' and parts[0] != "ci" and not os.path.isfile(os.path.join(root, header)):
         reason = "no such file from the root: \"%s\"" % header
     return reason

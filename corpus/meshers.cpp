@@ -15,8 +15,8 @@
 #include "corpus/sha256.h"
 #include "corpus/shell.h"
 #include "mesher/delmesher.h"
+#include "oracles/base/text_reader.h"
 #include "oracles/envelope.h"
-#include "oracles/text_reader.h"
 
 namespace tetproof {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "corpus/sha256.h"
-#include "oracles/text_reader.h"
+#include "oracles/base/text_reader.h"
 
 namespace tetproof {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/input_surface.h"
+#include "oracles/surface/input_surface.h"
 
 namespace tetproof {
 

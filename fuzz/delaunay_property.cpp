@@ -13,8 +13,8 @@
 #include "mesher/base/check.h"
 #include "mesher/base/control.h"
 #include "mesher/delaunay/tetrahedrization.h"
-#include "oracles/exact_points.h"
-#include "oracles/exact_sum.h"
+#include "oracles/base/exact_points.h"
+#include "oracles/base/exact_sum.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "fuzz/stages.h"
-#include "oracles/distances.h"
+#include "oracles/base/distances.h"
 
 namespace tetproof::fuzz {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
-#include "oracles/input_surface.h"
+#include "oracles/surface/input_surface.h"
 
 namespace tetproof::fuzz {
 

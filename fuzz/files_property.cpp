@@ -15,8 +15,8 @@
 #include "mesher/io/read_mesh.h"
 #include "mesher/io/test_archives.h"
 #include "mesher/io/write_mesh.h"
-#include "oracles/mesh_file.h"
-#include "oracles/text_reader.h"
+#include "oracles/base/text_reader.h"
+#include "oracles/files/mesh_file.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {

@@ -3,7 +3,7 @@
 
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"
-#include "oracles/local_operations.h"
+#include "oracles/improvement/local_operations.h"
 #include "oracles/verify.h"
 #include "property_tests/leniency.h"
 

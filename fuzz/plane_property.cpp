@@ -7,7 +7,7 @@
 #include "fuzz/properties.h"
 #include "mesher/io/read_plane.h"
 #include "mesher/io/write_plane.h"
-#include "oracles/plane_verify.h"
+#include "oracles/plane/verify.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {

@@ -9,7 +9,7 @@
 #include "fuzz/properties.h"
 #include "fuzz/stages.h"
 #include "mesher/surface/feature_size.h"
-#include "oracles/input_surface.h"
+#include "oracles/surface/input_surface.h"
 #include "property_tests/leniency.h"
 
 namespace tetproof::fuzz {

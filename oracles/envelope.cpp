@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "oracles/box.h"
-#include "oracles/triangle_distance.h"
-#include "oracles/vectors.h"
+#include "oracles/base/box.h"
+#include "oracles/base/triangle_distance.h"
+#include "oracles/base/vectors.h"
 
 namespace tetproof::oracles {
 namespace {

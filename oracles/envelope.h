@@ -9,8 +9,8 @@
 
 #include <string>
 
-#include "oracles/input_surface.h"
-#include "oracles/mesh_file.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/surface/input_surface.h"
 #include "oracles/verify.h"
 
 namespace tetproof::oracles {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "oracles/mesh/angles.h"
+#include "oracles/mesh/measures.h"
 #include "oracles/verify.h"
 #include "oracles/verify_shared.h"
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "oracles/input_digits.h"
-#include "oracles/ordinary_units.h"
-#include "oracles/parallel.h"
-#include "oracles/record_origin.h"
-#include "oracles/verdict.h"
+#include "oracles/base/parallel.h"
+#include "oracles/record/ordinary_units.h"
+#include "oracles/record/record_origin.h"
+#include "oracles/surface/input_digits.h"
+#include "oracles/verdict/verdict.h"
 #include "oracles/verification.h"
 
 namespace tetproof::oracles {

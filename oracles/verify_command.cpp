@@ -13,13 +13,13 @@
 #include <new>
 #include <stdexcept>
 
+#include "oracles/base/heap.h"
+#include "oracles/base/text_reader.h"
 #include "oracles/envelope.h"
-#include "oracles/heap.h"
-#include "oracles/improved.h"
-#include "oracles/plane_verify.h"
-#include "oracles/sidecar.h"
-#include "oracles/surface_file.h"
-#include "oracles/text_reader.h"
+#include "oracles/files/sidecar.h"
+#include "oracles/files/surface_file.h"
+#include "oracles/improvement/improved.h"
+#include "oracles/plane/verify.h"
 #include "oracles/verify.h"
 
 namespace tetproof::oracles {

@@ -4,15 +4,15 @@
 #include <string>
 #include <utility>
 
-#include "oracles/delaunay.h"
-#include "oracles/edge_nodes.h"
-#include "oracles/hull.h"
-#include "oracles/places.h"
-#include "oracles/refined_index.h"
-#include "oracles/regions.h"
-#include "oracles/surface_validity.h"
-#include "oracles/vectors.h"
-#include "oracles/verdict.h"
+#include "oracles/base/vectors.h"
+#include "oracles/files/edge_nodes.h"
+#include "oracles/mesh/delaunay.h"
+#include "oracles/mesh/hull.h"
+#include "oracles/mesh/places.h"
+#include "oracles/mesh/regions.h"
+#include "oracles/record/refined_index.h"
+#include "oracles/surface/surface_validity.h"
+#include "oracles/verdict/verdict.h"
 #include "oracles/verification.h"
 
 namespace tetproof::oracles {

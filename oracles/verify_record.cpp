@@ -4,11 +4,11 @@
 #include <cmath>
 #include <set>
 
-#include "oracles/delaunay.h"
-#include "oracles/hull.h"
-#include "oracles/local_operations.h"
-#include "oracles/same_mesh.h"
-#include "oracles/stand_in.h"
+#include "oracles/improvement/local_operations.h"
+#include "oracles/mesh/delaunay.h"
+#include "oracles/mesh/hull.h"
+#include "oracles/record/same_mesh.h"
+#include "oracles/surface/stand_in.h"
 #include "oracles/verification.h"
 #ifdef TETPROOF_SECOND_OPINIONS
 #include "oracles/cgal/second_kernel.h"

@@ -1,14 +1,14 @@
 // The oracles on the refined mesh of the record.
 #include <algorithm>
 
-#include "oracles/chamfer.h"
-#include "oracles/delaunay.h"
-#include "oracles/edge_sizes.h"
-#include "oracles/enrichment.h"
-#include "oracles/filter.h"
-#include "oracles/hull.h"
-#include "oracles/places.h"
-#include "oracles/refinement.h"
+#include "oracles/mesh/delaunay.h"
+#include "oracles/mesh/hull.h"
+#include "oracles/mesh/places.h"
+#include "oracles/record/chamfer.h"
+#include "oracles/record/enrichment.h"
+#include "oracles/record/filter.h"
+#include "oracles/record/refinement.h"
+#include "oracles/verdict/edge_sizes.h"
 #include "oracles/verification.h"
 
 namespace tetproof::oracles {

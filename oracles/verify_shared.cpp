@@ -5,10 +5,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "oracles/box.h"
-#include "oracles/delaunay.h"
-#include "oracles/heap.h"
-#include "oracles/vectors.h"
+#include "oracles/base/box.h"
+#include "oracles/base/heap.h"
+#include "oracles/base/vectors.h"
+#include "oracles/mesh/delaunay.h"
 
 namespace tetproof::oracles {
 namespace {

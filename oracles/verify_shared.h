@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
-#include "oracles/chamfer.h"
-#include "oracles/conformity.h"
-#include "oracles/input_surface.h"
-#include "oracles/mesh_file.h"
-#include "oracles/parallel.h"
-#include "oracles/places.h"
-#include "oracles/promise.h"
-#include "oracles/report.h"
+#include "oracles/base/parallel.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/mesh/conformity.h"
+#include "oracles/mesh/places.h"
+#include "oracles/record/chamfer.h"
+#include "oracles/record/cover.h"
+#include "oracles/surface/input_surface.h"
+#include "oracles/verdict/promise.h"
+#include "oracles/verdict/report.h"
 
 namespace tetproof::oracles {
 
@@ -140,7 +141,9 @@ class SharedData {
       refined_.complex = complex_of(exact_->refined, sidecar().points);
       done_with(Bulk::refined_tetrahedra);
       refined_.shape = check_complex(refined_.complex, refined_.neighbours);
-      refined_.places = std::make_unique<const Places>(refined_mesh());
+      refined_.places =
+          std::make_unique<const Places>(refined_.complex, refined_.neighbours, sidecar_.surface,
+                                         [mesh = refined_mesh()] { return cover_of(mesh); });
     });
     return refined_;
   }

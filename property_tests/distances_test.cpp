@@ -1,5 +1,5 @@
 // Exact squared distances, on integers whose distances are known.
-#include "oracles/distances.h"
+#include "oracles/base/distances.h"
 
 #include <gtest/gtest.h>
 

@@ -17,8 +17,8 @@
 
 #include "mesher/delmesher.h"
 #include "mesher/delmesher_files.h"
-#include "oracles/angles.h"
-#include "oracles/improved.h"
+#include "oracles/improvement/improved.h"
+#include "oracles/mesh/angles.h"
 #include "property_tests/samples.h"
 
 namespace tetproof {

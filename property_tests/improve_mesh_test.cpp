@@ -13,8 +13,8 @@
 #include <set>
 
 #include "mesher/delmesher.h"
-#include "oracles/local_operations.h"
-#include "oracles/mesh_file.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/improvement/local_operations.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 

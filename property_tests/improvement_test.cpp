@@ -7,7 +7,7 @@
 #include <map>
 
 #include "mesher/delmesher.h"
-#include "oracles/local_operations.h"
+#include "oracles/improvement/local_operations.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 

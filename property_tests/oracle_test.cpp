@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oracles/surface/input_surface.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 

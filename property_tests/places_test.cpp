@@ -1,7 +1,7 @@
-// Which tetrahedra are inside, outside or crossed (oracles/places.h). The oracle asks once for a
-// group of tetrahedra, and asks nothing about the surface that faces of the mesh cover. That saves
-// work, and must change no answer.
-#include "oracles/places.h"
+// Which tetrahedra are inside, outside or crossed (oracles/mesh/places.h). The oracle asks once for
+// a group of tetrahedra, and asks nothing about the surface that faces of the mesh cover. That
+// saves work, and must change no answer.
+#include "oracles/mesh/places.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "mesher/delmesher.h"
+#include "oracles/record/cover.h"
 #include "property_tests/samples.h"
 
 namespace tetproof {
@@ -97,7 +98,8 @@ void expect_places_of_a_run(const delmesher::Surface& input, bool chamfered) {
   const Cover cover = cover_of(mesh);
   // Without chamfers and filter the faces of the mesh cover all of the surface.
   ASSERT_EQ(cover.triangles.empty(), !chamfered);
-  const Places places(mesh);
+  const Places places(*mesh.complex, *mesh.neighbours, *mesh.surface,
+                      [&mesh] { return cover_of(mesh); });
   std::array<std::size_t, 3> counts{};
   for (std::size_t t = 0; t < complex.tetrahedra.size(); ++t) {
     const Place place = places.of(t);

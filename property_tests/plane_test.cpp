@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "mesher/delmesher_plane.h"
-#include "oracles/plane_shapes.h"
-#include "oracles/plane_verify.h"
+#include "oracles/plane/shapes.h"
+#include "oracles/plane/verify.h"
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include "mesher/predicates/filter.h"
 #include "mesher/predicates/point_families.h"
 #include "mesher/predicates/predicates.h"
+#include "oracles/base/exact_points.h"
 #include "oracles/cgal/kernel_opinion.h"
-#include "oracles/exact_points.h"
 #include "property_tests/samples.h"
 
 namespace tetproof {

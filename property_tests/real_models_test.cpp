@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mesher/delmesher.h"
-#include "oracles/surface_file.h"
+#include "oracles/files/surface_file.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 

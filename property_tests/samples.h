@@ -9,7 +9,7 @@
 #include <string>
 
 #include "mesher/delmesher.h"
-#include "oracles/mesh_file.h"
+#include "oracles/files/mesh_file.h"
 #include "oracles/verify.h"
 
 namespace tetproof::samples {

@@ -15,9 +15,9 @@
 #include "mesher/delmesher.h"
 #include "oracles/cgal/kernel_opinion.h"
 #include "oracles/cgal/surface_opinion.h"
-#include "oracles/delaunay.h"
-#include "oracles/mesh_file.h"
-#include "oracles/surface_file.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/files/surface_file.h"
+#include "oracles/mesh/delaunay.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 

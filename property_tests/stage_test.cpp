@@ -10,10 +10,10 @@
 #include "mesher/base/control.h"
 #include "mesher/delaunay/tetrahedrization.h"
 #include "mesher/delmesher.h"
-#include "oracles/angles.h"
 #include "oracles/cgal/kernel_opinion.h"
-#include "oracles/chamfer.h"
-#include "oracles/delaunay.h"
+#include "oracles/mesh/angles.h"
+#include "oracles/mesh/delaunay.h"
+#include "oracles/record/chamfer.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 

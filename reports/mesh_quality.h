@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/mesh_file.h"
+#include "oracles/files/mesh_file.h"
 
 namespace tetproof {
 

@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-#include "oracles/vectors.h"
+#include "oracles/base/vectors.h"
 
 namespace tetproof {
 namespace {

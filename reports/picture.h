@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "oracles/input_surface.h"
-#include "oracles/mesh_file.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/surface/input_surface.h"
 
 namespace tetproof {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "oracles/vectors.h"
+#include "oracles/base/vectors.h"
 #include "reports/mesh_quality.h"
 
 namespace tetproof {

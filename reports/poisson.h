@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "oracles/mesh_file.h"
+#include "oracles/files/mesh_file.h"
 
 namespace tetproof {
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "oracles/mesh_file.h"
-#include "oracles/surface_file.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/files/surface_file.h"
 #include "reports/angles.h"
 #include "reports/measures.h"
 

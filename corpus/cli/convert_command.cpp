@@ -6,7 +6,7 @@
 
 #include "corpus/cli/commands.h"
 #include "corpus/solids.h"
-#include "oracles/surface_file.h"
+#include "oracles/files/surface_file.h"
 
 namespace tetproof {
 namespace {

@@ -9,8 +9,8 @@
 #include "corpus/generate/generate.h"
 #include "corpus/models.h"
 #include "corpus/printable.h"
-#include "oracles/surface_file.h"
-#include "oracles/text_reader.h"
+#include "oracles/base/text_reader.h"
+#include "oracles/files/surface_file.h"
 
 namespace tetproof {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "corpus/cli/commands.h"
 #include "corpus/generate/generate.h"
-#include "oracles/surface_file.h"
+#include "oracles/files/surface_file.h"
 
 namespace tetproof {
 namespace {

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "corpus/cli/commands.h"
-#include "oracles/mesh_file.h"
-#include "oracles/vectors.h"
+#include "oracles/base/vectors.h"
+#include "oracles/files/mesh_file.h"
 #include "reports/mesh_quality.h"
 #include "reports/poisson.h"
 

@@ -4,10 +4,10 @@
 #include <fstream>
 
 #include "corpus/cli/commands.h"
+#include "oracles/base/text_reader.h"
 #include "oracles/envelope.h"
-#include "oracles/mesh_file.h"
-#include "oracles/surface_file.h"
-#include "oracles/text_reader.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/files/surface_file.h"
 #include "reports/picture.h"
 
 namespace tetproof {

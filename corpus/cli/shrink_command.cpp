@@ -13,7 +13,7 @@
 #include "corpus/generate/shrink.h"
 #include "corpus/process.h"
 #include "corpus/runnable.h"
-#include "oracles/surface_file.h"
+#include "oracles/files/surface_file.h"
 
 namespace tetproof {
 namespace {

@@ -13,7 +13,7 @@ namespace nglib {
 #include <vector>
 
 #include "corpus/peer_adapters/adapter.h"
-#include "oracles/input_surface.h"
+#include "oracles/surface/input_surface.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include "corpus/plane/bench.h"
 #include "mesher/io/read_plane.h"
-#include "oracles/plane_shapes.h"
+#include "oracles/plane/shapes.h"
 
 namespace tetproof::plane_bench {
 

@@ -7,7 +7,7 @@
 
 #include "corpus/plane/bench.h"
 #include "mesher/io/write_plane.h"
-#include "oracles/plane_shapes.h"
+#include "oracles/plane/shapes.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 
 #include "corpus/plane/bench.h"
 #include "mesher/io/write_plane.h"
-#include "oracles/plane_verify.h"
+#include "oracles/plane/verify.h"
 
 namespace tetproof::plane_bench {
 namespace {

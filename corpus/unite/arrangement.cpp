@@ -9,7 +9,7 @@
 
 #include "corpus/unite/plane_cut.h"
 #include "corpus/unite/unite.h"
-#include "oracles/union_find.h"
+#include "oracles/base/union_find.h"
 
 namespace tetproof::unite {
 namespace {

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "corpus/unite/unite.h"
-#include "oracles/union_find.h"
+#include "oracles/base/union_find.h"
 
 namespace tetproof::unite {
 namespace {

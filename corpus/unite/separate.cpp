@@ -17,7 +17,7 @@
 #include "corpus/unite/unite.h"
 #include "corpus/unite/wedges.h"
 #include "corpus/unite/winding.h"
-#include "oracles/vectors.h"
+#include "oracles/base/vectors.h"
 
 namespace tetproof::unite {
 namespace {

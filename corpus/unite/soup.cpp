@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "oracles/union_find.h"
+#include "oracles/base/union_find.h"
 
 namespace tetproof::unite {
 namespace {

@@ -11,7 +11,7 @@
 #include <sstream>
 
 #include "corpus/generate/certify.h"
-#include "oracles/surface_file.h"
+#include "oracles/files/surface_file.h"
 
 namespace tetproof::unite {
 namespace {

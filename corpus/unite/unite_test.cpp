@@ -14,8 +14,8 @@
 #include "corpus/generate/rotate.h"
 #include "corpus/generate/shapes.h"
 #include "corpus/generate/test_surfaces.h"
-#include "oracles/exact_points.h"
-#include "oracles/input_surface.h"
+#include "oracles/base/exact_points.h"
+#include "oracles/surface/input_surface.h"
 
 namespace tetproof::unite {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "corpus/unite/soup.h"
-#include "oracles/union_find.h"
+#include "oracles/base/union_find.h"
 
 namespace tetproof::unite {
 

@@ -9,8 +9,8 @@
 #include <span>
 
 #include "corpus/unite/unite.h"
-#include "oracles/input_surface.h"
-#include "oracles/union_find.h"
+#include "oracles/base/union_find.h"
+#include "oracles/surface/input_surface.h"
 
 namespace tetproof::unite {
 namespace {

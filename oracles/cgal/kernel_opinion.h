@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "oracles/exact_points.h"
+#include "oracles/base/exact_points.h"
 
 namespace tetproof::oracles {
 

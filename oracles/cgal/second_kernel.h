@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "oracles/input_surface.h"
-#include "oracles/report.h"
+#include "oracles/surface/input_surface.h"
+#include "oracles/verdict/report.h"
 
 namespace tetproof::oracles {
 

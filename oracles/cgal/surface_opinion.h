@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "oracles/input_surface.h"
+#include "oracles/files/polyhedron.h"
 
 namespace tetproof::oracles {
 

@@ -15,11 +15,11 @@
 #include <fstream>
 #include <string>
 
+#include "oracles/base/heap.h"
 #include "oracles/cgal/kernel_opinion.h"
-#include "oracles/heap.h"
-#include "oracles/mesh_file.h"
-#include "oracles/sidecar.h"
-#include "oracles/surface_file.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/files/sidecar.h"
+#include "oracles/files/surface_file.h"
 #include "oracles/verify.h"
 
 namespace tetproof::oracles {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "oracles/edge_nodes.h"
+#include "oracles/files/edge_nodes.h"
 #include "property_tests/lies/told.h"
 
 namespace tetproof::lies {

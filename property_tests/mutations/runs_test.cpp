@@ -9,6 +9,7 @@
 #include <set>
 
 #include "mesher/delmesher.h"
+#include "oracles/mesh/tet_complex.h"
 #include "property_tests/mutations/damages.h"
 #include "property_tests/score_table.h"
 

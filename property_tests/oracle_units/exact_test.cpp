@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "oracles/ball_side.h"
-#include "oracles/distances.h"
-#include "oracles/exact_points.h"
-#include "oracles/exact_sum.h"
-#include "oracles/interval.h"
-#include "oracles/triangle_sums.h"
+#include "oracles/base/ball_side.h"
+#include "oracles/base/distances.h"
+#include "oracles/base/exact_points.h"
+#include "oracles/base/exact_sum.h"
+#include "oracles/base/interval.h"
+#include "oracles/base/triangle_sums.h"
 #include "property_tests/oracle_units/helpers.h"
 
 namespace tetproof {

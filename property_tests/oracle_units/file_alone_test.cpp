@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "oracles/tet_complex.h"
+#include "oracles/mesh/tet_complex.h"
 #include "oracles/verify.h"
 #include "property_tests/samples.h"
 

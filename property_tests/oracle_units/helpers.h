@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "oracles/exact_points.h"
+#include "oracles/base/exact_points.h"
 
 namespace tetproof {
 

@@ -1,5 +1,5 @@
 // How far planar facets may be from planar by the digits of the input.
-#include "oracles/input_digits.h"
+#include "oracles/surface/input_digits.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "mesher/surface/test_surfaces.h"
-#include "oracles/edge_noise.h"
+#include "oracles/surface/edge_noise.h"
 
 namespace tetproof::oracles {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "oracles/exact_points.h"
-#include "oracles/input_surface.h"
+#include "oracles/base/exact_points.h"
+#include "oracles/surface/input_surface.h"
 #include "property_tests/oracle_units/helpers.h"
 
 namespace tetproof {

@@ -9,13 +9,13 @@
 #include <random>
 #include <vector>
 
-#include "oracles/angles.h"
-#include "oracles/corners.h"
-#include "oracles/exact_points.h"
-#include "oracles/input_surface.h"
-#include "oracles/measures.h"
-#include "oracles/shapes.h"
-#include "oracles/tet_complex.h"
+#include "oracles/base/exact_points.h"
+#include "oracles/mesh/angles.h"
+#include "oracles/mesh/measures.h"
+#include "oracles/mesh/shapes.h"
+#include "oracles/mesh/tet_complex.h"
+#include "oracles/surface/corners.h"
+#include "oracles/surface/input_surface.h"
 #include "property_tests/oracle_units/helpers.h"
 
 namespace tetproof {

@@ -9,7 +9,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "oracles/parallel.h"
+#include "oracles/base/parallel.h"
 #include "property_tests/little_memory.h"
 
 namespace tetproof {

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "oracles/plane_faces.h"
-#include "oracles/plane_file.h"
-#include "oracles/plane_graph.h"
-#include "oracles/plane_grid.h"
-#include "oracles/plane_points.h"
-#include "oracles/text_reader.h"
+#include "oracles/base/text_reader.h"
+#include "oracles/plane/faces.h"
+#include "oracles/plane/file.h"
+#include "oracles/plane/graph.h"
+#include "oracles/plane/grid.h"
+#include "oracles/plane/points.h"
 #include "property_tests/oracle_units/helpers.h"
 
 namespace tetproof {

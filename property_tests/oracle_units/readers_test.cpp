@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "mesher/io/test_zlib.h"
-#include "oracles/mesh_file.h"
-#include "oracles/surface_file.h"
-#include "oracles/text_reader.h"
-#include "oracles/vtu_text.h"
+#include "oracles/base/text_reader.h"
+#include "oracles/files/mesh_file.h"
+#include "oracles/files/surface_file.h"
+#include "oracles/files/vtu_text.h"
 #include "property_tests/little_memory.h"
 #include "property_tests/oracle_units/helpers.h"
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "oracles/local_operations.h"
-#include "oracles/promise.h"
-#include "oracles/same_mesh.h"
-#include "oracles/sidecar.h"
-#include "oracles/text_reader.h"
+#include "oracles/base/text_reader.h"
+#include "oracles/files/sidecar.h"
+#include "oracles/improvement/local_operations.h"
+#include "oracles/record/same_mesh.h"
+#include "oracles/verdict/promise.h"
 #include "oracles/verify.h"
 #include "property_tests/oracle_units/helpers.h"
 #include "property_tests/samples.h"

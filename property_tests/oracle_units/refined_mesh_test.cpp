@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "oracles/chamfer_features.h"
-#include "oracles/corners.h"
-#include "oracles/delaunay.h"
-#include "oracles/input_surface.h"
-#include "oracles/refinement.h"
-#include "oracles/tet_complex.h"
+#include "oracles/mesh/delaunay.h"
+#include "oracles/mesh/tet_complex.h"
+#include "oracles/record/chamfer_features.h"
+#include "oracles/record/refinement.h"
+#include "oracles/surface/corners.h"
+#include "oracles/surface/input_surface.h"
 #include "property_tests/oracle_units/helpers.h"
 
 namespace tetproof {

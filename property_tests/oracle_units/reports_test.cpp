@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "oracles/report.h"
+#include "oracles/verdict/report.h"
 
 namespace tetproof {
 namespace {

@@ -1,4 +1,4 @@
-#include "oracles/simplex_set.h"
+#include "oracles/base/simplex_set.h"
 
 #include <gtest/gtest.h>
 

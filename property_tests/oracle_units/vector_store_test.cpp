@@ -1,4 +1,4 @@
-#include "oracles/vector_store.h"
+#include "oracles/base/vector_store.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "mesher/base/control.h"
 #include "mesher/surface/flatness.h"
 #include "mesher/surface/resolution.h"
-#include "oracles/input_digits.h"
+#include "oracles/surface/input_digits.h"
 #include "property_tests/planar/runs.h"
 
 namespace tetproof::planar {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesher/delmesher_plane.h"
-#include "oracles/plane_verify.h"
+#include "oracles/plane/verify.h"
 
 namespace tetproof::plane_lies {
 

@@ -8,7 +8,7 @@
 #include <exception>
 #include <functional>
 
-#include "oracles/sidecar.h"
+#include "oracles/files/sidecar.h"
 #include "reports/benchmark/floor.h"
 
 namespace tetproof::benchmark {

@@ -1,0 +1,37 @@
+// Boxes along the axes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "oracles/base/vectors.h"
+
+namespace tetproof::oracles {
+
+// Empty until something is added.
+struct Box {
+  Position low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+
+  void add(const Position& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  // Of an empty box infinity.
+  double diagonal() const { return distance(high, low); }
+  // The largest coordinate, without its sign; of an empty box infinity.
+  double largest() const { return std::max({largest(0), largest(1), largest(2)}); }
+  double largest(std::size_t axis) const { return std::max(high[axis], -low[axis]); }
+  bool operator==(const Box&) const = default;
+};
+
+inline Box box_of(std::span<const Position> points) {
+  Box box;
+  for (const Position& p : points) box.add(p);
+  return box;
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,45 @@
+// Vectors and places in doubles.
+#pragma once
+
+#include <cmath>
+
+#include "oracles/base/exact_points.h"
+
+namespace tetproof::oracles {
+
+inline Position minus(const Position& p, const Position& q) {
+  return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+
+inline double dot(const Position& u, const Position& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+inline Position cross(const Position& u, const Position& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+inline double length(const Position& u) {
+  return std::sqrt(dot(u, u));
+}
+
+inline bool is_finite(const Position& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+inline double distance(const Position& p, const Position& q) {
+  return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+}
+
+// Not by hypot: for what is asked often.
+inline double quick_distance(const Position& p, const Position& q) {
+  return length(minus(p, q));
+}
+
+inline Position between(const Position& a, const Position& b, double share) {
+  Position p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = a[i] + share * (b[i] - a[i]);
+  return p;
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,162 @@
+#include "oracles/files/polygon.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace tetproof::oracles {
+namespace {
+
+using Point = std::array<double, 2>;
+using Triangles = std::vector<std::array<Index, 3>>;
+
+// Exact sign of the turn from a by b to c.
+int turn(const Point& a, const Point& b, const Point& c) {
+  const double left = (b[0] - a[0]) * (c[1] - a[1]), right = (b[1] - a[1]) * (c[0] - a[0]);
+  const double sum = std::fabs(left) + std::fabs(right);
+  // Each product has three roundings; below 1e-280 they might have underflowed.
+  if (sum > 1e-280 && std::fabs(left - right) > 1e-15 * sum) return left > right ? 1 : -1;
+  const auto difference = [](double p, double q) { return mpq_class(mpq_class(p) - mpq_class(q)); };
+  const mpq_class exact = difference(b[0], a[0]) * difference(c[1], a[1]) -
+                          difference(b[1], a[1]) * difference(c[0], a[0]);
+  return sgn(exact);
+}
+
+// The axis along which the face has the largest projection.
+int widest_axis(const Polyhedron& surface, const std::vector<Index>& face) {
+  const Position& o = surface.vertices[face[0]];
+  std::array<double, 3> area = {0, 0, 0};
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    const Position &p = surface.vertices[face[i]], &q = surface.vertices[face[i + 1]];
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3, m = (k + 2) % 3;
+      area[k] += (p[l] - o[l]) * (q[m] - o[m]) - (p[m] - o[m]) * (q[l] - o[l]);
+    }
+  }
+  int axis = 0;
+  for (const int k : {1, 2}) {
+    if (std::fabs(area[k]) > std::fabs(area[axis])) axis = k;
+  }
+  return axis;
+}
+
+// One face, seen along one axis.
+class Cutter {
+ public:
+  Cutter(const Polyhedron& surface, const std::vector<Index>& face, int axis) : corners_(face) {
+    for (const Index v : face) {
+      const Position& p = surface.vertices[v];
+      points_.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
+    }
+    const std::size_t n = face.size();
+    const std::size_t lowest = std::min_element(points_.begin(), points_.end()) - points_.begin();
+    const int way = turn(points_[(lowest + n - 1) % n], points_[lowest], points_[(lowest + 1) % n]);
+    oriented_ = way != 0;
+    clockwise_ = way < 0;
+    if (clockwise_) {
+      std::reverse(corners_.begin(), corners_.end());
+      std::reverse(points_.begin(), points_.end());
+    }
+  }
+
+  // Empty if no ear was left.
+  std::optional<Triangles> run() {
+    if (!oriented_) return std::nullopt;
+    for (std::size_t i = 0; i < points_.size(); ++i) left_.push_back(i);
+    ear_.assign(points_.size(), Ear::unknown);
+    Triangles triangles;
+    while (left_.size() > 3) {
+      const std::optional<std::size_t> place = shortest_ear();
+      if (!place) return std::nullopt;
+      triangles.push_back(triangle(*place));
+      ear_[before(*place)] = ear_[after(*place)] = Ear::unknown;
+      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(*place));
+    }
+    if (!turns_left(1)) return std::nullopt;
+    triangles.push_back(triangle(1));
+    return triangles;
+  }
+
+ private:
+  enum class Ear : std::uint8_t { unknown, no, yes };
+
+  std::size_t before(std::size_t place) const {
+    return left_[place == 0 ? left_.size() - 1 : place - 1];
+  }
+  std::size_t after(std::size_t place) const { return left_[(place + 1) % left_.size()]; }
+  bool turns_left(std::size_t place) const {
+    return turn(points_[before(place)], points_[left_[place]], points_[after(place)]) > 0;
+  }
+  std::array<Index, 3> triangle(std::size_t place) const {
+    std::array<Index, 3> t = {corners_[before(place)], corners_[left_[place]],
+                              corners_[after(place)]};
+    if (clockwise_) std::swap(t[1], t[2]);
+    return t;
+  }
+
+  std::optional<std::size_t> shortest_ear() {
+    std::optional<std::size_t> best;
+    double shortest = 0;
+    for (std::size_t place = 0; place < left_.size(); ++place) {
+      Ear& ear = ear_[left_[place]];
+      if (ear == Ear::unknown) ear = is_ear(place) ? Ear::yes : Ear::no;
+      if (ear == Ear::no) continue;
+      const Point &p = points_[before(place)], &q = points_[after(place)];
+      const double x = p[0] - q[0], y = p[1] - q[1], length = x * x + y * y;
+      if (!best || length < shortest) {
+        best = place;
+        shortest = length;
+      }
+    }
+    return best;
+  }
+
+  bool is_ear(std::size_t place) const {
+    if (!turns_left(place)) return false;
+    const Point &a = points_[before(place)], &b = points_[left_[place]], &c = points_[after(place)];
+    for (std::size_t other = 0; other < left_.size(); ++other) {
+      const Point& p = points_[left_[other]];
+      if (p == a || p == b || p == c) continue;
+      if (turn(a, b, p) < 0 || turn(b, c, p) < 0 || turn(c, a, p) < 0) continue;
+      if (!turns_left(other)) return false;
+    }
+    return true;
+  }
+
+  std::vector<Index> corners_;
+  std::vector<Point> points_;
+  bool oriented_ = false, clockwise_ = false;
+  std::vector<std::size_t> left_;  // corners not cut off, in order
+  std::vector<Ear> ear_;           // by corner; a cut changes it only beside the cut
+};
+
+std::vector<Index> corners_of_fan(const Triangles& triangles, std::size_t first, std::size_t last) {
+  std::vector<Index> face = {triangles[first][0], triangles[first][1]};
+  for (std::size_t t = first; t < last; ++t) face.push_back(triangles[t][2]);
+  return face;
+}
+
+}  // namespace
+
+void cut_polygons(Polyhedron& surface) {
+  std::vector<Index>& polygon = surface.polygons;
+  std::vector<Index> renumbered(polygon.size());
+  for (std::size_t first = 0, last = 0; first < polygon.size(); first = last) {
+    while (last < polygon.size() && polygon[last] == polygon[first]) ++last;
+    renumbered[first] = static_cast<Index>(first);
+    if (last == first + 1) continue;
+    const std::vector<Index> face = corners_of_fan(surface.triangles, first, last);
+    const int axis = widest_axis(surface, face);
+    std::optional<Triangles> triangles;
+    for (int attempt = 0; attempt < 3 && !triangles; ++attempt) {
+      triangles = Cutter(surface, face, (axis + attempt) % 3).run();
+    }
+    for (std::size_t t = first; t < last; ++t) {
+      if (triangles) surface.triangles[t] = (*triangles)[t - first];
+      renumbered[t] = static_cast<Index>(triangles ? t : first);
+    }
+  }
+  polygon = std::move(renumbered);
+}
+
+}  // namespace tetproof::oracles

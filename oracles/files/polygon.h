@@ -1,0 +1,18 @@
+// Cuts faces of more than three corners into triangles by the rule of mesher/io/formats.md, which
+// decides which solid is meant where they are not planar.
+#pragma once
+
+#include "oracles/files/polyhedron.h"
+
+namespace tetproof::oracles {
+
+// Replaces the fans of every face of more than three corners by as many triangles. The axis along
+// which the face's area vector (in doubles) is largest is left out, and corners are taken
+// counter-clockwise in the projection. As long as there are more than three, the ear with the
+// shortest diagonal (squared, in doubles; of equals the first corner) is cut off. An ear turns
+// left, and no corner that does not turn left lies in its closed triangle; signs are exact. If the
+// projection is not simple the next axis is tried. A face that is simple along no axis stays a fan,
+// one `polygon`; each triangle of a face that was cut is a polygon of its own.
+void cut_polygons(Polyhedron& surface);
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,406 @@
+#include "oracles/improvement/local_operations.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "oracles/base/edge_key.h"
+#include "oracles/mesh/angles.h"
+#include "oracles/record/record_origin.h"
+#include "oracles/surface/input_surface.h"
+#include "oracles/verdict/edge_sizes.h"
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::ExactRecord;
+
+// The nearest doubles of a point without denominators, as all written points are.
+Position rounded(const ExactPoints& points, Index v) {
+  if (points.is_double(v)) return points.nearest(v);
+  const ExactVector exact = points.exact(v);
+  Position result;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const mpz_class& x = exact[axis].numerator();
+    const std::size_t bits = x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2);
+    if (bits <= 53) {
+      result[axis] = to_double(x, points.exponent());
+      continue;
+    }
+    // Adding half of the last place before truncation rounds to nearest.
+    mpz_class half;
+    mpz_ui_pow_ui(half.get_mpz_t(), 2, bits - 54);
+    result[axis] = to_double(x > 0 ? mpz_class(x + half) : mpz_class(x - half), points.exponent());
+  }
+  return result;
+}
+
+// As doubles; those that are doubles in given coordinates, too, if these have another origin.
+ExactPoints all_rounded(const ExactPoints& points, const Position& origin) {
+  std::vector<Position> nearest(points.size());
+  for (Index v = 0; v < points.size(); ++v) {
+    nearest[v] = rounded(points, v);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (origin[i] != 0) nearest[v][i] = (origin[i] + nearest[v][i]) - origin[i];
+    }
+  }
+  ExactPoints doubles;
+  doubles.assign(nearest);
+  return doubles;
+}
+
+std::string name_of(const Tet& tet) {
+  std::string name = "tetrahedron (";
+  for (int i = 0; i < 4; ++i) name += (i > 0 ? " " : "") + std::to_string(tet[i]);
+  return name + ")";
+}
+
+class Repairs {
+ public:
+  Repairs(const ExactRecord& record, const ExactPoints& points, const Promise& promise)
+      : record_(record), points_(points), all_(promise.region == delmesher::Region::hull) {}
+
+  OracleReport run() {
+    constexpr int kReach = kOperationsReach;
+    check_vertices();
+    find_defects();
+    const std::vector<Tet> before = sorted(record_.unrepaired), after = sorted(record_.final);
+    std::vector<Tet> changed;
+    std::set_difference(before.begin(), before.end(), after.begin(), after.end(),
+                        std::back_inserter(changed));
+    report_.checked += before.size();
+    report_.figures.emplace_back("tetrahedra changed", static_cast<double>(changed.size()));
+    report_.figures.emplace_back("not positive on doubles", static_cast<double>(defects_));
+    spread(kReach);
+    int farthest = 0;
+    for (const Tet& tet : changed) {
+      int nearest = kReach + 1;
+      for (const Index v : tet) nearest = std::min<int>(nearest, ring_[v]);
+      farthest = std::max(farthest, nearest);
+      if (nearest > kReach) {
+        report_.fail(name_of(tet) + " was changed far from all that doubles are too coarse for");
+      }
+    }
+    report_.figures.emplace_back("edges from there", farthest);
+    return std::move(report_);
+  }
+
+ private:
+  static std::vector<Tet> sorted(const std::vector<ExactRecord::Tet>& tets) {
+    std::vector<Tet> list;
+    list.reserve(tets.size());
+    for (const ExactRecord::Tet& tet : tets) {
+      list.push_back(tet.vertices);
+      std::sort(list.back().begin(), list.back().end());
+    }
+    std::sort(list.begin(), list.end());
+    return list;
+  }
+
+  void check_vertices() {
+    const std::vector<std::uint8_t> before = used_in(record_.unrepaired, points_.size()),
+                                    after = used_in(record_.final, points_.size());
+    for (Index v = 0; v < points_.size(); ++v) {
+      report_.checked += after[v];
+      if (after[v] != 0 && before[v] == 0) {
+        report_.fail("vertex " + std::to_string(v) + " came with the repairs");
+      }
+    }
+  }
+
+  void find_defects() {
+    const ExactPoints doubles = all_rounded(points_, record_.origin);
+    ring_.assign(points_.size(), kFar);
+    for (const ExactRecord::Tet& tet : record_.unrepaired) {
+      if (!all_ && !tet.inside) continue;
+      const auto& [a, b, c, d] = tet.vertices;
+      if (exact::orient3d(doubles, a, b, c, d) > 0) continue;
+      ++defects_;
+      for (const Index v : tet.vertices) ring_[v] = 0;
+    }
+  }
+
+  // Finds how many edges every vertex is from the nearest defect.
+  void spread(int reach) {
+    for (std::uint8_t ring = 1; ring <= reach; ++ring) {
+      for (const ExactRecord::Tet& tet : record_.unrepaired) {
+        const bool touched = std::any_of(tet.vertices.begin(), tet.vertices.end(),
+                                         [&](Index v) { return ring_[v] == ring - 1; });
+        if (!touched) continue;
+        for (const Index v : tet.vertices) ring_[v] = std::min(ring_[v], ring);
+      }
+    }
+  }
+
+  static constexpr std::uint8_t kFar = 255;
+  const ExactRecord& record_;
+  const ExactPoints& points_;
+  bool all_;
+  std::vector<std::uint8_t> ring_;
+  std::uint64_t defects_ = 0;
+  OracleReport report_{"repairs", "vertices and tetrahedra"};
+};
+
+// --- improvement
+
+class Improvement {
+ public:
+  Improvement(const ExactRecord& record, const ExactPoints& points, const Promise& promise,
+              const std::vector<Index>& returned)
+      : record_(record),
+        doubles_(all_rounded(points, {})),
+        all_(promise.region == delmesher::Region::hull),
+        goal_{promise.guaranteed_delta(), kImprovedDihedral},
+        longest_(promise.max_edge),
+        sizes_(promise.size_field, promise.size_growth),
+        returned_(returned) {
+    if (names_origin(record)) written_ = all_rounded(points, record.origin);
+  }
+
+  OracleReport run() {
+    measure_before();
+    measure_after();
+    report_.figures = {{"smallest face angle before", before_.face},
+                       {"smallest face angle after", after_.face},
+                       {"flattest dihedral angle before", before_.dihedral},
+                       {"flattest dihedral angle after", after_.dihedral},
+                       {"tetrahedra before", static_cast<double>(record_.unrepaired.size())},
+                       {"not positive on doubles", static_cast<double>(defects_)},
+                       {"below the goals after", static_cast<double>(bad_.size())}};
+    explain();
+    if (!bad_.empty()) explain_by_place();
+    if (!returned_.empty()) excuse();
+    for (const Bad& bad : bad_) {
+      report_.fail(name_of(bad.tet) + " has a face angle of " + std::to_string(bad.angles.face) +
+                   " degrees and lacks " + std::to_string(bad.angles.dihedral) +
+                   " of being flat, and nothing near was as bad before");
+    }
+    if (longest_ > 0) {
+      check_edges("--max-edge", [&](Index v, Index w) {
+        return exact::distance(doubles_, v, w) > longest_ * (1 + 1e-9);
+      });
+    }
+    if (!sizes_.empty()) {
+      check_edges("--size-field", [&](Index v, Index w) {
+        return sizes_.excess(doubles_.nearest(v), doubles_.nearest(w)) > EdgeSizes::kMost;
+      });
+    }
+    return std::move(report_);
+  }
+
+ private:
+  struct Bad {
+    Tet tet;
+    WorstAngles angles;
+    WorstAngles there_before{};  // the worst near its place, once that is asked
+  };
+
+  static WorstAngles worse(const WorstAngles& a, const WorstAngles& b) {
+    return {std::min(a.face, b.face), std::min(a.dihedral, b.dihedral)};
+  }
+  bool counts(const ExactRecord::Tet& tet) const { return all_ || tet.inside; }
+  bool reaches(const WorstAngles& angles, const WorstAngles& least) const {
+    constexpr double kSlack = 1 - 1e-6;
+    // Degrees: which of two tetrahedra that are flat but for roundings is flatter, doubles do not
+    // tell.
+    constexpr double kRoundings = 1e-12;
+    return angles.face >= std::min(least.face, goal_.face) * kSlack &&
+           angles.dihedral >= std::min(least.dihedral, goal_.dihedral) * kSlack - kRoundings;
+  }
+
+  // Zero if it is not positive, and only then.
+  WorstAngles angles_of(const ExactRecord::Tet& tet) const {
+    const auto& [a, b, c, d] = tet.vertices;
+    if (exact::orient3d(doubles_, a, b, c, d) <= 0) return {0, 0};
+    if (written_ && exact::orient3d(*written_, a, b, c, d) <= 0) return {0, 0};
+    return worst_angles(doubles_, tet.vertices);
+  }
+
+  void measure_before() {
+    worst_.assign(doubles_.size(), {});
+    for (const ExactRecord::Tet& tet : record_.unrepaired) {
+      if (!counts(tet)) continue;
+      const WorstAngles angles = angles_of(tet);
+      if (angles.dihedral == 0) ++defects_;
+      before_ = worse(before_, angles);
+      for (const Index v : tet.vertices) worst_[v] = worse(worst_[v], angles);
+    }
+  }
+
+  void measure_after() {
+    for (const ExactRecord::Tet& tet : record_.final) {
+      if (!counts(tet)) continue;
+      ++report_.checked;
+      const WorstAngles angles = angles_of(tet);
+      after_ = worse(after_, angles);
+      if (!reaches(angles, goal_)) bad_.push_back({tet.vertices, angles});
+    }
+  }
+
+  // A bad tetrahedron has to be near one that was as bad before.
+  void explain() {
+    int edges = 0;
+    for (;; ++edges) {
+      std::erase_if(bad_, [&](const Bad& bad) {
+        WorstAngles least;
+        for (const Index v : bad.tet) least = worse(least, worst_[v]);
+        return reaches(bad.angles, least);
+      });
+      if (bad_.empty() || edges == kOperationsReach) break;
+      spread();
+    }
+    report_.figures.emplace_back("edges from what was as bad", edges);
+  }
+
+  // Where all vertices of a neighbourhood have moved, none of their names leads to the mesh before:
+  // then what was where the bad tetrahedron is now tells what was near. How many need this is told.
+  void explain_by_place() {
+    std::vector<BoxTree::Box> boxes;
+    boxes.reserve(bad_.size());
+    for (const Bad& bad : bad_) boxes.push_back(box_around(doubles_, bad.tet));
+    const BoxTree tree(std::move(boxes));
+    std::vector<Index> here;
+    for (const ExactRecord::Tet& tet : record_.unrepaired) {
+      if (!counts(tet)) continue;
+      here.clear();
+      tree.query(box_around(doubles_, tet.vertices), here);
+      WorstAngles least;
+      for (const Index v : tet.vertices) least = worse(least, worst_[v]);
+      for (const Index b : here) bad_[b].there_before = worse(bad_[b].there_before, least);
+    }
+    const std::size_t explained =
+        std::erase_if(bad_, [&](const Bad& bad) { return reaches(bad.angles, bad.there_before); });
+    report_.figures.emplace_back(kByPlace, static_cast<double>(explained));
+  }
+
+  // What is left may be beside an edge of the surface that the mesh before did not have. How many,
+  // how bad and how far from such edges is told.
+  void excuse() {
+    std::vector<std::uint8_t> near(doubles_.size());
+    for (const Index v : returned_) near[v] = 1;
+    std::size_t excused = 0;
+    WorstAngles worst;
+    int edges = 0;
+    for (;; ++edges) {
+      excused += std::erase_if(bad_, [&](const Bad& bad) {
+        const bool is_near =
+            std::any_of(bad.tet.begin(), bad.tet.end(), [&](Index v) { return near[v] != 0; });
+        if (is_near) worst = worse(worst, bad.angles);
+        return is_near;
+      });
+      if (bad_.empty() || edges == kOperationsReach) break;
+      const std::vector<std::uint8_t> before = near;
+      for (const ExactRecord::Tet& tet : record_.final) {
+        const bool reached = std::any_of(tet.vertices.begin(), tet.vertices.end(),
+                                         [&](Index v) { return before[v] != 0; });
+        if (!reached || !counts(tet)) continue;
+        for (const Index v : tet.vertices) near[v] = 1;
+      }
+    }
+    report_.figures.emplace_back("below the goals beside edges that came back",
+                                 static_cast<double>(excused));
+    if (excused == 0) return;
+    report_.figures.emplace_back("smallest face angle there", worst.face);
+    report_.figures.emplace_back("flattest dihedral angle there", worst.dihedral);
+    report_.figures.emplace_back("edges from there", edges);
+  }
+
+  // Passes the worst angles known at every vertex on to its neighbours.
+  void spread() {
+    const std::vector<WorstAngles> known = worst_;
+    for (const auto* mesh : {&record_.unrepaired, &record_.final}) {
+      for (const ExactRecord::Tet& tet : *mesh) {
+        if (!counts(tet)) continue;
+        WorstAngles least;
+        for (const Index v : tet.vertices) least = worse(least, known[v]);
+        for (const Index v : tet.vertices) worst_[v] = worse(worst_[v], least);
+      }
+    }
+  }
+
+  // A vertex that is moved becomes another point, so that an edge to it is new by name. Such an
+  // edge may be as long as the longest was; how many there are is told.
+  template <class IsLong>
+  void check_edges(const std::string& option, const IsLong& is_long) {
+    const std::vector<std::uint64_t> before = long_edges(record_.unrepaired, is_long),
+                                     after = long_edges(record_.final, is_long);
+    std::vector<std::uint64_t> fresh;
+    std::set_difference(after.begin(), after.end(), before.begin(), before.end(),
+                        std::back_inserter(fresh));
+    std::vector<std::uint8_t> was_there(doubles_.size());
+    for (const ExactRecord::Tet& tet : record_.unrepaired) {
+      for (const Index v : tet.vertices) was_there[v] = 1;
+    }
+    double longest_before = 0;
+    for (const std::uint64_t edge : before) longest_before = std::max(longest_before, length(edge));
+    std::uint64_t moved = 0;
+    for (const std::uint64_t edge : fresh) {
+      const auto [v, w] = ends(edge);
+      if ((was_there[v] == 0 || was_there[w] == 0) && length(edge) <= longest_before) {
+        ++moved;
+        continue;
+      }
+      report_.fail("edge (" + std::to_string(v) + " " + std::to_string(w) + ") is new and above " +
+                   option);
+    }
+    report_.figures.emplace_back("edges above " + option + ", as before",
+                                 static_cast<double>(after.size() - fresh.size()));
+    report_.figures.emplace_back("to vertices that moved", static_cast<double>(moved));
+  }
+
+  static std::pair<Index, Index> ends(std::uint64_t edge) {
+    return {static_cast<Index>(edge >> 32), static_cast<Index>(edge & 0xffffffffU)};
+  }
+  double length(std::uint64_t edge) const {
+    const auto [v, w] = ends(edge);
+    return exact::distance(doubles_, v, w);
+  }
+
+  // Once each, ascending.
+  template <class IsLong>
+  std::vector<std::uint64_t> long_edges(const std::vector<ExactRecord::Tet>& tets,
+                                        const IsLong& is_long) const {
+    std::vector<std::uint64_t> edges;
+    for (const ExactRecord::Tet& tet : tets) {
+      if (!counts(tet)) continue;
+      for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < i; ++j) {
+          const auto [v, w] = std::minmax(tet.vertices[i], tet.vertices[j]);
+          if (!is_long(v, w)) continue;
+          edges.push_back(directed_key(v, w));
+        }
+      }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+  }
+
+  const ExactRecord& record_;
+  const ExactPoints doubles_;           // the nearest ones
+  std::optional<ExactPoints> written_;  // in given coordinates, where these have another origin
+  const bool all_;
+  const WorstAngles goal_;
+  const double longest_;
+  const EdgeSizes sizes_;
+  const std::vector<Index>& returned_;
+  std::vector<WorstAngles> worst_;  // per point, of the tetrahedra there before
+  WorstAngles before_, after_;
+  std::vector<Bad> bad_;
+  std::uint64_t defects_ = 0;
+  OracleReport report_{"improvement", "tetrahedra"};
+};
+
+}  // namespace
+
+OracleReport check_repairs(const ExactRecord& record, const ExactPoints& points,
+                           const Promise& promise) {
+  return Repairs(record, points, promise).run();
+}
+
+OracleReport check_improvement(const ExactRecord& record, const ExactPoints& points,
+                               const Promise& promise, const std::vector<Index>& returned) {
+  return Improvement(record, points, promise, returned).run();
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,163 @@
+#include "oracles/verdict/edge_sizes.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+
+#include "oracles/base/text_reader.h"
+
+namespace tetproof::oracles {
+namespace {
+
+using delmesher::SizeSource;
+
+// Of a point and the nearest one of the edge.
+double distance_between(const Position& p, const Position& a, const Position& b) {
+  double along = 0, square = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    along += (p[k] - a[k]) * (b[k] - a[k]);
+    square += (b[k] - a[k]) * (b[k] - a[k]);
+  }
+  const double share = square > 0 ? std::min(std::max(along / square, 0.0), 1.0) : 0;
+  return std::hypot(a[0] + share * (b[0] - a[0]) - p[0], a[1] + share * (b[1] - a[1]) - p[1],
+                    a[2] + share * (b[2] - a[2]) - p[2]);
+}
+
+bool is_number(const std::string& word) {
+  char* end = nullptr;
+  std::strtod(word.c_str(), &end);
+  return !word.empty() && *end == '\0';
+}
+
+// Whatever is between numbers in lines becomes a space.
+std::vector<std::string> words_of_line(std::string line) {
+  if (const auto comment = line.find('#'); comment != std::string::npos) line.resize(comment);
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream in(line);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+std::string read_lines(const std::string& text, std::vector<SizeSource>& sources) {
+  std::istringstream in(text);
+  bool first = true;
+  for (std::string line; std::getline(in, line);) {
+    const std::vector<std::string> words = words_of_line(line);
+    if (words.empty()) continue;
+    const bool numbers = std::all_of(words.begin(), words.end(), is_number);
+    const bool is_head = first && !numbers;
+    first = false;
+    if (is_head) continue;
+    if (!numbers || words.size() != 4) return "a line is not X Y Z SIZE: " + line;
+    sources.push_back(
+        {{std::stod(words[0]), std::stod(words[1]), std::stod(words[2])}, std::stod(words[3])});
+  }
+  return {};
+}
+
+// The numbers up to the closing bracket, behind which `at` is then.
+std::vector<double> numbers_to(char close, const std::string& text, std::size_t& at) {
+  std::vector<double> numbers;
+  while (at < text.size() && text[at] != close) {
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str() + at, &end);
+    const auto next = static_cast<std::size_t>(end - text.c_str());
+    if (next > at) numbers.push_back(number);
+    at = std::max(next, at + 1);
+  }
+  ++at;
+  return numbers;
+}
+
+// The first brace opens the view; from there on every ( begins an element.
+std::string read_view(const std::string& text, std::vector<SizeSource>& sources) {
+  std::size_t at = text.find('{');
+  while (at < text.size()) {
+    at = text.find('(', at);
+    if (at == std::string::npos) break;
+    const std::vector<double> places = numbers_to(')', text, ++at);
+    at = std::min(text.find('{', at), text.size());
+    const std::vector<double> sizes = numbers_to('}', text, ++at);
+    if (places.size() % 3 != 0 || 3 * sizes.size() < places.size()) return "a view without sizes";
+    for (std::size_t n = 0; 3 * n < places.size(); ++n) {
+      sources.push_back({{places[3 * n], places[3 * n + 1], places[3 * n + 2]}, sizes[n]});
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+EdgeSizes::EdgeSizes(std::vector<SizeSource> sources, double growth) : growth_(growth) {
+  if (!sources.empty()) divide(std::move(sources));
+}
+
+void EdgeSizes::divide(std::vector<SizeSource> sources) {
+  constexpr std::size_t kTogether = 32;
+  constexpr double kEmpty = std::numeric_limits<double>::infinity();
+  Block block{{}, {kEmpty, kEmpty, kEmpty}, {-kEmpty, -kEmpty, -kEmpty}, kEmpty};
+  for (const SizeSource& source : sources) {
+    block.size = std::min(block.size, source.size);
+    for (std::size_t k = 0; k < 3; ++k) {
+      block.low[k] = std::min(block.low[k], source.point[k]);
+      block.high[k] = std::max(block.high[k], source.point[k]);
+    }
+  }
+  if (sources.size() <= kTogether) {
+    block.sources = std::move(sources);
+    blocks_.push_back(std::move(block));
+    return;
+  }
+  std::size_t widest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (block.high[k] - block.low[k] > block.high[widest] - block.low[widest]) widest = k;
+  }
+  std::sort(sources.begin(), sources.end(), [widest](const SizeSource& x, const SizeSource& y) {
+    return x.point[widest] < y.point[widest];
+  });
+  const auto middle = sources.begin() + static_cast<std::ptrdiff_t>(sources.size() / 2);
+  divide({sources.begin(), middle});
+  divide({middle, sources.end()});
+}
+
+double EdgeSizes::excess(const Position& a, const Position& b) const {
+  constexpr double kSlack = 1 - 1e-9;  // of the bound of a block
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Block& block : blocks_) {
+    double square = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double gap = std::max(
+          {0.0, block.low[k] - std::max(a[k], b[k]), std::min(a[k], b[k]) - block.high[k]});
+      square += gap * gap;
+    }
+    if ((block.size + growth_ * std::sqrt(square)) * kSlack > smallest) continue;
+    for (const SizeSource& source : block.sources) {
+      smallest = std::min(smallest, source.size + growth_ * distance_between(source.point, a, b));
+    }
+  }
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) / smallest;
+}
+
+std::string read_size_field(const std::string& path, std::vector<SizeSource>& sources) {
+  sources.clear();
+  std::string text;
+  try {
+    text = read_whole_file(path);
+  } catch (const ReadError& error) {
+    return error.what();
+  }
+  const auto first = text.find_first_not_of(" \t\r\n");
+  const bool view = first != std::string::npos && text.compare(first, 4, "View") == 0;
+  std::string why = view ? read_view(text, sources) : read_lines(text, sources);
+  if (why.empty() && sources.empty()) why = "no sizes in it";
+  for (const SizeSource& source : sources) {
+    if (why.empty() && !(source.size > 0)) why = "sizes have to be above 0";
+  }
+  return why.empty() ? why : path + ": " + why;
+}
+
+}  // namespace tetproof::oracles

@@ -1,0 +1,85 @@
+// The options that a mesher was asked for. Its mesh and its record are held to them. The caller
+// says them, since the record cannot vouch for itself.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesher/delmesher.h"
+#include "oracles/verdict/report.h"
+
+namespace tetproof::oracles {
+
+enum class Task : std::uint8_t { mesh, cdt, plane, improve };
+
+// Options of delmesher as docs/options.md documents them, with its defaults.
+struct Promise {
+  static constexpr double kPlanarAuto = -1;
+
+  Task task = Task::mesh;
+  double delta = 14.47;         // degrees
+  double tau = 1e-4;            // fraction of the diagonal of the bounding box
+  double planar = kPlanarAuto;  // the same
+  // What kPlanarAuto may be, of the input at hand: input_digits.h says. The verification sets it.
+  double automatic_planar = 0x1p-18;
+  double acute = 60;   // degrees
+  double corner = 20;  // degrees, as given
+  bool gabriel = false;
+  bool approximate = false;
+  bool improve = true;
+  bool names = false;         // sets are called by names of another file
+  bool second_order = false;  // ten-node tetrahedra, in formats that have them
+  // The choices of --as-paper that an oracle can see.
+  bool link = false;              // chamfers reach a third of the way to the link
+  bool bridges = false;           // a bridge per triangle
+  bool steiner_point = false;     // bad tetrahedra are split at their circumcentres
+  bool kept_points = false;       // enriched with the points on artificial segments, too
+  bool enrichment = false;        // always enriched
+  bool filter_pairs = false;      // both sides of close pairs dropped
+  bool filter_chamfered = false;  // both sides of chamfered features below tau dropped
+  bool no_guard = false;          // nothing stricter than was asked for
+  delmesher::Region region = delmesher::Region::interior;
+  double chamfer_radius = 0;                           // input units; 0: no bound
+  double max_edge = 0;                                 // input units; 0: no bound
+  std::vector<delmesher::SizeSource> size_field = {};  // input units; empty: no bound
+  double size_growth = 0.3;
+  double budget = 0;        // tetrahedra; 0: tau is not raised
+  double max_vertices = 0;  // 0: no limit
+
+  // How far the surface may deviate between the vertices and edges that it keeps (--planar), as a
+  // fraction of the diagonal.
+  double planar_share() const;
+  // The angle that is guaranteed, in degrees: of faces, or of triangles of the plane. A larger
+  // delta asks for a radius-edge ratio below 2 (in the plane: root 2), where the bound is best
+  // effort.
+  double guaranteed_delta() const;
+  // The threshold for two edges that is in force, in degrees. An angle of two edges that is not
+  // chamfered is an angle of the mesh, so the threshold has to exceed delta by some degrees.
+  double corner_in_force() const;
+};
+
+// Reads a command line without the program's name: 'mesh OPTIONS', 'cdt OPTIONS', 'plane OPTIONS',
+// 'improve OPTIONS'; without a first word `mesh` is meant. Options that promise nothing of the
+// result (files, threads, times) are ignored; the file of --size-field is read. Empty on success,
+// else the mistake.
+std::string parse_promise(std::string_view text, Promise& promise);
+
+// The same for a call of the library.
+Promise promise_of(const delmesher::Options& options, Task task = Task::mesh);
+
+// Is the record of the present version, has it the sections that the promise needs, and are its
+// parameters those promised or stricter ones? `diagonal` is that of the input's bounding box, in
+// input units.
+OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord& record,
+                           unsigned version, double diagonal);
+
+// The same of a file without a record: has it no more vertices than --max-vertices?
+OracleReport check_written_vertices(const Promise& promise, std::size_t written);
+
+// The version of the sidecar that has all sections the oracles ask for.
+inline constexpr unsigned kRecordVersion = 6;
+
+}  // namespace tetproof::oracles

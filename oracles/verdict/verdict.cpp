@@ -1,0 +1,31 @@
+#include "oracles/verdict/verdict.h"
+
+#include <algorithm>
+
+namespace tetproof::oracles {
+
+void conclude(double ulp, double diagonal, VerifyReport& report) {
+  report.deviation_ulps = ulp > 0 ? report.deviation / ulp : 0;
+  report.deviation_share = diagonal > 0 ? report.deviation / diagonal : 0;
+  if (report.any_failed()) {
+    report.verdict = Verdict::broken;
+  } else if (!report.all_passed()) {
+    report.verdict = Verdict::undecided;
+  } else if (report.deviation == 0) {
+    report.verdict = Verdict::exact;
+  } else {
+    report.verdict = report.deviation_ulps <= kRoundedUlps ? Verdict::rounded : Verdict::deviating;
+  }
+}
+
+bool failed(const VerifyReport& report, const VerifyOptions& options) {
+  // United facets may be planar within the promised bound. Without them only the declared deviation
+  // is allowed.
+  const double declared = report.slab > 0
+                              ? std::max(options.declared_deviation, report.planar_share)
+                              : options.declared_deviation;
+  return report.verdict == Verdict::broken ||
+         (report.verdict == Verdict::deviating && report.deviation_share > declared);
+}
+
+}  // namespace tetproof::oracles
