@@ -142,7 +142,7 @@ Table pairing_table(const Selection& selection) {
       unverified += fmt::format("{} {} {}", unverified.empty() ? "" : ",", mesher, count);
   }
   if (!unverified.empty()) {
-    table.notes.push_back("Unverified meshes are no successes:" + unverified + ".");
+    table.notes.push_back("Unverified meshes do not count as successes:" + unverified + ".");
   }
   if (all.empty()) table.notes.clear();
   return table;

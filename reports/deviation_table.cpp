@@ -81,7 +81,7 @@ Table deviation_table(const Selection& selection) {
   }
   table.caption = limits_caption(selection, selection.meshers);
   table.notes = {
-      "Over the models on which the default and the other are both ok, of the tetrahedra inside. "
+      "Over the models on which the default and the other are both ok, for the tetrahedra inside. "
       "Tetrahedra and processor time relative to the default: of all models together, and the "
       "median of the models' ratios. Angles and gamma are means over the models."};
   return table;

@@ -99,9 +99,10 @@ Table oracle_table(const Selection& selection) {
       table.notes.push_back(mesher + ", " + name + ", for example " + shortened(count.example));
     }
   }
-  table.notes.insert(table.notes.begin(),
-                     "Of every oracle: how many of the files passed that it was asked about (run "
-                     "--verify); an oracle that needs what another found broken is not asked.");
+  table.notes.insert(
+      table.notes.begin(),
+      "For each oracle: files that passed, of those that it checked (run --verify). An oracle "
+      "does not run if it needs what another one found broken.");
   return table;
 }
 

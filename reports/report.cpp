@@ -104,8 +104,7 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
       {},
       joined(joined(extreme_angle_charts(selection), average_angle_charts(selection)),
              joined(angle_charts(selection, ""), gamma_charts(selection))));
-  add("success", "Success",
-      "What became of the runs, and what the oracles say of the files that were delivered.",
+  add("success", "Success", "How the runs ended, and what the oracles found in the files.",
       {disposition_table(selection), oracle_table(selection), failure_group_table(selection),
        limit_table(selection)},
       {disposition_chart(selection)});
@@ -124,11 +123,10 @@ std::vector<Section> sections_of(const Selection& selection, const std::string& 
       "The default, each of its departures undone alone, and the paper's preset (docs/paper.md).",
       {deviation_table(selection)}, {deviation_chart(selection)});
   add("rotated", "Rotated models",
-      "Of a part in another position, its corners rounded, the mesh should be about the same.",
+      "A part in another position, with rounded corners, should have about the same mesh.",
       {rotated_table(selection)}, {});
   add("vary", "Exact copies",
-      "Of the same solid, turned, scaled or numbered otherwise without a rounding, a mesher should "
-      "think the same.",
+      "For the same solid, turned, scaled or renumbered exactly, a mesher should end the same way.",
       {vary_table(selection), vary_changes_table(selection)}, {});
   add("fidelity", "Beside the paper",
       "Columns \"paper\": as printed there. Columns \"here\": measured in this campaign, with "
@@ -168,8 +166,8 @@ std::vector<std::string> warnings_of(const Selection& selection) {
   }
   if (unverified > 0) {
     warnings.push_back(fmt::format(
-        "{} {} unverified: the oracles have not finished with {}, or were not asked. "
-        "Such a mesh is no success and in no average.",
+        "{} {} unverified: the oracles have not finished with {}, or did not run. "
+        "Unverified meshes count neither as successes nor in averages.",
         unverified, unverified == 1 ? "mesh is" : "meshes are", unverified == 1 ? "it" : "them"));
   }
   if (limits_differ(selection, selection.meshers)) {

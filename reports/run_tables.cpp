@@ -134,8 +134,8 @@ Table phase_table(const Selection& selection) {
     table.rows.push_back(std::move(row));
   }
   table.notes = {
-      "By the mesher's own account; every model counts the same, however long it took. "
-      "TetGen and foreign programs do not tell their phases."};
+      "As the mesher reports them; every model has the same weight, however long it took. "
+      "TetGen and foreign programs do not report phases."};
   return table;
 }
 

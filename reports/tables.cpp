@@ -156,7 +156,7 @@ Table comparison(const Selection& selection, Part part, Over over = Over::common
           : common_note(selection, taking_part, part, common.size()));
   if (over == Over::common && !without.empty()) {
     table.notes.push_back(
-        "Left out of the common models, as no success of theirs can be compared: " +
+        "Not among the common models, since none of their successes can be compared: " +
         listed(without) + ".");
   }
   if (part == &RunRow::mesh) table.notes.emplace_back(kRegions);
@@ -282,9 +282,9 @@ Table disposition_table(const Selection& selection) {
     table.rows.push_back(std::move(row));
   }
   table.notes = {
-      "ok: a mesh was delivered and the oracles have nothing against it. unverified: the oracles "
-      "have not finished with it or were not asked, so that nobody vouches for it; not a success.",
-      "wrong-result: a mesh was delivered but is unreadable, empty, has inverted "
+      "ok: a mesh was written and the oracles object to nothing. unverified: the oracles have not "
+      "finished with it or did not run; not a success.",
+      "wrong-result: a mesh was written but is unreadable, empty, has inverted "
       "tetrahedra by exact sign, or faces of more than two tetrahedra, or the oracles find it "
       "broken.",
       "Intervals are Wilson's."};

@@ -97,10 +97,10 @@ Table vary_table(const Selection& selection) {
   if (table.rows.empty()) return table;
   table.caption = limits_caption(selection, selection.meshers);
   table.notes = {
-      "Copies that bound the same solid to the last bit, but for an exact motion or scale "
-      "(tetproof vary), beside the model as given: pairs of runs of which both ended by "
-      "themselves or at a limit, those that ended in the same disposition as the model as given, "
-      "those that ended in another one, and of these those where one of the two is ok."};
+      "Copies that bound the same solid exactly, up to an exact motion or scale (tetproof vary), "
+      "beside the model as given: pairs of runs that both ended by themselves or at a limit, "
+      "those with the same disposition as the model as given, those with another one, and among "
+      "these those where one of the two is ok."};
   return table;
 }
 
