@@ -79,8 +79,8 @@ class Farthest {
     pieces.push_back({cut, b, c});
   }
 
-  // Of the piece's distance from the surface, with the triangle that is nearest to its centre.
-  // Raises the lower bound of all by what it sees.
+  // A bound of the piece's distance from the surface, with the triangle nearest to its centre.
+  // Raises the lower bound of all as well.
   std::pair<double, Index> upper_bound(const Corners& piece) {
     Position centre;
     for (std::size_t i = 0; i < 3; ++i) centre[i] = (piece[0][i] + piece[1][i] + piece[2][i]) / 3;
@@ -249,7 +249,7 @@ double farthest(const Polyhedron& from, const Polyhedron& to, double precision, 
 
 Polyhedron boundary_of(const MeshFile& mesh) {
   std::map<std::array<Index, 3>, std::pair<int, std::array<Index, 3>>> faces;
-  // Of a positive tetrahedron, seen from outside.
+  // Faces of a positive tetrahedron, seen from outside.
   static constexpr std::size_t kFaces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
   for (const Tet& tet : mesh.tetrahedra) {
     for (const auto& [i, j, k] : kFaces) {

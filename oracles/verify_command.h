@@ -10,8 +10,8 @@ namespace tetproof {
 void survive_lack_of_memory();
 
 // argv[0] is "verify". Exit codes: 0 verified, 1 a check failed, 2 usage, 3 a file is unreadable or
-// malformed, 4 the input is no valid surface, 5 the file alone leaves the verdict undecided, or a
-// limit of memory or size was reached, 6 internal error. Throws std::bad_alloc where there is not
+// malformed, 4 the input is not a valid surface, 5 the file alone leaves the verdict undecided, or
+// a limit of memory or size was reached, 6 internal error. Throws std::bad_alloc where there is not
 // even memory for the arguments.
 int run_verify(int argc, char** argv);
 

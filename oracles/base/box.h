@@ -20,9 +20,9 @@ struct Box {
       high[axis] = std::max(high[axis], p[axis]);
     }
   }
-  // Of an empty box infinity.
+  // Infinite for an empty box.
   double diagonal() const { return distance(high, low); }
-  // The largest coordinate, without its sign; of an empty box infinity.
+  // The largest absolute coordinate; infinite for an empty box.
   double largest() const { return std::max({largest(0), largest(1), largest(2)}); }
   double largest(std::size_t axis) const { return std::max(high[axis], -low[axis]); }
   bool operator==(const Box&) const = default;

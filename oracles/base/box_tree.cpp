@@ -31,7 +31,7 @@ double centre(const BoxTree::Box& box, int axis) {
   return box.low[axis] / 2 + box.high[axis] / 2;
 }
 
-// Of so many boxes, as they are divided.
+// The number of leaves for this many boxes, as they are divided.
 std::size_t leaves(std::size_t boxes) {
   if (boxes <= kLeafSize) return 1;
   return leaves(boxes / 2) + leaves(boxes - boxes / 2);

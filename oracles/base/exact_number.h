@@ -158,7 +158,7 @@ class ExactNumber {
     }
     return result;
   }
-  // Of uniform vectors. The sum takes the memory of one number.
+  // Dot product of uniform vectors. The sum takes the memory of one number.
   static ExactNumber dot(const Vector& u, const Vector& v) {
     mpz_class sum = u[0].numerator_ * v[0].numerator_;
     for (std::size_t i = 1; i < 3; ++i) {

@@ -28,7 +28,8 @@ std::string quoted(std::string_view word) {
   return text + "\"";
 }
 
-// Of what may hold anything, whole characters of UTF-8, if it is that, of its first 1000 bytes.
+// Makes one line of a text that may hold anything: at most 1000 bytes, whole characters if it is
+// UTF-8.
 std::string one_line(const std::string& text) {
   std::size_t size = std::min<std::size_t>(1000, text.size());
   while (size > 0 && size < text.size() && (text[size] & 0xc0) == 0x80) --size;
@@ -36,7 +37,7 @@ std::string one_line(const std::string& text) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     const auto c = static_cast<unsigned char>(line[i]);
     const unsigned before = i > 0 ? static_cast<unsigned char>(line[i - 1]) : 0U;
-    // Of the second set, alone or as a character of UTF-8.
+    // A control character of the second set, alone or as a UTF-8 character.
     const bool control = c >= 0x80 && c < 0xa0 && (before < 0x80 || before == 0xc2);
     if (c < ' ' || c == 0x7f || control) line[i] = '?';
     if (control && before == 0xc2) line[i - 1] = '?';
@@ -78,7 +79,7 @@ class FileStream {
   bool is_plain() const { return plain_; }
   // As many bytes as there are in all, or more. DEFLATE makes a file 1032 times smaller at most.
   std::uint64_t most_bytes() const {
-    std::error_code unknown;  // set if it is no regular file
+    std::error_code unknown;  // set if it is not a regular file
     const std::uintmax_t size = std::filesystem::file_size(path_, unknown);
     if (unknown) return std::numeric_limits<std::uint64_t>::max();
     return is_plain() ? size : 1032 * size;
@@ -141,7 +142,7 @@ class FileStream {
 std::string read_whole_file(const std::string& path) {
   FileStream stream(path);
   std::string contents;
-  std::error_code unknown;  // set if it is no regular file
+  std::error_code unknown;  // set if it is not a regular file
   const std::uintmax_t size = std::filesystem::file_size(path, unknown);
   if (!unknown && stream.is_plain()) contents.reserve(size + kPiece);
   for (std::size_t got = kPiece; got == kPiece;) {
@@ -276,8 +277,9 @@ bool TextReader::at_end() {
 
 namespace {
 
-// Of digits without a sign that are a number beyond the range of doubles: is it too small, and not
-// too large? The first digit that is no zero decides, as doubles reach about as far both ways.
+// For digits without a sign that are beyond the range of doubles: is the number too small, rather
+// than too large? The first digit that is not a zero decides, as doubles reach about as far both
+// ways.
 bool underflows(std::string_view digits) {
   const std::size_t mark = std::min(digits.find_first_of("eE"), digits.size());
   const std::string_view mantissa = digits.substr(0, mark);
@@ -343,7 +345,7 @@ double TextReader::number() {
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   // from_chars leaves the value alone if it is out of range. A number that underflows is zero; all
-  // others are refused.
+  // others are rejected.
   const bool underflow = error == std::errc::result_out_of_range && underflows(digits);
   if ((error != std::errc() && !underflow) || end != digits.data() + digits.size() ||
       digits.starts_with('-')) {

@@ -14,7 +14,7 @@ namespace tetproof::oracles {
 
 // "file:line: reason"; thrown by the readers, caught at their entry points.
 struct ReadError : std::runtime_error {
-  // Of one line: what stands in a file may hold anything. Cut off after 1000 bytes.
+  // Makes the text one line of at most 1000 bytes, since a file may hold anything.
   explicit ReadError(const std::string& text);
 };
 

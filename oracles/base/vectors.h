@@ -31,7 +31,7 @@ inline double distance(const Position& p, const Position& q) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-// Not by hypot: for what is asked often.
+// Not by hypot, for frequent use.
 inline double quick_distance(const Position& p, const Position& q) {
   return length(minus(p, q));
 }

@@ -12,7 +12,7 @@ struct DoubleTraits : OpenMesh::DefaultTraits {
 };
 using Mesh = OpenMesh::TriMesh_ArrayKernelT<DoubleTraits>;
 
-// Adds the triangles one by one. The kernel refuses a triangle that would make the surface
+// Adds the triangles one by one. The kernel rejects a triangle that would make the surface
 // non-manifold at an edge or a vertex. A refusal may depend on the order, so a refused triangle is
 // tried again once the fan has grown.
 std::size_t add_triangles(const Polyhedron& surface,
@@ -44,7 +44,7 @@ SurfaceOpinion openmesh_surface_opinion(const Polyhedron& surface) {
       return opinion;
     }
   }
-  omerr().disable();  // refusals are told by handles
+  omerr().disable();  // handles report rejections
   Mesh mesh;
   std::vector<Mesh::VertexHandle> vertices;
   for (const Position& p : surface.vertices) {

@@ -17,7 +17,7 @@ class Residue {
   static constexpr std::array<std::uint64_t, 2> kPrimes = {(std::uint64_t{1} << 61) - 45,
                                                            (std::uint64_t{1} << 61) - 229};
   Residue() = default;
-  // Of x / w, for each of several x. False if a prime divides w.
+  // Residues of x / w, for each of several x. False if a prime divides w.
   static bool of(const std::array<Number, 3>& x, const Number& w, std::array<Residue, 3>& result) {
     for (std::size_t i = 0; i < 2; ++i) {
       const std::uint64_t below = reduced(w, kPrimes[i]);

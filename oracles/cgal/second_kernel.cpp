@@ -48,7 +48,7 @@ class Point {
   static Rough::Point_3 enclosure(const typename K::Point_3& p) {
     return {enclosure(p.hx(), p.hw()), enclosure(p.hy(), p.hw()), enclosure(p.hz(), p.hw())};
   }
-  // Of x / w. CGAL's own enclosures of these numbers are zero where doubles underflow.
+  // An enclosure of x / w. CGAL's own enclosures of these numbers are zero where doubles underflow.
   static CGAL::Interval_nt<false> enclosure(const Number& x, const Number& w) {
     if (CGAL::is_zero(x)) return 0;
     const auto [upper, upper_power] = x.to_interval_exp();
@@ -671,7 +671,7 @@ class SecondKernel {
   std::vector<Corners> recent_corners_;          // see of_equal_weight
   std::vector<Direction> directions_;
   std::vector<Rough::Point_3> rough_;  // of all points, if all were compared
-  std::vector<Terms> terms_;           // of all points, if all were compared and sums are asked for
+  std::vector<Terms> terms_;           // of all points, if all were compared and sums are needed
   OracleReport report_{"second-kernel", "points, tetrahedra, faces and sums"};
 };
 

@@ -17,7 +17,7 @@ namespace tetproof::oracles {
 //   and do their areas add up to the facet's?
 // - Have the tetrahedra inside the volume of the input? Do the faces enclose it, by the theorem of
 //   Gauss?
-// On small meshes all elements are asked, on large ones an evenly spread sample. Sums are complete
+// Checks all elements of small meshes, an evenly spread sample of large ones. Sums are complete
 // or left out, and the figures say how many of each were asked. Triangles are oriented as in the
 // surface. Coordinates of the input are those given, but for vertices that were moved, which the
 // record defines; with `as_given` for those, too.

@@ -21,7 +21,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace processing = CGAL::Polygon_mesh_processing;
 
-// The defect of lists about which neither library may be asked; empty if there is none.
+// A defect of the lists that neither library accepts; empty if there is none.
 std::string defect_of_lists(const Polyhedron& surface) {
   if (surface.triangles.empty()) return "no triangles";
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -39,8 +39,8 @@ std::string defect_of_lists(const Polyhedron& surface) {
   return {};
 }
 
-// Adds the triangles one by one, which CGAL's mesh refuses where an edge would get a third triangle
-// or two that are not consistently oriented. False if it refuses one, perhaps for the order in
+// Adds the triangles one by one, which CGAL's mesh rejects where an edge would get a third triangle
+// or two that are not consistently oriented. False if it rejects one, perhaps for the order in
 // which they come, or if two fans of triangles meet at a vertex: then more edges end there than the
 // vertex itself can reach.
 bool add_triangles(const Polyhedron& surface, const std::vector<Kernel::Point_3>& points,

@@ -58,7 +58,7 @@ class EdgeNodeList {
     }
   }
 
-  // Of each node: its number among those that are on no edge, or kNone.
+  // Per node: its number among those that are on no edge, or kNone.
   std::vector<Index> numbers_without() const {
     std::vector<Index> number(mesh_.vertices.size(), 0);
     for (const auto& [a, b, node] : on_edges_) {

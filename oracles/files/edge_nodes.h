@@ -13,7 +13,7 @@ namespace tetproof::oracles {
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kNodeEnds = {
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
 
-// The nodes of a file's elements that are no corners: of a tetrahedron abcd on ab bc ac ad bd cd,
+// The nodes of a file's elements that are not corners: of a tetrahedron abcd on ab bc ac ad bd cd,
 // of a triangle abc on ab bc ac.
 struct NodesOnEdges {
   std::vector<std::array<Index, 6>> of_tetrahedra;

@@ -278,7 +278,7 @@ class GmshReader {
         if (k == 0) element.group = value;
         if (k == 1) element.entity = value;
       }
-      if (element.group == 0) {  // which is none
+      if (element.group == 0) {  // not a group
         element.group = element.entity;
         text_.groups_differ = true;
       }
@@ -345,7 +345,7 @@ class GmshReader {
   bool binary_ = false;
   std::map<std::pair<int, std::int64_t>, Boxes> boxes_;  // of surfaces and volumes
   Box* box_ = nullptr;                                   // of the elements being read
-  // Of the tags read, of the nodes or of the elements.
+  // The smallest and the largest tag read, of nodes or of elements.
   std::int64_t least_ = std::numeric_limits<std::int64_t>::max();
   std::int64_t largest_ = std::numeric_limits<std::int64_t>::min();
   std::set<std::pair<int, std::int64_t>> ungrouped_;  // entities of no group, or of several

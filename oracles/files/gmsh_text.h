@@ -28,7 +28,7 @@ struct GmshElement {
 struct GmshText {
   double version = 0;
   std::vector<Position> nodes;
-  // Of physical groups, by dimension and tag; without quotation marks.
+  // Names of physical groups, by dimension and tag; without quotation marks.
   std::map<std::pair<int, std::int64_t>, std::string> names;
   // The box of some surface or volume is not the smallest one of its elements' corners. Delmesher
   // writes no such file of a mesh in space.

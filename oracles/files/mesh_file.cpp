@@ -182,7 +182,7 @@ class MeditReader {
 
 // ------------------------------------------------------------------------------------------- .tet
 
-// "N vertices", or what is said of the inner and the outer tetrahedra.
+// "N vertices", or the line about inner or outer tetrahedra.
 std::uint64_t counted(TextReader& reader, std::initializer_list<const char*> words) {
   const std::uint64_t count = reader.count();
   for (const char* word : words) {
@@ -496,8 +496,8 @@ class NodesOfFaces {
   std::vector<std::array<Index, 3>> on_edges_;  // the ends, and the node between them
 };
 
-// Of ten-node tetrahedra: the faces have three nodes or six, whose order depends on what TetGen
-// did. Their corners have to be followed by `markers` numbers and, by its -nn, two more. Takes the
+// Faces of ten-node tetrahedra have three nodes or six, whose order depends on what TetGen did.
+// Their corners must be followed by `markers` numbers and, by its -nn, two more. Takes the
 // nodes away, which have to be those of the tetrahedra.
 std::array<Index, 3> take_nodes_of_face(TextReader& reader, const NodesOfFaces& of_faces,
                                         const Face& face, std::int64_t first, std::size_t markers,

@@ -10,7 +10,7 @@
 namespace tetproof::oracles {
 
 struct MeshFile {
-  // A node between two vertices, of elements of second order; it is no vertex.
+  // A node between two vertices, of elements of second order; it is not a vertex.
   struct EdgeNode {
     std::array<Index, 2> ends;
     Position at;

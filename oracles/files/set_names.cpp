@@ -10,7 +10,7 @@
 namespace tetproof::oracles {
 namespace {
 
-// The number of the character at the front, whose bytes are taken; -1 if they are none of UTF-8.
+// The number of the character at the front, whose bytes are taken; -1 if they are not UTF-8.
 std::int64_t take_character(std::string_view& text) {
   const auto first = static_cast<unsigned char>(text.front());
   const int size = std::countl_one(first);

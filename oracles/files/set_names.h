@@ -18,7 +18,7 @@ using SetNames = std::map<std::pair<int, std::int64_t>, std::string>;
 // there; names that were not in UTF-8 were in Latin-1. Of equal names all but the first get a
 // number, by which programs tell them apart. Blanks, and characters that cannot be printed, count
 // as one blank; quotation marks as apostrophes, which .msh has in their place. "label N" of label
-// N, "region N" of region N are no names, nor are those of the two sides.
+// N, "region N" of region N are not names, nor are those of the two sides.
 void compare_names(const SetNames& wanted, const SetNames& found, int dimension,
                    const std::vector<std::int64_t>& numbers, OracleReport& report);
 

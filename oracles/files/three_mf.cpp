@@ -201,7 +201,7 @@ class ModelReader {
       }
     }
   }
-  // Of the names in a part, up to the colon.
+  // The prefix of the names in a part, up to the colon.
   std::string prefix(const std::string& name) {
     const std::string& root = part(name).name;
     const std::size_t colon = root.find(':');
@@ -363,7 +363,7 @@ class ModelReader {
     return {};
   }
 
-  // Of one object: in the order of their use.
+  // For a single object: labels by material, in the order of use.
   void label_by_material() {
     std::map<std::string, std::int32_t> labels;
     for (std::size_t t = 0; t < materials_.size(); ++t) {

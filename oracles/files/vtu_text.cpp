@@ -98,7 +98,7 @@ const XmlElement* VtuText::at_most_one(const XmlElement& parent, const std::stri
   return found.empty() ? nullptr : found.front();
 }
 
-// Of the piece.
+// A count of the piece.
 std::size_t VtuText::count(const std::string& name) const {
   const std::string* number = piece_->attribute(name);
   if (number == nullptr) fail("the piece has no " + name);
@@ -131,7 +131,7 @@ std::uint32_t digit_of(char c) {
 }
 
 // The bytes that a text in base 64 means, or several, one after the other, each filled up to a
-// group of four; false if it is none.
+// group of four; false if it is not one.
 bool decode(std::string_view text, std::string& bytes) {
   std::uint32_t bits = 0;
   int digits = 0, padding = 0;
@@ -226,7 +226,8 @@ std::string VtuText::unpacked(std::string_view bytes) const {
   return all;
 }
 
-// Of an array as bytes, from the number of its bytes on; something may follow it if it is appended.
+// The values of a binary array, which begins with its size in bytes; more may follow if it is
+// appended.
 std::vector<double> VtuText::binary_values(const std::string& type, std::string_view bytes,
                                            bool appended) const {
   static_assert(std::endian::native == std::endian::little);
@@ -338,7 +339,7 @@ std::vector<double> VtuText::array(const std::string& section, const std::string
   return result;
 }
 
-// Of those that have two integers; others than a number and a dimension tell no name.
+// Names are field arrays of two integers, a number and a dimension; other arrays name nothing.
 SetNames VtuText::names() const {
   SetNames names;
   for (const XmlElement* holder : {grid_, piece_}) {

@@ -106,7 +106,7 @@ class XmlReader {
     open_.pop_back();
   }
 
-  // Of what Expat has come to.
+  // How far Expat has come.
   std::size_t position() const {
     return static_cast<std::size_t>(XML_GetCurrentByteIndex(parser_.get()));
   }

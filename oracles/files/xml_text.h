@@ -30,8 +30,8 @@ struct XmlElement {
 XmlElement read_xml(const std::string& name, std::string_view text);
 
 // The same, but the text ends behind the start of the first element `last` in the top element, and
-// bytes that are no XML may follow: they begin at `end`, the size of the text if there is none.
-// More than a million elements are refused.
+// bytes that are not XML may follow: they begin at `end`, the size of the text if there is none.
+// More than a million elements are rejected.
 XmlElement read_xml_until(const std::string& name, std::string_view text, std::string_view last,
                           std::size_t& end);
 

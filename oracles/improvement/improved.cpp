@@ -290,7 +290,7 @@ void Improved::check_walls() {
   add(std::move(report));
 }
 
-// Where a file says nothing of labels, they are 0; facets are compared if both files have them.
+// Where a file says nothing about labels, they are 0; facets are compared if both files have them.
 std::vector<Listed> Improved::listed(const MeshFile& file, Index offset,
                                      OracleReport& report) const {
   const bool facets = given_.facets.size() == given_.boundary.size() &&

@@ -10,7 +10,7 @@
 namespace tetproof::oracles {
 
 // The oracles, all of the mesh that was made:
-//  - complex: as of any mesh; where the one given is no manifold, it need not be one either;
+//  - complex: as of any mesh; where the one given is not a manifold, it need not be one either;
 //  - orientation: no tetrahedron is inverted, and no more are flat than were;
 //  - kept-faces: the hull and the faces between regions are those given, to the last bit, with the
 //    same region on either side, and so are listed triangles;
@@ -22,9 +22,9 @@ namespace tetproof::oracles {
 // With the same walls between and around the same regions, tetrahedra that are positive fill what
 // those given fill. Whether these overlap is not asked.
 //
-// Empty on success, else why the mesh given is none that can be improved; the report is empty then.
-// Of the options delta, the largest edge, the order of the elements, and the declared deviation (of
-// nodes on edges) count.
+// Empty on success, else why the given mesh cannot be improved; the report is empty then.
+// Only these options count: delta, the largest edge, the order of the elements, and the declared
+// deviation (of nodes on edges).
 std::string verify_improved(const MeshFile& given, const MeshFile& mesh,
                             const VerifyOptions& options, VerifyReport& report);
 

@@ -192,7 +192,7 @@ class Improvement {
   struct Bad {
     Tet tet;
     WorstAngles angles;
-    WorstAngles there_before{};  // the worst near its place, once that is asked
+    WorstAngles there_before{};  // the worst near its place, once needed
   };
 
   static WorstAngles worse(const WorstAngles& a, const WorstAngles& b) {
@@ -253,7 +253,8 @@ class Improvement {
   }
 
   // Where all vertices of a neighbourhood have moved, none of their names leads to the mesh before:
-  // then what was where the bad tetrahedron is now tells what was near. How many need this is told.
+  // then what was at the bad tetrahedron's place shows what was near. The number of these is
+  // reported.
   void explain_by_place() {
     std::vector<BoxTree::Box> boxes;
     boxes.reserve(bad_.size());
@@ -274,7 +275,7 @@ class Improvement {
   }
 
   // What is left may be beside an edge of the surface that the mesh before did not have. How many,
-  // how bad and how far from such edges is told.
+  // how bad and how far from such edges is reported.
   void excuse() {
     std::vector<std::uint8_t> near(doubles_.size());
     for (const Index v : returned_) near[v] = 1;
@@ -319,7 +320,7 @@ class Improvement {
   }
 
   // A vertex that is moved becomes another point, so that an edge to it is new by name. Such an
-  // edge may be as long as the longest was; how many there are is told.
+  // edge may be as long as the longest was; their number is reported.
   template <class IsLong>
   void check_edges(const std::string& option, const IsLong& is_long) {
     const std::vector<std::uint64_t> before = long_edges(record_.unrepaired, is_long),

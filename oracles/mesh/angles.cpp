@@ -224,7 +224,7 @@ class Distribution {
   explicit Distribution(const ExactPoints& points) : points_(points) {}
 
   // Counts an angle and returns it in degrees, to a relative 1e-9, also near 0 and 180 degrees.
-  // Doubles are asked first, then intervals, then exact numbers.
+  // Doubles first, then intervals, then exact numbers.
   template <class Angle>
   double add(const RoughTet::Angle& guess, const Angle& angle) {
     double degrees = 0;
@@ -447,7 +447,7 @@ int angle_bin(const ExactNumber& dot_product, const ExactNumber& norms) {
 WorstAngles worst_angles(const ExactPoints& points, const Tet& t) {
   RoughTet rough(points, t);
   rough.find_normals();
-  // Of the certain ones only the largest cotangents have to become angles.
+  // Among the certain ones only the largest cotangents have to become angles.
   double face_cotangent = -HUGE_VAL, dihedral_cotangent = -HUGE_VAL;
   WorstAngles worst;
   for (int i = 0; i < 4; ++i) {

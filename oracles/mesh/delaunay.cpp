@@ -14,7 +14,7 @@
 namespace tetproof::oracles {
 namespace {
 
-// Keeps the sphere of the last tetrahedron, because its faces are asked about in turn. BallSide
+// Keeps the sphere of the last tetrahedron, because its faces follow in turn. BallSide
 // evaluates the in-sphere determinant with the opposite sign, whatever the orientation.
 class Circumsphere {
  public:

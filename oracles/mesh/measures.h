@@ -21,7 +21,7 @@ ExactSum sum_of_volumes6(const TetComplex& complex, const Neighbours& neighbours
 
 // Interior oracle: the flag of a tetrahedron says inside exactly if its centroid is inside by the
 // parity of a ray. The surface and the complex must use the same points. Tetrahedra with a common
-// face that is no wall (see walls_of) share a ray: where the conformity oracle passes, the walls
+// face that is not a wall (see walls_of) share a ray: where the conformity oracle passes, the walls
 // are the surface.
 OracleReport check_interior(const TetComplex& complex, const Neighbours& neighbours,
                             const InputSurface& surface, const std::vector<std::uint8_t>& walls);

@@ -33,7 +33,7 @@ std::vector<Index> groups_over(const Neighbours& neighbours,
 // both are on the same side.
 //
 // A face of a mesh enters none of its tetrahedra, so only the rest of the surface beside the faces
-// on it is asked about, and these faces are walls.
+// on it is tested, and these faces are walls.
 void Places::find() const {
   const std::vector<Tet>& tets = complex_.tetrahedra;
   const ExactPoints& points = *complex_.points;

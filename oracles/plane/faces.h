@@ -18,7 +18,7 @@ class PlaneFaces {
   // The graph must outlive this. Its pieces meet at their ends alone, or are equal.
   explicit PlaneFaces(PlaneGraph& graph);
 
-  // Of a point on no piece.
+  // Is p, which is on no piece, inside?
   bool inside(const Point& p);
   // Is one side of the piece inside, and the other one outside?
   bool separates(Index piece) const {
@@ -51,7 +51,7 @@ class PlaneFaces {
   std::vector<std::uint8_t> inside_;  // per face
 };
 
-// Of the input alone: by parity where that decides, else by faces.
+// What is inside the input: by parity where that decides, else by faces.
 class PlaneInside {
  public:
   // The graph must outlive this.
@@ -59,7 +59,7 @@ class PlaneInside {
     if (!graph.closed_rings()) faces_.emplace(graph);
   }
 
-  // Of a point on no piece.
+  // Is p, which is on no piece, inside?
   bool contains(const PlaneGraph::Point& p) {
     return faces_ ? faces_->inside(p) : graph_.inside_by_ray(p);
   }

@@ -336,7 +336,7 @@ PlanarGraph read_faces(const std::string& path, bool obj) {
 
 // ------------------------------------------------------------------------------- Gmsh, as written
 
-// The marker that the name of a group of edges tells.
+// The marker in the name of a group of edges.
 std::int32_t marker_of(const std::string& path, const GmshText& text, std::int64_t group) {
   constexpr std::string_view kStart = "marker ";
   const auto found = text.names.find({1, group});

@@ -17,7 +17,7 @@ struct PlaneFile {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   bool names_sides = true;           // the format says which triangles are inside
   std::vector<std::uint8_t> inside;  // per triangle; empty: the file says nothing
-  // Per triangle, of the input's regions; empty: the file says nothing of them.
+  // Per triangle, of the input's regions; empty: the file says nothing about them.
   std::vector<double> attributes{};
   bool has_attributes = false;  // the format has them
   std::string lacks{};          // a file of the format that is not there

@@ -26,11 +26,11 @@ namespace tetproof {
 struct PlaneVerifyOptions {
   oracles::Promise promised = {};
   unsigned record_version = 1;
-  // The largest deviation that is no failure, as a fraction of the diagonal; 4 ulp in any case.
+  // The largest deviation that is not a failure, as a fraction of the diagonal; 4 ulp in any case.
   double declared_deviation = 0;
 };
 
-// Empty on success, else why the input is no planar graph; the report is empty then.
+// Empty on success, else why the input is not a planar graph; the report is empty then.
 std::string verify_plane(const delmesher::PlanarGraph& graph, const oracles::PlaneFile& file,
                          const delmesher::PlaneRecord* record, const PlaneVerifyOptions& options,
                          oracles::VerifyReport& report);

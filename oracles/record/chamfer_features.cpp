@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // In radians. From exact vectors, so that small angles are right as well, and those of normals
-// whose products are no doubles.
+// whose products are not doubles.
 double angle_between(const ExactVector& a, const ExactVector& b) {
   return exact_angle(exact::squared(exact::cross(a, b)), exact::dot(a, b)) * std::numbers::pi / 180;
 }

@@ -8,7 +8,7 @@
 
 namespace tetproof::oracles {
 
-// Of the final mesh before repairs of rounding:
+// Checks the final mesh before repairs of rounding:
 // - Every vertex is an input vertex, a vertex of the refined mesh, or exactly on the surface.
 // - A vertex of the refined mesh is missing only on an artificial segment, or where it coincides
 //   with an input vertex, or, if it was put into the volume, strictly inside the sphere of a
@@ -24,8 +24,8 @@ std::vector<std::uint8_t> used_in(const std::vector<delmesher::ExactRecord::Tet>
                                   std::size_t points);
 std::vector<std::uint8_t> used_in(const TetComplex& complex);
 
-// Of a plain constrained Delaunay tetrahedrization: every vertex is an input vertex or exactly on
-// the surface. No other step gives it points, and none may widen the hull.
+// Checks a plain constrained Delaunay tetrahedrization: every vertex is an input vertex or exactly
+// on the surface. No other step gives it points, and none may widen the hull.
 OracleReport check_origins(const delmesher::ExactRecord& record, const ExactPoints& points,
                            const InputSurface& surface, Index input_vertices);
 

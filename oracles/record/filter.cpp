@@ -17,7 +17,7 @@ using delmesher::ExactRecord;
 // The filter compares distances in doubles, so it decides ties within this share of the tolerance.
 constexpr double kSlack = 1e-9;
 
-// Which distances are asked about: their squares, in integer units, from `least` on and below
+// Which distances count: their squares, in integer units, from `least` on and below
 // `bound`. `reach` is the root of the latter in input units.
 struct Range {
   double reach;
@@ -268,8 +268,8 @@ class FilterCheck {
       strictest = std::max(strictest, corner.threshold);
     }
     guarded_ = strictest > promise_.acute || of_edges > promise_.corner_in_force();
-    // Of the corners that the guard tightened, only the remaining ones are known, so the strictest
-    // threshold counts at all vertices that are no corners any more.
+    // Only the remaining ones of the corners that the guard tightened are known, so the strictest
+    // threshold counts at all vertices that are not corners any more.
     thresholds_.at = [this, strictest](Index v) {
       const auto found = known_.find(v);
       return found != known_.end() ? found->second : strictest;

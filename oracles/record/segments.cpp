@@ -174,9 +174,9 @@ void Segments::check_input(std::size_t n, const ExactRecord::Chain& chain) {
   last_[e] = ordered.back();
 }
 
-// Of an edge with a kept facet, a part is missing at an end that was chamfered. All of it may be
-// missing if both ends were chamfered and its dihedral angle, between kept facets, is below 90
-// degrees. Whether it is below the threshold in force, check_chamfer_need decides.
+// An edge with a kept facet lacks a part at an end that was chamfered. All of it may be missing if
+// both ends were chamfered and its dihedral angle, between kept facets, is below 90 degrees;
+// check_chamfer_need decides whether it is below the threshold in force.
 void Segments::check_ends() {
   std::uint64_t missing = 0;
   for (std::size_t e = 0; e < surface_.edges().size(); ++e) {

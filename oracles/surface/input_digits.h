@@ -23,7 +23,7 @@ double automatic_planar_share(std::span<const Position> vertices);
 // The same, or 16 times the noise that the edges show (edge_noise.h) if that is more:
 // coordinates that were rounded more than once are noisier than their digits tell. Edges that are
 // bent by no more than 1.25 times what the digits explain, or than 2^-22 of the diagonal, may hide
-// noise: all are asked, and all but these.
+// noise: all of them count, and all but these.
 double automatic_planar_share(const Polyhedron& surface);
 
 }  // namespace tetproof::oracles

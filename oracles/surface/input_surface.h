@@ -58,11 +58,11 @@ class InputSurface {
   std::string assign(const Polyhedron& polyhedron, const ExactPoints& points);
 
   // Makes one facet of the two on either side of each of these edges; other edges between the two
-  // are no edges any more. Facets of different labels stay apart, and those that no slab of width
+  // are not edges any more. Facets of different labels stay apart, and those that no slab of width
   // `thin` (input units) along one of them contains. Each facet made so lies in a slab, across the
   // sum of its area vectors. Returns the width of the widest, in input units, rounded up; infinite
-  // if such a sum is zero, or if a triangle faces against it and is no needle thinner than `thin`:
-  // walls around a hollow, or two sides of a plate, are no facet.
+  // if such a sum is zero, or if a triangle faces against it and is not a needle thinner than
+  // `thin`: walls around a hollow, or two sides of a plate, are no facet.
   double unite_facets(const std::vector<Index>& across, double thin, const ExactPoints& points);
 
   // The same for given facets, by a number for each triangle: a facet is a connected set of
@@ -71,7 +71,7 @@ class InputSurface {
 
   // A triangle no wider than `thin` (input units) is in the plane of any facet beside it, and so
   // are triangles like that beside each other: to which of two facets such needles belong, a mesh
-  // has decided. `missing` is asked which edges of a surface a mesh does not have; on that surface
+  // has decided. `missing` finds the edges of a surface that a mesh does not have; on that surface
   // each needle is a facet of its own. Needles that only missing edges separate go to the facet
   // that only missing edges separate from them. If there is none, they stay in theirs or, if they
   // were in several, become one; if there are several, they stay apart. Returns what group_facets

@@ -7,7 +7,7 @@
 namespace tetproof::oracles {
 
 // The input is closed, manifold, consistently oriented and does not intersect itself. Both
-// libraries are asked (OpenMesh about the first three). If one objects the oracle fails, because
+// libraries decide as well (OpenMesh the first three). If one objects the oracle fails, because
 // the mesher's own check has let the surface pass. If a face is not simple in any projection,
 // intersections are not looked for.
 OracleReport check_surface_validity(const Polyhedron& surface);

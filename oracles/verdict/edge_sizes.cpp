@@ -14,7 +14,7 @@ namespace {
 
 using delmesher::SizeSource;
 
-// Of a point and the nearest one of the edge.
+// Distance of a point from the nearest one of the edge.
 double distance_between(const Position& p, const Position& a, const Position& b) {
   double along = 0, square = 0;
   for (std::size_t k = 0; k < 3; ++k) {

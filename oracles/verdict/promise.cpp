@@ -61,7 +61,7 @@ struct Number {
   double Promise::*target;  // null: promises nothing
   unsigned tasks;
   double low, high;
-  bool above_low = false;  // low itself is none
+  bool above_low = false;  // low itself is not allowed
 
   bool allows(double value) const {
     return (above_low ? value > low : value >= low) && value <= high;
@@ -340,7 +340,7 @@ class PromiseCheck {
     if (recorded > promised) report_.figures.emplace_back("stricter: " + name, recorded);
   }
 
-  // Of those in between, which the limit is also for, nothing is left.
+  // Nothing is left of the meshes in between, for which the limit also holds.
   void check_vertices() {
     const auto written = static_cast<double>(record_.mesh_vertices.size());
     demand(written <= promise_.max_vertices, "the record has " + number(written) +

@@ -70,13 +70,13 @@ std::string parse_promise(std::string_view text, Promise& promise);
 // The same for a call of the library.
 Promise promise_of(const delmesher::Options& options, Task task = Task::mesh);
 
-// Is the record of the present version, has it the sections that the promise needs, and are its
-// parameters those promised or stricter ones? `diagonal` is that of the input's bounding box, in
+// Checks the record's version, that it has exactly the sections that the promise needs, and that
+// its parameters are those promised or stricter ones. `diagonal`: of the input's bounding box, in
 // input units.
 OracleReport check_promise(const Promise& promise, const delmesher::ExactRecord& record,
                            unsigned version, double diagonal);
 
-// The same of a file without a record: has it no more vertices than --max-vertices?
+// The same for a file without a record: at most --max-vertices vertices.
 OracleReport check_written_vertices(const Promise& promise, std::size_t written);
 
 // The version of the sidecar that has all sections the oracles ask for.

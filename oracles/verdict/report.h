@@ -48,8 +48,8 @@ struct OracleReport {
   }
 };
 
-// Of a refined mesh without a record: its surface is not the input's where corners were cut off, so
-// that the file alone does not tell whether it is a mesh of this input at all. Undecided.
+// Undecided, for a refined mesh without a record: its surface is not the input's where corners were
+// cut off, so the file alone does not show whether it is a mesh of this input at all.
 OracleReport surface_not_decided(const std::string& oracle);
 
 enum class Verdict : std::uint8_t { exact, rounded, deviating, undecided, broken };

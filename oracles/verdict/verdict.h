@@ -1,4 +1,4 @@
-// What is asked of a mesh, and what the reports of all oracles come to.
+// What a mesh must satisfy, and the verdict from the reports of all oracles.
 #pragma once
 
 #include <functional>
@@ -22,7 +22,7 @@ struct VerifyOptions {
   // The path of that sidecar, for the kernel that reads its text once more; empty: there is only
   // the record.
   std::string sidecar = {};
-  // The largest deviation that is no failure, as a fraction of the diagonal; beyond 4 ulp the
+  // The largest deviation that is not a failure, as a fraction of the diagonal; beyond 4 ulp the
   // verdict says "deviating" in any case.
   double declared_deviation = 0;
   // Threads that share the oracles; the report is the same for every number. 0: one per core.
