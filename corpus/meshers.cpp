@@ -163,8 +163,24 @@ bool has_feature(const Peer& peer, const MesherPrograms& programs) {
   return false;
 }
 
+// "NAME VERSION" of a peer that is a Python package; empty if the interpreter has no such package.
+std::string package_version(const Peer& peer, const MesherPrograms& programs) {
+  const ProcessSpec spec = {.argv = {program_of(peer).value().string(),
+                                     (programs.adapters / peer.adapter).string(), "--version"},
+                            .directory = "/",
+                            .limits = {.wall_seconds = 60}};
+  const Outcome outcome = run_supervised(programs.supervisor, spec);
+  const bool told = outcome.ending == Ending::exited && outcome.exit_code == 0;
+  return told ? last_line(outcome.stdout_tail) : "";
+}
+
 std::string version_of(const Peer& peer, const MesherPrograms& programs) {
   if (peer.program == nullptr) return version_of(programs.adapters / peer.adapter, programs);
+  if (peer.package != nullptr) {
+    const fs::path adapter = programs.adapters / peer.adapter;
+    return package_version(peer, programs) + " (adapter " + build_id(adapter) + ", contract " +
+           build_id(adapter.parent_path() / "contract.py") + ")";
+  }
   const fs::path program = program_of(peer).value();
   const std::string said =
       *peer.version_option != 0
@@ -174,7 +190,7 @@ std::string version_of(const Peer& peer, const MesherPrograms& programs) {
   return said + " (adapter " + build_id(programs.adapters / peer.adapter) + ")";
 }
 
-// The command of a program with our contract, or of a script.
+// The command of a program or a Python script with our contract, or of another script.
 std::vector<std::string> peer_command(const Peer& peer, const fs::path& folder,
                                       const RunFiles& files) {
   const std::string adapter = (folder / peer.adapter).string();
@@ -182,8 +198,16 @@ std::vector<std::string> peer_command(const Peer& peer, const fs::path& folder,
     return {adapter, peer.switches, files.input.string(), files.mesh.string(),
             files.stats.string()};
   }
-  std::vector<std::string> argv = {"/usr/bin/env", "TETPROOF=" + (folder / "tetproof").string(),
-                                   adapter, files.input.string(), files.mesh.string()};
+  std::vector<std::string> argv = {"/usr/bin/env", "TETPROOF=" + (folder / "tetproof").string()};
+  if (peer.package != nullptr) {
+    for (const std::string& word :
+         {program_of(peer).value().string(), adapter, std::string(peer.switches),
+          files.input.string(), files.mesh.string(), files.stats.string()}) {
+      argv.push_back(word);
+    }
+    return argv;
+  }
+  argv.insert(argv.end(), {adapter, files.input.string(), files.mesh.string()});
   for (const std::string& word : words_of(peer.switches)) argv.push_back(word);
   return argv;
 }
@@ -340,6 +364,10 @@ std::string why_not_at_hand(const std::string& name, const MesherPrograms& progr
   if (peer->program != nullptr && !program_of(*peer)) {
     return std::string(peer->program) + " is neither on the PATH nor named by $" + peer->variable +
            " (" + peer->from + ")";
+  }
+  if (peer->package != nullptr && package_version(*peer, programs).empty()) {
+    return "python3 (or $" + std::string(peer->variable) + ") has no package " + peer->package +
+           "; ci/peers makes an environment that has it";
   }
   if (peer->feature != nullptr && !has_feature(*peer, programs)) {
     return std::string("this build of ") + peer->program + " is without " + peer->feature;

@@ -182,6 +182,23 @@ TEST_F(Meshers, Peers) {
   script("gmsh", "echo 'Build options     : 64Bit Netgen OpenMP' >&2");
   EXPECT_EQ(why_not_at_hand("gmsh-frontal", programs_), "");
   unsetenv("GMSH_PROGRAM");
+
+  // A Python package: its script tells the version, run by the interpreter.
+  fs::create_directories(folder_ / "adapters/wheels");
+  script("adapters/wheels/gmsh_wheel.py", "echo 'no package gmsh' >&2; exit 1");
+  script("adapters/wheels/contract.py", "");
+  setenv("PEERS_PYTHON", script("python", "exec /bin/sh \"$@\"").c_str(), 1);
+  EXPECT_NE(why_not_at_hand("gmsh-4.15-hxt", programs_).find("ci/peers"), std::string::npos);
+  script("adapters/wheels/gmsh_wheel.py", "echo gmsh 4.15");
+  EXPECT_EQ(why_not_at_hand("gmsh-4.15-hxt", programs_), "");
+  EXPECT_EQ(command("gmsh-4.15-hxt"),
+            "/usr/bin/env TETPROOF=" + folder + "/tetproof " + folder + "/python " + folder +
+                "/adapters/wheels/gmsh_wheel.py Mesh.Algorithm3D=10 in.off out.mesh stats.json");
+  const Mesher wheel = make_mesher("gmsh-4.15-hxt", programs_);
+  EXPECT_TRUE(wheel.version.starts_with("gmsh 4.15 (adapter ")) << wheel.version;
+  script("adapters/wheels/contract.py", "# another one");
+  EXPECT_NE(make_mesher("gmsh-4.15-hxt", programs_).version, wheel.version);
+  unsetenv("PEERS_PYTHON");
 }
 
 TEST_F(Meshers, WhatEachPromises) {

@@ -9,8 +9,9 @@ namespace tetproof {
 
 struct Peer {
   const char* name;  // for -m
-  // A program beside tetproof with the contract of corpus/peer_adapters/adapter.h, or a script
-  // adapters/NAME there: NAME INPUT OUTPUT [SWITCH...].
+  // A program beside tetproof with the contract of corpus/peer_adapters/adapter.h; or a script
+  // adapters/NAME there: NAME INPUT OUTPUT [SWITCH...]; or, for a peer that is a Python package, a
+  // script adapters/wheels/NAME with the contract of adapters/wheels/contract.py.
   const char* adapter;
   const char* switches;
   const char* extension;  // of the mesh
@@ -27,6 +28,8 @@ struct Peer {
   const char* program = nullptr;
   const char* variable = nullptr;
   const char* version_option = nullptr;
+  // The Python package of the peer, for which `program` is the interpreter; nullptr: it is none.
+  const char* package = nullptr;
   // What the build of Gmsh has to have, by its own account (-info); nullptr: nothing in particular.
   const char* feature = nullptr;
 };
