@@ -44,7 +44,7 @@ LAYERS = {
     "results": FOUNDATION + ("chamfer", "refine", "cdt", "improve", "output", "plane", "run"),
     "policies": FOUNDATION + ("chamfer", "refine", "cdt", "output", "enrich", "plane", "run", "results"),
     "io": ("base", "arithmetic", "predicates", "geometry"),
-    "cli": ("base", "arithmetic", "predicates", "geometry", "io"),
+    "cli": ("base", "arithmetic", "predicates", "geometry", "surface", "io"),
 }
 # Folders that are namespaces under delmesher; the public types and the tables of their names are in delmesher itself.
 NAMESPACES = tuple(LAYERS)

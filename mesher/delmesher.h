@@ -13,6 +13,7 @@
 #include "delmesher/as_paper.h"
 #include "delmesher/exact_record.h"
 #include "delmesher/option_bounds.h"
+#include "delmesher/repair.h"
 #include "delmesher/run.h"
 #include "delmesher/size_source.h"
 #include "delmesher/statistics.h"

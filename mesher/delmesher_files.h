@@ -53,25 +53,6 @@ struct ReadOptions {
 // tetrahedralize() decide whether the surface is valid.
 ReadResult read_surface(const std::string& path, const ReadOptions& options = {});
 
-struct RepairOptions {
-  // Vertices no farther apart than this become one, the first of them (input units). Equal ones do
-  // in any case.
-  double weld = 0;
-  // Fill the holes that are planar within 1e-6 of the diagonal, or no wider than a twentieth of it.
-  bool fill = false;
-};
-
-struct RepairResult {
-  Surface surface;
-  std::vector<std::string> done;  // the changes, a line each: "12 vertices welded ..."
-};
-
-// Makes the repairs that need no guess: welds vertices, removes triangles without area (exactly)
-// and duplicates, turns triangles round so that neighbours agree, fills holes if asked, and drops
-// vertices of no triangle. Nothing else is moved or added. check_surface() decides whether the
-// result is valid.
-RepairResult repair_surface(const Surface& surface, const RepairOptions& options = {});
-
 struct PlaneReadResult {
   ReadCode code = ReadCode::ok;
   std::string error;  // "file:line: reason" or "file: reason"

@@ -286,9 +286,9 @@ py::dict check(const Array<double>& points, const Array<std::uint32_t>& triangle
 py::dict repair(const Array<double>& points, const Array<std::uint32_t>& triangles,
                 const Labels& labels, double weld, bool fill) {
   const Surface surface = surface_of(points, triangles, labels);
-  io::RepairResult result = [&] {
+  RepairResult result = [&] {
     const py::gil_scoped_release free;
-    return io::repair_surface(surface, {.weld = weld, .fill = fill});
+    return repair_surface(surface, {.weld = weld, .fill = fill});
   }();
   py::dict d;
   d["points"] = taken(std::move(result.surface.vertices));

@@ -66,7 +66,7 @@ namespace io {
 using namespace geometry;  // NOLINT(google-build-using-namespace)
 }
 namespace cli {
-using namespace geometry;  // NOLINT(google-build-using-namespace)
+using namespace surface;  // NOLINT(google-build-using-namespace)
 }
 
 }  // namespace delmesher

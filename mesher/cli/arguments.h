@@ -25,7 +25,7 @@ struct Command {
   std::string sizes_file;                              // empty: no size field
   std::string defects_file;                            // of check
   io::WriteOptions write;
-  io::RepairOptions repair;
+  RepairOptions repair;
   bool json = false, quiet = false, verbose = false;
 };
 

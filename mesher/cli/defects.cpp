@@ -13,11 +13,11 @@
 
 #include "mesher/base/disjoint_sets.h"
 #include "mesher/base/face_key.h"
-#include "mesher/cli/inner_walls.h"
-#include "mesher/io/projected_face.h"
-#include "mesher/io/repair.h"
+#include "mesher/geometry/projected_face.h"
 #include "mesher/io/text.h"
 #include "mesher/predicates/signs_of_doubles.h"
+#include "mesher/surface/inner_walls.h"
+#include "mesher/surface/repair.h"
 
 namespace delmesher::cli {
 namespace {
@@ -47,17 +47,17 @@ std::uint64_t count_of(const SurfaceReport& report, Kind kind) {
 }
 
 // Is the ring so thin that it is no hole: do vertices on one side lie on an edge of the other?
-bool is_slit(const Surface& surface, const io::Hole& hole) {
-  const io::Point3 normal = io::doubled_area(surface.vertices, hole.corners);
+bool is_slit(const Surface& surface, const Hole& hole) {
+  const geometry::Point3 normal = geometry::doubled_area(surface.vertices, hole.corners);
   const double area2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
   return std::sqrt(area2) <= 1e-9 * hole.width * hole.width;
 }
 
-std::string list_of(const Surface& surface, const std::vector<const io::Hole*>& holes,
+std::string list_of(const Surface& surface, const std::vector<const Hole*>& holes,
                     const char* name) {
   std::string line = counted(holes.size(), name) + (holes.size() == 1 ? ": " : ", the widest: ");
   for (std::size_t i = 0; i < holes.size() && i < 3; ++i) {
-    const io::Hole& hole = *holes[i];
+    const Hole& hole = *holes[i];
     line += (i > 0 ? "; " : "") + std::to_string(hole.corners.size()) + " edges, " +
             number(hole.width) + " wide, at " + point(surface.vertices[hole.corners[0]]);
   }
@@ -65,14 +65,14 @@ std::string list_of(const Surface& surface, const std::vector<const io::Hole*>& 
 }
 
 std::vector<std::string> advice_on_holes(const Surface& surface) {
-  const io::Holes all = io::holes_of(surface);
-  std::vector<const io::Hole*> holes, slits;
-  for (const io::Hole& hole : all.holes) {
+  const Holes all = holes_of(surface);
+  std::vector<const Hole*> holes, slits;
+  for (const Hole& hole : all.holes) {
     (is_slit(surface, hole) ? slits : holes).push_back(&hole);
   }
   for (auto* list : {&holes, &slits}) {
     std::stable_sort(list->begin(), list->end(),
-                     [](const io::Hole* a, const io::Hole* b) { return a->width > b->width; });
+                     [](const Hole* a, const Hole* b) { return a->width > b->width; });
   }
   std::vector<std::string> lines;
   if (!holes.empty()) {
@@ -347,7 +347,7 @@ std::vector<std::string> advice(const Surface& surface, const SurfaceReport& rep
   const bool indices = count_of(report, Kind::index_out_of_range) == 0;
   const bool finite = count_of(report, Kind::non_finite) == 0;
   if (indices && finite && count_of(report, Kind::open_edge) > 0) {
-    const io::WeldHint hint = io::weld_hint(surface);
+    const WeldHint hint = weld_hint(surface);
     if (hint.closed > 0) {
       lines.push_back("vertices nearly coincide: repair --weld " + number(hint.distance) +
                       " would close " + std::to_string(hint.closed) + " of " +

@@ -4,8 +4,8 @@
 
 #include "mesher/cli/defects.h"
 #include "mesher/cli/run_steps.h"
-#include "mesher/io/repair.h"
 #include "mesher/io/write_mesh.h"
+#include "mesher/surface/repair.h"
 
 namespace delmesher::cli {
 namespace {
@@ -34,7 +34,7 @@ int RepairRunner::read() {
   names_ = std::move(input.names);
   note_input(input.format, input.surface.vertices.size(), input.surface.triangles.size(),
              "triangles");
-  io::RepairResult mended = io::repair_surface(input.surface, command_.repair);
+  RepairResult mended = repair_surface(input.surface, command_.repair);
   for (const std::string& line : mended.done) say(command_.input + ": " + line);
   if (mended.done.empty()) say(command_.input + ": nothing to mend");
   surface_ = std::move(mended.surface);
@@ -64,7 +64,7 @@ int RepairRunner::judge() {
   if (report.status.code != StatusCode::invalid_surface) {
     return fail_input(exit_code_of(report.status.code), report.status.message);
   }
-  const std::uint64_t open = io::holes_of(surface_).open_edges;
+  const std::uint64_t open = holes_of(surface_).open_edges;
   const bool fills = open > 0 && !command_.repair.fill;
   std::string left = defects_line(report) + " left";
   for (const Contact& contact : contacts(surface_, report)) {

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "mesher/base/polling.h"
 #include "mesher/delmesher_files.h"
 #include "mesher/io/binary.h"
-#include "mesher/io/polling.h"
 #include "mesher/io/reading.h"
 #include "mesher/io/text.h"
 

@@ -6,11 +6,11 @@
 #include <limits>
 #include <vector>
 
+#include "mesher/geometry/projected_face.h"
+#include "mesher/geometry/triangulate.h"
 #include "mesher/io/numbered_lists.h"
-#include "mesher/io/projected_face.h"
 #include "mesher/io/readers.h"
 #include "mesher/io/text.h"
-#include "mesher/io/triangulate.h"
 
 namespace delmesher::io {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "mesher/base/polling.h"
 #include "mesher/delmesher_files.h"
-#include "mesher/io/polling.h"
 
 namespace delmesher::io {
 

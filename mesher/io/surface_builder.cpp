@@ -5,8 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "mesher/geometry/triangulate.h"
 #include "mesher/io/text.h"
-#include "mesher/io/triangulate.h"
 
 namespace delmesher::io {
 

@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "mesher/base/polling.h"
 #include "mesher/io/binary.h"
-#include "mesher/io/polling.h"
 #include "mesher/io/reading.h"
 #include "mesher/io/text.h"
 #include "mesher/io/xml.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesher/io/polling.h"
+#include "mesher/base/polling.h"
 
 namespace delmesher::io {
 

@@ -1,4 +1,4 @@
-#include "mesher/cli/inner_walls.h"
+#include "mesher/surface/inner_walls.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "mesher/base/disjoint_sets.h"
 #include "mesher/geometry/vector.h"
 
-namespace delmesher::cli {
+namespace delmesher::surface {
 namespace {
 
 // A triangle at an edge, which goes from the lower to the higher vertex.
@@ -110,4 +110,4 @@ std::optional<Enclosed> enclosed_by(const Surface& surface) {
   return enclosed;
 }
 
-}  // namespace delmesher::cli
+}  // namespace delmesher::surface

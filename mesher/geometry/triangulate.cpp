@@ -1,13 +1,13 @@
-#include "mesher/io/triangulate.h"
+#include "mesher/geometry/triangulate.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "mesher/geometry/hole_links.h"
 #include "mesher/geometry/vector.h"
-#include "mesher/io/hole_links.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
-namespace delmesher::io {
+namespace delmesher::geometry {
 namespace {
 
 bool triangulate_projected(const ProjectedFace& face, Polling& polling,
@@ -61,4 +61,4 @@ FaceTriangulation triangulate_face(const std::vector<Point3>& vertices, std::spa
   return best;
 }
 
-}  // namespace delmesher::io
+}  // namespace delmesher::geometry

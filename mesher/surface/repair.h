@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "mesher/delmesher_files.h"
+#include "mesher/delmesher/repair.h"
 
-namespace delmesher::io {
+namespace delmesher::surface {
 
 // The edges of exactly one triangle, put together where they form a ring: the side of a hole. Where
 // they form none, edges at which one more triangle goes one way than the other are taken as well,
@@ -32,4 +32,4 @@ struct WeldHint {
 };
 WeldHint weld_hint(const Surface& surface);
 
-}  // namespace delmesher::io
+}  // namespace delmesher::surface

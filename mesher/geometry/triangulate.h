@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "mesher/io/ear_clipper.h"
+#include "mesher/geometry/ear_clipper.h"
 
-namespace delmesher::io {
+namespace delmesher::geometry {
 
 // Longer polygons are rejected: at worst ear clipping takes quadratic time.
 inline constexpr std::size_t kMaxPolygonCorners = 20000;
@@ -29,4 +29,4 @@ struct FaceTriangulation {
 FaceTriangulation triangulate_face(const std::vector<Point3>& vertices, std::span<const Loop> loops,
                                    Polling& polling);
 
-}  // namespace delmesher::io
+}  // namespace delmesher::geometry

@@ -1,9 +1,11 @@
-#include "mesher/io/repair.h"
+#include "mesher/surface/repair.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -13,11 +15,10 @@
 
 #include "mesher/base/disjoint_sets.h"
 #include "mesher/base/face_key.h"
-#include "mesher/io/text.h"
-#include "mesher/io/triangulate.h"
+#include "mesher/geometry/triangulate.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
-namespace delmesher::io {
+namespace delmesher::surface {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -512,7 +513,7 @@ WeldHint weld_hint(const Surface& surface) {
     char digits[32];  // of one digit, to be printed and entered
     std::snprintf(digits, sizeof digits, "%.0e", all * part);
     double reach = 0;
-    parse_double(digits, reach);
+    std::from_chars(digits, digits + std::strlen(digits), reach);
     const std::uint64_t left = still_open(reach);
     if (left >= fewest) continue;
     fewest = left;
@@ -521,8 +522,12 @@ WeldHint weld_hint(const Surface& surface) {
   return hint;
 }
 
+}  // namespace delmesher::surface
+
+namespace delmesher {
+
 RepairResult repair_surface(const Surface& surface, const RepairOptions& options) {
-  return Repair(surface, options).run();
+  return surface::Repair(surface, options).run();
 }
 
-}  // namespace delmesher::io
+}  // namespace delmesher

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace delmesher::io {
+namespace delmesher::geometry {
 
 using Point2 = std::array<double, 2>;
 using Point3 = std::array<double, 3>;
@@ -44,4 +44,4 @@ ProjectedFace project_face(const std::vector<Point3>& vertices, std::span<const 
 // In doubles.
 double squared_distance(const Point2& a, const Point2& b);
 
-}  // namespace delmesher::io
+}  // namespace delmesher::geometry

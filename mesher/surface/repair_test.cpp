@@ -1,5 +1,5 @@
 // Clean surfaces made dirty in many ways, and mended.
-#include "mesher/io/repair.h"
+#include "mesher/surface/repair.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 #include "mesher/delmesher.h"
 
-namespace delmesher::io {
+namespace delmesher::surface {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -359,4 +359,4 @@ TEST(WeldHint, NamesTheDistanceThatCloses) {
 }
 
 }  // namespace
-}  // namespace delmesher::io
+}  // namespace delmesher::surface

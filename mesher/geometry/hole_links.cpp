@@ -1,11 +1,11 @@
-#include "mesher/io/hole_links.h"
+#include "mesher/geometry/hole_links.h"
 
 #include <algorithm>
 #include <numeric>
 
 #include "mesher/predicates/signs_of_doubles.h"
 
-namespace delmesher::io {
+namespace delmesher::geometry {
 namespace {
 
 // Whether the closed segments pq and ab meet in other points than common end points.
@@ -92,4 +92,4 @@ Loop join_holes(const ProjectedFace& face, Polling& polling, bool& all) {
   return outer;
 }
 
-}  // namespace delmesher::io
+}  // namespace delmesher::geometry

@@ -7,7 +7,7 @@
 
 #include "mesher/delmesher/surface.h"
 
-namespace delmesher::cli {
+namespace delmesher::surface {
 
 struct Enclosed {
   std::uint64_t parts = 0;           // of space that triangles keep from the outside
@@ -21,4 +21,4 @@ struct Enclosed {
 // refer to vertices, and to three different ones.
 std::optional<Enclosed> enclosed_by(const Surface& surface);
 
-}  // namespace delmesher::cli
+}  // namespace delmesher::surface

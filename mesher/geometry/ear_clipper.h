@@ -4,10 +4,10 @@
 #include <queue>
 #include <tuple>
 
-#include "mesher/io/polling.h"
-#include "mesher/io/projected_face.h"
+#include "mesher/base/polling.h"
+#include "mesher/geometry/projected_face.h"
 
-namespace delmesher::io {
+namespace delmesher::geometry {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
@@ -62,4 +62,4 @@ class EarClipper {
   std::size_t left_ = 0;
 };
 
-}  // namespace delmesher::io
+}  // namespace delmesher::geometry

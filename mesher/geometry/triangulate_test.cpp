@@ -1,4 +1,4 @@
-#include "mesher/io/triangulate.h"
+#include "mesher/geometry/triangulate.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-namespace delmesher::io {
+namespace delmesher::geometry {
 namespace {
 
 double doubled_area(const Point3& a, const Point3& b, const Point3& c) {
@@ -185,4 +185,4 @@ TEST(StrictlyInside, BoundaryIsOutside) {
 }
 
 }  // namespace
-}  // namespace delmesher::io
+}  // namespace delmesher::geometry

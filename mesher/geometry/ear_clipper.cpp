@@ -1,10 +1,10 @@
-#include "mesher/io/ear_clipper.h"
+#include "mesher/geometry/ear_clipper.h"
 
 #include <algorithm>
 
 #include "mesher/predicates/signs_of_doubles.h"
 
-namespace delmesher::io {
+namespace delmesher::geometry {
 
 int EarClipper::turn(std::size_t corner) const {
   return orient2d_sign(at(previous_[corner]), at(corner), at(next_[corner]));
@@ -114,4 +114,4 @@ bool EarClipper::run(std::vector<Triangle>& triangles) {
   return !stuck;
 }
 
-}  // namespace delmesher::io
+}  // namespace delmesher::geometry

@@ -1,4 +1,4 @@
-#include "mesher/io/projected_face.h"
+#include "mesher/geometry/projected_face.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "mesher/geometry/vector.h"
 #include "mesher/predicates/signs_of_doubles.h"
 
-namespace delmesher::io {
+namespace delmesher::geometry {
 namespace {
 
 // Orientation of a simple projected loop: at its lexicographically smallest corner, an extreme
@@ -96,4 +96,4 @@ double squared_distance(const Point2& a, const Point2& b) {
   return x * x + y * y;
 }
 
-}  // namespace delmesher::io
+}  // namespace delmesher::geometry

@@ -5,7 +5,9 @@
 #include <functional>
 #include <utility>
 
-namespace delmesher::io {
+#include "mesher/base/namespaces.h"
+
+namespace delmesher::base {
 
 // Thrown out of a reader that is to stop; caught where files are opened.
 struct ReadingStopped {};
@@ -30,4 +32,4 @@ class Polling {
   std::uint64_t steps_ = 0;
 };
 
-}  // namespace delmesher::io
+}  // namespace delmesher::base
